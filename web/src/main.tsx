@@ -29,7 +29,7 @@ import { Actions } from './state/actions';
 import type { App } from './state/app';
 import { Settings } from './state/settings';
 import { Store } from './state/store';
-import { use_store } from './state/use_store';
+import { seen } from './state/seen';
 import './style/tokens.css';
 import './style/base.css';
 import './style/layout.css';
@@ -80,7 +80,8 @@ const archive = new Archive(api, (id) => store.job(id) !== null);
 const checklist = new Checklist(store);
 store.on_change(() => checklist.follow());
 const app: App = {
-  store, archive, checklist, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
+  get store() { return seen(store); },
+  archive, checklist, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
   router, player: new Player(store, connection, router),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),
@@ -113,8 +114,8 @@ async function load_cell(attempt = 1): Promise<void> {
 }
 
 function Page() {
+  const { store } = app;
   const stale = use_staleness(store) !== null || store.link.status === 'lost';
-  use_store(store);
   document.title = `${place_in_words(app.router.address.value.place)} · ${shown_name(store.cell?.name ?? 'Armloom')}`;
   return (
     <>

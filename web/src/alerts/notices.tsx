@@ -3,13 +3,11 @@
 import { Link } from '../route/link';
 import type { App } from '../state/app';
 import type { Notice } from '../state/store';
-import { use_store } from '../state/use_store';
 import { clock } from '../wording';
 import { id_of } from './alerts';
 import { shown_text } from '../names';
 
 export function Notices({ app }: { app: App }) {
-  use_store(app.store);
   const open = app.alerts.open.length;
   return (
     <section class="notices" aria-label="Events">
@@ -26,7 +24,6 @@ export function Notices({ app }: { app: App }) {
 const kGlyphs = { info: 'i', warning: '!', error: '✕' } as const;
 
 export function NoticeList({ app }: { app: App }) {
-  use_store(app.store);
   const { notices } = app.store;
   return (
     <div class="scroll" role="log" tabIndex={0} aria-label="Events, newest first">

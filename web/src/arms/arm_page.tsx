@@ -9,7 +9,7 @@ import { Plot } from '../plot/plot';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
-import { use_store } from '../state/use_store';
+import { use_beats } from '../state/seen';
 import { known_lanes } from '../timeline/known';
 import { lane_in_words } from '../timeline/told';
 import { shown_name } from '../names';
@@ -20,7 +20,6 @@ const kPlotted_s = 20;
 const kSlowly = 0.3;
 
 export function ArmPage({ name, app }: { name: string; app: App }) {
-  use_store(app.store);
   const { store } = app;
   const arm = store.arms.get(name);
   if (!arm) return <><h2>{shown_name(name)}</h2><p class="hint">{store.stream === null ? 'Not connected yet.' : 'The cell has no arm of this name.'}</p></>;
@@ -81,7 +80,7 @@ function Coming({ name, app }: { name: string; app: App }) {
 }
 
 function Joints({ arm, app }: { arm: Arm; app: App }) {
-  use_store(app.store, 'live');
+  use_beats(app.store);
   const q = app.store.q_of(arm);
   const limits = new Map(app.store.cell?.joints.map((joint) => [joint.name, joint]));
   return (

@@ -5,13 +5,12 @@ import { selection_of } from '../route/selection';
 import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
-import { use_store } from '../state/use_store';
+import { use_beats } from '../state/seen';
 import { shown_name } from '../names';
 import { short_id, title_of } from '../wording';
 import { Bar } from './bar';
 
 export function Arms({ app }: { app: App }) {
-  use_store(app.store);
   const arms = [...app.store.arms.values()];
   return (
     <section class={`arms${arms.length > 4 ? ' many' : ''}`} aria-label="Arms">
@@ -23,7 +22,7 @@ export function Arms({ app }: { app: App }) {
 }
 
 function ArmCard({ arm, app }: { arm: Arm; app: App }) {
-  use_store(app.store, 'live');
+  use_beats(app.store);
   const { store } = app;
   const job = arm.job === null ? null : store.job(arm.job);
   const progress = job ? store.progress(job) : 0;

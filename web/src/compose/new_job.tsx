@@ -7,7 +7,6 @@ import { curl_to_post, python_to_post } from '../jobs/snippets';
 import { Link } from '../route/link';
 import type { Problem } from '../server/messages';
 import type { App } from '../state/app';
-import { use_store } from '../state/use_store';
 import { why_mute } from '../wording';
 import { read_bag, type Bag } from './bag';
 import { example_job, pretty } from './example';
@@ -29,7 +28,6 @@ const kTyped_ms = 500;
 const kNothingSaid: Omit<Said, 'of'> = { outcome: { kind: 'none' }, chosen: null };
 
 export function NewJob({ app }: { app: App }) {
-  use_store(app.store);
   const text = app.draft.value;
   const [said, set_said] = useState<Said>({ of: text, ...kNothingSaid });
   const { outcome, chosen } = said.of === text ? said : kNothingSaid;

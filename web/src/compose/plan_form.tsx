@@ -4,7 +4,6 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Plan, Problem } from '../server/messages';
 import type { App } from '../state/app';
-import { use_store } from '../state/use_store';
 import { millimetres, seconds, why_mute } from '../wording';
 import { pretty } from './example';
 import type { Grip } from '../view/by_hand';
@@ -22,7 +21,6 @@ let last: GoalForm | null = null;
 
 /** `change`: the way as a job's text, and the time to show first. */
 export function PlanForm({ app, change }: { app: App; change(text: string): void }) {
-  use_store(app.store);
   const { cell } = app.store;
   const [form, set_form] = useState<GoalForm | null>(last);
   const [outcome, set_outcome] = useState<Outcome>({ kind: 'none' });

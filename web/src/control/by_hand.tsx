@@ -4,12 +4,10 @@ import { useEffect } from 'preact/hooks';
 import { arm_of, states_of } from '../compose/goal';
 import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
-import { use_store } from '../state/use_store';
 import { reason_in_words, why_mute } from '../wording';
 import { shown_name } from '../names';
 
 export function ByHand({ arm, app }: { arm: Arm; app: App }) {
-  use_store(app.store);
   const { hand, store } = app;
   useEffect(() => {
     // A key that is let go in another window is not heard of here.

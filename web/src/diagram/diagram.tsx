@@ -14,7 +14,7 @@ import type { App } from '../state/app';
 import { DiagramPicture, type Scene } from './picture';
 import { Refused } from '../compose/refused';
 import { is_arm, job_of_side, why_no_pair } from './sides';
-import { use_store } from '../state/use_store';
+import { use_beats } from '../state/seen';
 
 const kShownFinished = 12;
 const kShownOpen = 100;
@@ -27,7 +27,6 @@ type Fetched = { kind: 'none' } | { kind: 'diagram'; diagram: Diagram } | { kind
 /** Of two jobs, or of arms: then of what these do, from job to job. */
 export function DiagramPanel({ a, b, app }: Props) {
   const { store } = app;
-  use_store(store);
   const why_not = why_no_pair(a, b, store);
   return (
     <>
@@ -45,7 +44,7 @@ export function DiagramPanel({ a, b, app }: Props) {
 
 function Pair({ a, b, app }: Props) {
   const { store, actions, api } = app;
-  use_store(store, 'live');
+  use_beats(store);
   const [fetched, set_fetched] = useState<Fetched>({ kind: 'none' });
   const [layer, set_layer] = useState(0);
   const connected = store.link.status === 'open' && store.stream !== null;

@@ -2,13 +2,11 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
-import { use_store } from '../state/use_store';
 import { seconds } from '../wording';
 import { files_over } from './drops';
 import { use_staleness } from './staleness';
 
 export function Banner({ app }: { app: App }) {
-  use_store(app.store);
   const { store, actions } = app;
   const refusal = actions.refusal.value;
   const stale_s = use_staleness(store);

@@ -2,7 +2,7 @@
 
 import { Link } from '../route/link';
 import type { App } from '../state/app';
-import { use_store } from '../state/use_store';
+import { use_beats } from '../state/seen';
 import { waiting_arms } from '../recovery/needs';
 import { wall_time } from '../wall_time';
 import { clock } from '../wording';
@@ -12,7 +12,6 @@ import { StopButton } from './stop_button';
 import { shown_name } from '../names';
 
 export function Header({ app }: { app: App }) {
-  use_store(app.store);
   const { store } = app;
   return (
     <header class="header">
@@ -59,7 +58,7 @@ function OpenAlerts({ app }: { app: App }) {
 }
 
 function CellTime({ app }: { app: App }) {
-  use_store(app.store, 'live');
+  use_beats(app.store);
   const stale_s = use_staleness(app.store);
   return (
     <span class={`fact cell-time${stale_s === null ? '' : ' stale-time'}`} title="Cell time of the last thing heard">
@@ -69,7 +68,6 @@ function CellTime({ app }: { app: App }) {
 }
 
 function ConnectionState({ app }: { app: App }) {
-  use_store(app.store);
   const { store } = app;
   const stale_s = use_staleness(store);
   const silent = store.link.status === 'open' && stale_s !== null;

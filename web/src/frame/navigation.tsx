@@ -3,11 +3,9 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { Link } from '../route/link';
 import type { App } from '../state/app';
-import { use_store } from '../state/use_store';
 import { kPages, type Page } from './pages';
 
 export function Navigation({ app }: { app: App }) {
-  use_store(app.store);
   return (
     <nav aria-label="Pages">
       {kPages.filter(({ more }) => !more).map((page) => <Tab key={page.title} page={page} app={app} />)}

@@ -3,7 +3,6 @@
 import { useState } from 'preact/hooks';
 import type { Cell } from '../server/messages';
 import type { App } from '../state/app';
-import { use_store } from '../state/use_store';
 import { why_no_change } from '../policies/change';
 import { why_mute } from '../wording';
 
@@ -19,7 +18,6 @@ const kPolicies: Record<Policy, string> = {
 };
 
 export function PolicyForm({ app }: { app: App }) {
-  use_store(app.store);
   const { store } = app;
   const [chosen, set_chosen] = useState<string | null>(null);
   const policy = chosen ?? store.policy;

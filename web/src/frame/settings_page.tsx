@@ -2,7 +2,6 @@
 
 import type { App } from '../state/app';
 import type { Theme } from '../state/settings';
-import { use_store } from '../state/use_store';
 import { seconds } from '../wording';
 import { Link } from '../route/link';
 import { kPages } from './pages';
@@ -18,7 +17,6 @@ const kKeys: readonly [string, string][] = [
 ];
 
 export function SettingsPage({ app }: { app: App }) {
-  use_store(app.store);
   const { settings, store } = app;
   const session = app.session.value;
   const log_out = async () => {

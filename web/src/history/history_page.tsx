@@ -6,7 +6,6 @@ import { Link } from '../route/link';
 import type { Job } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
-import { use_store } from '../state/use_store';
 import { short_wall_time, wall_time } from '../wall_time';
 import { clock, result_in_words, seconds, title_of, why_mute } from '../wording';
 import { shown_name } from '../names';
@@ -14,7 +13,6 @@ import { shown_name } from '../names';
 const kShown = 100;
 
 export function HistoryPage({ app }: { app: App }) {
-  use_store(app.store);
   const [words, set_words] = useState('');
   const [only_failed, set_only_failed] = useState(false);
   const [shown, set_shown] = useState(kShown);

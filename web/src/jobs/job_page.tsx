@@ -11,7 +11,7 @@ import type { App } from '../state/app';
 import { is_terminal } from '../state/job_book';
 import { arm_colour } from '../state/palette';
 import { told_state } from '../state/standing';
-import { use_store } from '../state/use_store';
+import { use_beats } from '../state/seen';
 import { clock, millimetres, reason_in_words, result_in_words, short_id, wait_in_words, ways_in_words, why_mute } from '../wording';
 import { short_wall_time } from '../wall_time';
 import { asked_of, Copy } from './copy';
@@ -23,7 +23,6 @@ import { shown_json, shown_name } from '../names';
 interface Props { job: Job; app: App }
 
 export function JobPage({ id, app }: { id: string; app: App }) {
-  use_store(app.store);
   const job = app.store.job(id) ?? app.archive.get(id);
   const goes_on = job !== null && !is_terminal(job);
   const connected = app.store.link.status === 'open';
@@ -61,7 +60,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
 }
 
 function States({ job, app }: Props) {
-  use_store(app.store, 'live');
+  use_beats(app.store);
   const former = app.store.job(job.id) === null;
   const times = states_of(job, app.store.book.changes(job.id));
   const when = is_terminal(job) ? '' : when_in_words(job, app.store);

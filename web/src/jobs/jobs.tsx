@@ -5,7 +5,6 @@ import { useState } from 'preact/hooks';
 import type { Job } from '../server/messages';
 import type { App } from '../state/app';
 import type { JobList } from '../state/job_book';
-import { use_store } from '../state/use_store';
 import { matches } from './filter';
 import { Row } from './row';
 
@@ -22,7 +21,6 @@ const kSections: readonly Section[] = [
 ];
 
 export function Jobs({ app }: { app: App }) {
-  use_store(app.store);
   const [words, set_words] = useState('');
   const [only_failed, set_only_failed] = useState(false);
   const is_asked = (job: Job) => matches(job, words, only_failed);

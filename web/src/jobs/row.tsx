@@ -9,7 +9,7 @@ import type { App } from '../state/app';
 import { is_terminal } from '../state/job_book';
 import { arm_colour } from '../state/palette';
 import { told_state } from '../state/standing';
-import { use_store } from '../state/use_store';
+import { use_beats } from '../state/seen';
 import { figure_in_words, reason_in_words, result_in_words, short_id, title_of, why_mute } from '../wording';
 import { when_in_words } from './when';
 import { shown_name } from '../names';
@@ -56,12 +56,12 @@ export function Row({ job, app }: Props) {
 }
 
 function Progress({ job, app }: Props) {
-  use_store(app.store, 'live');
+  use_beats(app.store);
   return job.state === 'running' || job.state === 'holding' ? <Bar share={app.store.progress(job)} /> : null;
 }
 
 function Figure({ job, app }: Props) {
-  if (!is_terminal(job)) use_store(app.store, 'live');
+  if (!is_terminal(job)) use_beats(app.store);
   const { text, title } = figure_in_words(job, app.store.t_s, app.store.progress(job));
   return <span class="figure" title={title} data-test="figure">{text}</span>;
 }
@@ -79,7 +79,7 @@ function Reason({ job }: { job: Job }) {
 
 /** Since when, when it is expected to start, when it expires. */
 function When({ job, app }: Props) {
-  use_store(app.store, 'live');
+  use_beats(app.store);
   const first = only_waits_its_turn(job) ? job.waits_on[0]?.id ?? null : null;
   const words = [first === null ? '' : `after ${short_id(first)}`, when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
   return words === '' ? null : <span class="when" data-test="when">{words}</span>;

@@ -5,12 +5,10 @@ import { PolicyForm } from '../frame/policy_form';
 import { why_no_change } from './change';
 import type { Comparison, PolicyRun } from '../server/messages';
 import type { App } from '../state/app';
-import { use_store } from '../state/use_store';
 import { clock, millimetres, seconds, why_mute } from '../wording';
 import { ends_in_words, share_in_words } from './told';
 
 export function PoliciesPage({ app }: { app: App }) {
-  use_store(app.store);
   const { comparing } = app;
   // One that is known of is looked at again; whether there is one is only asked by who wants to know.
   useEffect(() => { if (comparing.latest.peek() !== null) void comparing.look(); }, [comparing]);

@@ -3,11 +3,10 @@
 
 import { useState } from 'preact/hooks';
 import type { App } from '../state/app';
-import { use_store } from '../state/use_store';
+import { use_beats } from '../state/seen';
 import { clock, seconds } from '../wording';
 
 export function RecordingsPage({ app }: { app: App }) {
-  use_store(app.store);
   const { opened, reading, fault } = app.player;
   return (
     <div class="page">
@@ -36,7 +35,7 @@ export function RecordingsPage({ app }: { app: App }) {
 }
 
 function Export({ app }: { app: App }) {
-  use_store(app.store, 'live');
+  use_beats(app.store);
   const [words, set_words] = useState('');
   const { trace } = app.store;
   const length_s = (trace.last_s ?? 0) - (trace.first_s ?? 0);

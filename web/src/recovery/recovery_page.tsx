@@ -6,7 +6,7 @@ import { Link } from '../route/link';
 import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
-import { use_store } from '../state/use_store';
+import { use_beats } from '../state/seen';
 import { clock, why_mute } from '../wording';
 import { kChecks } from './checklist';
 import { cause_of, need_of, waiting_arms } from './needs';
@@ -15,7 +15,6 @@ import { shown_name, shown_text } from '../names';
 const kHomeSpeed = 0.3;
 
 export function RecoveryPage({ app }: { app: App }) {
-  use_store(app.store);
   const { store } = app;
   const arms = [...store.arms.values()];
   const waiting = waiting_arms(store);
@@ -56,7 +55,7 @@ function Checks({ app, needed }: { app: App; needed: boolean }) {
 
 /** `guarded`: no arm moves before all has been looked at. */
 function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) {
-  use_store(app.store, 'live');
+  use_beats(app.store);
   const { store } = app;
   const job = arm.job === null ? null : store.job(arm.job);
   const need = need_of(arm, job, store.q_of(arm));

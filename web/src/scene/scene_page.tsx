@@ -5,13 +5,11 @@ import { Refused } from '../compose/refused';
 import { Link } from '../route/link';
 import { shape_of, type Problem, type SceneObject } from '../server/messages';
 import type { App } from '../state/app';
-import { use_store } from '../state/use_store';
 import { why_mute } from '../wording';
 import { blank_form, edits_since, fields_of, form_of, kKinds, object_of, with_edits, type Edits, type Kind } from './object_form';
 import { shown_name } from '../names';
 
 export function ScenePage({ name, app }: { name: string | null; app: App }) {
-  use_store(app.store);
   const { objects } = app.store;
   const chosen = objects.find((object) => object.name === name) ?? null;
   return (

@@ -17,7 +17,8 @@ import type { Store } from './store';
 import type { Tool } from '../view/tool_in_hand';
 
 export interface App {
-  store: Store;
+  /** Whoever reads it while it is drawn is drawn again when it changes. */
+  readonly store: Store;
   api: Api;
   motions: MotionBook;
   actions: Actions;

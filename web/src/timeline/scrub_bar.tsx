@@ -4,14 +4,14 @@
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
 import { instant_of } from '../state/instant';
-import { use_store } from '../state/use_store';
+import { use_beats } from '../state/seen';
 import { clock } from '../wording';
 
 const kStep_s = 0.1;
 const kPlayed_ms = 66;
 
 export function ScrubBar({ app }: { app: App }) {
-  use_store(app.store, 'live');
+  use_beats(app.store);
   const { trace } = app.store;
   const held_s = app.router.address.value.t_s;
   const unheard = instant_of(app.router.address.value, app.store).kind === 'unheard';

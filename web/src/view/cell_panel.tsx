@@ -8,7 +8,7 @@ import { selection_of } from '../route/selection';
 import type { App } from '../state/app';
 import type { Shows } from '../state/settings';
 import { instant_of, why_unheard } from '../state/instant';
-import { use_store } from '../state/use_store';
+import { use_beats } from '../state/seen';
 import { clearance_in_words, clock, millimetres } from '../wording';
 import type { CellView } from './cell_view';
 import { step_of_key, type CameraStep } from './steer';
@@ -20,7 +20,6 @@ export function CellPanel({ app, on_view }: Props) {
   const host = useRef<HTMLDivElement>(null);
   const [view, set_view] = useState<CellView | null>(null);
   const [fault, set_fault] = useState<string | null>(null);
-  use_store(store);
   const address = router.address.value;
   useEffect(() => {
     let closed = false;
@@ -64,7 +63,7 @@ export function CellPanel({ app, on_view }: Props) {
 
 /** That another instant than now is shown; or, where it was not heard, that it cannot be. */
 function InstantMark({ app }: { app: App }) {
-  use_store(app.store, 'live');
+  use_beats(app.store);
   const { store, router } = app;
   const instant = instant_of(router.address.value, store);
   if (instant.kind === 'now') return null;
@@ -132,7 +131,7 @@ function CameraBar({ view }: { view: CellView | null }) {
 
 function ClearanceFigure({ app }: { app: App }) {
   const { store } = app;
-  use_store(store, 'live');
+  use_beats(store);
   const nearest = store.clearance.reduce<(typeof store.clearance)[number] | null>((a, b) => (a && a.m <= b.m ? a : b), null);
   if (!nearest || app.router.address.value.t_s !== null) return null;
   const limit_m = store.cell?.clearance_m ?? 0;

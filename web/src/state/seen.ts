@@ -1,0 +1,31 @@
+// The store as components see it: whichever reads it while it is drawn is drawn again when it changes. Nobody
+// has to ask for that, as who forgets would not be noticed: a component that reads some other signal, and
+// is given the same as before, is not drawn again with its parent.
+
+import { signal, type Signal } from '@preact/signals';
+import { Redraw } from './redraw';
+import type { Store } from './store';
+
+const drawings = new WeakMap<Store, Signal<number>>();
+
+/** The same store. */
+export function seen(store: Store): Store {
+  void drawings_of(store).value;
+  return store;
+}
+
+/** Draws the component some times a second, too, while poses come in: for clocks and progress bars. */
+export function use_beats(store: Store): void {
+  void store.beats.value;
+}
+
+function drawings_of(store: Store): Signal<number> {
+  const known = drawings.get(store);
+  if (known) return known;
+  const drawn = signal(0);
+  drawings.set(store, drawn);
+  const timers = { set: (callback: () => void, delay_ms: number) => Number(setTimeout(callback, delay_ms)), clear: (id: number) => clearTimeout(id) };
+  const redraw = new Redraw(() => { drawn.value += 1; }, timers, () => performance.now());
+  store.on_change(() => redraw.ask());
+  return drawn;
+}

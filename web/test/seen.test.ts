@@ -1,0 +1,31 @@
+import { effect } from '@preact/signals';
+import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
+import { seen } from '../src/state/seen';
+import { Store } from '../src/state/store';
+
+describe('The store as it is seen', () => {
+  beforeEach(() => { vi.useFakeTimers(); });
+  afterEach(() => { vi.useRealTimers(); });
+
+  it('draws whoever has read it again when it changes, once for a burst, and nobody else', () => {
+    const store = new Store();
+    const drawn: string[] = [];
+    // A component is drawn as an effect is run.
+    const end = effect(() => { drawn.push(seen(store).link.status); });
+    let aside = 0;
+    const end_aside = effect(() => { aside += 1; });
+    store.set_link({ status: 'open' });
+    store.set_stopped(true);
+    vi.advanceTimersByTime(100);
+    expect(drawn).toEqual(['connecting', 'open']);
+    store.set_link({ status: 'lost', retry_in_ms: 0 } as never);
+    vi.advanceTimersByTime(1000);
+    expect(drawn).toEqual(['connecting', 'open', 'lost']);
+    expect(aside).toBe(1);
+    end();
+    end_aside();
+    store.set_stopped(false);
+    vi.advanceTimersByTime(1000);
+    expect(drawn).toHaveLength(3);
+  });
+});
