@@ -77,6 +77,61 @@ test('a page that was just opened leads to the diagram of its arms, and has poli
   await other.close();
 });
 
+test('Stop stands whole in the same place, whatever the header has to say', { timeout: 90_000 }, async () => {
+  await go('#/');
+  const before = page.viewportSize();
+  const places = {};
+  await ask(page, 'POST', '/stop');
+  const { value: { key } } = await ask(page, 'POST', '/control', { who: 'Maximiliane von Hohenstein-Wartburg, second shift' });
+  await page.locator('[data-test=open-alerts]').waitFor();
+  await page.locator('[data-test=in-control]').waitFor();
+  const look = async (what, seen) => {
+    for (const width of [1024, 1280, 1440]) {
+      await page.setViewportSize({ width, height: 720 });
+      const found = await page.evaluate((seen) => {
+        const { left, right, top, bottom } = document.querySelector('.stop').getBoundingClientRect();
+        const facts = document.querySelector('.facts').getBoundingClientRect();
+        const whole = (test) => {
+          const box = document.querySelector(`[data-test=${test}]`)?.getBoundingClientRect();
+          return box !== undefined && box.left >= facts.left - 1 && box.right <= facts.right + 1 && box.bottom <= facts.bottom && box.width > 8;
+        };
+        const header = document.querySelector('.header');
+        return { stop: { left, right, top, bottom }, beyond: header.scrollWidth - header.clientWidth, missing: seen.filter((test) => !whole(test)) };
+      }, seen);
+      await page.screenshot(path_for(`header-${what.replaceAll(' ', '-')}-${width}`));
+      assert.equal(found.beyond, 0, `${what}: the header goes beyond ${width} px`);
+      assert.deepEqual(found.missing, [], `${what}: hidden at ${width} px`);
+      assert.ok(found.stop.right <= width - 8, `${what}: Stop ends at ${found.stop.right} of ${width} px`);
+      places[width] ??= found.stop;
+      assert.deepEqual(found.stop, places[width], `${what}: Stop is elsewhere at ${width} px`);
+    }
+  };
+  await look('alert and control', ['link', 'open-alerts', 'in-control', 'go-policies']);
+  // What does not fit is still reached by keys, and then seen.
+  await page.setViewportSize({ width: 920, height: 720 });
+  await page.locator('[data-test=open-alerts]').focus();
+  await page.keyboard.press('Tab');
+  assert.equal(await page.evaluate(() => document.activeElement.dataset.test), 'go-policies');
+  const { at, facts } = await page.evaluate(() => ({ at: document.activeElement.getBoundingClientRect(), facts: document.querySelector('.facts').getBoundingClientRect() }));
+  assert.ok(at.bottom <= facts.bottom && at.left >= facts.left, 'what has the focus is out of sight');
+  await ask(page, 'POST', '/control/release', { control: key });
+  await page.locator('[data-test=in-control]').waitFor({ state: 'detached' });
+  await look('alert', ['link', 'open-alerts', 'go-policies', 'clock']);
+  // Words as a recording and a lost connection have them; both take the same place.
+  await server.end();
+  await page.locator('[data-test=link].lost').waitFor();
+  await look('alert and disconnected', ['link', 'open-alerts', 'go-policies']);
+  assert.equal(await server.start(), url);
+  await page.locator('[data-test=link].open').waitFor();
+  await page.setViewportSize(before);
+});
+
+test('links that stand alone measure 24 px', { timeout: 30_000 }, async () => {
+  await go('#/policies');
+  const { height } = await page.locator('[data-test=go-policies]').boundingBox();
+  assert.ok(height >= 24, `${height} px`);
+});
+
 test('nothing so far was an error in the console', () => {
   assert.deepEqual(chromium.errors.filter((text) => !/ 422 |409 |ERR_CONNECTION_REFUSED|WebSocket/.test(text)), []);
 });

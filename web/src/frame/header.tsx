@@ -20,13 +20,14 @@ export function Header({ app }: { app: App }) {
       <span class="fact gives-way" title={shown_name(store.cell?.name ?? '')}><b data-test="cell">{shown_name(store.cell?.name ?? '–')}</b></span>
       {store.cell?.simulated && <span class="badge" title="The arms of this server are simulated; no drive moves" data-test="simulated">SIMULATED</span>}
       <Navigation app={app} />
-      <span class="spacer" />
-      <OpenAlerts app={app} />
-      <InControl app={app} />
-      <span class="fact"><i>policy</i> <Link app={app} to={{ page: 'policies' }} test="go-policies" title="Policies, and what the others would have done">{store.policy || '–'}</Link></span>
-      {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
-      <CellTime app={app} />
-      <ConnectionState app={app} />
+      <div class="facts">
+        <ConnectionState app={app} />
+        <OpenAlerts app={app} />
+        <InControl app={app} />
+        {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
+        <span class="fact policy"><i>policy</i> <Link app={app} to={{ page: 'policies' }} test="go-policies" title="Policies, and what the others would have done">{store.policy || '–'}</Link></span>
+        <CellTime app={app} />
+      </div>
       <button class="resume" disabled={!store.stopped && waiting_arms(store).length === 0} title="Leads to what is to be looked at before the arms move again" data-test="to-resume"
         onClick={() => app.router.go({ page: 'recovery' })}>Resume…</button>
       <StopButton app={app} />
@@ -75,7 +76,7 @@ function ConnectionState({ app }: { app: App }) {
   const { unknown, malformed } = store.rejected;
   const rejected = unknown + malformed;
   return (
-    <span class={`fact link-state ${silent ? 'connecting' : store.link.status}`} data-test="link">
+    <span class={`fact link-state ${silent ? 'connecting' : store.link.status}`} data-test="link" title={words}>
       <span class="dot" aria-hidden="true" /> <span class="link-words">{words}</span>
       {rejected > 0 && (
         <span class="rejected" title={`${unknown} of unknown type, ${malformed} malformed`}> · {rejected} unread</span>
