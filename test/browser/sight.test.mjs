@@ -126,6 +126,56 @@ test('Stop stands whole in the same place, whatever the header has to say', { ti
   await page.setViewportSize(before);
 });
 
+/** How a button's words stand out from its ground, as WCAG counts it; grounds that are seen through are laid over each other. */
+const contrast = (button) => {
+  const parts = (text) => { const [r, g, b, a = 1] = (text.match(/[\d.]+/g) ?? [0, 0, 0, 0]).map(Number); return [r, g, b, a]; };
+  const grounds = [];
+  for (let at = button; at; at = at.parentElement) grounds.unshift(parts(getComputedStyle(at).backgroundColor));
+  const ground = grounds.reduce((under, [r, g, b, a]) => [r, g, b].map((v, i) => v * a + under[i] * (1 - a)), [255, 255, 255]);
+  const light = (rgb) => { const [r, g, b] = rgb.slice(0, 3).map((v) => v / 255).map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+  const [dark, bright] = [light(parts(getComputedStyle(button).color)), light(ground)].sort((a, b) => a - b);
+  return (bright + 0.05) / (dark + 0.05);
+};
+
+test('what a button says is read in every state of it, in both themes', { timeout: 90_000 }, async () => {
+  let looked = 0;
+  const read = async (button, state) => {
+    await page.waitForFunction(() => document.getAnimations().every(({ playState }) => playState !== 'running'));
+    const ratio = await button.evaluate(contrast);
+    looked += 1;
+    assert.ok(ratio >= 4.5, `${await button.innerText()} ${state}: ${ratio.toFixed(2)}`);
+  };
+  for (const theme of ['Light', 'Dark']) {
+    await go('#/settings');
+    await page.getByLabel(theme, { exact: true }).check();
+    await page.waitForFunction((theme) => document.documentElement.dataset.theme === theme, theme.toLowerCase());
+    for (const [hash, ...tests] of [['#/new', 'send', 'judge'], ['#/scene/table', 'object-save', 'object-remove', 'by-hand'], ['#/recovery', 'resume-checked'], ['#/policies', 'compare']]) {
+      await go(hash);
+      for (const name of ['stop', 'to-resume', ...tests]) {
+        const button = page.locator(`[data-test=${name}]`);
+        await button.waitFor();
+        await read(button, `at rest, ${theme}`);
+        if (await button.isDisabled()) continue;
+        await button.hover();
+        await read(button, `pointed at, ${theme}`);
+        await page.mouse.down();
+        await read(button, `pressed, ${theme}`);
+        await page.mouse.move(2, 2);  // let go elsewhere: nothing is asked
+        await page.mouse.up();
+        await button.focus();
+        await read(button, `with the focus, ${theme}`);
+      }
+      if (hash === '#/new') {
+        await page.locator('[data-test=job-text]').fill('{');
+        await page.locator('[data-test=send]').hover();
+        await read(page.locator('[data-test=send]'), `pointed at, ${theme}`);
+        await page.locator('[data-test=job-text]').fill('');
+      }
+    }
+  }
+  assert.ok(looked > 40, `${looked} were looked at`);
+});
+
 test('links that stand alone measure 24 px', { timeout: 30_000 }, async () => {
   await go('#/policies');
   const { height } = await page.locator('[data-test=go-policies]').boundingBox();
