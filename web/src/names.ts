@@ -21,6 +21,20 @@ export function shown_text(text: string): string {
   return kFromRight.test(seen) ? kIsolate + seen + kIsolated : seen;
 }
 
+const kGraphemes = new Intl.Segmenter(undefined, { granularity: 'grapheme' });
+
+/** As people count them: what is drawn as one is one. */
+export function characters_of(text: string): string[] {
+  return [...kGraphemes.segment(text)].map(({ segment }) => segment);
+}
+
+/** At most so many characters, none of them cut in two. What was cut ends in …, within these. */
+export function cut_text(text: string, most: number): string {
+  if (text.length <= most) return text;
+  const characters = characters_of(text);
+  return characters.length <= most ? text : `${characters.slice(0, most - 1).join('')}…`;
+}
+
 /** JSON that means the same, and has nothing in it that is not seen. */
 export function shown_json(json: string): string {
   return json.replace(kUnseen, (unseen) => (unseen === '\n' ? unseen : [...Array(unseen.length).keys()].map((i) => `\\u${unseen.charCodeAt(i).toString(16).padStart(4, '0')}`).join('')));

@@ -3,12 +3,14 @@
 import type { Link } from './server/connection';
 import { is_stopped } from './state/standing';
 import { pair_of, type Clearance, type Job, type MonitorData, type WaitsOn } from './server/messages';
-import { shown_name, shown_text } from './names';
+import { cut_text, shown_name, shown_text } from './names';
+
+const kLongestId = 24;
 
 /** An id short enough for a list: a long machine-made one is cut, a name that a client chose stays. */
 export function short_id(id: string): string {
   if (/^[0-9a-f]{8}-[0-9a-f]{4}-/i.test(id)) return id.slice(0, 8);
-  return id.length > 24 ? `${id.slice(0, 22)}…` : id;
+  return cut_text(id, kLongestId);
 }
 
 /** What a job is called: by its name, or else by its id. */
@@ -104,9 +106,17 @@ function waited(job: Job, until_s: number | null): Figure {
   return { text: `waited ${seconds(Math.max(0, until_s - job.submitted_s))}`, title: 'Since it was submitted, without having started' };
 }
 
+/** Without the digits that only tell how a computer keeps it: 0.30000001192 is 0.3. */
+export function number_in_words(value: number): string {
+  return String(Number(value.toPrecision(kDigits)));
+}
+
+const kDigits = 6;
+const kLongestValue = 200;
+
 /** What a refused request held at the place of the fault; empty when the server does not say. */
 export function found_in_words(value: unknown): string {
-  return value === undefined || value === null || value === '' ? '' : `found ${JSON.stringify(value).slice(0, 200)}`;
+  return value === undefined || value === null || value === '' ? '' : `found ${cut_text(JSON.stringify(value, (_, part: unknown) => (typeof part === 'number' ? Number(number_in_words(part)) : part)), kLongestValue)}`;
 }
 
 /** Between what a clearance was measured. */

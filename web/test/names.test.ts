@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { shown_json, shown_name, shown_text } from '../src/names';
+import { cut_text, shown_json, shown_name, shown_text } from '../src/names';
 
 describe('names from users', () => {
   it('are shown as they are', () => {
@@ -29,6 +29,15 @@ describe('names from users', () => {
     const shown = shown_json(JSON.stringify(job, null, 2));
     expect(shown).not.toMatch(/[\u202e\u200b]/);
     expect(JSON.parse(shown)).toEqual(job);
+  });
+
+  it('are cut between characters, never within one', () => {
+    const lab = '👩‍🔬';
+    expect(cut_text(lab.repeat(4), 4)).toBe(lab.repeat(4));
+    expect(cut_text(lab.repeat(5), 4)).toBe(`${lab.repeat(3)}…`);
+    expect(cut_text('e\u0301'.repeat(9), 3)).toBe('e\u0301e\u0301…');
+    expect(cut_text('pick 7', 6)).toBe('pick 7');
+    expect(cut_text('pick 77', 6)).toBe('pick …');
   });
 
   it('within texts of the server are treated alike', () => {

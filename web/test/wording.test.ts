@@ -83,6 +83,8 @@ describe('the figure of a job', () => {
 describe('what was found at the place of a fault', () => {
   it('is said as JSON, and not at all when the server does not say', () => {
     expect([3.41, 'x', [0]].map(found_in_words)).toEqual(['found 3.41', 'found "x"', 'found [0]']);
+    expect([-0.01700000021609758, [0.30000001192, 2], { x: 1e-7 }].map(found_in_words)).toEqual(['found -0.017', 'found [0.3,2]', 'found {"x":1e-7}']);
+    expect(found_in_words('😀'.repeat(300))).toBe(`found "${'😀'.repeat(198)}…`);
     expect([undefined, null, ''].map(found_in_words)).toEqual(['', '', '']);
   });
 });
@@ -117,6 +119,7 @@ describe('figures', () => {
   });
   it('cut machine-made ids and keep chosen ones', () => {
     expect(short_id('0b9f1c3a-1111-4222-8333-444455556666')).toBe('0b9f1c3a');
+    expect(short_id('😀'.repeat(30))).toBe(`${'😀'.repeat(23)}…`);
     expect(short_id('pick-7')).toBe('pick-7');
   });
 });

@@ -1,6 +1,8 @@
 // Joint positions from a recording's states.csv, thinned while they are read: the file has a row for each
 // control tick, a picture needs thirty a second. Pure.
 
+import { cut_text } from '../names';
+
 export interface Frames { names: string[]; t_s: number[]; q: number[][] }
 
 const kStep_s = 1 / 30;
@@ -36,7 +38,7 @@ export class StatesReader {
     if (!this.names_) {
       const [time, ...names] = line.trim().split(',');
       if (time === 'time_s' && names.length > 0) this.names_ = names;
-      else this.fault_ = `states.csv: line 1 begins with "${line.slice(0, 30)}", not with time_s and names of joints`;
+      else this.fault_ = `states.csv: line 1 begins with "${cut_text(line, 30)}", not with time_s and names of joints`;
       return;
     }
     const comma = line.indexOf(',');
@@ -45,7 +47,7 @@ export class StatesReader {
     if (last_s !== undefined && t_s - last_s < this.step_s_ - 1e-9) return;
     const q = line.slice(comma + 1).split(',').map(Number);
     if (comma < 0 || !Number.isFinite(t_s) || q.length !== this.names_.length || !q.every(Number.isFinite)) {
-      this.fault_ = `states.csv: line ${row} is no time and ${this.names_.length} positions: "${line.slice(0, 40)}"`;
+      this.fault_ = `states.csv: line ${row} is no time and ${this.names_.length} positions: "${cut_text(line, 40)}"`;
       return;
     }
     this.t_s_.push(t_s);

@@ -1,5 +1,6 @@
 // The HTTP calls that the page makes. Every answer is a value: what was asked for, or a Problem.
 
+import { cut_text } from '../names';
 import {
   parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_hold, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_plan, parse_problem, parse_session, parse_verdict,
   type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Forecast, type Hold, type Job, type JobAmendment, type JobMotion, type JobPage, type Parsed, type Plan, type Problem, type SceneObject, type Session, type Verdict,
@@ -189,7 +190,7 @@ function read_problem(text: string, response: Response): Problem {
   } catch {
     // Not JSON: an answer from something between us and the server. Shown as it is.
   }
-  return { ...own_problem(response.statusText || 'Refused', text.slice(0, 300)), status: response.status };
+  return { ...own_problem(response.statusText || 'Refused', cut_text(text, 300)), status: response.status };
 }
 
 function own_problem(title: string, detail: string): Problem {

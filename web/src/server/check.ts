@@ -2,6 +2,7 @@
 // the server's own description. A fault names the place and what was found there.
 
 import { Validator } from '@cfworker/json-schema';
+import { cut_text } from '../names';
 import shapes from '../contract/schemas.json';
 import type { components } from '../contract/types';
 
@@ -19,7 +20,7 @@ export function check<Name extends Checked>(name: Name, value: unknown): Parsed<
   const depth = (place: string) => place.split('/').length;
   const fault = errors.reduce((a, b) => (depth(b.instanceLocation) >= depth(a.instanceLocation) ? b : a));
   const pointer = fault.instanceLocation.slice(1);
-  const found = JSON.stringify(value_at(value, pointer))?.slice(0, 60) ?? 'nothing';
+  const found = cut_text(JSON.stringify(value_at(value, pointer)) ?? 'nothing', 60);
   return { ok: false, fault: `${pointer || '/'}: ${fault.error} Found ${found}` };
 }
 

@@ -6,7 +6,7 @@ import { draw_events, type EventMark } from './events';
 import { drawn_of, type Lane, type Mark } from './lanes';
 import { kAxis_px, kLeft_px, kRight_px, lane_height, type Sheet } from './sheet';
 import { tick_of } from './span';
-import { shown_name } from '../names';
+import { characters_of, shown_name } from '../names';
 
 /** What is looked at: the rest is dimmed. And the instant that is held, if one is. */
 export interface Lit { jobs: readonly string[]; arms: readonly string[]; held_s: number | null; events: readonly EventMark[] }
@@ -117,7 +117,7 @@ function draw_name(g: CanvasRenderingContext2D, row: Row, name: string): void {
 /** As much of a name as has room. */
 function cut(g: CanvasRenderingContext2D, text: string, room_px: number): string {
   if (g.measureText(text).width <= room_px) return text;
-  const letters = [...text];
+  const letters = characters_of(text);
   while (letters.length > 1 && g.measureText(`${letters.join('')}…`).width > room_px) letters.length -= letters.length > 24 ? 12 : 1;
   return `${letters.join('')}…`;
 }
