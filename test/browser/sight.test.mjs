@@ -176,6 +176,67 @@ test('what a button says is read in every state of it, in both themes', { timeou
   assert.ok(looked > 40, `${looked} were looked at`);
 });
 
+/** Whether all of it, or as much as there is room for, is within the pane. */
+const in_pane = (element) => {
+  const box = element.getBoundingClientRect();
+  const pane = document.querySelector('.pane-body').getBoundingClientRect();
+  return box.height > 0 && box.top >= pane.top - 1 && (box.bottom <= pane.bottom + 1 || box.height > pane.height - 40);
+};
+
+test('what a form answers is seen', { timeout: 90_000 }, async () => {
+  const before = page.viewportSize();
+  await page.setViewportSize({ width: 1280, height: 640 });
+  await page.keyboard.press('Escape');
+  await go('#/scene');
+  await page.locator('[data-test=object-name]').fill('in the way');
+  for (const [key, value] of Object.entries({ x: '-0.5', y: '0', z: '0.3' })) await page.locator(`[data-test=object-${key}]`).fill(value);
+  await page.locator('[data-test=object-save]').click();
+  await page.locator('[data-test=problem]').waitFor();
+  assert.ok(await page.locator('[data-test=problem]').evaluate(in_pane), 'why it was refused');
+  await page.screenshot(path_for('answer-scene'));
+
+  await go('#/new');
+  const { names, q } = await arm_now(page, 'left');
+  await page.locator('[data-test=job-text]').fill(JSON.stringify(job_through('far', names, [q, q.map(() => 9)], 3), null, 2));
+  await page.locator('[data-test=judge]').click();
+  await page.locator('[data-test=judged]').waitFor();
+  assert.ok(await page.locator('[data-test=judged]').evaluate(in_pane), 'the judgement');
+  await page.locator('[data-test=send]').click();
+  await page.locator('.in-sight > [data-test=problem]').waitFor();
+  assert.ok(await page.locator('.in-sight > [data-test=problem]').evaluate(in_pane), 'why it was not sent');
+  await page.screenshot(path_for('answer-new'));
+  await page.setViewportSize(before);
+});
+
+test('a job that was sent is not sent again by a second press', { timeout: 60_000 }, async () => {
+  await go('#/new');
+  const { names, q } = await arm_now(page, 'left');
+  const { trajectory } = job_through('', names, [q, q], 1);
+  await page.locator('[data-test=job-text]').fill(JSON.stringify({ name: 'once', trajectory }));
+  await page.locator('[data-test=send]').dblclick();
+  await page.locator('[data-test=accepted]').waitFor();
+  assert.equal(await page.locator('[data-test=send]').innerText(), 'Send again');
+  await page.locator('[data-test=job-text]').press('Control+Enter');
+  await page.waitForTimeout(300);
+  const named = () => page.evaluate(() => window.armloom.jobs().filter(({ name }) => name === 'once').length);
+  assert.equal(await named(), 1);
+  await page.locator('[data-test=send]').click();
+  await page.waitForFunction(() => window.armloom.jobs().filter(({ name }) => name === 'once').length === 2);
+  await page.locator('[data-test=job-text]').fill(JSON.stringify({ name: 'another', trajectory }));
+  assert.equal(await page.locator('[data-test=send]').innerText(), 'Send');
+});
+
+test('a name that no object may have is told at its field', { timeout: 30_000 }, async () => {
+  await go('#/scene');
+  await page.locator('[data-test=object-name]').fill('a/b');
+  await page.locator('[data-test=object-name-fault]', { hasText: 'this one holds /' }).waitFor();
+  assert.equal(await page.locator('[data-test=object-save]').isDisabled(), true);
+  await page.screenshot(path_for('object-name'));
+  await page.locator('[data-test=object-name]').fill('a b');
+  await page.locator('[data-test=object-save]:enabled').waitFor();
+  assert.equal(await page.locator('[data-test=object-name-fault]').innerText(), '');
+});
+
 test('links that stand alone measure 24 px', { timeout: 30_000 }, async () => {
   await go('#/policies');
   const { height } = await page.locator('[data-test=go-policies]').boundingBox();

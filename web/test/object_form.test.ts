@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { blank_form, edits_since, form_of, object_of, with_edits } from '../src/scene/object_form';
+import { blank_form, edits_since, fault_of_name, form_of, object_of, with_edits } from '../src/scene/object_form';
 import type { SceneObject } from '../src/server/messages';
 
 const kCan: SceneObject = { name: 'can', cylinder: [0.08, 0.3], xyz: [0.3, 0.9, 0.4], rpy: [Math.PI / 2, 0, 0] };
@@ -7,6 +7,17 @@ const kCan: SceneObject = { name: 'can', cylinder: [0.08, 0.3], xyz: [0.3, 0.9, 
 describe('a form of an object', () => {
   it('gives back what it was made of', () => {
     expect(object_of(form_of(kCan))).toEqual(kCan);
+  });
+
+  it('takes the names that the server takes, and says what is wrong with others', () => {
+    for (const name of ['rod', 'a b', '<b>crate', '拾う', '...', '😀'.repeat(64), 'x'.repeat(128)]) expect(fault_of_name(name)).toBe(null);
+    expect(fault_of_name('a/b')).toMatch(/this one holds \/$/);
+    expect(fault_of_name('a\\b')).toMatch(/this one holds \\$/);
+    expect(fault_of_name('a\u0007b')).toMatch(/holds a control character$/);
+    expect(fault_of_name('..')).toMatch(/no name/);
+    expect(fault_of_name('  ')).toMatch(/no name/);
+    expect(fault_of_name('x'.repeat(129))).toMatch(/128/);
+    expect(object_of({ ...form_of(kCan), name: 'a/b' })).toHaveProperty('fault');
   });
 
   it('keeps what was typed while the object changes, and follows it otherwise', () => {

@@ -2,6 +2,7 @@
 // of jobs, which is taken whole or not at all.
 
 import { useEffect, useMemo, useState } from 'preact/hooks';
+import { InSight } from '../frame/in_sight';
 import { asked_of, Copy } from '../jobs/copy';
 import { curl_to_post, python_to_post } from '../jobs/snippets';
 import { Link } from '../route/link';
@@ -42,6 +43,8 @@ export function NewJob({ app }: { app: App }) {
   useEffect(() => { if (ways.kind === 'planned' && ways.ways.planned > 0 && motion) set_chosen({ t_s: motion.duration_s }); }, [ways]);
   const mute = why_mute(app.store.link);
   const idle = text.trim() === '' || outcome.kind === 'busy' || mute !== null;
+  // The same once more is another job: it has to be asked for by the button that says so.
+  const is_sent = outcome.kind === 'accepted';
   const send = async () => {
     if (idle) return;
     set_outcome({ kind: 'busy', what: 'Sending…' });
@@ -66,21 +69,24 @@ export function NewJob({ app }: { app: App }) {
       <textarea class="mono" spellcheck={false} aria-label="Job as JSON" data-test="job-text" value={text}
         placeholder={'{\n  "trajectory": {\n    "joint_names": […],\n    "points": […]\n  }\n}'}
         onInput={(event) => change(event.currentTarget.value)}
-        onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) void send(); }} />
+        onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey) && !is_sent) void send(); }} />
       {motion && <Preview motion={motion} app={app} chosen={chosen} />}
       {ways.kind !== 'none' && <WaysSaid ways={ways} />}
       <div class="line">
         <FileButton change={change} />
         <span class="grow dim small" data-test="bag">{bag.kind === 'bag' ? `${bag.jobs.length} jobs, taken whole or not at all` : 'Ctrl + Enter sends'}</span>
         <button data-test="judge" title="As things are now; nothing is stored" disabled={idle} onClick={() => void judge()}>Judge</button>
-        <button class="primary" data-test="send" title={mute ?? ''} disabled={idle} onClick={() => void send()}>
-          {outcome.kind === 'busy' ? outcome.what : bag.kind === 'bag' ? 'Send all' : 'Send'}
+        <button class={is_sent ? '' : 'primary'} data-test="send" title={mute ?? (is_sent ? 'It was sent; this makes another one of it' : '')} disabled={idle}
+          onClick={(event) => { if (event.detail < 2) void send(); /* not by the second click of a double one */ }}>
+          {outcome.kind === 'busy' ? outcome.what : `${bag.kind === 'bag' ? 'Send all' : 'Send'}${is_sent ? ' again' : ''}`}
         </button>
       </div>
       {text.trim() !== '' && <Copies bag={bag} app={app} />}
-      {outcome.kind === 'accepted' && <Accepted ids={outcome.ids} app={app} />}
-      {outcome.kind === 'judged' && <Judged judgements={outcome.judgements} show={motion && bag.kind === 'one' ? (t_s) => set_chosen({ t_s }) : null} />}
-      {outcome.kind === 'refused' && <Refused problem={outcome.problem} />}
+      <InSight answer={outcome.kind === 'none' || outcome.kind === 'busy' ? null : outcome}>
+        {outcome.kind === 'accepted' && <Accepted ids={outcome.ids} app={app} />}
+        {outcome.kind === 'judged' && <Judged judgements={outcome.judgements} show={motion && bag.kind === 'one' ? (t_s) => set_chosen({ t_s }) : null} />}
+        {outcome.kind === 'refused' && <Refused problem={outcome.problem} />}
+      </InSight>
     </div>
   );
 }

@@ -5,6 +5,7 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Plan, Problem } from '../server/messages';
 import type { App } from '../state/app';
 import { millimetres, seconds, why_mute } from '../wording';
+import { InSight } from '../frame/in_sight';
 import { pretty } from './example';
 import type { Grip } from '../view/by_hand';
 import type { ToolPose } from '../view/tool_in_hand';
@@ -73,9 +74,11 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
         </button>
         <span class="dim small grow">From where the arm will be when its jobs have run.</span>
       </div>
-      {outcome.kind === 'planned' && <Planned plan={outcome.plan} />}
-      {outcome.kind === 'fault' && <p class="refused" role="alert" data-test="plan-fault">{outcome.text}</p>}
-      {outcome.kind === 'refused' && <Unplanned problem={outcome.problem} />}
+      <InSight answer={outcome.kind === 'none' || outcome.kind === 'busy' ? null : outcome}>
+        {outcome.kind === 'planned' && <Planned plan={outcome.plan} />}
+        {outcome.kind === 'fault' && <p class="refused" role="alert" data-test="plan-fault">{outcome.text}</p>}
+        {outcome.kind === 'refused' && <Unplanned problem={outcome.problem} />}
+      </InSight>
     </form>
   );
 }

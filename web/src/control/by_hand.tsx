@@ -2,6 +2,7 @@
 
 import { useEffect } from 'preact/hooks';
 import { arm_of, states_of } from '../compose/goal';
+import { InSight } from '../frame/in_sight';
 import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
 import { reason_in_words, why_mute } from '../wording';
@@ -29,7 +30,7 @@ export function ByHand({ arm, app }: { arm: Arm; app: App }) {
         <div class="line wrap">{states.map((state) => <HoldButton key={state} arm={arm.name} state={state} app={app} />)}</div>
       )}
       {hand.key.value !== null && <p class="hint" role="status" data-test="hold-state">{held_in_words(arm, app)}</p>}
-      {hand.refusal.value !== null && <p class="refused" role="alert" data-test="hold-refused">{hand.refusal.value}</p>}
+      <InSight answer={hand.refusal.value}>{hand.refusal.value !== null && <p class="refused" role="alert" data-test="hold-refused">{hand.refusal.value}</p>}</InSight>
     </section>
   );
 }

@@ -1,6 +1,7 @@
 // Policies: which one decides, and what the jobs at hand would have come to under the others.
 
 import { useEffect } from 'preact/hooks';
+import { InSight } from '../frame/in_sight';
 import { PolicyForm } from '../frame/policy_form';
 import { why_no_change } from './change';
 import type { Comparison, PolicyRun } from '../server/messages';
@@ -45,7 +46,7 @@ function Asking({ app }: { app: App }) {
         {latest === null && <button class="small" data-test="look-comparison" disabled={mute !== null} title={mute ?? 'That another page has asked for'} onClick={() => void comparing.look()}>Show the last one</button>}
         <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? 'None was made so far.' : 'Not asked by this page yet.'}</span>
       </div>
-      {comparing.refusal.value !== null && <p class="refused" role="alert" data-test="comparison-refused">{comparing.refusal.value}</p>}
+      <InSight answer={comparing.refusal.value}>{comparing.refusal.value !== null && <p class="refused" role="alert" data-test="comparison-refused">{comparing.refusal.value}</p>}</InSight>
     </>
   );
 }

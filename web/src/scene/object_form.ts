@@ -5,6 +5,20 @@ import { shape_of, type SceneObject } from '../server/messages';
 export type Kind = 'box' | 'cylinder' | 'sphere';
 export const kKinds: readonly Kind[] = ['box', 'cylinder', 'sphere'];
 
+/** What the server takes for an object's name (`ObjectRequest` in /openapi.json). */
+export const kLongestName = 128;
+const kNotInNames = /[\u0000-\u001f\u007f/\\]/u;
+
+/** Null: it is one. */
+export function fault_of_name(text: string): string | null {
+  const name = text.trim();
+  if (name === '') return 'it has no name';
+  const found = kNotInNames.exec(name)?.[0];
+  if (found !== undefined) return `a name may hold all but /, \\ and control characters: this one holds ${found < ' ' || found === '\u007f' ? 'a control character' : found}`;
+  if (name === '.' || name === '..') return `${name} alone is no name`;
+  return [...name].length > kLongestName ? `a name may have ${kLongestName} characters` : null;
+}
+
 export interface Form { name: string; kind: Kind; values: Record<string, string> }
 /** What was typed and is not saved yet; the rest of a form follows the object. */
 export type Edits = Partial<Form>;
@@ -69,7 +83,8 @@ export function object_of(form: Form): SceneObject | { fault: string } {
     if (!Number.isFinite(value)) faults.push(`${key.replace('_', ' ')}: "${text}" is no number`);
     return value;
   };
-  if (form.name.trim() === '') faults.push('it has no name');
+  const name_fault = fault_of_name(form.name);
+  if (name_fault !== null) faults.push(name_fault);
   const radians_of = (key: string) => (number_of(key) * Math.PI) / 180;
   const pose = {
     xyz: [number_of('x'), number_of('y'), number_of('z')] as [number, number, number],

@@ -2,11 +2,12 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { Refused } from '../compose/refused';
+import { InSight } from '../frame/in_sight';
 import { Link } from '../route/link';
 import { shape_of, type Problem, type SceneObject } from '../server/messages';
 import type { App } from '../state/app';
-import { why_mute } from '../wording';
-import { blank_form, edits_since, fields_of, form_of, kKinds, object_of, with_edits, type Edits, type Kind } from './object_form';
+import { number_in_words, why_mute } from '../wording';
+import { blank_form, edits_since, fault_of_name, fields_of, form_of, kKinds, kLongestName, object_of, with_edits, type Edits, type Kind } from './object_form';
 import { shown_name } from '../names';
 
 export function ScenePage({ name, app }: { name: string | null; app: App }) {
@@ -49,9 +50,9 @@ function HandButton({ name, app }: { name: string; app: App }) {
 function size_in_words(object: SceneObject): string {
   const shape = shape_of(object);
   switch (shape?.kind) {
-    case 'box': return `box ${shape.size.join(' × ')} m`;
-    case 'cylinder': return `cylinder, radius ${shape.radius} m, ${shape.length} m long`;
-    case 'sphere': return `sphere, radius ${shape.radius} m`;
+    case 'box': return `box ${shape.size.map(number_in_words).join(' × ')} m`;
+    case 'cylinder': return `cylinder, radius ${number_in_words(shape.radius)} m, ${number_in_words(shape.length)} m long`;
+    case 'sphere': return `sphere, radius ${number_in_words(shape.radius)} m`;
     case 'mesh': return 'mesh';
     default: return '';
   }
@@ -63,6 +64,7 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
   const form = with_edits(chosen ? form_of(chosen) : blank_form(), edits);
   const [problem, set_problem] = useState<Problem | null>(null);
   const mute = why_mute(app.store.link);
+  const name_fault = form.name === '' ? null : fault_of_name(form.name);
   const submit = async (event: Event) => {
     event.preventDefault();
     const object = object_of(form);
@@ -77,11 +79,12 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
     <form class="object-form" data-test="object-form" onSubmit={(event) => void submit(event)}>
       <h3>{chosen ? `Change ${shown_name(chosen.name)}` : 'Add an object'}</h3>
       <div class="line wrap">
-        <label>Name <input type="text" required maxLength={64} value={form.name} readOnly={chosen !== null} data-test="object-name"
+        <label>Name <input type="text" required maxLength={kLongestName} value={form.name} readOnly={chosen !== null} data-test="object-name" aria-invalid={name_fault !== null} aria-describedby="object-name-fault"
           onInput={(event) => edit({ name: event.currentTarget.value })} /></label>
         <label>Shape <select value={form.kind} data-test="object-kind" onChange={(event) => edit({ kind: event.currentTarget.value as Kind })}>
           {kKinds.map((kind) => <option key={kind} value={kind}>{kind}</option>)}
         </select></label>
+        <span id="object-name-fault" class="field-fault" role="status" data-test="object-name-fault">{name_fault}</span>
       </div>
       {fields_of(form.kind).map(({ legend, keys }) => (
         <fieldset key={legend}>
@@ -93,11 +96,11 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
         </fieldset>
       ))}
       <div class="line">
-        <button class="primary" type="submit" data-test="object-save" disabled={mute !== null} title={mute ?? ''}>{chosen ? 'Change' : 'Add'}</button>
+        <button class="primary" type="submit" data-test="object-save" disabled={mute !== null || name_fault !== null} title={mute ?? name_fault ?? ''}>{chosen ? 'Change' : 'Add'}</button>
         {chosen && <Remove object={chosen} app={app} />}
         {chosen && <Link app={app} to={{ page: 'scene', name: null }}>Add another</Link>}
       </div>
-      {problem && <Refused problem={problem} />}
+      <InSight answer={problem}>{problem && <Refused problem={problem} />}</InSight>
     </form>
   );
 }
