@@ -237,6 +237,40 @@ test('a name that no object may have is told at its field', { timeout: 30_000 },
   assert.equal(await page.locator('[data-test=object-name-fault]').innerText(), '');
 });
 
+test('in narrow windows joints have their figures, and jobs their names and ids', { timeout: 60_000 }, async () => {
+  await ask(page, 'POST', '/stop');
+  const { names, q } = await arm_now(page, 'right');
+  const long = 'right: tiled deposit of the second layer, then home';
+  for (const job of [{ id: 'r0-right-1-to-tiled-deposit-2', name: long }, { id: 'h7', name: long }]) {
+    const { status, value } = await ask(page, 'POST', '/jobs', job_through(job.id, names, [q, q], 1, { name: job.name }));
+    assert.equal(status, 202, JSON.stringify(value));
+  }
+  const before = page.viewportSize();
+  for (const width of [1024, 1280]) {
+    await page.setViewportSize({ width, height: 720 });
+    await go('#/arm/left');
+    await page.locator('[data-test=joints-left] td').first().waitFor();
+    const table = await page.locator('[data-test=joints-left]').evaluate((table) => {
+      const pane = document.querySelector('.pane-body');
+      return { beyond: pane.scrollWidth - pane.clientWidth, right: table.getBoundingClientRect().right - pane.getBoundingClientRect().right };
+    });
+    assert.equal(table.beyond, 0, `the joints go ${table.beyond} px beyond their pane at ${width} px`);
+    assert.ok(table.right <= 0);
+    for (const id of ['r0-right-1-to-tiled-deposit-2', 'h7']) {
+      const row = page.locator(`[data-test="job-${id}"]`);
+      await row.waitFor();
+      const { name_px, id_whole } = await row.evaluate((row) => {
+        const [name, id] = [row.querySelector('.title'), row.querySelector('.id')];
+        return { name_px: name.clientWidth, id_whole: id.scrollWidth <= id.clientWidth && id.checkVisibility() };
+      });
+      assert.ok(name_px >= 90, `${id}: ${name_px} px of its name at ${width} px`);
+      assert.ok(id_whole, `${id} is cut at ${width} px`);
+    }
+    await page.screenshot(path_for(`narrow-${width}`));
+  }
+  await page.setViewportSize(before);
+});
+
 test('links that stand alone measure 24 px', { timeout: 30_000 }, async () => {
   await go('#/policies');
   const { height } = await page.locator('[data-test=go-policies]').boundingBox();

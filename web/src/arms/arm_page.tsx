@@ -103,11 +103,11 @@ function Joint({ name, value, joint }: { name: string; value: number; joint: Cel
   const figure = (limit: number) => (Number.isFinite(limit) ? limit.toFixed(2) : 'none');
   return (
     <tr class={near ? 'near' : ''}>
-      <th scope="row" class="ellipsis" title={name}>{name}</th>
+      <th scope="row">{name}</th>
       <td class="mono dim">{figure(lower)}</td>
       <td><span class="gauge"><span style={{ left: `${100 * share}%` }} /></span></td>
       <td class="mono dim">{figure(upper)}</td>
-      <td class="mono">{value.toFixed(3)} {joint?.unit ?? ''}{near ? ' near its limit' : ''}</td>
+      <td class="mono"><span class="whole">{value.toFixed(3)} {joint?.unit ?? ''}</span>{near ? ' near its limit' : ''}</td>
     </tr>
   );
 }

@@ -34,12 +34,12 @@ export function Row({ job, app }: Props) {
         <span class="line">
           <span class="tags">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_colour(arms, arm) }}>{shown_name(arm)}</span>)}</span>
           <span class="ellipsis title" title={shown_name(job.name) || job.id}>{title_of(job)}</span>
-          {job.name !== '' && <span class="id ellipsis" title={job.id}>{short_id(job.id)}</span>}
           {job.priority !== 0 && <span class="priority" title="Priority: larger goes first">{job.priority > 0 ? `+${job.priority}` : job.priority}</span>}
           <span class="grow" />
           {ended && <span class="verdict">{job.state}</span>}
           <Figure job={job} app={app} />
         </span>
+        {job.name !== '' && <span class="id ellipsis" title={job.id}>{job.id}</span>}
         {blocker === null && <Reason job={job} />}
         <Progress job={job} app={app} />
       </Link>
