@@ -52,9 +52,9 @@ test('the timeline shows what comes: motions, waits, and for whom', { timeout: 6
   const canvas = page.locator('.timeline canvas');
   const { width, height } = await canvas.boundingBox();
   const lane = Math.min(54, (height - 18) / 2);
-  await canvas.hover({ position: { x: 72 + (width - 82) * 0.66, y: lane * 1.4 } });
+  await canvas.hover({ position: { x: 72 + (width - 82) * 0.81, y: lane * 1.4 } });
   assert.match(await page.locator('.tip').innerText(), /behind it/);
-  await canvas.click({ position: { x: 72 + (width - 82) * 0.66, y: lane * 1.4 } });
+  await canvas.click({ position: { x: 72 + (width - 82) * 0.81, y: lane * 1.4 } });
   await page.locator('[data-test=page-job] h2').waitFor();
   assert.equal(await page.locator('[data-test=page-job] h2').innerText(), 'behind it');
   assert.match(page.url(), /#\/job\/second/);

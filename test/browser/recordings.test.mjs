@@ -56,7 +56,9 @@ test('a recording is opened from its files and scrubbed through, and the present
   await files.setInputFiles(['states.csv', 'events.jsonl'].map((name) => join(folder, 'run', name)));
   await page.locator('[data-test=opened]').waitFor({ timeout: 40_000 });
   await page.locator('[data-test=recording]').waitFor();
-  await page.locator('[data-test=list-finished] [data-test="job-recorded-1"]').waitFor();
+  // At its beginning nothing has ended yet, whatever the recording goes on to tell.
+  await page.locator('[data-test=count-finished]', { hasText: /^0$/ }).waitFor();
+  assert.equal(await page.locator('[data-test=arm-right] [data-test=arm-state]').innerText().then((words) => words.replace(/\s+/g, ' ')), '○ idle');
   assert.match(await page.locator('[data-test=told-left]').textContent(), /nothing is planned/);
   const before = await view_picture();
   const scrub = page.locator('[data-test=scrub]');
@@ -64,13 +66,68 @@ test('a recording is opened from its files and scrubbed through, and the present
   await page.locator('[data-test=instant]', { hasText: '0:00:02' }).waitFor();
   const moved = await difference(chromium.context, before, await view_picture());
   assert.ok(moved.count > kLeastMoved_px, `${moved.count} pixels changed`);
+  // All views show that instant: the card, the label, and the lists.
+  await page.locator('[data-test=list-running] [data-test="job-recorded-1"]').waitFor();
+  await page.locator('[data-test=arm-right] [data-test=arm-state]', { hasText: 'moving' }).waitFor();
+  assert.match(await page.locator('.arm-label', { hasText: 'right' }).innerText(), /moving/);
+  assert.match(await page.locator('[data-test=looked-at]').innerText(), /0:00:02/);
   await page.screenshot(path_for('recording-dark'));
   await page.locator('[data-test=play]').click();
   await page.locator('[data-test=instant]', { hasText: '0:00:03' }).waitFor({ timeout: 30_000 });
+  await page.locator('[data-test=list-finished] [data-test="job-recorded-1"]').waitFor({ timeout: 60_000 });
   await page.locator('[data-test=recording-close]').click();
   await page.locator('[data-test=link].open').waitFor();
   await page.locator('[data-test="job-recorded-1"]').waitFor({ state: 'detached' });
   await page.locator('[data-test=recording]').waitFor({ state: 'detached' });
+});
+
+test('after a reload events of before it are there, and an instant of before it has its states, but no pose', { timeout: 120_000 }, async () => {
+  const { names, q } = await arm_now(page, 'left');
+  const job = job_through('before', names, [q, q.map((angle, i) => (i === 0 ? angle + 0.3 : angle)), q], 3);
+  assert.equal((await ask(page, 'POST', '/jobs', job)).status, 202);
+  await page.locator('[data-test=list-finished] [data-test="job-before"]').waitFor({ timeout: 60_000 });
+  await ask(page, 'POST', '/stop');
+  await ask(page, 'POST', '/resume');
+  const { started_s, ended_s } = await page.evaluate(() => window.armloom.jobs().find(({ id }) => id === 'before'));
+  await page.evaluate((t_s) => { location.hash = `#/arm/left?t=${t_s}`; }, ((started_s + ended_s) / 2).toFixed(2));
+  await page.reload();
+  await page.locator('[data-test=unheard]').waitFor({ timeout: 60_000 });
+  await page.locator('.notice', { hasText: 'stopped' }).first().waitFor();
+  await page.locator('[data-test=list-running] [data-test="job-before"]').waitFor();
+  await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'moving' }).waitFor();
+  assert.equal(await page.locator('.arm-label:visible').count(), 0, 'a label of an arm that is not drawn');
+  await page.screenshot(path_for('reload-looks-back'));
+  await page.locator('[data-test=unheard-now]').click();
+  await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'idle' }).waitFor();
+});
+
+test('a camera in an address shows the same in another tab, beside a pane, too', { timeout: 120_000 }, async () => {
+  await page.setViewportSize({ width: 1024, height: 768 });
+  await page.evaluate(() => { location.hash = '#/arm/right'; });
+  await page.locator('[data-test=page-arm]').waitFor();
+  // The timeline has no room for its legend then: a button shows it.
+  const legend = page.locator('.timeline .legend');
+  await legend.locator('summary').click();
+  await legend.getByText('stopped').waitFor();
+  await page.screenshot(path_for('legend-1024'));
+  await legend.locator('summary').click();
+  await page.locator('[data-test=camera-left]').click();
+  await page.locator('[data-test=camera-nearer]').click();
+  const other = await chromium.context.newPage();
+  await other.setViewportSize({ width: 1024, height: 768 });
+  await other.goto(page.url());
+  const places = [];
+  for (const tab of [page, other]) {
+    await tab.bringToFront();
+    await tab.waitForFunction(() => window.armloom?.is_drawn(), undefined, { timeout: 60_000 });
+    await tab.evaluate(() => window.armloom.drawn());
+    places.push(await tab.evaluate(() => window.armloom.where_is('table')));
+  }
+  await other.screenshot(path_for('camera-other-tab'));
+  await other.close();
+  await page.setViewportSize({ width: 1280, height: 720 });
+  await page.evaluate(() => { location.hash = '#/recordings'; });
+  assert.ok(Math.hypot(places[0].x - places[1].x, places[0].y - places[1].y) < 3, JSON.stringify(places));
 });
 
 test('what was heard is taken away as MCAP, which its own reader reads', { timeout: 120_000 }, async () => {

@@ -23,10 +23,12 @@ import { place_in_words } from './route/address';
 import { address_bar_of, Router } from './route/router';
 import { Api } from './server/api';
 import { backoff_ms, Connection, type SocketLike, type Timers } from './server/connection';
+import { earlier_events } from './server/earlier_events';
 import { follow_timeline } from './server/follow_timeline';
 import type { Session } from './server/messages';
 import { Actions } from './state/actions';
 import type { App } from './state/app';
+import { Seen, seen_app } from './state/as_of';
 import { Settings } from './state/settings';
 import { Store } from './state/store';
 import { seen } from './state/seen';
@@ -58,7 +60,9 @@ const connection = new Connection({
   timers,
   on_message: (message) => {
     const other_run = message.type !== 'state' && store.stream !== null && message.stream !== store.stream;
+    const is_new_run = message.type === 'snapshot' && message.stream !== store.stream;
     store.take(message);
+    if (is_new_run) void look_before(message.stream, message.seq);
     if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
     if (message.type === 'snapshot' || message.type === 'alert') void hand.look();  // a change of control is told
     if (other_run) {
@@ -83,7 +87,7 @@ const app: App = {
   get store() { return seen(store); },
   archive, checklist, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
-  router, player: new Player(store, connection, router),
+  router, seen: new Seen(store, router), player: new Player(store, connection, router),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),
 };
 
@@ -103,6 +107,11 @@ async function know_who(): Promise<void> {
   if (answer.value.role === null) location.assign('/login');
 }
 
+/** What the server told before this page listened. */
+async function look_before(stream: string, seq: number): Promise<void> {
+  store.take_earlier(await earlier_events(kBase, (url, init) => fetch(url, init), stream, seq));
+}
+
 async function load_cell(attempt = 1): Promise<void> {
   const answer = await api.cell();
   if (answer.ok) {
@@ -116,6 +125,7 @@ async function load_cell(attempt = 1): Promise<void> {
 function Page() {
   const { store } = app;
   const stale = use_staleness(store) !== null || store.link.status === 'lost';
+  const then = seen_app(app);
   document.title = `${place_in_words(app.router.address.value.place)} · ${shown_name(store.cell?.name ?? 'Armloom')}`;
   return (
     <>
@@ -131,8 +141,8 @@ function Page() {
           <Notices app={app} />
         </div>
         <aside class="side" aria-label="Arms and jobs">
-          <Arms app={app} />
-          <Jobs app={app} />
+          <Arms app={then} />
+          <Jobs app={then} />
         </aside>
       </div>
     </>

@@ -130,6 +130,7 @@ export function why_mute(link: Link): string | null {
     case 'open': return null;
     case 'connecting': return 'Not connected to the server yet';
     case 'recording': return 'A recording is shown, not the present';
+    case 'past': return 'This is how it was, not how it is now';
     case 'lost': return 'The connection to the server is lost';
   }
 }

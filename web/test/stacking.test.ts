@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { stacked } from '../src/view/stacking';
+import { stacked, within_room } from '../src/view/stacking';
 
 const at = (x: number, y: number, width_px = 80) => ({ x, y, width_px });
 
@@ -28,5 +28,20 @@ describe('labels of arms that stand close to each other', () => {
 
   it('end, where one has no place', () => {
     expect(stacked([at(NaN, NaN), at(0, 0), at(0, Infinity)], 22, 4)).toHaveLength(3);
+  });
+});
+
+describe('labels in a view', () => {
+  const room = { width_px: 400, height_px: 300 };
+  const label = (x: number, y: number, must = true) => ({ ...at(x, y), must });
+  const places = (labels: ReturnType<typeof label>[]) => within_room(labels, stacked(labels, 22, 4), room, 22, 30);
+
+  it('stay inside of it', () => {
+    expect(places([label(10, -5), label(395, 299)])).toEqual([{ x: 40, y: 0 }, { x: 360, y: 278 }]);
+  });
+
+  it('are left out where they would seem to be those of others, unless they have to be seen', () => {
+    const crowd = [label(100, 100, false), label(101, 101, false), label(102, 102, false), label(103, 103)];
+    expect(places(crowd).map((place) => place?.y ?? null)).toEqual([100, 122, null, 166]);
   });
 });

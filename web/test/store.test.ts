@@ -186,3 +186,14 @@ describe('the store', () => {
     expect(store.rejected).toEqual({ unknown: 2, malformed: 1 });
   });
 });
+
+describe('arms that were stopped', () => {
+  it('are known as stopped from then on, with a job or without one, until they are resumed', () => {
+    take(envelope('arm', 5, arm_json('left', { state: 'stopped' })));
+    take(envelope('arm', 6, arm_json('left', { state: 'stopped' })));
+    take(envelope('arm', 7, arm_json('right', { state: 'stopped' })));
+    take(envelope('arm', 9, arm_json('right')));
+    expect(store.halts.get('left')).toEqual([{ from_s: 5, to_s: null, stopped: true }]);
+    expect(store.halts.get('right')).toEqual([{ from_s: 7, to_s: 9, stopped: true }]);
+  });
+});

@@ -6,3 +6,10 @@ import type { Notice } from '../state/store';
 export function id_of(notice: Pick<Notice, 'stream' | 'seq'>): string {
   return `${notice.stream}:${notice.seq}`;
 }
+
+/** Than the time that is looked at; null: that is now. What is of another run was before. */
+export function is_later({ t_s, stream }: Pick<Notice, 't_s' | 'stream'>, at_s: number | null, run: string | null): boolean {
+  return at_s !== null && (stream === null || stream === run) && t_s > at_s + kRounding_s;
+}
+// Addresses hold hundredths of a second.
+const kRounding_s = 0.01;

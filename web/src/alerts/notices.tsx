@@ -3,16 +3,19 @@
 import { Link } from '../route/link';
 import type { App } from '../state/app';
 import type { Notice } from '../state/store';
+import { events_until } from '../state/as_of';
 import { clock } from '../wording';
-import { id_of } from './alerts';
+import { id_of, is_later } from './alerts';
 import { shown_text } from '../names';
 
 export function Notices({ app }: { app: App }) {
+  const { t_s } = app.router.address.value;
+  const told = app.store.notices.filter((notice) => !is_later(notice, t_s, app.store.stream));
   const open = app.alerts.open.length;
   return (
     <section class="notices" aria-label="Events">
       <div class="line head">
-        <h2>Events<span class="count">{app.store.notices.length}</span></h2>
+        <h2>Events<span class="count">{told.length}</span></h2>
         <span class="grow" />
         {open > 0 && <Link app={app} to={{ page: 'alerts' }} test="see-alerts">{open} to acknowledge</Link>}
       </div>
@@ -35,8 +38,9 @@ export function NoticeList({ app }: { app: App }) {
 
 function Line({ notice, app }: { notice: Notice; app: App }) {
   const seen = app.alerts.of(id_of(notice))?.acknowledged;
+  const later = is_later(notice, app.router.address.value.t_s, app.store.stream);
   return (
-    <div class={`notice ${notice.level}${seen ? ' seen' : ''}`}>
+    <div class={`notice ${notice.level}${seen ? ' seen' : ''}${later ? ' later' : ''}`} title={later ? 'Later than what is shown' : undefined}>
       {is_kept(notice, app)
         ? <button class="then mono" title="Look back at it, in every view" data-test={`then-${notice.seq ?? notice.key}`} onClick={() => app.router.hold_at(notice.t_s)}>{clock(notice.t_s)}</button>
         : <span class="mono">{clock(notice.t_s)}</span>}
@@ -48,5 +52,5 @@ function Line({ notice, app }: { notice: Notice; app: App }) {
 
 /** Whether it can be looked back at. */
 function is_kept({ stream, t_s }: Notice, { store }: App): boolean {
-  return (stream === null || stream === store.stream) && store.trace.heard(t_s) === 'kept';
+  return (stream === null || stream === store.stream) && (store.trace.heard(t_s) === 'kept' || events_until(t_s, null, store) > 0);
 }

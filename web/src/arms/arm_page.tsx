@@ -9,6 +9,8 @@ import { Plot } from '../plot/plot';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
+import { instant_of, pose_at } from '../state/instant';
+import { seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
 import { known_lanes } from '../timeline/known';
 import { lane_in_words } from '../timeline/told';
@@ -23,18 +25,21 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
   const { store } = app;
   const arm = store.arms.get(name);
   if (!arm) return <><h2>{shown_name(name)}</h2><p class="hint">{store.stream === null ? 'Not connected yet.' : 'The cell has no arm of this name.'}</p></>;
-  const job = arm.job === null ? null : store.job(arm.job);
+  const then = seen_app(app);
+  const arm_then = then.store.arms.get(name) ?? arm;
+  const job = arm_then.job === null ? null : then.store.job(arm_then.job);
+  const nothing = then.store.unknown_arms.has(name) ? 'What it did then is not known here.' : then === app ? 'No job is under way.' : 'No job was under way.';
   const colour = arm_colour([...store.arms.keys()], name);
   return (
     <div class="page" style={{ '--arm': colour }}>
       <div class="line">
         <h2 class="ellipsis"><span class="swatch" aria-hidden="true" /> {shown_name(name)}</h2>
-        <StatePill arm={arm} app={app} />
+        <StatePill arm={arm_then} app={then} />
         <span class="grow" />
         <StopOfArm arm={arm} app={app} />
       </div>
       <p class="hint">
-        {job ? <>Executes <Link app={app} to={{ page: 'job', id: job.id }}>{title_of(job)}</Link></> : 'No job is under way.'}
+        {job ? <>{then === app ? 'Executes' : 'Executed'} <Link app={app} to={{ page: 'job', id: job.id }}>{title_of(job)}</Link></> : nothing}
       </p>
       <SendTo arm={arm} app={app} />
       <ByHand arm={arm} app={app} />
@@ -81,13 +86,15 @@ function Coming({ name, app }: { name: string; app: App }) {
 
 function Joints({ arm, app }: { arm: Arm; app: App }) {
   use_beats(app.store);
-  const q = app.store.q_of(arm);
+  const at = pose_at(instant_of(app.router.address.value, app.store), app.store);
+  if (at === null) return <p class="hint" data-test={`joints-${arm.name}`}>Where they were then is not known here.</p>;
+  const q = arm.joints.map((joint, i) => at[joint] ?? arm.q[i] ?? 0);
   const limits = new Map(app.store.cell?.joints.map((joint) => [joint.name, joint]));
   return (
     <table class="joints" data-test={`joints-${arm.name}`}>
       <thead><tr><th scope="col">joint</th><th scope="col">lower</th><th scope="col">where it is</th><th scope="col">upper</th><th scope="col">measured</th></tr></thead>
       <tbody>{arm.joints.map((name, i) => <Joint key={name} name={name} value={q[i] ?? 0} joint={limits.get(name)} />)}</tbody>
-      <tfoot><tr><th scope="row" colSpan={4}>off its path, the largest joint</th><td class="mono">{arm.deviation_rad.toFixed(4)} rad</td></tr></tfoot>
+      {app.router.address.value.t_s === null && <tfoot><tr><th scope="row" colSpan={4}>off its path, the largest joint</th><td class="mono">{arm.deviation_rad.toFixed(4)} rad</td></tr></tfoot>}
     </table>
   );
 }

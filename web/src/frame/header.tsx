@@ -72,7 +72,7 @@ function ConnectionState({ app }: { app: App }) {
   const { store } = app;
   const stale_s = use_staleness(store);
   const silent = store.link.status === 'open' && stale_s !== null;
-  const words = silent ? `silent for ${stale_s} s` : { connecting: 'connecting', open: 'connected', lost: 'disconnected', recording: 'recording' }[store.link.status];
+  const words = silent ? `silent for ${stale_s} s` : { connecting: 'connecting', open: 'connected', lost: 'disconnected', recording: 'recording', past: 'past' }[store.link.status];
   const { unknown, malformed } = store.rejected;
   const rejected = unknown + malformed;
   return (

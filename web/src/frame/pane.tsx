@@ -12,6 +12,7 @@ import type { App } from '../state/app';
 import { PoliciesPage } from '../policies/policies_page';
 import { RecordingsPage } from '../recordings/recordings_page';
 import { RecoveryPage } from '../recovery/recovery_page';
+import { seen_app } from '../state/as_of';
 import { SettingsPage } from './settings_page';
 import { ScenePage } from '../scene/scene_page';
 import { JobPage } from '../jobs/job_page';
@@ -57,11 +58,11 @@ function content_of(place: Place, app: App): ComponentChildren {
   switch (place.page) {
     case 'cell': return null;
     case 'new': return <NewJob app={app} />;
-    case 'job': return <JobPage id={place.id} app={app} />;
+    case 'job': return <JobPage id={place.id} app={seen_app(app)} />;
     case 'arm': return <ArmPage name={place.name} app={app} />;
     case 'pair': return <DiagramPanel a={place.a} b={place.b} app={app} />;
     case 'scene': return <ScenePage name={place.name} app={app} />;
-    case 'history': return <HistoryPage app={app} />;
+    case 'history': return <HistoryPage app={seen_app(app)} />;
     case 'alerts': return <AlertsPage app={app} />;
     case 'recovery': return <RecoveryPage app={app} />;
     case 'policies': return <PoliciesPage app={app} />;

@@ -20,7 +20,7 @@ export function HistoryPage({ app }: { app: App }) {
   const former = archive.jobs;
   const known = app.store.jobs('finished');
   const all = former.length === 0 ? known : [...known, ...former];
-  const few = known.length < kShown && app.store.link.status === 'open';
+  const few = app.router.address.value.t_s === null && known.length < kShown && app.store.link.status === 'open';
   useEffect(() => { if (few) void archive.more(); }, [archive, few, app.store.stream]);
   const jobs = words === '' && !only_failed ? all : all.filter((job) => matches(job, words, only_failed));
   return (

@@ -23,14 +23,16 @@ import { shown_json, shown_name } from '../names';
 interface Props { job: Job; app: App }
 
 export function JobPage({ id, app }: { id: string; app: App }) {
-  const job = app.store.job(id) ?? app.archive.get(id);
-  const goes_on = job !== null && !is_terminal(job);
+  const looks_back = app.router.address.value.t_s !== null;
+  const known = app.store.job(id);
+  const job = known ?? (looks_back ? null : app.archive.get(id));
+  const goes_on = !looks_back && job !== null && !is_terminal(job);
   const connected = app.store.link.status === 'open';
-  const ask = job === null && connected;
+  const ask = job === null && connected && !looks_back;
   useEffect(() => { if (ask) void app.archive.find(id); }, [app, id, ask]);
   useEffect(() => (goes_on ? app.actions.follow_job(id) : undefined), [app, id, goes_on]);
-  if (!job) return <><h2 class="ellipsis">{shown_name(id)}</h2><p class="hint">{app.store.stream === null ? 'Not connected yet.' : 'The server has no job of this name, or has forgotten it.'}</p></>;
-  const former = app.store.job(id) === null;
+  if (!job) return <><h2 class="ellipsis">{shown_name(id)}</h2><p class="hint">{looks_back ? 'It was not there at the time that is looked at, or that is not known here.' : app.store.stream === null ? 'Not connected yet.' : 'The server has no job of this name, or has forgotten it.'}</p></>;
+  const former = known === null;
   const words = job.result ? result_in_words(job) : reason_in_words(job);
   const arms = [...app.store.arms.keys()];
   return (
@@ -45,7 +47,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
       <States job={job} app={app} />
       {ways_in_words(job).map((words) => <p key={words} class="hint" data-test="way">{words}</p>)}
       {job.waits_on.length > 0 && <Evidence job={job} app={app} />}
-      {former ? <p class="hint" data-test="former">The server tells of it from what it keeps; how it moved is not kept.</p> : <Beside job={job} app={app} />}
+      {looks_back ? null : former ? <p class="hint" data-test="former">The server tells of it from what it keeps; how it moved is not kept.</p> : <Beside job={job} app={app} />}
       {kCanReplan && goes_on && job.arms.length === 1 && <AnotherWay job={job} app={app} />}
       {!former && <Moves job={job} app={app} />}
       <h3>For programs</h3>

@@ -4,7 +4,10 @@
 import { useState } from 'preact/hooks';
 import type { Job } from '../server/messages';
 import type { App } from '../state/app';
+import { instant_of } from '../state/instant';
 import type { JobList } from '../state/job_book';
+import { is_known } from '../state/as_of';
+import { clock } from '../wording';
 import { matches } from './filter';
 import { Row } from './row';
 
@@ -31,8 +34,20 @@ export function Jobs({ app }: { app: App }) {
           onInput={(event) => set_words(event.currentTarget.value)} />
         <button class="small" aria-pressed={only_failed} data-test="only-failed" title="Only jobs that did not succeed" onClick={() => set_only_failed(!only_failed)}>failed</button>
       </div>
-      {kSections.map((section) => <List key={section.list} section={section} app={app} is_asked={is_asked} filtered={words !== '' || only_failed} />)}
+      <LookedAt app={app} />
+      {is_known(app.store) && kSections.map((section) => <List key={section.list} section={section} app={app} is_asked={is_asked} filtered={words !== '' || only_failed} />)}
     </section>
+  );
+}
+
+/** Which time these lists are of, where it is not now. */
+function LookedAt({ app }: { app: App }) {
+  const { t_s } = app.router.address.value;
+  if (t_s === null || instant_of(app.router.address.value, app.store).kind === 'now') return null;
+  return (
+    <p class="hint looked-at" role="status" data-test="looked-at">
+      {is_known(app.store) ? `As it was at ${clock(t_s)}.` : `Which jobs there were at ${clock(t_s)} is not known here.`}
+    </p>
   );
 }
 

@@ -23,6 +23,7 @@ export type Link =
   | { status: 'connecting' }
   | { status: 'open' }
   | { status: 'recording'; name: string }  // nothing is listened to: a recording is looked at
+  | { status: 'past' }  // of what looks back: nothing is asked from there
   | { status: 'lost'; attempt: number; retry_in_ms: number };
 
 export interface ConnectionOptions {

@@ -12,6 +12,7 @@ import type { Player } from '../recordings/player';
 import type { Checklist } from '../recovery/checklist';
 import type { Router } from '../route/router';
 import type { Actions } from './actions';
+import type { Seen } from './as_of';
 import type { Settings } from './settings';
 import type { Store } from './store';
 import type { Tool } from '../view/tool_in_hand';
@@ -23,6 +24,8 @@ export interface App {
   motions: MotionBook;
   actions: Actions;
   router: Router;
+  /** The state at the instant that is looked at. */
+  seen: Seen;
   player: Player;
   settings: Settings;
   alerts: AlertList;

@@ -26,7 +26,7 @@ export function is_of_this_run(run: string | null, { stream }: Pick<Store, 'stre
 /** Every joint then; null where that was not heard. */
 export function pose_at(instant: Instant, { q, trace }: Pick<Store, 'q' | 'trace'>): Readonly<Record<string, number>> | null {
   switch (instant.kind) {
-    case 'now': return q;
+    case 'now': return Object.keys(q).length === 0 ? null : q;  // nothing was heard yet
     case 'kept': return trace.at(instant.t_s);
     case 'unheard': return null;
   }
@@ -38,7 +38,7 @@ export function why_unheard(why: Unheard, { trace, t_s }: Pick<Store, 'trace' | 
     case 'nothing': return 'This page has heard nothing yet.';
     case 'before': return `What this page has heard, and keeps, begins at ${clock(first_s)}.`;
     case 'after': return `It has not come yet: the last that was heard is ${clock(last_s)}.`;
-    case 'gap': return 'Nothing came from the server then.';
+    case 'gap': return 'No positions came from the server then.';
     case 'other-run': return 'It is a time of another run of the server, whose clock began anew.';
   }
 }

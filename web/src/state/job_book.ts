@@ -97,6 +97,12 @@ export class JobBook {
     this.lists_ = null;
   }
 
+  /** The server's lists as they stand. */
+  get order(): QueueData {
+    const ids = (list: JobList) => this.list(list).map(({ id }) => id);
+    return { stopped: false, running: ids('running'), scheduled: ids('scheduled'), queued: ids('queued'), backlog: ids('backlog') };
+  }
+
   get(id: string): Job | null {
     return this.heard_.get(id)?.job ?? null;
   }
@@ -191,7 +197,7 @@ function stand(stands: Stand[], job: Job, t_s: number): void {
   if (job.state === 'holding') remember(stands, { from_s: t_s, to_s: null, stopped });
 }
 
-function remember<T>(list: T[], one: T): void {
+export function remember<T>(list: T[], one: T): void {
   list.push(one);
   if (list.length > kMostRemembered) list.splice(0, list.length - kMostRemembered);
 }

@@ -2,21 +2,23 @@
 // both themes: elements use them as `var(--…)`, canvases and the 3D view ask `ink` for what stands there
 // now.
 
-import type { ArmState, CellState } from '../server/messages';
+import type { CellState } from '../server/messages';
+import type { ToldState } from './standing';
 
 const kArmColours = 8;
 
-export const kStateColours: Record<ArmState, string> = {
+export const kStateColours: Record<ToldState, string> = {
   idle: 'var(--idle)',
   moving: 'var(--moving)',
   holding: 'var(--holding)',
   stopped: 'var(--alarm)',
   fault: 'var(--alarm)',
+  'not known': 'var(--dim)',
 };
 
 /** A state is never told by colour alone. */
-export const kStateGlyphs: Record<ArmState, string> = {
-  idle: '○', moving: '▶', holding: '❚❚', stopped: '■', fault: '✕',
+export const kStateGlyphs: Record<ToldState, string> = {
+  idle: '○', moving: '▶', holding: '❚❚', stopped: '■', fault: '✕', 'not known': '?',
 };
 
 /** An arm's own colour, by its place in the cell. */

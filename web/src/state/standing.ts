@@ -3,6 +3,9 @@
 
 import type { Arm, ArmState, Job, JobState } from '../server/messages';
 
+/** `not known`: of the time that is looked at nothing tells it. */
+export type ToldState = ArmState | 'not known';
+
 /** Whether a job waits until an arm is resumed: this one, or any of its own. */
 export function is_stopped(job: Pick<Job, 'waits_on'> | null, arm: string | null = null): boolean {
   return job?.waits_on.some((wait) => wait.kind === 'stop' && (arm === null || wait.arm === null || wait.arm === arm)) ?? false;

@@ -4,12 +4,13 @@
 
 import { signal, untracked, type ReadonlySignal } from '@preact/signals';
 import type { Link } from '../server/connection';
-import type { Arm, ArmAuthority, ArmState, Cell, Clearance, Forecast, Job, Message, SceneObject, StateMessage } from '../server/messages';
+import type { Arm, ArmAuthority, ArmState, Cell, Clearance, Forecast, Job, Message, SceneObject, SequencedMessage, StateMessage } from '../server/messages';
 import { monitor_in_words } from '../wording';
 import { outlook_of } from './outlook';
-import { is_terminal, JobBook, type JobList } from './job_book';
+import { is_terminal, JobBook, remember, type JobList, type Stand } from './job_book';
+import { Log } from './log';
 import { ProgressBook } from './progress_book';
-import { state_of } from './standing';
+import { state_of, type ToldState } from './standing';
 import { Trace } from './trace';
 
 export interface Notice {
@@ -55,8 +56,14 @@ export class Store {
   /** What the arms are expected to do, as far as that can be known; null: not known. */
   forecast: Forecast | null = null;
   readonly book = new JobBook();
-  readonly trace = new Trace();
-  readonly courses = new ProgressBook();
+  readonly trace: Trace;
+  readonly courses: ProgressBook;
+  /** When each arm was stopped, or at fault, whether it had a job or none. */
+  readonly halts = new Map<string, Stand[]>();
+  /** What earlier states are derived from. */
+  readonly log = new Log(folded);
+  /** Of these nothing was told until the time that is shown: only one that looks back has any. */
+  readonly unknown_arms = new Set<string>();
 
   private next_key_ = 1;
   private readonly changes_ = signal(0);
@@ -66,7 +73,11 @@ export class Store {
   private quiet_ = false;
   private heard_at_ms_: number | null = null;
 
-  constructor(private readonly now_ms_: () => number = () => performance.now()) {}
+  /** `measured`: of another one, which it looks back into. */
+  constructor(private readonly now_ms_: () => number = () => performance.now(), measured: { trace: Trace; courses: ProgressBook } | null = null) {
+    this.trace = measured?.trace ?? new Trace();
+    this.courses = measured?.courses ?? new ProgressBook();
+  }
 
   get changes(): ReadonlySignal<number> { return this.changes_; }
   get frames(): ReadonlySignal<number> { return this.frames_; }
@@ -92,6 +103,13 @@ export class Store {
       this.take_frame(message, silent_ms);
       return;
     }
+    this.log.push(message);
+    if (!this.quiet_) this.log.trim();
+    this.apply(message);
+  }
+
+  /** One that is not to be remembered: of the log, gone through again. */
+  apply(message: SequencedMessage): void {
     const same_run = message.stream === this.stream;
     const restarted = this.stream !== null && !same_run;
     this.t_s = Math.max(same_run ? this.t_s : 0, message.t_s);
@@ -103,14 +121,19 @@ export class Store {
         this.policy = data.policy;
         this.speed = data.speed;
         this.stopped = data.stopped;
-        this.arms = new Map(data.arms.map((arm) => [arm.name, arm]));
-        for (const arm of data.arms) this.place(arm);
+        this.arms = new Map([...(this.unknown_arms.size > 0 ? this.arms : []), ...data.arms.map((arm) => [arm.name, arm] as const)]);
+        for (const arm of data.arms) {
+          this.place(arm);
+          halt(this.halts, arm, message.t_s);
+          this.unknown_arms.delete(arm.name);
+        }
         this.book.reset(data.jobs, message.t_s, same_run);
         this.book.set_order(data.queue);
         if (!same_run) this.forecast = null;
         if (restarted) {
           this.trace.clear();
           this.courses.clear();
+          this.halts.clear();
         }
         this.objects = data.objects;
         if (restarted) this.note(message.t_s, 'warning', 'alert', 'The server was restarted. Jobs of its former run are in the history, if it keeps them.');
@@ -122,6 +145,8 @@ export class Store {
         break;
       case 'arm':
         this.arms.set(message.data.name, message.data);
+        halt(this.halts, message.data, message.t_s);
+        this.unknown_arms.delete(message.data.name);
         break;
       case 'queue': {
         const { data } = message;
@@ -130,14 +155,12 @@ export class Store {
         this.book.set_order(data);
         break;
       }
-      case 'monitor': {
-        const level = message.data.stopped.length ? 'error' : 'warning';
-        this.note(message.t_s, level, 'monitor', monitor_in_words(message.data), message.seq, message.data.arms);
+      case 'monitor':
+      case 'alert': {
+        const notice = this.notice_of(message);
+        if (notice) this.keep(notice);
         break;
       }
-      case 'alert':
-        this.note(message.t_s, message.data.level, 'alert', message.data.text, message.seq);
-        break;
       case 'scene':
         this.objects = message.data.objects;
         break;
@@ -152,6 +175,9 @@ export class Store {
     this.link = { status: 'recording', name };
     this.arms = new Map(arms.map((arm) => [arm.name, arm]));
     this.quiet_ = true;  // nobody looks at each of them
+    const [begin] = messages;
+    // It has all events of its run, which began with every arm idle.
+    if (begin && begin.type !== 'state' && begin.seq === 1) this.log.push(this.beginning(begin, Math.min(begin.t_s, t_s[0] ?? 0), arms));
     for (const message of messages) this.take(message);
     this.quiet_ = false;
     this.trace.load(names, t_s, q);
@@ -177,9 +203,42 @@ export class Store {
     this.book.set_order(null);
     this.trace.clear();
     this.courses.clear();
+    this.log.clear();
+    this.halts.clear();
     this.heard_at_ms_ = null;
     this.changed();
   }
+
+  /** Events of this run from before the first snapshot, which the page did not hear itself: in order, until it. */
+  take_earlier(messages: readonly SequencedMessage[]): void {
+    const [first] = this.log.entries;
+    const fresh = messages.filter(({ stream, seq, type }) => type !== 'snapshot' && stream === this.stream && first?.stream === stream && seq <= first.seq);
+    if (first?.type !== 'snapshot' || fresh.length === 0) return;
+    this.log.put_before([before_all(first, fresh), ...fresh]);
+    this.halts.clear();
+    for (const message of this.log.entries) for (const arm of arms_of(message)) halt(this.halts, arm, message.t_s);
+    const notices = fresh.flatMap((message) => this.notice_of(message) ?? []).reverse();
+    this.notices = [...this.notices, ...notices].sort((a, b) => (a.stream === b.stream ? b.t_s - a.t_s : 0)).slice(0, kMaxNotices);
+    this.changed();
+  }
+
+  /** This one looks back at what another has: until its log's events say more nothing is known of any arm. */
+  begin_past(now: Store): void {
+    this.cell = now.cell;
+    this.link = now.link.status === 'recording' ? now.link : { status: 'past' };
+    this.policy = now.policy;
+    this.speed = now.speed;
+    this.objects = now.objects;
+    this.arms = new Map([...now.arms].map(([name, arm]) => [name, { ...arm, state: 'idle', job: null, progress: 0 }]));
+    for (const name of this.arms.keys()) this.unknown_arms.add(name);
+  }
+
+  /** A time that no event lies between and the ones that it was made of. */
+  look_at(t_s: number): void {
+    this.t_s = t_s;
+    this.beats_.value += 1;
+  }
+
 
   set_cell(cell: Cell): void {
     this.cell = cell;
@@ -255,7 +314,8 @@ export class Store {
   }
 
   /** What an arm does, as people are told of it. */
-  arm_state(arm: Arm): ArmState {
+  arm_state(arm: Arm): ToldState {
+    if (this.unknown_arms.has(arm.name)) return 'not known';
     return state_of(arm, arm.job === null ? null : this.job(arm.job));
   }
 
@@ -297,6 +357,12 @@ export class Store {
     else this.numbers = { last, missed, doubled: doubled + 1 };
   }
 
+  private beginning({ stream, at }: SequencedMessage, t_s: number, arms: Arm[]): SequencedMessage {
+    const queue = { stopped: false, queued: [], backlog: [], scheduled: [], running: [] };
+    const objects = this.cell?.objects ?? this.objects;
+    return { stream, at, seq: 0, type: 'snapshot', t_s, data: { cell: this.cell?.name ?? '', policy: this.policy, speed: this.speed, stopped: false, arms, jobs: [], queue, objects } };
+  }
+
   private place(arm: Arm): void {
     arm.joints.forEach((joint, i) => {
       const angle = arm.q[i];
@@ -304,14 +370,75 @@ export class Store {
     });
   }
 
-  private note(t_s: number, level: Notice['level'], source: Notice['source'], text: string, seq: number | null = null, arms: readonly string[] = []): void {
-    const notice = { key: this.next_key_++, stream: this.stream, seq, t_s, level, source, text, arms };
+  private notice_of(message: SequencedMessage): Notice | null {
+    const common = { key: this.next_key_++, stream: message.stream, seq: message.seq, t_s: message.t_s };
+    switch (message.type) {
+      case 'monitor': {
+        const { data } = message;
+        return { ...common, level: data.stopped.length ? 'error' : 'warning', source: 'monitor', text: monitor_in_words(data), arms: data.arms };
+      }
+      case 'alert': return { ...common, level: message.data.level, source: 'alert', text: message.data.text, arms: [] };
+      default: return null;
+    }
+  }
+
+  private note(t_s: number, level: Notice['level'], source: Notice['source'], text: string): void {
+    this.keep({ key: this.next_key_++, stream: this.stream, seq: null, t_s, level, source, text, arms: [] });
+  }
+
+  private keep(notice: Notice): void {
     this.notices = [notice, ...this.notices].slice(0, kMaxNotices);
   }
 
   private changed(): void {
     if (!this.quiet_) this.changes_.value += 1;
   }
+}
+
+function arms_of(message: SequencedMessage): readonly Arm[] {
+  return message.type === 'arm' ? [message.data] : message.type === 'snapshot' ? message.data.arms : [];
+}
+
+function halt(halts: Map<string, Stand[]>, { name, state }: Arm, t_s: number): void {
+  const known = halts.get(name) ?? [];
+  const last = known.at(-1);
+  const is_halted = state === 'stopped' || state === 'fault';
+  if (is_halted === (last?.to_s === null)) return;
+  if (last && !is_halted) last.to_s = t_s;
+  if (is_halted) remember(known, { from_s: t_s, to_s: null, stopped: true });
+  halts.set(name, known);
+}
+
+/** What all these come to, as one snapshot; null: none of them is one, so that it would be a guess. */
+function folded(entries: readonly SequencedMessage[]): SequencedMessage | null {
+  const [first, last] = [entries[0], entries.at(-1)];
+  if (first?.type !== 'snapshot' || !last) return null;
+  const store = new Store();
+  for (const message of entries) store.apply(message);
+  return {
+    stream: last.stream, seq: last.seq, type: 'snapshot', t_s: last.t_s, at: last.at,
+    data: {
+      cell: first.data.cell, policy: store.policy, speed: store.speed, stopped: store.stopped, arms: [...store.arms.values()],
+      jobs: store.all_jobs(), queue: store.book.order, objects: store.objects,
+    },
+  };
+}
+
+/** What held before these, which led to the snapshot: whatever they do not tell of is as it was then. */
+function before_all({ data, ...first }: Extract<SequencedMessage, { type: 'snapshot' }>, led: readonly SequencedMessage[]): SequencedMessage {
+  const arms = new Set(led.flatMap((message) => (message.type === 'arm' ? [message.data.name] : [])));
+  const jobs = new Set(led.flatMap((message) => (message.type === 'job' ? [message.data.id] : [])));
+  const [next] = led;
+  // From the very beginning, when every arm stood idle.
+  const is_whole = next?.seq === 1;
+  const idle = data.arms.map((arm) => (arms.has(arm.name) ? { ...arm, state: 'idle' as const, job: null, progress: 0 } : arm));
+  return {
+    ...first, type: 'snapshot', seq: (next?.seq ?? 1) - 1, t_s: is_whole ? 0 : next?.t_s ?? first.t_s, at: next?.at ?? first.at,
+    data: {
+      ...data, gap: false, stopped: false, arms: is_whole ? idle : data.arms.filter(({ name }) => !arms.has(name)),
+      jobs: data.jobs.filter(({ id }) => !jobs.has(id)),
+    },
+  };
 }
 
 /** A signal tells its value at once, too, which a listener here has seen. */

@@ -1,5 +1,6 @@
 // Draws the timeline on a canvas: axis, lanes, marks, and threads from who waits to who is waited for.
 
+import type { Stand } from '../state/job_book';
 import { arm_colour, ink } from '../state/palette';
 import { short_id } from '../wording';
 import { draw_events, type EventMark } from './events';
@@ -9,7 +10,14 @@ import { tick_of } from './span';
 import { characters_of, shown_name } from '../names';
 
 /** What is looked at: the rest is dimmed. And the instant that is held, if one is. */
-export interface Lit { jobs: readonly string[]; arms: readonly string[]; held_s: number | null; events: readonly EventMark[] }
+export interface Lit {
+  jobs: readonly string[];
+  arms: readonly string[];
+  held_s: number | null;
+  events: readonly EventMark[];
+  /** When each arm was stopped. */
+  halts: ReadonlyMap<string, readonly Pick<Stand, 'from_s' | 'to_s'>[]>;
+}
 /** What is pointed at, or gone to by keys. */
 export interface Pointed { mark: Mark | null; events: readonly EventMark[] }
 
@@ -32,7 +40,9 @@ export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly
   g.clip();
   lanes.forEach((lane, i) => {
     const row = rows[i];
-    if (row) for (const mark of drawn_of(lane.marks, sheet.from_s, sheet.from_s + sheet.length_s, sheet.t_s(kLeast_px) - sheet.t_s(0))) draw_mark(g, sheet, row, mark, is_dim(mark, lane.arm, lit), mark === hover);
+    if (!row) return;
+    for (const halt of lit.halts.get(lane.arm) ?? []) draw_halt(g, sheet, row, halt, lit.arms.length > 0 && !lit.arms.includes(lane.arm));
+    for (const mark of drawn_of(lane.marks, sheet.from_s, sheet.from_s + sheet.length_s, sheet.t_s(kLeast_px) - sheet.t_s(0))) draw_mark(g, sheet, row, mark, is_dim(mark, lane.arm, lit), mark === hover);
   });
   lanes.forEach((lane, i) => draw_threads(g, sheet, lane, i, rows, arms, hover));
   draw_events(g, sheet, lit.events, pointed.events);
@@ -125,6 +135,10 @@ function cut(g: CanvasRenderingContext2D, text: string, room_px: number): string
 function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Mark, dim: boolean, hover: boolean): void {
   const left = sheet.x(mark.from_s);
   const right = Number.isFinite(mark.to_s) ? sheet.x(mark.to_s) : sheet.width;
+  if (mark.stopped && !Number.isFinite(mark.to_s)) {
+    draw_open_end(g, row, left);
+    return;
+  }
   if (right < kLeft_px || left > sheet.width) return;
   const width = right - left;
   g.globalAlpha = dim ? 0.28 : 1;
@@ -134,6 +148,28 @@ function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Ma
   else draw_motion(g, row, mark, left, width, dim, hover);
   g.globalAlpha = 1;
 }
+
+/** An arm stands stopped, with a job or none: until now, and nobody knows how long. */
+function draw_halt(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, { from_s, to_s }: Pick<Stand, 'from_s' | 'to_s'>, dim: boolean): void {
+  const left = sheet.x(from_s);
+  const right = sheet.x(to_s ?? sheet.now_s);
+  if (right < kLeft_px || left > sheet.width) return;
+  g.globalAlpha = dim ? 0.28 : 1;
+  draw_pause(g, row, left, right - left, true, false);
+  if (to_s === null) draw_open_end(g, row, right);
+  g.globalAlpha = 1;
+}
+
+/** A stop fades out: it has no end that is known. */
+function draw_open_end(g: CanvasRenderingContext2D, row: Row, left: number): void {
+  kFading.forEach((alpha, i) => {
+    g.globalAlpha = alpha;
+    hatch(g, { left: left + i * kFade_px, top: row.bar_top + 1, width: kFade_px, height: row.bar_height - 2, falls: true }, ink('--alarm'), true);
+  });
+  g.globalAlpha = 1;
+}
+const kFading = [0.6, 0.35, 0.15];
+const kFade_px = 2 * kHatch_px;
 
 function draw_motion(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, dim: boolean, hover: boolean): void {
   const failed = mark.state === 'failed' || mark.state === 'interrupted' || mark.state === 'expired';

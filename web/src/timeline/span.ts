@@ -7,7 +7,8 @@ export interface Span {
   held_from_s: number | null;
 }
 
-export const kNowAt = 0.6;
+// What was is mostly known, what comes seldom for long.
+export const kNowAt = 0.75;
 export const kFollowing: Span = { length_s: 50, held_from_s: null };
 
 const kShortest_s = 4;

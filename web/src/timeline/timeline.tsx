@@ -84,8 +84,8 @@ export function Timeline({ app }: { app: App }) {
     <section class="timeline" aria-label="Timeline">
       <div class={`line head${held_s === null ? '' : ' looks-back'}`}>
         <h2>Timeline</h2>
-        <span class="key"><i class="solid" /> moves</span><span class="key"><i class="outlined" /> expected</span>
-        <span class="key"><i class="hatched" /> waits</span><span class="key"><i class="hatched pausing" /> pauses</span><span class="key"><i class="hatched stopping" /> stopped</span><span class="key"><i class="event" /> event</span>
+        <Keys />
+        <details class="legend"><summary class="small">Legend</summary><div class="legend-keys"><Keys /></div></details>
         <span class="grow" />
         <ScrubBar app={app} />
         <button class="small" aria-label="Zoom out" title="Zoom out (−)" onClick={() => change(zoomed(span, 1.5, store.t_s))}>−</button>
@@ -103,6 +103,16 @@ export function Timeline({ app }: { app: App }) {
       </div>
       <Told app={app} />
     </section>
+  );
+}
+
+/** What its marks mean: in its line where there is room, else behind a button. */
+function Keys() {
+  return (
+    <>
+      <span class="key"><i class="solid" /> moves</span><span class="key"><i class="outlined" /> expected</span>
+      <span class="key"><i class="hatched" /> waits</span><span class="key"><i class="hatched pausing" /> pauses</span><span class="key"><i class="hatched stopping" /> stopped</span><span class="key"><i class="event" /> event</span>
+    </>
   );
 }
 
@@ -137,7 +147,7 @@ function draw_now(canvas: HTMLCanvasElement, drawing: Drawing, app: App): void {
   const { jobs, arms } = selection_of(app.router.place, app.store);
   const at = app.router.address.peek();
   const held_s = is_of_this_run(at.run, app.store) ? at.t_s : null;
-  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s, events: app.store.events }, drawing.pointed);
+  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s, events: app.store.events, halts: app.store.halts }, drawing.pointed);
 }
 
 function span_by_key(key: string, span: Span, now_s: number): Span | null {

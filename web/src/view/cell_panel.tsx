@@ -8,6 +8,7 @@ import { selection_of } from '../route/selection';
 import type { App } from '../state/app';
 import type { Shows } from '../state/settings';
 import { instant_of, why_unheard } from '../state/instant';
+import { is_known, seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
 import { clearance_in_words, clock, millimetres } from '../wording';
 import type { CellView } from './cell_view';
@@ -40,11 +41,8 @@ export function CellPanel({ app, on_view }: Props) {
   useEffect(() => view?.show_camera(address.camera), [view, address.camera]);
   useEffect(() => view?.show_ghost(app.ghost.value), [view, app.ghost.value]);
   useEffect(() => view?.show_theme(), [view, settings.shown_theme.value]);
-  // The cell steps aside for what is laid over its left; under what covers nearly all it stays as it is.
-  const covered_px = app.covered_px.value;
-  useEffect(() => view?.set_covered(covered_px < 0.75 * (host.current?.clientWidth ?? 0) ? covered_px : 0), [view, covered_px]);
   return (
-    <div class={`cell${store.stopped ? ' stopped' : ''}`}>
+    <div class={`cell${app.seen.store.value.stopped ? ' stopped' : ''}`}>
       <div class="view" ref={host} role="img" tabIndex={0} data-test="view"
         aria-label="The cell in 3D: every arm where it was measured. Arrow keys turn it, plus and minus lead nearer and farther, 0 shows all"
         onKeyDown={(event) => {
@@ -54,11 +52,22 @@ export function CellPanel({ app, on_view }: Props) {
           view?.steer(step);
         }} />
       {!view && <p class="loading">{fault === null ? 'Loading the 3D view…' : `The 3D view cannot be shown here: ${fault}`}</p>}
+      {view && <Waits app={app} />}
       <ClearanceFigure app={app} />
       <InstantMark app={app} />
-      <div class="cell-top"><StoppedMark app={app} /><ShownBar app={app} /><CameraBar view={view} /></div>
+      <div class="cell-top"><StoppedMark app={seen_app(app)} /><ShownBar app={app} /><CameraBar view={view} /></div>
     </div>
   );
+}
+
+/** Nothing is drawn of arms before it is known where they stand. */
+function Waits({ app }: { app: App }) {
+  use_beats(app.store);
+  return waits_for_first(app) ? <p class="loading" role="status" data-test="no-pose-yet">Waiting for where the arms stand…</p> : null;
+}
+
+function waits_for_first({ store }: App): boolean {
+  return store.trace.last_s === null && Object.keys(store.q).length === 0;
 }
 
 /** That another instant than now is shown; or, where it was not heard, that it cannot be. */
@@ -66,13 +75,13 @@ function InstantMark({ app }: { app: App }) {
   use_beats(app.store);
   const { store, router } = app;
   const instant = instant_of(router.address.value, store);
-  if (instant.kind === 'now') return null;
+  if (instant.kind === 'now' || waits_for_first(app)) return null;
   if (instant.kind === 'kept') return <div class="instant-mark" data-test="instant">Looking back at {clock(instant.t_s)}, not at now</div>;
   const { first_s } = store.trace;
   return (
     <div class="unheard" role="status" data-test="unheard" style={{ '--covered': `${app.covered_px.value}px` }}>
       <p><b>The arms are not shown: <span class="mono">{clock(instant.t_s)}</span> was not heard here.</b></p>
-      <p class="dim">{why_unheard(instant.why, store)}</p>
+      <p class="dim">{why_unheard(instant.why, store)}{is_known(app.seen.store.value) && ' What they did then the server has told: the lists and events are of that time.'}</p>
       <div class="line">
         <button class="small" data-test="unheard-now" onClick={() => router.hold_at(null)}>Look at now</button>
         {instant.why === 'before' && first_s !== null && <button class="small" onClick={() => router.hold_at(first_s)}>The earliest that is kept</button>}

@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import type { Arm, Cell } from '../server/messages';
-import { kHome, type Address, type Camera } from '../route/address';
+import type { Address, Camera } from '../route/address';
 import type { Selection } from '../route/selection';
 import type { App } from '../state/app';
 import { arm_colour, ink } from '../state/palette';
@@ -24,6 +24,9 @@ import { SurfaceShelf, type Surfaces } from './surfaces';
 import { ToolInHand } from './tool_in_hand';
 import { ToolPaths } from './tool_path';
 
+// Among more, figures cover the tools that they are about.
+const kFewArms = 4;
+
 export class CellView {
   private readonly stage_: Stage;
   private readonly robots_ = new Robots();
@@ -43,12 +46,14 @@ export class CellView {
   /** As they are drawn: a drawing costs much, so it is asked for when something has changed. */
   private states_ = '';
   /** The instant that is looked at. */
-  private at_: Pick<Address, 't_s' | 'run'> = kHome;
+  private at_: Pick<Address, 't_s' | 'run'>;
   /** The next ghost is built then; one asks for it, however often the store changes meanwhile. */
   private builds_: number | null = null;
 
-  constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'motions' | 'settings' | 'actions' | 'by_hand' | 'tool'>) {
+  constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'seen' | 'covered_px' | 'motions' | 'settings' | 'actions' | 'by_hand' | 'tool'>) {
     const store_ = this.store_;
+    this.at_ = app_.router.address.peek();
+    this.robots_.group.visible = this.paths_.group.visible = false;  // until a pose is known
     this.stage_ = new Stage(host_);
     this.labels_ = new ArmLabels(host_);
     this.objects_ = new SceneObjects(this.shelf_, () => this.stage_.invalidate(true));
@@ -64,7 +69,8 @@ export class CellView {
     this.off_ = [
       store_.on_change(() => this.follow()), store_.on_frame(() => this.move()), store_.on_beat(() => this.measure()),
       app_.motions.changes.subscribe(() => this.look_ahead()), app_.settings.shows.subscribe(() => this.show_shows()),
-      app_.by_hand.subscribe(() => this.take_in_hand()), app_.tool.subscribe((tool) => this.tool_.show(tool)),
+      app_.by_hand.subscribe(() => this.take_in_hand()), app_.tool.subscribe((tool) => this.tool_.show(tool)), app_.seen.store.subscribe(() => this.follow()),
+      app_.covered_px.subscribe((left_px) => this.stage_.set_covered(left_px)),
     ];
     this.follow();
   }
@@ -116,7 +122,7 @@ export class CellView {
 
   show_theme(): void {
     this.stage_.show_theme();
-    for (const arm of this.store_.arms.values()) this.show_arm(arm);
+    for (const arm of this.seen_.arms.values()) this.show_arm(arm);
     this.objects_.repaint();
     this.ahead_.begin(this.cell_);
     this.show_shows();
@@ -125,13 +131,12 @@ export class CellView {
   private get store_(): Store {
     return this.app_.store;
   }
+  /** As it was at the instant that is looked at. */
+  private get seen_(): Store {
+    return this.app_.seen.store.peek();
+  }
   private get instant(): Instant {
     return instant_of(this.at_, this.store_);
-  }
-
-  /** So many pixels at the left are covered by a panel: the cell is shown beside it. */
-  set_covered(left_px: number): void {
-    this.stage_.set_covered(left_px);
   }
 
   /** Whether every robot of the cell stands in the view. */
@@ -176,11 +181,12 @@ export class CellView {
   }
 
   private follow(): void {
-    const { cell, objects, arms } = this.store_;
+    const { cell } = this.store_;
+    const { objects, arms } = this.seen_;
     if (cell && cell !== this.cell_) this.build(cell);
     this.objects_.show(objects);
     this.take_in_hand();
-    const states = [...arms.values()].map((arm) => `${arm.name} ${this.store_.arm_state(arm)}`).join('\n');
+    const states = [...arms.values()].map((arm) => `${arm.name} ${this.seen_.arm_state(arm)}`).join('\n');
     if (states !== this.states_) {
       for (const arm of arms.values()) this.show_arm(arm);
       this.stage_.invalidate();
@@ -218,7 +224,7 @@ export class CellView {
   /** The monitor's closest pairs, as things are now. */
   private measure(): void {
     const shown = this.app_.settings.shows.peek().distances && this.instant.kind === 'now';
-    const changed = this.distances_.show(shown ? this.store_.clearance : [], this.store_.cell?.clearance_m ?? 0);
+    const changed = this.distances_.show(shown ? this.store_.clearance : [], this.store_.cell?.clearance_m ?? 0, this.store_.arms.size > kFewArms ? 1 : Infinity);
     if (changed) this.stage_.invalidate();
   }
 
@@ -246,7 +252,7 @@ export class CellView {
     void this.shelf_.load(addresses).then((surfaces) => {
       if (this.cell_ !== cell) return;  // another run has begun meanwhile
       this.add_robots(cell, surfaces);
-      this.frame_robots();
+      this.frame_robots(cell);
       this.follow();
     });
   }
@@ -258,15 +264,19 @@ export class CellView {
     this.stage_.invalidate(true);
   }
 
-  /** Looks at the robots as they stand: those with meshes come in all sizes. */
-  private frame_robots(): void {
-    this.move();
+  /**
+   * Looks at the robots as they stand at home: those with meshes come in all sizes. Wherever they stand now,
+   * a camera that an address names then shows the same.
+   */
+  private frame_robots(cell: Cell): void {
+    const arms = cell.robots.flatMap((robot) => robot.arms);
+    this.robots_.set_q(Object.fromEntries(arms.flatMap(({ joints, home }) => joints.map((joint, i) => [joint, home[i] ?? 0] as const))));
     const box = new THREE.Box3().setFromObject(this.robots_.group);
     if (!box.isEmpty()) this.stage_.frame(box);
   }
 
   private show_arm(arm: Arm): void {
-    const state = this.store_.arm_state(arm);
+    const state = this.seen_.arm_state(arm);
     this.robots_.get(arm.robot)?.show_state(arm.name, state);
     this.labels_.show(arm.name, state, [...this.store_.arms.keys()]);
   }
@@ -277,7 +287,8 @@ export class CellView {
       this.robots_.group.visible = this.paths_.group.visible = q !== null;
       this.stage_.invalidate(true);
     }
-    if (q === null || !this.robots_.set_q(q)) return;
+    if (q === null) return;
+    if (!this.robots_.set_q(q)) return;
     this.draw_paths(this.at_.t_s ?? this.store_.t_s);
     this.ahead_.move();
     this.stage_.invalidate(true);

@@ -22,10 +22,14 @@ export class Distances {
   /** `find`: what is drawn of a link or an object of this name. */
   constructor(private readonly host_: HTMLElement, private readonly find_: (body: string) => THREE.Mesh | null) {}
 
-  /** Bodies stand where they are drawn; nothing is shown of what is farther apart. Answers whether other lines are seen. */
-  show(pairs: readonly Clearance[], limit_m: number): boolean {
+  /**
+   * Bodies stand where they are drawn; nothing is shown of what is farther apart, and of so many only the closest, or
+   * what comes near its limit. Answers whether other lines are seen.
+   */
+  show(pairs: readonly Clearance[], limit_m: number, most = Infinity): boolean {
     const before = this.seen();
-    const near = pairs.filter(({ m, arms }) => m < (arms.length > 1 ? kShown_m : kNear * limit_m));
+    const near = pairs.filter(({ m, arms }) => m < (arms.length > 1 ? kShown_m : kNear * limit_m))
+      .sort((a, b) => a.m - b.m).filter(({ m }, i) => i < most || m < kNear * limit_m);
     near.forEach((pair, i) => this.draw(this.line(i), pair, limit_m));
     for (const line of this.lines_.slice(near.length)) hide(line);
     return this.seen() !== before;

@@ -1,15 +1,22 @@
 // A label under each arm: its name and its state, in words, a glyph and a colour.
 
-import type { ArmState } from '../server/messages';
 import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
-import { stacked } from './stacking';
+import type { ToldState } from '../state/standing';
+import { stacked, within_room } from './stacking';
 import { shown_name } from '../names';
 
 const kHeight_px = 22;
 const kGap_px = 4;
+// Its top stands so far below the foot.
+const kBelow_px = 26;
+const kBelowShort_px = 8;
+// More have no room for words.
+const kMostInWords = 4;
+// Farther below its arm a label seems to be another's.
+const kMostBelow_px = 30;
 
 interface Point { x: number; y: number }
-interface Label { element: HTMLElement; name: HTMLElement; state: HTMLElement; width_px: number }
+interface Label { element: HTMLElement; name: HTMLElement; glyph: HTMLElement; state: HTMLElement; width_px: number }
 
 export class ArmLabels {
   private readonly labels_ = new Map<string, Label>();
@@ -17,7 +24,7 @@ export class ArmLabels {
 
   constructor(private readonly host_: HTMLElement) {}
 
-  show(arm: string, state: ArmState, arms: readonly string[]): void {
+  show(arm: string, state: ToldState, arms: readonly string[]): void {
     let label = this.labels_.get(arm);
     if (!label) {
       label = make_label();
@@ -26,16 +33,21 @@ export class ArmLabels {
       label.element.classList.toggle('lit', this.lit_.includes(arm));
     }
     label.name.textContent = shown_name(arm);
-    const words = `${kStateGlyphs[state]} ${state}`;
-    if (label.state.textContent !== words) label.width_px = 0;
-    label.state.textContent = words;
+    if (label.state.textContent !== state) label.width_px = 0;
+    label.glyph.textContent = kStateGlyphs[state];
+    label.state.textContent = state;
+    label.element.classList.toggle('alarmed', state === 'stopped' || state === 'fault');
+    label.element.classList.toggle('short', arms.length > kMostInWords);
     label.element.style.setProperty('--arm', arm_colour(arms, arm));
     label.element.style.setProperty('--state', kStateColours[state]);
   }
 
   light(arms: readonly string[]): void {
     this.lit_ = arms;
-    for (const [name, label] of this.labels_) label.element.classList.toggle('lit', arms.includes(name));
+    for (const [name, label] of this.labels_) {
+      label.element.classList.toggle('lit', arms.includes(name));
+      label.width_px = 0;
+    }
   }
 
   /** Puts each where the function says, px from the view's top left, or below one that is there; null hides it. */
@@ -46,9 +58,16 @@ export class ArmLabels {
       return p ? [{ label, p }] : [];
     });
     for (const { label } of found) label.width_px ||= label.element.offsetWidth;
-    const y = stacked(found.map(({ label, p }) => ({ ...p, width_px: label.width_px })), kHeight_px, kGap_px);
-    found.forEach(({ label, p }, i) => {
-      label.element.style.transform = `translate(${p.x.toFixed(1)}px, ${(y[i] ?? p.y).toFixed(1)}px)`;
+    const is_short = this.labels_.size > kMostInWords;
+    const labels = found.map(({ label, p }) => ({
+      ...p, width_px: label.width_px, must: !is_short || ['lit', 'alarmed'].some((name) => label.element.classList.contains(name)),
+    }));
+    const room = { width_px: this.host_.clientWidth, height_px: this.host_.clientHeight - (is_short ? kBelowShort_px : kBelow_px) };
+    const places = within_room(labels, stacked(labels, kHeight_px, kGap_px), room, kHeight_px, kMostBelow_px);
+    found.forEach(({ label }, i) => {
+      const at = places[i] ?? null;
+      label.element.hidden = at === null;
+      if (at) label.element.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`;
     });
   }
 
@@ -63,6 +82,9 @@ function make_label(): Label {
   const name = document.createElement('b');
   const state = document.createElement('span');
   element.className = 'arm-label';
-  element.append(name, state);
-  return { element, name, state, width_px: 0 };
+  element.hidden = true;  // until it is placed
+  const glyph = document.createElement('span');
+  state.className = 'state-word';
+  element.append(name, glyph, state);
+  return { element, name, glyph, state, width_px: 0 };
 }

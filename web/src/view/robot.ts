@@ -6,9 +6,10 @@
 
 import * as THREE from 'three';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
-import type { ArmState, CellArm, CellRobot } from '../server/messages';
+import type { CellArm, CellRobot } from '../server/messages';
 import { ink, kStateColours } from '../state/palette';
 import { FinishedMesh } from './finish';
+import type { ToldState } from '../state/standing';
 import type { Surfaces } from './surfaces';
 import { tool_of } from './kinematics';
 import { mark_geometry, place } from './shapes';
@@ -56,7 +57,7 @@ export class RobotModel {
     return moved;
   }
 
-  show_state(arm: string, state: ArmState): void {
+  show_state(arm: string, state: ToldState): void {
     const mark = this.marks_.get(arm);
     if (!mark) return;
     mark.ring.material.color.set(ink(kStateColours[state]));

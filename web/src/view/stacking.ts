@@ -25,3 +25,18 @@ export function stacked(labels: readonly Placed[], height_px: number, gap_px: nu
   }
   return y;
 }
+
+export interface Room { width_px: number; height_px: number }
+
+/**
+ * Where each is drawn, inside of the room: its middle across, and its top. Without a place is one that was
+ * put farther below its own than `most_px`, and does not have to be seen.
+ */
+export function within_room(labels: readonly (Placed & { must: boolean })[], y: readonly number[], room: Room, height_px: number, most_px: number): ({ x: number; y: number } | null)[] {
+  return labels.map((label, i) => {
+    const at = y[i] ?? label.y;
+    const half = label.width_px / 2;
+    if (!label.must && (at - label.y > most_px || at + height_px > room.height_px)) return null;
+    return { x: Math.max(half, Math.min(room.width_px - half, label.x)), y: Math.max(0, Math.min(room.height_px - height_px, at)) };
+  });
+}

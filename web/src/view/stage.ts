@@ -28,6 +28,7 @@ const kRest_ms = 900;
 // Where pictures take long, what was clicked is shown first: so long no new one is begun.
 const kAnswer_ms = 200;
 const kMargin = 1.06;
+const kMostCovered = 0.75;
 const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
 
 export class Stage {
@@ -151,7 +152,7 @@ export class Stage {
     this.renderer_.domElement.remove();
   }
 
-  /** Moves the middle of the picture to the middle of what is not covered, as small as it needs. */
+  /** So many pixels at the left are covered: the middle of the picture goes to the middle of the rest, as small as it needs. */
   set_covered(left_px: number): void {
     if (left_px === this.covered_px_) return;
     this.covered_px_ = left_px;
@@ -255,8 +256,10 @@ export class Stage {
     this.resized_ = true;
     this.camera.aspect = width / height;
     // The camera stays where it is, so that an address means the same with a pane and without.
-    this.camera.zoom = this.distance_through(0) / this.distance_through(this.covered_px_);
-    this.camera.setViewOffset(width, height, -this.covered_px_ / 2, 0, width, height);
+    // Under what covers nearly all it stays as it is.
+    const covered_px = this.covered_px_ < kMostCovered * width ? this.covered_px_ : 0;
+    this.camera.zoom = this.distance_through(0) / this.distance_through(covered_px);
+    this.camera.setViewOffset(width, height, -covered_px / 2, 0, width, height);
     this.camera.updateProjectionMatrix();
     if (!this.moved_by_user_) this.look_from_default();
     this.invalidate(true);

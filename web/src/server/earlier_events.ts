@@ -1,0 +1,49 @@
+// The last events from before the page was loaded, as the server still has them: read from its stream of
+// events until where the page's own begins.
+
+import { parse_message, type SequencedMessage } from './messages';
+import type { Fetch } from './api';
+
+const kMost = 1000;
+const kPatience_ms = 15_000;
+
+/** Those until this number, in order; none where the server has forgotten them or does not answer. */
+export async function earlier_events(base: string, fetch: Fetch, stream: string, until: number): Promise<SequencedMessage[]> {
+  if (until <= 0) return [];
+  const since = Math.max(0, until - kMost);
+  const stop = new AbortController();
+  const timer = setTimeout(() => stop.abort(), kPatience_ms);
+  const events: SequencedMessage[] = [];
+  try {
+    const response = await fetch(`${base}/events?stream=${encodeURIComponent(stream)}&since=${since}`, { headers: { accept: 'text/event-stream' }, signal: stop.signal });
+    if (!response.ok || !response.body) return [];
+    for await (const message of messages_of(response.body.getReader())) {
+      // It cannot go on from there: what it sends instead is no past.
+      if (message.type === 'snapshot') return [];
+      if (message.stream !== stream) return [];
+      if (message.seq <= until) events.push(message);
+      if (message.seq >= until) break;
+    }
+  } catch {
+    // What has come so far has a gap at its end.
+    return [];
+  } finally {
+    clearTimeout(timer);
+    stop.abort();
+  }
+  return events.at(-1)?.seq === until ? events : [];
+}
+
+async function* messages_of(reader: ReadableStreamDefaultReader<Uint8Array>): AsyncGenerator<SequencedMessage> {
+  const decoder = new TextDecoder();
+  let rest = '';
+  for (let part = await reader.read(); !part.done; part = await reader.read()) {
+    const lines = (rest + decoder.decode(part.value, { stream: true })).split('\n');
+    rest = lines.pop() ?? '';
+    for (const line of lines) {
+      if (!line.startsWith('data:')) continue;
+      const parsed = parse_message(line.slice(5));
+      if (parsed.kind === 'message' && parsed.message.type !== 'state') yield parsed.message;
+    }
+  }
+}

@@ -1,0 +1,78 @@
+// What the views show: the present, or, while an earlier instant is looked at, the state at that instant as
+// far as what the server told tells it. What is not known then is said to be so; the present never stands in.
+
+import { signal, type ReadonlySignal } from '@preact/signals';
+import type { Router } from '../route/router';
+import { instant_of, is_of_this_run } from './instant';
+import type { App } from './app';
+import { Store } from './store';
+
+/** The state once so many events of the log had come; with none of them nothing is known. Pure. */
+export function state_after(count: number, now: Store): Store {
+  const then = new Store(() => 0, now);
+  then.begin_past(now);
+  for (const message of now.log.entries.slice(0, count)) then.apply(message);
+  return then;
+}
+
+/** How many events lead to the state at a time; 0: it is not known. Pure. */
+export function events_until(t_s: number, run: string | null, now: Store): number {
+  if (!is_of_this_run(run, now) || t_s > now.t_s + kRounding_s) return 0;
+  const count = now.log.count_until(t_s + kRounding_s);
+  const is_lost = now.log.is_torn_after(count) && instant_of({ t_s, run }, now).kind !== 'kept';
+  return is_lost ? 0 : count;
+}
+// Addresses hold hundredths of a second.
+const kRounding_s = 0.01;
+
+export class Seen {
+  private readonly store_;
+  private key_: unknown[] = [];
+
+  constructor(private readonly now_: Store, private readonly router_: Router) {
+    this.store_ = signal<Store>(now_);
+    router_.address.subscribe(() => this.look());
+    now_.on_change(() => this.look());
+  }
+
+  /** Another one whenever another event is the last that had come. */
+  get store(): ReadonlySignal<Store> {
+    return this.store_;
+  }
+
+  private look(): void {
+    const { t_s, run } = this.router_.address.peek();
+    if (t_s === null) {
+      this.key_ = [];
+      this.store_.value = this.now_;
+      return;
+    }
+    const { log, stream, cell, link } = this.now_;
+    const count = events_until(t_s, run, this.now_);
+    const key = [log.turn, count, stream, cell, link.status === 'recording', this.now_.arms.size];
+    if (this.key_.length !== key.length || key.some((one, i) => one !== this.key_[i])) {
+      this.key_ = key;
+      this.store_.value = state_after(count, this.now_);
+    }
+    this.store_.peek().look_at(t_s);
+  }
+}
+
+const apps = new WeakMap<Store, App>();
+
+/** The page as of what is looked at. */
+export function seen_app(app: App): App {
+  const store = app.seen.store.value;
+  if (store === app.store) return app;
+  let then = apps.get(store);
+  if (!then) {
+    then = { ...app, store };
+    apps.set(store, then);
+  }
+  return then;
+}
+
+/** Whether anything is known of the state that is shown. */
+export function is_known({ stream, link }: Pick<Store, 'stream' | 'link'>): boolean {
+  return stream !== null || link.status === 'connecting' || link.status === 'open' || link.status === 'lost';
+}

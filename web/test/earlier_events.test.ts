@@ -1,0 +1,40 @@
+import { describe, expect, it } from 'vitest';
+import { earlier_events } from '../src/server/earlier_events';
+import { envelope, kStream, snapshot } from './samples';
+
+const alert = (seq: number) => envelope('alert', seq, { level: 'info', text: `${seq}` });
+
+/** A server that sends these, cut anywhere, and then says nothing more. */
+function sending(texts: string[], asked: string[] = []) {
+  return (url: string) => {
+    asked.push(url);
+    const bytes = new TextEncoder().encode(texts.map((text) => `id: x\ndata: ${text}\n\n: comment\n\n`).join(''));
+    const body = new ReadableStream<Uint8Array>({
+      start: (to) => { for (let i = 0; i < bytes.length; i += 77) to.enqueue(bytes.slice(i, i + 77)); },
+    });
+    return Promise.resolve(new Response(body));
+  };
+}
+
+const seqs = async (texts: string[], until: number) => (await earlier_events('', sending(texts), kStream, until)).map(({ seq }) => seq);
+
+describe('events of before the page was loaded', () => {
+  it('are read until where its own begin, though the stream goes on', async () => {
+    expect(await seqs([alert(1), alert(2), alert(3), alert(4)], 3)).toEqual([1, 2, 3]);
+  });
+
+  it('are the last thousand', async () => {
+    const asked: string[] = [];
+    await earlier_events('/api', sending([alert(5000)], asked), kStream, 5000);
+    expect(asked).toEqual([`/api/events?stream=${kStream}&since=4000`]);
+  });
+
+  it('are none where the server has forgotten them, or there were none', async () => {
+    expect(await seqs([snapshot(9, { gap: true })], 9)).toEqual([]);
+    expect(await seqs([], 0)).toEqual([]);
+  });
+
+  it('are none where nobody answers', async () => {
+    expect(await earlier_events('', () => Promise.reject(new Error('lost')), kStream, 3)).toEqual([]);
+  });
+});
