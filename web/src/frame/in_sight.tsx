@@ -2,11 +2,11 @@
 // far as it has to be, each time that there is another answer.
 
 import type { ComponentChildren } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 
 /** `answer`: null, as long as there is none. */
 export function InSight({ answer, children }: { answer: unknown; children: ComponentChildren }) {
   const place = useRef<HTMLDivElement>(null);
-  useEffect(() => { if (answer !== null) place.current?.scrollIntoView({ block: 'nearest' }); }, [answer]);
+  useLayoutEffect(() => { if (answer !== null) place.current?.scrollIntoView({ block: 'nearest' }); }, [answer]);
   return <div class="in-sight" ref={place}>{children}</div>;
 }
