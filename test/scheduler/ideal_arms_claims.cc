@@ -46,13 +46,13 @@ void IdealArms::check_phase(const Job& job) const {
       << what;
 }
 
-// Of what is admitted and stands, nobody waits for itself in the end.
+// Of what is admitted and stands, as far as its reports say, nobody waits for itself in the end.
 void IdealArms::check_orders() const {
   const auto next = [this](JobId id) -> std::optional<JobId> {
     const Job& job = this->job(id);
     const bool admitted = job.state() == JobState::scheduled || job.state() == JobState::running;
     const auto moving = std::ranges::find(moving_, id, &Moving::job);
-    const bool may_go_on = moving != moving_.end() && moving->authority > moving->s;
+    const bool may_go_on = moving != moving_.end() && moving->authority > moving->reported;
     const bool stands = admitted && !may_go_on;
     return stands && !job.waits_on.empty() ? job.waits_on.front().job : std::nullopt;
   };
