@@ -25,9 +25,16 @@ void Trial::step(const Input& input) {
   const Job* job = scheduler_.find(job_);
   if (job != nullptr && !job->waits_on.empty()) waits_ = job->waits_on;
   const auto wake = scheduler_.wakes_at();
-  if (!wake || *wake - now_ > kAfterRingWasTold) return;
-  now_ = *wake;  // a ring has been told
+  if (!is_in_ring() || !wake || *wake - now_ > kAfterRingWasTold) return;
+  now_ = *wake;  // its ring has been told
   step(Wake{});
+}
+
+// What becomes of the rings of others is no matter of this instant.
+bool Trial::is_in_ring() const {
+  const auto in_ring = [&](JobId id) { return !scheduler_.find(id)->ring.empty(); };
+  return (scheduler_.find(job_) != nullptr && in_ring(job_)) ||
+         std::ranges::any_of(approaches_, in_ring);
 }
 
 // Its arms go to where it begins.

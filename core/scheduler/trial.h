@@ -8,8 +8,9 @@
 namespace armloom {
 
 // What would become of a job if it were submitted in this instant: a copy of the scheduler is
-// walked on with real answers while time stands still, until the job has had its turn. What it says
-// is what the scheduler would do, because it is what the scheduler does. Pure.
+// walked on with real answers while time stands still, until the job has had its turn, and until it
+// is known what becomes of a ring that it closes. What it says is what the scheduler would do,
+// because it is what the scheduler does. Pure.
 //
 //   while (true) {
 //     if (auto question = trial.next()) trial.answer(verdict);
@@ -53,6 +54,7 @@ class Trial {
 
  private:
   void step(const Input& input);
+  [[nodiscard]] bool is_in_ring() const;
   [[nodiscard]] bool is_decided() const;
   [[nodiscard]] bool is_on_its_way() const;
   [[nodiscard]] Duration approach_ends() const;

@@ -1,6 +1,7 @@
 // Deadlocks in the scheduler: found when they arise, named, and resolved by a job that fails.
 #include <gmock/gmock.h>
 
+#include "core/scheduler/trial.h"
 #include "test/scheduler/bench_cell.h"
 
 namespace armloom {
@@ -45,6 +46,28 @@ TEST(Deadlock, TheJobThatCameLastFailsAndTheOtherWaitsForItsArm) {
   EXPECT_THAT(bench.job(bench.a).ring, IsEmpty()) << "an arm without a job closes no ring";
   bench.step(Wake{}, at(1s));
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
+}
+
+// The answer closes the ring, and the last one of it is about to fail: in this instant it is there.
+TEST(Deadlock, OfOthersIsNotSettledForAJobThatIsAskedAbout) {
+  Bench bench(3, "certified");
+  const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
+  const JobId b = bench.submit(move({1}, 0, 1, 2s), at(0ms));
+  bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
+  const Submit behind{.job = bench.next_id(), .trajectory = move({1}, 1, 0, 2s)};
+  Trial trial(bench.scheduler, {bench.question}, {behind}, behind.job, at(1ms));
+  for (int n = 0; trial.next(); ++n) {
+    ASSERT_LT(n, 5);
+    const Question question = *trial.next();
+    const JobId asked = question.candidates.front().job;
+    const Proximity close{.body_a = "own", .body_b = "other", .arm_b = ArmId{asked == a ? 1u : 0u}};
+    trial.answer({.kind = Verdict::Kind::conflict,
+                  .version = question.version,
+                  .conflicts = {Conflict{Conflict::With::rest, asked, {}, close, 100ms, 200ms}}});
+  }
+  const auto waits = trial.outcome().waits;
+  ASSERT_EQ(waits.size(), 1u);
+  EXPECT_EQ(waits.front().job, b);
 }
 
 // Stopped beside each other on their ways, so that neither can go on.

@@ -51,7 +51,7 @@ class Look {
     const Trial::Outcome says = ask(*job);
     const JobId id = world_.submit(std::move(*job));
     for (int answers = 0; answers < Trial::kJudgementsMax; ++answers) {
-      settle_rings();
+      settle_ring(id);
       if (is_decided(id) || !bench().answer_now()) break;
     }
     compare(says, bench().job(id));
@@ -61,8 +61,9 @@ class Look {
   IdealArms& bench() { return world_.bench(); }
 
   // What the scheduler puts off to a step of its own.
-  void settle_rings() {
-    while (bench().wake_at && *bench().wake_at <= bench().now() + kAfterRingWasTold) {
+  void settle_ring(JobId id) {
+    while (!bench().job(id).ring.empty() && bench().wake_at &&
+           *bench().wake_at <= bench().now() + kAfterRingWasTold) {
       bench().run_until(*bench().wake_at);
     }
   }
