@@ -31,6 +31,12 @@ bool stands(const State& state, const Record& record) {
   return record.job.is_waiting() || behind || held_where_it_stands(state, record).has_value();
 }
 
+const std::vector<Wait>* known_waits(const State& state, const Job& job) {
+  if (job.pausing()) return &job.waits_on;
+  const bool is_put_off = job.is_waiting() && state.is_judged(job);
+  return is_put_off ? &job.judgement().found : nullptr;
+}
+
 bool is_idle_arm(const State& state, const Wait& wait) {
   return wait.kind == Wait::Kind::arm && wait.arm && state.jobs.queues()[*wait.arm].empty();
 }

@@ -16,6 +16,8 @@ inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 // It moves only after others have moved.
 [[nodiscard]] bool stands(const State& state, const Record& record);
 
+// As it was found when it was judged last, or where it pauses; null: it is not known.
+[[nodiscard]] const std::vector<Wait>* known_waits(const State& state, const Job& job);
 // It waits for an arm that no job will move.
 [[nodiscard]] bool is_idle_arm(const State& state, const Wait& wait);
 

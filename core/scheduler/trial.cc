@@ -23,7 +23,8 @@ void Trial::step(const Input& input) {
     }
   }
   const Job* job = scheduler_.find(job_);
-  if (job != nullptr && !job->waits_on.empty()) waits_ = job->waits_on;
+  if (job == nullptr) return;  // of those that come before it
+  if (!job->waits_on.empty()) waits_ = job->waits_on;
   const auto wake = scheduler_.wakes_at();
   if (!is_in_ring() || !wake || *wake - now_ > kAfterRingWasTold) return;
   now_ = *wake;  // its ring has been told
@@ -33,8 +34,7 @@ void Trial::step(const Input& input) {
 // What becomes of the rings of others is no matter of this instant.
 bool Trial::is_in_ring() const {
   const auto in_ring = [&](JobId id) { return !scheduler_.find(id)->ring.empty(); };
-  return (scheduler_.find(job_) != nullptr && in_ring(job_)) ||
-         std::ranges::any_of(approaches_, in_ring);
+  return in_ring(job_) || std::ranges::any_of(approaches_, in_ring);
 }
 
 // Its arms go to where it begins.

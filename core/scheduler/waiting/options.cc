@@ -1,7 +1,6 @@
 #include "core/scheduler/waiting/options.h"
 
 #include <algorithm>
-#include <iterator>
 #include <ranges>
 #include <utility>
 
@@ -139,17 +138,19 @@ void take_alternative(State& state, Record& record, std::size_t which) {
 bool take_arms_that_remain(State& state, const std::vector<JobId>& go) {
   if (state.jobs.undecided().empty()) return false;
   if (state.lanes.after(go, state.jobs, state.arms).all) return false;
-  std::vector<JobId> undecided;
-  std::ranges::copy(state.jobs.undecided() | std::views::take(kUndecidedMax),
-                    std::back_inserter(undecided));
   bool any = false;
-  for (JobId id : undecided) {
+  for (JobId id : first_undecided(state)) {
     Record& record = state.jobs.at(id);
     if (!is_shut(state, record)) continue;
     any |= takes_arm_that_remains(state, record, "others come to rest in its way");
   }
   if (any) ++state.version;
   return any;
+}
+
+std::vector<JobId> first_undecided(const State& state) {
+  auto first = state.jobs.undecided() | std::views::take(kUndecidedMax) | std::views::common;
+  return {first.begin(), first.end()};
 }
 
 bool leaves_by_other_arm(State& state, const WaitCycle& ring) {

@@ -22,8 +22,9 @@ struct Option {
 
 // So many jobs of a lane are looked at for one turn.
 inline constexpr std::size_t kOptionsMax = 6;
-// Of jobs that other arms could do so many are looked at, though others come before them.
+// Of jobs that other arms could do the first so many are looked at, though others come before them.
 inline constexpr std::size_t kUndecidedMax = 16;
+[[nodiscard]] std::vector<JobId> first_undecided(const State& state);
 
 // The first one is how things are. Who has been overtaken for scheduling.aging is overtaken no
 // more.

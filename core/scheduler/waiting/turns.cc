@@ -57,8 +57,7 @@ std::vector<JobId> to_explain(State& state) {
     const auto first = first_that_waits(state, queue);
     if (first && *first != queue.front()) jobs.push_back(*first);
   }
-  std::ranges::copy(state.jobs.undecided() | std::views::take(kUndecidedMax),
-                    std::back_inserter(jobs));
+  std::ranges::copy(first_undecided(state), std::back_inserter(jobs));
   std::ranges::sort(jobs);
   const auto again = std::ranges::unique(jobs);
   jobs.erase(again.begin(), again.end());
@@ -155,7 +154,7 @@ std::optional<JobId> Turns::next() const {
   for (const auto& queue : state_.jobs.queues()) {
     if (const auto first = first_that_waits(state_, queue)) consider(*first);
   }
-  std::ranges::for_each(state_.jobs.undecided() | std::views::take(kUndecidedMax), consider);
+  std::ranges::for_each(first_undecided(state_), consider);
   return best != nullptr ? std::optional(best->job.id) : std::nullopt;
 }
 

@@ -91,13 +91,6 @@ void expire(State& state, Record& record, const std::string& why) {
                "; no other way: " + why});
 }
 
-// As it was found when it was judged last, or where it stands.
-const std::vector<Wait>* waits_of(const State& state, const Job& job) {
-  if (job.pausing()) return &job.waits_on;
-  const bool is_put_off = job.is_waiting() && state.is_judged(job);
-  return is_put_off ? &job.judgement().found : nullptr;
-}
-
 }  // namespace
 
 std::optional<std::string> why_not_replanned(const Job& job) {
@@ -186,7 +179,7 @@ bool may_go_around(const State& state, const Record& record) {
 bool goes_around_idle_arm(State& state) {
   for (JobId id : state.jobs.past_queue()) {
     Record& record = state.jobs.at(id);
-    const std::vector<Wait>* waits = waits_of(state, record.job);
+    const std::vector<Wait>* waits = known_waits(state, record.job);
     if (waits == nullptr || record.job.is_replanned_now()) continue;
     const bool for_idle_arm =
         std::ranges::any_of(*waits, [&](const Wait& wait) { return is_idle_arm(state, wait); });

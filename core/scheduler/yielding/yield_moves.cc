@@ -94,10 +94,9 @@ std::optional<YieldTrial> next_yield(State& state) {
   for (JobId id : state.jobs.past_queue()) {
     Record& record = state.jobs.at(id);
     const Job& job = record.job;
-    const bool put_off = job.is_waiting() && state.is_judged(job);
-    if (!put_off && !job.pausing()) continue;
-    if (job.is_replanned_now()) continue;  // perhaps it passes
-    for (const Wait& wait : waits_of(job)) {
+    const std::vector<Wait>* waits = known_waits(state, job);
+    if (waits == nullptr || job.is_replanned_now()) continue;  // perhaps it passes
+    for (const Wait& wait : *waits) {
       if (!is_idle_arm(state, wait)) continue;
       auto move = untried(state, record, *wait.arm);
       const bool has_none = !move && !state.arms.is_stopped(*wait.arm);
