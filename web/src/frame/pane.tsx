@@ -1,7 +1,7 @@
 // What the address names, beside the cell or over it.
 
 import type { ComponentChildren, RefObject } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { ArmPage } from '../arms/arm_page';
 import { AlertsPage } from '../alerts/alerts_page';
 import { NewJob } from '../compose/new_job';
@@ -40,11 +40,11 @@ export function Pane({ app }: { app: App }) {
   );
 }
 
-/** A page that is opened gets the focus, and whoever had it gets it back: keys go on where one looks. */
+/** A page that is opened gets the focus, and whoever had it gets it back, at once: keys go on where one looks. */
 function use_focus(pane: RefObject<HTMLElement>, page: Place['page']): void {
   const before = useRef<Element | null>(null);
   const last = useRef(page);
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (page === last.current) return;
     if (last.current === 'cell') before.current = document.activeElement;
     last.current = page;
