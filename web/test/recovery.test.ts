@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { cause_of, need_of, waiting_arms } from '../src/recovery/needs';
 import type { Arm, Job } from '../src/server/messages';
-import type { Notice } from '../src/state/store';
+import type { Notice } from '../src/state/notices';
 import { arm_json, job_json, wait_json } from './samples';
 
 const arm = (over: object) => arm_json('left', over) as Arm;

@@ -2,7 +2,7 @@
 
 import { Link } from '../route/link';
 import type { App } from '../state/app';
-import type { Notice } from '../state/store';
+import type { Notice } from '../state/notices';
 import { events_until } from '../state/as_of';
 import { clock } from '../wording';
 import { id_of, is_later } from './alerts';

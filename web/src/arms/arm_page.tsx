@@ -28,7 +28,7 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
   const then = seen_app(app);
   const arm_then = then.store.arms.get(name) ?? arm;
   const job = arm_then.job === null ? null : then.store.job(arm_then.job);
-  const nothing = then.store.unknown_arms.has(name) ? 'What it did then is not known here.' : then === app ? 'No job is under way.' : 'No job was under way.';
+  const nothing = then.store.arm_state(arm_then) === 'not known' ? 'What it did then is not known here.' : then === app ? 'No job is under way.' : 'No job was under way.';
   const colour = arm_colour([...store.arms.keys()], name);
   return (
     <div class="page" style={{ '--arm': colour }}>

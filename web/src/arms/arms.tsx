@@ -37,7 +37,7 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
           <StatePill arm={arm} app={app} />
         </span>
         <span class="line dim job-of-arm">
-          <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : store.unknown_arms.has(arm.name) ? 'not known then' : 'no job'}</span>
+          <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : store.arm_state(arm) === 'not known' ? 'not known then' : 'no job'}</span>
           <span class="mono">{job ? `${Math.round(100 * progress)} %` : ''}</span>
         </span>
         <Bar share={progress} />

@@ -2,7 +2,8 @@
 
 import type { Arm, Job } from '../server/messages';
 import { is_stopped, state_of } from '../state/standing';
-import type { Notice, Store } from '../state/store';
+import type { Notice } from '../state/notices';
+import type { Store } from '../state/store';
 import { title_of } from '../wording';
 
 /** The last thing that stopped arms; null: nothing that this page has heard. */

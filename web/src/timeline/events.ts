@@ -2,7 +2,7 @@
 // keys, and told in words. Pure but for the drawing.
 
 import { ink } from '../state/palette';
-import type { Notice } from '../state/store';
+import type { Notice } from '../state/notices';
 import { clock, seconds } from '../wording';
 import { kAxis_px, kLeft_px, kRight_px, type Sheet } from './sheet';
 import { shown_name, shown_text } from '../names';

@@ -1,0 +1,130 @@
+// What the events of a run come to, whether they are heard now or gone through again: arms, jobs, objects,
+// what was reported. Of poses it has what snapshots tell.
+
+import type { Arm, Job, SceneObject, SequencedMessage } from '../server/messages';
+import { HaltBook, type Halts } from './halts';
+import { is_terminal, JobBook, type JobList } from './job_book';
+import { Notices, type Notice } from './notices';
+import { counted, kNoNumbers, type Numbers } from './numbers';
+import { state_of, type ToldState } from './standing';
+
+type Snapshot = Extract<SequencedMessage, { type: 'snapshot' }>;
+
+const kStands: ReadonlySet<Arm['state']> = new Set(['holding', 'stopped', 'fault'] as const);
+
+export class Facts {
+  stream: string | null = null;
+  policy = '';
+  speed = 1;
+  stopped = false;
+  t_s = 0;
+  /** Changes with every scene, so that the view draws objects again. */
+  objects: SceneObject[] = [];
+  arms = new Map<string, Arm>();
+  q: Record<string, number> = {};
+  numbers: Numbers = kNoNumbers;
+  readonly book = new JobBook();
+  /** Of these nothing was told until the time that is shown: only what looks back has any. */
+  protected readonly unknown_arms_ = new Set<string>();
+  protected readonly notices_ = new Notices();
+  protected readonly halts_ = new HaltBook();
+
+  apply(message: SequencedMessage): void {
+    const same_run = message.stream === this.stream;
+    const restarted = this.stream !== null && !same_run;
+    this.t_s = Math.max(same_run ? this.t_s : 0, message.t_s);
+    this.stream = message.stream;
+    this.numbers = counted(this.numbers, message);
+    if (restarted) this.halts_.clear();
+    this.halts_.take(message);
+    this.notices_.take(message);
+    switch (message.type) {
+      case 'snapshot':
+        this.take_snapshot(message, same_run);
+        if (restarted) this.notices_.note(this.stream, message.t_s, 'warning', 'The server was restarted. Jobs of its former run are in the history, if it keeps them.');
+        else if (message.data.gap) this.notices_.note(this.stream, message.t_s, 'info', 'Some events were missed while the connection was lost.');
+        break;
+      case 'job':
+        this.book.take(message.data, message.t_s);
+        break;
+      case 'arm':
+        this.arms.set(message.data.name, message.data);
+        this.unknown_arms_.delete(message.data.name);
+        break;
+      case 'queue':
+        this.policy = message.data.policy ?? this.policy;
+        this.stopped = message.data.stopped;
+        this.book.set_order(message.data);
+        break;
+      case 'scene':
+        this.objects = message.data.objects;
+        break;
+    }
+  }
+
+  /** What was reported, newest first. */
+  get notices(): readonly Notice[] { return this.notices_.all; }
+
+  /** The same of this run. */
+  get events(): readonly Notice[] { return this.notices_.of_run(this.stream); }
+
+  get halts(): Halts { return this.halts_.all; }
+
+  jobs(list: JobList): readonly Job[] {
+    return this.book.list(list);
+  }
+
+  all_jobs(): Job[] {
+    return this.book.all();
+  }
+
+  job(id: string): Job | null {
+    return this.book.get(id);
+  }
+
+  is_terminal(job: Job): boolean {
+    return is_terminal(job);
+  }
+
+  /** Share of its trajectory that a job has done by now: the last report, carried on while it runs. */
+  progress(job: Job): number {
+    const heard_s = this.book.heard_at(job.id);
+    const moves = job.state === 'running' && job.arms.every((arm) => !kStands.has(this.arms.get(arm)?.state ?? 'moving'));
+    if (heard_s === null || !moves || job.stopping || !job.duration_s) return job.progress;
+    const since_report = Math.max(0, this.t_s - Math.max(heard_s, job.started_s ?? heard_s));
+    return Math.min(1, job.progress + since_report / job.duration_s);
+  }
+
+  /** What an arm does, as people are told of it. */
+  arm_state(arm: Arm): ToldState {
+    if (this.unknown_arms_.has(arm.name)) return 'not known';
+    return state_of(arm, arm.job === null ? null : this.job(arm.job));
+  }
+
+  /** The arm's configuration as last measured, in the order of its joints. */
+  q_of(arm: Arm): number[] {
+    return arm.joints.map((joint, i) => this.q[joint] ?? arm.q[i] ?? 0);
+  }
+
+  private take_snapshot({ data, t_s }: Snapshot, same_run: boolean): void {
+    this.policy = data.policy;
+    this.speed = data.speed;
+    this.stopped = data.stopped;
+    this.objects = data.objects;
+    // Those of which it does not tell stay, where they are not known.
+    this.arms = new Map([...(this.unknown_arms_.size > 0 ? this.arms : []), ...data.arms.map((arm) => [arm.name, arm] as const)]);
+    for (const arm of data.arms) {
+      this.unknown_arms_.delete(arm.name);
+      this.place(arm);
+    }
+    this.book.reset(data.jobs, t_s, same_run);
+    this.book.set_order(data.queue);
+  }
+
+  private place(arm: Arm): void {
+    arm.joints.forEach((joint, i) => {
+      const angle = arm.q[i];
+      if (angle !== undefined) this.q[joint] = angle;
+    });
+  }
+}

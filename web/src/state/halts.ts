@@ -1,0 +1,31 @@
+// When each arm was stopped, or at fault, whether it had a job or none.
+
+import type { Arm, SequencedMessage } from '../server/messages';
+import { remember, type Stand } from './job_book';
+
+export type Halts = ReadonlyMap<string, readonly Stand[]>;
+
+export class HaltBook {
+  private readonly halts_ = new Map<string, Stand[]>();
+
+  get all(): Halts { return this.halts_; }
+
+  clear(): void {
+    this.halts_.clear();
+  }
+
+  take(message: SequencedMessage): void {
+    if (message.type === 'arm') this.take_arm(message.data, message.t_s);
+    if (message.type === 'snapshot') for (const arm of message.data.arms) this.take_arm(arm, message.t_s);
+  }
+
+  private take_arm({ name, state }: Arm, t_s: number): void {
+    const known = this.halts_.get(name) ?? [];
+    const last = known.at(-1);
+    const is_halted = state === 'stopped' || state === 'fault';
+    if (is_halted === (last?.to_s === null)) return;
+    if (last && !is_halted) last.to_s = t_s;
+    if (is_halted) remember(known, { from_s: t_s, to_s: null, stopped: true });
+    this.halts_.set(name, known);
+  }
+}

@@ -1,0 +1,49 @@
+// What a run came to until some time, as the server would have told it then. Pure.
+
+import type { Arm, SequencedMessage } from '../server/messages';
+import { Facts } from './facts';
+
+type Snapshot = Extract<SequencedMessage, { type: 'snapshot' }>;
+
+/** What all these come to; null: the first is no snapshot, so that it would be a guess. */
+export function folded(entries: readonly SequencedMessage[]): Snapshot | null {
+  const [first, last] = [entries[0], entries.at(-1)];
+  if (first?.type !== 'snapshot' || !last) return null;
+  const facts = new Facts();
+  for (const message of entries) facts.apply(message);
+  return {
+    stream: last.stream, seq: last.seq, type: 'snapshot', t_s: last.t_s, at: last.at,
+    data: {
+      cell: first.data.cell, policy: facts.policy, speed: facts.speed, stopped: facts.stopped, arms: [...facts.arms.values()],
+      jobs: facts.all_jobs(), queue: facts.book.order, objects: facts.objects,
+    },
+  };
+}
+
+/** What held before these, which led to the snapshot: whatever they do not tell of is as it was then. */
+export function before_all({ data, ...first }: Snapshot, led: readonly SequencedMessage[]): Snapshot {
+  const arms = new Set(led.flatMap((message) => (message.type === 'arm' ? [message.data.name] : [])));
+  const jobs = new Set(led.flatMap((message) => (message.type === 'job' ? [message.data.id] : [])));
+  const [next] = led;
+  // From the very beginning, when every arm stood idle.
+  const is_whole = next?.seq === 1;
+  const idle = data.arms.map((arm) => (arms.has(arm.name) ? at_rest(arm) : arm));
+  return {
+    ...first, type: 'snapshot', seq: (next?.seq ?? 1) - 1, t_s: is_whole ? 0 : next?.t_s ?? first.t_s, at: next?.at ?? first.at,
+    data: {
+      ...data, gap: false, stopped: false, arms: is_whole ? idle : data.arms.filter(({ name }) => !arms.has(name)),
+      jobs: data.jobs.filter(({ id }) => !jobs.has(id)),
+    },
+  };
+}
+
+/** A run's beginning, in a cell of which the rest is known. */
+export function beginning_of({ stream, at }: Pick<SequencedMessage, 'stream' | 'at'>, t_s: number, cell: Pick<Snapshot['data'], 'cell' | 'policy' | 'speed' | 'arms' | 'objects'>): Snapshot {
+  const queue = { stopped: false, queued: [], backlog: [], scheduled: [], running: [] };
+  return { stream, at, seq: 0, type: 'snapshot', t_s, data: { ...cell, stopped: false, jobs: [], queue } };
+}
+
+/** Before it was told to move. */
+export function at_rest(arm: Arm): Arm {
+  return { ...arm, state: 'idle', job: null, progress: 0 };
+}
