@@ -54,7 +54,7 @@ async function tab_to(selector, key = 'Tab') {
 
 const focused = () => page.evaluate(() => document.activeElement.dataset.test ?? document.activeElement.className);
 
-test('the cell is turned by keys and by buttons, without dragging', { timeout: 60_000 }, async () => {
+test('the cell is turned by keys and by buttons, without dragging', { timeout: 120_000 }, async () => {
   const first = await view_picture();
   await tab_to('[data-test=view]');
   for (const key of ['ArrowRight', 'ArrowRight', 'ArrowUp', '+']) await page.keyboard.press(key);
@@ -126,12 +126,25 @@ test('what has the focus is never under a bar that sticks', { timeout: 60_000 },
   await page.setViewportSize({ width: 1440, height: 900 });
 });
 
-test('what is reported is marked on the timeline, and looked back at from its line', { timeout: 30_000 }, async () => {
+test('what is reported is marked on the timeline, and looked back at from its line', { timeout: 90_000 }, async () => {
   await page.evaluate(() => window.armloom.drawn());
   await page.locator('[data-test=stopped]').waitFor();
   const strip = await page.locator('.timeline canvas').screenshot();
   const found = await Promise.all([[0xff, 0x70, 0x78], [0xf0, 0xb5, 0x41]].map((rgb) => pixels_like(desk.context, strip, rgb, 12)));
   assert.ok(Math.max(...found) > kLeastEvent_px, `${found} pixels of marks`);
+  // Keys that come faster than the page is painted: it is told, put away, and told again.
+  const told_after = await page.evaluate(async () => {
+    const canvas = document.querySelector('[data-test=lanes]');
+    canvas.focus();
+    const told = [];
+    for (const key of ['PageUp', 'Escape', 'PageUp']) {
+      canvas.dispatchEvent(new KeyboardEvent('keydown', { key, bubbles: true }));
+      await null;
+      told.push(document.querySelector('.timeline .tip') !== null);
+    }
+    return told;
+  });
+  assert.deepEqual(told_after, [true, false, true]);
   // By keys: told, put away, and looked back at.
   const [tip, canvas] = [page.locator('.timeline .tip'), page.locator('[data-test=lanes]')];
   const kTold = /^Warning at 0:\d\d:\d\d\.\d, [\d.]+ s ago: stopped: left, right \(operator\)/;
@@ -175,7 +188,7 @@ test('what is reported is marked on the timeline, and looked back at from its li
   await ask(page, 'PUT', '/sim/speed', { speed: 10 });
 });
 
-test('on a tablet all is done by finger', { timeout: 120_000 }, async () => {
+test('on a tablet all is done by finger', { timeout: 180_000 }, async () => {
   finger = await tablet.open({ colorScheme: 'light', viewport: { width: 1024, height: 768 }, hasTouch: true, isMobile: true });
   await tablet.visit(url);
   const small = await finger.evaluate((least) => [...document.querySelectorAll('button, select, summary, input[type=search]')]

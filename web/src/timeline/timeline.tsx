@@ -1,7 +1,7 @@
 // The timeline: a lane for each arm, what it did left of now and what is expected right of it. It
 // follows now, or is held where the address, the scrub bar, a drag or the keys have put it.
 
-import { useEffect, useRef, useState } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { selection_of } from '../route/selection';
 import type { App } from '../state/app';
 import { event_beside, events_in_words, type EventMark } from './events';
@@ -27,7 +27,8 @@ export function Timeline({ app }: { app: App }) {
     drawing.current.span = next;
     set_span(next);
   };
-  useEffect(() => {
+  // Before anybody can press another key: what that one asks for is not undone.
+  useLayoutEffect(() => {
     const { span: now } = drawing.current;
     change(held_s === null ? { ...now, held_from_s: null } : is_shown(now, held_s, store.t_s) ? now : around(now, held_s, store.t_s));
   }, [held_s]);
@@ -42,8 +43,8 @@ export function Timeline({ app }: { app: App }) {
     set_tip(null);
     draw.current();
   };
-  // Whatever has the focus: what pointing shows is put away by a key.
-  useEffect(() => {
+  // Whatever has the focus: what pointing shows is put away by a key, from when it is shown.
+  useLayoutEffect(() => {
     if (!tip) return;
     const put_away = (event: KeyboardEvent) => { if (event.key === 'Escape') look_away(); };
     window.addEventListener('keydown', put_away);
