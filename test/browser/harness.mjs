@@ -92,8 +92,8 @@ export class Browser {
   /** The dashboard, connected and drawn. */
   async visit(url) {
     await this.page.goto(url, { timeout: 60_000 });  // a busy machine draws the first picture slowly
-    await this.page.locator('[data-test=link].open').waitFor();
-    await this.page.waitForFunction(() => window.armloom?.is_drawn());
+    await this.page.locator('[data-test=link].open').waitFor({ timeout: 60_000 });
+    await this.page.waitForFunction(() => window.armloom?.is_drawn(), undefined, { timeout: 60_000 });
   }
 
   async close() {

@@ -17,16 +17,19 @@ describe('after a stop', () => {
     expect(cause_of([job])).toBeNull();
   });
 
+  const pose = (a: number, b: number) => ({ left_panda_joint1: a, left_panda_joint2: b });
+
   it('each arm needs what its state says', () => {
     const job = job_json('pick', { name: 'pick 7', progress: 0.4 }) as Job;
-    expect(need_of(arm({ state: 'stopped' }), job, [0, -1.2])).toMatchObject({ resume: true, home: false, words: expect.stringMatching(/pick 7.*40 %/) });
+    expect(need_of(arm({ state: 'stopped' }), job, pose(0, -1.2))).toMatchObject({ resume: true, home: false, words: expect.stringMatching(/pick 7.*40 %/) });
     const stopped = job_json('pick', { waits_on: [wait_json({ kind: 'stop', id: null, arm: 'left', links: [] })] }) as Job;
-    expect(need_of(arm({ state: 'holding' }), stopped, [0, -1.2])).toMatchObject({ resume: true });
+    expect(need_of(arm({ state: 'holding' }), stopped, pose(0, -1.2))).toMatchObject({ resume: true });
     const store = { arms: new Map([['left', arm({ state: 'holding', job: 'pick' })]]), job: () => stopped };
     expect(waiting_arms(store).map(({ name }) => name)).toEqual(['left']);
-    expect(need_of(arm({ state: 'fault' }), null, [0, -1.2])).toMatchObject({ resume: true });
-    expect(need_of(arm({ state: 'idle' }), null, [0.5, -1.2])).toMatchObject({ resume: false, home: true });
-    expect(need_of(arm({ state: 'idle' }), null, [0, -1.2])).toMatchObject({ resume: false, home: false });
-    expect(need_of(arm({ state: 'holding' }), job, [0, 0]).words).toMatch(/pick 7/);
+    expect(need_of(arm({ state: 'fault' }), null, pose(0, -1.2))).toMatchObject({ resume: true });
+    expect(need_of(arm({ state: 'idle' }), null, pose(0.5, -1.2))).toMatchObject({ resume: false, home: true });
+    expect(need_of(arm({ state: 'idle' }), null, pose(0, -1.2))).toMatchObject({ resume: false, home: false });
+    expect(need_of(arm({ state: 'idle' }), null, null)).toMatchObject({ resume: false, home: false, words: expect.stringMatching(/not known/) });
+    expect(need_of(arm({ state: 'holding' }), job, pose(0, 0)).words).toMatch(/pick 7/);
   });
 });

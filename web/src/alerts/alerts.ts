@@ -1,6 +1,8 @@
 // What of the events somebody has to see to.
 
+import type { KeptAlert } from '../server/messages';
 import type { Notice } from '../state/notices';
+import type { Store } from '../state/store';
 
 /** As the server names the alert that the event was; a notice of the page's own has none. */
 export function id_of(notice: Pick<Notice, 'stream' | 'seq'>): string {
@@ -13,3 +15,9 @@ export function is_later({ t_s, stream }: Pick<Notice, 't_s' | 'stream'>, at_s: 
 }
 // Addresses hold hundredths of a second.
 const kRounding_s = 0.01;
+
+/** Those that had been told by then: what is not among the last notices is older than these. */
+export function told_until(alerts: readonly KeptAlert[], at_s: number | null, { notices, stream }: Pick<Store, 'notices' | 'stream'>): readonly KeptAlert[] {
+  const later = new Set(notices.filter((notice) => is_later(notice, at_s, stream)).map(id_of));
+  return later.size === 0 ? alerts : alerts.filter(({ id }) => !later.has(id));
+}

@@ -1,13 +1,17 @@
 // Alerts, each until somebody acknowledges it, with who and when.
 
 import type { App } from '../state/app';
+import { AsOf } from '../frame/as_of';
 import type { KeptAlert } from '../server/messages';
 import { shown_name, shown_text } from '../names';
 import { short_wall_time, wall_time } from '../wall_time';
+import { told_until } from './alerts';
 
 export function AlertsPage({ app }: { app: App }) {
   const { settings, alerts, actions, session } = app;
-  const { all, open } = alerts;
+  const { t_s } = app.router.address.value;
+  const all = told_until(alerts.all, t_s, app.store);
+  const open = all.filter(({ acknowledged }) => acknowledged === null);
   const known_as = session.value?.name ?? null;
   const who = settings.person.value;
   const unnamed = known_as === null && who.trim() === '';
@@ -16,6 +20,7 @@ export function AlertsPage({ app }: { app: App }) {
   return (
     <div class="page">
       <h2>Alerts<span class="count" data-test="alerts-open">{open.length === 0 ? 'all acknowledged' : `${open.length} to acknowledge`}</span></h2>
+      <AsOf app={app}>{app.store.link.status === 'recording' ? 'These alerts are the server\'s, and not of the recording.' : 'Who has seen to them is told as it is now.'}</AsOf>
       <p class="hint">Warnings and errors. The server keeps who has seen to them, and when.</p>
       <div class="line wrap">
         {known_as === null
@@ -24,7 +29,7 @@ export function AlertsPage({ app }: { app: App }) {
         <button class="small" data-test="acknowledge-all" disabled={open.length === 0 || unnamed} title={mute ?? ''} onClick={() => acknowledge(open)}>Acknowledge all</button>
       </div>
       {unnamed && open.length > 0 && <p class="hint" id="who-acknowledges" data-test="unnamed">An alert is acknowledged by somebody: say who you are.</p>}
-      {all.length === 0 && <p class="none">None so far.</p>}
+      {all.length === 0 && <p class="none">{t_s === null ? 'None so far.' : 'None until then.'}</p>}
       <ul class="alerts" data-test="alerts">
         {all.map((alert) => <Alert key={alert.id} alert={alert} mute={mute} acknowledge={() => acknowledge([alert])} />)}
       </ul>

@@ -7,6 +7,7 @@ import {
 } from './reading';
 import type { Diagram, Job, Problem } from '../server/messages';
 import { arm_colour, ink, kCellColours, kUndecidedStripes } from '../state/palette';
+import { progress_at } from '../state/progress_book';
 import type { Store } from '../state/store';
 import { short_id } from '../wording';
 import type { Api } from '../server/api';
@@ -14,7 +15,9 @@ import type { App } from '../state/app';
 import { DiagramPicture, type Scene } from './picture';
 import { Refused } from '../compose/refused';
 import { is_arm, job_of_side, why_no_pair } from './sides';
+import { seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
+import { AsOf } from '../frame/as_of';
 
 const kShownFinished = 12;
 const kShownOpen = 100;
@@ -24,13 +27,16 @@ interface Props { a: string; b: string; app: App }
 
 type Fetched = { kind: 'none' } | { kind: 'diagram'; diagram: Diagram } | { kind: 'refused'; problem: Problem };
 
-/** Of two jobs, or of arms: then of what these do, from job to job. */
+/** Of two jobs, or of arms: then of what these do, or did at the instant that is looked at, from job to job. */
 export function DiagramPanel({ a, b, app }: Props) {
-  const { store } = app;
+  const { store } = seen_app(app);
   const why_not = why_no_pair(a, b, store);
   return (
     <>
       <h2>Diagram</h2>
+      <AsOf app={app}>{app.store.link.status === 'recording'
+        ? 'The diagram itself is the server\'s, which knows its own jobs alone.'
+        : 'What is free is told of the scene as it is now; how far both were allowed to go is not kept.'}</AsOf>
       <div class="pair">
         <Pick what="Across" side={a} store={store} on_pick={(side) => app.router.go({ page: 'pair', a: side, b })} />
         <Pick what="Up" side={b} store={store} on_pick={(side) => app.router.go({ page: 'pair', a, b: side })} />
@@ -43,11 +49,13 @@ export function DiagramPanel({ a, b, app }: Props) {
 }
 
 function Pair({ a, b, app }: Props) {
-  const { store, actions, api } = app;
+  const { actions, api } = app;
+  const then = seen_app(app);
+  const { store } = then;
   use_beats(store);
   const [fetched, set_fetched] = useState<Fetched>({ kind: 'none' });
   const [layer, set_layer] = useState(0);
-  const connected = store.link.status === 'open' && store.stream !== null;
+  const connected = app.store.link.status === 'open' && app.store.stream !== null;
   // Another scene makes another diagram.
   useEffect(() => {
     if (!connected) return;
@@ -57,10 +65,10 @@ function Pair({ a, b, app }: Props) {
       set_fetched(answer.ok ? { kind: 'diagram', diagram: answer.value } : { kind: 'refused', problem: answer.problem });
     });
     return () => { closed = true; };
-  }, [api, a, b, store.objects, connected]);
+  }, [api, a, b, app.store.objects, connected]);
   useEffect(() => set_layer(0), [a, b]);
   const jobs = { a: store.job(a), b: store.job(b) };
-  const goes_on = { a: jobs.a !== null && !store.is_terminal(jobs.a), b: jobs.b !== null && !store.is_terminal(jobs.b) };
+  const goes_on = { a: is_followed(a, app.store), b: is_followed(b, app.store) };
   useEffect(() => (goes_on.a ? actions.follow_job(a) : undefined), [actions, a, goes_on.a]);
   useEffect(() => (goes_on.b ? actions.follow_job(b) : undefined), [actions, b, goes_on.b]);
   const diagram = fetched.kind === 'diagram' && fetched.diagram.a.id === a && fetched.diagram.b.id === b ? fetched.diagram : null;
@@ -74,10 +82,15 @@ function Pair({ a, b, app }: Props) {
           ))}
         </div>
       )}
-      {diagram && <Drawn key={`${a} ${b} ${layer}`} diagram={diagram} layer={layer} jobs={jobs} app={app} />}
+      {diagram && <Drawn key={`${a} ${b} ${layer}`} diagram={diagram} layer={layer} jobs={jobs} app={then} />}
       {fetched.kind !== 'refused' && !diagram && <p class="hint">{connected ? 'Drawing…' : 'Not connected.'}</p>}
     </>
   );
+}
+
+function is_followed(id: string, store: Store): boolean {
+  const job = store.job(id);
+  return job !== null && !store.is_terminal(job);
 }
 
 /** An arm, which stands for what it does, or one job. */
@@ -132,6 +145,7 @@ interface DrawnProps {
 
 function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
   const { store } = app;
+  const held_s = app.router.address.value.t_s;
   const layer = diagram.layers[index] ?? diagram.layers[0];
   const host = useRef<HTMLDivElement>(null);
   const scene = useRef<() => Scene | null>(() => null);
@@ -145,26 +159,30 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
   useEffect(() => () => { app.ghost.value = null; }, [app]);
   // Where they are by the last answer and event, carried on with the clock.
   const progress_s = (side: Diagram['a']) => {
+    const course = held_s === null ? null : store.courses.of(side.id);
+    const measured_s = course && progress_at(course, held_s ?? 0);
+    if (measured_s !== null) return measured_s;
     const job = store.job(side.id);
-    return job ? store.progress(job) * side.duration_s : side.progress_s;
+    return job ? store.progress(job) * side.duration_s : held_s === null ? side.progress_s : 0;
   };
   // From where both were heard first: the way that was measured does not end at a stride of the clock.
   const trail_to = (at: Point) => {
-    const way = measured_way(store.courses.of(diagram.a.id), store.courses.of(diagram.b.id));
+    const way = measured();
     return way.length === 0 ? [] : [...way, at];
   };
+  const measured = () => measured_way(store.courses.of(diagram.a.id), store.courses.of(diagram.b.id), held_s ?? Infinity);
   const now_point = () => ({ a_s: progress_s(diagram.a), b_s: progress_s(diagram.b) });
   const is_open = [jobs.a, jobs.b].every((job) => job !== null && (!store.is_terminal(job) || job.state === 'succeeded'))
     && [jobs.a, jobs.b].some((job) => job !== null && !store.is_terminal(job));
-  const ahead = use_ahead(diagram, is_open, app.api);
-  const met = is_open ? ahead.layers[index]?.met ?? null : null;
+  const ahead = use_ahead(diagram, is_open && held_s === null, app.api);
+  const met = is_open && held_s === null ? ahead.layers[index]?.met ?? null : null;
   const evidence = evidence_of(jobs.a, jobs.b);
   const names = [...store.arms.keys()];
   scene.current = () => {
     if (!layer) return null;
     const at = now_point();
     return {
-      authority: authority_of(store, diagram), pointed: pointed.current,
+      authority: held_s === null ? authority_of(store, diagram) : null, pointed: pointed.current,
       diagram, layer, now: at, way: is_open ? plan_from(at, diagram) : [], trail: trail_to(at), met, evidence,
       colours: { a: ink(arm_colour(names, layer.arms[0])), b: ink(arm_colour(names, layer.arms[1])) },
     };
@@ -181,8 +199,8 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
   }, [store, diagram, index, app.settings.shown_theme.value]);
   if (!layer) return null;
   const share = shares(layer);
-  const measured = measured_way(store.courses.of(diagram.a.id), store.courses.of(diagram.b.id)).length > 1;
-  const unheard = !measured && [jobs.a, jobs.b].every((job) => job?.started_s != null);
+  const is_measured = measured().length > 1;
+  const unheard = !is_measured && [jobs.a, jobs.b].every((job) => job?.started_s != null);
   const waiting = [jobs.a, jobs.b].find((job) => job !== null && job.started_s === null && !store.is_terminal(job)) ?? null;
   const resting = [jobs.a, jobs.b].find((job) => job?.state === 'succeeded') ?? null;
   return (
@@ -199,14 +217,14 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
           <span key={state} class="key"><i class={state} style={{ '--cell': kCellColours[state], '--stripes': kUndecidedStripes }} /> {state} <b class="mono">{percent(share[state])}</b></span>
         ))}
         <span class="grow" />
-        <span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>
-        <span class="key"><i class="plan" /> plan from now</span>
-        {measured && <span class="key" data-test="measured"><i class="measured" /> measured</span>}
+        {held_s === null && <span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>}
+        <span class="key"><i class="plan" /> plan from {held_s === null ? 'now' : 'then'}</span>
+        {is_measured && <span class="key" data-test="measured"><i class="measured" /> measured</span>}
       </div>
       {unheard && <p class="hint" data-test="unmeasured">They moved before this page listened: the way that was measured is not known here.</p>}
       <Instant diagram={diagram} jobs={jobs} app={app} show={point_at} />
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
-      {is_open && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null, resting?.id ?? null)}</p>}
+      {is_open && held_s === null && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null, resting?.id ?? null)}</p>}
       <p class="hint">
         Each cell holds for every instant in it, at any pace: {layer.cells?.length ?? 0} cells between
         the {layer.arms[0]} and the {layer.arms[1]} arm, {diagram.evaluations} states looked at.

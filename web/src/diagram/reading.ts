@@ -18,10 +18,10 @@ export function plan_from(now: Point, diagram: Diagram): Point[] {
   return [now, first_end, { a_s: a.duration_s, b_s: b.duration_s }];
 }
 
-/** Where the two were together, as measured; empty where one of them was not heard. */
-export function measured_way(a: Course | null, b: Course | null): Point[] {
+/** Where the two were together until some time, as measured; empty where one of them was not heard. */
+export function measured_way(a: Course | null, b: Course | null, until_s = Infinity): Point[] {
   if (!a || !b) return [];
-  const times_s = [...new Set([...a.t_s, ...b.t_s])].sort((x, y) => x - y);
+  const times_s = [...new Set([...a.t_s, ...b.t_s])].filter((t_s) => t_s <= until_s).sort((x, y) => x - y);
   const way: Point[] = [];
   for (const t_s of times_s) {
     const [a_s, b_s] = [progress_at(a, t_s), progress_at(b, t_s)];

@@ -61,11 +61,11 @@ function content_of(place: Place, app: App): ComponentChildren {
     case 'job': return <JobPage id={place.id} app={seen_app(app)} />;
     case 'arm': return <ArmPage name={place.name} app={app} />;
     case 'pair': return <DiagramPanel a={place.a} b={place.b} app={app} />;
-    case 'scene': return <ScenePage name={place.name} app={app} />;
+    case 'scene': return <ScenePage name={place.name} app={seen_app(app)} />;
     case 'history': return <HistoryPage app={seen_app(app)} />;
     case 'alerts': return <AlertsPage app={app} />;
-    case 'recovery': return <RecoveryPage app={app} />;
-    case 'policies': return <PoliciesPage app={app} />;
+    case 'recovery': return <RecoveryPage app={seen_app(app)} />;
+    case 'policies': return <PoliciesPage app={seen_app(app)} />;
     case 'recordings': return <RecordingsPage app={app} />;
     case 'settings': return <SettingsPage app={app} />;
     case 'unknown': return <><h2>No such page</h2><p class="hint">There is nothing at {place.path}.</p></>;

@@ -1,6 +1,7 @@
 // Policies: which one decides, and what the jobs at hand would have come to under the others.
 
 import { useEffect } from 'preact/hooks';
+import { AsOf } from '../frame/as_of';
 import { InSight } from '../frame/in_sight';
 import { PolicyForm } from '../frame/policy_form';
 import { why_no_change } from './change';
@@ -17,6 +18,7 @@ export function PoliciesPage({ app }: { app: App }) {
     <div class="columns policies">
       <section>
         <h2>The policy</h2>
+        <AsOf app={app}>The comparison beside it is of now.</AsOf>
         <PolicyForm app={app} />
       </section>
       <section>
@@ -36,8 +38,9 @@ function Asking({ app }: { app: App }) {
   return (
     <>
       <p class="hint">
-        The jobs that came since the server began, the last 500 at most, each at its time, run under every policy: simulated
-        beside the cell, without stops, faults and what people canceled. Nothing in the cell changes or waits for it.
+        The jobs that came since the server was started, the last 500 at most, each at its time, run under every policy: simulated
+        beside the cell, without stops, faults and what people canceled. Nothing in the cell changes or waits for it. Of former
+        runs of the server it knows no job: <code>armloom compare</code> takes those of a recording.
       </p>
       <div class="line wrap">
         {is_running

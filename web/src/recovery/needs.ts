@@ -20,9 +20,8 @@ export interface Need { words: string; resume: boolean; home: boolean }
 
 const kAtHome_rad = 0.02;
 
-export function need_of(arm: Arm, job: Job | null, q: readonly number[]): Need {
-  const off_rad = Math.max(0, ...arm.home.map((home, i) => Math.abs((q[i] ?? home) - home)));
-  const away = off_rad > kAtHome_rad;
+/** `pose`: every joint; null: nobody knows where it stands. */
+export function need_of(arm: Arm, job: Job | null, pose: Readonly<Record<string, number>> | null): Need {
   const name = job ? title_of(job) : '';
   switch (state_of(arm, job)) {
     case 'fault':
@@ -36,6 +35,11 @@ export function need_of(arm: Arm, job: Job | null, q: readonly number[]): Need {
     case 'moving':
       return { words: is_stopped(job, arm.name) ? 'Brakes on its path.' : `Moves: ${name || 'its job'}.`, resume: false, home: false };
     case 'idle':
-      return away ? { words: 'Ready, away from home. Send it home, or leave it to its jobs.', resume: false, home: true } : { words: 'Ready, at home.', resume: false, home: false };
+      if (!pose) return { words: 'Ready; where it stands is not known.', resume: false, home: false };
+      return is_away(arm, pose) ? { words: 'Ready, away from home. Send it home, or leave it to its jobs.', resume: false, home: true } : { words: 'Ready, at home.', resume: false, home: false };
   }
+}
+
+function is_away({ joints, home }: Arm, pose: Readonly<Record<string, number>>): boolean {
+  return joints.some((joint, i) => Math.abs((pose[joint] ?? home[i] ?? 0) - (home[i] ?? 0)) > kAtHome_rad);
 }

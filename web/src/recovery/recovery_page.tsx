@@ -2,10 +2,12 @@
 // and the way back.
 
 import { StatePill } from '../arms/arms';
+import { AsOf } from '../frame/as_of';
 import { Link } from '../route/link';
 import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
+import { instant_of, pose_at } from '../state/instant';
 import { use_beats } from '../state/seen';
 import { clock, why_mute } from '../wording';
 import { kChecks } from './checklist';
@@ -19,18 +21,24 @@ export function RecoveryPage({ app }: { app: App }) {
   const arms = [...store.arms.values()];
   const waiting = waiting_arms(store);
   const cause = cause_of(store.events);
+  const looks_back = app.router.address.value.t_s !== null;
   return (
     <div class="page" data-test="recovery">
       <h2>Recovery</h2>
-      <p class="words" data-test="cause">{cause ? <><span class="mono">{clock(cause.t_s)}</span> {shown_text(cause.text)}</> : waiting.length > 0 ? 'The arms were stopped before this page listened.' : 'No arm was stopped since this page listens.'}</p>
-      <p class="hint">{waiting.length === 0 ? 'No arm waits to be resumed.' : `${waiting.length} of ${arms.length} arms stand until they are resumed.`}{' '}
+      <AsOf app={app}>Arms are resumed from the present alone.</AsOf>
+      <p class="words" data-test="cause">{cause ? <><span class="mono">{clock(cause.t_s)}</span> {shown_text(cause.text)}</> : waiting.length > 0 ? 'The arms were stopped before this page listened.' : looks_back ? 'Nothing that this page knows of had stopped an arm by then.' : 'No arm was stopped since this page listens.'}</p>
+      <p class="hint">{waiting_in_words(waiting.length, arms.length, looks_back)}{' '}
         <Link app={app} to={{ page: 'alerts' }}>Alerts</Link></p>
-      <h3>1. Look</h3>
-      <Checks app={app} needed={waiting.length > 0} />
-      <h3>2. What each arm needs</h3>
+      {!looks_back && <><h3>1. Look</h3><Checks app={app} needed={waiting.length > 0} /></>}
+      <h3>{looks_back ? 'What each arm needed' : '2. What each arm needs'}</h3>
       <ul class="needs">{arms.map((arm) => <Needs key={arm.name} arm={arm} app={app} guarded={waiting.length > 0 && app.checklist.left > 0} />)}</ul>
     </div>
   );
+}
+
+function waiting_in_words(waiting: number, arms: number, looks_back: boolean): string {
+  if (looks_back) return waiting === 0 ? 'No arm waited to be resumed.' : `${waiting} of ${arms} arms stood until they would be resumed.`;
+  return waiting === 0 ? 'No arm waits to be resumed.' : `${waiting} of ${arms} arms stand until they are resumed.`;
 }
 
 function Checks({ app, needed }: { app: App; needed: boolean }) {
@@ -58,7 +66,7 @@ function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) 
   use_beats(app.store);
   const { store } = app;
   const job = arm.job === null ? null : store.job(arm.job);
-  const need = need_of(arm, job, store.q_of(arm));
+  const need = need_of(arm, job, pose_at(instant_of(app.router.address.value, store), store));
   const mute = why_mute(store.link) ?? (guarded ? 'First what is to be looked at, above' : null);
   return (
     <li data-test={`need-${arm.name}`} style={{ '--arm': arm_colour([...store.arms.keys()], arm.name) }}>

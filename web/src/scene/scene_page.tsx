@@ -2,6 +2,7 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import { Refused } from '../compose/refused';
+import { AsOf } from '../frame/as_of';
 import { InSight } from '../frame/in_sight';
 import { Link } from '../route/link';
 import { shape_of, type Problem, type SceneObject } from '../server/messages';
@@ -16,6 +17,7 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
   return (
     <div class="page">
       <h2>Scene<span class="count">{objects.length}</span></h2>
+      <AsOf app={app}>Nothing can be changed there.</AsOf>
       <p class="hint">What is changed here is judged at once: a motion that an object stands in the way of is held.</p>
       <ul class="objects" data-test="objects">
         {objects.map((object) => (
@@ -26,8 +28,8 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
           </li>
         ))}
       </ul>
-      {name !== null && !chosen && <p class="hint">There is no object of the name {shown_name(name)}.</p>}
-      {chosen && <HandButton name={chosen.name} app={app} />}
+      {name !== null && !chosen && <p class="hint">{app.router.address.value.t_s === null ? 'There is' : 'There was'} no object of the name {shown_name(name)}.</p>}
+      {chosen && app.router.address.value.t_s === null && <HandButton name={chosen.name} app={app} />}
       {chosen?.mesh !== undefined
         ? <p class="hint">A mesh: change it through the API.</p>
         : <ObjectForm key={chosen?.name ?? 'new'} chosen={chosen} app={app} />}

@@ -1,0 +1,19 @@
+// Above a page's figures while an earlier instant is looked at: which one they are of, and what of the page is
+// of now all the same.
+
+import type { ComponentChildren } from 'preact';
+import type { App } from '../state/app';
+import { is_known } from '../state/as_of';
+import { clock } from '../wording';
+
+export function AsOf({ app, children }: { app: App; children?: ComponentChildren }) {
+  const { t_s } = app.router.address.value;
+  if (t_s === null) return null;
+  const known = is_known(app.seen.store.value);
+  return (
+    <p class="hint looked-at as-of" role="status" data-test="as-of">
+      <b>{known ? 'As it was at' : 'It is not known here what was at'} <span class="mono">{clock(t_s)}</span>.</b> {children}{' '}
+      <button class="small" onClick={() => app.router.hold_at(null)}>{app.store.link.status === 'recording' ? 'Look at its end' : 'Look at now'}</button>
+    </p>
+  );
+}
