@@ -26,7 +26,7 @@ export function listen_to_drops(app: App, window: Window): void {
 async function take(files: readonly File[], app: App): Promise<void> {
   const [first] = files;
   if (!first) return;
-  if (files.some(({ name }) => /\.(csv|jsonl)$/.test(name))) {
+  if (files.some(({ name }) => /\.(csv|jsonl|mcap)$/.test(name))) {
     app.router.go({ page: 'recordings' });
     return app.player.open(files);
   }

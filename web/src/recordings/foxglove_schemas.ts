@@ -29,5 +29,6 @@ export const kSchemas = {
     })),
   }),
   'foxglove.Log': object({ timestamp: time, level: { type: 'integer' }, message: text, name: text, file: text, line: { type: 'integer' } }),
+  'armloom.Event': object({ stream: text, seq: { type: 'integer' }, type: text, t_s: figure, at: text, data: object({}) }),
   'armloom.Job': object({ id: text, name: text, arms: list(text), state: text }),
 } as const;

@@ -1,5 +1,6 @@
 // What the page has heard, as an MCAP file with Foxglove's schemas in JSON: joint states, transforms of
-// all links, the scene, jobs and events. Loaded when it is first asked for.
+// all links, the scene, jobs and events; and each event as the server told it, from which the page shows all
+// of that again. Loaded when it is first asked for.
 
 import { McapWriter, type IWritable } from '@mcap/core';
 import * as THREE from 'three';
@@ -8,18 +9,11 @@ import type { Store } from '../state/store';
 import { Kinematics } from '../view/kinematics';
 import { scene_update } from './foxglove_scene';
 import { kSchemas } from './foxglove_schemas';
+import { kMetadata, kTopics, kWallAtZero, wall_ns } from './mcap_layout';
 
-const kNanoseconds = 1_000_000_000n;
 const kMostFrames = 9_000;
 // The page goes on to answer clicks meanwhile.
 const kAtOnce = 60;
-
-interface Topic { topic: string; schema: keyof typeof kSchemas }
-const kTopics = {
-  joints: { topic: '/joint_states', schema: 'foxglove.JointStates' }, transforms: { topic: '/tf', schema: 'foxglove.FrameTransforms' },
-  scene: { topic: '/scene', schema: 'foxglove.SceneUpdate' }, events: { topic: '/events', schema: 'foxglove.Log' },
-  jobs: { topic: '/jobs', schema: 'armloom.Job' },
-} satisfies Record<string, Topic>;
 
 class Bytes implements IWritable {
   private readonly parts_: Uint8Array[] = [];
@@ -47,7 +41,9 @@ export async function write_mcap(store: Store, tell: (share: number) => void): P
   const bytes = new Bytes();
   const writer = new McapWriter({ writable: bytes });
   await writer.start({ profile: '', library: 'armloom' });
-  const log = await begin(writer, Date.now() / 1000 - store.t_s);
+  const zero_s = Date.now() / 1000 - store.t_s;
+  await writer.addMetadata({ name: kMetadata, metadata: new Map([[kWallAtZero, String(zero_s)]]) });
+  const log = await begin(writer, zero_s);
   const first_s = store.trace.first_s ?? 0;
   await log('scene', first_s, (stamp) => scene_update(store.objects, stamp));
   await write_events(store, first_s, log);
@@ -72,13 +68,14 @@ async function begin(writer: McapWriter, offset_s: number): Promise<Log> {
     if (!channel) return;
     const at_s = offset_s + t_s;
     const stamp = { sec: Math.floor(at_s), nsec: Math.floor((at_s % 1) * 1e9) };
-    const time = BigInt(stamp.sec) * kNanoseconds + BigInt(stamp.nsec);
+    const time = wall_ns(at_s);
     const data = encoder.encode(JSON.stringify(message(stamp)));
     await writer.addMessage({ channelId: channel.id, sequence: channel.sequence++, logTime: time, publishTime: time, data });
   };
 }
 
 async function write_events(store: Store, first_s: number, log: Log): Promise<void> {
+  for (const event of store.log.entries) await log('told', event.t_s, () => event);
   const level = { info: 2, warning: 3, error: 4 } as const;
   for (const notice of [...store.notices].reverse()) {
     if (notice.t_s < first_s) continue;

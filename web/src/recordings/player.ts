@@ -6,7 +6,7 @@ import type { Connection } from '../server/connection';
 import type { Router } from '../route/router';
 import type { Store } from '../state/store';
 import { read_events } from './read_events';
-import { StatesReader } from './read_states';
+import { StatesReader, type Frames } from './read_states';
 
 export interface Opened { name: string; frames: number; events: number; unread: number; first_s: number; last_s: number }
 type Opening = { ok: true; opened: Opened } | { ok: false; fault: string };
@@ -20,7 +20,7 @@ export class Player {
 
   constructor(private readonly store_: Store, private readonly connection_: Pick<Connection, 'stop' | 'begin_anew'>, private readonly router_: Router) {}
 
-  /** The files of a recording's folder; others of it are not needed. */
+  /** The files of a recording's folder, of which others are not needed; or an MCAP file. */
   async open(files: readonly File[]): Promise<void> {
     this.reading.value = true;
     const opening = await this.read(files);
@@ -39,18 +39,14 @@ export class Player {
   }
 
   private async read(files: readonly File[]): Promise<Opening> {
-    const find = (name: string) => files.find((file) => file.name === name);
-    const states = find('states.csv');
-    if (!states) return { ok: false, fault: 'There is no states.csv among the files: it has the arms\' positions. A server writes it with --data DIR --record, simulate always.' };
-    const read = await read_states(states);
-    if (!read.ok) return read;
-    const { frames } = read;
+    const recording = await recording_of(files);
+    if (!recording.ok) return recording;
+    const { name, frames } = recording;
     const joints = new Set(this.store_.cell?.joints.map(({ name }) => name));
     const strange = frames.names.find((name) => !joints.has(name));
     if (strange !== undefined) return { ok: false, fault: `It was recorded with another cell: this server's has no joint ${strange}.` };
-    const events = await read_events(await find('events.jsonl')?.text() ?? '');
+    const events = await read_events(recording.events);
     this.connection_.stop();
-    const name = states.webkitRelativePath.split('/').at(-2) ?? states.name;
     this.store_.show_recording(name, events.messages, frames);
     const [first_s = 0, last_s = 0] = [frames.t_s[0], frames.t_s.at(-1)];
     const opened = { name, frames: frames.t_s.length, events: events.messages.length, unread: events.unread, first_s, last_s };
@@ -58,6 +54,23 @@ export class Player {
     this.router_.hold_at(first_s);
     return { ok: true, opened };
   }
+}
+
+type Recording = { ok: true; name: string; frames: Frames; events: string } | { ok: false; fault: string };
+
+async function recording_of(files: readonly File[]): Promise<Recording> {
+  const mcap = files.find(({ name }) => name.endsWith('.mcap'));
+  if (mcap) {
+    const { read_mcap } = await import('./read_mcap');
+    const read = await read_mcap(mcap);
+    return read.ok ? { ok: true, name: mcap.name, ...read.mcap } : read;
+  }
+  const find = (name: string) => files.find((file) => file.name === name);
+  const states = find('states.csv');
+  if (!states) return { ok: false, fault: 'There is no states.csv among the files, and no MCAP file: these have the arms\' positions. A server writes states.csv with --data DIR --record, simulate always.' };
+  const read = await read_states(states);
+  const name = states.webkitRelativePath.split('/').at(-2) ?? states.name;
+  return read.ok ? { ok: true, name, frames: read.frames, events: await find('events.jsonl')?.text() ?? '' } : read;
 }
 
 async function read_states(file: File) {

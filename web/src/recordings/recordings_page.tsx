@@ -14,10 +14,11 @@ export function RecordingsPage({ app }: { app: App }) {
       <h3>Look at one</h3>
       <p class="hint">
         A folder that <code>armloom serve --data DIR --record</code> or <code>armloom simulate --out DIR</code> has written: choose
-        its <code>states.csv</code> and <code>events.jsonl</code> together, or drop them on the page. Nothing leaves this browser.
+        its <code>states.csv</code> and <code>events.jsonl</code> together, or drop them on the page; or an MCAP file that was exported here. Nothing leaves this browser.
+        Those that this server has written lie in its data folder: it does not hand them out.
       </p>
       <label class="drop">
-        <input type="file" multiple accept=".csv,.jsonl,.json" class="sr-only" data-test="recording-files"
+        <input type="file" multiple accept=".csv,.jsonl,.json,.mcap" class="sr-only" data-test="recording-files"
           onChange={(event) => { if (event.currentTarget.files?.length) void app.player.open([...event.currentTarget.files]); }} />
         {reading.value ? 'Reading…' : 'Choose the files, or drop them'}
       </label>

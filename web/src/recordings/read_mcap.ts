@@ -1,0 +1,47 @@
+// An MCAP file, as this page exports it, read back: positions of joints, and the events as they were told. Of
+// files that others wrote the joint states alone. Loaded when the first one is opened.
+
+import { McapStreamReader, type McapTypes } from '@mcap/core';
+import { kMetadata, kTopics, kWallAtZero, wall_ns } from './mcap_layout';
+import type { Frames } from './read_states';
+
+export interface Mcap { frames: Frames; /** A line each, as events.jsonl has them. */ events: string }
+
+// The page goes on to answer clicks meanwhile.
+const kAtOnce = 200;
+
+export async function read_mcap(file: Blob): Promise<{ ok: true; mcap: Mcap } | { ok: false; fault: string }> {
+  const names: string[] = [];
+  const frames: Frames = { names, t_s: [], q: [] };
+  const events: string[] = [];
+  const topics = new Map<number, string>();
+  const decoder = new TextDecoder();
+  let zero_ns: bigint | null = null;
+  const take = ({ channelId, logTime, data }: McapTypes.TypedMcapRecords['Message']) => {
+    const topic = topics.get(channelId);
+    if (topic === kTopics.told.topic) events.push(decoder.decode(data));
+    if (topic !== kTopics.joints.topic) return;
+    const places = new Map((JSON.parse(decoder.decode(data)) as JointStates).joints.map(({ name, position }) => [name, position]));
+    if (names.length === 0) names.push(...places.keys());
+    zero_ns ??= logTime;
+    frames.t_s.push(Number(logTime - zero_ns) / 1e9);
+    frames.q.push(names.map((name, i) => places.get(name) ?? frames.q.at(-1)?.[i] ?? 0));
+  };
+  try {
+    const reader = new McapStreamReader();
+    reader.append(new Uint8Array(await file.arrayBuffer()));
+    let count = 0;
+    for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
+      if (record.type === 'Channel') topics.set(record.id, record.messageEncoding === 'json' ? record.topic : '');
+      if (record.type === 'Metadata' && record.name === kMetadata) zero_ns = wall_ns(Number(record.metadata.get(kWallAtZero)));
+      if (record.type === 'Message') take(record);
+      if (++count % kAtOnce === 0) await new Promise((done) => setTimeout(done));
+    }
+  } catch (error) {
+    return { ok: false, fault: `It is no MCAP file that can be read here: ${String(error)}` };
+  }
+  if (frames.t_s.length === 0) return { ok: false, fault: `It has no ${kTopics.joints.topic} in JSON: these are the arms' positions.` };
+  return { ok: true, mcap: { frames, events: events.join('\n') } };
+}
+
+interface JointStates { joints: { name: string; position: number }[] }
