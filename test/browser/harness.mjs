@@ -11,6 +11,7 @@ import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
+import { after, before } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
 
@@ -100,6 +101,31 @@ export class Browser {
     await this.context?.close();
     if (this.profile_) rmSync(this.profile_, { recursive: true, force: true });
   }
+}
+
+/** A server and a browser that looks at it, from before a suite's tests until after them: `page` and `url` are there by then. */
+export function with_dashboard(cell, policy, { more = [], ...options } = {}) {
+  const dashboard = { server: new Server(cell, policy, more), chromium: new Browser(), page: null, url: null };
+  before(async () => {
+    dashboard.url = await dashboard.server.start();
+    dashboard.page = await dashboard.chromium.open({ colorScheme: 'dark', ...options });
+    await dashboard.chromium.visit(dashboard.url);
+  }, { timeout: 120_000 });
+  after(async () => {
+    await dashboard.chromium.close();
+    await dashboard.server.end();
+  }, { timeout: 30_000 });
+  return dashboard;
+}
+
+/** The page's address, without a reload. */
+export function go_to(page, hash) {
+  return page.evaluate((hash) => { location.hash = hash; }, hash);
+}
+
+/** Kept once a job stands among those that have ended. */
+export function finished(page, id) {
+  return page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
 }
 
 /** Where a picture of this name goes, as playwright wants it. */

@@ -168,6 +168,18 @@ test('what was heard is taken away as MCAP, which its own reader reads', { timeo
   assert.ok(Math.max(...hand.map(({ y }) => y)) - Math.min(...hand.map(({ y }) => y)) > 0.1, 'and its hand with it');
   assert.equal(messages.get('/scene')[0].entities[0].id, 'table');
   assert.ok(messages.get('/jobs').some(({ id, state }) => id === 'exported' && state === 'succeeded'));
+  // The page opens it again, as it does its own recordings.
+  const file = join(folder, 'taken.mcap');
+  await download.saveAs(file);
+  await drop_files(page, [file], 'nav');
+  await page.locator('[data-test=opened]', { hasText: 'taken.mcap' }).waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=recording]').waitFor();
+  const last_s = Number(await page.locator('[data-test=scrub]').getAttribute('max'));
+  await page.locator('[data-test=scrub]').fill(String(last_s));
+  await page.locator('[data-test=list-finished] [data-test="job-exported"]').waitFor();
+  assert.ok((await page.evaluate(() => window.armloom.jobs().find(({ id }) => id === 'exported'))).ended_s <= last_s + 1);
+  await page.locator('[data-test=recording-close]').click();
+  await page.locator('[data-test=link].open').waitFor();
 });
 
 test('nothing so far was an error in the console', () => {

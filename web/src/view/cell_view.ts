@@ -111,14 +111,10 @@ export class CellView {
   }
 
   /** As an address has it; null leaves it as it is. */
-  show_camera(camera: Camera | null): void {
-    this.stage_.show_camera(camera);
-  }
+  show_camera(camera: Camera | null): void { this.stage_.show_camera(camera); }
 
   /** By a button or a key, as by dragging. */
-  steer(step: CameraStep): void {
-    this.stage_.steer(step);
-  }
+  steer(step: CameraStep): void { this.stage_.steer(step); }
 
   show_theme(): void {
     this.stage_.show_theme();
@@ -145,9 +141,7 @@ export class CellView {
   }
 
   /** Kept once all that changed until now has been drawn. */
-  drawn(): Promise<void> {
-    return this.stage_.drawn();
-  }
+  drawn(): Promise<void> { return this.stage_.drawn(); }
 
   /** Where the middle of an object stands, px from the view's top left. */
   where_is(object: string): { x: number; y: number } | null {
@@ -160,23 +154,14 @@ export class CellView {
   }
 
   /** How many ways ahead are drawn. */
-  ahead(): number {
-    return this.ahead_.count;
-  }
-
+  ahead(): number { return this.ahead_.count; }
   /** How many pictures have been drawn, and how finely the next one will be. */
-  pictures(): number {
-    return this.stage_.pictures;
-  }
-  level(): Level {
-    return this.stage_.level;
-  }
+  pictures(): number { return this.stage_.pictures; }
+  level(): Level { return this.stage_.level; }
 
   /** For tests and debugging: a robot is drawn or not. */
   set_robot_visible(name: string, visible: boolean): void {
-    const robot = this.robots_.get(name);
-    if (!robot) throw new Error(`no robot "${name}"`);
-    robot.root.visible = visible;
+    this.robots_.set_visible(name, visible);
     this.stage_.invalidate(true);
   }
 
@@ -269,8 +254,7 @@ export class CellView {
    * a camera that an address names then shows the same.
    */
   private frame_robots(cell: Cell): void {
-    const arms = cell.robots.flatMap((robot) => robot.arms);
-    this.robots_.set_q(Object.fromEntries(arms.flatMap(({ joints, home }) => joints.map((joint, i) => [joint, home[i] ?? 0] as const))));
+    this.robots_.set_home(cell);
     const box = new THREE.Box3().setFromObject(this.robots_.group);
     if (!box.isEmpty()) this.stage_.frame(box);
   }
@@ -289,23 +273,13 @@ export class CellView {
     }
     if (q === null) return;
     if (!this.robots_.set_q(q)) return;
-    this.draw_paths(this.at_.t_s ?? this.store_.t_s);
+    this.paths_.follow(this.robots_, this.store_.arms, this.at_.t_s ?? this.store_.t_s);
     this.ahead_.move();
     this.stage_.invalidate(true);
   }
 
-  /** Where each tool has come from, in its arm's colour. */
-  private draw_paths(t_s: number): void {
-    const names = [...this.store_.arms.keys()];
-    for (const arm of this.store_.arms.values()) {
-      const p_W = this.robots_.get(arm.robot)?.tool(arm.name);
-      if (p_W) this.paths_.pass(arm.name, t_s, p_W, ink(arm_colour(names, arm.name)));
-    }
-  }
-
   private where_stands(arm: string): { x: number; y: number } | null {
-    const robot = this.robots_.get(this.store_.arms.get(arm)?.robot);
-    const foot = robot?.root.visible && this.robots_.group.visible ? robot.foot(arm) : null;
+    const foot = this.robots_.foot_of(this.store_.arms.get(arm));
     return foot ? this.stage_.to_page(foot) : null;
   }
 

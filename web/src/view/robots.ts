@@ -1,7 +1,7 @@
 // The robots of a cell as they are drawn.
 
 import * as THREE from 'three';
-import type { Cell } from '../server/messages';
+import type { Arm, Cell } from '../server/messages';
 import { RobotModel } from './robot';
 import { dispose } from './shapes';
 import type { Surfaces } from './surfaces';
@@ -42,6 +42,25 @@ export class Robots {
     let moved = false;
     for (const robot of this.models_.values()) moved = robot.set_q(q) || moved;
     return moved;
+  }
+
+  /** As they stand at home. */
+  set_home({ robots }: Cell): void {
+    const arms = robots.flatMap((robot) => robot.arms);
+    this.set_q(Object.fromEntries(arms.flatMap(({ joints, home }) => joints.map((joint, i) => [joint, home[i] ?? 0] as const))));
+  }
+
+  /** Where an arm stands; null while it is not drawn. */
+  foot_of(arm: Pick<Arm, 'name' | 'robot'> | undefined): THREE.Vector3 | null {
+    const robot = this.get(arm?.robot);
+    return arm && robot?.root.visible && this.group.visible ? robot.foot(arm.name) : null;
+  }
+
+  /** For tests and debugging: one is drawn or not. */
+  set_visible(name: string, visible: boolean): void {
+    const robot = this.get(name);
+    if (!robot) throw new Error(`no robot "${name}"`);
+    robot.root.visible = visible;
   }
 
   show_lit(arms: readonly string[]): void {

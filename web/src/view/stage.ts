@@ -7,17 +7,16 @@
 // smoothed either, unless the page's address ends in `?fine` (for pictures of the page).
 
 import * as THREE from 'three';
-import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Camera } from '../route/address';
 import { ink } from '../state/palette';
 import { renders_in_software, wants_fine_picture } from './drawing_power';
-import { distance_for, type Opening } from './framing';
 import { Fence } from './fence';
 import { show_finish } from './finish';
 import { kFirstInSoftware, kLevels, Pace, type Level } from './pace';
 import { make_renderer } from './renderer';
 import { add_lights, floor, light_up } from './scenery';
-import { is_same, kLowest_rad, kNearest_m, stepped, type CameraStep } from './steer';
+import type { CameraStep } from './steer';
+import { Viewpoint } from './viewpoint';
 
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
@@ -27,28 +26,18 @@ const kShareOfWhole = 2;
 const kRest_ms = 900;
 // Where pictures take long, what was clicked is shown first: so long no new one is begun.
 const kAnswer_ms = 200;
-const kMargin = 1.06;
-const kMostCovered = 0.75;
-const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
 
 export class Stage {
   readonly scene = new THREE.Scene();
-  readonly camera = new THREE.PerspectiveCamera(26, 1, 0.05, 60);
   /** Called after each drawn frame, for labels that follow points of the scene. */
   after_draw: () => void = () => {};
   /** Told what the next drawing leaves out, when that changes. */
   on_level: (level: Level) => void = () => {};
 
   private readonly renderer_: THREE.WebGLRenderer;
-  private readonly controls_: OrbitControls;
-  /** Told when the user has turned or moved the camera; null: it stands as at first. */
-  on_camera: (camera: Camera | null) => void = () => {};
-
-  private readonly fog_ = new THREE.Fog(0x000000, 5, 14);
+  private readonly viewpoint_: Viewpoint;
   private floor_: THREE.Group | null = null;
-  private shown_box_ = new THREE.Box3(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
   private covered_px_ = 0;
-  private moved_by_user_ = false;
   private frame_: number | null = null;
   private drawn_at_ms_ = 0;
   private next_at_ms_ = 0;
@@ -76,25 +65,13 @@ export class Stage {
     this.fence_ = new Fence(this.renderer_.getContext() as WebGL2RenderingContext);
     host_.prepend(this.renderer_.domElement);
 
-    this.scene.fog = this.fog_;
-    this.key_light_ = add_lights(this.scene);
-    this.show_theme();
-
-    this.controls_ = new OrbitControls(this.camera, this.renderer_.domElement);
-    this.controls_.maxPolarAngle = kLowest_rad;
-    this.controls_.minDistance = kNearest_m;
-    let before = this.camera_now();
-    this.controls_.addEventListener('start', () => { before = this.camera_now(); });
-    this.controls_.addEventListener('end', () => {
-      if (is_same(before, this.camera_now())) return;  // it was a click
-      this.moved_by_user_ = true;
-      this.on_camera(this.camera_now());
-    });
-    this.controls_.addEventListener('change', () => {
-      this.fit_depth();
+    this.viewpoint_ = new Viewpoint(this.renderer_.domElement, () => {
       this.whole_ = false;
       this.invalidate();
     });
+    this.scene.fog = this.viewpoint_.fog;
+    this.key_light_ = add_lights(this.scene);
+    this.show_theme();
     new ResizeObserver(() => this.resize()).observe(host_);
     for (const what of ['click', 'keydown']) window.addEventListener(what, () => this.give_way(), { capture: true, signal: this.closed_.signal });
     this.resize();
@@ -102,39 +79,33 @@ export class Stage {
 
   get pictures(): number { return this.pictures_; }
   get level(): Level { return this.pace_.level; }
+  get camera(): THREE.PerspectiveCamera { return this.viewpoint_.camera; }
   get canvas(): HTMLCanvasElement { return this.renderer_.domElement; }
+
+  /** Told when the user has turned or moved the camera; null: it stands as at first. */
+  set on_camera(tell: (camera: Camera | null) => void) { this.viewpoint_.on_camera = tell; }
 
   /** Looks at a box so that it fills the view; kept until the user turns it. */
   frame(box: THREE.Box3): void {
-    this.shown_box_ = box.clone();
     const radius_m = box.getBoundingSphere(new THREE.Sphere()).radius;
-    this.controls_.maxDistance = Math.max(12, 8 * radius_m);
-    this.camera.far = 12 * this.controls_.maxDistance;
+    this.viewpoint_.frame(box, radius_m);
     light_up(this.key_light_, box.getCenter(new THREE.Vector3()), Math.max(1.7, radius_m));
     this.resize();
   }
 
   /** As an address has it; null: as it is. */
   show_camera(camera: Camera | null): void {
-    if (!camera || is_same(camera, this.camera_now())) return;
-    this.moved_by_user_ = true;
-    this.camera.position.set(camera[0], camera[1], camera[2]);
-    this.controls_.target.set(camera[3], camera[4], camera[5]);
-    this.controls_.update();
-    this.invalidate();
+    if (camera && this.viewpoint_.show(camera)) this.invalidate();
   }
 
   /** The user's, by a button or a key. */
   steer(step: CameraStep): void {
-    if (step === 'whole') this.look_from_default();
-    else this.show_camera(stepped(this.camera_now(), step));
-    this.moved_by_user_ = step !== 'whole';
+    this.viewpoint_.steer(step);
     this.invalidate();
-    this.on_camera(this.moved_by_user_ ? this.camera_now() : null);
   }
 
   show_theme(): void {
-    this.fog_.color.set(ink('--view-far'));
+    this.viewpoint_.fog.color.set(ink('--view-far'));
     if (this.floor_) this.scene.remove(this.floor_);
     this.floor_ = floor();
     this.scene.add(this.floor_);
@@ -147,12 +118,12 @@ export class Stage {
     if (this.rest_timer_ !== null) clearTimeout(this.rest_timer_);
     this.closed_.abort();
     this.fence_.close();
-    this.controls_.dispose();
+    this.viewpoint_.close();
     this.renderer_.dispose();
     this.renderer_.domElement.remove();
   }
 
-  /** So many pixels at the left are covered: the middle of the picture goes to the middle of the rest, as small as it needs. */
+  /** So many pixels at the left are covered. */
   set_covered(left_px: number): void {
     if (left_px === this.covered_px_) return;
     this.covered_px_ = left_px;
@@ -176,7 +147,7 @@ export class Stage {
   }
 
   /** Whether a drag turns the view. */
-  let_turn(yes: boolean): void { this.controls_.enabled = yes; }
+  let_turn(yes: boolean): void { this.viewpoint_.let_turn(yes); }
 
   /** Kept after the next drawing, which it asks for; that one leaves nothing out, nor do others until something moves. */
   drawn(): Promise<void> {
@@ -254,49 +225,7 @@ export class Stage {
     const { clientWidth: width, clientHeight: height } = this.host_;
     if (width === 0 || height === 0) return;
     this.resized_ = true;
-    this.camera.aspect = width / height;
-    // The camera stays where it is, so that an address means the same with a pane and without.
-    // Under what covers nearly all it stays as it is.
-    const covered_px = this.covered_px_ < kMostCovered * width ? this.covered_px_ : 0;
-    this.camera.zoom = this.distance_through(0) / this.distance_through(covered_px);
-    this.camera.setViewOffset(width, height, -covered_px / 2, 0, width, height);
-    this.camera.updateProjectionMatrix();
-    if (!this.moved_by_user_) this.look_from_default();
+    this.viewpoint_.fit({ width, height }, this.covered_px_);
     this.invalidate(true);
-  }
-
-  /** Tangents of the half angles under which the part that is not covered is seen. */
-  private opening(covered_px: number): Opening {
-    const { clientWidth: width, clientHeight: height } = this.host_;
-    const up = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
-    return { across: up * Math.max(0.2, (width - covered_px) / height), up };
-  }
-
-  /** From where all is seen beside what is covered. */
-  private distance_through(covered_px: number): number {
-    return kMargin * distance_for(this.shown_box_, kDirection, this.opening(covered_px));
-  }
-
-  private look_from_default(): void {
-    const middle = this.shown_box_.getCenter(new THREE.Vector3());
-    this.camera.position.copy(middle).addScaledVector(kDirection, this.distance_through(0));
-    this.controls_.target.copy(middle);
-    this.controls_.update();
-    this.fit_depth();
-  }
-
-  /** Fog begins behind what is looked at, however far away that is. */
-  private fit_depth(): void {
-    const distance = this.camera.position.distanceTo(this.controls_.target);
-    const depth = this.shown_box_.getSize(new THREE.Vector3()).length();
-    this.fog_.near = distance + 0.7 * depth;
-    this.fog_.far = 2 * distance + 4 * depth;
-    this.camera.updateProjectionMatrix();
-  }
-
-  private camera_now(): Camera {
-    const { position } = this.camera;
-    const { target } = this.controls_;
-    return [position.x, position.y, position.z, target.x, target.y, target.z];
   }
 }

@@ -1,6 +1,9 @@
 // The way that an arm's tool has come lately, as a line that fades towards its beginning.
 
 import * as THREE from 'three';
+import type { Arm } from '../server/messages';
+import { arm_colour, ink } from '../state/palette';
+import type { Robots } from './robots';
 
 const kPoints = 120;
 const kLeastStep_m = 0.004;
@@ -56,7 +59,16 @@ export class ToolPaths {
     for (const path of this.paths_.values()) path.clear();
   }
 
-  pass(arm: string, t_s: number, p_W: THREE.Vector3, colour: string): void {
+  /** Where each tool stands at a cell time, in its arm's colour. */
+  follow(robots: Robots, arms: ReadonlyMap<string, Arm>, t_s: number): void {
+    const names = [...arms.keys()];
+    for (const arm of arms.values()) {
+      const p_W = robots.get(arm.robot)?.tool(arm.name);
+      if (p_W) this.pass(arm.name, t_s, p_W, ink(arm_colour(names, arm.name)));
+    }
+  }
+
+  private pass(arm: string, t_s: number, p_W: THREE.Vector3, colour: string): void {
     let path = this.paths_.get(arm);
     if (!path) {
       path = new ToolPath();
