@@ -7,8 +7,8 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { arm_now, ask, Browser, copied_by, drop_files, job_through, path_for, run, send_through, Server } from './harness.mjs';
+import { after, test } from 'node:test';
+import { arm_now, ask, copied_by, drop_files, finished, go_to, job_through, path_for, run, send_through, with_dashboard } from './harness.mjs';
 import { difference } from './pictures.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -18,25 +18,13 @@ const kLeastGhost_px = 800;
 const kHostile = `<img src=x onerror="window.was_html=1"><b>&amp;'$(exit 3)`;
 
 const folder = mkdtempSync(join(tmpdir(), 'armloom-compose-'));
-const server = new Server('config/two_pandas.json', 'coordinated');
-const chromium = new Browser();
 let page;
+const { chromium } = with_dashboard('config/two_pandas.json', 'coordinated', {}, (opened) => { ({ page } = opened); });
+after(() => rmSync(folder, { recursive: true, force: true }));
 
-before(async () => {
-  const url = await server.start();
-  page = await chromium.open({ colorScheme: 'dark' });
-  await chromium.visit(url);
-}, { timeout: 90_000 });
-
-after(async () => {
-  await chromium.close();
-  await server.end();
-  rmSync(folder, { recursive: true, force: true });
-}, { timeout: 30_000 });
-
-const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
+const go = (hash) => go_to(page, hash);
 const send = (...job) => send_through(page, ...job);
-const finished = (id) => page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
+const ended = (id) => finished(page, id);
 
 async function view_picture() {
   await page.evaluate(() => window.armloom.drawn());
@@ -151,7 +139,7 @@ test('a way to a goal is planned by form, looked at, and sent', { timeout: 120_0
   await page.screenshot(path_for('plan-dark'));
   await page.locator('[data-test=send]').click();
   const id = await page.locator('[data-test=accepted] a').innerText();
-  await finished(id);
+  await ended(id);
 });
 
 test('a pasted goal is planned and shown before it is sent', { timeout: 120_000 }, async () => {
@@ -202,7 +190,7 @@ test('the goal of a tool is dragged in the cell: planned, judged and shown befor
   assert.equal(await page.locator('[data-test=plan-move]').getAttribute('aria-pressed'), 'false');
   await page.screenshot(path_for('drag-tool-dark'));
   await page.locator('[data-test=send]').click();
-  await finished(await page.locator('[data-test=accepted] a').innerText());
+  await ended(await page.locator('[data-test=accepted] a').innerText());
 });
 
 test('nothing so far was an error in the console', () => {

@@ -6,9 +6,9 @@
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { ask, Browser, kRoot, path_for, send_through, Server } from './harness.mjs';
+import { ask, finished, go_to, kRoot, path_for, send_through, with_dashboard } from './harness.mjs';
 import { difference } from './pictures.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -17,24 +17,12 @@ const kLeastGhost_px = 800;
 const kFirstView_kB = 250;
 
 // certified: who is in conflict is blocked, and says until when.
-const server = new Server('config/two_pandas.json', 'certified');
-const chromium = new Browser();
 let page;
+const { chromium } = with_dashboard('config/two_pandas.json', 'certified', {}, (opened) => { ({ page } = opened); });
 
-before(async () => {
-  const url = await server.start();
-  page = await chromium.open({ colorScheme: 'dark' });
-  await chromium.visit(url);
-}, { timeout: 120_000 });
-
-after(async () => {
-  await chromium.close();
-  await server.end();
-}, { timeout: 30_000 });
-
-const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
+const go = (hash) => go_to(page, hash);
 const speed = (value) => ask(page, 'PUT', '/sim/speed', { speed: value });
-const finished = (id) => page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
+const ended = (id) => finished(page, id);
 
 const send = (...job) => send_through(page, ...job);
 
@@ -67,7 +55,7 @@ test('the cell shows the way ahead, where arms come to rest, and what is closest
   assert.equal(await page.locator('.distance-label:not([hidden])').count(), 0);
   await page.locator('[data-test=show-distances]').click();
   await speed(20);
-  await finished('ahead');
+  await ended('ahead');
   await speed(0.02);
   await send('left', 'away', [kMiddle], 6);
   await page.locator('[data-test=list-running] [data-test="job-away"]').waitFor({ timeout: 60_000 });
@@ -120,18 +108,18 @@ test('a diagram shows authority, and both arms where it is pointed at', { timeou
   assert.ok(by_key.count > kLeastGhost_px, `${by_key.count} pixels of ghosts`);
   await page.getByRole('button', { name: 'Close', exact: true }).click();
   await speed(10);
-  await finished('away');
+  await ended('away');
 });
 
 test('a job page has its joints as planned and as measured', { timeout: 90_000 }, async () => {
   await ask(page, 'DELETE', '/jobs/blocked');  // it may have begun: then it brakes first
-  await finished('blocked');
+  await ended('blocked');
   await page.waitForTimeout(500);  // until the page has where the arm stands
   await speed(2);
   await send('right', 'measured', [kMiddle.map((angle, i) => (i === 0 ? 1 : angle)), null], 3);
   await go('#/job/measured');
   await page.locator('[data-test=page-job] h3', { hasText: /Planned/ }).waitFor({ timeout: 40_000 });
-  await finished('measured');
+  await ended('measured');
   await page.locator('[data-test=page-job] h3', { hasText: 'Planned and measured' }).waitFor();
   // Time, and every joint twice.
   await page.waitForFunction(() => document.querySelectorAll('[data-test=page-job] .u-series').length === 15);
@@ -165,7 +153,7 @@ test('after a stop the recovery page says why, and leads back', { timeout: 120_0
   await resume.click();
   await page.locator('[data-test=stopped]').waitFor({ state: 'detached' });
   await speed(10);
-  await finished('interrupted');
+  await ended('interrupted');
   await page.locator('[data-test=home-left]').click();
   await page.locator('[data-test=need-left]', { hasText: 'at home' }).waitFor({ timeout: 60_000 });
   await speed(1);
@@ -225,7 +213,7 @@ test('another policy decides from the settings on, while no job is admitted', { 
   await page.screenshot(path_for('policy-dark'));
   await speed(10);
   await go('#/');
-  await finished('keeps-its-policy');
+  await ended('keeps-its-policy');
   assert.equal((await ask(page, 'PUT', '/policy', { policy: 'certified' })).status, 200);
   await page.locator('.fact', { hasText: 'certified' }).waitFor({ state: 'attached' });
 });
@@ -243,7 +231,7 @@ test('a job is given another way from its page', { timeout: 90_000 }, async () =
   }, null, { timeout: 40_000 });
   await speed(10);
   await go('#/');
-  await finished('another-way');
+  await ended('another-way');
 });
 
 test('no event is missed or comes twice when the connection breaks', { timeout: 60_000 }, async () => {
@@ -257,7 +245,7 @@ test('no event is missed or comes twice when the connection breaks', { timeout: 
   await page.locator('[data-test=link].open').waitFor({ timeout: 40_000 });
   await speed(4);
   await send('right', 'after-the-break', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);
-  await finished('after-the-break');
+  await ended('after-the-break');
   const now = await page.evaluate(() => window.armloom.numbers());
   assert.deepEqual([now.missed, now.doubled], [0, 0]);
   assert.ok(now.last > before.last);

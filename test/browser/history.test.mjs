@@ -6,34 +6,22 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { ask, Browser, path_for, resume, send_through, Server } from './harness.mjs';
+import { after, test } from 'node:test';
+import { ask, finished, go_to, path_for, resume, send_through, with_dashboard } from './harness.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 const data = mkdtempSync(join(tmpdir(), 'armloom-data-'));
-const server = new Server('config/two_pandas.json', 'coordinated', ['--data', data, '--speed', '10']);
-const chromium = new Browser();
-let url;
 let page;
+let url;
+const { server, chromium } = with_dashboard('config/two_pandas.json', 'coordinated', { more: ['--data', data, '--speed', '10'] }, (opened) => { ({ page, url } = opened); });
+after(() => rmSync(data, { recursive: true, force: true }));
 
-before(async () => {
-  url = await server.start();
-  page = await chromium.open({ colorScheme: 'dark' });
-  await chromium.visit(url);
-}, { timeout: 120_000 });
-
-after(async () => {
-  await chromium.close();
-  await server.end();
-  rmSync(data, { recursive: true, force: true });
-}, { timeout: 30_000 });
-
-const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
-const finished = (id) => page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
+const go = (hash) => go_to(page, hash);
+const ended = (id) => finished(page, id);
 
 test('jobs of a former run stand in the history, and have their pages', { timeout: 120_000 }, async () => {
   await send_through(page, 'left', 'long-ago', [kMiddle, null], 2, { name: 'picked long ago' });
-  await finished('long-ago');
+  await ended('long-ago');
   const since = await page.evaluate(() => window.armloom.numbers().last);
   await go('#/history');
   const history = page.locator('[data-test=history]');
@@ -73,7 +61,7 @@ test('what the page is told of by itself is not asked for', { timeout: 120_000 }
   if (await page.locator('[data-test=stopped], [data-test=some-stopped]').count() > 0) await resume(page);
   for (let i = 0; i < 3; i++) {
     await ask(page, 'POST', '/jobs', { id: `home-${i}`, arm: 'left', move_to: { named: i % 2 ? 'home' : 'ready' } });
-    await finished(`home-${i}`);
+    await ended(`home-${i}`);
   }
   assert.deepEqual(asked.filter((address) => /limit=/.test(address)), []);
 });

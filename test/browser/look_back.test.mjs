@@ -90,8 +90,9 @@ test('a diagram shows where both were, without what nobody knows of then', { tim
   await go_to(page, `#/pair/there/back?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=diagram] canvas').first().waitFor();
   assert.match(await as_of(), /not kept/);
-  await page.getByText('plan from then').waitFor();
+  await page.locator('[data-test=measured]').waitFor();
   assert.equal(await page.locator('[data-test=plan]').count(), 0);
+  assert.equal(await page.getByText('plan from now').count(), 0);
   assert.equal(await page.getByText('authority', { exact: true }).count(), 0);
   await page.evaluate(() => window.armloom.drawn());
   await page.screenshot(path_for('look-back-diagram-dark'));

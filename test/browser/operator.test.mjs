@@ -4,28 +4,16 @@
 //   node --test test/browser/operator.test.mjs      (after the server and web/dist were built; see harness.mjs)
 
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { ask, Browser, job_through, path_for, Server } from './harness.mjs';
+import { test } from 'node:test';
+import { ask, finished, go_to, job_through, path_for, with_dashboard } from './harness.mjs';
 
 // A busy machine gets the time to say that a button is still held.
-const server = new Server('config/two_pandas.json', 'certified', ['--hold-lease', '3']);
-const chromium = new Browser();
 let page;
+const { server, chromium } = with_dashboard('config/two_pandas.json', 'certified', { more: ['--hold-lease', '3'] }, (opened) => { ({ page } = opened); });
 
-before(async () => {
-  const url = await server.start();
-  page = await chromium.open({ colorScheme: 'dark' });
-  await chromium.visit(url);
-}, { timeout: 120_000 });
-
-after(async () => {
-  await chromium.close();
-  await server.end();
-}, { timeout: 30_000 });
-
-const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
+const go = (hash) => go_to(page, hash);
 const speed = (value) => ask(page, 'PUT', '/sim/speed', { speed: value });
-const finished = (id) => page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
+const ended = (id) => finished(page, id);
 
 test('an arm is moved by hand as long as a button is held: by mouse, key and finger', { timeout: 120_000 }, async () => {
   await speed(1);
@@ -88,7 +76,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   await page.locator('[data-test=in-control]').waitFor({ state: 'detached' });
   await ask(page, 'POST', '/jobs', { id: 'back-home', arm: 'left', move_to: { named: 'home' } });
   await speed(10);
-  await finished('back-home');
+  await ended('back-home');
 });
 
 test('what the other policies would have done is asked from the page, and one of them put in force', { timeout: 180_000 }, async () => {
@@ -100,8 +88,8 @@ test('what the other policies would have done is asked from the page, and one of
       assert.equal(status, 202, JSON.stringify(value));
     }
   }
-  await finished('right-2');
-  await finished('left-2');
+  await ended('right-2');
+  await ended('left-2');
   await go('#/policies');
   await page.locator('[data-test=compare]').click();
   await page.locator('[data-test=comparison-state]', { hasText: /: done$/ }).waitFor({ timeout: 150_000 });

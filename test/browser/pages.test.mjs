@@ -5,8 +5,8 @@
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
-import { arm_now, ask, Browser, job_through, path_for, resume, send_through, Server, web_require } from './harness.mjs';
+import { test } from 'node:test';
+import { arm_now, ask, go_to, job_through, path_for, resume, send_through, web_require, with_dashboard } from './harness.mjs';
 
 const kStop = 'Stop all: controlled, drives stay powered';
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -14,25 +14,13 @@ const kAxe = readFileSync(web_require.resolve('axe-core/axe.min.js'), 'utf8');
 // A name that would do something, were it taken for HTML.
 const kHostile = '<img src=x onerror="window.was_html=1"><b>&amp;';
 
-const server = new Server('config/two_pandas.json', 'coordinated');
-const chromium = new Browser();
-let url;
 let page;
-
-before(async () => {
-  url = await server.start();
-  page = await chromium.open({ colorScheme: 'dark' });
-  await chromium.visit(url);
-}, { timeout: 90_000 });
-
-after(async () => {
-  await chromium.close();
-  await server.end();
-}, { timeout: 30_000 });
+let url;
+const { server, chromium } = with_dashboard('config/two_pandas.json', 'coordinated', {}, (opened) => { ({ page, url } = opened); });
 
 const send = (...job) => send_through(page, ...job);
 
-const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
+const go = (hash) => go_to(page, hash);
 
 // Both want the middle: the right one is admitted behind the left one, and stands or waits for it.
 test('the timeline shows what comes: motions, waits, and for whom', { timeout: 60_000 }, async () => {

@@ -8,28 +8,16 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { arm_now, ask, Browser, drop_files, job_through, kBinary, kRoot, path_for, Server, web_require } from './harness.mjs';
+import { after, test } from 'node:test';
+import { arm_now, ask, drop_files, job_through, kBinary, kRoot, path_for, web_require, with_dashboard } from './harness.mjs';
 import { difference } from './pictures.mjs';
 
 const kLeastMoved_px = 800;
 
-const server = new Server('config/two_pandas.json', 'coordinated');
-const chromium = new Browser();
 const folder = mkdtempSync(join(tmpdir(), 'armloom-recordings-'));
 let page;
-
-before(async () => {
-  const url = await server.start();
-  page = await chromium.open({ colorScheme: 'dark', acceptDownloads: true });
-  await chromium.visit(url);
-}, { timeout: 120_000 });
-
-after(async () => {
-  await chromium.close();
-  await server.end();
-  rmSync(folder, { recursive: true, force: true });
-}, { timeout: 30_000 });
+const { chromium } = with_dashboard('config/two_pandas.json', 'coordinated', { acceptDownloads: true }, (opened) => { ({ page } = opened); });
+after(() => rmSync(folder, { recursive: true, force: true }));
 
 async function view_picture() {
   await page.evaluate(() => window.armloom.drawn());

@@ -4,28 +4,16 @@
 //   node --test test/browser/sight.test.mjs      (after the server and web/dist were built; see harness.mjs)
 
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { arm_now, ask, Browser, job_through, path_for, send_through, Server } from './harness.mjs';
+import { test } from 'node:test';
+import { arm_now, ask, go_to, job_through, path_for, send_through, with_dashboard } from './harness.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
-const server = new Server('config/two_pandas.json', 'coordinated');
-const chromium = new Browser();
-let url;
 let page;
+let url;
+const { server, chromium } = with_dashboard('config/two_pandas.json', 'coordinated', {}, (opened) => { ({ page, url } = opened); });
 
-before(async () => {
-  url = await server.start();
-  page = await chromium.open({ colorScheme: 'dark' });
-  await chromium.visit(url);
-}, { timeout: 90_000 });
-
-after(async () => {
-  await chromium.close();
-  await server.end();
-}, { timeout: 30_000 });
-
-const go = (hash) => page.evaluate((hash) => { location.hash = hash; }, hash);
+const go = (hash) => go_to(page, hash);
 
 /** What the header and the pane say, lead to and let one do; figures change meanwhile. */
 const told = () => {

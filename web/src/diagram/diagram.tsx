@@ -36,7 +36,7 @@ export function DiagramPanel({ a, b, app }: Props) {
       <h2>Diagram</h2>
       <AsOf app={app}>{app.store.link.status === 'recording'
         ? 'The diagram itself is the server\'s, which knows its own jobs alone.'
-        : 'What is free is told of the scene as it is now; how far both were allowed to go is not kept.'}</AsOf>
+        : 'What is free is told of the scene as it is now; how far both were allowed to go, and what lay ahead, is not kept.'}</AsOf>
       <div class="pair">
         <Pick what="Across" side={a} store={store} on_pick={(side) => app.router.go({ page: 'pair', a: side, b })} />
         <Pick what="Up" side={b} store={store} on_pick={(side) => app.router.go({ page: 'pair', a, b: side })} />
@@ -174,8 +174,10 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
   const now_point = () => ({ a_s: progress_s(diagram.a), b_s: progress_s(diagram.b) });
   const is_open = [jobs.a, jobs.b].every((job) => job !== null && (!store.is_terminal(job) || job.state === 'succeeded'))
     && [jobs.a, jobs.b].some((job) => job !== null && !store.is_terminal(job));
-  const ahead = use_ahead(diagram, is_open && held_s === null, app.api);
-  const met = is_open && held_s === null ? ahead.layers[index]?.met ?? null : null;
+  // What lay ahead then nobody kept.
+  const plans = is_open && held_s === null;
+  const ahead = use_ahead(diagram, plans, app.api);
+  const met = plans ? ahead.layers[index]?.met ?? null : null;
   const evidence = evidence_of(jobs.a, jobs.b);
   const names = [...store.arms.keys()];
   scene.current = () => {
@@ -183,7 +185,7 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
     const at = now_point();
     return {
       authority: held_s === null ? authority_of(store, diagram) : null, pointed: pointed.current,
-      diagram, layer, now: at, way: is_open ? plan_from(at, diagram) : [], trail: trail_to(at), met, evidence,
+      diagram, layer, now: at, way: plans ? plan_from(at, diagram) : [], trail: trail_to(at), met, evidence,
       colours: { a: ink(arm_colour(names, layer.arms[0])), b: ink(arm_colour(names, layer.arms[1])) },
     };
   };
@@ -217,14 +219,14 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
           <span key={state} class="key"><i class={state} style={{ '--cell': kCellColours[state], '--stripes': kUndecidedStripes }} /> {state} <b class="mono">{percent(share[state])}</b></span>
         ))}
         <span class="grow" />
-        {held_s === null && <span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>}
-        <span class="key"><i class="plan" /> plan from {held_s === null ? 'now' : 'then'}</span>
+        {held_s === null && <><span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>
+        <span class="key"><i class="plan" /> plan from now</span></>}
         {is_measured && <span class="key" data-test="measured"><i class="measured" /> measured</span>}
       </div>
       {unheard && <p class="hint" data-test="unmeasured">They moved before this page listened: the way that was measured is not known here.</p>}
       <Instant diagram={diagram} jobs={jobs} app={app} show={point_at} />
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
-      {is_open && held_s === null && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null, resting?.id ?? null)}</p>}
+      {plans && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null, resting?.id ?? null)}</p>}
       <p class="hint">
         Each cell holds for every instant in it, at any pace: {layer.cells?.length ?? 0} cells between
         the {layer.arms[0]} and the {layer.arms[1]} arm, {diagram.evaluations} states looked at.
