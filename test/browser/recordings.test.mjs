@@ -140,7 +140,7 @@ test('what was heard is taken away as MCAP, which its own reader reads', { timeo
   }
   assert.ok(reader.done(), 'the file has its end');
   assert.deepEqual([...topics.values()].map(({ topic, schemaId }) => [topic, schemas.get(schemaId).name, schemas.get(schemaId).encoding]).sort(), [
-    ['/events', 'foxglove.Log', 'jsonschema'], ['/jobs', 'armloom.Job', 'jsonschema'], ['/joint_states', 'foxglove.JointStates', 'jsonschema'],
+    ['/armloom', 'armloom.Event', 'jsonschema'], ['/events', 'foxglove.Log', 'jsonschema'], ['/jobs', 'armloom.Job', 'jsonschema'], ['/joint_states', 'foxglove.JointStates', 'jsonschema'],
     ['/scene', 'foxglove.SceneUpdate', 'jsonschema'], ['/tf', 'foxglove.FrameTransforms', 'jsonschema'],
   ]);
   const Ajv = web_require('ajv').default;
