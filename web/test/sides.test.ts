@@ -54,6 +54,8 @@ describe('the way of two jobs that was measured', () => {
     expect(way.every(({ a_s, b_s }) => b_s < 0.05 || a_s > 1.9)).toBe(true);
     expect(way.every((point, i) => i === 0 || (point.a_s >= (way[i - 1]?.a_s ?? 0) && point.b_s >= (way[i - 1]?.b_s ?? 0)))).toBe(true);
     expect(measured_way(book.of('a'), book.of('c'))).toEqual([]);
+    // Of an instant that is looked at nothing later is shown.
+    expect(measured_way(book.of('a'), book.of('b'), 2.5).every(({ a_s, b_s }) => a_s <= 2.5 && b_s <= 2.5)).toBe(true);
   });
 
   it('leaves out what one of them did before it was heard', () => {

@@ -17,8 +17,9 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
   return (
     <div class="page">
       <h2>Scene<span class="count">{objects.length}</span></h2>
-      <AsOf app={app}>Nothing can be changed there.</AsOf>
-      <p class="hint">What is changed here is judged at once: a motion that an object stands in the way of is held.</p>
+      {app.router.address.value.t_s === null
+        ? <p class="hint">What is changed here is judged at once: a motion that an object stands in the way of is held.</p>
+        : <AsOf app={app}>Nothing can be changed there.</AsOf>}
       <ul class="objects" data-test="objects">
         {objects.map((object) => (
           <li key={object.name} class={object.name === name ? 'selected' : ''}>
@@ -109,10 +110,11 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
 
 function Remove({ object, app }: { object: SceneObject; app: App }) {
   const [asked, set_asked] = useState(false);
+  const mute = why_mute(app.store.link);
   const remove = async () => {
     if (await app.actions.ask(`Remove ${object.name}`, app.api.remove_object(object.name))) app.router.go({ page: 'scene', name: null });
   };
   return asked
-    ? <><button type="button" class="danger" data-test="object-removal" onClick={() => void remove()}>Remove {shown_name(object.name)}</button><button type="button" onClick={() => set_asked(false)}>Keep</button></>
-    : <button type="button" data-test="object-remove" onClick={() => set_asked(true)}>Remove…</button>;
+    ? <><button type="button" class="danger" data-test="object-removal" disabled={mute !== null} title={mute ?? ''} onClick={() => void remove()}>Remove {shown_name(object.name)}</button><button type="button" onClick={() => set_asked(false)}>Keep</button></>
+    : <button type="button" data-test="object-remove" disabled={mute !== null} title={mute ?? ''} onClick={() => set_asked(true)}>Remove…</button>;
 }
