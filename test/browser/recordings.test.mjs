@@ -9,7 +9,7 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
-import { arm_now, ask, drop_files, job_through, kBinary, kRoot, path_for, web_require, with_dashboard } from './harness.mjs';
+import { arm_now, ask, drop_files, go_to, job_through, kBinary, kRoot, path_for, web_require, with_dashboard } from './harness.mjs';
 import { difference } from './pictures.mjs';
 
 const kLeastMoved_px = 800;
@@ -114,11 +114,11 @@ test('a camera in an address shows the same in another tab, beside a pane, too',
   await other.screenshot(path_for('camera-other-tab'));
   await other.close();
   await page.setViewportSize({ width: 1280, height: 720 });
-  await page.evaluate(() => { location.hash = '#/recordings'; });
   assert.ok(Math.hypot(places[0].x - places[1].x, places[0].y - places[1].y) < 3, JSON.stringify(places));
 });
 
-test('what was heard is taken away as MCAP, which its own reader reads', { timeout: 120_000 }, async () => {
+test('what was heard is taken away as MCAP, which its own reader reads, and the page', { timeout: 180_000 }, async () => {
+  await go_to(page, '#/recordings');
   const { names, q } = await arm_now(page, 'left');
   const job = job_through('exported', names, [q, q.map((angle, i) => (i === 0 ? angle + 0.6 : angle)), q], 4);
   assert.equal((await ask(page, 'POST', '/jobs', job)).status, 202);

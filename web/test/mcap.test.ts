@@ -34,6 +34,7 @@ describe('an MCAP file that was exported', () => {
     expect(again.jobs('finished').map(({ id }) => id)).toEqual(['a']);
     expect(again.events.map(({ text }) => text)).toEqual(['Somebody stands there']);
     expect(again.log.entries).toEqual(store.log.entries);
+    expect([again.trace.first_s, again.trace.last_s]).toEqual([expect.closeTo(6), expect.closeTo(12.5)]);
   });
 
   it('that is something else says so', async () => {
