@@ -10,7 +10,7 @@
 #include "server/codec/stream_id.h"
 #include "server/comparison/comparison.h"
 #include "server/control/control.h"
-#include "server/durable/damaged_jobs.h"
+#include "server/durable/damage.h"
 #include "server/durable/request_trail.h"
 #include "server/durable/restart.h"
 #include "server/http/http_server.h"
@@ -194,8 +194,8 @@ class Service::Impl {
   // Aside: of a hundred thousand jobs that takes a tenth of a second.
   void look_for_damage() {
     worker_.post([this] {
-      const auto damaged = keeper_->lists().damaged();
-      if (damaged && !damaged->empty()) tell(alert_of_damaged(*damaged));
+      const auto damage = keeper_->lists().damage();
+      if (damage && !damage->is_none()) tell(alert_of(*damage));
     });
   }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/api/route.h"
+#include "server/codec/rfc3339.h"
 #include "server/control/control.h"
 #include "server/messages/control.h"
 #include "server/messages/job_request.h"
@@ -15,7 +16,7 @@ ControlView view_of(const Control& control) {
   ControlView view;
   if (!control.holder()) return view;
   const Control::Holder& holder = *control.holder();
-  ControlView::Holder told{holder.who, WallClock(holder.since, 1.0).at(TimePoint{}), {}, {}};
+  ControlView::Holder told{holder.who, rfc3339(since_1970_ms(holder.since)), {}, {}};
   if (holder.move) {
     told.arm = holder.move->arm;
     told.job = holder.move->job;

@@ -1,10 +1,11 @@
 #include "server/api/job_filter.h"
 
 #include <algorithm>
-#include <charconv>
 #include <functional>
 #include <map>
 #include <utility>
+
+#include "server/api/query_number.h"
 
 namespace armloom {
 namespace {
@@ -17,16 +18,6 @@ constexpr JobState kStates[] = {JobState::queued,     JobState::backlogged, JobS
 bool known_state(const std::string& name) {
   return std::any_of(std::begin(kStates), std::end(kStates),
                      [&](JobState state) { return name == to_string(state); });
-}
-
-template <class Number>
-bool read_between(const std::string& text, Number lowest, Number highest, Number& out) {
-  Number number{};
-  const auto [stop, ec] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (ec != std::errc{} || stop != text.data() + text.size() || text.empty()) return false;
-  if (number < lowest || number > highest) return false;
-  out = number;
-  return true;
 }
 
 }  // namespace

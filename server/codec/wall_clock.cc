@@ -1,8 +1,8 @@
 #include "server/codec/wall_clock.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <ctime>
+
+#include "server/codec/rfc3339.h"
 
 namespace armloom {
 
@@ -31,17 +31,6 @@ TimePoint WallClock::time_before(Wall wall) const {
          from_seconds(std::clamp(cell_s, -kLongAgo_s, 0.0));
 }
 
-std::string WallClock::at(TimePoint time) const {
-  using std::chrono::milliseconds;
-  const auto total_ms = std::chrono::floor<milliseconds>(wall_at(time)).time_since_epoch().count();
-  const std::time_t seconds = static_cast<std::time_t>(total_ms / 1000);
-  std::tm parts{};
-  gmtime_r(&seconds, &parts);
-  char date[32];
-  char text[48];
-  std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%S", &parts);
-  std::snprintf(text, sizeof text, "%s.%03dZ", date, static_cast<int>(total_ms % 1000));
-  return text;
-}
+std::string WallClock::at(TimePoint time) const { return rfc3339(since_1970_ms(wall_at(time))); }
 
 }  // namespace armloom

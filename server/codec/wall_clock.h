@@ -37,7 +37,7 @@ class WallClock {
   // The cell time that is told as `wall`, which was before the beginning: less than zero, or zero
   // where the wall's clock was set back since.
   [[nodiscard]] TimePoint time_before(Wall wall) const;
-  // RFC 3339 in UTC with milliseconds: "2026-11-21T09:33:00.125Z".
+  // As rfc3339().
   [[nodiscard]] std::string at(TimePoint time) const;
 
  private:

@@ -6,7 +6,7 @@
 
 #include "server/codec/json_text.h"
 #include "server/codec/read_text.h"
-#include "server/durable/damaged_jobs.h"
+#include "server/durable/damage.h"
 #include "server/messages/job.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
@@ -134,7 +134,7 @@ std::string Restart::summary() const {
 }
 
 void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
-  if (!unreadable_.empty()) executive.alert(alert_of_damaged(unreadable_));
+  if (!unreadable_.empty()) executive.alert(alert_of(Damage{.jobs = unreadable_}));
   const bool asks = cell.scheduling.on_restart == OnRestart::ask;
   if (asks && (!waiting_.empty() || !written_off_.empty())) {
     stop_all(executive, summary());

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "server/codec/json_writer.h"
+#include "server/codec/rfc3339.h"
 #include "server/codec/wall_clock.h"
 
 namespace armloom {
@@ -57,7 +58,7 @@ std::string text_of(const LogLine& line) {
 
 std::string json_of(const LogLine& line, std::chrono::system_clock::time_point at) {
   JsonWriter out;
-  out.begin_object().field("at", WallClock(at, 1.0).at(TimePoint{}));
+  out.begin_object().field("at", rfc3339(since_1970_ms(at)));
   out.field("level", to_string(line.level)).field("message", line.message);
   for (const auto& [key, value] : line.fields) {
     out.key(key);

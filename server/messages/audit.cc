@@ -26,6 +26,8 @@ FormatPtr<AuditPage> audit_page_format() {
       named("AuditPage", "",
             object<AuditPage>({
                 told("entries", &AuditPage::entries, list(entry), "Newest first"),
+                told("damaged", &AuditPage::damaged, count(),
+                     "So many between these are not as they were written, and left out"),
                 told("next_cursor", &AuditPage::next_cursor, nullable(text()),
                      "For ?cursor=; null on the last page"),
             }));

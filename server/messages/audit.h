@@ -22,6 +22,7 @@ struct AuditRecord {
 // The answer to GET /audit.
 struct AuditPage {
   std::vector<AuditRecord> entries;  // newest first
+  std::uint64_t damaged = 0;
   std::optional<std::string> next_cursor;
 };
 [[nodiscard]] FormatPtr<AuditPage> audit_page_format();

@@ -79,26 +79,45 @@ class JobHistory::Impl {
     return jobs;
   }
 
-  std::vector<AuditEntry> audit(std::optional<std::uint64_t> before, std::size_t most) const {
+  AuditEntries audit(const AuditFilter& filter, std::size_t most) const {
     Statement row = database_.prepare(
-        "SELECT number, at_ms, who, peer, method, path, status FROM audit WHERE number < ?1 ORDER "
-        "BY number DESC LIMIT ?2");
-    const auto below = static_cast<std::int64_t>(std::min(before.value_or(kAny), kAny));
-    row.bind_all(below, static_cast<std::int64_t>(most));
-    std::vector<AuditEntry> entries;
-    while (row.step()) {
-      entries.push_back({static_cast<std::uint64_t>(row.number(0)), row.number(1), row.text(2),
-                         row.text(3), row.text(4), row.text(5), static_cast<int>(row.number(6))});
+        std::string("SELECT number, at_ms, who, peer, method, path, status, coalesce(sum != ") +
+        kSumOfAudit +
+        ", 0) AS is_damaged FROM audit WHERE number < ?1 AND (is_damaged OR ((?2 OR who = ?3) AND "
+        "(?4 = '' OR peer = ?4) AND (?5 = '' OR method = ?5) AND substr(path, 1, length(?6)) = ?6 "
+        "AND status = coalesce(?7, status) AND at_ms >= coalesce(?8, at_ms) AND (?9 IS NULL OR "
+        "at_ms < ?9))) ORDER BY number DESC");
+    const auto below = static_cast<std::int64_t>(std::min(filter.below.value_or(kAny), kAny));
+    const std::string who = filter.who.value_or("");
+    const auto status = filter.status ? std::optional<std::int64_t>(*filter.status) : std::nullopt;
+    row.bind_all(below, std::int64_t{!filter.who}, std::string_view(who),
+                 std::string_view(filter.from), std::string_view(filter.method),
+                 std::string_view(filter.path), status, filter.since_ms, filter.before_ms);
+    AuditEntries found;
+    while (found.entries.size() < most && row.step()) {
+      if (row.number(7) != 0) {
+        ++found.damaged;
+        continue;
+      }
+      found.entries.push_back({static_cast<std::uint64_t>(row.number(0)), row.number(1),
+                               row.text(2), row.text(3), row.text(4), row.text(5),
+                               static_cast<int>(row.number(6))});
     }
-    return entries;
+    return found;
   }
 
-  std::vector<std::string> damaged() const {
-    std::vector<std::string> ids;
-    if (database_.number("PRAGMA user_version") < kVersionWithSums) return ids;
+  Damage damage() const {
+    Damage found;
+    if (database_.number("PRAGMA user_version") < kVersionWithAllSums) return found;
+    const auto count = [this](const char* table, const char* sum) {
+      return static_cast<std::size_t>(
+          database_.number(std::string("SELECT count(*) FROM ") + table + " WHERE sum != " + sum));
+    };
+    found.alerts = count("alert", kSumOfAlert);
+    found.audit = count("audit", kSumOfAudit);
     Statement row = database_.prepare(std::string("SELECT id FROM job WHERE sum != ") + kSumOfJob);
-    while (row.step()) ids.push_back(row.text(0));
-    return ids;
+    while (row.step()) found.jobs.push_back(row.text(0));
+    return found;
   }
 
   // How many that are damaged were passed over.
@@ -160,9 +179,8 @@ Result<std::vector<StoredJob>> JobHistory::of_request(const std::string& key) co
   return impl_->reading([&] { return impl_->of_request(key); });
 }
 
-Result<std::vector<AuditEntry>> JobHistory::audit(std::optional<std::uint64_t> before,
-                                                  std::size_t most) const {
-  return impl_->reading([&] { return impl_->audit(before, most); });
+Result<AuditEntries> JobHistory::audit(const AuditFilter& filter, std::size_t most) const {
+  return impl_->reading([&] { return impl_->audit(filter, most); });
 }
 
 Result<void> JobHistory::newest_first(const HistoryFilter& filter,
@@ -185,8 +203,8 @@ Result<void> JobHistory::oldest_first(const HistoryFilter& filter,
   return impl_->cannot_read(std::to_string(*read) + " jobs are not as they were written");
 }
 
-Result<std::vector<std::string>> JobHistory::damaged() const {
-  return impl_->reading([&] { return impl_->damaged(); });
+Result<Damage> JobHistory::damage() const {
+  return impl_->reading([&] { return impl_->damage(); });
 }
 
 }  // namespace armloom

@@ -22,6 +22,32 @@ struct HistoryFilter {
   std::optional<std::int64_t> since_ms = {};  // submitted then or later
 };
 
+// Which entries of the audit trail are asked for; what is empty: any.
+struct AuditFilter {
+  std::optional<std::string> who = {};  // empty text: those that showed no name
+  std::string from = {};
+  std::string method = {};
+  std::string path = {};  // begins so
+  std::optional<int> status = {};
+  std::optional<std::int64_t> since_ms = {};  // then or later
+  std::optional<std::int64_t> before_ms = {};
+  std::optional<std::uint64_t> below = {};  // number: only those that were put down earlier
+};
+
+struct AuditEntries {
+  std::vector<AuditEntry> entries = {};  // newest first
+  std::size_t damaged = 0;  // between these: not as they were written, whatever was asked for
+};
+
+// What is not as it was written.
+struct Damage {
+  std::vector<std::string> jobs = {};  // their ids
+  std::size_t alerts = 0;
+  std::size_t audit = 0;  // entries
+
+  [[nodiscard]] bool is_none() const { return jobs.empty() && alerts == 0 && audit == 0; }
+};
+
 // Reads what a JobStore has written, while it is written or not. Sees what was on disk when each
 // call began. One thread at a time.
 class JobHistory {
@@ -35,18 +61,16 @@ class JobHistory {
   [[nodiscard]] Result<std::optional<StoredJob>> find(const std::string& id) const;
   // Those that came by a request with this Idempotency-Key, in order of their places.
   [[nodiscard]] Result<std::vector<StoredJob>> of_request(const std::string& key) const;
-  // Who did what, newest first: of those before this number, at most so many.
-  [[nodiscard]] Result<std::vector<AuditEntry>> audit(std::optional<std::uint64_t> before,
-                                                      std::size_t most) const;
+  // Who did what, at most so many.
+  [[nodiscard]] Result<AuditEntries> audit(const AuditFilter& filter, std::size_t most) const;
   // Newest first, until `take` says enough (false). Those that are damaged are passed over:
-  // damaged() tells of them.
+  // damage() tells of them.
   [[nodiscard]] Result<void> newest_first(const HistoryFilter& filter,
                                           const std::function<bool(StoredJob)>& take) const;
   // Oldest first. Problem, when all others were taken: some are damaged.
   [[nodiscard]] Result<void> oldest_first(const HistoryFilter& filter,
                                           const std::function<void(StoredJob)>& take) const;
-  // The ids of those that are not as they were written.
-  [[nodiscard]] Result<std::vector<std::string>> damaged() const;
+  [[nodiscard]] Result<Damage> damage() const;
 
  private:
   class Impl;

@@ -60,10 +60,14 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
       forget_stops_(database_.prepare("DELETE FROM stopped_arm")),
       note_(database_.prepare("INSERT INTO audit(at_ms, who, peer, method, path, status) "
                               "VALUES(?1, ?2, ?3, ?4, ?5, ?6)")),
+      seal_note_(database_.prepare(std::string("UPDATE audit SET sum = ") + kSumOfAudit +
+                                   " WHERE number = last_insert_rowid()")),
       keep_alert_(database_.prepare(
           "INSERT INTO alert(id, at_ms, level, text, who, acknowledged_ms) VALUES(?1, ?2, ?3, ?4, "
-          "nullif(?5, ''), ?6) ON CONFLICT(id) DO UPDATE SET who = nullif(?5, ''), acknowledged_ms "
-          "= ?6")) {
+          "nullif(?5, ''), ?6) ON CONFLICT(id) DO UPDATE SET at_ms = ?2, level = ?3, text = ?4, "
+          "who = nullif(?5, ''), acknowledged_ms = ?6")),
+      seal_alert_(database_.prepare(std::string("UPDATE alert SET sum = ") + kSumOfAlert +
+                                    " WHERE id = ?1")) {
   database_.run(
       "DELETE FROM job WHERE view = ''");  // never acknowledged, and nothing is known of it
 }
@@ -93,8 +97,9 @@ Leftover JobTables::leftover() const {
   Statement arms = database_.prepare("SELECT name FROM stopped_arm ORDER BY name");
   while (arms.step()) left.stopped_arms.push_back(arms.text(0));
   Statement alerts = database_.prepare(
-      "SELECT id, at_ms, level, text, who, acknowledged_ms FROM (SELECT * FROM alert ORDER BY "
-      "number DESC LIMIT ?1) ORDER BY number");
+      std::string("SELECT id, at_ms, level, text, who, acknowledged_ms FROM (SELECT * FROM alert "
+                  "WHERE coalesce(sum = ") +
+      kSumOfAlert + ", 1) ORDER BY number DESC LIMIT ?1) ORDER BY number");
   alerts.bind_all(std::int64_t{kAlertsKept});
   while (alerts.step()) {
     left.alerts.push_back({alerts.text(0), alerts.number(1), alerts.text(2), alerts.text(3)});
@@ -117,6 +122,7 @@ void JobTables::write(const Pending& changes) {
                    std::string_view(entry.method), std::string_view(entry.path),
                    std::int64_t{entry.status});
     note_.run();
+    seal_note_.run();
   }
   for (const StoredAlert& alert : changes.alerts) write(alert);
   transaction.commit();
@@ -129,6 +135,7 @@ void JobTables::write(const StoredAlert& alert) {
   keep_alert_.bind_all(std::string_view(alert.id), alert.at_ms, std::string_view(alert.level),
                        std::string_view(alert.text), who, when);
   keep_alert_.run();
+  seal_alert_.bind_all(std::string_view(alert.id)).run();
 }
 
 void JobTables::write(std::uint64_t number, const JobChange& change) {

@@ -75,6 +75,11 @@ constexpr const char* kVersions[] = {
     ALTER TABLE job ADD COLUMN sum INTEGER;
     ALTER TABLE body ADD COLUMN sum INTEGER;
     )",
+    // The same of what people are told and of what they did (kSumOfAlert, kSumOfAudit).
+    R"(
+    ALTER TABLE alert ADD COLUMN sum INTEGER;
+    ALTER TABLE audit ADD COLUMN sum INTEGER;
+    )",
 };
 constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
 

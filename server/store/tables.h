@@ -16,7 +16,14 @@ inline constexpr const char* kSumOfJob =
     "job.ended_ms, job.arms, job.view, job.digest, job.request_key, job.request_digest, "
     "job.request_place)";
 inline constexpr const char* kSumOfBody = "checksum(body.number, body.text, body.amended)";
-inline constexpr std::int64_t kVersionWithSums = 5;
+inline constexpr const char* kSumOfAlert =
+    "checksum(alert.number, alert.id, alert.at_ms, alert.level, alert.text, alert.who, "
+    "alert.acknowledged_ms)";
+inline constexpr const char* kSumOfAudit =
+    "checksum(audit.number, audit.at_ms, audit.who, audit.peer, audit.method, audit.path, "
+    "audit.status)";
+inline constexpr std::int64_t kVersionWithSums = 5;     // of jobs
+inline constexpr std::int64_t kVersionWithAllSums = 6;  // of alerts and the audit trail, too
 
 // Makes a new file with tables and nothing in them. It is made beside its place and put there
 // whole: whatever stands in that place has held jobs, also where it is empty. `vfs`: as Database

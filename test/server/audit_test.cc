@@ -11,6 +11,7 @@ namespace armloom {
 namespace {
 
 namespace fs = std::filesystem;
+using nlohmann::json;
 
 // With a data folder.
 class Audit : public test::TokenServer {
@@ -98,6 +99,47 @@ TEST_F(Audit, SaysWhoDidWhatAndWhoWasNotLet) {
   end();
   start(1);
   EXPECT_EQ(entries("", 3)["entries"], page["entries"]) << "kept";
+}
+
+TEST_F(Audit, IsAskedByWhoWhatAndWhen) {
+  ask("POST", "/api/v1/stop", bearer(tokens_["operator"]));
+  ask("POST", "/api/v1/resume", bearer(tokens_["viewer"]));
+  ask("DELETE", "/api/v1/jobs/none", bearer(tokens_["operator"]));
+  ask("GET", "/api/v1/jobs", "");
+  const json all = entries("", 4)["entries"];
+  const auto statuses = [&](const std::string& query) {
+    std::string told;
+    for (const auto& entry : entries(query, 0)["entries"]) told += entry["status"].dump() + " ";
+    return told;
+  };
+  EXPECT_EQ(statuses("?who=operator"), "404 202 ");
+  EXPECT_EQ(statuses("?who="), "401 ") << "no name was shown";
+  EXPECT_EQ(statuses("?who=oper"), "");
+  EXPECT_EQ(statuses("?method=POST"), "403 202 ");
+  EXPECT_EQ(statuses("?path=/api/v1/jobs"), "401 404 ");
+  EXPECT_EQ(statuses("?path=/api/v1/jobs&method=DELETE&status=404"), "404 ");
+  EXPECT_EQ(statuses("?from=127.0.0.2"), "");
+  EXPECT_EQ(statuses("?from=127.0.0.1&status=202"), "202 ");
+  const std::string second = all[2]["at"], last = all[0]["at"];
+  for (const auto& entry : entries("?since=" + second, 1)["entries"])
+    EXPECT_GE(entry["at"], second);
+  for (const auto& entry : entries("?before=" + last, 0)["entries"]) EXPECT_LT(entry["at"], last);
+  EXPECT_EQ(entries("?since=" + second, 1)["entries"].size() +
+                entries("?before=" + second, 0)["entries"].size(),
+            4U);
+  const auto page = entries("?limit=1&who=operator", 1);
+  EXPECT_EQ(statuses("?who=operator&cursor=" + page["next_cursor"].get<std::string>()), "202 ");
+  EXPECT_EQ(page["damaged"], 0);
+  for (const char* wrong :
+       {"?since=yesterday", "?before=1", "?status=1", "?status=x", "?cursor=x", "?limit=1001"}) {
+    test::Wire wire(port());
+    wire.send(std::string("GET /api/v1/audit") + wrong + " HTTP/1.1\r\nHost: 127.0.0.1\r\n" +
+              bearer(tokens_["admin"]) + "\r\n");
+    const auto refused = test::read_answer(wire);
+    EXPECT_EQ(refused.status, 422) << wrong;
+    EXPECT_EQ("?" + refused.json()["pointer"].get<std::string>().substr(1),
+              std::string(wrong).substr(0, std::string(wrong).find('=')));
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <regex>
 
+#include "server/codec/rfc3339.h"
 #include "server/codec/stream_id.h"
 #include "server/codec/wall_clock.h"
 
@@ -18,6 +19,23 @@ TEST(WallClock, SaysCellTimesInUtcWithMilliseconds) {
   const WallClock clock(kStart, 1.0);
   EXPECT_EQ(clock.at(at(125ms)), "2026-11-21T09:33:00.125Z");
   EXPECT_EQ(clock.at(at(14h + 27min + 1500us)), "2026-11-22T00:00:00.001Z");
+}
+
+TEST(Rfc3339, ReadsWhatItTellsAndOtherOffsets) {
+  const std::int64_t instant = since_1970_ms(kStart + 125ms);
+  for (const char* text : {"2026-11-21T09:33:00.125Z", "2026-11-21t09:33:00.1259z",
+                           "2026-11-21 11:33:00.125+02:00", "2026-11-20T23:03:00.125-10:30"}) {
+    EXPECT_EQ(read_rfc3339(text), instant) << text;
+  }
+  EXPECT_EQ(read_rfc3339("1969-12-31T23:59:59.5Z"), -500);
+  EXPECT_EQ(rfc3339(-500), "1969-12-31T23:59:59.500Z");
+  for (const char* text :
+       {"", "2026", "2026-11-21", "2026-11-21T09:33:00", "2026-11-31T09:33:00Z",
+        "2026-11-21T24:00:00Z", "2026-11-21T09:60:00Z", "2026-11-21T09:33:00.Z",
+        "2026-11-21T09:33:00ZZ", "2026-11-21T09:33:00+02", "2026-11-21T09:33:00+24:00",
+        "+026-11-21T09:33:00Z", "2026-11-21T09:33:00.125 Z", "1795253580"}) {
+    EXPECT_FALSE(read_rfc3339(text)) << text;
+  }
 }
 
 TEST(WallClock, RunsAsManyTimesFasterAsTheCell) {

@@ -1,4 +1,5 @@
 // What is not as it was written is told, and what was refused displaces nothing of what was done.
+#include <array>
 #include <fstream>
 
 #include "server/store/job_history.h"
@@ -30,7 +31,7 @@ TEST_F(Store, WhatWasDoneIsNeverDisplacedByWhatWasRefused) {
   const auto history = JobHistory::open(folder_);
   const auto kept = [&] {
     std::vector<std::string> paths;
-    const auto entries = (*history)->audit({}, 100).value();
+    const auto entries = (*history)->audit({}, 100).value().entries;
     paths.reserve(entries.size());
     for (const AuditEntry& entry : entries) {
       paths.push_back(entry.who + entry.path);
@@ -87,7 +88,7 @@ TEST_F(Store, ARowThatIsNotAsItWasWrittenIsKnown) {
   sql("UPDATE job SET has_ended = 1 WHERE number = 1; UPDATE job SET arms = '' WHERE number = 3");
   const auto store = open();
   const auto history = JobHistory::open(folder_);
-  EXPECT_EQ((*history)->damaged().value(), (std::vector<std::string>{"j1", "j3"}));
+  EXPECT_EQ((*history)->damage().value().jobs, (std::vector<std::string>{"j1", "j3"}));
   const auto found = (*history)->find("j3");
   ASSERT_FALSE(found) << "neither there as it is, nor unknown, so that it would be run again";
   EXPECT_NE(found.error().front().detail.find("not as it was written"), std::string::npos);
@@ -97,6 +98,33 @@ TEST_F(Store, ARowThatIsNotAsItWasWrittenIsKnown) {
   EXPECT_EQ(ids, std::vector<std::string>{"j2"});
   ASSERT_FALSE(read);
   EXPECT_NE(read.error().front().detail.find("2 jobs are not as"), std::string::npos);
+}
+
+// Nobody is told what nobody said, nor that somebody did what they did not.
+TEST_F(Store, AnAlertOrAnEntryOfTheAuditTrailThatIsNotAsItWasWrittenIsLeftOutAndCounted) {
+  {
+    const auto store = open();
+    for (const char* id : {"s:1", "s:2", "s:3"}) store->keep({id, 1000, "warning", "stopped"});
+    store->keep({"s:1", 1000, "warning", "stopped", StoredAlert::Acknowledgement{"Ada", 2000}});
+    for (const char* who : {"Ada", "Bob", ""}) store->note({0, 1000, who, "::1", "POST", "/", 202});
+    EXPECT_TRUE(store->flush());
+  }
+  const auto found = [&] {
+    const auto store = open();
+    const auto history = JobHistory::open(folder_);
+    const auto damage = (*history)->damage().value();
+    const auto audit = (*history)->audit({.who = "Bob"}, 100).value();
+    EXPECT_EQ(audit.damaged, damage.audit);
+    return std::array{store->leftover().alerts.size(), damage.alerts, audit.entries.size(),
+                      damage.audit};
+  };
+  EXPECT_EQ(found(), (std::array<std::size_t, 4>{3, 0, 1, 0}));
+  sql("UPDATE alert SET text = 'all is well' WHERE id = 's:2'");
+  EXPECT_EQ(found(), (std::array<std::size_t, 4>{2, 1, 1, 0}));
+  sql("UPDATE alert SET acknowledged_ms = 1 WHERE id = 's:1'");
+  EXPECT_EQ(found(), (std::array<std::size_t, 4>{1, 2, 1, 0}));
+  sql("UPDATE audit SET who = 'Eve' WHERE who = 'Bob'; UPDATE audit SET at_ms = 9 WHERE who = ''");
+  EXPECT_EQ(found(), (std::array<std::size_t, 4>{1, 2, 0, 2}));
 }
 
 }  // namespace

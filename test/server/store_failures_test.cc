@@ -75,7 +75,7 @@ TEST_F(Store, WhatWasDoneHasRoomHoweverMuchWasRefused) {
   store->note({.who = "Ada", .status = 202});
   FailingDisk::fail(FailingDisk::Fault::none, 0);
   EXPECT_TRUE(store->flush() || store->flush());
-  const auto newest = JobHistory::open(folder_).value()->audit({}, 1).value();
+  const auto newest = JobHistory::open(folder_).value()->audit({}, 1).value().entries;
   ASSERT_EQ(newest.size(), 1U);
   EXPECT_EQ(newest[0].who, "Ada");
 }

@@ -1,0 +1,35 @@
+#include "server/durable/damage.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+namespace armloom {
+namespace {
+
+std::string sentence_of_jobs(const std::vector<std::string>& ids) {
+  constexpr std::size_t kNamed = 10;  // what is left of a sentence
+  std::string named;
+  for (std::size_t i = 0; i < std::min(kNamed, ids.size()); ++i) {
+    named += (i == 0 ? "\"" : ", \"") + ids[i] + '"';
+  }
+  if (ids.size() > kNamed) named += " and " + std::to_string(ids.size() - kNamed) + " more";
+  return "jobs that cannot be read, or are not as they were written: " + named +
+         "; none of them is begun";
+}
+
+}  // namespace
+
+Alert alert_of(const Damage& damage) {
+  std::string text = "the data folder is damaged: ";
+  const bool has_jobs = !damage.jobs.empty();
+  if (has_jobs) text += sentence_of_jobs(damage.jobs);
+  if (damage.alerts + damage.audit > 0) {
+    text += std::string(has_jobs ? "; " : "") + std::to_string(damage.alerts) + " alerts and " +
+            std::to_string(damage.audit) +
+            " entries of the audit trail are not as they were written, and left out";
+  }
+  return {Alert::Level::error, text};
+}
+
+}  // namespace armloom
