@@ -1,28 +1,17 @@
 #include "server/messages/alert.h"
 
-#include <chrono>
-
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
 #include "server/codec/read_text.h"
+#include "server/codec/rfc3339.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
-#include "server/codec/wall_clock.h"
-#include "server/messages/job_request.h"
+#include "server/messages/who.h"
 
 namespace armloom {
 
 using namespace formats;
-
-namespace {
-
-std::string rfc3339(std::int64_t since_1970_ms) {
-  const WallClock::Wall wall{std::chrono::milliseconds(since_1970_ms)};
-  return WallClock(wall, 1.0).at(TimePoint{});
-}
-
-}  // namespace
 
 FormatPtr<AlertList> alert_list_format() {
   using Seen = StoredAlert::Acknowledgement;
@@ -54,7 +43,7 @@ FormatPtr<AlertsSeen> alerts_seen_format() {
       "AlertsSeen", "Somebody has seen to these alerts.",
       object<AlertsSeen>({
           required("ids", &AlertsSeen::ids, list(text()), "Of `GET /alerts`"),
-          field("who", &AlertsSeen::who, job_name_format(),
+          field("who", &AlertsSeen::who, who_format(),
                 "Whoever does it; where tokens are asked for, the token's name counts instead"),
       }));
   return format;

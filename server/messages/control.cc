@@ -10,6 +10,7 @@
 #include "server/messages/job.h"
 #include "server/messages/job_request.h"
 #include "server/messages/plan_goal.h"
+#include "server/messages/who.h"
 
 namespace armloom {
 
@@ -20,7 +21,7 @@ FormatPtr<ControlRequest> control_request_format() {
   static const auto format =
       named("ControlRequest", "",
             object<Asked>({
-                field("who", &Asked::who, job_name_format(),
+                field("who", &Asked::who, who_format(),
                       "Whoever asks; where tokens are asked for, the token's name counts instead"),
                 field("take", &Asked::take, flag(),
                       "From whoever holds it: what they hold to run brakes on its path"),

@@ -29,11 +29,6 @@ bool is_key(std::string_view key) {
   return !key.empty() && key.size() <= kJobKeyMax && allowed && key != "." && key != "..";
 }
 
-bool is_name(std::string_view name) {
-  return characters(name) <= kJobNameMax &&
-         std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
-}
-
 std::vector<TrajectoryRequest*> motions_of(JobRequest& request) {
   std::vector<TrajectoryRequest*> motions{&request.trajectory};
   for (TrajectoryRequest& other : request.alternatives) motions.push_back(&other);
@@ -178,8 +173,13 @@ FormatPtr<std::string> job_id_format() {
   return format;
 }
 
+bool is_job_name(std::string_view name) {
+  return characters(name) <= kJobNameMax &&
+         std::ranges::none_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+}
+
 FormatPtr<std::string> job_name_format() {
-  return text(TextRule{is_name,
+  return text(TextRule{is_job_name,
                        "bad-name",
                        "a name is at most 256 characters without control characters",
                        {{"maxLength", kJobNameMax}, {"pattern", R"(^[^\u0000-\u001f]*$)"}}});

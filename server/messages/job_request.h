@@ -15,6 +15,8 @@ namespace armloom {
 [[nodiscard]] FormatPtr<JobRequest> job_request_format();
 // A client's id for a job: what may stand in a URL.
 [[nodiscard]] FormatPtr<std::string> job_id_format();
+// For people: not too long, and without control characters.
+[[nodiscard]] bool is_job_name(std::string_view name);
 // Members of it that can be changed later, too.
 [[nodiscard]] FormatPtr<std::string> job_name_format();
 [[nodiscard]] FormatPtr<int> priority_format();

@@ -164,7 +164,8 @@ std::vector<json> odd_values() {
   }
   odd.push_back(std::numeric_limits<std::uint64_t>::max());
   for (const char* text : {"", ".", "..", "...", "a/b", "a\\b", "a\nb", "\t", "\x7f", "\xc2\x85",
-                           " ", "a b", "a\n", "ready", "left", "panda.v1_-", "\xc3\xa9"}) {
+                           " ", "\xc2\xa0\xe3\x80\x80 ", " \xe2\x80\x83", "a b", "a\n", "ready",
+                           "left", "panda.v1_-", "\xc3\xa9"}) {
     odd.push_back(text);
   }
   for (const int size : {128, 129, 256, 257}) {

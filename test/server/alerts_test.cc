@@ -56,7 +56,13 @@ TEST_F(Alerts, AllOfThemAreAcknowledgedOrNone) {
   EXPECT_TRUE(alerts()[0]["acknowledged"].is_null());
   EXPECT_EQ(post("/api/v1/alerts/acknowledge", R"({"ids": [1]})").status, 400);
   EXPECT_EQ(post("/api/v1/alerts/acknowledge", R"({"ids": [], "who": "\n"})").status, 422);
-  EXPECT_EQ(acknowledge({}, "Ada").status, 200);
+  for (const char* blank : {" ", "\xc2\xa0 \xe3\x80\x80"}) {
+    const auto refused = acknowledge({}, blank);
+    EXPECT_EQ(refused.status, 422) << "nobody would be told by this name";
+    EXPECT_EQ(refused.json()["pointer"], "/who");
+    EXPECT_EQ(refused.json()["value"], blank);
+  }
+  EXPECT_EQ(acknowledge({}, " Ada").status, 200);
 }
 
 TEST_F(Alerts, AreKeptWithWhoHasSeenThem) {
