@@ -60,7 +60,8 @@ class Observer {
   // Told before on_tick() when it has changed: from this tick on no arm moves, or one does. At the
   // beginning arms count as moving.
   virtual void on_rest(bool /*at_rest*/) {}
-  // Other arms than before are stopped until they are resumed. None are at the beginning.
+  // Other arms than before are stopped until they are resumed; that all are as the run winds down
+  // is none of this. None are at the beginning.
   virtual void on_stops(const std::vector<ArmId>& /*stopped*/) {}
   // A question of the scheduler is answered, which took so many collision evaluations.
   virtual void on_judged(std::uint64_t /*evaluations*/) {}
@@ -209,9 +210,9 @@ class Executive {
   class ActivePolicy;
   [[nodiscard]] ActivePolicy policy();
 
-  // The last act: stops all arms, and when they are at rest every job that has not ended becomes
-  // `interrupted`, or every one that has begun where others are kept for the next run; then `done`
-  // is called, on the strand. Accepts no job from now on.
+  // The last act: stops all arms, of which nobody is alarmed, and when they are at rest every job
+  // that has not ended becomes `interrupted`, or every one that has begun where others are kept for
+  // the next run; then `done` is called, on the strand. Accepts no job from now on.
   enum class Waiting { ends, is_kept };
   void wind_down(const std::string& cause, Waiting waiting, std::function<void()> done);
 

@@ -54,7 +54,7 @@ void Executive::Impl::step(const Input& input) {
   const std::vector<Effect> effects = decided(input);
   for (const Effect& effect : effects) carry_out(effect);
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
-  publisher_.tell_stops();
+  if (!wind_down_) publisher_.tell_stops();  // nobody resumes what only the end has stopped
   publisher_.queue_may_have_changed(clock_.now);
 }
 
@@ -191,10 +191,10 @@ void Executive::Impl::watch() {
 
 // ---- What is asked of all arms ----
 
-void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause) {
-  publisher_.tell(
-      Alert{Alert::Level::warning, "stopped: " + names_of(*cell_, arms) + " (" + cause + ")"},
-      clock_.now);
+void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause,
+                           Alert::Level level) {
+  publisher_.tell(Alert{level, "stopped: " + names_of(*cell_, arms) + " (" + cause + ")"},
+                  clock_.now);
   step(Stop{arms, cause});
 }
 
@@ -207,7 +207,7 @@ void Executive::Impl::end(const std::string& cause, bool keeps_waiting,
                           std::function<void()> done) {
   wind_down_ = {std::move(done), keeps_waiting};
   intake_.close();
-  stop(all_arms(*cell_), cause);
+  stop(all_arms(*cell_), cause, Alert::Level::info);
 }
 
 void Executive::Impl::scene_has_changed(ClearanceQuery query) {

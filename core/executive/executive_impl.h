@@ -56,7 +56,8 @@ class Executive::Impl {
   void step(const Input& input);
   void tick(TimePoint now);
   void end(const std::string& cause, bool keeps_waiting, std::function<void()> done);
-  void stop(const std::vector<ArmId>& arms, const std::string& cause);
+  void stop(const std::vector<ArmId>& arms, const std::string& cause,
+            Alert::Level level = Alert::Level::warning);
   void resume(const std::vector<ArmId>& arms);
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
   [[nodiscard]] Snapshot snapshot(std::size_t ended_max) const;

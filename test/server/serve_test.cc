@@ -73,6 +73,43 @@ TEST_F(Serve, ASignalBringsArmsToRestAndTheRecordingIsWhole) {
   }
 }
 
+// Who ends the server knows that the arms stop with it: what there is to see to, the next one says.
+TEST_F(Serve, AnEndStopsNoArmForTheNextRunAndIsNoAlert) {
+  const std::vector<std::string> arguments{"--cell", test::kCell, "--data", data()};
+  const auto end = [](test::ServeProcess& server) {
+    server.signal(SIGTERM);
+    EXPECT_EQ(server.wait(), 0);
+  };
+  const auto ask = [](const test::ServeProcess& server, const char* method, const char* path) {
+    return test::request(server.port(), method, path).json();
+  };
+  {
+    test::ServeProcess first(arguments, log());
+    end(first);
+  }
+  {
+    test::ServeProcess second(arguments, log());
+    EXPECT_EQ(ask(second, "GET", "/api/v1/queue")["stopped"], false);
+    EXPECT_EQ(ask(second, "GET", "/api/v1/alerts")["alerts"], json::array());
+    ask(second, "POST", "/api/v1/arms/right/stop");
+    begin_job(second.port(), "waits", "right");
+    begin_job(second.port(), "go", "left");
+    ASSERT_NO_FATAL_FAILURE(wait_until_moving(second.port()));
+    end(second);
+  }
+  test::ServeProcess third(arguments, log());
+  while (ask(third, "GET", "/api/v1/queue")["stopped"] == false) {
+  }
+  std::string told;
+  for (const json& alert : ask(third, "GET", "/api/v1/alerts")["alerts"]) {
+    told += alert["text"].get<std::string>() + "\n";
+  }
+  EXPECT_EQ(told,
+            "stopped: left, right (the server was started again: 1 jobs wait, 0 were interrupted; "
+            "resume to go on)\nstopped: right (operator)\n");
+  end(third);
+}
+
 TEST_F(Serve, AnArmThatDoesNotComeToRestHoldsNothingUp) {
   test::ServeProcess server({"--cell", test::kCell, "--speed", "0.01", "--data", data()}, log());
   begin_job(server.port(), "go", "left");
