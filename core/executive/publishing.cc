@@ -138,13 +138,12 @@ ArmState Publisher::state_of(ArmId arm) const {
   using Phase = ArmFeedback::Phase;
   const Phase phase = shown_.motions.feedback(arm).phase;
   if (phase == Phase::fault) return ArmState::fault;
-  if (const auto job = shown_.scheduler.occupant(arm);
-      job && shown_.scheduler.find(*job)->pausing()) {
-    return ArmState::holding;
-  }
-  if (shown_.motions.moving(arm) && !is_told_of_a_start(arm)) return ArmState::moving;
-  if (phase == Phase::stopped && shown_.scheduler.occupant(arm)) return ArmState::holding;
-  return shown_.scheduler.stopped(arm) ? ArmState::stopped : ArmState::idle;
+  const bool moves = shown_.motions.moving(arm) && !is_told_of_a_start(arm);
+  if (shown_.scheduler.stopped(arm) && !moves) return ArmState::stopped;
+  const auto job = shown_.scheduler.occupant(arm);
+  if (job && shown_.scheduler.find(*job)->pausing()) return ArmState::holding;
+  if (moves) return ArmState::moving;
+  return job && phase == Phase::stopped ? ArmState::holding : ArmState::idle;
 }
 
 ArmView Publisher::view_of_arm(ArmId id) const {

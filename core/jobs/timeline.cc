@@ -11,18 +11,6 @@
 namespace armloom {
 namespace {
 
-// As stood_for(), and where a stop keeps it from being told to its arms.
-Duration expected_to_stand(const State& state, const Job& job, TimePoint now) {
-  Duration stands = stood_for(job, now);
-  if (job.in<Admitted>() == nullptr) return stands;
-  for (ArmId arm : job.trajectory->arms()) {
-    const auto since = state.arms.stopped_since(arm);
-    if (since && state.jobs.queues()[arm].front() == job.id)
-      stands = std::max(stands, now - *since);
-  }
-  return stands;
-}
-
 // Brakes, and will not go on.
 bool is_given_up(const Job& job) {
   const auto* braking = job.in<Braking>();
@@ -40,11 +28,12 @@ class Timetable {
         dependencies_(state.graph.dependencies()) {
     std::vector<MotionAhead> ahead;
     for (std::size_t m = 0; m < motions_.size(); ++m) {
-      stands_.push_back(expected_to_stand(state, job(m), now));
+      const bool is_stopped = stop_of(m).has_value();
+      stands_.push_back(is_stopped ? Duration{} : stood_for(job(m), now));
       ahead.push_back({.progress = motions_[m].progress,
                        .duration = motions_[m].duration,
                        .after = chains_.before(m),
-                       .held_at = motions_[m].held_at,
+                       .held_at = is_stopped ? motions_[m].progress : motions_[m].held_at,
                        .stands_for = stands_[m],
                        .pace = pace_of(job(m), now)});
     }
@@ -61,6 +50,10 @@ class Timetable {
 
  private:
   [[nodiscard]] const Job& job(std::size_t m) const { return state_.jobs.at(motions_[m].job).job; }
+
+  [[nodiscard]] std::optional<Wait> stop_of(std::size_t m) const {
+    return state_.arms.stop_of(job(m));
+  }
 
   [[nodiscard]] bool is_stuck(std::size_t m) const {
     return std::ranges::binary_search(prediction_.stuck, m);
@@ -81,8 +74,8 @@ class Timetable {
       if (stages[i - 1].progress < at || from >= to) continue;
       const bool of_its_own = i == 1 && stands_[m] > Duration{};
       const Duration loss = at > Duration{} ? kPauseLoss : Duration{};
-      pauses.push_back({now_ + from, now_ + to, at,
-                        of_its_own ? state_.arms.stop_of(job(m)) : waits_on(m, at, to - loss)});
+      pauses.push_back(
+          {now_ + from, now_ + to, at, of_its_own ? std::nullopt : waits_on(m, at, to - loss)});
     }
     return pauses;
   }
@@ -92,6 +85,7 @@ class Timetable {
     const auto stages = prediction_.stages(m);
     if (stages.empty()) return {now_, std::nullopt, motions_[m].progress, behind(m)};
     const auto [at, from] = stages.back();
+    if (auto stop = stop_of(m)) return {now_ + from, std::nullopt, at, std::move(stop)};
     const auto rests = state_.graph.rests_ahead(motions_[m].job);
     const bool is_blocked = rests && *motions_[m].held_at <= at;
     return {now_ + from, std::nullopt, at,

@@ -32,9 +32,9 @@ struct PredictedTimeline {
 
 // What follows from the precedence graph, whichever policy chose the orders, if everything goes as
 // fast as its trajectory says: when each leg moves and whom it waits for. A pause on the way costs
-// kPauseLoss beside the wait. What stands though nothing of ours holds it (late, stalled, stopped
-// until it is resumed) is expected to do so for as long again as it has. An arm that rests in the
-// way stays there. Pure. Precondition: `now` is not before state.now.
+// kPauseLoss beside the wait. What stands though nothing of ours holds it (late, stalled) is
+// expected to do so for as long again as it has. An arm that is stopped, or rests in the way, stays
+// there: nobody knows when somebody resumes it. Pure. Precondition: `now` is not before state.now.
 [[nodiscard]] PredictedTimeline predicted_timeline(const State& state, TimePoint now);
 
 }  // namespace armloom

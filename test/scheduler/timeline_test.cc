@@ -118,18 +118,30 @@ TEST_F(Timeline, WhoStallsIsExpectedToDoSoForAsLongAgain) {
   expect_near(*leg.ends, at(22s));
 }
 
-TEST_F(Timeline, SoIsAnArmThatIsStoppedWithItsLegsToCome) {
+// Until somebody resumes it, which nobody knows the time of.
+TEST_F(Timeline, WhoIsStoppedHasNoEndNorWhatFollowsItOrWaitsForIt) {
   start("coordinated", 2);
   const JobId first = submit(0, 0, 1), next = submit(0, 1, 0);
-  arms->run_until(at(2s));
+  arms->run_until(at(4s));
+  const JobId other = submit(1, 0, 1);
+  arms->run_until(at(5s));  // the first one is where they cross
+  ASSERT_TRUE(leg(other).ends);
   arms->input(Stop{{ArmId{0}}, "somebody came"});
-  arms->run_until(at(5s));
+  arms->run_until(at(8s));
   const PredictedLeg leg = this->leg(first);
+  EXPECT_EQ(leg.ends, std::nullopt);
   ASSERT_THAT(leg.pauses, SizeIs(1));
+  EXPECT_EQ(leg.pauses[0].to, std::nullopt);
   EXPECT_EQ(leg.pauses[0].waits_on->kind, Wait::Kind::stop);
   EXPECT_EQ(leg.pauses[0].waits_on->detail, "somebody came");
-  expect_near(*leg.ends, at(16s));
-  expect_near(*this->leg(next).ends, at(26s));
+  for (const JobId waits : {next, other}) {
+    const PredictedLeg after = this->leg(waits);
+    EXPECT_EQ(after.ends, std::nullopt) << waits.value();
+    ASSERT_THAT(after.pauses, SizeIs(1));
+    EXPECT_EQ(after.pauses[0].waits_on->job, first);
+  }
+  arms->input(Resume{{ArmId{0}}});
+  EXPECT_TRUE(this->leg(first).ends && this->leg(next).ends && this->leg(other).ends);
 }
 
 // The arm came to rest in the other one's way, and no job moves it.

@@ -223,7 +223,7 @@ TEST_F(Durable, AFullDiskRefusesJobsStopsArmsAndIsOverWhenItIs) {
   EXPECT_EQ(post("/api/v1/resume", "").status, 503);
   EXPECT_EQ(post("/api/v1/arms/left/resume", "").status, 503);
   EXPECT_EQ(post("/api/v1/stop", "").status, 202);
-  wait_until([&] { return get("/api/v1/arms/left").json()["state"] == "holding"; });
+  wait_until([&] { return get("/api/v1/arms/left").json()["state"] == "stopped"; });
 
   FailingDisk::fail(FailingDisk::Fault::none, 0);
   wait_until([&] { return get("/readyz").status == 200; });

@@ -24,6 +24,12 @@ TEST_F(Verbs, OneArmStopsAndResumesAlone) {
   EXPECT_EQ(get("/api/v1/queue").json()["stopped"], false);
   until(listener, "r", "succeeded");
   EXPECT_EQ(get("/api/v1/jobs/l").json()["state"], "holding");
+  const json arm = get("/api/v1/arms/left").json();
+  EXPECT_EQ(arm["state"], "stopped") << "not as if it went on by itself";
+  EXPECT_EQ(arm["job"], "l");
+  const json leg = get("/api/v1/timeline").json()["arms"][0]["legs"][0];
+  EXPECT_TRUE(leg["ends_s"].is_null()) << leg;
+  EXPECT_EQ(leg["pauses"][0]["waits_on"]["kind"], "stop");
   EXPECT_EQ(post("/api/v1/arms/left/resume", "").status, 202);
   until(listener, "l", "succeeded");
   expect_refused(post("/api/v1/arms/middle/stop", ""), 404, "request target", "middle");
