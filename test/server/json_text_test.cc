@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "server/codec/json_writer.h"
 
@@ -47,6 +49,54 @@ INSTANTIATE_TEST_SUITE_P(
                 "/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0", "32"},
         BadText{"Escapes", R"({"a/b": {"c~d": tru}})", "malformed-json", "/a~1b/c~0d", "line 1"}),
     [](const auto& tested) { return tested.param.name; });
+
+// RFC 8259, by the cases of the published suites; here between two spaces or at a line's end.
+constexpr const char* kGood =
+    R"(0  -0  -1  1E22  1e+2  1E-2  0e1  0.5  123.456e78  -1.0e-2  1e-10000  true  false  null
+""  []  {}  [ ]  [[] ]  [null,1,"1",{}]  {"":0}  {"a":[]}  {"a\u0000b":1}  "\u0060\u012a"
+"\"\\\/\b\f\n\r\t"  "\uD801\udc37"  "\u0022\u005C"  "/* no */"  "€😀"  "<.>")";
+constexpr const char* kBad =
+    R"([1 true]  [a]  ["": 1]  [""],  [,1]  [1,,2]  ["x"]]  [1,]  [  [1  ["a  [,]  [-]  [3[4]]  [,""]
+[*]  [nul]  [fals]  [tru]  [True]  [++1]  [+1]  [-01]  [-1.0.]  [-2.]  [.-1]  [.2e-3]  [0.1.2]  [0.3e+]
+[0.3e]  [0.e1]  [0E]  [1.0e-]  [1 000.0]  [1eE2]  [2.e3]  [9.e+]  [Inf]  [NaN]  [Infinity]  [-Infinity]
+[0x1]  [1+2]  [012]  [- 1]  [1a]  [１]  {"x", 1}  {"x"::1}  {[: "x"}  {"a" b}  {:"b"}  {"a"  {1:1}  {null:0}
+{"a":1,}  {"a":1,,"b":2}  {'a':0}  {a: 1}  {"a":1} #  {"a":1}/**/  {}}  {"a":"b"}#{}  ["\uD800\u"]
+["\u00A"]  ["\uQQQQ"]  ["\x00"]  ["\a"]  ["\"]  ["\  ["\uD800"]  ["\uDC00"]  ["\uD800\uD800"]  ['a']
+[\n]  "  "x  x  1]  ]  <.>  [<null>]  TRUE  nan  [⁠])";
+
+std::vector<std::string> cases_of(std::string text) {
+  std::vector<std::string> cases;
+  for (std::size_t at = 0; (at = text.find('\n')) != text.npos;) text.replace(at, 1, "  ");
+  for (std::size_t at = 0, end = 0; end != text.npos; at = end + 2) {
+    end = text.find("  ", at);
+    cases.push_back(text.substr(at, end - at));
+  }
+  return cases;
+}
+
+TEST(JsonText, IsReadWhereTheRfcSaysSo) {
+  auto cases = cases_of(kGood);
+  EXPECT_EQ(cases.size(), 30U);
+  for (const char* more : {"\t\r\n{\n}\n", "[1\n]", "\"\x7f\"", "\"\xef\xbf\xbf\xe2\x80\xa8\""}) {
+    cases.emplace_back(more);
+  }
+  for (const std::string& good : cases) {
+    EXPECT_TRUE(parse_json(good, JsonComments::refused)) << good;
+  }
+}
+
+TEST(JsonText, IsRefusedWhereTheRfcSaysSo) {
+  auto cases = cases_of(kBad);
+  EXPECT_EQ(cases.size(), 85U);
+  for (const char* more : {"", " ", "[\"\t\"]", "[\"\n\"]", "[\"\x1f\"]", "[\x0c]", "\xc2\xa0[]",
+                           "\xff\xfe[]", "[\"\xe0\xff\"]", "[\"\xc0\xaf\"]", "[\"\xed\xa0\x80\"]",
+                           "[\"\xf4\x90\x80\x80\"]", "[\"\xe2\x82\"]"}) {
+    cases.emplace_back(more);
+  }
+  for (const std::string& bad : cases) {
+    EXPECT_FALSE(parse_json(bad, JsonComments::refused)) << bad;
+  }
+}
 
 TEST(JsonText, SurvivesAMillionBrackets) {
   EXPECT_FALSE(parse_json(std::string(1'000'000, '['), JsonComments::refused));

@@ -1,0 +1,99 @@
+// RFC 9112 by hostile bytes: whatever a sender does to a request's framing, nobody reads a second
+// request out of what is left of the first.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "test/server/running_server.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::string_literals;
+
+// Answers with their status, as they came, to `bytes` and a request behind them.
+class HostileBytes : public test::RunningServer {
+ protected:
+  void SetUp() override { start(1.0); }
+  std::string statuses(const std::string& bytes) {
+    test::Wire wire(port());
+    wire.send(bytes + "GET /healthz HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n");
+    const std::string all = wire.take_all();
+    std::string found;
+    for (std::size_t at = 0; (at = all.find("HTTP/1.", at)) != all.npos; ++at) {
+      found += all.substr(at + 9, 4);
+    }
+    return found;
+  }
+};
+
+const std::string kPost = "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\n";
+const std::string kChunked = kPost + "Transfer-Encoding: chunked\r\n\r\n";
+const std::string kRest = "\r\n\r\n5\r\nhello\r\n0\r\n\r\n";
+
+TEST_F(HostileBytes, AreRefusedOnceAndNothingIsReadBehindThem) {
+  const std::string host = "\r\nHost: localhost\r\n\r\n";
+  const std::string field = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n";
+  std::vector<std::string> cases;
+  for (const char* line :
+       {"GET  /healthz HTTP/1.1", "GET /healthz  HTTP/1.1", "GET\t/healthz\tHTTP/1.1",
+        "GET /healthz HTTP/1.1 ", " GET /healthz HTTP/1.1", "GET /healthz http/1.1",
+        "GET /healthz HTTP/01.1", "GET /healthz HTTP/1.", "GET /healthz", "G@T /healthz HTTP/1.1",
+        "GET /health\x7fz HTTP/1.1", "CONNECT localhost:80 HTTP/1.1"}) {
+    cases.push_back(line + host);
+  }
+  cases.push_back("GET /heal\0thz HTTP/1.1"s + host);
+  for (const std::string& line : {"X : a"s, "X\t: a"s, ": a"s, "X"s, "X(y): a"s, "X\0: a"s,
+                                  "X: a\0b"s, "X: a\rb"s, "X: a\x7f"s, "\xc3\xa9: a"s}) {
+    cases.push_back(field + line + "\r\n\r\n");
+  }
+  cases.push_back("GET /healthz HTTP/1.1\r\n Host: localhost\r\n\r\n");
+  for (const char* length : {": 5, 5", ": 5, 6", ": -1", ": +5", ": 0x5", ": 18446744073709551621",
+                             ":", ": 5 5", " : 5", ": 5\r\nContent-Length: 5"}) {
+    cases.push_back(kPost + "Content-Length" + length + "\r\n\r\nhello");
+  }
+  for (const char* coding :
+       {": chunked,", ": , chunked", ": chunked, chunked", ": chunked;q=1", ": \"chunked\"",
+        ": \x0b"
+        "chunked",
+        ": chunked\xa0", " : chunked", ": chunked\r\nContent-Length: 5"}) {
+    cases.push_back(kPost + "Transfer-Encoding" + coding + kRest);
+  }
+  cases.push_back("POST /api/v1/resume HTTP/1.0\r\nTransfer-Encoding: chunked" + kRest);
+  for (const char* body :
+       {"0x5\r\nhello\r\n", "-5\r\nhello\r\n", "+5\r\nhello\r\n", " 5\r\nhello\r\n",
+        "5 \r\nhello\r\n", "\r\nhello\r\n", "10000000000000005\r\nhello\r\n", "5\nhello\r\n",
+        "5\r\nhello\n", "5\r\nhello", "5\r\nhelloX\r\n", "5;a\nb\r\nhello\r\n",
+        "5;a\rb\r\nhello\r\n"}) {
+    cases.push_back(kChunked + body + "0\r\n\r\n");
+  }
+  for (const char* last : {"0\n\n", "0\r\nX : y\r\n\r\n", "0\r\nContent-Length: 100\r\n\r\n"}) {
+    cases.push_back(kChunked + "5\r\nhello\r\n" + last);
+  }
+  for (const std::string& bytes : cases) EXPECT_EQ(statuses(bytes), "400 ") << bytes;
+  EXPECT_EQ(statuses(kChunked + "FFFFFFFFFFFFFFFF\r\nhello\r\n"), "413 ");
+}
+
+// What a recipient has to take, or may as long as it reads it in one way.
+TEST_F(HostileBytes, ThatAreOnlyUnusualAreReadAsTheyAreMeant) {
+  const std::pair<std::string, std::string> cases[] = {
+      {kPost + "Content-Length: 05\r\n\r\nhello", "202 200 "},
+      {kPost + "Content-Length:5\t \r\n\r\nhello", "202 200 "},
+      {kPost + "Content-Length:\r\n 5\r\n\r\nhello", "202 200 "},  // obs-fold, read as one space
+      {kPost + "X: a\r\n\tGET / HTTP/1.1\r\nContent-Length: 0\r\n\r\n", "202 200 "},
+      {kPost + "Transfer-Encoding:\tchunked\t" + kRest, "202 200 "},
+      {kChunked + "0005\r\nhello\r\n0000\r\n\r\n", "202 200 "},
+      {kChunked + "5;a=\"b\";c\r\nhello\r\n0;d\r\nX-Sum: 7\r\n\r\n", "202 200 "},
+      {"GET /healthz HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\n\r\nhello", "200 200 "},
+      {"get /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n", "405 200 "},  // methods have their case
+      {"GET /healthz HTTP/1.1\r\nhOST:localhost\r\nX-\xe2\x82\xac!: a\r\n\r\n", "400 "},
+      {"GET /healthz HTTP/1.1\r\nhOST:localhost\r\nX!#$%&'*+-.^_`|~: \xe2\x82\xac\r\n\r\n",
+       "200 200 "},
+  };
+  for (const auto& [bytes, told] : cases) EXPECT_EQ(statuses(bytes), told) << bytes;
+}
+
+}  // namespace
+}  // namespace armloom
