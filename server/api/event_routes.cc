@@ -28,13 +28,13 @@ std::optional<Refusal> query_fault(const Target& target) {
 }
 
 // Where a reader was.
-struct Place {
+struct StreamPlace {
   std::optional<std::string> stream;
   std::optional<std::string> since;
 };
 // A `Last-Event-ID: <stream>:<seq>` is newer than what the address says: a browser repeats the
 // address when it comes back.
-Place place_of(const Request& request) {
+StreamPlace place_of(const Request& request) {
   if (!request.last_event_id) {
     return {request.target.parameter("stream"), request.target.parameter("since")};
   }
@@ -61,7 +61,7 @@ void welcome(const ApiParts& parts, const Snapshot& snapshot) {
 // Calls then(subscription). It resumes where the reader was; otherwise, and when those events are
 // gone
 // ("gap"), it begins with a snapshot.
-void subscribe(const ApiParts& parts, const Place& place,
+void subscribe(const ApiParts& parts, const StreamPlace& place,
                std::function<void(SubscriptionPtr)> then) {
   if (place.since) {
     std::uint64_t seq = 0;

@@ -109,7 +109,8 @@ TEST_F(Audit, IsAskedByWhoWhatAndWhen) {
   const json all = entries("", 4)["entries"];
   const auto statuses = [&](const std::string& query) {
     std::string told;
-    for (const auto& entry : entries(query, 0)["entries"]) told += entry["status"].dump() + " ";
+    const json page = entries(query, 0);
+    for (const auto& entry : page["entries"]) told += entry["status"].dump() + " ";
     return told;
   };
   EXPECT_EQ(statuses("?who=operator"), "404 202 ");
@@ -121,12 +122,10 @@ TEST_F(Audit, IsAskedByWhoWhatAndWhen) {
   EXPECT_EQ(statuses("?from=127.0.0.2"), "");
   EXPECT_EQ(statuses("?from=127.0.0.1&status=202"), "202 ");
   const std::string second = all[2]["at"], last = all[0]["at"];
-  for (const auto& entry : entries("?since=" + second, 1)["entries"])
-    EXPECT_GE(entry["at"], second);
-  for (const auto& entry : entries("?before=" + last, 0)["entries"]) EXPECT_LT(entry["at"], last);
-  EXPECT_EQ(entries("?since=" + second, 1)["entries"].size() +
-                entries("?before=" + second, 0)["entries"].size(),
-            4U);
+  const json since = entries("?since=" + second, 1), before = entries("?before=" + last, 0);
+  for (const auto& entry : since["entries"]) EXPECT_GE(entry["at"], second);
+  for (const auto& entry : before["entries"]) EXPECT_LT(entry["at"], last);
+  EXPECT_EQ(since["entries"].size() + entries("?before=" + second, 0)["entries"].size(), 4U);
   const auto page = entries("?limit=1&who=operator", 1);
   EXPECT_EQ(statuses("?who=operator&cursor=" + page["next_cursor"].get<std::string>()), "202 ");
   EXPECT_EQ(page["damaged"], 0);

@@ -2,6 +2,7 @@
 // request out of what is left of the first.
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,7 +24,8 @@ class HostileBytes : public test::RunningServer {
     const std::string all = wire.take_all();
     std::string found;
     for (std::size_t at = 0; (at = all.find("HTTP/1.", at)) != all.npos; ++at) {
-      found += all.substr(at + 9, 4);
+      if (std::isdigit(static_cast<unsigned char>(all[at + 9])) != 0)
+        found += all.substr(at + 9, 4);
     }
     return found;
   }

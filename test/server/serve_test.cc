@@ -85,23 +85,25 @@ TEST_F(Serve, AnEndStopsNoArmForTheNextRunAndIsNoAlert) {
   };
   {
     test::ServeProcess first(arguments, log());
+    EXPECT_EQ(ask(first, "GET", "/api/v1/queue")["stopped"], false);
     end(first);
   }
   {
     test::ServeProcess second(arguments, log());
     EXPECT_EQ(ask(second, "GET", "/api/v1/queue")["stopped"], false);
     EXPECT_EQ(ask(second, "GET", "/api/v1/alerts")["alerts"], json::array());
-    ask(second, "POST", "/api/v1/arms/right/stop");
-    begin_job(second.port(), "waits", "right");
     begin_job(second.port(), "go", "left");
     ASSERT_NO_FATAL_FAILURE(wait_until_moving(second.port()));
+    ask(second, "POST", "/api/v1/arms/right/stop");
+    begin_job(second.port(), "waits", "right");
     end(second);
   }
   test::ServeProcess third(arguments, log());
   while (ask(third, "GET", "/api/v1/queue")["stopped"] == false) {
   }
   std::string told;
-  for (const json& alert : ask(third, "GET", "/api/v1/alerts")["alerts"]) {
+  const json kept = ask(third, "GET", "/api/v1/alerts");
+  for (const json& alert : kept["alerts"]) {
     told += alert["text"].get<std::string>() + "\n";
   }
   EXPECT_EQ(told,
