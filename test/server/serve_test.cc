@@ -99,7 +99,9 @@ TEST_F(Serve, AnEndStopsNoArmForTheNextRunAndIsNoAlert) {
     end(second);
   }
   test::ServeProcess third(arguments, log());
+  const auto deadline = Clock::now() + std::chrono::seconds(10);
   while (ask(third, "GET", "/api/v1/queue")["stopped"] == false) {
+    ASSERT_LT(Clock::now(), deadline);
   }
   std::string told;
   const json kept = ask(third, "GET", "/api/v1/alerts");
