@@ -10,27 +10,13 @@ namespace armloom {
 namespace {
 
 // What \s means in the pattern of a schema, but for what no name may hold.
-constexpr std::string_view kWhiteSpace[] = {" ",  // U+0020, U+00A0, U+1680, U+2000 to U+200A,
-                                                  // U+2028, U+2029, U+202F, U+205F, U+3000, U+FEFF
-                                            "\xc2\xa0",
-                                            "\xe1\x9a\x80",
-                                            "\xe2\x80\x80",
-                                            "\xe2\x80\x81",
-                                            "\xe2\x80\x82",
-                                            "\xe2\x80\x83",
-                                            "\xe2\x80\x84",
-                                            "\xe2\x80\x85",
-                                            "\xe2\x80\x86",
-                                            "\xe2\x80\x87",
-                                            "\xe2\x80\x88",
-                                            "\xe2\x80\x89",
-                                            "\xe2\x80\x8a",
-                                            "\xe2\x80\xa8",
-                                            "\xe2\x80\xa9",
-                                            "\xe2\x80\xaf",
-                                            "\xe2\x81\x9f",
-                                            "\xe3\x80\x80",
-                                            "\xef\xbb\xbf"};
+constexpr std::string_view kWhiteSpace[] = {
+    " ",  // U+0020, U+00A0, U+1680, U+2000 to U+200A,
+          // U+2028, U+2029, U+202F, U+205F, U+3000, U+FEFF
+    "\xc2\xa0", "\xe1\x9a\x80", "\xe2\x80\x80", "\xe2\x80\x81", "\xe2\x80\x82", "\xe2\x80\x83",
+    "\xe2\x80\x84", "\xe2\x80\x85", "\xe2\x80\x86", "\xe2\x80\x87", "\xe2\x80\x88", "\xe2\x80\x89",
+    "\xe2\x80\x8a", "\xe2\x80\xa8", "\xe2\x80\xa9", "\xe2\x80\xaf", "\xe2\x81\x9f", "\xe3\x80\x80",
+    "\xef\xbb\xbf"};
 
 bool is_blank(std::string_view text) {
   while (!text.empty()) {
