@@ -10,11 +10,11 @@
 namespace armloom {
 namespace {
 
-// Two or three lanes of random legs, and regions between legs of different lanes.
+// Two to four lanes of random legs, and regions between legs of different lanes.
 class RandomOrders {
  public:
   explicit RandomOrders(std::uint64_t seed) : random_(seed) {
-    lanes_ = 2 + static_cast<std::uint32_t>(random_() % 2);
+    lanes_ = 2 + static_cast<std::uint32_t>(random_() % 3);
     for (std::uint64_t leg = 0; leg < 2; ++leg) {
       for (std::uint32_t arm = 0; arm < lanes_; ++arm) {
         const JobId job{motions_.size() + 1};
@@ -71,7 +71,7 @@ class RandomOrders {
 
 TEST(OrderSearch, FindsNothingDearerThanTheCheapestOfAllAssignments) {
   std::size_t compared = 0, better_than_first = 0;
-  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
     const RandomOrders random(seed);
     OpenOrders open = random.open();
     std::vector<OrderChoice*> free;
