@@ -17,9 +17,8 @@ AuditRecord record_of(const AuditEntry& entry) {
 
 AuditPage page_of(const AuditEntries& found, std::size_t limit) {
   AuditPage page{.entries = {}, .damaged = found.damaged, .next_cursor = {}};
-  for (const AuditEntry& entry :
-       found.entries) {  // one more than a page holds, where there is more
-    if (page.entries.size() == limit) {
+  for (const AuditEntry& entry : found.entries) {
+    if (page.entries.size() == limit) {  // one more than a page holds: there is more
       page.next_cursor = std::to_string(entry.number + 1);
       break;
     }

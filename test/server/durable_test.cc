@@ -1,15 +1,11 @@
-// The server with a data folder, in one process: disks that fail, and what a run finds of the ones
-// before. How it stands being killed: kills.py.
-#include <gtest/gtest.h>
+// The server with a data folder, in one process: what a run finds of the ones before. How it stands
+// being killed: kills.py.
 #include <sqlite3.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <set>
 
-#include "test/server/failing_disk.h"
-#include "test/server/panda_jobs.h"
-#include "test/server/running_server.h"
+#include "test/server/durable_server.h"
 #include "test/source_dir.h"
 
 namespace armloom {
@@ -17,60 +13,6 @@ namespace {
 
 using nlohmann::json;
 using test::FailingDisk;
-
-class Durable : public test::RunningServer {
- protected:
-  void SetUp() override {
-    FailingDisk::reset();
-    data_ = std::filesystem::path(::testing::TempDir()) / "armloom-durable" /
-            ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(data_);
-    options_.data = data_;
-    options_.store.vfs = FailingDisk::name();
-    options_.store.retry = std::chrono::milliseconds(5);
-  }
-  void TearDown() override {
-    RunningServer::TearDown();
-    FailingDisk::reset();
-  }
-  void restart(double speed = 1) {
-    end();
-    start(speed);
-  }
-  json swing(const std::string& id, const std::string& arm) {
-    test::Pose away = test::kHome;
-    away[0] += 0.3;
-    json job = test::move(arm, test::kHome, away, 1.0);
-    json back = test::move(arm, away, test::kHome, 1.0);
-    auto& points = job["trajectory"]["points"];
-    for (json& point : back["trajectory"]["points"]) {
-      if (point["time_from_start"] == 0.0) continue;
-      point["time_from_start"] = point["time_from_start"].get<double>() + 1.0;
-      points.push_back(point);
-    }
-    job["id"] = id;
-    return job;
-  }
-  test::Answer submit(const std::string& id, const std::string& arm = "left",
-                      const json& more = json::object()) {
-    json job = swing(id, arm);
-    job.update(more);
-    return post("/api/v1/jobs", job.dump());
-  }
-  json job(const std::string& id) { return get("/api/v1/jobs/" + id).json(); }
-  void wait_for(const std::string& id, const std::string& state) {
-    test::Listener listener(port());
-    if (job(id)["state"] == state) return;
-    until(listener, id, state);
-  }
-  template <class Is>
-  void wait_until(Is is) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (!is()) ASSERT_LT(std::chrono::steady_clock::now(), deadline);
-  }
-
-  std::filesystem::path data_;
-};
 
 TEST_F(Durable, WhatWaitedWaitsAgainUnderAStopAndGoesOnWhenResumed) {
   start(1);
@@ -207,51 +149,6 @@ TEST_F(Durable, ListsGoOnIntoFormerRuns) {
   EXPECT_EQ(get("/api/v1/jobs?arm=right&state=succeeded").json()["jobs"].size(), 3U);
 }
 
-TEST_F(Durable, AFullDiskRefusesJobsStopsArmsAndIsOverWhenItIs) {
-  start(1);
-  submit("runs");
-  wait_for("runs", "running");
-  FailingDisk::fail(FailingDisk::Fault::full, 0);
-  const auto refused = submit("refused", "right");
-  EXPECT_EQ(refused.status, 507) << refused.body;
-  EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:storage-full");
-  EXPECT_EQ(get("/readyz").status, 503);
-  EXPECT_EQ(get("/healthz").status, 200);
-  const json batch = {{"jobs", json::array({swing("refused-2", "right")})}};
-  EXPECT_EQ(post("/api/v1/batches", batch.dump()).status, 507);
-  wait_until([&] { return get("/api/v1/queue").json()["stopped"] == true; });
-  EXPECT_EQ(post("/api/v1/resume", "").status, 503);
-  EXPECT_EQ(post("/api/v1/arms/left/resume", "").status, 503);
-  EXPECT_EQ(post("/api/v1/stop", "").status, 202);
-  wait_until([&] { return get("/api/v1/arms/left").json()["state"] == "stopped"; });
-
-  FailingDisk::fail(FailingDisk::Fault::none, 0);
-  wait_until([&] { return get("/readyz").status == 200; });
-  EXPECT_TRUE(get("/api/v1/queue").json()["stopped"]) << "until someone resumes";
-  EXPECT_EQ(submit("again", "right").status, 202);
-  ASSERT_EQ(post("/api/v1/resume", "").status, 202);
-  wait_for("runs", "succeeded");
-  restart();
-  EXPECT_EQ(job("runs")["state"], "succeeded");
-  EXPECT_EQ(get("/api/v1/jobs/refused").status, 404) << "its client was told so";
-}
-
-TEST_F(Durable, WhatTheDiskDoesNotTakeDoesNotExistAndItsIdIsFree) {
-  start(1);
-  FailingDisk::fail(FailingDisk::Fault::full, 0);
-  ASSERT_EQ(submit("tried").status, 507);
-  wait_until([&] { return get("/api/v1/jobs/tried").status == 404; });
-  EXPECT_EQ(get("/api/v1/jobs").json()["jobs"], json::array());
-  FailingDisk::fail(FailingDisk::Fault::none, 0);
-  wait_until([&] { return get("/readyz").status == 200; });
-  EXPECT_EQ(get("/api/v1/jobs").json()["jobs"], json::array()) << "nor is it put down later";
-  ASSERT_EQ(submit("tried").status, 202);
-  ASSERT_EQ(post("/api/v1/resume", "").status, 202);
-  wait_for("tried", "succeeded");
-  restart();
-  EXPECT_EQ(job("tried")["state"], "succeeded");
-}
-
 // Neither begun nor passed over in silence.
 TEST_F(Durable, ADamagedJobIsToldOf) {
   start(1);
@@ -278,25 +175,6 @@ TEST_F(Durable, ADamagedJobIsToldOf) {
     });
   };
   wait_until(is_told);
-}
-
-TEST_F(Durable, WhatIsCanceledBesideAFullDiskIsNotSaidToBeKept) {
-  start(1);
-  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
-  ASSERT_EQ(submit("waits").status, 202);
-  FailingDisk::fail(FailingDisk::Fault::full, 0);
-  const auto canceled = remove("/api/v1/jobs/waits");
-  EXPECT_EQ(canceled.status, 507) << canceled.body;
-  EXPECT_NE(canceled.body.find("the next run may not know of it"), std::string::npos);
-  EXPECT_EQ(job("waits")["state"], "canceled") << "it is done all the same";
-}
-
-TEST_F(Durable, ABrokenDiskIsNoFullOne) {
-  start(1);
-  FailingDisk::fail(FailingDisk::Fault::broken, 0);
-  const auto refused = submit("refused");
-  EXPECT_EQ(refused.status, 503) << refused.body;
-  EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:storage-failed");
 }
 
 TEST_F(Durable, AJobThatTheCellNoLongerFitsIsInterruptedAndSaysWhy) {

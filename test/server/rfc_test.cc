@@ -141,11 +141,7 @@ TEST_F(Rfc, WhatIsNoEntityTagIsMalformed) {
 TEST_F(Rfc, ACloseCodeThatIsNoneIsAProtocolError) {
   const auto answer_to_close = [&](int code) {
     test::Wire wire(port());
-    wire.send(
-        "GET /api/v1/ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
-        "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
-        "Sec-WebSocket-Version: 13\r\n\r\n");
-    (void)wire.take_until("\r\n\r\n");
+    test::begin_websocket(wire);
     wire.send(std::string("\x88\x82\0\0\0\0", 6) + static_cast<char>(code >> 8) +
               static_cast<char>(code & 0xff));
     const std::string all = wire.take_all();  // frames of events, and last the close

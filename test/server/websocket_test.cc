@@ -43,30 +43,14 @@ class WebSocketFrames : public test::RunningServer {
   // What comes back, events left out: pongs as "pong:payload ", and the close with its code.
   std::string answer_to(const std::string& frames) {
     test::Wire wire(port());
-    wire.send(
-        "GET /api/v1/ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
-        "Connection: Upgrade\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
-        "Sec-WebSocket-Version: 13\r\n\r\n");
-    (void)wire.take_until("\r\n\r\n");
+    test::begin_websocket(wire);
     wire.send(frames);
     std::string told;
     for (;;) {
-      const std::string head = wire.take(2);
-      const std::string payload = wire.take(length_of(head[1], wire));
-      const int kind = static_cast<unsigned char>(head[0]);
+      const auto [kind, payload] = test::take_frame(wire);
       if (kind == kPong) told += "pong:" + payload + " ";
-      if (kind == kClose) return told + std::to_string(number_of(payload.substr(0, 2)));
+      if (kind == kClose) return told + std::to_string(test::number_of(payload.substr(0, 2)));
     }
-  }
-
- private:
-  static std::size_t number_of(const std::string& bytes) {
-    std::size_t number = 0;
-    for (const char byte : bytes) number = number * 256 + static_cast<unsigned char>(byte);
-    return number;
-  }
-  static std::size_t length_of(char told, test::Wire& wire) {
-    return told < 126 ? static_cast<std::size_t>(told) : number_of(wire.take(told == 126 ? 2 : 8));
   }
 };
 

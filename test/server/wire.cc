@@ -110,30 +110,39 @@ Answer request(std::uint16_t port, const std::string& method, const std::string&
   return read_answer(wire, method == "HEAD");
 }
 
-Listener::Listener(std::uint16_t port, const std::string& query) : wire_(port) {
-  wire_.send("GET /api/v1/ws" + query +
-             " HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-             "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n");
-  const std::string head = wire_.take_until("\r\n\r\n");
+void begin_websocket(Wire& wire, const std::string& query) {
+  wire.send("GET /api/v1/ws" + query +
+            " HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n\r\n");
+  const std::string head = wire.take_until("\r\n\r\n");
   if (!head.starts_with("HTTP/1.1 101")) throw std::runtime_error("no upgrade: " + head);
+}
+
+std::size_t number_of(const std::string& bytes) {
+  std::size_t number = 0;
+  for (const char byte : bytes) number = number << 8U | static_cast<unsigned char>(byte);
+  return number;
+}
+
+Frame take_frame(Wire& wire) {
+  const std::string head = wire.take(2);
+  std::size_t size = static_cast<unsigned char>(head[1]);
+  if (size >= 126) size = number_of(wire.take(size == 126 ? 2 : 8));
+  return {static_cast<unsigned char>(head[0]), wire.take(size)};
+}
+
+Listener::Listener(std::uint16_t port, const std::string& query) : wire_(port) {
+  begin_websocket(wire_, query);
 }
 
 std::optional<nlohmann::json> Listener::next() {
   for (;;) {
-    const std::string head = wire_.take(2);
-    const int opcode = static_cast<unsigned char>(head[0]) & 0x0F;
-    std::size_t size = static_cast<unsigned char>(head[1]);  // a server does not mask
-    if (size >= 126) {
-      const std::string extended = wire_.take(size == 126 ? 2 : 8);
-      size = 0;
-      for (const char c : extended) size = size << 8U | static_cast<unsigned char>(c);
-    }
-    const std::string payload = wire_.take(size);
+    const auto [first, payload] = take_frame(wire_);
+    const int opcode = first & 0x0F;
     if (opcode == 1) return nlohmann::json::parse(payload);
     if (opcode == 8) {
-      if (size >= 2) {
-        closed_.code =
-            static_cast<unsigned char>(payload[0]) << 8 | static_cast<unsigned char>(payload[1]);
+      if (payload.size() >= 2) {
+        closed_.code = static_cast<int>(number_of(payload.substr(0, 2)));
         closed_.reason = payload.substr(2);
       }
       return std::nullopt;

@@ -42,6 +42,17 @@ struct Answer {
   [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(body); }
 };
 
+// Begins a WebSocket; throws when it is refused.
+void begin_websocket(Wire& wire, const std::string& query = "");
+// One frame of a server, which masks none.
+struct Frame {
+  int first = 0;  // FIN, reserved bits and opcode
+  std::string payload;
+};
+Frame take_frame(Wire& wire);
+// Its bytes, the most significant first.
+std::size_t number_of(const std::string& bytes);
+
 // Reads one response from the wire. `head`: it has no body whatever its Content-Length says.
 Answer read_answer(Wire& wire, bool head = false);
 
