@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/number_range.h"
 #include "core/base/time.h"
 #include "core/geometry/shape.h"
 
@@ -45,7 +46,16 @@ struct ArmDescription {
   std::map<std::string, double> gripper = {};
 };
 
+// What settings may be stands beside them, as <setting>_range: the reader of cell files, their
+// schema and build_cell() take it from here.
+inline constexpr NumberRange kSettingTime_s{0.0, 1e6};
+inline constexpr NumberRange kSettingPositiveTime_s{0.0, 1e6, true};
+inline constexpr NumberRange kZeroToOne{0.0, 1.0};
+
 struct ControllerDescription {
+  inline static constexpr NumberRange lag_range = kSettingTime_s;
+  inline static constexpr NumberRange noise_range = kZeroToOne;
+
   std::string type = "sim";
   Duration lag = std::chrono::milliseconds(20);  // first-order delay along the path
   double noise_rad = 0.0;                        // standard deviation of measured positions
@@ -72,6 +82,12 @@ struct ObjectDescription {
 };
 
 struct CheckingSettings {
+  inline static constexpr NumberRange time_step_range{1e-4, 10.0};
+  inline static constexpr NumberRange tracking_error_range = kZeroToOne;
+  inline static constexpr NumberRange delay_range = kSettingTime_s;
+  inline static constexpr NumberRange limit_tolerance_range{
+      .lowest = 0.0, .highest = 1.0, .open_above = true};
+
   Duration time_step = std::chrono::milliseconds(50);
   double tracking_error_rad = 0.001;
   Duration delay = std::chrono::milliseconds(100);
@@ -93,6 +109,10 @@ enum class OnRestart {
 [[nodiscard]] const char* to_string(OnRestart value);
 
 struct SchedulingSettings {
+  inline static constexpr NumberRange backlog_timeout_range = kSettingPositiveTime_s;
+  inline static constexpr NumberRange aging_range = kSettingTime_s;
+  inline static constexpr NumberRange horizon_legs_range{1, 32};
+
   std::string policy = "earliest_start";
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
@@ -101,6 +121,10 @@ struct SchedulingSettings {
   OnRestart on_restart = OnRestart::ask;
 };
 struct MonitorSettings {
+  inline static constexpr NumberRange rate_range{1.0, 1000.0};  // Hz
+  inline static constexpr NumberRange reaction_range = kSettingTime_s;
+  inline static constexpr NumberRange stop_clearance_range = kZeroToOne;  // and <= clearance_m
+
   double rate_hz = 100.0;
   Duration reaction = std::chrono::milliseconds(20);
   double stop_clearance_m = 0.01;
@@ -108,6 +132,11 @@ struct MonitorSettings {
 inline constexpr double kVelocityScalingMin = 1e-3;
 
 struct ExecutionSettings {  // MoveIt's defaults
+  inline static constexpr NumberRange start_tolerance_range{0.0, 1.0, true};
+  inline static constexpr NumberRange duration_scaling_range{1.0, 100.0};
+  inline static constexpr NumberRange duration_margin_range = kSettingTime_s;
+  inline static constexpr NumberRange velocity_scaling_range{kVelocityScalingMin, 1.0};
+
   double start_tolerance_rad = 0.01;
   double duration_scaling = 1.1;
   Duration duration_margin = std::chrono::milliseconds(500);
@@ -117,6 +146,8 @@ struct ExecutionSettings {  // MoveIt's defaults
 };
 
 struct CellDescription {
+  inline static constexpr NumberRange clearance_range = kZeroToOne;  // m, of all three
+
   std::string name;
   std::vector<RobotDescription> robots;
   std::vector<ObjectDescription> objects;

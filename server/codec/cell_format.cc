@@ -13,22 +13,20 @@ using namespace formats;
 
 namespace {
 
-constexpr Range kTime{0.0, 1e6};  // s
-constexpr Range kZeroToOne{0.0, 1.0};
-
 FormatPtr<CheckingSettings> checking_format() {
   using Checking = CheckingSettings;
   return object<Checking>({
-      field("time_step_s", &Checking::time_step, seconds({1e-4, 10.0}),
+      field("time_step_s", &Checking::time_step, seconds(Checking::time_step_range),
             "Time between the instants that the policy timed_discrete compares."),
-      field("tracking_error_rad", &Checking::tracking_error_rad, number(kZeroToOne),
+      field("tracking_error_rad", &Checking::tracking_error_rad,
+            number(Checking::tracking_error_range),
             "How far each joint may be off its path: every proof covers it."),
       field(
-          "delay_s", &Checking::delay, seconds(kTime),
+          "delay_s", &Checking::delay, seconds(Checking::delay_range),
           "How far a motion is expected to be behind its plan: controllers with a larger lag_s are "
           "warned of. Motions go by measured progress, so nothing that is certified depends on "
           "it."),
-      field("limit_tolerance", &Checking::limit_tolerance, number(kZeroToOne),
+      field("limit_tolerance", &Checking::limit_tolerance, number(Checking::limit_tolerance_range),
             "Share by which a trajectory may exceed a limit of velocity, acceleration or jerk "
             "between its waypoints."),
   });
@@ -39,9 +37,10 @@ FormatPtr<SchedulingSettings> scheduling_format() {
   return object<Scheduling>({
       field("policy", &Scheduling::policy, one_of(known_policies()),
             "The rule by which jobs start; `armloom compare` shows what each makes of your jobs."),
-      field("backlog_timeout_s", &Scheduling::backlog_timeout, seconds(kTime),
+      field("backlog_timeout_s", &Scheduling::backlog_timeout,
+            seconds(Scheduling::backlog_timeout_range),
             "A job that has waited so long in the backlog expires, unless it says otherwise."),
-      field("aging_s", &Scheduling::aging, seconds(kTime),
+      field("aging_s", &Scheduling::aging, seconds(Scheduling::aging_range),
             "A job that has waited so long is overtaken no more."),
       field("on_idle_blocker", &Scheduling::on_idle_blocker,
             choice<OnIdleBlocker>(
@@ -50,7 +49,7 @@ FormatPtr<SchedulingSettings> scheduling_format() {
             "an arm aside, replan plans another way to where the job ends (what its trajectory was "
             "to do on the way is lost) and parks where there is none, report only tells of it."),
       field(
-          "horizon_legs", &Scheduling::horizon_legs, integer(1, 32),
+          "horizon_legs", &Scheduling::horizon_legs, integer(Scheduling::horizon_legs_range),
           "Of each arm so many jobs are admitted together, the one under way included; who passes "
           "first is chosen for all of them (coordinated only). Decisions take longer with the "
           "square of it: above 12 tens of milliseconds."),
@@ -65,11 +64,11 @@ FormatPtr<SchedulingSettings> scheduling_format() {
 FormatPtr<MonitorSettings> monitor_format() {
   using Monitor = MonitorSettings;
   return object<Monitor>({
-      field("rate_hz", &Monitor::rate_hz, number({1.0, 1000.0}),
+      field("rate_hz", &Monitor::rate_hz, number(Monitor::rate_range),
             "How often the measured state is looked at."),
-      field("reaction_s", &Monitor::reaction, seconds(kTime),
+      field("reaction_s", &Monitor::reaction, seconds(Monitor::reaction_range),
             "Time from a finding to the first arm that brakes."),
-      field("stop_clearance_m", &Monitor::stop_clearance_m, number(kZeroToOne),
+      field("stop_clearance_m", &Monitor::stop_clearance_m, number(Monitor::stop_clearance_range),
             "Links closer than this stop their arms. At most clearance_m."),
   });
 }
@@ -77,15 +76,18 @@ FormatPtr<MonitorSettings> monitor_format() {
 FormatPtr<ExecutionSettings> execution_format() {
   using Execution = ExecutionSettings;
   return object<Execution>({
-      field("start_tolerance_rad", &Execution::start_tolerance_rad, number(kZeroToOne),
+      field("start_tolerance_rad", &Execution::start_tolerance_rad,
+            number(Execution::start_tolerance_range),
             "How far an arm may stand from where its job begins."),
-      field("duration_scaling", &Execution::duration_scaling, number({1.0, 100.0}),
+      field("duration_scaling", &Execution::duration_scaling,
+            number(Execution::duration_scaling_range),
             "A motion fails as overrun when it takes longer than this times its duration, plus the "
             "margin, and has not moved for 10 s."),
-      field("duration_margin_s", &Execution::duration_margin, seconds(kTime),
+      field("duration_margin_s", &Execution::duration_margin,
+            seconds(Execution::duration_margin_range),
             "The margin of that; larger where arms may stall for longer."),
       field("velocity_scaling_factor", &Execution::velocity_scaling_factor,
-            number({kVelocityScalingMin, 1.0}),
+            number(Execution::velocity_scaling_range),
             "As MoveIt's default: the share of the joints' speeds of every motion whose times the "
             "server makes: goals, paths to be timed, other ways, ways aside. A request's own "
             "velocity_scaling_factor takes its place. Trajectories with times are run as they are "
@@ -96,11 +98,13 @@ FormatPtr<ExecutionSettings> execution_format() {
 PartPtr<CellDescription> make_settings_part() {
   using Description = CellDescription;
   return make_as_base<Parts<Description>>(std::vector<PartPtr<Description>>{
-      field("clearance_m", &Description::clearance_m, number(kZeroToOne),
+      field("clearance_m", &Description::clearance_m, number(Description::clearance_range),
             "What every admitted motion keeps from other arms and the scene."),
-      field("self_clearance_m", &Description::self_clearance_m, number(kZeroToOne),
+      field("self_clearance_m", &Description::self_clearance_m,
+            number(Description::clearance_range),
             "What an arm's own links keep from each other; at most clearance_m counts."),
-      field("mount_clearance_m", &Description::mount_clearance_m, number(kZeroToOne),
+      field("mount_clearance_m", &Description::mount_clearance_m,
+            number(Description::clearance_range),
             "What an arm keeps from the link that carries it: clearance_m unless given, as that "
             "link may be a table; at most clearance_m counts. Less (0.005) where an "
             "arm folds on its own base or works beside its own body."),
@@ -119,6 +123,28 @@ PartPtr<CellDescription> make_settings_part() {
 PartPtr<CellDescription> settings_part() {
   static const PartPtr<CellDescription> part = make_settings_part();
   return part;
+}
+
+std::string settings_text(const CellDescription& settings) {
+  JsonWriter out;
+  out.begin_object();
+  settings_part()->write(out, settings);
+  out.end_object();
+  std::string first, groups;
+  const auto add = [](std::string& line, const std::string& key, const Schema& value) {
+    const std::string told = value.is_string() ? value.get<std::string>() : value.dump();
+    line += (line.empty() ? "" : ", ") + key + " " + told;
+  };
+  for (const auto& [key, value] : as_json(out).items()) {
+    if (!value.is_object()) {
+      add(first, key, value);
+      continue;
+    }
+    std::string line;
+    for (const auto& [name, setting] : value.items()) add(line, name, setting);
+    groups += key + ": " + line + "\n";
+  }
+  return first + "\n" + groups;
 }
 
 const Format<CellDescription>& cell_format() {

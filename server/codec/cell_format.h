@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "core/model/cell_description.h"
 #include "server/codec/format.h"
 #include "server/codec/object_format.h"
@@ -14,5 +16,7 @@ namespace armloom {
 // The part that is written on its own, in GET /cell: clearances, checking, scheduling, monitor,
 // execution, as members of one object.
 [[nodiscard]] formats::PartPtr<CellDescription> settings_part();
+// The same for people, by the file's own names: "monitor: rate_hz 100, ...", a line a group.
+[[nodiscard]] std::string settings_text(const CellDescription& settings);
 
 }  // namespace armloom

@@ -14,8 +14,6 @@ using namespace formats;
 namespace {
 
 constexpr Range kHeld{-1000.0, 1000.0};  // rad or m
-constexpr Range kLag{0.0, 1e6};          // s
-constexpr Range kNoise{0.0, 1.0};
 
 struct LimitText {
   std::string name;   // without its unit
@@ -135,9 +133,9 @@ FormatPtr<ControllerDescription> controller_format() {
   using Controller = ControllerDescription;
   return object<Controller>({
       field("type", &Controller::type, one_of({"sim"}), "What moves the arms: simulated ones."),
-      field("lag_s", &Controller::lag, seconds(kLag),
+      field("lag_s", &Controller::lag, seconds(Controller::lag_range),
             "How far a measured position is behind the commanded one, along the path."),
-      field("noise_rad", &Controller::noise_rad, number(kNoise),
+      field("noise_rad", &Controller::noise_rad, number(Controller::noise_range),
             "Standard deviation of measured positions."),
   });
 }

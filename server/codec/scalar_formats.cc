@@ -12,7 +12,7 @@ std::string spelled(double number) { return as_json(number).dump(); }
 
 std::string sentence(const Range& range) {
   const bool below = std::isfinite(range.lowest);
-  if (below && !range.open && std::isfinite(range.highest)) {
+  if (below && !range.open && !range.open_above && std::isfinite(range.highest)) {
     return "is not within " + spelled(range.lowest) + ".." + spelled(range.highest);
   }
   std::string text;
@@ -22,7 +22,8 @@ std::string sentence(const Range& range) {
     text = (range.open ? "is not greater than " : "is less than ") + spelled(range.lowest);
   }
   if (!std::isfinite(range.highest)) return text;
-  return (text.empty() ? "is not" : text + " and") + " at most " + spelled(range.highest);
+  return (text.empty() ? "is not" : text + " and") +
+         (range.open_above ? " less than " : " at most ") + spelled(range.highest);
 }
 
 Schema schema_of(const Range& range) {
@@ -30,7 +31,8 @@ Schema schema_of(const Range& range) {
   if (std::isfinite(range.lowest)) {
     schema[range.open ? "exclusiveMinimum" : "minimum"] = as_json(range.lowest);
   }
-  if (std::isfinite(range.highest)) schema["maximum"] = as_json(range.highest);
+  if (std::isfinite(range.highest))
+    schema[range.open_above ? "exclusiveMaximum" : "maximum"] = as_json(range.highest);
   return schema;
 }
 

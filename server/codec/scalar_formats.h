@@ -6,22 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "core/base/number_range.h"
 #include "core/base/time.h"
 #include "server/codec/format.h"
 
 namespace armloom::formats {
 
-// Numbers a setting may have: lowest..highest, without the lowest itself where it is `open`.
-struct Range {
-  double lowest = -std::numeric_limits<double>::infinity();
-  double highest = std::numeric_limits<double>::infinity();
-  bool open = false;
-  const char* remedy = "";  // told with a number outside: "; degrees go to rpy_deg"
-
-  [[nodiscard]] bool holds(double number) const {
-    return (open ? number > lowest : number >= lowest) && number <= highest;
-  }
-};
+using Range = NumberRange;
 inline constexpr Range kAnyNumber{};
 inline constexpr Range kPositive{0.0, std::numeric_limits<double>::infinity(), true};
 

@@ -24,6 +24,7 @@ std::string range_words(const Schema& schema) {
   if (schema.contains("minimum")) words.push_back("at least " + at("minimum"));
   if (schema.contains("exclusiveMinimum")) words.push_back("above " + at("exclusiveMinimum"));
   if (schema.contains("maximum")) words.push_back("at most " + at("maximum"));
+  if (schema.contains("exclusiveMaximum")) words.push_back("below " + at("exclusiveMaximum"));
   return joined(words, ", ");
 }
 

@@ -130,6 +130,9 @@ FormatPtr<bool> flag() { return make_as_base<FlagFormat>(); }
 FormatPtr<int> integer(int lowest, int highest) {
   return make_as_base<IntegerFormat>(lowest, highest);
 }
+FormatPtr<int> integer(const NumberRange& range) {
+  return integer(static_cast<int>(range.lowest), static_cast<int>(range.highest));
+}
 FormatPtr<std::uint64_t> count() { return make_as_base<CountFormat>(); }
 FormatPtr<std::vector<double>> number_list() { return make_as_base<NumberListFormat>(); }
 FormatPtr<TimePoint> cell_time() { return make_as_base<CellTimeFormat>(seconds(kAnyNumber)); }

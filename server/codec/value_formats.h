@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/number_range.h"
 #include "core/base/time.h"
 #include "server/codec/format.h"
 
@@ -18,7 +19,8 @@ namespace armloom::formats {
 
 [[nodiscard]] FormatPtr<bool> flag();
 [[nodiscard]] FormatPtr<int> integer(int lowest, int highest);
-[[nodiscard]] FormatPtr<std::uint64_t> count();  // from zero on
+[[nodiscard]] FormatPtr<int> integer(const NumberRange& range);  // of whole ends
+[[nodiscard]] FormatPtr<std::uint64_t> count();                  // from zero on
 // As number(kAnyNumber) in a list, quicker: trajectories hold ten thousands.
 [[nodiscard]] FormatPtr<std::vector<double>> number_list();
 // Cell time in seconds.

@@ -8,7 +8,9 @@
 #include "core/audit/audit.h"
 #include "core/base/diagnostics.h"
 #include "core/executive/shape_report.h"
+#include "server/codec/cell_format.h"
 #include "server/command/command.h"
+#include "server/messages/cell.h"
 
 namespace armloom {
 namespace {
@@ -74,32 +76,6 @@ void print_arm(const Cell& cell, const Arm& arm) {
   std::for_each(arm.gripper_joints.begin(), arm.gripper_joints.end(), print);
 }
 
-void print_settings(const Cell& cell) {
-  const double mount_m = cell.clearances.mount_limit_m();
-  std::cout << "clearance " << cell.clearances.clearance_m << " m, "
-            << cell.clearances.self_clearance_m << " m of an arm from itself"
-            << (mount_m < cell.clearances.clearance_m
-                    ? ", " + text_of(mount_m) + " m from its mount"
-                    : "")
-            << '\n'
-            << "checking: time step " << to_seconds(cell.checking.time_step)
-            << " s, tracking error " << cell.checking.tracking_error_rad << " rad, delay "
-            << to_seconds(cell.checking.delay) << " s, limit tolerance "
-            << cell.checking.limit_tolerance << '\n'
-            << "scheduling: policy " << cell.scheduling.policy << ", backlog timeout "
-            << to_seconds(cell.scheduling.backlog_timeout) << " s, aging "
-            << to_seconds(cell.scheduling.aging) << " s, on idle blocker "
-            << to_string(cell.scheduling.on_idle_blocker) << ", horizon "
-            << cell.scheduling.horizon_legs << " legs\n"
-            << "monitor: " << cell.monitor.rate_hz << " Hz, reaction "
-            << to_seconds(cell.monitor.reaction) << " s, stops below "
-            << cell.monitor.stop_clearance_m << " m\n"
-            << "execution: start tolerance " << cell.execution.start_tolerance_rad
-            << " rad, duration " << cell.execution.duration_scaling << " x + "
-            << to_seconds(cell.execution.duration_margin) << " s, motions timed here at "
-            << cell.execution.velocity_scaling_factor << " of the joints' speeds\n";
-}
-
 void print_cell(const Cell& cell) {
   std::cout << std::setprecision(6) << "cell " << cell.name << ": " << cell.robots.size()
             << " robots, " << cell.arms.size() << " arms, " << cell.joints.size() << " joints, "
@@ -123,7 +99,7 @@ void print_cell(const Cell& cell) {
               << no_minus_zero(p.x()) << ", " << no_minus_zero(p.y()) << ", "
               << no_minus_zero(p.z()) << '\n';
   }
-  print_settings(cell);
+  std::cout << settings_text(settings_of(cell));
 }
 
 void print_shapes(const std::vector<ShapeReport>& report) {

@@ -122,6 +122,18 @@ FormatPtr<CellJointView> joint_view_format() {
 
 }  // namespace
 
+CellDescription settings_of(const Cell& cell) {
+  CellDescription settings;
+  settings.clearance_m = cell.clearances.clearance_m;
+  settings.self_clearance_m = cell.clearances.self_clearance_m;
+  settings.mount_clearance_m = cell.clearances.mount_limit_m();
+  settings.checking = cell.checking;
+  settings.scheduling = cell.scheduling;
+  settings.monitor = cell.monitor;
+  settings.execution = cell.execution;
+  return settings;
+}
+
 CellView view_of(const Cell& cell, std::string policy, double speed) {
   CellView view{&cell, std::move(policy), speed, {}, {}, {}};
   const auto names = [&](const std::vector<JointId>& ids) {
@@ -139,13 +151,7 @@ CellView view_of(const Cell& cell, std::string policy, double speed) {
   for (const Joint& joint : cell.joints) {
     view.joints.push_back({&joint, joint.arm ? cell.arm(*joint.arm).name : ""});
   }
-  view.settings.clearance_m = cell.clearances.clearance_m;
-  view.settings.self_clearance_m = cell.clearances.self_clearance_m;
-  view.settings.mount_clearance_m = cell.clearances.mount_limit_m();
-  view.settings.checking = cell.checking;
-  view.settings.scheduling = cell.scheduling;
-  view.settings.monitor = cell.monitor;
-  view.settings.execution = cell.execution;
+  view.settings = settings_of(cell);
   return view;
 }
 

@@ -38,6 +38,7 @@ struct PolicyChoice {
 };
 [[nodiscard]] FormatPtr<PolicyChoice> policy_choice_format();
 
+[[nodiscard]] CellDescription settings_of(const Cell& cell);
 [[nodiscard]] CellView view_of(const Cell& cell, std::string policy, double speed);
 [[nodiscard]] FormatPtr<CellView> cell_view_format();
 

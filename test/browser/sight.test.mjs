@@ -23,12 +23,13 @@ const told = () => {
 
 const kPages = ['#/', '#/new', '#/scene', '#/scene/table', '#/history', '#/settings', '#/alerts', '#/recovery', '#/recordings', '#/policies', '#/job/done', '#/arm/left', '#/pair/left/right', '#/pair/done/other'];
 
-test('a page that is opened by its address shows what it does when one comes back to it', { timeout: 240_000 }, async () => {
+test('a page that is opened by its address shows what it does when one comes back to it', { timeout: 400_000 }, async () => {
   await send_through(page, 'left', 'done', [kMiddle, null], 3);
   await send_through(page, 'right', 'other', [kMiddle, null], 3);
   for (const id of ['done', 'other']) await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 40_000 });
   for (const hash of kPages) {
     const other = await chromium.context.newPage();
+    await other.setViewportSize({ width: 800, height: 450 });  // fourteen pictures of the cell are drawn for it
     await other.goto(`${url}${hash}`);
     await other.locator('[data-test=link].open').waitFor();
     await other.waitForFunction(() => window.armloom?.is_drawn());

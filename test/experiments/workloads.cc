@@ -135,50 +135,52 @@ Workload random_mix(std::uint64_t seed) {
   return workload;
 }
 
-// One fixture in the middle in which each job works for most of its time: the arms take turns
-// whatever the policy.
-Workload one_fixture(std::uint64_t seed) {
+// A part is fitted into the one fixture in the middle.
+void add_fit(JobMaker& maker, ArmId arm) {
+  until_taken([&] {
+    const auto place = spot_in(maker, arm, {-0.02, 0.02, -0.02, 0.02});
+    const double work_s = maker.draw(2.5, 3.5);
+    return place &&
+           maker.add(
+               arm, TimePoint{},
+               {{"fit",
+                 {{place->above}, {place->low, 1.0, work_s}, {place->above}, {maker.home(arm)}}}});
+  });
+}
+
+// The own tray is tended, where no other arm comes.
+void add_tending(JobMaker& maker, ArmId arm) {
+  constexpr double kTakt_s = 6.0;
+  until_taken([&] {
+    const auto from = spot_in_tray(maker, arm, kTray_B);
+    const auto to = spot_in_tray(maker, arm, kTray_B);
+    if (!from || !to) return false;
+    std::vector<Leg> legs = {
+        {from->above}, {from->low}, {from->above}, {to->above}, {maker.home(arm)}};
+    return fill_time(maker.cell(), arm, maker.home(arm), {kTakt_s, 3}, legs) &&
+           maker.add(arm, TimePoint{}, {{"tend", legs}});
+  });
+}
+
+// So many jobs of each arm at the fixture, then so many at its tray.
+Workload of_fits_and_tending(std::uint64_t seed, int fits, int tending) {
   Workload workload{config("two_pandas")};
   JobMaker maker(workload.cell, seed);
-  for (int task = 0; task < 4; ++task) {
+  for (int task = 0; task < fits + tending; ++task) {
     for (const ArmId arm : arms_of(*workload.cell)) {
-      until_taken([&] {
-        const auto place = spot_in(maker, arm, {-0.02, 0.02, -0.02, 0.02});
-        const double work_s = maker.draw(2.5, 3.5);
-        return place && maker.add(arm, TimePoint{},
-                                  {{"fit",
-                                    {{place->above},
-                                     {place->low, 1.0, work_s},
-                                     {place->above},
-                                     {maker.home(arm)}}}});
-      });
+      task < fits ? add_fit(maker, arm) : add_tending(maker, arm);
     }
   }
   workload.jobs = maker.take();
   return workload;
 }
 
+// Each job works in the fixture for most of its time: the arms take turns whatever the policy.
+Workload one_fixture(std::uint64_t seed) { return of_fits_and_tending(seed, 4, 0); }
 // The arms never meet, and every job takes as long as every other: rounds lose nothing.
-Workload apart(std::uint64_t seed) {
-  Workload workload{config("two_pandas")};
-  JobMaker maker(workload.cell, seed);
-  constexpr double kTakt_s = 6.0;
-  for (int task = 0; task < 7; ++task) {
-    for (const ArmId arm : arms_of(*workload.cell)) {
-      until_taken([&] {
-        const auto from = spot_in_tray(maker, arm, kTray_B);
-        const auto to = spot_in_tray(maker, arm, kTray_B);
-        if (!from || !to) return false;
-        std::vector<Leg> legs = {
-            {from->above}, {from->low}, {from->above}, {to->above}, {maker.home(arm)}};
-        return fill_time(maker.cell(), arm, maker.home(arm), {kTakt_s, 3}, legs) &&
-               maker.add(arm, TimePoint{}, {{"tend", legs}});
-      });
-    }
-  }
-  workload.jobs = maker.take();
-  return workload;
-}
+Workload apart(std::uint64_t seed) { return of_fits_and_tending(seed, 0, 7); }
+// In the order given the fixture is wanted by both arms, and then by none.
+Workload fixture_first(std::uint64_t seed) { return of_fits_and_tending(seed, 5, 5); }
 
 template <std::vector<PlannedJob> (*jobs)(const CellPtr&, std::uint64_t)>
 Workload of_two_pandas(std::uint64_t seed) {
@@ -187,8 +189,9 @@ Workload of_two_pandas(std::uint64_t seed) {
   return workload;
 }
 
-Workload visits_in_any_order(std::uint64_t seed) {
-  Workload workload = of_two_pandas<visits>(seed);
+template <Workload (*given)(std::uint64_t)>
+Workload in_any_order(std::uint64_t seed) {
+  Workload workload = given(seed);
   for (PlannedJob& job : workload.jobs) job.timed.job.terms.order = JobOrder::any;
   return workload;
 }
@@ -218,9 +221,15 @@ const std::vector<WorkloadKind>& workload_kinds() {
        delayed<of_two_pandas<shuttle_jobs>>, true},
       {"pick_and_place_delayed", "Pick and place, some jobs late and slow", false,
        delayed<pick_and_place>, true},
+      {"one_fixture_delayed", "One fixture for both arms, some jobs late and slow", false,
+       delayed<one_fixture>, true},
       {"visits", "Visits of poses in the middle, one kind after the other, two Pandas", false,
        of_two_pandas<visits>},
-      {"visits_any", "The same visits in any order", false, visits_in_any_order, false, "visits"},
+      {"visits_any", "The same visits in any order", false, in_any_order<of_two_pandas<visits>>,
+       false, "visits"},
+      {"fixture_first", "Each arm at the one fixture, then at its own tray", false, fixture_first},
+      {"fixture_first_any", "The same in any order", false, in_any_order<fixture_first>, false,
+       "fixture_first"},
       {"in_turn",
        "Visits that either arm could make, given to them in turn; some that one arm has to make",
        false, of_two_pandas<visits_in_turn>},

@@ -10,7 +10,7 @@
 namespace armloom {
 namespace {
 
-constexpr std::uint64_t kSeeds = 50;
+constexpr std::uint64_t kSeeds = 25;
 
 struct SlidersRun : DelayedRun {
   double smallest_m = 1e9;

@@ -5,6 +5,7 @@
 #include <set>
 #include <system_error>
 
+#include "core/base/number_range.h"
 #include "core/base/plain_name.h"
 
 namespace armloom {
@@ -121,55 +122,53 @@ void check_pose(const Eigen::Isometry3d& X, const std::string& pointer, const st
 }
 
 void check_settings(const CellDescription& d, Diagnostics& diagnostics) {
-  require(d.clearance_m >= 0.0, d.clearance_m, "/clearance_m", "0 m or more", diagnostics);
-  require(d.self_clearance_m >= 0.0, d.self_clearance_m, "/self_clearance_m", "0 m or more",
-          diagnostics);
-  const double mount_m = d.mount_clearance_m.value_or(0.0);
-  require(mount_m >= 0.0, mount_m, "/mount_clearance_m", "0 m or more", diagnostics);
+  const auto within = [&](const NumberRange& range, double value, const std::string& pointer) {
+    require(range.holds(value), value, pointer, in_words(range), diagnostics);
+  };
+  const auto time_within = [&](const NumberRange& range_s, Duration time,
+                               const std::string& pointer) {
+    within(range_s, to_seconds(time), pointer);
+  };
+  within(d.clearance_range, d.clearance_m, "/clearance_m");
+  within(d.clearance_range, d.self_clearance_m, "/self_clearance_m");
+  within(d.clearance_range, d.mount_clearance_m.value_or(0.0), "/mount_clearance_m");
 
-  const auto positive = [&](Duration time, const char* pointer) {
-    require(time > Duration::zero(), to_seconds(time), pointer, "greater than 0 s", diagnostics);
-  };
-  const auto not_negative = [&](double value, const char* pointer) {
-    require(value >= 0.0, value, pointer, "0 or more", diagnostics);
-  };
   const CheckingSettings& checking = d.checking;
-  positive(checking.time_step, "/checking/time_step_s");
-  not_negative(checking.tracking_error_rad, "/checking/tracking_error_rad");
-  not_negative(to_seconds(checking.delay), "/checking/delay_s");
-  require(checking.limit_tolerance >= 0.0 && checking.limit_tolerance < 1.0,
-          checking.limit_tolerance, "/checking/limit_tolerance", "at least 0 and less than 1",
-          diagnostics);
+  time_within(checking.time_step_range, checking.time_step, "/checking/time_step_s");
+  within(checking.tracking_error_range, checking.tracking_error_rad,
+         "/checking/tracking_error_rad");
+  time_within(checking.delay_range, checking.delay, "/checking/delay_s");
+  within(checking.limit_tolerance_range, checking.limit_tolerance, "/checking/limit_tolerance");
 
-  positive(d.scheduling.backlog_timeout, "/scheduling/backlog_timeout_s");
-  not_negative(to_seconds(d.scheduling.aging), "/scheduling/aging_s");
-  require(d.scheduling.horizon_legs >= 1 && d.scheduling.horizon_legs <= 32,
-          d.scheduling.horizon_legs, "/scheduling/horizon_legs", "from 1 to 32", diagnostics);
+  const SchedulingSettings& scheduling = d.scheduling;
+  time_within(scheduling.backlog_timeout_range, scheduling.backlog_timeout,
+              "/scheduling/backlog_timeout_s");
+  time_within(scheduling.aging_range, scheduling.aging, "/scheduling/aging_s");
+  within(scheduling.horizon_legs_range, scheduling.horizon_legs, "/scheduling/horizon_legs");
 
   const MonitorSettings& monitor = d.monitor;
-  require(monitor.rate_hz > 0.0 && monitor.rate_hz <= 1000.0, monitor.rate_hz, "/monitor/rate_hz",
-          "greater than 0 and at most 1000 Hz", diagnostics);
-  not_negative(to_seconds(monitor.reaction), "/monitor/reaction_s");
-  not_negative(monitor.stop_clearance_m, "/monitor/stop_clearance_m");
+  within(monitor.rate_range, monitor.rate_hz, "/monitor/rate_hz");
+  time_within(monitor.reaction_range, monitor.reaction, "/monitor/reaction_s");
+  within(monitor.stop_clearance_range, monitor.stop_clearance_m, "/monitor/stop_clearance_m");
   require(!(monitor.stop_clearance_m > d.clearance_m && d.clearance_m >= 0.0),
           monitor.stop_clearance_m, "/monitor/stop_clearance_m",
           "at most clearance_m (" + text_of(d.clearance_m) + " m)", diagnostics);
 
   const ExecutionSettings& execution = d.execution;
-  require(execution.start_tolerance_rad > 0.0, execution.start_tolerance_rad,
-          "/execution/start_tolerance_rad", "greater than 0", diagnostics);
-  require(execution.duration_scaling >= 1.0, execution.duration_scaling,
-          "/execution/duration_scaling", "1 or more", diagnostics);
-  not_negative(to_seconds(execution.duration_margin), "/execution/duration_margin_s");
-  const double factor = execution.velocity_scaling_factor;
-  require(factor >= kVelocityScalingMin && factor <= 1.0, factor,
-          "/execution/velocity_scaling_factor", "at least 0.001 and at most 1", diagnostics);
+  within(execution.start_tolerance_range, execution.start_tolerance_rad,
+         "/execution/start_tolerance_rad");
+  within(execution.duration_scaling_range, execution.duration_scaling,
+         "/execution/duration_scaling");
+  time_within(execution.duration_margin_range, execution.duration_margin,
+              "/execution/duration_margin_s");
+  within(execution.velocity_scaling_range, execution.velocity_scaling_factor,
+         "/execution/velocity_scaling_factor");
 
   for (std::size_t r = 0; r < d.robots.size(); ++r) {
     const ControllerDescription& controller = d.robots[r].controller;
     const std::string pointer = "/robots/" + std::to_string(r) + "/controller";
-    not_negative(to_seconds(controller.lag), (pointer + "/lag_s").c_str());
-    not_negative(controller.noise_rad, (pointer + "/noise_rad").c_str());
+    time_within(controller.lag_range, controller.lag, pointer + "/lag_s");
+    within(controller.noise_range, controller.noise_rad, pointer + "/noise_rad");
   }
 }
 
