@@ -1,4 +1,5 @@
 // What runs of the server have written down, handed out.
+#include <functional>
 #include <memory>
 #include <utility>
 
@@ -13,9 +14,21 @@ Response no_such_file(const std::string& name) {
                                    "request target", "no recording has the file " + name, name}});
 }
 
+// Does it aside, when what was measured until now is in the files of the recording that is written.
+void look_aside(const ApiParts& parts, std::function<void()> look) {
+  if (parts.recording == nullptr) return parts.aside(std::move(look));
+  ask(
+      parts,
+      [recording = parts.recording](Executive&) {
+        recording->catch_up_states();
+        return true;
+      },
+      [&parts, look = std::move(look)](bool) { parts.aside(look); });
+}
+
 void get_recordings(Call call) {
   const ApiParts& parts = call.parts;
-  parts.aside([&parts, &files = call.recordings, respond = std::move(call.respond)] {
+  look_aside(parts, [&parts, &files = call.recordings, respond = std::move(call.respond)] {
     parts.post([list = std::make_shared<RecordingList>(files.list()), respond] {
       respond(answer(200, recording_list_format(), *list));
     });
@@ -36,35 +49,27 @@ PiecedBody body_of(const ApiParts& parts, RecordingFiles::Opened opened) {
           }};
 }
 
+Response answer_of(const ApiParts& parts, const std::string& save_as,
+                   RecordingFiles::Opened opened) {
+  Response response{200, "application/octet-stream"};
+  response.headers = {{"Content-Disposition", "attachment; filename=\"" + save_as + "\""},
+                      {"Cache-Control", "no-store"}};
+  response.pieces = body_of(parts, std::move(opened));
+  return response;
+}
+
 void get_recording_file(Call call) {
   const ApiParts& parts = call.parts;
   const std::string name = call.arguments[0], file = call.arguments[1];
-  const auto hand_out = [&parts, &files = call.recordings, name, file, respond = call.respond] {
-    parts.aside([&parts, &files, name, file, respond] {
-      auto found =
-          std::make_shared<tl::expected<RecordingFiles::Opened, NoFile>>(files.open(name, file));
-      parts.post([&parts, found, name, file, respond] {
-        if (!*found && found->error() == NoFile::busy)
-          return respond(refusal_response(too_many_files()));
-        if (!*found) return respond(no_such_file(name + "/" + file));
-        Response response{200, "application/octet-stream"};
-        response.headers = {
-            {"Content-Disposition", "attachment; filename=\"" + name + "-" + file + "\""},
-            {"Cache-Control", "no-store"}};
-        response.pieces = body_of(parts, std::move(**found));
-        respond(std::move(response));
-      });
+  look_aside(parts, [&parts, &files = call.recordings, name, file, respond = call.respond] {
+    auto found =
+        std::make_shared<tl::expected<RecordingFiles::Opened, NoFile>>(files.open(name, file));
+    parts.post([&parts, found, name, file, respond] {
+      if (*found) return respond(answer_of(parts, name + "-" + file, std::move(**found)));
+      respond(found->error() == NoFile::busy ? refusal_response(too_many_files())
+                                             : no_such_file(name + "/" + file));
     });
-  };
-  if (!call.recordings.is_running(name)) return hand_out();
-  // What was measured until now, too.
-  ask(
-      parts,
-      [recording = parts.recording](Executive&) {
-        recording->catch_up_states();
-        return true;
-      },
-      [hand_out](bool) { hand_out(); });
+  });
 }
 
 }  // namespace

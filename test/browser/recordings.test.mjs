@@ -43,7 +43,7 @@ test('a recording is opened from its files and scrubbed through, and the present
   await page.locator('[data-test=go-recordings]').click();
   const files = page.locator('[data-test=recording-files]');
   await drop_files(page, [join(folder, 'run/events.jsonl')], 'nav');
-  await page.locator('[data-test=opened]', { hasText: '0 pictures' }).waitFor();
+  await page.locator('[data-test=opened]', { hasText: 'no positions' }).waitFor();
   await page.locator('[data-test=recording-close]').click();
   await drop_files(page, [join(folder, 'jobs.json'), join(folder, 'run/states_idle.csv')], 'nav');
   assert.match(await page.locator('[data-test=recording-fault]').innerText(), /neither a states\.csv nor an events\.jsonl/);

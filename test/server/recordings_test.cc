@@ -37,7 +37,8 @@ class Recordings : public Durable {
     std::ofstream(data_ / file, std::ios::binary) << text;
   }
   json listed(const std::string& name) {
-    for (const json& one : get(kList).json()["recordings"]) {
+    const json list = get(kList).json();
+    for (const json& one : list["recordings"]) {
       if (one["name"] == name) return one;
     }
     return nullptr;

@@ -14,7 +14,7 @@ export function RecordingsPage({ app }: { app: App }) {
       <h2>Recordings</h2>
       {opened.value && (
         <div class="opened" role="status" data-test="opened">
-          <p><b>{opened.value.name}</b>: {seconds(opened.value.last_s - opened.value.first_s)} from {clock(opened.value.first_s)}, {opened.value.frames} pictures, {opened.value.events} events{opened.value.unread > 0 && `, ${opened.value.unread} of another version not read`}.</p>
+          <p><b>{opened.value.name}</b>: {seconds(opened.value.last_s - opened.value.first_s)} from {clock(opened.value.first_s)}, {opened.value.frames === 0 ? 'no positions' : `${opened.value.frames} pictures`}, {opened.value.events} events{opened.value.unread > 0 && `, ${opened.value.unread} of another version not read`}.</p>
           <p class="hint">The scrub bar below leads through it; all views show that instant.</p>
           <button data-test="recording-close" onClick={() => app.player.close()}>Back to the present</button>
         </div>
