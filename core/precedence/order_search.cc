@@ -15,6 +15,7 @@ constexpr double kLeast_s = 1e-3;  // what is nearer is as good
 OrderSearch::OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind)
     : open_(open),
       work_behind_(work_behind),
+      weight_of_sum_(weight_of_sum(work_behind)),
       made_max_(std::clamp(kOrdersFollowedMax / std::max<std::size_t>(open.orders().size(), 1),
                            kPredictionsLeast, kPredictionsMax)) {
   const auto& motions = open.motions();
@@ -55,6 +56,12 @@ Prediction OrderSearch::run() {
   wait_where_it_is_cheaper();
   set(best_->sides);
   return std::move(best_->prediction);
+}
+
+double OrderSearch::weight_of_sum(const std::vector<Duration>& work_behind) {
+  const bool more =
+      std::ranges::any_of(work_behind, [](Duration work) { return work > Duration{}; });
+  return more ? kWeightOfSumBeforeMore : kWeightOfSum;
 }
 
 bool OrderSearch::is_later(const Node& a, const Node& b) {
@@ -98,7 +105,7 @@ double OrderSearch::cost_of(const Prediction& prediction) const {
     last = std::max(last, finish[arm] + to_seconds(work_behind_[arm]));
     sum += finish[arm];
   }
-  return last + kWeightOfSum * sum + kWeightOfPriority * urgent;
+  return last + weight_of_sum_ * sum + kWeightOfPriority * urgent;
 }
 
 bool OrderSearch::is_better(double cost) const { return !best_ || cost < best_->cost - kLeast_s; }

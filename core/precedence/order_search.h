@@ -16,14 +16,17 @@ namespace armloom {
 //
 // A budget of predictions bounds it; what is best by then counts. Deterministic.
 //
-// Cost: when the last arm has done its work, what waits behind included, and kWeightOfSum times the
-// sum of the arms' ends; and for a motion that is the first of its arms kWeightOfPriority times its
-// end for each smaller priority that another one has. So of two that meet alike the urgent one
-// passes first, but not at any price.
+// Cost: when the last arm has done its work, what waits behind included, and a share of the sum of
+// the arms' ends; and for a motion that is the first of its arms kWeightOfPriority times its end
+// for each smaller priority that another one has. So of two that meet alike the urgent one passes
+// first, but not at any price. Where work is known to wait behind the motions, the arm that is done
+// last is told by it, and the sum counts kWeightOfSumBeforeMore; where there is none, whatever
+// comes next will want any arm, and each counts kWeightOfSum.
 class OrderSearch {
  public:
-  inline static constexpr double kWeightOfSum = 0.1;
-  inline static constexpr double kWeightOfPriority = 1.0;
+  inline static constexpr double kWeightOfSum = 0.25;
+  inline static constexpr double kWeightOfSumBeforeMore = 0.1;
+  inline static constexpr double kWeightOfPriority = 0.2;
   inline static constexpr std::size_t kPredictionsMax = 300;
   // So many orders are followed in all of them together: a prediction takes as long as there are
   // orders, and of long horizons there are thousands.
@@ -32,6 +35,8 @@ class OrderSearch {
 
   // `work_behind` by ArmId: of jobs that are not among the motions.
   OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind);
+
+  [[nodiscard]] static double weight_of_sum(const std::vector<Duration>& work_behind);
 
   // Sets the choices; returns what is predicted then. Somebody is stuck: no orders were found in
   // which everything comes to its end.
@@ -64,6 +69,7 @@ class OrderSearch {
 
   OpenOrders& open_;
   const std::vector<Duration>& work_behind_;
+  double weight_of_sum_;
   std::vector<double> urgency_;  // by motion: smaller priorities, while it is the first of its arms
   std::vector<Node> waiting_;    // a heap
   std::optional<Node> best_;

@@ -95,7 +95,7 @@ FormatPtr<ExecutionSettings> execution_format() {
 
 PartPtr<CellDescription> make_settings_part() {
   using Description = CellDescription;
-  return std::make_shared<Parts<Description>>(std::vector<PartPtr<Description>>{
+  return make_as_base<Parts<Description>>(std::vector<PartPtr<Description>>{
       field("clearance_m", &Description::clearance_m, number(kZeroToOne),
             "What every admitted motion keeps from other arms and the scene."),
       field("self_clearance_m", &Description::self_clearance_m, number(kZeroToOne),

@@ -13,4 +13,6 @@ Schema as_json(double number) {
   return number;
 }
 
+Schema as_json(const JsonWriter& written) { return Schema::parse(written.text()); }
+
 }  // namespace armloom

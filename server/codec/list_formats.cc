@@ -1,5 +1,7 @@
 #include "server/codec/list_formats.h"
 
+#include <utility>
+
 namespace armloom::formats {
 
 bool is_readable(const JsonNode& array, const ListSize& size) {
@@ -17,9 +19,19 @@ void check_fewest(const JsonNode& array, const ListSize& size) {
                                " is expected here, found " + std::to_string(array.raw().size()));
 }
 
-void describe_size(Schema& schema, const ListSize& size) {
+Schema list_schema(Schema element, const ListSize& size) {
+  Schema schema{{"type", "array"}, {"items", std::move(element)}};
   if (size.fewest > 0) schema["minItems"] = size.fewest;
   if (size.most) schema["maxItems"] = *size.most;
+  return schema;
+}
+
+Schema dictionary_schema(Schema member) {
+  return {{"type", "object"}, {"additionalProperties", std::move(member)}};
+}
+
+Schema pair_schema(Schema element) {
+  return {{"type", "array"}, {"items", std::move(element)}, {"minItems", 2}, {"maxItems", 2}};
 }
 
 }  // namespace armloom::formats

@@ -21,7 +21,10 @@ struct ListSize {
 };
 [[nodiscard]] bool is_readable(const JsonNode& array, const ListSize& size);
 void check_fewest(const JsonNode& array, const ListSize& size);
-void describe_size(Schema& schema, const ListSize& size);
+// Of arrays and objects, by the schema of what is in them.
+[[nodiscard]] Schema list_schema(Schema element, const ListSize& size);
+[[nodiscard]] Schema dictionary_schema(Schema member);
+[[nodiscard]] Schema pair_schema(Schema element);
 
 // A JSON array of elements that all have one format.
 template <class T>
@@ -42,11 +45,7 @@ class ListFormat final : public Format<std::vector<T>> {
     for (const T& element : list) element_->write(out, element);
     out.end_array();
   }
-  Schema schema(Way way) const override {
-    Schema schema{{"type", "array"}, {"items", element_->schema(way)}};
-    describe_size(schema, size_);
-    return schema;
-  }
+  Schema schema(Way way) const override { return list_schema(element_->schema(way), size_); }
   void map_paths(nlohmann::json& value, const PathMap& map) const override {
     if (!value.is_array()) return;
     for (auto& element : value) element_->map_paths(element, map);
@@ -59,7 +58,7 @@ class ListFormat final : public Format<std::vector<T>> {
 
 template <class T>
 [[nodiscard]] FormatPtr<std::vector<T>> list(FormatPtr<T> element, ListSize size = {}) {
-  return std::make_shared<ListFormat<T>>(std::move(element), std::move(size));
+  return make_as_base<ListFormat<T>>(std::move(element), std::move(size));
 }
 
 // A JSON object whose keys are names of the user's: {"torso_lift_joint": 0.1}.
@@ -80,9 +79,7 @@ class DictionaryFormat final : public Format<std::map<std::string, T>> {
     }
     out.end_object();
   }
-  Schema schema(Way way) const override {
-    return {{"type", "object"}, {"additionalProperties", member_->schema(way)}};
-  }
+  Schema schema(Way way) const override { return dictionary_schema(member_->schema(way)); }
   void map_paths(nlohmann::json& value, const PathMap& map) const override {
     if (!value.is_object()) return;
     for (auto& [key, member] : value.items()) member_->map_paths(member, map);
@@ -94,7 +91,7 @@ class DictionaryFormat final : public Format<std::map<std::string, T>> {
 
 template <class T>
 [[nodiscard]] FormatPtr<std::map<std::string, T>> dictionary(FormatPtr<T> member) {
-  return std::make_shared<DictionaryFormat<T>>(std::move(member));
+  return make_as_base<DictionaryFormat<T>>(std::move(member));
 }
 
 // An array of exactly two: ["table", "panda_link0"].
@@ -121,9 +118,7 @@ class PairFormat final : public Format<std::pair<T, T>> {
     element_->write(out, pair.second);
     out.end_array();
   }
-  Schema schema(Way way) const override {
-    return {{"type", "array"}, {"items", element_->schema(way)}, {"minItems", 2}, {"maxItems", 2}};
-  }
+  Schema schema(Way way) const override { return pair_schema(element_->schema(way)); }
 
  private:
   FormatPtr<T> element_;
@@ -131,7 +126,7 @@ class PairFormat final : public Format<std::pair<T, T>> {
 
 template <class T>
 [[nodiscard]] FormatPtr<std::pair<T, T>> pair_of(FormatPtr<T> element) {
-  return std::make_shared<PairFormat<T>>(std::move(element));
+  return make_as_base<PairFormat<T>>(std::move(element));
 }
 
 }  // namespace armloom::formats

@@ -1,5 +1,8 @@
 #include "server/codec/member_part.h"
 
+#include "server/codec/object_format.h"
+#include "server/codec/told_part.h"
+
 namespace armloom::formats {
 namespace {
 
@@ -9,6 +12,25 @@ bool is_telling(const Schema& fallback) {
 }
 
 }  // namespace
+
+Schema object_schema() {
+  Schema object{{"type", "object"}, {"additionalProperties", false}};
+  object["properties"] = Schema::object();
+  return object;
+}
+
+Schema constant_schema(const Schema& value) { return {{"const", value}}; }
+
+void describe_times(Schema& object, const std::string& cell_key, const std::string& wall_key,
+                    const std::string& text, bool may_lack, Way way) {
+  const auto type = [may_lack](const char* name) -> Schema {
+    return may_lack ? Schema{name, "null"} : Schema(name);
+  };
+  describe_member(object, {cell_key, text + ", in cell time", Need::required, {}},
+                  {{"type", type("number")}}, std::nullopt, way);
+  describe_member(object, {wall_key, "The same in wall time", Need::required, {}},
+                  {{"type", type("string")}, {"format", "date-time"}}, std::nullopt, way);
+}
 
 void describe_member(Schema& object, const MemberText& member, Schema schema,
                      const std::optional<Schema>& fallback, Way way) {

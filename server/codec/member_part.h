@@ -16,6 +16,7 @@ namespace armloom::formats {
 template <class T>
 class Part {
  public:
+  using Base = Part;
   virtual ~Part() = default;
   virtual void list_keys(std::vector<std::string_view>& keys) const { static_cast<void>(keys); }
   virtual void read(const JsonNode& object, T& out) const = 0;
@@ -111,7 +112,7 @@ class MemberPart final : public Part<T> {
 // An empty list, dictionary or text is written as nothing: it is what an absent one means.
 template <class T, class M>
 [[nodiscard]] PartPtr<T> member(MemberText text, M T::*where, FormatPtr<M> format) {
-  return std::make_shared<MemberPart<T, M>>(
+  return make_as_base<MemberPart<T, M>>(
       std::move(text), std::move(format),
       [where](const T& from) -> std::optional<M> {
         if constexpr (requires { (from.*where).empty(); }) {
@@ -124,21 +125,22 @@ template <class T, class M>
 // A value that the object may leave open.
 template <class T, class M>
 [[nodiscard]] PartPtr<T> member(MemberText text, std::optional<M> T::*where, FormatPtr<M> format) {
-  return std::make_shared<MemberPart<T, M>>(
+  return make_as_base<MemberPart<T, M>>(
       std::move(text), std::move(format), [where](const T& from) { return from.*where; },
       [where](T& to, M value) { to.*where = std::move(value); });
 }
 
 // The usual ones: key, member, format, what it means.
 template <class T, class Where, class M>
-[[nodiscard]] PartPtr<T> required(std::string key, Where T::*where, FormatPtr<M> format,
-                                  std::string text) {
-  return member({std::move(key), std::move(text), Need::required, {}}, where, std::move(format));
+[[nodiscard]] PartPtr<T> required(std::string_view key, Where T::*where, FormatPtr<M> format,
+                                  std::string_view text) {
+  return member({std::string(key), std::string(text), Need::required, {}}, where,
+                std::move(format));
 }
 template <class T, class Where, class M>
-[[nodiscard]] PartPtr<T> field(std::string key, Where T::*where, FormatPtr<M> format,
-                               std::string text, std::optional<Schema> stated = std::nullopt) {
-  return member({std::move(key), std::move(text), Need::optional, std::move(stated)}, where,
+[[nodiscard]] PartPtr<T> field(std::string_view key, Where T::*where, FormatPtr<M> format,
+                               std::string_view text, std::optional<Schema> stated = std::nullopt) {
+  return member({std::string(key), std::string(text), Need::optional, std::move(stated)}, where,
                 std::move(format));
 }
 
@@ -161,13 +163,13 @@ class ReadOnlyPart final : public Part<T> {
 };
 template <class T>
 [[nodiscard]] PartPtr<T> read_only(PartPtr<T> part) {
-  return std::make_shared<ReadOnlyPart<T>>(std::move(part));
+  return make_as_base<ReadOnlyPart<T>>(std::move(part));
 }
 
 // A member that is allowed and means nothing here.
 template <class T, class M>
 [[nodiscard]] PartPtr<T> ignored(std::string key, FormatPtr<M> format, std::string text) {
-  return std::make_shared<MemberPart<T, M>>(
+  return make_as_base<MemberPart<T, M>>(
       MemberText{std::move(key), std::move(text), Need::optional, {}}, std::move(format),
       [](const T&) { return std::optional<M>(); }, [](T&, M) {});
 }

@@ -35,11 +35,11 @@ class CountRule final : public Part<T> {
 };
 template <class T>
 [[nodiscard]] PartPtr<T> exactly_one(std::vector<std::string> keys) {
-  return std::make_shared<CountRule<T>>(HowMany::exactly_one, std::move(keys));
+  return make_as_base<CountRule<T>>(HowMany::exactly_one, std::move(keys));
 }
 template <class T>
 [[nodiscard]] PartPtr<T> at_most_one(std::vector<std::string> keys) {
-  return std::make_shared<CountRule<T>>(HowMany::at_most_one, std::move(keys));
+  return make_as_base<CountRule<T>>(HowMany::at_most_one, std::move(keys));
 }
 
 // The part, which has no meaning without the member `companion`, and is not written without it.
@@ -75,7 +75,7 @@ class CompanionPart final : public Part<T> {
 template <class T, class M>
 [[nodiscard]] PartPtr<T> only_with(std::string companion, std::optional<M> T::*where,
                                    PartPtr<T> part) {
-  return std::make_shared<CompanionPart<T, M>>(std::move(companion), where, std::move(part));
+  return make_as_base<CompanionPart<T, M>>(std::move(companion), where, std::move(part));
 }
 
 // What `object` demands beyond `before`, its description without the part, it demands only without
@@ -104,7 +104,7 @@ class UnlessPart final : public Part<T> {
 };
 template <class T>
 [[nodiscard]] PartPtr<T> unless(std::string key, PartPtr<T> part) {
-  return std::make_shared<UnlessPart<T>>(std::move(key), std::move(part));
+  return make_as_base<UnlessPart<T>>(std::move(key), std::move(part));
 }
 
 // A member that clients may know of and that is not served: at all, or but for one value, which is
@@ -133,7 +133,7 @@ class NotServedPart final : public Part<T> {
 };
 template <class T>
 [[nodiscard]] PartPtr<T> not_served(NotServed rule) {
-  return std::make_shared<NotServedPart<T>>(std::move(rule));
+  return make_as_base<NotServedPart<T>>(std::move(rule));
 }
 
 }  // namespace armloom::formats

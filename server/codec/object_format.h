@@ -11,6 +11,9 @@
 
 namespace armloom::formats {
 
+// Without properties yet.
+[[nodiscard]] Schema object_schema();
+
 // A JSON object; keys that no part knows are faults.
 template <class T>
 class ObjectFormat final : public Format<T> {
@@ -27,8 +30,7 @@ class ObjectFormat final : public Format<T> {
     out.end_object();
   }
   Schema schema(Way way) const override {
-    Schema object{{"type", "object"}, {"additionalProperties", false}};
-    object["properties"] = Schema::object();
+    Schema object = object_schema();
     parts_.describe(object, T{}, way);
     return object;
   }
@@ -43,7 +45,7 @@ class ObjectFormat final : public Format<T> {
 
 template <class T>
 [[nodiscard]] FormatPtr<T> object(std::vector<PartPtr<T>> parts) {
-  return std::make_shared<ObjectFormat<T>>(std::move(parts));
+  return make_as_base<ObjectFormat<T>>(std::move(parts));
 }
 
 }  // namespace armloom::formats

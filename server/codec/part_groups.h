@@ -36,7 +36,7 @@ class Parts final : public Part<T> {
 
 template <class T>
 [[nodiscard]] PartPtr<T> parts(std::vector<PartPtr<T>> of_it) {
-  return std::make_shared<Parts<T>>(std::move(of_it));
+  return make_as_base<Parts<T>>(std::move(of_it));
 }
 
 // Members that spell a T in other words: those of a Words, made of the T and back.
@@ -89,7 +89,7 @@ class InlinePart final : public Part<T> {
 
 template <class T, class M>
 [[nodiscard]] PartPtr<T> inlined(M T::*where, PartPtr<M> part) {
-  return std::make_shared<InlinePart<T, M>>(where, std::move(part));
+  return make_as_base<InlinePart<T, M>>(where, std::move(part));
 }
 
 }  // namespace armloom::formats

@@ -32,7 +32,7 @@ std::vector<PartPtr<JointLimitsDescription>> limit(
   const std::string linear = said.name + "_m" + said.power;
   // What was given by neither name is written by the first.
   const auto part = [&](const std::string& key, bool is_linear, const std::string& words) {
-    return std::make_shared<MemberPart<Limits, double>>(
+    return make_as_base<MemberPart<Limits, double>>(
         MemberText{key, words, Need::optional, said.stated}, number(range),
         [where, linear, is_linear](const Limits& limits) {
           return limits.keys.contains(linear) == is_linear ? limits.*where : std::nullopt;
@@ -98,14 +98,14 @@ class HomeFormat final : public Format<Home> {
 };
 
 PartPtr<ArmDescription> home_part() {
-  return std::make_shared<MemberPart<ArmDescription, Home>>(
+  return make_as_base<MemberPart<ArmDescription, Home>>(
       MemberText{"home",
                  "Where the arm begins and parks: the joints' positions in the group's order (rad, "
                  "m), or the name of a state of the group in the SRDF. Every joint at zero, or at "
                  "the limit next to it, unless given.",
                  Need::optional,
                  {}},
-      std::make_shared<HomeFormat>(),
+      make_as_base<HomeFormat>(),
       [](const ArmDescription& arm) -> std::optional<Home> {
         if (arm.home.empty() && arm.home_state.empty()) return std::nullopt;
         return Home{arm.home, arm.home_state};

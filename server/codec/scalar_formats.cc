@@ -146,20 +146,20 @@ class NumbersFormat final : public Format<Numbers> {
 
 }  // namespace
 
-FormatPtr<double> number(Range range) { return std::make_shared<NumberFormat>(range); }
-FormatPtr<Duration> seconds(Range range) { return std::make_shared<SecondsFormat>(range); }
-FormatPtr<std::string> text() { return std::make_shared<TextFormat>(); }
-FormatPtr<std::string> name() { return std::make_shared<NameFormat>("name"); }
-FormatPtr<std::string> path() { return std::make_shared<PathFormat>(); }
+FormatPtr<double> number(Range range) { return make_as_base<NumberFormat>(range); }
+FormatPtr<Duration> seconds(Range range) { return make_as_base<SecondsFormat>(range); }
+FormatPtr<std::string> text() { return make_as_base<TextFormat>(); }
+FormatPtr<std::string> name() { return make_as_base<NameFormat>("name"); }
+FormatPtr<std::string> path() { return make_as_base<PathFormat>(); }
 FormatPtr<std::string> one_of(std::vector<std::string> names) {
-  return std::make_shared<OneOfFormat>(std::move(names));
+  return make_as_base<OneOfFormat>(std::move(names));
 }
 FormatPtr<Eigen::Vector3d> vector3(Range range) {
-  return std::make_shared<NumbersFormat<Eigen::Vector3d, 3>>(range);
+  return make_as_base<NumbersFormat<Eigen::Vector3d, 3>>(range);
 }
 template <std::size_t size>
 FormatPtr<std::array<double, size>> numbers(Range range) {
-  return std::make_shared<NumbersFormat<std::array<double, size>, size>>(range);
+  return make_as_base<NumbersFormat<std::array<double, size>, size>>(range);
 }
 template FormatPtr<std::array<double, 1>> numbers<1>(Range);
 template FormatPtr<std::array<double, 2>> numbers<2>(Range);

@@ -64,8 +64,8 @@ PartPtr<Shape> shape_part() {
                  field("scale", &ShapeWords::scale, vector3(kAnyNumber),
                        "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1})),
        exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"})});
-  return std::make_shared<SpeltPart<Shape, ShapeWords>>(std::move(parts), shape_in_words,
-                                                        shape_of_words);
+  return make_as_base<SpeltPart<Shape, ShapeWords>>(std::move(parts), shape_in_words,
+                                                    shape_of_words);
 }
 
 }  // namespace
@@ -73,12 +73,12 @@ PartPtr<Shape> shape_part() {
 PartPtr<Shape> primitive_part() {
   std::vector<PartPtr<ShapeWords>> parts = primitives();
   parts.push_back(exactly_one<ShapeWords>({"box", "cylinder", "sphere"}));
-  return std::make_shared<SpeltPart<Shape, ShapeWords>>(std::move(parts), shape_in_words,
-                                                        shape_of_words);
+  return make_as_base<SpeltPart<Shape, ShapeWords>>(std::move(parts), shape_in_words,
+                                                    shape_of_words);
 }
 
 PartPtr<Eigen::Isometry3d> pose_part(Need xyz) {
-  return std::make_shared<SpeltPart<Eigen::Isometry3d, PoseWords>>(
+  return make_as_base<SpeltPart<Eigen::Isometry3d, PoseWords>>(
       std::vector<PartPtr<PoseWords>>{
           member({"xyz", "Position in metres.", xyz, std::nullopt}, &PoseWords::xyz_m,
                  vector3(kPosition)),

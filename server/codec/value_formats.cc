@@ -126,20 +126,20 @@ class AnythingFormat final : public Format<Anything> {
 
 }  // namespace
 
-FormatPtr<bool> flag() { return std::make_shared<FlagFormat>(); }
+FormatPtr<bool> flag() { return make_as_base<FlagFormat>(); }
 FormatPtr<int> integer(int lowest, int highest) {
-  return std::make_shared<IntegerFormat>(lowest, highest);
+  return make_as_base<IntegerFormat>(lowest, highest);
 }
-FormatPtr<std::uint64_t> count() { return std::make_shared<CountFormat>(); }
-FormatPtr<std::vector<double>> number_list() { return std::make_shared<NumberListFormat>(); }
-FormatPtr<TimePoint> cell_time() { return std::make_shared<CellTimeFormat>(seconds(kAnyNumber)); }
+FormatPtr<std::uint64_t> count() { return make_as_base<CountFormat>(); }
+FormatPtr<std::vector<double>> number_list() { return make_as_base<NumberListFormat>(); }
+FormatPtr<TimePoint> cell_time() { return make_as_base<CellTimeFormat>(seconds(kAnyNumber)); }
 FormatPtr<TimePoint> cell_time(double highest_s) {
-  return std::make_shared<CellTimeFormat>(seconds({0.0, highest_s}));
+  return make_as_base<CellTimeFormat>(seconds({0.0, highest_s}));
 }
-FormatPtr<std::string> text_or_null() { return std::make_shared<TextOrNullFormat>(); }
-FormatPtr<std::string> text(TextRule rule) { return std::make_shared<RuledText>(std::move(rule)); }
+FormatPtr<std::string> text_or_null() { return make_as_base<TextOrNullFormat>(); }
+FormatPtr<std::string> text(TextRule rule) { return make_as_base<RuledText>(std::move(rule)); }
 FormatPtr<Anything> anything(std::string type) {
-  return std::make_shared<AnythingFormat>(std::move(type));
+  return make_as_base<AnythingFormat>(std::move(type));
 }
 
 Schema or_null(Schema schema) {
@@ -149,6 +149,10 @@ Schema or_null(Schema schema) {
     return schema;
   }
   return {{"oneOf", Schema::array({std::move(schema), {{"type", "null"}}})}};
+}
+
+Schema choice_schema(const std::vector<std::string>& known) {
+  return {{"type", "string"}, {"enum", known}};
 }
 
 void refuse_choice(const JsonNode& node, const std::string& found,

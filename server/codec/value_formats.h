@@ -63,9 +63,10 @@ class NullableFormat final : public Format<std::optional<T>> {
 };
 template <class T>
 [[nodiscard]] FormatPtr<std::optional<T>> nullable(FormatPtr<T> format) {
-  return std::make_shared<NullableFormat<T>>(std::move(format));
+  return make_as_base<NullableFormat<T>>(std::move(format));
 }
 
+[[nodiscard]] Schema choice_schema(const std::vector<std::string>& known);
 // Says that `found` is none of the names that are known.
 void refuse_choice(const JsonNode& node, const std::string& found,
                    const std::vector<std::string>& known);
@@ -93,9 +94,9 @@ class ChoiceFormat final : public Format<E> {
     out.value(nullptr);  // a value without a name: none is added without
   }
   Schema schema(Way) const override {
-    Schema schema{{"type", "string"}, {"enum", Schema::array()}};
-    for (const auto& [value, spelt] : names_) schema["enum"].push_back(spelt);
-    return schema;
+    std::vector<std::string> known;
+    for (const auto& [value, spelt] : names_) known.push_back(spelt);
+    return choice_schema(known);
   }
 
  private:
@@ -120,7 +121,7 @@ class NamedFormat final : public Format<T> {
 };
 template <class E>
 [[nodiscard]] FormatPtr<E> choice(std::vector<std::pair<E, std::string>> names) {
-  return std::make_shared<ChoiceFormat<E>>(std::move(names));
+  return make_as_base<ChoiceFormat<E>>(std::move(names));
 }
 // The names are those of to_string().
 template <class E>
@@ -136,7 +137,7 @@ template <class E>
 
 template <class T>
 [[nodiscard]] FormatPtr<T> named(std::string name, std::string text, FormatPtr<T> format) {
-  return std::make_shared<NamedFormat<T>>(std::move(name), std::move(text), std::move(format));
+  return make_as_base<NamedFormat<T>>(std::move(name), std::move(text), std::move(format));
 }
 
 }  // namespace armloom::formats

@@ -128,7 +128,7 @@ EventKind<T> event_kind(const char* type, const char* name, FormatPtr<T> data) {
                     told("seq", &E::seq, count(), "Without holes within a stream"),
                     constant<E>("type", type),
                     told("t_s", &E::time, cell_time(), "Cell time"),
-                    std::make_shared<AtPart<T>>(),
+                    make_as_base<AtPart<T>>(),
                     told(
                         "data", [](const E& e) { return e.data; }, std::move(data)),
                 }))};
@@ -167,7 +167,7 @@ class Rounded final : public Format<double> {
   void write(JsonWriter& out, const double& number) const override { out.rounded(number, 6); }
   Schema schema(Way) const override { return {{"type", "number"}}; }
 };
-FormatPtr<double> rounded() { return std::make_shared<Rounded>(); }
+FormatPtr<double> rounded() { return make_as_base<Rounded>(); }
 
 struct NearView {
   const Proximity* proximity;
@@ -244,7 +244,7 @@ FormatPtr<FrameView> frame_format() {
                 told(
                     "t_s", [](const View& view) { return view.frame->time; }, cell_time()),
                 told<View>(
-                    "q", [](const View& view) { return &view; }, std::make_shared<PosesFormat>(),
+                    "q", [](const View& view) { return &view; }, make_as_base<PosesFormat>(),
                     "Every joint of the cell, rad or m"),
                 told("clearance", near, list(near_format())),
                 told(

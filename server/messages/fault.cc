@@ -71,7 +71,7 @@ class KindFormat final : public Format<FaultKind> {
   }
 };
 
-FormatPtr<FaultKind> kind_format() { return std::make_shared<KindFormat>(); }
+FormatPtr<FaultKind> kind_format() { return make_as_base<KindFormat>(); }
 
 bool has_known_kind(const JsonNode& fault) {
   if (!fault.has("kind") || !fault.raw()["kind"].is_string()) return false;
@@ -136,7 +136,7 @@ FormatPtr<FaultRequest> make_fault_format(Need time_needed) {
       required("kind", &Fault::kind, kind_format(), "What goes wrong"),
       member({"at_s", "Cell time; default: now", time_needed, {}}, &Fault::at,
              cell_time(kFaultTimeMax_s)),
-      std::make_shared<KindsOwn>(),
+      make_as_base<KindsOwn>(),
   });
 }
 

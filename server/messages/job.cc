@@ -83,7 +83,7 @@ std::optional<std::string> detail_of(const WaitView& wait) {
 PartPtr<CheckView> make_verdict_part() {
   using View = CheckView;
   using Kind = Verdict::Kind;
-  return std::make_shared<Parts<View>>(std::vector<PartPtr<View>>{
+  return make_as_base<Parts<View>>(std::vector<PartPtr<View>>{
       told("verdict", &View::kind,
            choice<Kind>({{Kind::free, "free"},
                          {Kind::conflict, "conflict"},

@@ -77,7 +77,7 @@ PartPtr<QueueJobs> jobs(const char* key, std::vector<JobView> QueueJobs::*where,
 }  // namespace
 
 FormatPtr<ListedJob> listed_job_format() {
-  static const FormatPtr<ListedJob> format = std::make_shared<ListedJobFormat>();
+  static const FormatPtr<ListedJob> format = make_as_base<ListedJobFormat>();
   return format;
 }
 
@@ -128,7 +128,7 @@ FormatPtr<std::vector<ListedJob>> batch_accepted_format() {
 
 FormatPtr<std::vector<Result<ListedJob>>> batch_results_format() {
   static const auto format =
-      listed<Result<ListedJob>>("BatchResults", "results", std::make_shared<BatchResultFormat>());
+      listed<Result<ListedJob>>("BatchResults", "results", make_as_base<BatchResultFormat>());
   return format;
 }
 

@@ -103,7 +103,7 @@ FormatPtr<std::vector<TimedJob>> jobs_file_format() {
 
 PartPtr<JobRequest> retime_part() {
   using Request = JobRequest;
-  return std::make_shared<MemberPart<Request, bool>>(
+  return make_as_base<MemberPart<Request, bool>>(
       MemberText{"retime",
                  "Times, velocities and accelerations are made: the fastest within the "
                  "joints' limits along the waypoints (corners are cut by 0.01 rad at "
@@ -120,7 +120,7 @@ PartPtr<JobRequest> retime_part() {
 
 PartPtr<JobRequest> velocity_scaling_part() {
   using Request = JobRequest;
-  return std::make_shared<MemberPart<Request, double>>(
+  return make_as_base<MemberPart<Request, double>>(
       MemberText{"velocity_scaling_factor",
                  "As MoveIt's: the share of its speed at which the trajectory is run. It is "
                  "stretched in time before anything is checked. Absent: as it is given; of what "
@@ -241,7 +241,7 @@ FormatPtr<BatchRequest> batch_request_format() {
                 field("atomic", &BatchRequest::atomic, flag(), "All admitted or none"),
                 field("order", &BatchRequest::order, order_format(),
                       "Of every job that does not say it itself"),
-                std::make_shared<BatchJobs>(),
+                make_as_base<BatchJobs>(),
             }));
   return format;
 }

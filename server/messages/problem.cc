@@ -33,7 +33,7 @@ class ValueFormat final : public Format<Value> {
   Schema schema(Way) const override { return {{"type", {"string", "number", "null"}}}; }
 };
 
-FormatPtr<Value> value_format() { return std::make_shared<ValueFormat>(); }
+FormatPtr<Value> value_format() { return make_as_base<ValueFormat>(); }
 
 FormatPtr<ProblemDocument::Error> error_format() {
   using Error = ProblemDocument::Error;

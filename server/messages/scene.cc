@@ -102,7 +102,7 @@ Result<CollisionObject> read_object_text(std::string_view text,
 FormatPtr<CollisionObject> object_format() {
   static const auto format = named<CollisionObject>(
       "Object", "An object of the scene: exactly one shape. A mesh is told by its address.",
-      std::make_shared<ObjectFormatOut>());
+      make_as_base<ObjectFormatOut>());
   return format;
 }
 

@@ -56,7 +56,7 @@ class TimeFormat final : public Format<double> {
 FormatPtr<WaypointRequest> waypoint_format() {
   using Point = WaypointRequest;
   const auto time = named<double>("Time", "ROS 2's, ROS 1's, or a number of seconds.",
-                                  std::make_shared<TimeFormat>());
+                                  make_as_base<TimeFormat>());
   return named("Waypoint", "",
                object<Point>({
                    required("positions", &Point::positions, number_list(),
@@ -127,16 +127,15 @@ class EmptyMultiDof final : public Format<Anything> {
 FormatPtr<TrajectoryRequest> nested_format() {
   using Trajectory = TrajectoryRequest;
   using Whole = MemberPart<Trajectory, Trajectory>;
-  return named(
-      "RobotTrajectory", "MoveIt's nesting.",
-      object<Trajectory>({
-          std::make_shared<Whole>(
-              MemberText{kNested, "", Need::required, {}}, std::make_shared<OnceNested>(),
-              [](const Trajectory& whole) { return std::optional(whole); },
-              [](Trajectory& whole, Trajectory read) { whole = std::move(read); }),
-          ignored<Trajectory, Anything>("multi_dof_joint_trajectory",
-                                        std::make_shared<EmptyMultiDof>(), "Must be empty"),
-      }));
+  return named("RobotTrajectory", "MoveIt's nesting.",
+               object<Trajectory>({
+                   make_as_base<Whole>(
+                       MemberText{kNested, "", Need::required, {}}, make_as_base<OnceNested>(),
+                       [](const Trajectory& whole) { return std::optional(whole); },
+                       [](Trajectory& whole, Trajectory read) { whole = std::move(read); }),
+                   ignored<Trajectory, Anything>("multi_dof_joint_trajectory",
+                                                 make_as_base<EmptyMultiDof>(), "Must be empty"),
+               }));
 }
 
 class PlainOrNested final : public Format<TrajectoryRequest> {
@@ -171,12 +170,12 @@ class ToldTrajectory final : public Format<TrajectoryRequest> {
 }  // namespace
 
 FormatPtr<TrajectoryRequest> trajectory_request_format() {
-  static const FormatPtr<TrajectoryRequest> format = std::make_shared<PlainOrNested>();
+  static const FormatPtr<TrajectoryRequest> format = make_as_base<PlainOrNested>();
   return format;
 }
 
 FormatPtr<TrajectoryRequest> told_trajectory_format() {
-  static const FormatPtr<TrajectoryRequest> format = std::make_shared<ToldTrajectory>();
+  static const FormatPtr<TrajectoryRequest> format = make_as_base<ToldTrajectory>();
   return format;
 }
 

@@ -27,7 +27,9 @@ class RandomOrders {
       }
     }
     work_.resize(lanes_);
-    for (Duration& work : work_) work = up_to(4s);
+    if (random_() % 2 == 0) {  // else nothing waits behind them
+      for (Duration& work : work_) work = up_to(4s);
+    }
   }
   [[nodiscard]] OpenOrders open() const {
     return OpenOrders({nobody_, none_, motions_, regions_, work_});
@@ -46,7 +48,7 @@ class RandomOrders {
       last = std::max(last, ends[arm] + to_seconds(work_[arm]));
       sum += ends[arm];
     }
-    return last + OrderSearch::kWeightOfSum * sum;
+    return last + OrderSearch::weight_of_sum(work_) * sum;
   }
 
  private:
@@ -123,8 +125,28 @@ bool urgent_passes_first(Duration urgent_from, Duration urgent_to, Duration othe
 
 TEST(OrderSearch, LetsTheUrgentOnePassFirstButNotAtAnyPrice) {
   EXPECT_TRUE(urgent_passes_first(4s, 6s, 4s, 6s)) << "alike";
-  EXPECT_TRUE(urgent_passes_first(4200ms, 6200ms, 4s, 6s)) << "though the other is there before it";
+  EXPECT_TRUE(urgent_passes_first(4100ms, 6100ms, 4s, 6s)) << "though the other is there before it";
   EXPECT_FALSE(urgent_passes_first(4s, 8s, 4s, 5s)) << "4 s of the other one for 1 s of its own";
+}
+
+// A short motion and a long one: who goes second waits 4 s or half a second.
+bool short_one_passes_first(Duration work_behind_long) {
+  const std::vector<CoordinatedMotion> motions = {
+      {.job = JobId(1), .arms = {ArmId(0)}, .duration = 1s},
+      {.job = JobId(2), .arms = {ArmId(1)}, .duration = 10s}};
+  const std::vector<CoordinatedMotion> nobody;
+  const std::vector<Precedence> none;
+  const std::vector<PairRegions> regions = {
+      {JobId(1), JobId(2), {region(ProgressBox{0s, 500ms, 0s, 4s})}}};
+  const std::vector<Duration> work{0s, work_behind_long};
+  OpenOrders open({nobody, none, motions, regions, work});
+  EXPECT_TRUE(OrderSearch(open, work).run().stuck.empty());
+  return open.orders().front().a_first;
+}
+
+TEST(OrderSearch, DelaysTheLastArmLessWhereItIsKnownThatMoreWaitsForIt) {
+  EXPECT_TRUE(short_one_passes_first(0s));
+  EXPECT_FALSE(short_one_passes_first(5s));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ double cost_of(const State& state, const Job& job, const Prediction& prediction)
     last = std::max(last, end);
     sum += end;
   }
-  return last + OrderSearch::kWeightOfSum * sum;
+  return last + OrderSearch::weight_of_sum(behind) * sum;
 }
 
 PassingOrders orders_with(State& state, const std::vector<CoordinatedMotion>& candidates,

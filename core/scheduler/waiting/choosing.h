@@ -12,7 +12,7 @@ namespace armloom {
 // Which of several options has a turn: each is given it for a while and asked about, as if there
 // were no other; the one with which the plan costs least keeps it. Another one than the first has
 // to be better by more than kWorthwhile. The cost: when the last arm has done its work, what waits
-// included, and OrderSearch::kWeightOfSum times the sum of when each has; of a goal when it
+// included, and OrderSearch::weight_of_sum times the sum of when each has; of a goal when it
 // arrives.
 class Choosing {
  public:
