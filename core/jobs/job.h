@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -28,6 +30,13 @@ enum class JobState {
   interrupted,
 };
 [[nodiscard]] constexpr bool is_terminal(JobState s) { return s >= JobState::succeeded; }
+// All of them, in this order; and those in which a job ends.
+inline constexpr std::array kJobStates = {
+    JobState::queued,  JobState::backlogged, JobState::scheduled, JobState::running,
+    JobState::holding, JobState::succeeded,  JobState::canceled,  JobState::expired,
+    JobState::failed,  JobState::interrupted};
+inline constexpr auto kJobEnds = std::span(kJobStates).last<5>();
+static_assert(is_terminal(kJobEnds.front()) && !is_terminal(*(kJobEnds.begin() - 1)));
 [[nodiscard]] const char* to_string(JobState state);
 
 // Why a job does not move.

@@ -17,7 +17,7 @@ void Api::add_routes(Router& router) {
         route.method, route.path, Rights{route.who, route.role, route.is_never_limited},
         [this, run = route.run](const Request& request, const Router::Arguments& arguments,
                                 Respond respond) {
-          run(Call{parts_, meshes_, request, arguments, std::move(respond)});
+          run(Call{parts_, meshes_, recordings_, request, arguments, std::move(respond)});
         },
         std::move(parameters));
   }

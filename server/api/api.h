@@ -2,6 +2,7 @@
 
 #include "server/api/cell_meshes.h"
 #include "server/api/parts.h"
+#include "server/api/recording_files.h"
 #include "server/http/router.h"
 
 namespace armloom {
@@ -10,13 +11,17 @@ namespace armloom {
 // which outlives the router's calls.
 class Api {
  public:
-  explicit Api(ApiParts parts) : parts_(std::move(parts)), meshes_(*parts_.cell) {}
+  explicit Api(ApiParts parts)
+      : parts_(std::move(parts)),
+        meshes_(*parts_.cell),
+        recordings_(parts_.data, parts_.recording) {}
 
   void add_routes(Router& router);
 
  private:
   ApiParts parts_;
   CellMeshes meshes_;
+  RecordingFiles recordings_;
 };
 
 }  // namespace armloom

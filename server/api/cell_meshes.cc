@@ -52,14 +52,7 @@ Response CellMeshes::answer(const Request& request, const std::string& name) {
   if (known == places_.end()) return not_found(name, "the cell has no mesh \"" + name + "\"");
   Place& place = known->second;
   const auto file = OpenFile::open(place.file, kMaxMeshBytes);
-  if (!file && file.error() == NoFile::busy) {
-    return refusal_response({503,
-                             "server-busy",
-                             "too many files and connections are open to read this one",
-                             std::nullopt,
-                             std::nullopt,
-                             {{"Retry-After", "1"}}});
-  }
+  if (!file && file.error() == NoFile::busy) return refusal_response(too_many_files());
   if (!file || file->place() != place.file) return not_found(name, kGone);
   ServedBytes bytes{place.stamp == file->stamp() ? place.bytes.lock() : nullptr, nullptr,
                     place.tag};

@@ -10,14 +10,8 @@
 namespace armloom {
 namespace {
 
-constexpr JobState kStates[] = {JobState::queued,     JobState::backlogged, JobState::scheduled,
-                                JobState::running,    JobState::holding,    JobState::succeeded,
-                                JobState::canceled,   JobState::expired,    JobState::failed,
-                                JobState::interrupted};
-
 bool known_state(const std::string& name) {
-  return std::any_of(std::begin(kStates), std::end(kStates),
-                     [&](JobState state) { return name == to_string(state); });
+  return std::ranges::any_of(kJobStates, [&](JobState state) { return name == to_string(state); });
 }
 
 }  // namespace

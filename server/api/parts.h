@@ -1,8 +1,10 @@
 #pragma once
 
 #include <chrono>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,6 +21,7 @@
 #include "server/durable/job_keeper.h"
 #include "server/http/client_limits.h"
 #include "server/hub/hub.h"
+#include "server/hub/recent_states.h"
 #include "server/metrics/metrics.h"
 #include "server/recording/recording.h"
 
@@ -36,6 +39,7 @@ struct ApiParts {
   WallClock& clock;  // the server's thread's
   RealTimeLoop& loop;
   Hub& hub;
+  const RecentStates& states;
   Recording* recording;  // null: none
   JobKeeper* keeper;     // null: jobs end with the server
   AlertBook& alerts;
@@ -48,7 +52,8 @@ struct ApiParts {
   ClientLimits& limits;
   Comparison& comparison;
   Control& control;
-  std::chrono::milliseconds hold_lease;  // a move by hand goes on for so long without word
+  std::optional<std::filesystem::path> data;  // where recordings lie; absent: nowhere
+  std::chrono::milliseconds hold_lease;       // a move by hand goes on for so long without word
   // Readers of events that wait for a snapshot: who comes while one is on its way shares it.
   struct Newcomer {
     bool gap;

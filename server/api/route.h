@@ -7,15 +7,17 @@
 
 #include "server/api/cell_meshes.h"
 #include "server/api/parts.h"
+#include "server/api/recording_files.h"
 #include "server/http/router.h"
 
 namespace armloom {
 
-// One call of a verb: what it works with, what was asked, whom to answer. `parts` and `meshes`
-// outlive every answer; the request is only valid during the call.
+// One call of a verb: what it works with, what was asked, whom to answer. `parts`, `meshes` and
+// `recordings` outlive every answer; the request is only valid during the call.
 struct Call {
   const ApiParts& parts;
   CellMeshes& meshes;
+  const RecordingFiles& recordings;
   const Request& request;
   const Router::Arguments& arguments;  // what stood in the path for {id}
   Respond respond;
@@ -82,6 +84,8 @@ struct Route {
 [[nodiscard]] std::vector<Route> event_routes();       // /events, /ws
 [[nodiscard]] std::vector<Route> alert_routes();       // /alerts
 [[nodiscard]] std::vector<Route> audit_routes();       // /audit
+[[nodiscard]] std::vector<Route> state_routes();       // /states
+[[nodiscard]] std::vector<Route> recording_routes();   // /recordings
 [[nodiscard]] std::vector<Route> session_routes();     // /session, /login
 [[nodiscard]] std::vector<Route> service_routes();     // /healthz, /docs, ...
 [[nodiscard]] const std::vector<Route>& all_routes();

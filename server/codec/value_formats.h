@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -126,10 +127,14 @@ template <class E>
 }
 // The names are those of to_string().
 template <class E>
-[[nodiscard]] FormatPtr<E> choice(std::initializer_list<E> values, const char* (*to_string)(E)) {
+[[nodiscard]] FormatPtr<E> choice(std::span<const E> values, const char* (*to_string)(E)) {
   std::vector<std::pair<E, std::string>> names;
   for (const E value : values) names.emplace_back(value, to_string(value));
   return choice(std::move(names));
+}
+template <class E>
+[[nodiscard]] FormatPtr<E> choice(std::initializer_list<E> values, const char* (*to_string)(E)) {
+  return choice(std::span(values.begin(), values.size()), to_string);
 }
 
 template <class T>

@@ -185,10 +185,7 @@ Command replay_command(CLI::App& app) {
 
 std::vector<std::string> job_states() {
   std::vector<std::string> names;
-  for (JobState state = JobState::queued; state <= JobState::interrupted;
-       state = static_cast<JobState>(static_cast<int>(state) + 1)) {
-    names.emplace_back(to_string(state));
-  }
+  for (const JobState state : kJobStates) names.emplace_back(to_string(state));
   return names;
 }
 

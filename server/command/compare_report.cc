@@ -127,9 +127,6 @@ std::string line_of(const Row& row) {
   return line + "\n";
 }
 
-constexpr JobState kEnds[] = {JobState::succeeded, JobState::canceled, JobState::expired,
-                              JobState::failed, JobState::interrupted};
-
 Row csv_row(const ComparedRun& run, const Comparison& comparison) {
   const RunFigures& figures = run.figures;
   const auto makespan = run.makespan();
@@ -139,7 +136,7 @@ Row csv_row(const ComparedRun& run, const Comparison& comparison) {
   };
   Row row = {run.policy, std::to_string(comparison.seed), std::to_string(comparison.jobs)};
   std::size_t told = run.summary.jobs.at("refused");
-  for (const JobState state : kEnds) {
+  for (const JobState state : kJobEnds) {
     row.push_back(std::to_string(run.summary.jobs.at(to_string(state))));
     told += run.summary.jobs.at(to_string(state));
   }
@@ -206,7 +203,7 @@ std::string comparison_markdown(const Comparison& comparison) {
 
 std::string comparison_csv(const Comparison& comparison) {
   Row names = {"policy", "seed", "jobs"};
-  for (const JobState state : kEnds) names.emplace_back(to_string(state));
+  for (const JobState state : kJobEnds) names.emplace_back(to_string(state));
   for (const char* name : {"refused", "unfinished", "makespan_s", "busiest_arm_work_s"}) {
     names.emplace_back(name);
   }

@@ -27,8 +27,7 @@ TimePoint time_limit(const std::vector<TimedJob>& jobs, const std::vector<FaultR
 
 RunSummary summarise(const SimulationResult& result, TimePoint first_submit) {
   RunSummary summary;
-  for (const JobState state : {JobState::succeeded, JobState::canceled, JobState::expired,
-                               JobState::failed, JobState::interrupted}) {
+  for (const JobState state : kJobEnds) {
     summary.jobs[to_string(state)] = 0;
   }
   summary.jobs["refused"] = result.refused.size();

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "server/http/pieced_body.h"
 #include "server/http/request_id.h"
 #include "server/http/security_headers.h"
 #include "server/http/session.h"
@@ -43,10 +44,13 @@ asio::awaitable<void> send(Connection& connection, Response response, Delivery d
   if (!response.content_type.empty()) message.set(http::field::content_type, response.content_type);
   message.keep_alive(delivery.keep_alive);
   const std::string& body = response.shared ? *response.shared : response.body;
-  if (response.status != 204 && response.status != 304) message.content_length(body.size());
+  const std::uintmax_t size = response.pieces ? response.pieces->size : body.size();
+  if (response.status != 204 && response.status != 304) message.content_length(size);
   if (!delivery.without_body) message.body() = {body.data(), body.size()};
   connection.stream.expires_after(kWriteTime);
   co_await http::async_write(connection.stream, message, into(ec));
+  if (ec || !response.pieces || delivery.without_body) co_return;
+  co_await send_pieces(connection.stream, *response.pieces, kWriteTime, ec);
 }
 
 // Closing a socket with unread input would reset it.

@@ -147,6 +147,7 @@ void answer_conditionally(const Request& request, Response& response) {
   response.content_type.clear();
   response.body.clear();
   response.shared.reset();
+  response.pieces.reset();
 }
 
 }  // namespace armloom

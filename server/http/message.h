@@ -103,6 +103,15 @@ struct EventStream {
   std::function<bool()> permitted = {};  // whether its reader still may; null: always
 };
 
+// A body that is too large to be held: it is read a piece at a time, as its reader takes it.
+struct PiecedBody {
+  std::uintmax_t size = 0;  // in bytes; known before
+  // Hands so many bytes from `from` on to `then`, once, on the server's thread; absent: they cannot
+  // be read any more, and the connection is cut.
+  using Then = std::function<void(std::optional<std::string>)>;
+  std::function<void(std::uintmax_t from, std::size_t count, Then then)> read = {};
+};
+
 struct Response {
   int status = 200;
   std::string content_type = "application/json";
@@ -110,6 +119,7 @@ struct Response {
   std::vector<std::pair<std::string, std::string>> headers = {};
   std::optional<EventStream> events = {};
   std::shared_ptr<const std::string> shared = {};  // instead of `body`: many read the same bytes
+  std::optional<PiecedBody> pieces = {};           // instead of `body`
   bool is_routine = false;  // a command of which no trace is kept, as it comes ten times a second
 };
 

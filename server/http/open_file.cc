@@ -11,6 +11,11 @@
 namespace armloom {
 namespace fs = std::filesystem;
 
+Refusal too_many_files() {
+  return {503,          "server-busy", "too many files and connections are open to read this one",
+          std::nullopt, std::nullopt,  {{"Retry-After", "1"}}};
+}
+
 tl::expected<OpenFile, NoFile> OpenFile::open(const fs::path& path, std::size_t size_max) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (fd < 0) {
@@ -51,11 +56,12 @@ bool OpenFile::is_inside(const fs::path& canonical_folder) const {
   return end == canonical_folder.end();
 }
 
-tl::expected<std::string, NoFile> OpenFile::read() const {
-  std::string bytes(size_, '\0');
+tl::expected<std::string, NoFile> OpenFile::read(std::size_t from, std::size_t size) const {
+  std::string bytes(size, '\0');
   std::size_t done = 0;
-  while (done < size_) {
-    const ssize_t got = pread(fd_, bytes.data() + done, size_ - done, static_cast<off_t>(done));
+  while (done < size) {
+    const auto at = static_cast<off_t>(from + done);
+    const ssize_t got = pread(fd_, bytes.data() + done, size - done, at);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return tl::unexpected(NoFile::absent);  // it shrinks under us
     done += static_cast<std::size_t>(got);

@@ -6,12 +6,15 @@
 #include <string>
 
 #include "core/base/problem.h"
+#include "server/http/message.h"
 
 namespace armloom {
 
 // Why a file is not read: there is none to be read (any more), or just now there are too few file
 // descriptors, which says nothing of the file.
 enum class NoFile { absent, busy };
+// How the latter is told.
+[[nodiscard]] Refusal too_many_files();
 
 // A file that is open for reading, and where it truly is: what a name leads to may change at any
 // time, what is open does not.
@@ -28,7 +31,10 @@ class OpenFile {
   [[nodiscard]] bool is_inside(const std::filesystem::path& canonical_folder) const;
   // Changes when the file is another one, or written to.
   [[nodiscard]] const std::string& stamp() const { return stamp_; }
-  [[nodiscard]] tl::expected<std::string, NoFile> read() const;
+  [[nodiscard]] std::size_t size() const { return size_; }  // as it was opened
+  [[nodiscard]] tl::expected<std::string, NoFile> read() const { return read(0, size_); }
+  // Exactly `size` bytes from `from` on, however it grows; absent: it has shrunk since.
+  [[nodiscard]] tl::expected<std::string, NoFile> read(std::size_t from, std::size_t size) const;
 
  private:
   explicit OpenFile(int fd) : fd_(fd) {}

@@ -6,6 +6,7 @@
 
 #include "server/http/arrival.h"
 #include "server/http/event_stream.h"
+#include "server/http/pieced_body.h"
 #include "server/http/websocket_session.h"
 
 namespace armloom {
@@ -48,7 +49,8 @@ asio::awaitable<Response> answer(const Site& site, const Request& request, tcp::
 
 // Answers of which others hold no copy take memory until they are read.
 Response within_memory(Response response, MemoryBudget::Charge& charge, const Site& site) {
-  if (response.shared || charge.grow_to(response.body.size())) return response;
+  const std::size_t held = response.pieces ? kPieceSize : response.body.size();
+  if (response.shared || charge.grow_to(held)) return response;
   return site.refuse({503,
                       "server-busy",
                       "too many large answers are being read at once",

@@ -10,7 +10,7 @@ namespace armloom {
 inline constexpr std::size_t kBodyMax = 8 * 1024 * 1024;  // beyond: 413
 inline constexpr std::size_t kHeaderMax = 16 * 1024;      // beyond: 431; of trailers twice that
 inline constexpr std::chrono::seconds kIdleTime{60};      // between requests of one connection
-inline constexpr std::chrono::seconds kWriteTime{30};     // for a whole response
+inline constexpr std::chrono::seconds kWriteTime{30};     // for a whole response, or a piece of one
 // In the reserve, for each of: TLS, the first bytes, the header, the body.
 inline constexpr std::chrono::seconds kReserveTime{1};
 

@@ -88,14 +88,7 @@ tl::expected<ServedBytes, NoFile> StaticFiles::look_up(const fs::path& relative)
 }
 
 Response StaticFiles::not_served(const std::string& path, NoFile why) const {
-  if (why == NoFile::busy) {
-    return refuse_({503,
-                    "server-busy",
-                    "too many files and connections are open to read this one",
-                    std::nullopt,
-                    std::nullopt,
-                    {{"Retry-After", "1"}}});
-  }
+  if (why == NoFile::busy) return refuse_(too_many_files());
   return refuse_({404, "not-found",
                   path == "/" ? "the dashboard is not built; ./server/run builds it"
                               : "nothing is served at " + path,

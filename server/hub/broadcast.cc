@@ -66,8 +66,9 @@ void Broadcast::on_state(const StateFrame& frame) {
   const std::chrono::milliseconds shared(1000 * readers_.load() / kFramesPerSecond);
   next_frame_ = std::max(next_frame_ + std::max(kFramePeriod, shared), now);
   const auto wall = std::chrono::system_clock::now();
-  parts_.post([this, wall, frame = std::make_shared<const StateFrame>(frame)] {
+  parts_.post([this, wall, now, frame = std::make_shared<const StateFrame>(frame)] {
     parts_.clock.observe(frame->time, wall);
+    parts_.states.take(frame->time, frame->q, now);
     watch_recording();
     readers_ = parts_.hub.readers();
     if (readers_ == 0) return;

@@ -11,6 +11,7 @@
 #include "server/durable/alert_book.h"
 #include "server/durable/job_keeper.h"
 #include "server/hub/hub.h"
+#include "server/hub/recent_states.h"
 #include "server/log/log_line.h"
 #include "server/metrics/metrics.h"
 #include "server/recording/recording.h"
@@ -30,6 +31,7 @@ class Broadcast final : public Observer {
     std::string stream;
     WallClock& clock;  // the server's thread's
     Hub& hub;
+    RecentStates& states;
     Recording* recording;  // null: none
     JobKeeper* keeper;     // null: jobs end with the server
     AlertBook& alerts;

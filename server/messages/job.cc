@@ -167,11 +167,7 @@ PartPtr<JobWaysView> ways_part() {
 FormatPtr<JobState> job_state_format() {
   static const auto format =
       named("JobState", "The last five are terminal: a job reaches exactly one of them.",
-            choice<JobState>(
-                {JobState::queued, JobState::backlogged, JobState::scheduled, JobState::running,
-                 JobState::holding, JobState::succeeded, JobState::canceled, JobState::expired,
-                 JobState::failed, JobState::interrupted},
-                to_string));
+            choice<JobState>(kJobStates, to_string));
   return format;
 }
 

@@ -42,8 +42,7 @@ class Metrics::Impl {
   Impl(CellPtr cell, double speed) : cell_(std::move(cell)) {
     set_speed(speed);
     // So that a rate is seen from the first one on.
-    for (const JobState state : {JobState::succeeded, JobState::canceled, JobState::expired,
-                                 JobState::failed, JobState::interrupted}) {
+    for (const JobState state : kJobEnds) {
       jobs_.Add({{"outcome", to_string(state)}});
     }
     for (const Wait::Kind kind :

@@ -77,6 +77,7 @@ Schema tags() {
       {"scene", "Objects that may be in the way"},
       {"events", "Everything that happens, live"},
       {"cell", "What the cell consists of"},
+      {"recordings", "What was written down of each run"},
       {"simulation", "Speed and faults of simulated arms"},
       {"service", "The server itself"}};
   Schema list = Schema::array();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -36,6 +37,14 @@ class Recording {
   void state(TimePoint time, const Configuration& q) {
     if (!states_) return;
     states_->write(time, q);
+    if (!states_->good()) note_fault("states.csv");
+  }
+  // So that whoever reads states.csv now finds what was measured until now. On the thread that
+  // writes states.
+  void catch_up_states() {
+    if (!states_) return;
+    errno = 0;
+    states_->catch_up();
     if (!states_->good()) note_fault("states.csv");
   }
   // As StatesWriter::at_rest.

@@ -176,8 +176,7 @@ StatesWriter::~StatesWriter() { close(); }
 
 bool StatesWriter::close() {
   if (!out_.is_open()) return good();
-  end_rest();
-  flush();
+  catch_up();
   out_.close();
   return good();
 }
@@ -207,6 +206,11 @@ void StatesWriter::end_rest() {
   if (rows_held_ > 0) append(held_at_, held_q_);
   rows_held_ = 0;
   rest_from_.reset();
+}
+
+void StatesWriter::catch_up() {
+  end_rest();
+  flush();
 }
 
 void StatesWriter::append(TimePoint time, const Configuration& q) {

@@ -31,6 +31,9 @@ class StatesWriter {
   void at_rest(bool at_rest) { at_rest_ = at_rest; }
   // Precondition: |q| < 9e8. About 20 ns for each joint.
   void write(TimePoint time, const Configuration& q);
+  // Brings the file up to the last row that came, for who reads it meanwhile: a stretch of rest is
+  // ended by it, and begins anew with the next row.
+  void catch_up();
   // Writes what is held back. Whether all has been written.
   bool close();
   [[nodiscard]] bool good() const { return out_.good() && idle_.good(); }

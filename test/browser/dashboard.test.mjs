@@ -5,8 +5,8 @@
 
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
-import { after, before, test } from 'node:test';
-import { arm_now as arm_of, ask as ask_server, Browser, job_through, path_for, resume, Server } from './harness.mjs';
+import { test } from 'node:test';
+import { arm_now as arm_of, ask as ask_server, job_through, path_for, resume, with_dashboard } from './harness.mjs';
 import { difference, pixels_like } from './pictures.mjs';
 
 // A robot of the cell covers several thousand pixels of the view; labels and text far fewer.
@@ -19,24 +19,13 @@ const kLeastArea_px = 2000;
 // Joints of a Panda that reaches into the middle; not for both arms at once.
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
-// certified: two jobs that cross show a backlog; the default would schedule the second.
-const server = new Server('config/two_pandas.json', 'certified');
-const chromium = new Browser();
-const { errors } = chromium;
 let browser;
 let page;
-
-before(async () => {
-  const url = await server.start();
-  page = await chromium.open();
-  browser = chromium.context;
-  await chromium.visit(url);
-}, { timeout: 90_000 });
-
-after(async () => {
-  await chromium.close();
-  await server.end();
-}, { timeout: 30_000 });
+// certified: two jobs that cross show a backlog; the default would schedule the second.
+const { server, chromium } = with_dashboard('config/two_pandas.json', 'certified', { colorScheme: 'light' }, (opened) => {
+  ({ page } = opened);
+  browser = opened.chromium.context;
+});
 
 test('both arms are drawn, the left one left of the right one', { timeout: 60_000 }, async () => {
   const whole = await picture('cell');
@@ -147,7 +136,7 @@ test('an object of the scene appears, moves and vanishes', { timeout: 60_000 }, 
 });
 
 test('nothing so far was an error in the console', () => {
-  assert.deepEqual(errors, []);
+  assert.deepEqual(chromium.errors, []);
 });
 
 test('a refused job shows the place of the fault in the form', { timeout: 30_000 }, async () => {

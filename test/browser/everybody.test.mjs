@@ -3,8 +3,8 @@
 //   node --test test/browser/everybody.test.mjs      (after the server and web/dist were built; see harness.mjs)
 
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { ask, Browser, path_for, resume, send_through, Server } from './harness.mjs';
+import { after, test } from 'node:test';
+import { ask, Browser, path_for, resume, send_through, with_dashboard } from './harness.mjs';
 import { difference, pixels_like } from './pictures.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -18,24 +18,12 @@ const kLeastScrub_px = 90;
 const kStripes_grey = [0x4e, 0x4e, 0x4e];
 const kLeastStripes_px = 40;
 
-const server = new Server('config/two_pandas.json', 'certified');
-const desk = new Browser();
-const tablet = new Browser();
 let url;
 let page;
 let finger;
-
-before(async () => {
-  url = await server.start();
-  page = await desk.open({ colorScheme: 'dark' });
-  await desk.visit(url);
-}, { timeout: 90_000 });
-
-after(async () => {
-  await desk.close();
-  await tablet.close();
-  await server.end();
-}, { timeout: 30_000 });
+const tablet = new Browser();
+const { chromium: desk } = with_dashboard('config/two_pandas.json', 'certified', {}, (opened) => { ({ page, url } = opened); });
+after(() => tablet.close(), { timeout: 30_000 });
 
 const send = (...job) => send_through(page, ...job);
 

@@ -7,8 +7,8 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { ask, Browser, job_through, kRoot, path_for, Server } from './harness.mjs';
+import { after, test } from 'node:test';
+import { ask, job_through, kRoot, path_for, with_dashboard } from './harness.mjs';
 
 const kArms = 8;
 const kJobsOfEach = 26;
@@ -16,23 +16,10 @@ const kHome = [0, -1.2, 0, -2.6, 0, 1.6, 0.785];
 const kLeastLane_px = 20;
 
 const folder = mkdtempSync(join(tmpdir(), 'armloom-hall-'));
-const server = new Server(join(folder, 'hall.json'), 'coordinated');
-const chromium = new Browser();
+writeFileSync(join(folder, 'hall.json'), JSON.stringify(hall()));
 let page;
-
-before(async () => {
-  writeFileSync(join(folder, 'hall.json'), JSON.stringify(hall()));
-  const url = await server.start();
-  page = await chromium.open({ colorScheme: 'dark' });
-  await chromium.visit(url);
-  await ask(page, 'PUT', '/sim/speed', { speed: 0.25 });
-}, { timeout: 90_000 });
-
-after(async () => {
-  await chromium.close();
-  await server.end();
-  rmSync(folder, { recursive: true, force: true });
-}, { timeout: 30_000 });
+const { chromium } = with_dashboard(join(folder, 'hall.json'), 'coordinated', { more: ['--speed', '0.25'] }, (opened) => { ({ page } = opened); });
+after(() => rmSync(folder, { recursive: true, force: true }));
 
 /** Neighbours 0.8 m apart: they reach into each other's room. */
 function hall() {

@@ -105,14 +105,15 @@ export class Browser {
 
 /**
  * A server and a browser that looks at it, from before a suite's tests until after them; `page` and `url` are there
- * by then, and given to `opened`. `more`: what the server is told; the rest is the browser's.
+ * by then, and given to `opened`. `more`: what the server is told; `visits`: no, where the page cannot be had yet;
+ * the rest is the browser's.
  */
-export function with_dashboard(cell, policy, { more = [], ...options } = {}, opened = () => undefined) {
+export function with_dashboard(cell, policy, { more = [], visits = true, ...options } = {}, opened = () => undefined) {
   const dashboard = { server: new Server(cell, policy, more), chromium: new Browser(), page: null, url: null };
   before(async () => {
     dashboard.url = await dashboard.server.start();
     dashboard.page = await dashboard.chromium.open({ colorScheme: 'dark', ...options });
-    await dashboard.chromium.visit(dashboard.url);
+    if (visits) await dashboard.chromium.visit(dashboard.url);
     await opened(dashboard);
   }, { timeout: 120_000 });
   after(async () => {

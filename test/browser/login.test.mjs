@@ -7,29 +7,18 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { arm_now, Browser, copied_by, job_through, kBinary, path_for, run, Server } from './harness.mjs';
+import { after, test } from 'node:test';
+import { arm_now, copied_by, job_through, kBinary, path_for, run, with_dashboard } from './harness.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'armloom-login-'));
 const tokens = join(folder, 'tokens');
 const token_command = (...words) => execFileSync(kBinary, ['token', words[0], '--tokens', tokens, ...words.slice(1)], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }).trim();
 const token = token_command('add', '--name', 'ada', '--role', 'operator');
 
-const server = new Server('config/two_pandas.json', 'coordinated', ['--tokens', tokens]);
-const chromium = new Browser();
 let url;
 let page;
-
-before(async () => {
-  url = await server.start();
-  page = await chromium.open({ colorScheme: 'dark' });
-}, { timeout: 90_000 });
-
-after(async () => {
-  await chromium.close();
-  await server.end();
-  rmSync(folder, { recursive: true });
-}, { timeout: 30_000 });
+with_dashboard('config/two_pandas.json', 'coordinated', { more: ['--tokens', tokens], visits: false }, (opened) => { ({ page, url } = opened); });
+after(() => rmSync(folder, { recursive: true }));
 
 async function log_in(with_token) {
   await page.locator('#token').fill(with_token);

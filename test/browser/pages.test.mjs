@@ -96,16 +96,16 @@ test('an address shows the same to whoever opens it: job, instant and camera', {
   // The job's name is known when the server has told of it.
   await other.locator('[data-test=page-job] h2', { hasText: 'behind it' }).waitFor();
   assert.equal(new URL(other.url()).hash, new URL(address).hash);
-  // It listens since then: an instant that it has not heard it does not show, nor another one in its place.
-  await other.locator('[data-test=unheard]').waitFor();
+  // It listens since then: of before it has what the server kept.
+  await other.locator('[data-test=instant]').waitFor();
+  // What nobody heard it does not show, nor another instant in its place.
+  await other.evaluate(() => { location.hash = '#/?t=3&run=00000000'; });
+  await other.locator('[data-test=unheard]', { hasText: 'another run' }).waitFor();
   await other.locator('[data-test=instant]').waitFor({ state: 'detached' });
-  await other.locator('[data-test=unheard]', { hasText: 'begins at' }).waitFor();
   await other.waitForFunction(() => window.armloom?.is_drawn());
   await other.evaluate(() => window.armloom.drawn());
   assert.equal(await other.evaluate(() => [...document.querySelectorAll('.arm-label')].filter((label) => label.checkVisibility()).length), 0, 'no arm stands anywhere then');
   await other.screenshot(path_for('unheard-dark'));
-  await other.evaluate(() => { location.hash = '#/?t=3&run=00000000'; });
-  await other.locator('[data-test=unheard]', { hasText: 'another run' }).waitFor();
   await other.locator('[data-test=unheard-now]').click();
   await other.locator('[data-test=unheard]').waitFor({ state: 'detached' });
   await other.close();

@@ -1,22 +1,25 @@
-// Recordings in the dashboard: one is opened from its files and scrubbed through, and what the page has
-// heard is taken away as MCAP, which its own reader reads.
+// Recordings in the dashboard: one is opened from the server's list, or from its files, and scrubbed through;
+// what the page has heard, and what the server heard before it, is looked back at, and taken away as MCAP, which
+// its own reader reads.
 //
 //   node --test test/browser/recordings.test.mjs      (after the server and web/dist were built; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
-import { arm_now, ask, drop_files, go_to, job_through, kBinary, kRoot, path_for, web_require, with_dashboard } from './harness.mjs';
+import { arm_now, ask, drop_files, finished, go_to, job_through, kBinary, kRoot, path_for, send_through, web_require, with_dashboard } from './harness.mjs';
 import { difference } from './pictures.mjs';
 
 const kLeastMoved_px = 800;
 
+const kSwing = [0.7, -1.2, 0, -2.6, 0, 1.6, 0.785];
 const folder = mkdtempSync(join(tmpdir(), 'armloom-recordings-'));
+const data = join(folder, 'data');
 let page;
-const { chromium } = with_dashboard('config/two_pandas.json', 'coordinated', { acceptDownloads: true }, (opened) => { ({ page } = opened); });
+const { server, chromium } = with_dashboard('config/two_pandas.json', 'coordinated', { acceptDownloads: true, more: ['--data', data, '--record'] }, (opened) => { ({ page } = opened); });
 after(() => rmSync(folder, { recursive: true, force: true }));
 
 async function view_picture() {
@@ -40,7 +43,10 @@ test('a recording is opened from its files and scrubbed through, and the present
   await page.locator('[data-test=go-recordings]').click();
   const files = page.locator('[data-test=recording-files]');
   await drop_files(page, [join(folder, 'run/events.jsonl')], 'nav');
-  assert.match(await page.locator('[data-test=recording-fault]').innerText(), /no states\.csv/);
+  await page.locator('[data-test=opened]', { hasText: 'no positions' }).waitFor();
+  await page.locator('[data-test=recording-close]').click();
+  await drop_files(page, [join(folder, 'jobs.json'), join(folder, 'run/states_idle.csv')], 'nav');
+  assert.match(await page.locator('[data-test=recording-fault]').innerText(), /neither a states\.csv nor an events\.jsonl/);
   await files.setInputFiles(['states.csv', 'events.jsonl'].map((name) => join(folder, 'run', name)));
   await page.locator('[data-test=opened]').waitFor({ timeout: 40_000 });
   await page.locator('[data-test=recording]').waitFor();
@@ -69,7 +75,7 @@ test('a recording is opened from its files and scrubbed through, and the present
   await page.locator('[data-test=recording]').waitFor({ state: 'detached' });
 });
 
-test('after a reload events of before it are there, and an instant of before it has its states, but no pose', { timeout: 120_000 }, async () => {
+test('after a reload an instant of before it has its states, its events and its poses', { timeout: 120_000 }, async () => {
   const { names, q } = await arm_now(page, 'left');
   const job = job_through('before', names, [q, q.map((angle, i) => (i === 0 ? angle + 0.3 : angle)), q], 3);
   assert.equal((await ask(page, 'POST', '/jobs', job)).status, 202);
@@ -79,14 +85,115 @@ test('after a reload events of before it are there, and an instant of before it 
   const { started_s, ended_s } = await page.evaluate(() => window.armloom.jobs().find(({ id }) => id === 'before'));
   await page.evaluate((t_s) => { location.hash = `#/arm/left?t=${t_s}`; }, ((started_s + ended_s) / 2).toFixed(2));
   await page.reload();
-  await page.locator('[data-test=unheard]').waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=instant]').waitFor({ timeout: 60_000 });
   await page.locator('.notice', { hasText: 'stopped' }).first().waitFor();
   await page.locator('[data-test=list-running] [data-test="job-before"]').waitFor();
   await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'moving' }).waitFor();
-  assert.equal(await page.locator('.arm-label:visible').count(), 0, 'a label of an arm that is not drawn');
+  await page.waitForFunction(() => window.armloom?.is_drawn(), undefined, { timeout: 60_000 });
+  const then = await view_picture();
   await page.screenshot(path_for('reload-looks-back'));
+  assert.ok(Number(await page.locator('[data-test=scrub]').getAttribute('min')) < started_s, 'what is looked back at begins with what the server kept');
+  // What nobody heard has no pose.
+  await page.evaluate((t_s) => { location.hash = `#/arm/left?t=${t_s}`; }, (ended_s + 3600).toFixed(2));
+  await page.locator('[data-test=unheard]').waitFor();
+  await page.waitForFunction(() => ![...document.querySelectorAll('.arm-label')].some((label) => label.checkVisibility({ visibilityProperty: true })), undefined);
   await page.locator('[data-test=unheard-now]').click();
   await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'idle' }).waitFor();
+  const moved = await difference(chromium.context, then, await view_picture());
+  assert.ok(moved.count > kLeastMoved_px, `${moved.count} pixels changed`);
+});
+
+/** As by hand: to where the bar's steps come next to it. */
+const scrub_to = (t_s) => page.locator('[data-test=scrub]').evaluate((bar, t_s) => {
+  bar.value = String(t_s);
+  bar.dispatchEvent(new Event('input', { bubbles: true }));
+}, t_s);
+
+/** One of the server's, by the name of its folder; or the one that is being written. */
+const kept = (name) => page.locator(name === 'running' ? '[data-test^=recording-]:has-text("Being written")' : `[data-test="recording-${name}"]`);
+
+test('the recordings of the server are opened from its list: of a former run, and of this one', { timeout: 180_000 }, async () => {
+  await go_to(page, '#/');
+  await send_through(page, 'left', 'kept-long-ago', [kSwing, null], 2);
+  await finished(page, 'kept-long-ago');
+  const { started_s } = await page.evaluate(() => window.armloom.jobs().find(({ id }) => id === 'kept-long-ago'));
+  await server.end();
+  await page.locator('[data-test=lost]').waitFor();
+  await server.start();
+  await page.locator('[data-test=link].open').waitFor({ timeout: 30_000 });
+  await page.locator('[data-test="job-kept-long-ago"]').waitFor({ state: 'detached' });
+  await go_to(page, '#/recordings');
+  await kept('data').getByText('positions and events').waitFor();
+  await kept('running').waitFor();
+  await page.screenshot(path_for('recordings-of-the-server-dark'));
+  await kept('data').locator('[data-test=open-recording]').click();
+  await page.locator('[data-test=opened]').waitFor({ timeout: 60_000 });
+  const still = await view_picture();
+  await scrub_to(started_s + 2);
+  await page.locator('[data-test=list-running] [data-test="job-kept-long-ago"]').waitFor();
+  const moved = await difference(chromium.context, still, await view_picture());
+  assert.ok(moved.count > kLeastMoved_px, `${moved.count} pixels changed`);
+  await page.screenshot(path_for('recording-of-the-server-dark'));
+  await page.locator('[data-test=recording-close]').click();
+  await page.locator('[data-test=link].open').waitFor();
+
+  await send_through(page, 'right', 'kept-just-now', [null], 1);
+  await finished(page, 'kept-just-now');
+  await page.locator('[data-test=recordings-again]').click();
+  await kept('running').locator('[data-test=open-recording]').click();
+  await page.locator('[data-test=opened]').waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=scrub]').press('End');
+  await finished(page, 'kept-just-now');
+  await page.locator('[data-test=recording-close]').click();
+  await page.locator('[data-test=link].open').waitFor();
+});
+
+test('the files of one are saved as they are', { timeout: 60_000 }, async () => {
+  await kept('data').locator('summary').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), kept('data').getByRole('link', { name: 'events.jsonl' }).click()]);
+  assert.equal(download.suggestedFilename(), 'data-events.jsonl');
+  assert.ok(readFileSync(await download.path()).equals(readFileSync(join(data, 'events.jsonl'))));
+});
+
+test('one without positions is led through by its events', { timeout: 60_000 }, async () => {
+  rmSync(join(data, 'states.csv'));
+  await page.locator('[data-test=recordings-again]').click();
+  await kept('data').getByText('events alone').waitFor();
+  await kept('data').locator('[data-test=open-recording]').click();
+  await page.locator('[data-test=opened]').waitFor();
+  await page.locator('[data-test=without-positions]').waitFor();
+  const { started_s, ended_s } = await page.evaluate(() => window.armloom.jobs().find(({ id }) => id === 'kept-long-ago'));
+  await scrub_to((started_s + ended_s) / 2);
+  await page.locator('[data-test=list-running] [data-test="job-kept-long-ago"]').waitFor();
+  assert.equal(await page.locator('.arm-label:visible').count(), 0, 'a label of an arm that is not drawn');
+  await page.screenshot(path_for('recording-without-positions-dark'));
+  await page.locator('[data-test=recording-close]').click();
+  await page.locator('[data-test=link].open').waitFor();
+  await page.locator('[data-test=without-positions]').waitFor({ state: 'detached' });
+});
+
+test('a large one says how much has come, and is given up', { timeout: 60_000 }, async () => {
+  cpSync(join(folder, 'run'), join(data, '2026-01-02T03-04-05Z'), { recursive: true });
+  const [head, ...rows] = readFileSync(join(folder, 'run/states.csv'), 'utf8').trimEnd().split('\n');
+  const times = Array.from({ length: 20 }, (_, turn) => rows.map((row) => row.replace(/^[^,]*/, (t_s) => (Number(t_s) + 100 * turn).toFixed(3))));
+  writeFileSync(join(data, '2026-01-02T03-04-05Z/states.csv'), [head, ...times.flat(), ''].join('\n'));
+  await page.locator('[data-test=recordings-again]').click();
+  const open = kept('2026-01-02T03-04-05Z').locator('[data-test=open-recording]');
+  assert.match(await open.innerText(), /^Open, \d+ MB$/);
+  const session = await page.context().newCDPSession(page);
+  const slowly = (downloadThroughput) => session.send('Network.emulateNetworkConditions', { offline: false, latency: 0, downloadThroughput, uploadThroughput: -1 });
+  await slowly(1_000_000);
+  await open.click();
+  await page.locator('[data-test=reading]', { hasText: /[1-9][\d.]* [kM]B of \d+ MB/ }).waitFor();
+  await page.screenshot(path_for('recording-is-read-dark'));
+  await page.locator('[data-test=stop-reading]').click();
+  await page.locator('[data-test=reading]').waitFor({ state: 'detached' });
+  await slowly(-1);
+  assert.equal(await page.locator('[data-test=opened]').count(), 0);
+  await open.click();
+  await page.locator('[data-test=opened]').waitFor({ timeout: 40_000 });
+  await page.locator('[data-test=recording-close]').click();
+  await page.locator('[data-test=link].open').waitFor();
 });
 
 test('a camera in an address shows the same in another tab, beside a pane, too', { timeout: 120_000 }, async () => {
@@ -172,5 +279,5 @@ test('what was heard is taken away as MCAP, which its own reader reads, and the 
 });
 
 test('nothing so far was an error in the console', () => {
-  assert.deepEqual(chromium.errors, []);
+  assert.deepEqual(chromium.errors.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED/.test(text)), []);
 });

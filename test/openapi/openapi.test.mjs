@@ -141,6 +141,9 @@ test('What only reads', async () => {
   await call(200, 'GET', `${v1}/arms`);
   await call(200, 'GET', `${v1}/arms/{name}`, {args: {name: 'left'}});
   await call(404, 'GET', `${v1}/arms/{name}`, {args: {name: 'no body'}});
+  await call(200, 'GET', `${v1}/states`);
+  assert.equal((await call(200, 'GET', `${v1}/recordings`)).kept, false);
+  await call(404, 'GET', `${v1}/recordings/{name}/{file}`, {args: {name: 'data', file: 'events.jsonl'}});
   await call(200, 'GET', `${v1}/queue`);
   await call(200, 'GET', `${v1}/timeline`);
   await call(200, 'GET', `${v1}/scene`);
@@ -391,6 +394,13 @@ test('A server with tokens asks for them', async () => {
     const session = JSON.parse((await asked('GET', `${v1}/session`, {Cookie: cookie})).text);
     assert.deepEqual(session, {asks_for_token: true, name: 'a', role: 'viewer'});
     assert.equal((await asked('DELETE', `${v1}/session`, {Cookie: cookie})).status, 204);
+    const {kept, recordings: [running]} = JSON.parse((await asked('GET', `${v1}/recordings`, {Authorization: `Bearer ${token}`})).text);
+    assert.deepEqual([kept, running.name, running.running], [true, 'data', true]);
+    for (const {name} of running.files) {
+      const file = await ask(closed.port, 'GET', `${v1}/recordings/${running.name}/${name}`, {headers: {Authorization: `Bearer ${token}`}});
+      contract.answer(`${v1}/recordings/{name}/{file}`, 'GET', file);
+      assert.equal(file.status, 200, name);
+    }
     await until('the audit trail', async () => {
       const audit = await asked('GET', `${v1}/audit`, admin);
       assert.equal(audit.status, 200, audit.text);

@@ -108,6 +108,27 @@ TEST(IdleStretches, HaveTheirFirstAndTheirLastRowAndAreDeclared) {
   EXPECT_EQ(after_rest, (std::vector<bool>{false, true, false, false, false, false, true}));
 }
 
+TEST(IdleStretches, AreCaughtUpWithForWhoReadsMeanwhile) {
+  const CellPtr cell = two_pandas();
+  const fs::path file = folder_of_test() / "states.csv";
+  StatesWriter writer(file, *cell);
+  writer.at_rest(true);
+  const auto rest = [&](int from_ms, int to_ms) {
+    for (int ms = from_ms; ms <= to_ms; ++ms) {
+      writer.write(at(std::chrono::milliseconds(ms)), cell->home());
+    }
+  };
+  Warnings warnings;
+  rest(1, 300);
+  writer.catch_up();
+  EXPECT_EQ(times_ms(*read_states(file, *cell, &warnings)), (Times{1, 300}));
+  writer.catch_up();
+  rest(301, 500);
+  EXPECT_TRUE(writer.close());
+  EXPECT_EQ(times_ms(*read_states(file, *cell, &warnings)), (Times{1, 300, 301, 500}));
+  EXPECT_EQ(warnings, Warnings{});
+}
+
 TEST(IdleStretches, OfOneOrTwoRowsLeaveNothingOut) {
   const CellPtr cell = two_pandas();
   const fs::path file =

@@ -55,7 +55,7 @@ class TokenServer : public RunningServer {
   Answered ask(const Route& route, const std::string& headers,
                const std::string& host = "127.0.0.1") {
     std::string path = route.path;
-    for (const char* part : {"{id}", "{name}"}) {
+    for (const char* part : {"{id}", "{name}", "{file}"}) {
       if (const std::size_t at = path.find(part); at != path.npos) {
         path.replace(at, std::string(part).size(), "nothing");
       }

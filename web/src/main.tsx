@@ -17,6 +17,7 @@ import { Archive } from './history/archive';
 import { Jobs } from './jobs/jobs';
 import { MotionBook } from './motion/motion_book';
 import { Comparing } from './policies/comparing';
+import { KeptList } from './recordings/kept_list';
 import { Player } from './recordings/player';
 import { Checklist } from './recovery/checklist';
 import { place_in_words } from './route/address';
@@ -74,6 +75,7 @@ const connection = new Connection({
   on_link: (link) => {
     store.set_link(link);
     if (link.status === 'lost') void know_who();
+    if (link.status === 'open') void look_at_states();
   },
   on_reject: ({ kind, what }) => {
     if (store.reject(kind)) console.warn(`${kind} message (further ones are only counted): ${what}`);
@@ -87,7 +89,7 @@ const app: App = {
   get store() { return seen(store); },
   archive, checklist, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
-  router, seen: new Seen(store, router), player: new Player(store, connection, router),
+  router, seen: new Seen(store, router), player: new Player(store, connection, router), kept: new KeptList(api),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),
 };
 
@@ -110,6 +112,12 @@ async function know_who(): Promise<void> {
 /** What the server told before this page listened. */
 async function look_before(stream: string, seq: number): Promise<void> {
   store.take_earlier(await earlier_events(kBase, (url, init) => fetch(url, init), stream, seq));
+}
+
+/** Where the arms were before this page listened, or while it could not. */
+async function look_at_states(): Promise<void> {
+  const answer = await api.states();
+  if (answer.ok) store.take_earlier_states(answer.value);
 }
 
 async function load_cell(attempt = 1): Promise<void> {

@@ -35,6 +35,14 @@ export function cut_text(text: string, most: number): string {
   return characters.length <= most ? text : `${characters.slice(0, most - 1).join('')}…`;
 }
 
+/** Without what all of them begin with, up to a `_`: of `left_panda_joint1` and `left_panda_joint2` `joint1` and `joint2`. */
+export function short_names(names: readonly string[]): string[] {
+  const [first = ''] = names;
+  let shared = names.length < 2 ? 0 : first.length;
+  while (shared > 0 && !(first[shared - 1] === '_' && names.every((name) => name.startsWith(first.slice(0, shared)) && name.length > shared))) shared -= 1;
+  return names.map((name) => name.slice(shared));
+}
+
 /** JSON that means the same, and has nothing in it that is not seen. */
 export function shown_json(json: string): string {
   return json.replace(kUnseen, (unseen) => (unseen === '\n' ? unseen : [...Array(unseen.length).keys()].map((i) => `\\u${unseen.charCodeAt(i).toString(16).padStart(4, '0')}`).join('')));

@@ -27,7 +27,15 @@ export function millimetres(m: number): string {
 export function seconds(s: number): string {
   if (s < 59.95) return `${s.toFixed(1)} s`;
   const whole = Math.round(s);
-  return `${Math.floor(whole / 60)} min ${whole % 60} s`;
+  if (whole < 3600) return `${Math.floor(whole / 60)} min ${whole % 60} s`;
+  return `${Math.floor(whole / 3600)} h ${Math.floor(whole / 60) % 60} min`;
+}
+
+export function bytes_in_words(bytes: number): string {
+  for (const [unit, size] of [['GB', 1e9], ['MB', 1e6], ['kB', 1e3]] as const) {
+    if (bytes >= 0.9995 * size) return `${(bytes / size).toFixed(bytes < 9.95 * size ? 1 : 0)} ${unit}`;
+  }
+  return `${bytes} B`;
 }
 
 /** Cell time as h:mm:ss.t, for the header and the event list. */

@@ -19,6 +19,16 @@ describe('the HTTP calls', () => {
     expect(asked[0]?.init).toMatchObject({ method: 'POST', body: '{not json', headers: { 'content-type': 'application/json' } });
   });
 
+  it('fetch what the server recorded, and say where its files are', async () => {
+    const list = { kept: true, recordings: [{ name: 'data', begun_at: null, written_at: '', running: true, has_states: false, files: [{ name: 'events.jsonl', bytes: 3 }] }] };
+    const { api, asked } = api_that_answers(200, JSON.stringify(list));
+    expect(await api.recordings()).toEqual({ ok: true, value: list });
+    expect(asked[0]?.url).toBe('/api/v1/recordings');
+    expect(api.recording_address('a/b', 'c d')).toBe('/api/v1/recordings/a%2Fb/c%20d');
+    const wrong = await api_that_answers(200, '{"kept": true}').api.recordings();
+    expect(wrong.ok ? '' : wrong.problem.title).toBe('The list of recordings cannot be read');
+  });
+
   it('cancel by id, whatever characters it holds', async () => {
     const { api, asked } = api_that_answers(202, '');
     expect((await api.cancel_job('a/b?c')).ok).toBe(true);

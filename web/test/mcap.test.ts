@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { write_mcap } from '../src/recordings/mcap';
-import { read_events } from '../src/recordings/read_events';
+import { EventsReader } from '../src/recordings/read_events';
 import { read_mcap } from '../src/recordings/read_mcap';
 import { parse_message } from '../src/server/messages';
 import { Store } from '../src/state/store';
@@ -20,6 +20,12 @@ function heard(): Store {
   return store;
 }
 
+function messages_in(text: string) {
+  const reader = new EventsReader();
+  reader.take(text);
+  return reader.end().messages;
+}
+
 describe('an MCAP file that was exported', () => {
   it('is read back: positions at their cell times, and every event as it was told', async () => {
     const store = heard();
@@ -30,7 +36,7 @@ describe('an MCAP file that was exported', () => {
     expect(frames.t_s.map((t_s) => Number(t_s.toFixed(4)))).toEqual([6, 12.5]);
     expect(frames.q[1]).toEqual([expect.closeTo(0.4), expect.closeTo(-1)]);
     const again = new Store(() => 0);
-    again.show_recording('it', (await read_events(events)).messages, frames);
+    again.show_recording('it', messages_in(events), frames);
     expect(again.jobs('finished').map(({ id }) => id)).toEqual(['a']);
     expect(again.events.map(({ text }) => text)).toEqual(['Somebody stands there']);
     expect(again.log.entries).toEqual(store.log.entries);

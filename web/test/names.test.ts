@@ -1,5 +1,16 @@
 import { describe, expect, it } from 'vitest';
-import { cut_text, shown_json, shown_name, shown_text } from '../src/names';
+import { cut_text, short_names, shown_json, shown_name, shown_text } from '../src/names';
+
+describe('names that begin alike', () => {
+  it('are told apart by the rest', () => {
+    expect(short_names(['left_panda_joint1', 'left_panda_joint2', 'left_panda_joint12'])).toEqual(['joint1', 'joint2', 'joint12']);
+    expect(short_names(['ur_shoulder_pan_joint', 'ur_shoulder_lift_joint', 'ur_elbow_joint'])).toEqual(['shoulder_pan_joint', 'shoulder_lift_joint', 'elbow_joint']);
+    expect(short_names(['left_joint1', 'right_joint1'])).toEqual(['left_joint1', 'right_joint1']);
+    expect(short_names(['a_', 'a_b'])).toEqual(['a_', 'a_b']);
+    expect(short_names(['left_joint1'])).toEqual(['left_joint1']);
+    expect(short_names([])).toEqual([]);
+  });
+});
 
 describe('names from users', () => {
   it('are shown as they are', () => {

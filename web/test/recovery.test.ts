@@ -23,9 +23,9 @@ describe('after a stop', () => {
     const job = job_json('pick', { name: 'pick 7', progress: 0.4 }) as Job;
     expect(need_of(arm({ state: 'stopped' }), job, pose(0, -1.2))).toMatchObject({ resume: true, home: false, words: expect.stringMatching(/pick 7.*40 %/) });
     const stopped = job_json('pick', { waits_on: [wait_json({ kind: 'stop', id: null, arm: 'left', links: [] })] }) as Job;
-    expect(need_of(arm({ state: 'holding' }), stopped, pose(0, -1.2))).toMatchObject({ resume: true });
-    const store = { arms: new Map([['left', arm({ state: 'holding', job: 'pick' })]]), job: () => stopped };
-    expect(waiting_arms(store).map(({ name }) => name)).toEqual(['left']);
+    const waiting = (state: string) => waiting_arms({ arms: new Map([['left', arm({ state, job: 'pick' })]]), job: () => stopped }).map(({ name }) => name);
+    expect(waiting('stopped')).toEqual(['left']);
+    expect(waiting('moving')).toEqual(['left']);  // it brakes
     expect(need_of(arm({ state: 'fault' }), null, pose(0, -1.2))).toMatchObject({ resume: true });
     expect(need_of(arm({ state: 'idle' }), null, pose(0.5, -1.2))).toMatchObject({ resume: false, home: true });
     expect(need_of(arm({ state: 'idle' }), null, pose(0, -1.2))).toMatchObject({ resume: false, home: false });

@@ -2,7 +2,7 @@ import { beforeEach, describe, expect, it } from 'vitest';
 import { parse_job, parse_message, type Job } from '../src/server/messages';
 import { Store } from '../src/state/store';
 import { JobBook, type JobList } from '../src/state/job_book';
-import { arm_json, envelope, frame, job_json, snapshot } from './samples';
+import { arm_json, envelope, frame, job_json, kStream, snapshot } from './samples';
 
 const job = (id: string, over: object): Job => {
   const parsed = parse_job(job_json(id, over));
@@ -184,6 +184,37 @@ describe('the store', () => {
   it('counts what it cannot take, and names only the first', () => {
     expect([store.reject('unknown'), store.reject('unknown'), store.reject('malformed')]).toEqual([true, false, true]);
     expect(store.rejected).toEqual({ unknown: 2, malformed: 1 });
+  });
+});
+
+describe('positions from before the page listened', () => {
+  const states = (over: object = {}) => ({ stream: kStream, joints: ['a'], t_s: [1, 2, 3, 4], q: [[1], [2], [3], [4]], ...over });
+
+  it('are those that the server kept of this run, before what comes by itself', () => {
+    store.take_earlier_states(states({ stream: 'another' }));
+    take(frame(3, { a: 30 }));
+    expect(store.trace.first_s).toBe(3);
+    store.take_earlier_states(states());
+    take(frame(3.5, { a: 35 }));
+    expect([store.trace.first_s, store.trace.last_s, store.trace.at(2.5), store.trace.at(3)]).toEqual([1, 3.5, { a: 2 }, { a: 30 }]);
+  });
+
+  it('close the gap of a connection that was lost', () => {
+    take(frame(1, { a: 10 }));
+    store.set_link({ status: 'lost', attempt: 1, retry_in_ms: 1 });
+    store.set_link({ status: 'open' });
+    store.take_earlier_states(states());
+    take(frame(3.9, { a: 39 }));
+    expect([1, 1.9, 2.5, 3.5, 3.9].map((t_s) => store.trace.at(t_s)?.['a'])).toEqual([10, 10, 2, 3, 39]);
+  });
+
+  it('are none of a recording that is looked at', () => {
+    store.take_earlier_states(states());
+    store.show_recording('run', [], { names: ['a'], t_s: [5, 6], q: [[5], [6]] });
+    store.forget_all();
+    take(snapshot(7));
+    take(frame(7, { a: 7 }));
+    expect(store.trace.first_s).toBe(7);
   });
 });
 

@@ -52,4 +52,49 @@ describe('the trace of measured joints', () => {
     trace.push(3, { c: 1 });
     expect(trace.at(3)).toEqual({ c: 1 });
   });
+
+  describe('that is filled with what others heard', () => {
+    const steps = (from: number, to: number) => Array.from({ length: to - from + 1 }, (_, i) => from + i);
+    const fill = (trace: Trace, t_s: number[], names = ['b', 'a']) => trace.fill(names, t_s, t_s.map((at) => names.map((name) => (name === 'a' ? 100 + at : -100 - at))));
+
+    it('begins with it, and keeps what it heard itself', () => {
+      const trace = new Trace(100);
+      for (const t of [50, 50.5, 51]) trace.push(t, { a: t, b: -t });
+      fill(trace, steps(40, 60));
+      expect([trace.first_s, trace.last_s]).toEqual([40, 51]);
+      expect([trace.at(45.2), trace.at(49), trace.at(50.6)]).toEqual([{ a: 145, b: -145 }, { a: 149, b: -149 }, { a: 50.5, b: -50.5 }]);
+      expect(trace.heard(49.7)).toBe('kept');
+      trace.push(52, { a: 52, b: -52 });
+      expect(trace.at(52)).toEqual({ a: 52, b: -52 });
+    });
+
+    it('has it alone where it had heard nothing yet', () => {
+      const trace = new Trace(100);
+      fill(trace, steps(1, 5));
+      expect([trace.names, trace.first_s, trace.last_s, trace.at(3)]).toEqual([['b', 'a'], 1, 5, { a: 103, b: -103 }]);
+    });
+
+    it('closes the gaps that it knows of, and leaves those that nobody heard', () => {
+      const trace = new Trace(100);
+      for (const t of [10, 11]) trace.push(t, { a: t, b: -t });
+      trace.break_off();
+      for (const t of [20, 21]) trace.push(t, { a: t, b: -t });
+      fill(trace, steps(10, 21));
+      expect(steps(10, 21).map((t) => trace.heard(t + 0.5))).toEqual([...Array.from({ length: 11 }, () => 'kept'), 'after']);
+      expect([trace.at(11), trace.at(15.5), trace.at(20)]).toEqual([{ a: 11, b: -11 }, { a: 115, b: -115 }, { a: 20, b: -20 }]);
+      trace.break_off();
+      trace.push(40, { a: 40, b: -40 });
+      fill(trace, steps(20, 24));
+      expect([22.5, 24, 26, 39, 40].map((t) => trace.heard(t))).toEqual(['kept', 'kept', 'gap', 'gap', 'kept']);
+    });
+
+    it('takes nothing of other joints, and no more than it holds', () => {
+      const trace = new Trace(10);
+      for (const t of [50, 51]) trace.push(t, { a: t, b: -t });
+      fill(trace, steps(40, 49), ['a']);
+      expect(trace.first_s).toBe(50);
+      fill(trace, steps(0, 49));
+      expect([trace.first_s, trace.last_s]).toEqual([42, 51]);
+    });
+  });
 });

@@ -14,7 +14,7 @@ import { seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
 import { known_lanes } from '../timeline/known';
 import { lane_in_words } from '../timeline/told';
-import { shown_name } from '../names';
+import { short_names, shown_name } from '../names';
 import { title_of, why_mute } from '../wording';
 import { StatePill } from './arms';
 
@@ -90,10 +90,11 @@ function Joints({ arm, app }: { arm: Arm; app: App }) {
   if (at === null) return <p class="hint" data-test={`joints-${arm.name}`}>Where they were then is not known here.</p>;
   const q = arm.joints.map((joint, i) => at[joint] ?? arm.q[i] ?? 0);
   const limits = new Map(app.store.cell?.joints.map((joint) => [joint.name, joint]));
+  const titles = short_names(arm.joints);
   return (
     <table class="joints" data-test={`joints-${arm.name}`}>
       <thead><tr><th scope="col">joint</th><th scope="col">lower</th><th scope="col">where it is</th><th scope="col">upper</th><th scope="col">measured</th></tr></thead>
-      <tbody>{arm.joints.map((name, i) => <Joint key={name} name={name} value={q[i] ?? 0} joint={limits.get(name)} />)}</tbody>
+      <tbody>{arm.joints.map((name, i) => <Joint key={name} name={name} title={titles[i] ?? name} value={q[i] ?? 0} joint={limits.get(name)} />)}</tbody>
       {app.router.address.value.t_s === null && <tfoot><tr><th scope="row" colSpan={4}>off its path, the largest joint</th><td class="mono">{arm.deviation_rad.toFixed(4)} rad</td></tr></tfoot>}
     </table>
   );
@@ -101,7 +102,7 @@ function Joints({ arm, app }: { arm: Arm; app: App }) {
 
 const kNear = 0.05;
 
-function Joint({ name, value, joint }: { name: string; value: number; joint: CellJoint | undefined }) {
+function Joint({ name, title, value, joint }: { name: string; title: string; value: number; joint: CellJoint | undefined }) {
   const [lower, upper] = joint ? range_of(joint) : [-Infinity, Infinity];
   const bounded = Number.isFinite(upper - lower);
   const [from, to] = bounded ? [lower, upper] : [-Math.PI, Math.PI];
@@ -110,7 +111,7 @@ function Joint({ name, value, joint }: { name: string; value: number; joint: Cel
   const figure = (limit: number) => (Number.isFinite(limit) ? limit.toFixed(2) : 'none');
   return (
     <tr class={near ? 'near' : ''}>
-      <th scope="row">{name}</th>
+      <th scope="row" title={name}>{title}</th>
       <td class="mono dim">{figure(lower)}</td>
       <td><span class="gauge"><span style={{ left: `${100 * share}%` }} /></span></td>
       <td class="mono dim">{figure(upper)}</td>

@@ -363,6 +363,22 @@ export interface components {
             /** @description For ?cursor=; null on the last page */
             next_cursor: string | null;
         };
+        MeasuredStates: {
+            /** @description The run, as events name it */
+            stream: string;
+            /** @description Every joint of the cell */
+            joints: string[];
+            /** @description Ascending */
+            t_s: number[];
+            /** @description At each of these times, in the order of the joints: rad or m */
+            q: number[][];
+        };
+        RecordingList: {
+            /** @description Whether this server records: without `--data` it does not */
+            kept: boolean;
+            /** @description Newest first */
+            recordings: components["schemas"]["Recording"][];
+        };
         SnapshotEvent: {
             /**
              * Format: uuid
@@ -760,6 +776,21 @@ export interface components {
             /** @description By this job */
             job: components["schemas"]["JobId"] | null;
         };
+        /** @description What one run of a server has written down. */
+        Recording: {
+            /** @description Of its folder; `data`: it stands in the data folder itself */
+            name: string;
+            /** @description RFC 3339, UTC; null: not known */
+            begun_at: string | null;
+            /** @description Last: RFC 3339, UTC */
+            written_at: string;
+            /** @description It is being written */
+            running: boolean;
+            /** @description Whether joint positions are in it, which `serve` records with `--record` */
+            has_states: boolean;
+            /** @description What GET hands out of it */
+            files: components["schemas"]["RecordingFile"][];
+        };
         Snapshot: {
             cell: string;
             policy: string;
@@ -879,6 +910,10 @@ export interface components {
             who: string;
             /** @description RFC 3339, UTC */
             at: string;
+        };
+        RecordingFile: {
+            name: string;
+            bytes: number;
         };
         /** @enum {string} */
         ArmState: "idle" | "moving" | "holding" | "stopped" | "fault";

@@ -214,21 +214,20 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
         }}
         onPointerLeave={() => point_at(null)}
         aria-label={`Where ${diagram.a.id} (across) and ${diagram.b.id} (up) are in conflict`} />
-      <div class="line keys">
-        {(['free', 'conflict', 'undecided'] as const).map((state) => (
+      <div class="keys">
+        <div class="line">{(['free', 'conflict', 'undecided'] as const).map((state) => (
           <span key={state} class="key"><i class={state} style={{ '--cell': kCellColours[state], '--stripes': kUndecidedStripes }} /> {state} <b class="mono">{percent(share[state])}</b></span>
-        ))}
-        <span class="grow" />
-        {held_s === null && <><span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>
+        ))}</div>
+        <div class="line">{held_s === null && <><span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>
         <span class="key"><i class="plan" /> plan from now</span></>}
-        {is_measured && <span class="key" data-test="measured"><i class="measured" /> measured</span>}
+        {is_measured && <span class="key" data-test="measured"><i class="measured" /> measured</span>}</div>
       </div>
       {unheard && <p class="hint" data-test="unmeasured">They moved before this page listened: the way that was measured is not known here.</p>}
       <Instant diagram={diagram} jobs={jobs} app={app} show={point_at} />
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
       {plans && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null, resting?.id ?? null)}</p>}
       <p class="hint">
-        Each cell holds for every instant in it, at any pace: {layer.cells?.length ?? 0} cells between
+        Each cell holds for every instant in it, at any pace: {layer.cells?.length === 1 ? '1 cell' : `${layer.cells?.length ?? 0} cells`} between
         the {layer.arms[0]} and the {layer.arms[1]} arm, {diagram.evaluations} states looked at.
       </p>
     </>

@@ -3,6 +3,7 @@
 
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
+import { short_names } from '../names';
 import { ink } from '../state/palette';
 import type { Curves } from '../state/trace';
 import { clock } from '../wording';
@@ -49,6 +50,7 @@ export class Chart {
 
 function options_of(joints: readonly string[], width: number, with_plan: boolean): uPlot.Options {
   const axis = { stroke: ink('--dim'), grid: { stroke: ink('--line'), width: 1 }, ticks: { stroke: ink('--line'), width: 1 }, font: '10.5px "Inter Variable", system-ui' };
+  const labels = short_names(joints);
   return {
     width, height: kHeight_px,
     scales: { x: { time: false } },
@@ -62,7 +64,7 @@ function options_of(joints: readonly string[], width: number, with_plan: boolean
         label: `${joint} planned`, class: 'planned', width: 6, points: { show: false }, spanGaps: true, stroke: `${ink(`--arm-${i % kColours}`)}44`,
       })) : []),
       ...joints.map((joint, i) => ({
-        spanGaps: with_plan, label: joint.replace(/^.*_(?=joint)/, ''), width: 1.5, points: { show: false },
+        spanGaps: with_plan, label: labels[i] ?? joint, width: 1.5, points: { show: false },
         stroke: ink(`--arm-${i % kColours}`), dash: kDashes[i % kDashes.length] ?? [],
         value: (_: uPlot, q: number | null) => (q === null ? '' : q.toFixed(3)),
       })),

@@ -5,27 +5,50 @@ import { signal } from '@preact/signals';
 import type { Connection } from '../server/connection';
 import type { Router } from '../route/router';
 import type { Store } from '../state/store';
-import { read_events } from './read_events';
+import { EventsReader, type Events } from './read_events';
 import { StatesReader, type Frames } from './read_states';
+import { of_blob, texts_of, type Source } from './sources';
 
+/** `frames`: pictures; none: it has no positions. */
 export interface Opened { name: string; frames: number; events: number; unread: number; first_s: number; last_s: number }
-type Opening = { ok: true; opened: Opened } | { ok: false; fault: string };
+export interface Reading { name: string; bytes: number; of_bytes: number }
+/** What is in a recording's folder, of which others are not needed. */
+export interface Sources { states: Source | null; events: Source | null }
+
+type Read = { ok: true; frames: Frames | null; events: Events } | { ok: false; fault: string };
+
+const kShownSteps = 200;
 
 export class Player {
   /** What is looked at; null: the present. */
   readonly opened = signal<Opened | null>(null);
-  readonly reading = signal(false);
-  /** Why the last files are none that can be looked at. */
+  /** What is being read; null: nothing. */
+  readonly reading = signal<Reading | null>(null);
+  /** Why the last one is none that can be looked at. */
   readonly fault = signal<string | null>(null);
+  private stop_ = new AbortController();
 
   constructor(private readonly store_: Store, private readonly connection_: Pick<Connection, 'stop' | 'begin_anew'>, private readonly router_: Router) {}
 
-  /** The files of a recording's folder, of which others are not needed; or an MCAP file. */
-  async open(files: readonly File[]): Promise<void> {
-    this.reading.value = true;
-    const opening = await this.read(files);
-    this.reading.value = false;
-    this.fault.value = opening.ok ? null : opening.fault;
+  /** The files of a recording's folder; or an MCAP file. */
+  open(files: readonly File[]): Promise<void> {
+    const mcap = files.find(({ name }) => name.endsWith('.mcap'));
+    if (mcap) return this.show(mcap.name, mcap.size, (told, stop) => read_mcap_file(mcap, told, stop));
+    const find = (wanted: string) => files.find(({ name }) => name === wanted);
+    const [states, events] = [find('states.csv'), find('events.jsonl')];
+    const name = (states ?? events)?.webkitRelativePath.split('/').at(-2) ?? (states ?? events)?.name ?? '';
+    return this.open_sources(name, { states: states ? of_blob(states) : null, events: events ? of_blob(events) : null });
+  }
+
+  open_sources(name: string, sources: Sources): Promise<void> {
+    const of_bytes = (sources.states?.bytes ?? 0) + (sources.events?.bytes ?? 0);
+    return this.show(name, of_bytes, (told, stop) => read_sources(sources, told, stop));
+  }
+
+  /** Gives up what is being read. */
+  stop(): void {
+    this.stop_.abort();
+    this.reading.value = null;
   }
 
   /** Back to the present. */
@@ -38,46 +61,66 @@ export class Player {
     this.connection_.begin_anew();
   }
 
-  private async read(files: readonly File[]): Promise<Opening> {
-    const recording = await recording_of(files);
-    if (!recording.ok) return recording;
-    const { name, frames } = recording;
-    const joints = new Set(this.store_.cell?.joints.map(({ name }) => name));
-    const strange = frames.names.find((name) => !joints.has(name));
-    if (strange !== undefined) return { ok: false, fault: `It was recorded with another cell: this server's has no joint ${strange}.` };
-    const events = await read_events(recording.events);
+  private async show(name: string, of_bytes: number, read: (told: (bytes: number) => void, stop: AbortSignal) => Promise<Read>): Promise<void> {
+    this.stop();
+    const stop = this.stop_ = new AbortController();
+    this.fault.value = null;
+    this.reading.value = { name, bytes: 0, of_bytes };
+    let bytes = 0;
+    const told = (more: number) => {
+      bytes += more;
+      if (!stop.signal.aborted && (bytes - (this.reading.peek()?.bytes ?? 0)) * kShownSteps >= of_bytes) this.reading.value = { name, bytes, of_bytes };
+    };
+    const got = await read(told, stop.signal).catch((error: unknown): Read => ({ ok: false, fault: `It could not be read to its end: ${String(error)}` }));
+    if (stop.signal.aborted) return;  // nobody waits for it any more
+    this.reading.value = null;
+    this.fault.value = got.ok ? this.look_at(name, got.frames, got.events) : got.fault;
+  }
+
+  /** Why it cannot be; null: it is. */
+  private look_at(name: string, frames: Frames | null, { messages, unread }: Events): string | null {
+    const strange = this.strange_in(frames, messages);
+    if (strange !== null) return `It was recorded with another cell: this server's has no ${strange}.`;
+    const times = frames?.t_s ?? messages.map(({ t_s }) => t_s);
+    const [first_s, last_s] = [times[0], times.at(-1)];
+    if (first_s === undefined || last_s === undefined) return 'There is nothing in it.';
     this.connection_.stop();
-    this.store_.show_recording(name, events.messages, frames);
-    const [first_s = 0, last_s = 0] = [frames.t_s[0], frames.t_s.at(-1)];
-    const opened = { name, frames: frames.t_s.length, events: events.messages.length, unread: events.unread, first_s, last_s };
-    this.opened.value = opened;
+    this.store_.show_recording(name, messages, frames);
+    this.opened.value = { name, frames: frames?.t_s.length ?? 0, events: messages.length, unread, first_s, last_s };
     this.router_.hold_at(first_s);
-    return { ok: true, opened };
+    return null;
+  }
+
+  private strange_in(frames: Frames | null, messages: Events['messages']): string | null {
+    const { cell, arms } = this.store_;
+    const joints = new Set(cell?.joints.map(({ name }) => name));
+    const joint = frames?.names.find((name) => !joints.has(name));
+    if (joint !== undefined) return `joint ${joint}`;
+    const arm = messages.flatMap((message) => (message.type === 'arm' ? [message.data.name] : [])).find((name) => !arms.has(name));
+    return arm === undefined || arms.size === 0 ? null : `arm ${arm}`;
   }
 }
 
-type Recording = { ok: true; name: string; frames: Frames; events: string } | { ok: false; fault: string };
-
-async function recording_of(files: readonly File[]): Promise<Recording> {
-  const mcap = files.find(({ name }) => name.endsWith('.mcap'));
-  if (mcap) {
-    const { read_mcap } = await import('./read_mcap');
-    const read = await read_mcap(mcap);
-    return read.ok ? { ok: true, name: mcap.name, ...read.mcap } : read;
+async function read_sources({ states, events }: Sources, told: (bytes: number) => void, stop: AbortSignal): Promise<Read> {
+  if (!states && !events) return { ok: false, fault: 'There is neither a states.csv nor an events.jsonl among the files, which a recording consists of, and no MCAP file.' };
+  const events_reader = new EventsReader();
+  if (events) for await (const text of texts_of(events, stop, told)) events_reader.take(text);
+  if (!states) return { ok: true, frames: null, events: events_reader.end() };
+  const states_reader = new StatesReader();
+  for await (const text of texts_of(states, stop, told)) {
+    states_reader.take(text);
+    if (states_reader.is_faulty) break;
   }
-  const find = (name: string) => files.find((file) => file.name === name);
-  const states = find('states.csv');
-  if (!states) return { ok: false, fault: 'There is no states.csv among the files, and no MCAP file: these have the arms\' positions. A server writes states.csv with --data DIR --record, simulate always.' };
-  const read = await read_states(states);
-  const name = states.webkitRelativePath.split('/').at(-2) ?? states.name;
-  return read.ok ? { ok: true, name, frames: read.frames, events: await find('events.jsonl')?.text() ?? '' } : read;
+  const read = states_reader.end();
+  return read.ok ? { ok: true, frames: read.frames, events: events_reader.end() } : read;
 }
 
-async function read_states(file: File) {
-  const reader = new StatesReader();
-  const decoder = new TextDecoder();
-  const stream = file.stream().getReader();
-  for (let part = await stream.read(); !part.done; part = await stream.read()) reader.take(decoder.decode(part.value, { stream: true }));
-  reader.take(decoder.decode());
-  return reader.end();
+async function read_mcap_file(file: File, told: (bytes: number) => void, stop: AbortSignal): Promise<Read> {
+  const { read_mcap } = await import('./read_mcap');
+  const read = await read_mcap(file);
+  if (!read.ok) return read;
+  told(file.size);
+  const reader = new EventsReader();
+  for await (const text of texts_of(of_blob(new Blob([read.mcap.events])), stop, () => undefined)) reader.take(text);
+  return { ok: true, frames: read.mcap.frames, events: reader.end() };
 }

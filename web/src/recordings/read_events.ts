@@ -4,20 +4,30 @@ import { parse_message, type SequencedMessage } from '../server/messages';
 
 export interface Events { messages: SequencedMessage[]; unread: number }
 
-// The page goes on to answer clicks meanwhile.
-const kAtOnce = 100;
+export class EventsReader {
+  private rest_ = '';
+  private readonly events_: Events = { messages: [], unread: 0 };
 
-/** Those that cannot be read, of another version of the server, are counted. */
-export async function read_events(text: string): Promise<Events> {
-  const events: Events = { messages: [], unread: 0 };
-  for (const [i, line] of text.split('\n').entries()) {
-    if (i % kAtOnce === kAtOnce - 1) await new Promise((done) => setTimeout(done));
-    if (line.trim() === '') continue;
-    const parsed = parse_message(with_wall_times(line));
-    if (parsed.kind === 'message' && parsed.message.type !== 'state') events.messages.push(parsed.message);
-    else events.unread += 1;
+  /** The next part of the file, cut anywhere. */
+  take(text: string): void {
+    const lines = (this.rest_ + text).split('\n');
+    this.rest_ = lines.pop() ?? '';
+    for (const line of lines) this.line(line);
   }
-  return events;
+
+  /** Those that cannot be read, of another version of the server or cut off at the end, are counted. */
+  end(): Events {
+    this.line(this.rest_);
+    this.rest_ = '';
+    return this.events_;
+  }
+
+  private line(line: string): void {
+    if (line.trim() === '') return;
+    const parsed = parse_message(with_wall_times(line));
+    if (parsed.kind === 'message' && parsed.message.type !== 'state') this.events_.messages.push(parsed.message);
+    else this.events_.unread += 1;
+  }
 }
 
 /** Simulated runs have no wall time: so that their log repeats. */

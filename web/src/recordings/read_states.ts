@@ -8,6 +8,7 @@ export interface Frames { names: string[]; t_s: number[]; q: number[][] }
 const kStep_s = 1 / 30;
 // Of longer recordings fewer a second are kept.
 const kMost = 60_000;
+const kLongestLine = 1 << 20;
 
 export class StatesReader {
   private names_: string[] | null = null;
@@ -20,13 +21,20 @@ export class StatesReader {
 
   /** The next part of the file, cut anywhere. */
   take(text: string): void {
+    if (this.fault_ !== null) return;
     const lines = (this.rest_ + text).split('\n');
     this.rest_ = lines.pop() ?? '';
     for (const line of lines) this.line(line);
+    if (this.rest_.length > kLongestLine) this.fault_ = `states.csv: line ${this.row_} has no end`;
   }
 
+  /** Nothing that comes can make it right. */
+  get is_faulty(): boolean {
+    return this.fault_ !== null;
+  }
+
+  /** A last row without an end of line is left out: the run was cut off in it. */
   end(): { ok: true; frames: Frames } | { ok: false; fault: string } {
-    if (this.rest_.trim() !== '') this.line(this.rest_);
     if (this.fault_ !== null) return { ok: false, fault: this.fault_ };
     if (!this.names_ || this.t_s_.length === 0) return { ok: false, fault: 'states.csv: no row of positions' };
     return { ok: true, frames: { names: this.names_, t_s: this.t_s_, q: this.q_ } };

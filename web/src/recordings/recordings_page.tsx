@@ -1,36 +1,52 @@
-// Recordings: one that was written to disk is opened and looked at with the scrub bar; what the page has
-// heard lately is written to a file that Foxglove reads.
+// Recordings: those that the server has written, or one from files, are opened and looked at with the scrub
+// bar; what the page has heard lately is written to a file that Foxglove reads.
 
 import { useState } from 'preact/hooks';
 import type { App } from '../state/app';
 import { use_beats } from '../state/seen';
-import { clock, seconds } from '../wording';
+import { bytes_in_words, clock, seconds } from '../wording';
+import { KeptRecordings } from './kept_recordings';
 
 export function RecordingsPage({ app }: { app: App }) {
-  const { opened, reading, fault } = app.player;
+  const { opened, fault } = app.player;
   return (
     <div class="page">
       <h2>Recordings</h2>
-      <h3>Look at one</h3>
-      <p class="hint">
-        A folder that <code>armloom serve --data DIR --record</code> or <code>armloom simulate --out DIR</code> has written: choose
-        its <code>states.csv</code> and <code>events.jsonl</code> together, or drop them on the page; or an MCAP file that was exported here. Nothing leaves this browser.
-        Those that this server has written lie in its data folder: it does not hand them out.
-      </p>
-      <label class="drop">
-        <input type="file" multiple accept=".csv,.jsonl,.json,.mcap" class="sr-only" data-test="recording-files"
-          onChange={(event) => { if (event.currentTarget.files?.length) void app.player.open([...event.currentTarget.files]); }} />
-        {reading.value ? 'Reading…' : 'Choose the files, or drop them'}
-      </label>
-      {fault.value !== null && <p class="refused" role="alert" data-test="recording-fault">{fault.value}</p>}
       {opened.value && (
         <div class="opened" role="status" data-test="opened">
-          <p><b>{opened.value.name}</b>: {seconds(opened.value.last_s - opened.value.first_s)} from {clock(opened.value.first_s)}, {opened.value.frames} pictures, {opened.value.events} events{opened.value.unread > 0 && `, ${opened.value.unread} of another version not read`}.</p>
+          <p><b>{opened.value.name}</b>: {seconds(opened.value.last_s - opened.value.first_s)} from {clock(opened.value.first_s)}, {opened.value.frames === 0 ? 'no positions' : `${opened.value.frames} pictures`}, {opened.value.events} events{opened.value.unread > 0 && `, ${opened.value.unread} of another version not read`}.</p>
           <p class="hint">The scrub bar below leads through it; all views show that instant.</p>
           <button data-test="recording-close" onClick={() => app.player.close()}>Back to the present</button>
         </div>
       )}
+      <ReadingOn app={app} />
+      {fault.value !== null && <p class="refused" role="alert" data-test="recording-fault">{fault.value}</p>}
+      <KeptRecordings app={app} />
+      <h3>From files</h3>
+      <p class="hint">
+        Of a folder that <code>armloom serve --data DIR</code> or <code>armloom simulate --out DIR</code> has written <code>states.csv</code> and <code>events.jsonl</code> together,
+        or an MCAP file that was exported here; they may be dropped anywhere on the page. Nothing leaves this browser.
+      </p>
+      <label class="drop">
+        <input type="file" multiple accept=".csv,.jsonl,.json,.mcap" class="sr-only" data-test="recording-files"
+          onChange={(event) => { if (event.currentTarget.files?.length) void app.player.open([...event.currentTarget.files]); }} />
+        Choose the files, or drop them
+      </label>
       <Export app={app} />
+    </div>
+  );
+}
+
+/** How much of one has come. */
+function ReadingOn({ app: { player } }: { app: App }) {
+  const reading = player.reading.value;
+  if (!reading) return null;
+  const { name, bytes, of_bytes } = reading;
+  return (
+    <div class="reading" data-test="reading">
+      <label><b>Reading {name}</b> <span class="dim mono">{bytes_in_words(bytes)} of {bytes_in_words(of_bytes)}</span>
+        <progress max={Math.max(1, of_bytes)} value={bytes} /></label>
+      <button class="small" data-test="stop-reading" onClick={() => player.stop()}>Stop reading</button>
     </div>
   );
 }
@@ -46,7 +62,7 @@ function Export({ app }: { app: App }) {
       const { write_mcap } = await import('./mcap');
       const bytes = await write_mcap(app.store, (share) => set_words(`Writing… ${Math.round(100 * share)} %`));
       save(bytes, `${app.store.cell?.name ?? 'armloom'}.mcap`);
-      set_words(`Written: ${(bytes.byteLength / 1e6).toFixed(1)} MB.`);
+      set_words(`Written: ${bytes_in_words(bytes.byteLength)}.`);
     } catch (error) {
       set_words(`It cannot be written: ${String(error)}`);
     }

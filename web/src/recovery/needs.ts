@@ -1,7 +1,7 @@
 // What stopped the arms, and what each of them needs to go on. Pure.
 
 import type { Arm, Job } from '../server/messages';
-import { is_stopped, state_of } from '../state/standing';
+import { is_stopped } from '../state/standing';
 import type { Notice } from '../state/notices';
 import type { Store } from '../state/store';
 import { title_of } from '../wording';
@@ -23,7 +23,7 @@ const kAtHome_rad = 0.02;
 /** `pose`: every joint; null: nobody knows where it stands. */
 export function need_of(arm: Arm, job: Job | null, pose: Readonly<Record<string, number>> | null): Need {
   const name = job ? title_of(job) : '';
-  switch (state_of(arm, job)) {
+  switch (arm.state) {
     case 'fault':
       return { words: 'Its controller is at fault: what it did has failed. Clear the fault there, then resume it.', resume: true, home: false };
     case 'stopped':

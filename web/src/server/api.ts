@@ -2,8 +2,8 @@
 
 import { cut_text } from '../names';
 import {
-  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_hold, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_plan, parse_problem, parse_session, parse_verdict,
-  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Forecast, type Hold, type Job, type JobAmendment, type JobMotion, type JobPage, type Parsed, type Plan, type Problem, type SceneObject, type Session, type Verdict,
+  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_hold, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_measured_states, parse_plan, parse_problem, parse_recording_list, parse_session, parse_verdict,
+  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Forecast, type Hold, type Job, type JobAmendment, type JobMotion, type JobPage, type MeasuredStates, type Parsed, type Plan, type Problem, type RecordingList, type SceneObject, type Session, type Verdict,
 } from './messages';
 
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
@@ -148,6 +148,21 @@ export class Api {
   /** Without a name: the server says where it came from. */
   acknowledge(ids: readonly string[], who: string): Promise<Answer<unknown>> {
     return this.ask('POST', '/alerts/acknowledge', JSON.stringify(who === '' ? { ids } : { ids, who }));
+  }
+
+  /** Where the arms were over the last minutes. */
+  async states(): Promise<Answer<MeasuredStates>> {
+    return checked('list of positions', await this.ask('GET', '/states'), parse_measured_states);
+  }
+
+  /** Newest first. */
+  async recordings(): Promise<Answer<RecordingList>> {
+    return checked('list of recordings', await this.ask('GET', '/recordings'), parse_recording_list);
+  }
+
+  /** Where a file of one is had from. */
+  recording_address(recording: string, file: string): string {
+    return `${this.base_}/recordings/${encodeURIComponent(recording)}/${encodeURIComponent(file)}`;
   }
 
   async session(): Promise<Answer<Session>> {

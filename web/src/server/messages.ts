@@ -55,6 +55,11 @@ export type ControlHolder = Schemas['ControlHolder'];
 export type Hold = Schemas['Hold'];
 /** Of all jobs that the server has, newest first. */
 export type JobPage = Schemas['JobPage'];
+/** Where every joint was measured over the last minutes. */
+export type MeasuredStates = Schemas['MeasuredStates'];
+/** What runs of the server have written down. */
+export type RecordingList = Schemas['RecordingList'];
+export type KeptRecording = Schemas['Recording'];
 export type QueueData = Schemas['QueueIds'];
 export type MonitorData = Schemas['MonitorFinding'];
 /** RFC 9457, with the place of the fault and the value found. */
@@ -141,4 +146,6 @@ export const parse_control = (value: unknown): Parsed<Control> => check('Control
 export const parse_control_taken = (value: unknown): Parsed<ControlTaken> => check('ControlTaken', value);
 export const parse_hold = (value: unknown): Parsed<Hold> => check('Hold', value);
 export const parse_verdict = (value: unknown): Parsed<Verdict> => check('Verdict', value);
+export const parse_measured_states = (value: unknown): Parsed<MeasuredStates> => check('MeasuredStates', value);
+export const parse_recording_list = (value: unknown): Parsed<RecordingList> => check('RecordingList', value);
 export const parse_problem = (value: unknown): Parsed<Problem> => check('Problem', value);

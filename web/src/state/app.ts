@@ -8,6 +8,7 @@ import type { Api } from '../server/api';
 import type { Session } from '../server/messages';
 import type { MotionBook } from '../motion/motion_book';
 import type { Comparing } from '../policies/comparing';
+import type { KeptList } from '../recordings/kept_list';
 import type { Player } from '../recordings/player';
 import type { Checklist } from '../recovery/checklist';
 import type { Router } from '../route/router';
@@ -27,6 +28,8 @@ export interface App {
   /** The state at the instant that is looked at. */
   seen: Seen;
   player: Player;
+  /** The recordings in the server's data folder. */
+  kept: KeptList;
   settings: Settings;
   alerts: AlertList;
   comparing: Comparing;

@@ -6,7 +6,7 @@ import { HaltBook, type Halts } from './halts';
 import { is_terminal, JobBook, type JobList } from './job_book';
 import { Notices, type Notice } from './notices';
 import { counted, kNoNumbers, type Numbers } from './numbers';
-import { state_of, type ToldState } from './standing';
+import type { ToldState } from './standing';
 
 type Snapshot = Extract<SequencedMessage, { type: 'snapshot' }>;
 
@@ -97,8 +97,7 @@ export class Facts {
 
   /** What an arm does, as people are told of it. */
   arm_state(arm: Arm): ToldState {
-    if (this.unknown_arms_.has(arm.name)) return 'not known';
-    return state_of(arm, arm.job === null ? null : this.job(arm.job));
+    return this.unknown_arms_.has(arm.name) ? 'not known' : arm.state;
   }
 
   /** The arm's configuration as last measured, in the order of its joints. */

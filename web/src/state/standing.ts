@@ -1,7 +1,7 @@
-// Why an arm stands. Pure. The server says `holding` of every arm that stands on its path with a job; that
-// it was stopped, and goes on only when somebody resumes it, is what its job waits for.
+// Why a job stands. Pure. The server says `holding` of every job that stands on its path; that its arm was
+// stopped, and goes on only when somebody resumes it, is what the job waits for.
 
-import type { Arm, ArmState, Job, JobState } from '../server/messages';
+import type { ArmState, Job, JobState } from '../server/messages';
 
 /** `not known`: of the time that is looked at nothing tells it. */
 export type ToldState = ArmState | 'not known';
@@ -11,12 +11,7 @@ export function is_stopped(job: Pick<Job, 'waits_on'> | null, arm: string | null
   return job?.waits_on.some((wait) => wait.kind === 'stop' && (arm === null || wait.arm === null || wait.arm === arm)) ?? false;
 }
 
-/** The same of a job. */
+/** As people are told of it, everywhere. */
 export function told_state(job: Pick<Job, 'state' | 'waits_on'>): JobState | 'stopped' {
   return job.state === 'holding' && is_stopped(job) ? 'stopped' : job.state;
-}
-
-/** As people are told of it, everywhere. One that still brakes moves. */
-export function state_of(arm: Pick<Arm, 'name' | 'state'>, job: Pick<Job, 'waits_on'> | null): ArmState {
-  return arm.state === 'holding' && is_stopped(job, arm.name) ? 'stopped' : arm.state;
 }

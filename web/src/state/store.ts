@@ -3,10 +3,9 @@
 // views read the fields, and the pulse tells when to look again.
 
 import type { Link } from '../server/connection';
-import type { ArmAuthority, Cell, Clearance, Forecast, Job, Message, SequencedMessage, StateMessage } from '../server/messages';
+import type { ArmAuthority, Cell, Clearance, Forecast, Job, MeasuredStates, Message, SequencedMessage, StateMessage } from '../server/messages';
 import { Facts } from './facts';
 import { Log } from './log';
-import { outlook_of } from './outlook';
 import { ProgressBook } from './progress_book';
 import { from_now, Pulse } from './pulse';
 import { at_rest, before_all, beginning_of, folded } from './snapshots';
@@ -26,7 +25,7 @@ export class Store extends Facts {
   /** Of every arm that has been told to move. */
   motions: ArmAuthority[] = [];
   rejected = { unknown: 0, malformed: 0 };
-  /** What the arms are expected to do, as far as that can be known; null: not known. */
+  /** What the server expects the arms to do; null: not known. */
   forecast: Forecast | null = null;
   readonly trace: Trace;
   readonly courses: ProgressBook;
@@ -35,6 +34,7 @@ export class Store extends Facts {
 
   private readonly pulse_: Pulse;
   private heard_at_ms_: number | null = null;
+  private earlier_states_: MeasuredStates | null = null;
 
   /** `measured`: of another one, which it looks back into. */
   constructor(private readonly now_ms_: () => number = () => performance.now(), measured: { trace: Trace; courses: ProgressBook } | null = null) {
@@ -79,9 +79,10 @@ export class Store extends Facts {
     this.pulse_.change();
   }
 
-  /** Instead of the server's present; `forget_all` ends it. */
-  show_recording(name: string, messages: readonly SequencedMessage[], { names, t_s, q }: Frames): void {
+  /** Instead of the server's present; `forget_all` ends it. Without frames it has no positions. */
+  show_recording(name: string, messages: readonly SequencedMessage[], frames: Frames | null): void {
     const arms = [...this.arms.values()].map(at_rest);
+    const { names, t_s, q } = frames ?? { names: [], t_s: [], q: [] };
     this.forget_all();
     this.link = { status: 'recording', name };
     this.arms = new Map(arms.map((arm) => [arm.name, arm]));
@@ -92,9 +93,17 @@ export class Store extends Facts {
       for (const message of messages) this.take(message);
       this.trace.load(names, t_s, q);
       this.t_s = Math.max(this.t_s, t_s.at(-1) ?? 0);
-      names.forEach((joint, i) => { this.q[joint] = q.at(-1)?.[i] ?? 0; });
+      this.q = Object.fromEntries(names.map((joint, i) => [joint, q.at(-1)?.[i] ?? 0]));
       this.heard_at_ms_ = null;  // it is not old
     });
+  }
+
+  /** What can be looked back at: as far as positions are there, or, in a recording without them, events. */
+  get span(): { first_s: number; last_s: number } | null {
+    const { first_s, last_s } = this.trace;
+    if (first_s !== null && last_s !== null) return { first_s, last_s };
+    const [first, last] = [this.log.entries[0], this.log.entries.at(-1)];
+    return this.link.status === 'recording' && first && last ? { first_s: first.t_s, last_s: last.t_s } : null;
   }
 
   /** As before anything was heard; the cell stays. */
@@ -114,6 +123,7 @@ export class Store extends Facts {
     this.notices_.clear();
     this.halts_.clear();
     this.heard_at_ms_ = null;
+    this.earlier_states_ = null;
     this.pulse_.change();
   }
 
@@ -127,6 +137,14 @@ export class Store extends Facts {
     for (const message of this.log.entries) this.halts_.take(message);
     this.notices_.take_earlier(fresh);
     this.pulse_.change();
+  }
+
+  /**
+   * Positions that the page did not hear itself: from before it listened, and from while it heard nothing. They are
+   * put in before the next frame that it hears, which tells where its own go on.
+   */
+  take_earlier_states(states: MeasuredStates): void {
+    this.earlier_states_ = states;
   }
 
   /** This one looks back at what another has: until its log's events say more nothing is known of any arm. */
@@ -177,7 +195,7 @@ export class Store extends Facts {
   }
 
   set_forecast(forecast: Forecast | null): void {
-    this.forecast = forecast && outlook_of(forecast);
+    this.forecast = forecast;
     this.pulse_.change();
   }
 
@@ -213,7 +231,16 @@ export class Store extends Facts {
     this.clearance = frame.clearance;
     this.motions = frame.motions;
     this.trace.push(frame.t_s, frame.q);
+    this.put_in_earlier_states();
     this.courses.take(frame.t_s, frame.motions);
     this.pulse_.frame();
+  }
+
+  private put_in_earlier_states(): void {
+    const states = this.earlier_states_;
+    this.earlier_states_ = null;
+    if (!states || states.stream !== this.stream) return;
+    this.trace.fill(states.joints, states.t_s, states.q);
+    this.pulse_.change();
   }
 }

@@ -6,6 +6,11 @@ const kFrames = 9_000;  // five minutes at 30 Hz
 // What is asked for has been rounded: addresses hold hundredths of a second.
 const kRounding_s = 0.01;
 
+// So many steps without a frame are a hole in what was heard at a steady pace.
+const kHole = 5;
+
+interface Frame { t_s: number; row: readonly number[]; broken: boolean; fresh: boolean }
+
 export interface Curves { t_s: number[]; q: number[][] }
 
 /** Whether an instant was heard; if not, where it lies. */
@@ -44,6 +49,32 @@ export class Trace {
     this.next_ = t_s.length % this.capacity_;
   }
 
+  /**
+   * What others heard, in order, at a steady pace: of it those frames are taken that are from before the first
+   * of these, or from a time in which nothing was heard.
+   */
+  fill(names: readonly string[], t_s: readonly number[], q: readonly (readonly number[])[]): void {
+    if (this.count_ === 0) this.begin([...names]);
+    const columns = this.names_.map((name) => names.indexOf(name));
+    if (columns.includes(-1) || t_s.length === 0) return;
+    const own = Array.from({ length: this.count_ }, (_, i): Frame => ({
+      t_s: this.time(i), row: this.names_.map((_, joint) => this.value(i, joint)), broken: this.breaks_[this.slot(i)] === 1, fresh: false,
+    }));
+    const fresh = t_s.flatMap((at_s, i): Frame[] => {
+      const heard = this.heard(at_s);
+      if (heard === 'kept' || heard === 'after') return [];
+      return [{ t_s: at_s, row: columns.map((column) => q[i]?.[column] ?? NaN), broken: false, fresh: true }];
+    });
+    const hole_s = kHole * ((t_s.at(-1) ?? 0) - (t_s[0] ?? 0)) / Math.max(1, t_s.length - 1);
+    const all = [...own, ...fresh].sort((a, b) => a.t_s - b.t_s);
+    this.clear();
+    all.forEach((frame, i) => {
+      const before = all[i - 1];
+      const meets = before !== undefined && before.fresh !== frame.fresh;
+      this.put(frame.t_s, frame.row, before !== undefined && (frame.broken || meets) && frame.t_s - before.t_s > hole_s);
+    });
+  }
+
   get names(): readonly string[] {
     return this.names_;
   }
@@ -54,12 +85,8 @@ export class Trace {
     const last = this.last_s;
     if (last !== null && t_s < last) this.clear();
     else if (last === t_s) return;
-    this.t_s_[this.next_] = t_s;
-    names.forEach((name, i) => { this.q_[this.next_ * names.length + i] = q[name] ?? NaN; });
-    this.breaks_[this.next_] = this.broken_ ? 1 : 0;
+    this.put(t_s, names.map((name) => q[name] ?? NaN), this.broken_);
     this.broken_ = false;
-    this.next_ = (this.next_ + 1) % this.capacity_;
-    this.count_ = Math.min(this.capacity_, this.count_ + 1);
   }
 
   get first_s(): number | null {
@@ -94,6 +121,14 @@ export class Trace {
       columns.forEach((column, k) => curves.q[k]?.push(column < 0 ? NaN : this.value(i, column)));
     }
     return curves;
+  }
+
+  private put(t_s: number, row: readonly number[], broken: boolean): void {
+    this.t_s_[this.next_] = t_s;
+    this.q_.set(row, this.next_ * row.length);
+    this.breaks_[this.next_] = broken ? 1 : 0;
+    this.next_ = (this.next_ + 1) % this.capacity_;
+    this.count_ = Math.min(this.capacity_, this.count_ + 1);
   }
 
   private begin(names: string[]): void {

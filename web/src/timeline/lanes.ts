@@ -61,12 +61,19 @@ export function lanes_of(known: Known): Lane[] {
     const jobs = of_arm.get(arm) ?? [];
     const done = done_of(jobs, pasts.get(arm) ?? kNoPast, now_s, stands);
     const legs = (expected?.legs ?? []).filter((leg) => !known.has_ended(leg.id));
+    const timed = until_endless(legs);
     return {
       arm,
-      marks: [...done.marks, ...next_of(jobs, done.free_from_s, now_s), ...legs.flatMap((leg) => future_of(leg, now_s))],
-      waiting: expected?.waiting ?? 0,
+      marks: [...done.marks, ...next_of(jobs, done.free_from_s, now_s), ...timed.flatMap((leg) => future_of(leg, now_s))],
+      waiting: (expected?.waiting ?? 0) + legs.length - timed.length,
     };
   });
+}
+
+/** What comes behind one that has no end has no time. */
+function until_endless(legs: readonly ForecastLeg[]): readonly ForecastLeg[] {
+  const endless = legs.findIndex(({ ends_s }) => ends_s === null);
+  return endless < 0 ? legs : legs.slice(0, endless + 1);
 }
 
 function by_arm(arms: readonly string[], jobs: readonly Job[]): Map<string, Job[]> {

@@ -12,13 +12,13 @@ const kPlayed_ms = 66;
 
 export function ScrubBar({ app }: { app: App }) {
   use_beats(app.store);
-  const { trace } = app.store;
+  const { span } = app.store;
   const held_s = app.router.address.value.t_s;
-  const unheard = instant_of(app.router.address.value, app.store).kind === 'unheard';
   const is_recording = app.store.link.status === 'recording';
-  const first_s = trace.first_s ?? 0;
-  const last_s = trace.last_s ?? 0;
-  if (last_s - first_s < 1) return null;
+  // A recording without positions has no instant that was heard, and is gone through all the same.
+  const unheard = !is_recording && instant_of(app.router.address.value, app.store).kind === 'unheard';
+  if (!span || span.last_s - span.first_s < 1) return null;
+  const { first_s, last_s } = span;
   const value_s = Math.min(last_s, Math.max(first_s, held_s ?? last_s));
   const words = held_s === null ? 'now' : unheard ? `${clock(held_s)}, not heard here` : `${clock(held_s)}, ${(last_s - held_s).toFixed(1)} s ago`;
   return (
@@ -46,7 +46,7 @@ function Play({ app }: { app: App }) {
     const timer = setInterval(() => {
       const now_ms = performance.now();
       const t_s = (app.router.address.peek().t_s ?? 0) + (now_ms - before_ms) / 1000;
-      const last_s = app.store.trace.last_s ?? 0;
+      const last_s = app.store.span?.last_s ?? 0;
       before_ms = now_ms;
       app.router.hold_at(Math.min(t_s, last_s));
       if (t_s >= last_s) set_plays(false);

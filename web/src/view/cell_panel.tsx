@@ -67,7 +67,7 @@ function Waits({ app }: { app: App }) {
 }
 
 function waits_for_first({ store }: App): boolean {
-  return store.trace.last_s === null && Object.keys(store.q).length === 0;
+  return store.link.status !== 'recording' && store.trace.last_s === null && Object.keys(store.q).length === 0;
 }
 
 /** That another instant than now is shown; or, where it was not heard, that it cannot be. */
@@ -75,6 +75,7 @@ function InstantMark({ app }: { app: App }) {
   use_beats(app.store);
   const { store, router } = app;
   const instant = instant_of(router.address.value, store);
+  if (store.link.status === 'recording' && store.trace.first_s === null) return <WithoutPositions app={app} />;
   if (instant.kind === 'now' || waits_for_first(app)) return null;
   if (instant.kind === 'kept') return <div class="instant-mark" data-test="instant">Looking back at {clock(instant.t_s)}, not at now</div>;
   const { first_s } = store.trace;
@@ -87,6 +88,16 @@ function InstantMark({ app }: { app: App }) {
         {instant.why === 'before' && first_s !== null && <button class="small" onClick={() => router.hold_at(first_s)}>The earliest that is kept</button>}
         <Link app={app} to={{ page: 'recordings' }}>Open a recording</Link>
       </div>
+    </div>
+  );
+}
+
+/** A recording of events alone. */
+function WithoutPositions({ app }: { app: App }) {
+  return (
+    <div class="unheard" role="status" data-test="without-positions" style={{ '--covered': `${app.covered_px.value}px` }}>
+      <p><b>The arms are not shown: this recording has no positions.</b></p>
+      <p class="dim">It was written without <code>--record</code>. The lists, the timeline and the events are of <span class="mono">{clock(app.router.address.value.t_s ?? app.store.t_s)}</span>.</p>
     </div>
   );
 }

@@ -1,0 +1,42 @@
+// Where the arms were over the last minutes.
+#include <memory>
+
+#include "server/api/route.h"
+#include "server/messages/measured_states.h"
+
+namespace armloom {
+namespace {
+
+// The frames are only pointed to here; to write down a hundred thousand numbers is done aside.
+void get_states(Call call) {
+  const ApiParts& parts = call.parts;
+  parts.aside([&parts, frames = parts.states.frames(), respond = std::move(call.respond)] {
+    MeasuredStates states{.stream = parts.stream, .joints = {}, .times = {}, .q = {}};
+    for (const Joint& joint : parts.cell->joints) states.joints.push_back(joint.name);
+    for (const RecentStates::FramePtr& frame : frames) {
+      states.times.push_back(frame->time);
+      states.q.push_back(frame->q);
+    }
+    parts.post(
+        [response = std::make_shared<Response>(answer(200, measured_states_format(), states)),
+         respond] { respond(std::move(*response)); });
+  });
+}
+
+}  // namespace
+
+std::vector<Route> state_routes() {
+  Route get{.method = "GET",
+            .path = api_path("/states"),
+            .id = "listStates",
+            .tag = "arms",
+            .summary = "Where every joint was measured over the last five minutes"};
+  get.text =
+      "Ten times a second of wall time, for who comes only now: from here on events bring frames "
+      "of type `state`, at 30 Hz. At 1 kHz, and for longer, recordings have it.";
+  get.outcomes = {outcome(200, "What is kept", measured_states_format())};
+  get.run = get_states;
+  return {get};
+}
+
+}  // namespace armloom

@@ -1,0 +1,42 @@
+#include "server/messages/measured_states.h"
+
+#include "server/codec/list_formats.h"
+#include "server/codec/object_format.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/told_part.h"
+#include "server/codec/value_formats.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+// As those of a pose frame: they are only looked at.
+class RoundedPositions final : public Format<Configuration> {
+ public:
+  void read(const JsonNode&, Configuration&) const override {}
+  void write(JsonWriter& out, const Configuration& q) const override {
+    out.begin_array();
+    for (const double position : q) out.rounded(position, 6);
+    out.end_array();
+  }
+  Schema schema(Way) const override { return {{"type", "array"}, {"items", {{"type", "number"}}}}; }
+};
+
+}  // namespace
+
+FormatPtr<MeasuredStates> measured_states_format() {
+  static const auto format = named(
+      "MeasuredStates", "",
+      object<MeasuredStates>({
+          told("stream", &MeasuredStates::stream, text(), "The run, as events name it"),
+          told("joints", &MeasuredStates::joints, list(text()), "Every joint of the cell"),
+          told("t_s", &MeasuredStates::times, list(cell_time()), "Ascending"),
+          told("q", &MeasuredStates::q, list<Configuration>(make_as_base<RoundedPositions>()),
+               "At each of these times, in the order of the joints: rad or m"),
+      }));
+  return format;
+}
+
+}  // namespace armloom

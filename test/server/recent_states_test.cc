@@ -1,0 +1,77 @@
+// What is kept of where the arms were, for who comes only now.
+#include "server/hub/recent_states.h"
+
+#include <gtest/gtest.h>
+
+#include "test/server/durable_server.h"
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+using nlohmann::json;
+
+RecentStates::Clock::time_point wall(std::chrono::milliseconds since) {
+  return RecentStates::Clock::time_point{} + since;
+}
+
+TEST(RecentStates, AreTakenTenTimesASecondHoweverOftenTheyCome) {
+  RecentStates states;
+  Configuration q(1);
+  for (int i = 0; i < 3000; ++i) {  // at 30 Hz
+    q[0] = i;
+    states.take(at(std::chrono::milliseconds(i)), q,
+                wall(std::chrono::microseconds(33'333) * i / 1ms * 1ms));
+  }
+  EXPECT_NEAR(static_cast<double>(states.frames().size()), 1000.0, 2.0);
+  EXPECT_EQ(states.frames().front()->q[0], 0);
+  EXPECT_EQ(states.frames()[1]->q[0], 4) << "133 ms; 100 ms after the first there was none";
+  EXPECT_EQ(states.frames()[2]->q[0], 7) << "233 ms: none is lost for it";
+}
+
+TEST(RecentStates, AreForFiveMinutesTheOldestGo) {
+  RecentStates states;
+  const Configuration q = Configuration::Zero(1);
+  for (int i = 0; i < 3500; ++i) states.take(at(i * 100ms), q, wall(i * 100ms));
+  ASSERT_EQ(states.frames().size(), RecentStates::kFramesMax);
+  EXPECT_EQ(states.frames().front()->time, at(50s));
+  EXPECT_EQ(states.frames().back()->time - states.frames().front()->time, 300s - 100ms);
+}
+
+TEST(RecentStates, AfterALongSilenceGoOnAtTheirPace) {
+  RecentStates states;
+  const Configuration q = Configuration::Zero(1);
+  states.take(at(0s), q, wall(0ms));
+  for (int i = 0; i < 10; ++i) states.take(at(10s), q, wall(10'000ms + i * 10ms));
+  EXPECT_EQ(states.frames().size(), 2U) << "what was missed is not made up for";
+}
+
+using Past = Durable;
+TEST_F(Past, IsTheMotionOfAJobThatHasEndedBeforeAnyoneListened) {
+  start(5);
+  ASSERT_EQ(submit("swing").status, 202);
+  wait_until([&] { return job("swing")["state"] == "succeeded"; });
+  const json ended = job("swing");
+  const json states = get("/api/v1/states").json();
+  EXPECT_EQ(states["stream"], test::Listener(port()).next_of("snapshot")["stream"]);
+  const json cell = get("/api/v1/cell").json();
+  ASSERT_EQ(states["joints"].size(), cell["joints"].size());
+  EXPECT_EQ(states["joints"][0], cell["joints"][0]["name"]);
+  ASSERT_EQ(states["t_s"].size(), states["q"].size());
+  double farthest = 0, before = -1;
+  std::size_t frames = 0;
+  for (std::size_t i = 0; i < states["q"].size(); ++i) {
+    const double t_s = states["t_s"][i];
+    EXPECT_GT(t_s, before);
+    before = t_s;
+    ASSERT_EQ(states["q"][i].size(), states["joints"].size());
+    if (t_s < ended["started_s"] || t_s > ended["ended_s"]) continue;
+    farthest = std::max(farthest, states["q"][i][0].get<double>());
+    ++frames;
+  }
+  EXPECT_GE(frames, 2U);
+  EXPECT_GT(farthest, 0.1) << "joint 1 went to 0.3 and back";
+}
+
+}  // namespace
+}  // namespace armloom
