@@ -135,7 +135,8 @@ std::string settings_text(const CellDescription& settings) {
     const std::string told = value.is_string() ? value.get<std::string>() : value.dump();
     line += (line.empty() ? "" : ", ") + key + " " + told;
   };
-  for (const auto& [key, value] : as_json(out).items()) {
+  const Schema all = as_json(out);
+  for (const auto& [key, value] : all.items()) {
     if (!value.is_object()) {
       add(first, key, value);
       continue;
