@@ -202,8 +202,8 @@ test('names never become HTML', { timeout: 60_000 }, async () => {
   }
   const row = (id) => page.locator(`[data-test="job-name-${id}"]`);
   for (const id of Object.keys(strange)) await row(id).waitFor();
-  assert.match(await row('blank').innerText(), /\(blank\)/);
-  assert.match(await row('turned').innerText(), /⟨U\+202E⟩deeccus/);
+  assert.match(await row('blank').textContent(), /\(blank\)/);
+  assert.match(await row('turned').textContent(), /⟨U\+202E⟩deeccus/);
   const before = page.viewportSize();
   for (const width of [1024, 1440]) {
     await page.setViewportSize({ width, height: 800 });
@@ -214,7 +214,8 @@ test('names never become HTML', { timeout: 60_000 }, async () => {
       assert.deepEqual(wide, [], `${hash} at ${width} px`);
       assert.doesNotMatch(await page.title(), /\u202e/);
     }
-    // Ids stay where names are long.
+    // Ids stay where names are long. (What is out of sight is not laid out.)
+    await row('long').scrollIntoViewIfNeeded();
     assert.ok(await row('long').locator('.id').evaluate((id) => id.checkVisibility() && id.clientWidth > 30), `${width} px`);
     await page.screenshot(path_for(`names-${width}`));
   }

@@ -129,15 +129,15 @@ TEST(OrderSearch, LetsTheUrgentOnePassFirstButNotAtAnyPrice) {
   EXPECT_FALSE(urgent_passes_first(4s, 8s, 4s, 5s)) << "4 s of the other one for 1 s of its own";
 }
 
-// A short motion and a long one: who goes second waits 4 s or half a second.
+// A short motion and a long one: who goes second ends 2.9 s later, or 0.4 s.
 bool short_one_passes_first(Duration work_behind_long) {
   const std::vector<CoordinatedMotion> motions = {
-      {.job = JobId(1), .arms = {ArmId(0)}, .duration = 1s},
+      {.job = JobId(1), .arms = {ArmId(0)}, .duration = 1500ms},
       {.job = JobId(2), .arms = {ArmId(1)}, .duration = 10s}};
   const std::vector<CoordinatedMotion> nobody;
   const std::vector<Precedence> none;
   const std::vector<PairRegions> regions = {
-      {JobId(1), JobId(2), {region(ProgressBox{0s, 500ms, 0s, 4s})}}};
+      {JobId(1), JobId(2), {region(ProgressBox{500ms, 1s, 600ms, 3400ms})}}};
   const std::vector<Duration> work{0s, work_behind_long};
   OpenOrders open({nobody, none, motions, regions, work});
   EXPECT_TRUE(OrderSearch(open, work).run().stuck.empty());

@@ -16,7 +16,7 @@ const kHead = '// Written by `npm run contract`: change the descriptions in serv
 // What the page reads, with all that these refer to.
 const kRead = ['Message', 'Cell', 'Job', 'Diagram', 'Timeline', 'Problem', 'Verdict', 'JobMotion', 'Plan', 'AlertList', 'Session', 'Comparison', 'Control', 'ControlTaken', 'Hold', 'JobPage', 'MeasuredStates', 'RecordingList'];
 // What a schema says beyond the shape. A newer server may say more than this page knows.
-const kDropped = new Set(['description', 'additionalProperties', 'minimum', 'maximum', 'exclusiveMinimum', 'pattern', 'format', 'dependentRequired']);
+const kDropped = new Set(['description', 'additionalProperties', 'minimum', 'maximum', 'exclusiveMinimum', 'exclusiveMaximum', 'pattern', 'format', 'dependentRequired']);
 // Long, and read number by number where it is used (src/motion, src/state/trace): to check it here, too, would hold the page up.
 const kReadWhereUsed = { JobMotion: 'trajectory', MeasuredStates: 'q' };
 
