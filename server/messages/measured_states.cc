@@ -27,15 +27,15 @@ class RoundedPositions final : public Format<Configuration> {
 }  // namespace
 
 FormatPtr<MeasuredStates> measured_states_format() {
-  static const auto format = named(
-      "MeasuredStates", "",
-      object<MeasuredStates>({
-          told("stream", &MeasuredStates::stream, text(), "The run, as events name it"),
-          told("joints", &MeasuredStates::joints, list(text()), "Every joint of the cell"),
-          told("t_s", &MeasuredStates::times, list(cell_time()), "Ascending"),
-          told("q", &MeasuredStates::q, list<Configuration>(make_as_base<RoundedPositions>()),
-               "At each of these times, in the order of the joints: rad or m"),
-      }));
+  static const auto format =
+      named("MeasuredStates", "",
+            object<MeasuredStates>({
+                told("stream", &MeasuredStates::stream, text(), "The run, as events name it"),
+                told("joints", &MeasuredStates::joints, list(text()), "Every joint of the cell"),
+                told("t_s", &MeasuredStates::times, list(cell_time()), "Ascending"),
+                told("q", &MeasuredStates::q, list<Configuration>(make_as_base<RoundedPositions>()),
+                     "At each of these times, in the order of the joints: rad or m"),
+            }));
   return format;
 }
 
