@@ -148,7 +148,7 @@ class Judgement {
     Proximity proximity = query_.describe(near);
     const Runner* own = runner_of(proximity.arm_a);
     const Runner* other = runner_of(proximity.arm_b);
-    // ConvexShape a is the candidate's; of two candidates, the one that was named first.
+    // Body a is the candidate's; of two candidates, the one that was named first.
     const bool b_is_own =
         other != nullptr && other->candidate && (own == nullptr || !own->candidate || other < own);
     if (b_is_own) {
