@@ -33,7 +33,7 @@ RecordingView view_of(const KeptRecording& kept, bool is_running) {
 
 // Up to the end of the last line that is there.
 tl::expected<std::size_t, NoFile> whole_lines(const OpenFile& file) {
-  constexpr std::size_t kPiece = 64 * 1024;
+  constexpr std::size_t kPiece = std::size_t{64} * 1024;
   for (std::size_t end = file.size(); end > 0;) {
     const std::size_t from = end > kPiece ? end - kPiece : 0;
     const auto piece = file.read(from, end - from);

@@ -143,7 +143,7 @@ std::string settings_text(const CellDescription& settings) {
     }
     std::string line;
     for (const auto& [name, setting] : value.items()) add(line, name, setting);
-    groups += key + ": " + line + "\n";
+    groups.append(key).append(": ").append(line).append("\n");
   }
   return first + "\n" + groups;
 }

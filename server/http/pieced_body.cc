@@ -21,7 +21,7 @@ asio::awaitable<std::optional<std::string>> read_piece(const PiecedBody& body, s
     std::optional<std::string> bytes = {};
   };
   const auto pending = std::make_shared<Pending>(co_await asio::this_coro::executor);
-  body.read(from, count, [pending](std::optional<std::string> bytes) {
+  body.read(from, count, [pending](std::optional<std::string>&& bytes) {
     pending->bytes = std::move(bytes);
     pending->has_arrived = true;
     pending->arrived.cancel();
