@@ -20,6 +20,17 @@ struct DiagramCell {
   Duration from_a, to_a, from_b, to_b;
   State state;
 };
+[[nodiscard]] constexpr const char* to_string(DiagramCell::State state) {
+  switch (state) {
+    case DiagramCell::State::free:
+      return "free";
+    case DiagramCell::State::conflict:
+      return "conflict";
+    case DiagramCell::State::undecided:
+      return "undecided";
+  }
+  return nullptr;
+}
 
 // What one arm's motion and another's do to each other, wherever each is on its own way.
 struct DiagramLayer {

@@ -72,5 +72,16 @@ struct Verdict {
   // more free.
   bool exhausted = false;
 };
+[[nodiscard]] constexpr const char* to_string(Verdict::Kind kind) {
+  switch (kind) {
+    case Verdict::Kind::free:
+      return "free";
+    case Verdict::Kind::conflict:
+      return "conflict";
+    case Verdict::Kind::undecided:
+      return "undecided";
+  }
+  return nullptr;
+}
 
 }  // namespace armloom

@@ -130,7 +130,7 @@ void Executive::Impl::check(JobRequest request, std::function<void(Result<CheckV
   std::vector<Submit> jobs;
   std::uint64_t next = scheduler_.next_job().value();
   for (TrajectoryPtr& back : prepared->returns) {
-    jobs.push_back(intake_.return_of(std::move(back), prepared->priority));
+    jobs.push_back(intake_.return_of(std::move(back), prepared->terms.priority));
   }
   jobs.push_back(intake_.submission(std::move(*prepared)));
   for (Submit& job : jobs) job.job = JobId{next++};

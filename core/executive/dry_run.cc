@@ -199,14 +199,12 @@ class Instant final : public JobNames {
   // Not, if jobs of its arms come before it, or one of those it comes after is not among the next.
   void add_next(std::size_t index) {
     const Planned& job = plan_.jobs()[index];
-    Submit next{.job = JobId{0},
-                .trajectory = job.trajectory,
-                .terms = {.backlog_timeout = cell_.scheduling.backlog_timeout}};
+    Submit next{.job = JobId{0}, .trajectory = job.trajectory};
     for (std::size_t before : job.after) {
       if (ended_.contains(before)) continue;
       const auto id = ids_.find(before);
       if (id == ids_.end()) return;
-      next.terms.after.push_back(id->second);
+      next.after.push_back(id->second);
     }
     const auto& arms = job.trajectory->arms();
     if (std::ranges::any_of(arms, [this](ArmId arm) { return taken_.contains(arm); })) return;

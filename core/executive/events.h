@@ -97,6 +97,7 @@ struct JobView {
   JobState state = JobState::queued;
   std::vector<std::string> arms;
   JobTerms terms = {};
+  bool system_job = false;  // the server's own
   JobTimesView times = {};
   JobMotionView motion = {};
   JobWaysView ways = {};
@@ -111,7 +112,21 @@ struct JobView {
 };
 
 enum class ArmState { idle, moving, holding, stopped, fault };
-[[nodiscard]] const char* to_string(ArmState state);
+[[nodiscard]] constexpr const char* to_string(ArmState state) {
+  switch (state) {
+    case ArmState::idle:
+      return "idle";
+    case ArmState::moving:
+      return "moving";
+    case ArmState::holding:
+      return "holding";
+    case ArmState::stopped:
+      return "stopped";
+    case ArmState::fault:
+      return "fault";
+  }
+  return nullptr;
+}
 
 struct ArmView {
   std::string name;
@@ -148,6 +163,17 @@ struct Alert {
   Level level;
   std::string text;
 };
+[[nodiscard]] constexpr const char* to_string(Alert::Level level) {
+  switch (level) {
+    case Alert::Level::info:
+      return "info";
+    case Alert::Level::warning:
+      return "warning";
+    case Alert::Level::error:
+      return "error";
+  }
+  return nullptr;
+}
 
 // One entry of the log. Job events are never dropped; seq has no holes.
 struct Event {

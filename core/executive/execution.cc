@@ -21,7 +21,7 @@ Execution::Execution(const CellPtr& cell, std::vector<std::unique_ptr<FaultyArm>
 
 void Execution::carry_out(const Dispatch& dispatch, const Job& job,
                           std::function<bool(JobId)> written) {
-  if (job.terms.system_job) return motions_.dispatch(dispatch, job.trajectory);
+  if (job.system_job) return motions_.dispatch(dispatch, job.trajectory);
   const auto open = [this, id = job.id, written = std::move(written)] {
     const bool moves = written(id);
     const auto withheld = starts_.open(id);

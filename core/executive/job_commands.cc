@@ -41,9 +41,7 @@ Result<JobView> Executive::Impl::amend(const std::string& key, JobAmendment amen
   const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
   if (amendment.name) jobs_.rename(*id, *std::move(amendment.name));
-  Amend input{*id, amendment.priority, amendment.backlog_timeout};
-  if (amendment.on_timeout) input.replans_on_timeout = *amendment.on_timeout == OnTimeout::replan;
-  step(input);
+  step(Amend{*id, amendment.terms});
   return publisher_.view(*id);
 }
 

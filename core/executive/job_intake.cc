@@ -72,12 +72,6 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
   find_bad_after(request, ahead, problems);
   std::vector<MotionGoal> goals;
   std::vector<TrajectoryPtr> motions;
-  if (!request.move_to && (!request.arm.empty() || !request.arms.empty())) {
-    problems.push_back({ProblemKind::invalid, "unknown-field",
-                        request.arm.empty() ? "/arms" : "/arm",
-                        "an arm is named with move_to; a trajectory's joints say which arms move",
-                        request.arm.empty() ? request.arms.front() : request.arm});
-  }
   if (request.terms.approach == Approach::plan &&
       (request.move_to || request.motions().size() > 1)) {
     problems.push_back({ProblemKind::invalid, "not-served", "/approach",
@@ -95,16 +89,8 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
 
   set_joints(ahead.rest, *motions.front(), motions.front()->goal());
   ahead.keys.push_back(request.key);
-  return PreparedJob{std::move(request.key),
-                     std::move(request.name),
-                     std::move(motions),
-                     std::move(goals),
-                     request.terms.order,
-                     request.terms.on_timeout,
-                     request.terms.approach,
-                     request.terms.priority,
-                     request.terms.backlog_timeout.value_or(cell_->scheduling.backlog_timeout),
-                     std::move(request.after),
+  return PreparedJob{std::move(request.key), std::move(request.name), std::move(motions),
+                     std::move(goals),       request.terms,           std::move(request.after),
                      std::move(returns)};
 }
 
@@ -178,13 +164,9 @@ Submit JobIntake::submission(PreparedJob prepared) const {
   }
   Submit job{.job = JobId{0},
              .trajectory = prepared.alternatives.front(),
-             .terms = {.priority = prepared.priority,
-                       .backlog_timeout = prepared.backlog_timeout,
-                       .after = std::move(after),
-                       .any_order = prepared.order == JobOrder::any,
-                       .replans_on_timeout = prepared.on_timeout == OnTimeout::replan,
-                       .approaches = prepared.approach == Approach::plan},
-             .goals = std::move(prepared.goals)};
+             .terms = prepared.terms,
+             .goals = std::move(prepared.goals),
+             .after = std::move(after)};
   if (prepared.alternatives.size() > 1) job.alternatives = std::move(prepared.alternatives);
   return job;
 }

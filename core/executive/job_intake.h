@@ -18,11 +18,7 @@ struct PreparedJob {
   std::string name;
   std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; the only one, mostly
   std::vector<MotionGoal> goals;            // the trajectories are estimates, one for each
-  JobOrder order;
-  OnTimeout on_timeout;
-  Approach approach;
-  int priority;
-  Duration backlog_timeout;
+  JobTerms terms;
   std::vector<std::string> after;
   std::vector<TrajectoryPtr> returns;  // of its arms, to where their clients left them
 };

@@ -4,12 +4,6 @@
 
 namespace armloom {
 
-const char* to_string(JobOrder order) { return order == JobOrder::any ? "any" : "as_given"; }
-
-const char* to_string(OnTimeout what) { return what == OnTimeout::replan ? "replan" : "abort"; }
-
-const char* to_string(Approach how) { return how == Approach::plan ? "plan" : "none"; }
-
 std::vector<JobRequest::PlacedMotion> JobRequest::motions() const {
   if (move_to) return {};
   if (alternatives.empty()) return {{"/trajectory", trajectory}};

@@ -8,31 +8,11 @@
 
 #include "core/base/problem.h"
 #include "core/base/time.h"
+#include "core/jobs/job_terms.h"
 #include "core/planning/plan_goal.h"
 #include "core/trajectory/validate.h"
 
 namespace armloom {
-
-// Whether jobs of one arm that begin and end at one place have to run in the order in which they
-// came. They may change places with each other where each of them says `any`.
-enum class JobOrder { as_given, any };
-[[nodiscard]] const char* to_string(JobOrder order);
-
-// What becomes of a job when its time in the backlog is over.
-enum class OnTimeout { abort, replan };
-[[nodiscard]] const char* to_string(OnTimeout what);
-// How an arm comes to where a job begins: that is where it stands by then, or it is brought there.
-enum class Approach { none, plan };
-[[nodiscard]] const char* to_string(Approach how);
-
-// What its turn goes by, as its client has it.
-struct RequestedTerms {
-  int priority = 0;
-  std::optional<Duration> backlog_timeout = {};  // absent: the cell's
-  OnTimeout on_timeout = OnTimeout::abort;
-  JobOrder order = JobOrder::as_given;
-  Approach approach = Approach::none;
-};
 
 // A job as a client asks for it, its JSON already read.
 struct JobRequest {
@@ -48,7 +28,7 @@ struct JobRequest {
   std::string arm = {};
   std::vector<std::string> arms = {};
   std::optional<double> speed = {};
-  RequestedTerms terms = {};
+  JobTerms terms = {};
   std::vector<std::string> after;  // keys of jobs that have to succeed first
   // What was found out before the strand has it.
   struct Known {
@@ -72,9 +52,7 @@ struct JobRequest {
 // What is to be changed of a job that was accepted, as JobRequest has it; what is absent stays.
 struct JobAmendment {
   std::optional<std::string> name = {};
-  std::optional<int> priority = {};
-  std::optional<Duration> backlog_timeout = {};  // from when it first was in conflict
-  std::optional<OnTimeout> on_timeout = {};
+  AmendedTerms terms = {};
 };
 
 }  // namespace armloom

@@ -9,8 +9,8 @@ namespace armloom {
 std::vector<std::string> known_policies() { return policy_names(); }
 
 std::optional<Problems> policy_problems(const std::string& name) {
-  auto problem = unknown_policy(name);
-  return problem ? std::optional(Problems{std::move(*problem)}) : std::nullopt;
+  auto named = policy_named(name);
+  return named ? std::nullopt : std::optional(std::move(named.error()));
 }
 
 }  // namespace armloom

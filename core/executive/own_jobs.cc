@@ -32,9 +32,8 @@ std::vector<TrajectoryPtr> JobIntake::returns_for(const Trajectory& motion, Ahea
 Submit JobIntake::return_of(TrajectoryPtr back, int priority) const {
   return {.job = JobId{0},
           .trajectory = std::move(back),
-          .terms = {.priority = priority,
-                    .backlog_timeout = cell_->scheduling.backlog_timeout,
-                    .system_job = true}};
+          .terms = {.priority = priority},
+          .system_job = true};
 }
 
 void JobIntake::remember_way_back(ArmId arm, const Trajectory& way) {

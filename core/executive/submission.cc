@@ -52,7 +52,7 @@ Result<std::vector<PreparedJob>> Executive::Impl::prepare_all(std::vector<JobReq
 JobView Executive::Impl::accept(PreparedJob prepared) {
   for (TrajectoryPtr& back : prepared.returns) {
     std::string name = cell_->arm(back->arms().front()).name + " returns to where it was left";
-    Submit way = intake_.return_of(std::move(back), prepared.priority);
+    Submit way = intake_.return_of(std::move(back), prepared.terms.priority);
     way.job = scheduler_.next_job();
     enter(std::move(way), {jobs_.own_key(OwnJob::aside), std::move(name)});
   }
@@ -83,7 +83,7 @@ std::vector<Result<JobView>> Executive::Impl::restore(std::vector<RestoredJob> j
     JobLabel label{std::move(prepared->key), std::move(prepared->name), job.submitted_at};
     Submit submitted = intake_.submission(std::move(*prepared));
     submitted.job = job.id;
-    submitted.terms.is_held_over = true;
+    submitted.is_held_over = true;
     enter(submitted, std::move(label));
     answers.push_back(publisher_.view(job.id));
   }

@@ -200,6 +200,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .name = names.name(job.id),
                .state = job.pausing() ? JobState::holding : job.state(),
                .terms = job.terms,
+               .system_job = job.system_job,
                .times = times_of(job),
                .motion = motion_of(job),
                .ways = ways_of(job, cell, names)};
@@ -211,22 +212,6 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   view.ring = ring_of(job, names);
   if (job.reason()) view.result = result_of(job, view.waits_on, cell, names);
   return view;
-}
-
-const char* to_string(ArmState state) {
-  switch (state) {
-    case ArmState::idle:
-      return "idle";
-    case ArmState::moving:
-      return "moving";
-    case ArmState::holding:
-      return "holding";
-    case ArmState::stopped:
-      return "stopped";
-    case ArmState::fault:
-      return "fault";
-  }
-  return "unknown";
 }
 
 CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobNames& names) {

@@ -66,7 +66,7 @@ void ArmRests::rest_at_goal(const WaitingLeg& leg) {
 std::optional<Wait> ArmRests::stop_of(const Job& job) const {
   for (ArmId arm : job.trajectory->arms()) {
     const auto& stop = stopped_[arm.index()];
-    if (stop) return Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = stop->cause};
+    if (stop) return Wait{.kind = Wait::Kind::stop, .arm = arm, .detail = *stop};
   }
   return std::nullopt;
 }

@@ -28,15 +28,9 @@ class ArmRests {
   // At its goal, it counts as standing exactly there.
   void rest_at_goal(const WaitingLeg& leg);
 
-  void stop(ArmId arm, std::string cause, TimePoint now) {
-    stopped_[arm.index()] = {std::move(cause), now};
-  }
+  void stop(ArmId arm, std::string cause) { stopped_[arm.index()] = std::move(cause); }
   void resume(ArmId arm) { stopped_[arm.index()].reset(); }
   [[nodiscard]] bool is_stopped(ArmId arm) const { return stopped_[arm.index()].has_value(); }
-  [[nodiscard]] std::optional<TimePoint> stopped_since(ArmId arm) const {
-    const auto& stop = stopped_[arm.index()];
-    return stop ? std::optional(stop->since) : std::nullopt;
-  }
   [[nodiscard]] std::optional<Wait> stop_of(const Job& job) const;
 
   // A motion of these arms as a leg of their lanes.
@@ -51,12 +45,8 @@ class ArmRests {
                                                           const Trajectory& trajectory) const;
 
  private:
-  struct ArmStop {
-    std::string cause;
-    TimePoint since;
-  };
   Configuration rest_;
-  std::vector<std::optional<ArmStop>> stopped_;  // per arm
+  std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
   std::vector<TrajectoryPtr> came_by_;
   Places places_;
   std::vector<PlacePtr> places_at_;  // per arm: where it rests, or came from

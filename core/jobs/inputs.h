@@ -34,6 +34,12 @@ struct Submit {
   // Where its arm is to go: the way is planned first (PlanMotion); `trajectory` is an estimate.
   // Several: one for each of `alternatives`, which are estimates.
   std::vector<MotionGoal> goals = {};
+  std::vector<JobId> after =
+      {};                   // active jobs that have to succeed first; smaller ids than its own
+  bool system_job = false;  // the server's own: in a ring it gives way to jobs of clients
+  // It waited when a former run ended: whether it can begin where its arms stand is not looked at
+  // while one of them is stopped, but when they are resumed. (As of those that Interrupt keeps.)
+  bool is_held_over = false;
 };
 struct Cancel {
   JobId job;
@@ -41,10 +47,7 @@ struct Cancel {
 // What is asked of a job is changed, as far as it is named here (amending.h).
 struct Amend {
   JobId job;
-  std::optional<int> priority = {};
-  // It counts from when the job first was in conflict: it may be over at once.
-  std::optional<Duration> backlog_timeout = {};
-  std::optional<bool> replans_on_timeout = {};
+  AmendedTerms terms;
 };
 // Another way for this job, from where its arm stands (replanning.h). One that can be given none
 // (why_not_replanned()) goes on as it is.

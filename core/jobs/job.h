@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/enumeration.h"
 #include "core/base/ids.h"
 #include "core/base/time.h"
 #include "core/coordination/plan_question.h"
@@ -30,14 +31,34 @@ enum class JobState {
   interrupted,
 };
 [[nodiscard]] constexpr bool is_terminal(JobState s) { return s >= JobState::succeeded; }
-// All of them, in this order; and those in which a job ends.
-inline constexpr std::array kJobStates = {
-    JobState::queued,  JobState::backlogged, JobState::scheduled, JobState::running,
-    JobState::holding, JobState::succeeded,  JobState::canceled,  JobState::expired,
-    JobState::failed,  JobState::interrupted};
-inline constexpr auto kJobEnds = std::span(kJobStates).last<5>();
+[[nodiscard]] constexpr const char* to_string(JobState state) {
+  switch (state) {
+    case JobState::queued:
+      return "queued";
+    case JobState::backlogged:
+      return "backlogged";
+    case JobState::scheduled:
+      return "scheduled";
+    case JobState::running:
+      return "running";
+    case JobState::holding:
+      return "holding";
+    case JobState::succeeded:
+      return "succeeded";
+    case JobState::canceled:
+      return "canceled";
+    case JobState::expired:
+      return "expired";
+    case JobState::failed:
+      return "failed";
+    case JobState::interrupted:
+      return "interrupted";
+  }
+  return nullptr;
+}
+// Those in which a job ends.
+inline constexpr auto kJobEnds = std::span(kValues<JobState>).last<5>();
 static_assert(is_terminal(kJobEnds.front()) && !is_terminal(*(kJobEnds.begin() - 1)));
-[[nodiscard]] const char* to_string(JobState state);
 
 // Why a job does not move.
 struct Wait {
@@ -58,7 +79,25 @@ struct Wait {
            has_no_way_aside == other.has_no_way_aside;
   }
 };
-[[nodiscard]] const char* to_string(Wait::Kind kind);
+[[nodiscard]] constexpr const char* to_string(Wait::Kind kind) {
+  switch (kind) {
+    case Wait::Kind::job:
+      return "job";
+    case Wait::Kind::arm:
+      return "arm";
+    case Wait::Kind::object:
+      return "object";
+    case Wait::Kind::order:
+      return "order";
+    case Wait::Kind::capacity:
+      return "capacity";
+    case Wait::Kind::stop:
+      return "stop";
+    case Wait::Kind::plan:
+      return "plan";
+  }
+  return nullptr;
+}
 
 // Closed list; README.md beside this file explains each.
 enum class Reason {
@@ -74,7 +113,33 @@ enum class Reason {
   deadlock,  // it waited in a ring of jobs none of which could ever move, and came last
   no_plan,   // no way to its goal was found, or none that still fitted when it was there
 };
-[[nodiscard]] const char* to_string(Reason reason);
+[[nodiscard]] constexpr const char* to_string(Reason reason) {
+  switch (reason) {
+    case Reason::completed:
+      return "completed";
+    case Reason::canceled_by_client:
+      return "canceled_by_client";
+    case Reason::backlog_timeout:
+      return "backlog_timeout";
+    case Reason::start_mismatch:
+      return "start_mismatch";
+    case Reason::self_collision:
+      return "self_collision";
+    case Reason::predecessor_failed:
+      return "predecessor_failed";
+    case Reason::arm_fault:
+      return "arm_fault";
+    case Reason::overrun:
+      return "overrun";
+    case Reason::server_restart:
+      return "server_restart";
+    case Reason::deadlock:
+      return "deadlock";
+    case Reason::no_plan:
+      return "no_plan";
+  }
+  return nullptr;
+}
 
 // What a job that waits was found to wait for, when it was judged last.
 struct Judgement {
@@ -211,13 +276,26 @@ struct AnotherWay {
   std::uint64_t done = 0;                      // so many times it was given another way
   std::optional<std::string> refusal = {};     // why not, the last time
 };
-[[nodiscard]] const char* to_string(AnotherWay::Cause cause);
+[[nodiscard]] constexpr const char* to_string(AnotherWay::Cause cause) {
+  switch (cause) {
+    case AnotherWay::Cause::client:
+      return "client";
+    case AnotherWay::Cause::timeout:
+      return "timeout";
+    case AnotherWay::Cause::blocked:
+      return "blocked";
+  }
+  return nullptr;
+}
 
 // A job as the scheduler knows it. Read-only for everyone else.
 struct Job {
   JobId id;
   TrajectoryPtr trajectory;
-  JobTerms terms = {};  // `after`: of these, those that have not ended yet
+  JobTerms terms = {};
+  std::vector<JobId> after = {};  // of Submit::after, those that have not ended yet
+  bool system_job = false;        // as in Submit
+  bool is_held_over = false;
   // `trajectory` is one of them: until it is admitted it is as good as chosen, but may be another.
   std::vector<TrajectoryPtr> alternatives = {};
   JobPhase phase = Queued{};

@@ -46,7 +46,7 @@ Record& JobBook::add(Record record) {
   news_.unexplained.insert(job.id);
   if (record.errand.before) news_.unexplained.insert(*record.errand.before);
   ++priorities_[job.terms.priority];
-  for (JobId before : job.terms.after) followers_[before].push_back(job.id);
+  for (JobId before : job.after) followers_[before].push_back(job.id);
   Record& added = records_.emplace(job.id, std::move(record)).first->second;
   changed(added);
   return added;
@@ -191,7 +191,7 @@ std::vector<const Job*> occupying(const JobBook& book) {
 }
 
 bool is_at_head(const JobBook& book, const Record& record) {
-  return record.job.terms.after.empty() && !lets_another_pass(book, record) &&
+  return record.job.after.empty() && !lets_another_pass(book, record) &&
          book.queues().is_first(record.job);
 }
 

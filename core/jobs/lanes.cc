@@ -12,9 +12,9 @@ bool is_way_open(const Job& job) { return job.goal && job.in<Queued>() != nullpt
 
 WaitingLeg waiting_leg(const Record& record) {
   WaitingLeg leg = record.leg;
-  leg.after = record.job.terms.after;
+  leg.after = record.job.after;
   leg.is_estimate = is_way_open(record.job);
-  leg.is_approached = record.job.terms.approaches;
+  leg.is_approached = record.job.terms.approach == Approach::plan;
   return leg;
 }
 

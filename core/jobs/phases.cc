@@ -86,10 +86,15 @@ Record record_of(State& state, const Submit& job) {
   Record record{.job = {.id = job.job,
                         .trajectory = motion,
                         .terms = job.terms,
+                        .after = job.after,
+                        .system_job = job.system_job,
+                        .is_held_over = job.is_held_over,
                         .alternatives = job.alternatives},
                 .leg = state.arms.leg_of(*state.cell, job.job, *motion),
                 .turn = job.job,
                 .errand = {.on_behalf_of = job.job}};
+  Duration cells = state.cell->scheduling.backlog_timeout;
+  record.job.terms.backlog_timeout = job.terms.backlog_timeout.value_or(cells);
   record.job.times.submitted_at = state.now;
   if (job.goals.empty()) return record;
   JobGoal& goal = record.job.goal.emplace();
@@ -125,7 +130,7 @@ void end(State& state, Record& record, JobState how, Reason reason, std::string 
   for (JobId id : followers) {
     if (!state.jobs.is_active(id)) continue;  // failed meanwhile, with another of its own
     Record& follower = state.jobs.at(id);
-    if (std::erase(follower.job.terms.after, ended) == 0 || succeeded) continue;
+    if (std::erase(follower.job.after, ended) == 0 || succeeded) continue;
     end(state, follower, JobState::failed, Reason::predecessor_failed,
         "a job that it comes after did not succeed");
   }
@@ -136,11 +141,11 @@ void interrupt(State& state, bool keeps_waiting) {
   if (keeps_waiting) {
     const auto kept =
         std::ranges::partition(ids, [&](JobId id) { return has_begun(state.jobs.at(id).job); });
-    for (JobId id : kept) state.jobs.at(id).job.terms.is_held_over = true;
+    for (JobId id : kept) state.jobs.at(id).job.is_held_over = true;
     ids.erase(kept.begin(), kept.end());
     std::ranges::sort(ids);
   }
-  for (JobId id : ids) state.jobs.at(id).job.terms.after.clear();  // none fails for another's sake
+  for (JobId id : ids) state.jobs.at(id).job.after.clear();  // none fails for another's sake
   for (JobId id : ids) {
     Record& record = state.jobs.at(id);
     end(state, record, JobState::interrupted, Reason::server_restart,
@@ -194,7 +199,7 @@ void come_to_rest(State& state, Record& record, const MotionReport& report) {
     end(state, record, JobState::succeeded, Reason::completed, "");
   } else if (report.kind == MotionReport::Kind::faulted) {
     const std::string cause = "fault: " + report.detail;
-    for (ArmId arm : job.trajectory->arms()) state.arms.stop(arm, cause, state.now);
+    for (ArmId arm : job.trajectory->arms()) state.arms.stop(arm, cause);
     end(state, record, JobState::failed, Reason::arm_fault, report.detail);
   } else if (after.then != Then::hold) {
     end_as(state, record, after, "braked on its path");
@@ -237,7 +242,7 @@ void give_up(State& state, Record& record, const AfterStop& after) {
 void stop_arms(State& state, const Stop& stop) {
   ++state.version;  // an answer that is under way shall start nothing on these arms
   for (ArmId arm : stop.arms) {
-    if (!state.arms.is_stopped(arm)) state.arms.stop(arm, stop.cause, state.now);
+    if (!state.arms.is_stopped(arm)) state.arms.stop(arm, stop.cause);
     if (state.jobs.queues()[arm].empty()) continue;
     Record& record = state.jobs.at(state.jobs.queues()[arm].front());
     if (record.job.in<Moving>() == nullptr) continue;  // undispatched: keeps its place

@@ -99,14 +99,32 @@ enum class OnIdleBlocker {
   park,    // an arm is sent aside
   replan,  // the job is planned around it; where there is no such way, as park
 };
-[[nodiscard]] const char* to_string(OnIdleBlocker value);
+[[nodiscard]] constexpr const char* to_string(OnIdleBlocker what) {
+  switch (what) {
+    case OnIdleBlocker::report:
+      return "report";
+    case OnIdleBlocker::park:
+      return "park";
+    case OnIdleBlocker::replan:
+      return "replan";
+  }
+  return nullptr;
+}
 
 // What a server that is started again does with jobs that had not ended when it did.
 enum class OnRestart {
   ask,       // they wait until someone says go on
   continue_  // those that had not begun go on by themselves
 };
-[[nodiscard]] const char* to_string(OnRestart value);
+[[nodiscard]] constexpr const char* to_string(OnRestart what) {
+  switch (what) {
+    case OnRestart::ask:
+      return "ask";
+    case OnRestart::continue_:
+      return "continue";
+  }
+  return nullptr;
+}
 
 struct SchedulingSettings {
   inline static constexpr NumberRange backlog_timeout_range = kSettingPositiveTime_s;

@@ -19,6 +19,15 @@ struct MonitorFinding {
   double limit_m;            // what it should have been: Proximity::limit_m, of this pair
   std::vector<ArmId> stops;  // arms to stop: those of the pair that move
 };
+[[nodiscard]] constexpr const char* to_string(MonitorFinding::Kind kind) {
+  switch (kind) {
+    case MonitorFinding::Kind::contact:
+      return "contact";
+    case MonitorFinding::Kind::clearance:
+      return "clearance";
+  }
+  return nullptr;
+}
 
 // Watches the joined measured state: all arms as one state, against itself and the scene. Pure: it
 // is handed the pairs that are too close and says what they mean.

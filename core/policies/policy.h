@@ -14,7 +14,7 @@
 namespace armloom {
 
 // What distinguishes one way of sharing the workspace from another. Pure. A new policy is one file
-// in core/policies, its name in policy_names.h and one word in make_policy().
+// in core/policies, its name in policy_names.h and a case in make_policy().
 class Policy {
  public:
   virtual ~Policy() = default;

@@ -1,25 +1,22 @@
 #include "core/policies/policy_names.h"
 
-#include <algorithm>
-#include <iterator>
+#include "core/base/enumeration.h"
 
 namespace armloom {
 
 std::vector<std::string> policy_names() {
-  return {std::begin(kPolicyNames), std::end(kPolicyNames)};
+  std::vector<std::string> names;
+  for (const PolicyName name : kValues<PolicyName>) names.emplace_back(to_string(name));
+  return names;
 }
 
-std::optional<Problem> unknown_policy(std::string_view name) {
-  if (std::find(std::begin(kPolicyNames), std::end(kPolicyNames), name) != std::end(kPolicyNames)) {
-    return std::nullopt;
-  }
+Result<PolicyName> policy_named(std::string_view name) {
+  if (const auto policy = value_named<PolicyName>(name)) return *policy;
   std::string known;
-  for (const std::string_view each : kPolicyNames) {
-    known += (known.empty() ? "" : ", ") + std::string(each);
-  }
-  return Problem{ProblemKind::invalid, "unknown-policy", "/scheduling/policy",
-                 "unknown policy \"" + std::string(name) + "\"; known are " + known,
-                 std::string(name)};
+  for (const std::string& each : policy_names()) known += (known.empty() ? "" : ", ") + each;
+  return failure(Problem{ProblemKind::invalid, "unknown-policy", "/scheduling/policy",
+                         "unknown policy \"" + std::string(name) + "\"; known are " + known,
+                         std::string(name)});
 }
 
 }  // namespace armloom

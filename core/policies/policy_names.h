@@ -10,13 +10,37 @@
 namespace armloom {
 
 // In order of ambition; each is made by make_policy() (policy.h).
-inline constexpr std::string_view kPolicyNames[] = {
-    "sequential", "lockstep",       "reservation", "timed_discrete",
-    "certified",  "earliest_start", "coordinated",
+enum class PolicyName {
+  sequential,
+  lockstep,
+  reservation,
+  timed_discrete,
+  certified,
+  earliest_start,
+  coordinated,
 };
+[[nodiscard]] constexpr const char* to_string(PolicyName name) {
+  switch (name) {
+    case PolicyName::sequential:
+      return "sequential";
+    case PolicyName::lockstep:
+      return "lockstep";
+    case PolicyName::reservation:
+      return "reservation";
+    case PolicyName::timed_discrete:
+      return "timed_discrete";
+    case PolicyName::certified:
+      return "certified";
+    case PolicyName::earliest_start:
+      return "earliest_start";
+    case PolicyName::coordinated:
+      return "coordinated";
+  }
+  return nullptr;
+}
 [[nodiscard]] std::vector<std::string> policy_names();
 
-// Invalid, "unknown-policy"; nothing: it is one of these.
-[[nodiscard]] std::optional<Problem> unknown_policy(std::string_view name);
+// Problem (invalid, "unknown-policy"): none is called so.
+[[nodiscard]] Result<PolicyName> policy_named(std::string_view name);
 
 }  // namespace armloom

@@ -1,5 +1,7 @@
 #include "core/scheduler/amending.h"
 
+#include <utility>
+
 namespace armloom {
 namespace {
 
@@ -14,15 +16,17 @@ void amend(State& state, const Amend& input) {
   Record* record = state.jobs.find(input.job);
   if (record == nullptr || record->job.has_ended()) return;
   Job& job = record->job;
-  if (input.backlog_timeout) job.terms.backlog_timeout = *input.backlog_timeout;
-  if (input.replans_on_timeout) job.terms.replans_on_timeout = *input.replans_on_timeout;
+  JobTerms amended = job.terms;
+  apply(input.terms, amended);
+  const int priority = std::exchange(amended.priority, job.terms.priority);
+  job.terms = amended;
   state.jobs.changed(*record);
-  if (!input.priority || *input.priority == job.terms.priority) return;
-  set_priority(state, *record, *input.priority);
+  if (priority == job.terms.priority) return;
+  set_priority(state, *record, priority);
   for (JobId id : state.jobs.active()) {
     Record& other = state.jobs.at(id);
     const bool is_on_its_behalf = id != job.id && other.errand.on_behalf_of == job.id;
-    if (is_on_its_behalf) set_priority(state, other, *input.priority);
+    if (is_on_its_behalf) set_priority(state, other, priority);
   }
   ++state.version;
   state.expected.spoil();

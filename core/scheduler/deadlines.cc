@@ -67,10 +67,10 @@ std::optional<TimePoint> deadline_of(const Job& job) {
 std::optional<TimePoint> expiry_of(const Job& job) {
   if (job.is_replanned_now()) return std::nullopt;  // until that is answered
   if (job.state() == JobState::backlogged)
-    return *job.times.backlogged_at + job.terms.backlog_timeout;
+    return *job.times.backlogged_at + *job.terms.backlog_timeout;
   const Pause* pause = pause_of(job);
   if (pause == nullptr || !pause->in_vain_since) return std::nullopt;
-  return *pause->in_vain_since + job.terms.backlog_timeout;
+  return *pause->in_vain_since + *job.terms.backlog_timeout;
 }
 
 void expire_and_overrun(State& state) {
@@ -82,7 +82,7 @@ void expire_and_overrun(State& state) {
       const auto expiry = expiry_of(job);
       if (!expiry || state.now < *expiry || goes_on_after_timeout(state, record)) continue;
       end(state, record, JobState::expired, Reason::backlog_timeout,
-          "waited " + seconds_text(job.terms.backlog_timeout) + " in the backlog");
+          "waited " + seconds_text(*job.terms.backlog_timeout) + " in the backlog");
       continue;
     }
     see_whether_in_vain(state, record);
@@ -92,7 +92,7 @@ void expire_and_overrun(State& state) {
     if (in_vain) {
       give_up(state, record,
               {AfterStop::Then::fail, Reason::backlog_timeout,
-               "waited " + seconds_text(job.terms.backlog_timeout) + " on its path"});
+               "waited " + seconds_text(*job.terms.backlog_timeout) + " on its path"});
     } else if (overruns(job, state.now)) {
       fail_overdue(state, record);
     }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -45,9 +44,6 @@ double swing(const std::array<double, 6>& p, double h) {
   for (std::size_t k = 5; k >= 1; --k) sum = (sum + std::abs(p[k])) * h;
   return sum;
 }
-
-// A stretch of a segment this long is bounded by its speed; longer ones by their own polynomial.
-constexpr double kShort_s = 0.25;
 
 void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
@@ -132,57 +128,6 @@ void Trajectory::sample_positions(Duration progress, Eigen::VectorXd& position) 
   } else {
     const Segment& segment = segments_[segment_at(progress)];
     positions_at(segment.coefficients, to_seconds(progress - segment.start), position);
-  }
-}
-
-void Trajectory::enclose_positions(Duration from, Duration to, Eigen::VectorXd& lower,
-                                   Eigen::VectorXd& upper) const {
-  const bool rests = to <= Duration::zero() || from >= duration_ || from == to;
-  if (rests || from < Duration::zero()) {
-    sample_positions(from, lower);
-    upper = lower;
-    if (rests) return;
-  } else {
-    const auto joints = static_cast<Eigen::Index>(joints_.size());
-    lower.setConstant(joints, std::numeric_limits<double>::infinity());
-    upper.setConstant(joints, -std::numeric_limits<double>::infinity());
-  }
-  const Eigen::Index size = lower.size();
-  const auto widen = [&](Eigen::Index j, double low, double high) {
-    lower[j] = std::min(lower[j], low);
-    upper[j] = std::max(upper[j], high);
-  };
-  const Duration end = std::min(to, duration_);
-  for (std::size_t i = segment_at(std::max(from, Duration::zero()));
-       i < segments_.size() && segments_[i].start < end; ++i) {
-    const Segment& segment = segments_[i];
-    const SegmentBounds& bounds = bounds_[i];
-    const Duration first = std::max(from - segment.start, Duration::zero());
-    const Duration last = std::min(end - segment.start, segment.duration);
-    if (first == Duration::zero() && last == segment.duration) {
-      for (Eigen::Index j = 0; j < size; ++j) widen(j, bounds.lower[j], bounds.upper[j]);
-      continue;
-    }
-    const double h = 0.5 * to_seconds(last - first);
-    const double middle = to_seconds(first) + h;
-    const bool by_speed = to_seconds(segment.duration) <= kShort_s;
-    for (Eigen::Index j = 0; j < size; ++j) {
-      double center = 0.0;
-      double far = 0.0;
-      if (by_speed) {
-        const auto& c = segment.coefficients;
-        center = ((((c(j, 5) * middle + c(j, 4)) * middle + c(j, 3)) * middle + c(j, 2)) * middle +
-                  c(j, 1)) *
-                     middle +
-                 c(j, 0);
-        far = bounds.speed[j] * h;
-      } else {
-        const auto p = shifted(segment.coefficients, j, middle);
-        center = p[0];
-        far = swing(p, h);
-      }
-      widen(j, std::max(center - far, bounds.lower[j]), std::min(center + far, bounds.upper[j]));
-    }
   }
 }
 

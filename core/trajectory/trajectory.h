@@ -60,14 +60,10 @@ class Trajectory {
 
   // Of each segment, from its Taylor polynomial at the middle: sound but for rounding (1e-12).
   [[nodiscard]] const std::vector<SegmentBounds>& bounds() const { return bounds_; }
-  // Encloses every position between two instants (before zero the start, after the end the goal);
-  // tight for stretches shorter than their segments. lower and upper are resized where they must.
-  // Sound but for rounding (1e-12). Precondition: from <= to.
-  void enclose_positions(Duration from, Duration to, Eigen::VectorXd& lower,
-                         Eigen::VectorXd& upper) const;
   // How far any position between two instants is at most from the line through the middle of these
   // with the velocity there: |q(t) - position - velocity (t - middle)| <= off, t from `from` to
-  // `to`. Sizes and rounding as above. Precondition: 0 <= from <= to <= duration.
+  // `to`. Sized as it must be; sound but for rounding (1e-12).
+  // Precondition: 0 <= from <= to <= duration.
   struct AboutLine {
     Eigen::VectorXd position, velocity, off;
   };

@@ -12,7 +12,16 @@ enum class Role {
   admin,    // and see who did what
 };
 // "viewer", "operator", "admin"
-[[nodiscard]] const char* to_string(Role role);
-[[nodiscard]] std::optional<Role> role_named(std::string_view name);
+[[nodiscard]] constexpr const char* to_string(Role role) {
+  switch (role) {
+    case Role::viewer:
+      return "viewer";
+    case Role::operate:
+      return "operator";
+    case Role::admin:
+      return "admin";
+  }
+  return nullptr;
+}
 
 }  // namespace armloom

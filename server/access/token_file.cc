@@ -13,6 +13,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "core/base/enumeration.h"
 #include "server/access/digest.h"
 
 namespace armloom {
@@ -93,7 +94,7 @@ Result<std::vector<KeptToken>> TokenFile::read() const {
     KeptToken token;
     std::string role;
     words >> token.name >> role >> token.digest >> token.made_at;
-    const auto known = role_named(role);
+    const auto known = value_named<Role>(role);
     if (!words || !is_name(token.name) || !known || !is_digest(token.digest)) {
       return failure(Problem{
           ProblemKind::invalid, "bad-token-file", "--tokens",

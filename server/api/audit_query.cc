@@ -4,45 +4,40 @@
 #include <string>
 #include <utility>
 
-#include "server/api/query_number.h"
 #include "server/codec/rfc3339.h"
 
 namespace armloom {
+namespace {
 
-Result<AuditQuery> read_audit_query(const Target& target) {
-  AuditQuery query;
-  AuditFilter& filter = query.filter;
-  Problems problems;
-  const auto refuse = [&](const std::string& name, const std::string& value, std::string detail) {
-    problems.push_back(
-        Problem{ProblemKind::invalid, "bad-parameter", "?" + name, std::move(detail), value});
-  };
-  const auto time = [&](const std::string& name, const std::string& value) {
-    const auto read = read_rfc3339(value);
-    if (!read) refuse(name, value, name + " is a time of RFC 3339, as 2026-11-21T09:33:00Z");
-    return read;
-  };
-  for (const auto& [name, value] : target.query) {
-    if (name == "who") filter.who = value;
-    if (name == "from") filter.from = value;
-    if (name == "method") filter.method = value;
-    if (name == "path") filter.path = value;
-    if (name == "since") filter.since_ms = time(name, value);
-    if (name == "before") filter.before_ms = time(name, value);
-    if (name == "status" && !read_between(value, 100, 599, filter.status.emplace())) {
-      refuse(name, value, "status is an integer within 100..599");
-    }
-    if (name == "limit" &&
-        !read_between<std::size_t>(value, 1, AuditQuery::kLimitMax, query.limit)) {
-      refuse(name, value, "limit is an integer within 1..1000");
-    }
-    if (name == "cursor" &&
-        !read_between<std::uint64_t>(value, 0, ~std::uint64_t{0}, filter.below.emplace())) {
-      refuse(name, value, "this is no cursor that the server gave");
-    }
-  }
-  if (!problems.empty()) return failure(std::move(problems));
-  return query;
+QueryPart<AuditQuery> time(std::string name, std::optional<std::int64_t> AuditFilter::*where,
+                           std::string told) {
+  const std::string rule = name + " is a time of RFC 3339, as 2026-11-21T09:33:00Z";
+  return {{std::move(name), std::move(told), {{"type", "string"}}},
+          [where, rule](const std::string& value, AuditQuery& out) {
+            out.*where = read_rfc3339(value);
+            return out.*where ? std::nullopt : std::optional(rule);
+          }};
+}
+
+}  // namespace
+
+const QueryFormat<AuditQuery>& audit_query() {
+  using Query = AuditQuery;
+  static const QueryFormat<Query> format(
+      {
+          query::text<Query>("who", &Query::who, "The token's name; empty: where none was shown"),
+          query::text<Query>("from", &Query::from, "The address that it came from"),
+          query::text<Query>("method", &Query::method, "POST, DELETE, ..."),
+          query::text<Query>("path", &Query::path, "What the path begins with"),
+          query::whole_number<Query>("status", &Query::status, 100, 599, "Of the answer"),
+          time("since", &Query::since_ms, "Answered then or later: RFC 3339"),
+          time("before", &Query::before_ms, "Answered earlier: RFC 3339"),
+          query::whole_number<Query>("limit", &Query::limit, 1, 1000,
+                                     "At most so many, 100 unless given"),
+          query::cursor<Query>(&Query::below),
+      },
+      ProblemKind::invalid);
+  return format;
 }
 
 }  // namespace armloom

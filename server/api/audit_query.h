@@ -2,22 +2,15 @@
 
 #include <cstddef>
 
-#include "core/base/problem.h"
-#include "server/http/message.h"
+#include "server/api/query_format.h"
 #include "server/store/job_history.h"
 
 namespace armloom {
 
-// The query of GET /audit: ?who=&from=&method=&path=&status=&since=&before=&limit=&cursor=
-struct AuditQuery {
-  inline static constexpr std::size_t kLimit = 100;  // when none is given
-  inline static constexpr std::size_t kLimitMax = 1000;
-
-  AuditFilter filter = {};
-  std::size_t limit = kLimit;
+// The query of GET /audit.
+struct AuditQuery : AuditFilter {
+  std::size_t limit = 100;
 };
-
-// Problems (invalid), one for each parameter that cannot be read.
-[[nodiscard]] Result<AuditQuery> read_audit_query(const Target& target);
+[[nodiscard]] const QueryFormat<AuditQuery>& audit_query();
 
 }  // namespace armloom

@@ -4,7 +4,6 @@
 #include "server/api/audit_query.h"
 #include "server/api/route.h"
 #include "server/codec/rfc3339.h"
-#include "server/codec/value_formats.h"
 #include "server/messages/audit.h"
 
 namespace armloom {
@@ -29,15 +28,15 @@ AuditPage page_of(const AuditEntries& found, std::size_t limit) {
 
 void get_audit(Call call) {
   const ApiParts& parts = call.parts;
-  const auto query = read_audit_query(call.request.target);
+  const auto query = audit_query().read(call.request.target);
   if (!query) return call.respond(problem_response(query.error()));
   if (parts.keeper == nullptr) {
     return call.respond(
         refusal_response({404, "not-kept", "who did what is kept with --data alone", "--data"}));
   }
   parts.aside([&parts, query = *query, respond = std::move(call.respond)] {
-    auto entries = std::make_shared<Result<AuditEntries>>(
-        parts.keeper->lists().audit(query.filter, query.limit + 1));
+    auto entries =
+        std::make_shared<Result<AuditEntries>>(parts.keeper->lists().audit(query, query.limit + 1));
     parts.post([entries, respond, limit = query.limit] {
       respond(*entries ? answer(200, audit_page_format(), page_of(**entries, limit))
                        : problem_response(entries->error()));
@@ -48,7 +47,6 @@ void get_audit(Call call) {
 }  // namespace
 
 std::vector<Route> audit_routes() {
-  const Schema text{{"type", "string"}};
   return {
       {.method = "GET",
        .path = api_path("/audit"),
@@ -59,16 +57,7 @@ std::vector<Route> audit_routes() {
            "Everything but what only looks, and everything that was refused for want of a "
            "token or a role. Kept with `--data`: the last 100,000 that did something, and the last "
            "100,000 that were refused (4xx), which displace nothing of the former.",
-       .parameters = {{"who", "The token's name; empty: where none was shown", text},
-                      {"from", "The address that it came from", text},
-                      {"method", "POST, DELETE, ...", text},
-                      {"path", "What the path begins with", text},
-                      {"status", "Of the answer", formats::integer(100, 599)->schema(Way::in)},
-                      {"since", "Answered then or later: RFC 3339", text},
-                      {"before", "Answered earlier: RFC 3339", text},
-                      {"limit", "At most so many, 100 unless given",
-                       formats::integer(1, AuditQuery::kLimitMax)->schema(Way::in)},
-                      {"cursor", "next_cursor of the page before", text}},
+       .parameters = audit_query().parameters(),
        .outcomes = {outcome(200, "A page", audit_page_format())},
        .refuses = {404, 422},
        .role = Role::admin,

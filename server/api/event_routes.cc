@@ -3,6 +3,7 @@
 #include <charconv>
 #include <utility>
 
+#include "server/api/query_format.h"
 #include "server/api/route.h"
 #include "server/messages/events.h"
 
@@ -11,36 +12,47 @@ namespace {
 
 constexpr std::size_t kSnapshotEnded = 200;  // ended jobs that a new subscriber is told
 
-// What no reader of events can mean.
-std::optional<Refusal> query_fault(const Target& target) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  const auto bad = [](const std::string& name, const std::string& value, const char* rule) {
-    return Refusal{400, "bad-parameter", std::string(rule) + ", found \"" + value + "\"",
-                   "?" + name, value};
-  };
-  const auto since = target.parameter("since");
-  if (since && (since->empty() || !std::ranges::all_of(*since, is_digit))) {
-    return bad("since", *since, "since is the number of an event");
-  }
-  const auto poses = target.parameter("poses");
-  if (poses && *poses != "0" && *poses != "1") return bad("poses", *poses, "poses is 0 or 1");
-  return std::nullopt;
-}
-
-// Where a reader was.
-struct StreamPlace {
+// Where a reader was, and what it wants to hear.
+struct StreamQuery {
   std::optional<std::string> stream;
   std::optional<std::string> since;
+  bool poses = false;
 };
+std::vector<QueryPart<StreamQuery>> resume_parts() {
+  using Query = StreamQuery;
+  const auto number = [](const std::string& value, Query& out) {
+    out.since = value;
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    const bool is_read = !value.empty() && std::ranges::all_of(value, is_digit);
+    return is_read ? std::nullopt
+                   : std::optional("since is the number of an event, found \"" + value + "\"");
+  };
+  return {query::text<Query>("stream", &Query::stream, "With since: resume there"),
+          {{"since", "The last seq that was seen", {{"type", "string"}, {"pattern", "^[0-9]+$"}}},
+           number}};
+}
+const QueryFormat<StreamQuery>& socket_query() {
+  static const QueryFormat<StreamQuery> format(resume_parts(), ProblemKind::malformed);
+  return format;
+}
+const QueryFormat<StreamQuery>& events_query() {
+  static const QueryFormat<StreamQuery> format = [] {
+    auto parts = resume_parts();
+    parts.push_back(query::flag("poses", &StreamQuery::poses, "1: state frames too"));
+    return QueryFormat<StreamQuery>(std::move(parts), ProblemKind::malformed);
+  }();
+  return format;
+}
+
 // A `Last-Event-ID: <stream>:<seq>` is newer than what the address says: a browser repeats the
 // address when it comes back.
-StreamPlace place_of(const Request& request) {
-  if (!request.last_event_id) {
-    return {request.target.parameter("stream"), request.target.parameter("since")};
-  }
+StreamQuery place_of(const Request& request, StreamQuery asked) {
+  if (!request.last_event_id) return asked;
   const std::string& id = *request.last_event_id;
   const std::size_t colon = id.rfind(':');
-  return {id.substr(0, colon), colon == id.npos ? "" : id.substr(colon + 1)};
+  asked.stream = id.substr(0, colon);
+  asked.since = colon == id.npos ? "" : id.substr(colon + 1);
+  return asked;
 }
 
 // All who wait begin with this snapshot, which is written once.
@@ -61,7 +73,7 @@ void welcome(const ApiParts& parts, const Snapshot& snapshot) {
 // Calls then(subscription). It resumes where the reader was; otherwise, and when those events are
 // gone
 // ("gap"), it begins with a snapshot.
-void subscribe(const ApiParts& parts, const StreamPlace& place,
+void subscribe(const ApiParts& parts, const StreamQuery& place,
                std::function<void(SubscriptionPtr)> then) {
   if (place.since) {
     std::uint64_t seq = 0;
@@ -82,11 +94,8 @@ void subscribe(const ApiParts& parts, const StreamPlace& place,
       [&parts](const Snapshot& snapshot) { welcome(parts, snapshot); });
 }
 
-void stream(Call& call, int status, bool frames) {
-  if (const auto fault = query_fault(call.request.target)) {
-    return call.respond(refusal_response(*fault));
-  }
-  subscribe(call.parts, place_of(call.request),
+void stream(Call& call, int status, bool frames, StreamQuery asked) {
+  subscribe(call.parts, place_of(call.request, std::move(asked)),
             [&parts = call.parts, status, frames, token = call.request.token,
              respond = call.respond](SubscriptionPtr subscription) {
               Response response{status, "text/event-stream", "", {{"Cache-Control", "no-store"}}};
@@ -100,24 +109,23 @@ void stream(Call& call, int status, bool frames) {
             });
 }
 
-void get_events(Call call) { stream(call, 200, call.request.target.parameter("poses") == "1"); }
+void get_events(Call call) {
+  auto asked = events_query().read(call.request.target);
+  if (!asked) return call.respond(problem_response(asked.error()));
+  const bool frames = asked->poses;
+  stream(call, 200, frames, *std::move(asked));
+}
 
 void open_socket(Call call) {
-  if (call.request.upgrade) return stream(call, 101, true);
-  if (const auto fault = query_fault(call.request.target)) {
-    return call.respond(refusal_response(*fault));
-  }
+  auto asked = socket_query().read(call.request.target);
+  if (!asked) return call.respond(problem_response(asked.error()));
+  if (call.request.upgrade) return stream(call, 101, true, *std::move(asked));
   call.respond(refusal_response({426,
                                  "upgrade-required",
                                  "this is a WebSocket",
                                  std::nullopt,
                                  std::nullopt,
                                  {{"Upgrade", "websocket"}}}));
-}
-
-std::vector<Parameter> resume_parameters() {
-  return {{"stream", "With since: resume there", {{"type", "string"}}},
-          {"since", "The last seq that was seen", {{"type", "string"}, {"pattern", "^[0-9]+$"}}}};
 }
 
 }  // namespace
@@ -129,10 +137,8 @@ std::vector<Route> event_routes() {
                .tag = "events",
                .summary = "Events as Server-Sent Events",
                .text = "Too old, or of another run: a new snapshot with \"gap\": true.",
-               .parameters = resume_parameters(),
+               .parameters = events_query().parameters(),
                .run = get_events};
-  events.parameters.push_back(
-      {"poses", "1: state frames too", {{"type", "string"}, {"enum", {"0", "1"}}}});
   events.parameters.push_back(
       {"Last-Event-ID", "<stream>:<seq>: resume there", {{"type", "string"}}, false, "header"});
   events.outcomes = {{200,
@@ -145,7 +151,7 @@ std::vector<Route> event_routes() {
                .id = "openWebSocket",
                .tag = "events",
                .summary = "Events and poses on a WebSocket",
-               .parameters = resume_parameters(),
+               .parameters = socket_query().parameters(),
                .refuses = {426},
                .who = Who::commander,
                .run = open_socket};

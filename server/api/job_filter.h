@@ -8,7 +8,7 @@
 #include "core/base/problem.h"
 #include "core/executive/events.h"
 #include "core/model/cell.h"
-#include "server/http/message.h"
+#include "server/api/query_format.h"
 #include "server/messages/job.h"
 #include "server/store/stored_job.h"
 
@@ -19,13 +19,14 @@ struct JobFilter {
   inline static constexpr std::size_t kLimit = 100;  // when none is given
   inline static constexpr std::size_t kLimitMax = 1000;
 
-  std::string state;  // empty: any
-  std::string arm;    // empty: any
+  std::optional<JobState> state;
+  std::string arm;  // empty: any
   std::size_t limit = kLimit;
   std::optional<std::uint64_t> before;  // the cursor: only jobs submitted before this one
 };
 
-// Problems (invalid): unknown state, arm; limit or cursor that is no number in range.
+[[nodiscard]] const QueryFormat<JobFilter>& job_query();
+// Problems (invalid), besides those of the query itself: an arm that the cell has not.
 [[nodiscard]] Result<JobFilter> read_job_filter(const Target& target, const Cell& cell);
 
 // Of jobs as the executive has them, and older ones as they are stored: the latter newest first,

@@ -6,6 +6,7 @@
 
 #include "server/api/job_answers.h"
 #include "server/api/job_filter.h"
+#include "server/api/query_format.h"
 #include "server/api/route.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
@@ -21,7 +22,9 @@ Result<std::vector<StoredJob>> stored_jobs(const JobHistory& history, const JobF
   std::set<std::uint64_t> numbers;
   for (const JobView& job : known) numbers.insert(job.id.value());
   std::vector<StoredJob> jobs;
-  const HistoryFilter wanted{.state = filter.state, .arm = filter.arm, .before = filter.before};
+  const HistoryFilter wanted{.state = filter.state ? to_string(*filter.state) : "",
+                             .arm = filter.arm,
+                             .before = filter.before};
   const auto read = history.newest_first(wanted, [&](StoredJob job) {
     if (!numbers.contains(job.number)) jobs.push_back(std::move(job));
     return jobs.size() <= filter.limit;
@@ -96,24 +99,22 @@ void replan_job(Call call) {
 
 struct DiagramQuery {
   std::string with;  // the other job's id
-  bool cells;
+  bool cells = true;
 };
-Result<DiagramQuery> read_diagram_query(const Target& target) {
-  const auto with = target.parameter("with");
-  const auto cells = target.parameter("cells");
-  if (!with || with->empty()) {
-    return failure(Problem{ProblemKind::malformed, "missing-parameter", "?with",
-                           "name the other job: ?with=<id>"});
-  }
-  if (cells && *cells != "0" && *cells != "1") {
-    return failure(
-        Problem{ProblemKind::malformed, "bad-parameter", "?cells", "cells is 0 or 1", *cells});
-  }
-  return DiagramQuery{*with, cells != "0"};
+const QueryFormat<DiagramQuery>& diagram_query() {
+  using Query = DiagramQuery;
+  static const QueryFormat<Query> format(
+      {
+          query::required_text("with", &Query::with, "The other job"),
+          query::flag("cells", &Query::cells,
+                      "0: without them, for who has them and asks what lies ahead by now"),
+      },
+      ProblemKind::malformed);
+  return format;
 }
 
 void get_diagram(Call call) {
-  const auto query = read_diagram_query(call.request.target);
+  const auto query = diagram_query().read(call.request.target);
   if (!query) return call.respond(problem_response(query.error()));
   const ApiParts& parts = call.parts;
   parts.loop.post([&parts, key = call.arguments.front(), query = *query,
@@ -196,10 +197,7 @@ Route diagram_route() {
       "conflict, or undecided, down to 5 ms where that takes no more than 64,000 cells. Jobs that "
       "have ended are drawn while they are known. 422 when both are the same job, or move only the "
       "same arm.";
-  diagram.parameters = {{"with", "The other job", {{"type", "string"}}, true},
-                        {"cells",
-                         "0: without them, for who has them and asks what lies ahead by now",
-                         {{"type", "string"}, {"enum", {"0", "1"}}}}};
+  diagram.parameters = diagram_query().parameters();
   diagram.outcomes = {outcome(200, "The diagram", diagram_format())};
   diagram.refuses = {404, 422};
   diagram.run = get_diagram;
@@ -222,13 +220,8 @@ Route timeline_route() {
 }  // namespace
 
 std::vector<Route> job_routes() {
-  const Schema text{{"type", "string"}};
   Route list = of_one("GET", "/jobs", "listJobs", "List jobs, newest first");
-  list.parameters = {{"state", "In this state", job_state_format()->schema(Way::in)},
-                     {"arm", "That move this arm", text},
-                     {"limit", "At most so many, 100 unless given",
-                      formats::integer(1, JobFilter::kLimitMax)->schema(Way::in)},
-                     {"cursor", "next_cursor of the page before", text}};
+  list.parameters = job_query().parameters();
   list.outcomes = {outcome(200, "A page of jobs", job_page_format())};
   list.refuses = {422};
   list.run = list_jobs;

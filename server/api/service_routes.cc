@@ -3,7 +3,7 @@
 #include "server/http/security_headers.h"
 #include "server/http/served_bytes.h"
 #include "server/messages/arm.h"
-#include "server/openapi/openapi.h"
+#include "server/api/openapi.h"
 
 namespace armloom {
 namespace {

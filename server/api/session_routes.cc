@@ -6,7 +6,7 @@
 #include "server/http/security_headers.h"
 #include "server/http/served_bytes.h"
 #include "server/messages/session.h"
-#include "server/openapi/openapi.h"
+#include "server/api/openapi.h"
 
 namespace armloom {
 namespace {

@@ -42,9 +42,7 @@ FormatPtr<SchedulingSettings> scheduling_format() {
             "A job that has waited so long in the backlog expires, unless it says otherwise."),
       field("aging_s", &Scheduling::aging, seconds(Scheduling::aging_range),
             "A job that has waited so long is overtaken no more."),
-      field("on_idle_blocker", &Scheduling::on_idle_blocker,
-            choice<OnIdleBlocker>(
-                {OnIdleBlocker::report, OnIdleBlocker::park, OnIdleBlocker::replan}, to_string),
+      field("on_idle_blocker", &Scheduling::on_idle_blocker, choice<OnIdleBlocker>(),
             "An arm without a job in the way of one, and jobs that wait for each other: park sends "
             "an arm aside, replan plans another way to where the job ends (what its trajectory was "
             "to do on the way is lost) and parks where there is none, report only tells of it."),
@@ -53,8 +51,7 @@ FormatPtr<SchedulingSettings> scheduling_format() {
           "Of each arm so many jobs are admitted together, the one under way included; who passes "
           "first is chosen for all of them (coordinated only). Decisions take longer with the "
           "square of it: above 12 tens of milliseconds."),
-      field("on_restart", &Scheduling::on_restart,
-            choice<OnRestart>({OnRestart::ask, OnRestart::continue_}, to_string),
+      field("on_restart", &Scheduling::on_restart, choice<OnRestart>(),
             "What a server with `--data` that is started again does with jobs that had not ended: "
             "ask stops all arms until they are resumed, continue goes on with those that had not "
             "begun."),

@@ -144,6 +144,19 @@ template <class T, class Where, class M>
                 std::move(format));
 }
 
+// A value that is told only where it is not the usual one.
+template <class T, class M>
+[[nodiscard]] PartPtr<T> unless_usual(std::string_view key, M T::*where, M usual,
+                                      FormatPtr<M> format, std::string_view text) {
+  const Schema stated = as_json(*format, usual);
+  return make_as_base<MemberPart<T, M>>(
+      MemberText{std::string(key), std::string(text), Need::optional, stated}, std::move(format),
+      [where, usual](const T& from) {
+        return from.*where == usual ? std::nullopt : std::optional<M>(from.*where);
+      },
+      [where](T& to, M value) { to.*where = std::move(value); });
+}
+
 // A part that is read, described as what may come in, and never written.
 template <class T>
 class ReadOnlyPart final : public Part<T> {

@@ -16,8 +16,14 @@ namespace armloom::formats {
 enum class HowMany { exactly_one, at_most_one };
 void check_count(const JsonNode& object, HowMany how_many, const std::vector<std::string>& keys);
 void describe_count(Schema& object, HowMany how_many, const std::vector<std::string>& keys);
-void check_companion(const JsonNode& object, std::string_view key, const std::string& companion);
-void describe_companion(Schema& object, std::string_view key, const std::string& companion);
+// What has no meaning without the member `key`, and how that is told: empty: in the usual way.
+struct Companion {
+  std::string key;
+  std::string slug = "without-companion";
+  std::string sentence = "";
+};
+void check_companion(const JsonNode& object, std::string_view key, const Companion& companion);
+void describe_companion(Schema& object, std::string_view key, const Companion& companion);
 
 template <class T>
 class CountRule final : public Part<T> {
@@ -42,11 +48,11 @@ template <class T>
   return make_as_base<CountRule<T>>(HowMany::at_most_one, std::move(keys));
 }
 
-// The part, which has no meaning without the member `companion`, and is not written without it.
+// The part, which has no meaning without its companion, and is not written without it.
 template <class T, class M>
 class CompanionPart final : public Part<T> {
  public:
-  CompanionPart(std::string companion, std::optional<M> T::*where, PartPtr<T> part)
+  CompanionPart(Companion companion, std::optional<M> T::*where, PartPtr<T> part)
       : companion_(std::move(companion)), where_(where), part_(std::move(part)) {
     part_->list_keys(keys_);
   }
@@ -67,13 +73,13 @@ class CompanionPart final : public Part<T> {
   }
 
  private:
-  std::string companion_;
+  Companion companion_;
   std::optional<M> T::*where_;
   PartPtr<T> part_;
   std::vector<std::string_view> keys_;
 };
 template <class T, class M>
-[[nodiscard]] PartPtr<T> only_with(std::string companion, std::optional<M> T::*where,
+[[nodiscard]] PartPtr<T> only_with(Companion companion, std::optional<M> T::*where,
                                    PartPtr<T> part) {
   return make_as_base<CompanionPart<T, M>>(std::move(companion), where, std::move(part));
 }
@@ -86,7 +92,9 @@ void describe_unless(Schema& object, const std::string& key, const Schema& befor
 template <class T>
 class UnlessPart final : public Part<T> {
  public:
-  UnlessPart(std::string key, PartPtr<T> part) : key_(std::move(key)), part_(std::move(part)) {}
+  // `may_be`: there are objects with that member.
+  UnlessPart(std::string key, PartPtr<T> part, bool may_be)
+      : key_(std::move(key)), part_(std::move(part)), may_be_(may_be) {}
   void list_keys(std::vector<std::string_view>& keys) const override { part_->list_keys(keys); }
   void read(const JsonNode& object, T& out) const override {
     if (!object.has(key_)) part_->read(object, out);
@@ -95,16 +103,22 @@ class UnlessPart final : public Part<T> {
   void describe(Schema& object, const T& defaults, Way way) const override {
     const Schema before = object;
     part_->describe(object, defaults, way);
-    describe_unless(object, key_, before);
+    if (may_be_) describe_unless(object, key_, before);
   }
 
  private:
   std::string key_;
   PartPtr<T> part_;
+  bool may_be_;
 };
 template <class T>
 [[nodiscard]] PartPtr<T> unless(std::string key, PartPtr<T> part) {
-  return make_as_base<UnlessPart<T>>(std::move(key), std::move(part));
+  return make_as_base<UnlessPart<T>>(std::move(key), std::move(part), true);
+}
+// The same beside a member that is refused (not_served): that is fault enough.
+template <class T>
+[[nodiscard]] PartPtr<T> unless_refused(std::string key, PartPtr<T> part) {
+  return make_as_base<UnlessPart<T>>(std::move(key), std::move(part), false);
 }
 
 // A member that clients may know of and that is not served: at all, or but for one value, which is

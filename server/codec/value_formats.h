@@ -1,15 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
+#include "core/base/enumeration.h"
 #include "core/base/number_range.h"
 #include "core/base/time.h"
 #include "server/codec/format.h"
@@ -73,37 +71,34 @@ template <class T>
 void refuse_choice(const JsonNode& node, const std::string& found,
                    const std::vector<std::string>& known);
 
-// An enumeration by its one table of names.
+// An enumeration that is spelt out (core/base/enumeration.h).
 template <class E>
 class ChoiceFormat final : public Format<E> {
  public:
-  using Names = std::vector<std::pair<E, std::string>>;
-  explicit ChoiceFormat(Names names) : names_(std::move(names)) {}
   void read(const JsonNode& node, E& out) const override {
     std::string name;
-    std::vector<std::string> known;
     if (!node.read(name)) return;
-    for (const auto& [value, spelt] : names_) {
-      if (spelt == name) return void(out = value);
-      known.push_back(spelt);
+    if (const auto value = value_named<E>(name)) {
+      out = *value;
+    } else {
+      refuse_choice(node, name, names());
     }
-    refuse_choice(node, name, known);
   }
-  void write(JsonWriter& out, const E& value) const override {
-    for (const auto& [known, spelt] : names_) {
-      if (known == value) return void(out.value(spelt));
-    }
-    out.value(nullptr);  // a value without a name: none is added without
-  }
-  Schema schema(Way) const override {
-    std::vector<std::string> known;
-    for (const auto& [value, spelt] : names_) known.push_back(spelt);
-    return choice_schema(known);
-  }
+  void write(JsonWriter& out, const E& value) const override { out.value(to_string(value)); }
+  Schema schema(Way) const override { return choice_schema(names()); }
 
  private:
-  Names names_;
+  static std::vector<std::string> names() {
+    std::vector<std::string> names;
+    for (const E value : kValues<E>) names.emplace_back(to_string(value));
+    return names;
+  }
 };
+template <class E>
+[[nodiscard]] FormatPtr<E> choice() {
+  return make_as_base<ChoiceFormat<E>>();
+}
+
 // What other descriptions refer to by name: "Job". In the schema it stands as {"$name", "$of"}
 // until references are made of that (schema_names.h).
 [[nodiscard]] Schema named_schema(const std::string& name, const std::string& text, Schema schema);
@@ -121,22 +116,6 @@ class NamedFormat final : public Format<T> {
   std::string text_;  // may be empty
   FormatPtr<T> format_;
 };
-template <class E>
-[[nodiscard]] FormatPtr<E> choice(std::vector<std::pair<E, std::string>> names) {
-  return make_as_base<ChoiceFormat<E>>(std::move(names));
-}
-// The names are those of to_string().
-template <class E>
-[[nodiscard]] FormatPtr<E> choice(std::span<const E> values, const char* (*to_string)(E)) {
-  std::vector<std::pair<E, std::string>> names;
-  for (const E value : values) names.emplace_back(value, to_string(value));
-  return choice(std::move(names));
-}
-template <class E>
-[[nodiscard]] FormatPtr<E> choice(std::initializer_list<E> values, const char* (*to_string)(E)) {
-  return choice(std::span(values.begin(), values.size()), to_string);
-}
-
 template <class T>
 [[nodiscard]] FormatPtr<T> named(std::string name, std::string text, FormatPtr<T> format) {
   return make_as_base<NamedFormat<T>>(std::move(name), std::move(text), std::move(format));

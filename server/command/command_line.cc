@@ -185,7 +185,7 @@ Command replay_command(CLI::App& app) {
 
 std::vector<std::string> job_states() {
   std::vector<std::string> names;
-  for (const JobState state : kJobStates) names.emplace_back(to_string(state));
+  for (const JobState state : kValues<JobState>) names.emplace_back(to_string(state));
   return names;
 }
 

@@ -50,7 +50,7 @@ std::vector<Duration> work_of_file(const JobsFile& file, const Cell& cell) {
 std::vector<Duration> work_done(const SimulationResult& result, const Cell& cell) {
   std::vector<Duration> work(cell.arms.size());
   for (const JobView& job : result.jobs) {
-    if (job.state != JobState::succeeded || job.terms.system_job) continue;
+    if (job.state != JobState::succeeded || job.system_job) continue;
     for (const std::string& arm : job.arms)
       work[cell.find_arm(arm)->index()] += job.motion.duration;
   }

@@ -92,8 +92,7 @@ void complain_of_ends(const SimulationResult& result, const std::string& under) 
               << " at " << to_seconds(result.ended_at) << " s, and not all jobs have ended\n";
   }
   for (const JobView& job : result.jobs) {
-    if (job.state == JobState::succeeded || (job.terms.system_job && is_terminal(job.state)))
-      continue;
+    if (job.state == JobState::succeeded || (job.system_job && is_terminal(job.state))) continue;
     std::string said = is_terminal(job.state) ? "" : "did not end, it is ";
     said += to_string(job.state);
     if (!job.detail().empty()) said += ": " + job.detail();

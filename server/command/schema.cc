@@ -2,7 +2,7 @@
 
 #include "server/codec/cell_schema.h"
 #include "server/command/command.h"
-#include "server/openapi/openapi.h"
+#include "server/api/openapi.h"
 
 namespace armloom {
 

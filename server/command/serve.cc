@@ -15,7 +15,7 @@
 #include "server/http/framing.h"
 #include "server/http/http_server.h"
 #include "server/log/log_line.h"
-#include "server/service.h"
+#include "server/service/service.h"
 
 namespace armloom {
 namespace {

@@ -17,7 +17,7 @@ int list(const TokenFile& file) {
 }
 
 int add(TokenFile& file, const TokenOptions& options) {
-  const auto role = role_named(options.role);
+  const auto role = value_named<Role>(options.role);
   if (!role) {
     return refuse("", {Problem{ProblemKind::invalid, "bad-role", "--role",
                                "a role is viewer, operator or admin", options.role}});

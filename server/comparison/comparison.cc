@@ -86,7 +86,7 @@ PolicyRun run_of(const SimulationResult& result) {
   run.canceled = count("canceled") + count("interrupted");
   run.refused = count("refused");
   for (const JobView& job : result.jobs) {
-    if (job.terms.system_job) continue;
+    if (job.system_job) continue;
     if (!is_terminal(job.state)) ++run.unfinished;
     if (job.times.backlogged_at) ++run.backlogged;
   }

@@ -34,7 +34,7 @@ RunSummary summarise(const SimulationResult& result, TimePoint first_submit) {
   std::int64_t started = 0;
   Duration wait_sum{};
   for (const JobView& job : result.jobs) {
-    if (job.terms.system_job) continue;
+    if (job.system_job) continue;
     ++summary.jobs[to_string(job.state)];
     if (!job.times.started_at) continue;
     const Duration wait = *job.times.started_at - job.times.submitted_at;

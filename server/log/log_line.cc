@@ -37,18 +37,6 @@ std::string shown(const Value& value) {
 
 }  // namespace
 
-const char* to_string(LogLine::Level level) {
-  switch (level) {
-    case LogLine::Level::info:
-      return "info";
-    case LogLine::Level::warning:
-      return "warning";
-    case LogLine::Level::error:
-      return "error";
-  }
-  return "?";
-}
-
 std::string text_of(const LogLine& line) {
   std::string text = in_quotes(line.message);
   text = text.substr(1, text.size() - 2);

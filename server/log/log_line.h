@@ -18,7 +18,17 @@ struct LogLine {
   std::string message;
   std::vector<std::pair<std::string, std::variant<std::string, std::int64_t, double>>> fields = {};
 };
-[[nodiscard]] const char* to_string(LogLine::Level level);
+[[nodiscard]] constexpr const char* to_string(LogLine::Level level) {
+  switch (level) {
+    case LogLine::Level::info:
+      return "info";
+    case LogLine::Level::warning:
+      return "warning";
+    case LogLine::Level::error:
+      return "error";
+  }
+  return nullptr;
+}
 
 using Log = std::function<void(const LogLine&)>;
 

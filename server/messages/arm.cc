@@ -12,10 +12,7 @@ using namespace formats;
 
 FormatPtr<ArmView> arm_format() {
   static const auto format = [] {
-    const auto state = named("ArmState", "",
-                             choice<ArmState>({ArmState::idle, ArmState::moving, ArmState::holding,
-                                               ArmState::stopped, ArmState::fault},
-                                              to_string));
+    const auto state = named("ArmState", "", choice<ArmState>());
     return named("Arm", "",
                  object<ArmView>({
                      told("name", &ArmView::name, text()),

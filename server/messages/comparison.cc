@@ -14,20 +14,6 @@ namespace armloom {
 
 using namespace formats;
 
-const char* to_string(ComparisonState state) {
-  switch (state) {
-    case ComparisonState::running:
-      return "running";
-    case ComparisonState::done:
-      return "done";
-    case ComparisonState::canceled:
-      return "canceled";
-    case ComparisonState::failed:
-      return "failed";
-  }
-  return "?";
-}
-
 FormatPtr<ComparisonInquiry> comparison_inquiry_format() {
   using Inquiry = ComparisonInquiry;
   static const auto format = named(
@@ -96,10 +82,7 @@ FormatPtr<ComparisonView> comparison_format() {
   static const auto format =
       named("Comparison", "The same jobs under several policies, in simulation.",
             object<View>({
-                told("state", &View::state,
-                     choice({ComparisonState::running, ComparisonState::done,
-                             ComparisonState::canceled, ComparisonState::failed},
-                            to_string)),
+                told("state", &View::state, choice<ComparisonState>()),
                 told("jobs", &View::jobs, count(), "That are compared"),
                 told("first_s", &View::first, cell_time(), "When the first of them was submitted"),
                 told("last_s", &View::last, cell_time(), "And the last"),

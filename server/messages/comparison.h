@@ -43,7 +43,19 @@ struct PolicyRun {
 };
 
 enum class ComparisonState { running, done, canceled, failed };
-[[nodiscard]] const char* to_string(ComparisonState state);
+[[nodiscard]] constexpr const char* to_string(ComparisonState state) {
+  switch (state) {
+    case ComparisonState::running:
+      return "running";
+    case ComparisonState::done:
+      return "done";
+    case ComparisonState::canceled:
+      return "canceled";
+    case ComparisonState::failed:
+      return "failed";
+  }
+  return nullptr;
+}
 
 // The answer to POST and GET /comparison.
 struct ComparisonView {

@@ -32,8 +32,7 @@ PartPtr<DiagramCell> stretch(const char* key, Duration DiagramCell::*from,
 
 FormatPtr<DiagramCell::State> cell_state_format() {
   using State = DiagramCell::State;
-  return choice<State>(
-      {{State::free, "free"}, {State::conflict, "conflict"}, {State::undecided, "undecided"}});
+  return choice<State>();
 }
 
 FormatPtr<DiagramMeeting> met_format() {

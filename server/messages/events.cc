@@ -29,8 +29,7 @@ FormatPtr<MonitorEvent> monitor_event_format() {
       "MonitorFinding", "",
       object<Told>({
           told(
-              "kind", [](const Told& event) { return event.finding.kind; },
-              choice<Kind>({{Kind::contact, "contact"}, {Kind::clearance, "clearance"}})),
+              "kind", [](const Told& event) { return event.finding.kind; }, choice<Kind>()),
           told("arms", &Told::arms, list(text())),
           told("links", links, pair_of(text())),
           told(
@@ -45,14 +44,11 @@ FormatPtr<MonitorEvent> monitor_event_format() {
 
 FormatPtr<Alert> alert_format() {
   using Level = Alert::Level;
-  return named(
-      "Alert", "",
-      object<Alert>({
-          told("level", &Alert::level,
-               choice<Level>(
-                   {{Level::info, "info"}, {Level::warning, "warning"}, {Level::error, "error"}})),
-          told("text", &Alert::text, text()),
-      }));
+  return named("Alert", "",
+               object<Alert>({
+                   told("level", &Alert::level, choice<Level>()),
+                   told("text", &Alert::text, text()),
+               }));
 }
 
 FormatPtr<SnapshotView> snapshot_format() {

@@ -7,6 +7,7 @@
 #include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job_request.h"
+#include "server/messages/job_terms.h"
 
 namespace armloom {
 
@@ -17,13 +18,8 @@ namespace {
 constexpr Range kShare{0.0, 1.0};
 
 FormatPtr<Reason> reason_format() {
-  return named(
-      "Reason", "A closed list; core/scheduler/README.md explains each.",
-      choice<Reason>({Reason::completed, Reason::canceled_by_client, Reason::backlog_timeout,
-                      Reason::start_mismatch, Reason::self_collision, Reason::predecessor_failed,
-                      Reason::arm_fault, Reason::overrun, Reason::server_restart, Reason::deadlock,
-                      Reason::no_plan},
-                     to_string));
+  return named("Reason", "A closed list; core/scheduler/README.md explains each.",
+               choice<Reason>());
 }
 
 FormatPtr<JobResultView> result_format() {
@@ -50,8 +46,7 @@ FormatPtr<AnotherWayView> another_way_format() {
   return object<View>({
       told("done", &View::done, count(), "So many times it was given another way"),
       told("planning", &View::is_open, flag(), "One is being looked for: it stays where it is"),
-      told("cause", &View::cause,
-           choice<Cause>({Cause::client, Cause::timeout, Cause::blocked}, to_string),
+      told("cause", &View::cause, choice<Cause>(),
            "Of the last time: POST /jobs/{id}/replan, on_timeout, or on_idle_blocker"),
       told("refused", &View::refusal, nullable(text()), "Why it kept its own, the last time"),
   });
@@ -65,13 +60,6 @@ FormatPtr<DetourView> detour_format() {
            "shortest way could not go as things stood"),
   });
 }
-std::optional<Duration> backlog_timeout_of(const JobTerms& terms) { return terms.backlog_timeout; }
-std::optional<OnTimeout> on_timeout_of(const JobTerms& terms) {
-  return terms.replans_on_timeout ? OnTimeout::replan : OnTimeout::abort;
-}
-std::optional<JobOrder> order_of(const JobView& job) {
-  return job.terms.any_order ? std::optional(JobOrder::any) : std::nullopt;
-}
 std::optional<std::vector<std::string>> alternatives_of(const JobWaysView& ways) {
   return ways.alternatives.empty() ? std::nullopt : std::optional(ways.alternatives);
 }
@@ -84,10 +72,7 @@ PartPtr<CheckView> make_verdict_part() {
   using View = CheckView;
   using Kind = Verdict::Kind;
   return make_as_base<Parts<View>>(std::vector<PartPtr<View>>{
-      told("verdict", &View::kind,
-           choice<Kind>({{Kind::free, "free"},
-                         {Kind::conflict, "conflict"},
-                         {Kind::undecided, "undecided"}})),
+      told("verdict", &View::kind, choice<Kind>()),
       told("earliest_start_s", &View::earliest_start_s, nullable(number({0.0})),
            "From now; 0 where it would start at once, null when not known"),
       told("clearance_bound_m", &View::clearance_bound_m, nullable(number(kAnyNumber)),
@@ -107,18 +92,6 @@ PartPtr<CheckView> make_verdict_part() {
               "The verdict is of that motion; where it would not be admitted together with it, the "
               "job is judged again when it is there"),
       told_if("result", &View::result, result_format(), "It would end at once, without moving"),
-  });
-}
-
-PartPtr<JobTerms> terms_part() {
-  return parts<JobTerms>({
-      told("priority", &JobTerms::priority, priority_format(), "Larger goes first"),
-      told_if("backlog_timeout_s", backlog_timeout_of, backlog_timeout_format(),
-              "How long it may wait in the backlog. Absent: an older version of "
-              "the program "
-              "stored the job"),
-      told_if("on_timeout", on_timeout_of, on_timeout_format(),
-              "What becomes of it then. Absent as above"),
   });
 }
 
@@ -167,7 +140,7 @@ PartPtr<JobWaysView> ways_part() {
 FormatPtr<JobState> job_state_format() {
   static const auto format =
       named("JobState", "The last five are terminal: a job reaches exactly one of them.",
-            choice<JobState>(kJobStates, to_string));
+            choice<JobState>());
   return format;
 }
 
@@ -176,10 +149,7 @@ FormatPtr<WaitView> wait_format() {
   static const auto format =
       named("Wait", "What a job waits for, with the evidence.",
             object<WaitView>({
-                told("kind", &WaitView::kind,
-                     choice<Kind>({Kind::job, Kind::arm, Kind::object, Kind::order, Kind::capacity,
-                                   Kind::stop, Kind::plan},
-                                  to_string)),
+                told("kind", &WaitView::kind, choice<Kind>()),
                 told("id", &WaitView::job, text_or_null(), "The other job"),
                 told("arm", &WaitView::arm, text_or_null(), "The other arm"),
                 told("links", &WaitView::links, list(text(), {.most = 2}),
@@ -204,12 +174,10 @@ FormatPtr<JobView> job_format() {
           told("name", &View::name, text(), "For people; may be empty"),
           told("state", &View::state, job_state_format()),
           told("arms", &View::arms, list(text()), "That it moves"),
-          inlined(&View::terms, terms_part()),
+          inlined(&View::terms, job_terms_part()),
           inlined(&View::times, times_part()),
           inlined(&View::motion, motion_part()),
           told("waits_on", &View::waits_on, list(wait_format()), "Empty when it does not wait"),
-          told_if("order", order_of, choice<JobOrder>({JobOrder::any}, to_string),
-                  "It may change places with others of its arm that say so"),
           inlined(&View::ways, ways_part()),
           told("ring", &View::ring, list(text()),
                "The deadlock that it is part of, itself first: each waits for the next one, the "

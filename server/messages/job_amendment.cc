@@ -4,6 +4,7 @@
 #include "server/codec/read_text.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job_request.h"
+#include "server/messages/job_terms.h"
 
 namespace armloom {
 
@@ -15,11 +16,7 @@ FormatPtr<JobAmendment> job_amendment_format() {
       named("JobAmendment", "What is to be changed; what is absent stays.",
             object<Amendment>({
                 field("name", &Amendment::name, job_name_format(), "For people"),
-                field("priority", &Amendment::priority, priority_format(), "Larger goes first"),
-                field("backlog_timeout_s", &Amendment::backlog_timeout, backlog_timeout_format(),
-                      "Counts from when the job first was in conflict: it may be over at once"),
-                field("on_timeout", &Amendment::on_timeout, on_timeout_format(),
-                      "What becomes of it then"),
+                inlined(&Amendment::terms, amended_terms_part()),
             }));
   return format;
 }
@@ -28,16 +25,11 @@ Result<JobAmendment> read_job_amendment(std::string_view text) {
   return read_text(*job_amendment_format(), text);
 }
 
-JobAmendment amendable_of(const JobView& job) {
-  return {job.name, job.terms.priority, job.terms.backlog_timeout,
-          job.terms.replans_on_timeout ? OnTimeout::replan : OnTimeout::abort};
-}
+JobAmendment amendable_of(const JobView& job) { return {job.name, amendable(job.terms)}; }
 
 void apply(const JobAmendment& amendment, JobRequest& request) {
   if (amendment.name) request.name = *amendment.name;
-  if (amendment.priority) request.terms.priority = *amendment.priority;
-  if (amendment.backlog_timeout) request.terms.backlog_timeout = amendment.backlog_timeout;
-  if (amendment.on_timeout) request.terms.on_timeout = *amendment.on_timeout;
+  apply(amendment.terms, request.terms);
 }
 
 }  // namespace armloom

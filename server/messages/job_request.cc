@@ -9,7 +9,9 @@
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
+#include "server/messages/job_terms.h"
 #include "server/messages/plan_goal.h"
+#include "server/messages/time_max.h"
 #include "server/messages/trajectory_request.h"
 
 namespace armloom {
@@ -17,9 +19,6 @@ namespace armloom {
 using namespace formats;
 
 namespace {
-
-constexpr double kTimeMax_s = 1e6;  // of anything that a client names in seconds
-constexpr int kPriorityMax = 1'000'000;
 
 bool is_key(std::string_view key) {
   const bool allowed = std::ranges::all_of(key, [](char c) {
@@ -42,10 +41,6 @@ void slow_down(TrajectoryRequest& trajectory, double factor) {
     for (double& velocity : point.velocities) velocity *= factor;
     for (double& acceleration : point.accelerations) acceleration *= factor * factor;
   }
-}
-
-FormatPtr<JobOrder> order_format() {
-  return choice<JobOrder>({JobOrder::as_given, JobOrder::any}, to_string);
 }
 
 // The jobs of a batch, read after "atomic" and "order": alone each has its own answer, with places
@@ -135,32 +130,6 @@ PartPtr<JobRequest> velocity_scaling_part() {
       });
 }
 
-PartPtr<RequestedTerms> requested_terms_part() {
-  using Terms = RequestedTerms;
-  return parts<Terms>({
-      field("priority", &Terms::priority, priority_format(), "Larger goes first"),
-      field("backlog_timeout_s", &Terms::backlog_timeout, backlog_timeout_format(),
-            "Default: the cell's"),
-      field("on_timeout", &Terms::on_timeout, on_timeout_format(),
-            "What becomes of it then. \"replan\": another way is planned to where "
-            "it ends, from "
-            "where its arm stands and past what rests there; it expires when there "
-            "is none, "
-            "and after the third"),
-      field("approach", &Terms::approach,
-            choice<Approach>({Approach::none, Approach::plan}, to_string),
-            "\"plan\": its arms need not stand where it begins; each that stands "
-            "elsewhere at "
-            "its turn is brought there first, slowly, by a planned motion of the "
-            "server's own"),
-      field("order", &Terms::order,
-            choice<JobOrder>({JobOrder::as_given, JobOrder::any}, to_string),
-            "\"any\": jobs of one arm that begin and end at one place, and say so, "
-            "may be taken "
-            "in another order"),
-  });
-}
-
 }  // namespace
 
 FormatPtr<std::string> job_id_format() {
@@ -185,33 +154,29 @@ FormatPtr<std::string> job_name_format() {
                        {{"maxLength", kJobNameMax}, {"pattern", R"(^[^\u0000-\u001f]*$)"}}});
 }
 
-FormatPtr<int> priority_format() { return integer(-kPriorityMax, kPriorityMax); }
-
-FormatPtr<Duration> backlog_timeout_format() { return seconds({0.0, kTimeMax_s}); }
-
-FormatPtr<OnTimeout> on_timeout_format() {
-  return choice<OnTimeout>({OnTimeout::abort, OnTimeout::replan}, to_string);
-}
-
 FormatPtr<JobRequest> job_request_format() {
   using Request = JobRequest;
+  const Companion with_goal{
+      "move_to", "unknown-field",
+      "an arm is named with move_to; a trajectory's joints say which arms move"};
   static const auto format = named(
       "JobRequest", "",
       object<Request>({
           field("id", &Request::key, job_id_format(), "Absent: the server gives one"),
           field("name", &Request::name, job_name_format(),
                 "For people; without control characters"),
-          inlined(&Request::terms, requested_terms_part()),
+          inlined(&Request::terms, job_terms_part()),
           field("after", &Request::after,
                 list(job_id_format(), {.most = kAfterMax, .noun = "ids", .what = "predecessors"}),
                 "Jobs that have to succeed first"),
           not_served<Request>(
               {"steps", "not-served",
                "\"steps\" are not served by this version; give one \"trajectory\""}),
-          unless("steps",
-                 unless("alternatives",
-                        unless("move_to", required("trajectory", &Request::trajectory,
-                                                   trajectory_request_format(), "The motion")))),
+          unless_refused(
+              "steps",
+              unless("alternatives",
+                     unless("move_to", required("trajectory", &Request::trajectory,
+                                                trajectory_request_format(), "The motion")))),
           field("alternatives", &Request::alternatives,
                 list(trajectory_request_format(),
                      {.fewest = 2, .most = kAlternativesMax, .noun = "trajectories"}),
@@ -220,11 +185,17 @@ FormatPtr<JobRequest> job_request_format() {
           field("move_to", &Request::move_to, plan_goal_format(),
                 "Instead of a trajectory: where `arm` is to go. The way is planned from where it "
                 "will be when the jobs before it have run, and again where that has changed"),
-          field("arm", &Request::arm, formats::name(), "With move_to: which arm goes there"),
-          field("arms", &Request::arms,
-                list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
-                "With move_to, instead of arm: the way is planned for each of these, and the one "
-                "that arrives first takes it"),
+          only_with(
+              with_goal, &Request::move_to,
+              field("arm", &Request::arm, formats::name(), "With move_to: which arm goes there")),
+          only_with(
+              with_goal, &Request::move_to,
+              field(
+                  "arms",
+                  &Request::arms,
+                  list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
+                  "With move_to, instead of arm: the way is planned for each of these, and the one "
+                  "that arrives first takes it")),
           at_most_one<Request>({"arm", "arms"}),
           at_most_one<Request>({"trajectory", "alternatives", "move_to"}),
           // Both are read after the trajectory, which they time and stretch.
@@ -239,7 +210,7 @@ FormatPtr<BatchRequest> batch_request_format() {
       named("BatchRequest", "",
             object<BatchRequest>({
                 field("atomic", &BatchRequest::atomic, flag(), "All admitted or none"),
-                field("order", &BatchRequest::order, order_format(),
+                field("order", &BatchRequest::order, job_order_format(),
                       "Of every job that does not say it itself"),
                 make_as_base<BatchJobs>(),
             }));

@@ -17,11 +17,7 @@ namespace armloom {
 [[nodiscard]] FormatPtr<std::string> job_id_format();
 // For people: not too long, and without control characters.
 [[nodiscard]] bool is_job_name(std::string_view name);
-// Members of it that can be changed later, too.
 [[nodiscard]] FormatPtr<std::string> job_name_format();
-[[nodiscard]] FormatPtr<int> priority_format();
-[[nodiscard]] FormatPtr<Duration> backlog_timeout_format();
-[[nodiscard]] FormatPtr<OnTimeout> on_timeout_format();
 
 // A client's id for a job: 1..128 characters of [A-Za-z0-9._-], so that it can stand in a URL.
 inline constexpr std::size_t kJobKeyMax = 128;

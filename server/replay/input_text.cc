@@ -33,9 +33,8 @@ class InputWriter {
       out_.begin_object().field("number", job.id.value()).field("id", job.request.key);
       out_.field("submitted_ns", job.submitted_at.time_since_epoch().count());
       const JobRequest& now = job.request;
-      out_.key("amended").raw(text_of(
-          *job_amendment_format(), JobAmendment{now.name, now.terms.priority,
-                                                now.terms.backlog_timeout, now.terms.on_timeout}));
+      out_.key("amended").raw(
+          text_of(*job_amendment_format(), JobAmendment{now.name, amendable(now.terms)}));
       asked_for(now);
       out_.end_object();
     }

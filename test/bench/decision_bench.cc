@@ -166,7 +166,7 @@ class Hall {
 
   JobId submit(const TrajectoryPtr& motion) {
     const JobId job{++last_};
-    step(Submit{job, motion, 0, 3600s});
+    step(Submit{job, motion, {0, 3600s}});
     return job;
   }
   void run(JobId job) { step(MotionReport{job, MotionReport::Kind::progressed, 1ms}); }

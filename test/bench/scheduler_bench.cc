@@ -48,7 +48,7 @@ class Crowd {
 
   JobId submit(ArmId arm) {
     const JobId job{++last_};
-    step(Submit{job, motions_[arm.index()], 0, 3600s});
+    step(Submit{job, motions_[arm.index()], {0, 3600s}});
     return job;
   }
   std::vector<JobId> submit_batch(std::size_t count) {

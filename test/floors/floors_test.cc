@@ -61,6 +61,9 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
     {"core/geometry", {"mesh", "capsule", "surface", "convex"}},
     {"core/model", {"xml", "urdf", "srdf", "cell"}},
     {"core/collision", {"scene", "filter", "state", "diagram", "check"}},
+    {"server",
+     {"access", "store", "codec", "metrics", "log", "http", "messages", "control", "recording",
+      "import", "replay", "comparison", "durable", "hub", "api", "service", "command"}},
 };
 
 // Text that has no place in a folder, whatever floor it comes from.
@@ -165,6 +168,10 @@ TEST(Floors, ABreachIsFound) {
   EXPECT_FALSE(
       breaches_in("core/model/urdf/x.cc", "#include \"core/model/cell/build_cell.h\"\n").empty());
   EXPECT_FALSE(breaches_in("server/x.cc", "#include \"core/jobs/job.h\"\n").empty());
+  EXPECT_FALSE(breaches_in("server/http/x.cc", "#include \"server/messages/job.h\"\n").empty());
+  EXPECT_FALSE(breaches_in("server/hub/x.cc", "#include \"server/api/route.h\"\n").empty());
+  EXPECT_FALSE(breaches_in("server/x.cc", "#include \"server/log/log_line.h\"\n").empty());
+  EXPECT_TRUE(breaches_in("server/api/x.cc", "#include \"server/http/router.h\"\n").empty());
   EXPECT_FALSE(breaches_in("core/monitor/x.cc", "auto t = Clock::now();\n").empty());
   EXPECT_FALSE(breaches_in("core/executive/x.cc", "#include <nlohmann/json.hpp>\n").empty());
   EXPECT_FALSE(breaches_in("core/misc/x.cc", "").empty());

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "server/api/route.h"
-#include "server/openapi/openapi.h"
+#include "server/api/openapi.h"
 
 namespace armloom {
 namespace {

@@ -139,6 +139,9 @@ INSTANTIATE_TEST_SUITE_P(Policies, GoalChainsUnder,
 struct Way {
   std::string policy;
   OnIdleBlocker on_idle_blocker;
+
+  [[nodiscard]] std::string name() const { return policy + "_" + to_string(on_idle_blocker); }
+  friend void PrintTo(const Way& way, std::ostream* out) { *out << way.name(); }
 };
 
 class ChainsUnder : public ::testing::TestWithParam<Way> {};
@@ -203,9 +206,8 @@ std::vector<Way> ways() {
   }
   return ways;
 }
-INSTANTIATE_TEST_SUITE_P(Policies, ChainsUnder, ::testing::ValuesIn(ways()), [](const auto& one) {
-  return one.param.policy + "_" + to_string(one.param.on_idle_blocker);
-});
+INSTANTIATE_TEST_SUITE_P(Policies, ChainsUnder, ::testing::ValuesIn(ways()),
+                         [](const auto& one) { return one.param.name(); });
 
 }  // namespace
 }  // namespace armloom

@@ -58,7 +58,7 @@ TEST(FreeOrder, TakesTheOneThatCanGoBesideWhatMoves) {
   EXPECT_EQ(beside.state, JobState::succeeded);
   EXPECT_EQ(through.state, JobState::succeeded);
   EXPECT_LT(beside.times.ended_at, through.times.started_at);
-  EXPECT_TRUE(beside.terms.any_order);
+  EXPECT_EQ(beside.terms.order, JobOrder::any);
   ASSERT_TRUE(beside.ways.choice);
   EXPECT_THAT(beside.ways.choice->among, ElementsAre("through", "beside"));
   EXPECT_EQ(beside.ways.choice->taken, "beside");

@@ -113,6 +113,9 @@ PandasRun run(const Stock& stock, std::uint64_t seed, const std::string& policy)
 struct Case {
   const char* cell;
   const char* policy;
+
+  [[nodiscard]] std::string name() const { return std::string(cell) + "_" + policy; }
+  friend void PrintTo(const Case& one, std::ostream* out) { *out << one.name(); }
 };
 class PandaDelays : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Cells, PandaDelays,
@@ -120,9 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Cells, PandaDelays,
                                            Case{"two_pandas", "coordinated"},
                                            Case{"four_pandas", "earliest_start"},
                                            Case{"four_pandas", "coordinated"}),
-                         [](const auto& one) {
-                           return std::string(one.param.cell) + "_" + std::string(one.param.policy);
-                         });
+                         [](const auto& one) { return one.param.name(); });
 
 TEST_P(PandaDelays, AuditFindsNoContactAndEveryJobSucceeds) {
   const Stock pandas = stock(GetParam().cell);

@@ -144,7 +144,7 @@ Outcome run(Workload load, Way way) {
   EXPECT_GT(seen.closest_m, 0.019) << kNames[static_cast<int>(way)];
   std::size_t of_clients = 0;
   for (const JobView& job : result->jobs) {
-    if (job.terms.system_job) continue;
+    if (job.system_job) continue;
     ++of_clients;
     if (job.state != JobState::succeeded) {
       outcome.undone[job.key] = std::string(to_string(*job.reason())) + ", " + job.detail();

@@ -49,7 +49,7 @@ TEST(Admission, BesideWhatWasUnderWayBeforeComparesFromWhereThatIs) {
         {{.job = JobId{1}, .trajectory = move({0}, 0, 1, 2s), .progress = progress}}, at(5s));
     EXPECT_EQ(scheduler.find(JobId{1})->state(),
               progress == Duration{} ? JobState::scheduled : JobState::running);
-    const auto effects = scheduler.step(Submit{JobId{2}, move({1}, 0, 1, 2s), 0, 60s}, at(5s));
+    const auto effects = scheduler.step(Submit{JobId{2}, move({1}, 0, 1, 2s), {0, 60s}}, at(5s));
     const auto judge = std::ranges::find_if(
         effects, [](const Effect& effect) { return std::holds_alternative<Judge>(effect); });
     ASSERT_NE(judge, effects.end());

@@ -31,7 +31,7 @@ TEST(Amending, TheLargerPriorityGoesNextAtOnceThoughAnotherOneIsAskedAbout) {
   TwoWait bench;
   bench.finished(bench.runs, at(1s));
   ASSERT_EQ(bench.candidate(), bench.earlier);
-  bench.step(Amend{bench.later, 5}, at(1001ms));
+  bench.step(Amend{bench.later, {.priority = 5}}, at(1001ms));
   EXPECT_EQ(bench.job(bench.later).terms.priority, 5);
   bench.answer_free(at(1002ms));
   EXPECT_EQ(bench.state(bench.earlier), JobState::backlogged) << "the answer is void";
@@ -45,9 +45,9 @@ TEST(Amending, TheLargerPriorityGoesNextAtOnceThoughAnotherOneIsAskedAbout) {
 TEST(Amending, WhatWaitsIsJudgedAgainAndTheSamePriorityIsNoReason) {
   TwoWait bench;
   ASSERT_FALSE(bench.question);
-  bench.step(Amend{bench.earlier, 0}, at(1s));
+  bench.step(Amend{bench.earlier, {.priority = 0}}, at(1s));
   EXPECT_FALSE(bench.question);
-  bench.step(Amend{bench.earlier, 1}, at(1s));
+  bench.step(Amend{bench.earlier, {.priority = 1}}, at(1s));
   ASSERT_TRUE(bench.question);
   EXPECT_EQ(bench.candidate(), bench.earlier);
 }
@@ -55,11 +55,11 @@ TEST(Amending, WhatWaitsIsJudgedAgainAndTheSamePriorityIsNoReason) {
 TEST(Amending, ATimeoutCountsFromWhenTheJobFirstWasInConflict) {
   TwoWait bench;
   EXPECT_EQ(bench.wake_at, at(10011ms));
-  bench.step(Amend{.job = bench.earlier, .backlog_timeout = 60s}, at(1s));
+  bench.step(Amend{bench.earlier, {.backlog_timeout = 60s}}, at(1s));
   EXPECT_EQ(bench.wake_at, at(10021ms)) << "that of the other one";
-  bench.step(Amend{.job = bench.later, .backlog_timeout = 30s}, at(1s));
+  bench.step(Amend{bench.later, {.backlog_timeout = 30s}}, at(1s));
   EXPECT_EQ(bench.wake_at, at(30021ms));
-  bench.step(Amend{.job = bench.earlier, .backlog_timeout = 1s}, at(2s));
+  bench.step(Amend{bench.earlier, {.backlog_timeout = 1s}}, at(2s));
   EXPECT_EQ(bench.state(bench.earlier), JobState::expired) << "it was over already";
   EXPECT_EQ(bench.terminal_events[bench.earlier], 1);
   EXPECT_EQ(bench.state(bench.later), JobState::backlogged);
@@ -67,13 +67,13 @@ TEST(Amending, ATimeoutCountsFromWhenTheJobFirstWasInConflict) {
 
 TEST(Amending, WhatIsNotNamedStays) {
   TwoWait bench;
-  bench.step(Amend{bench.earlier, 7}, at(1s));
+  bench.step(Amend{bench.earlier, {.priority = 7}}, at(1s));
   EXPECT_EQ(bench.job(bench.earlier).terms.backlog_timeout, 10s);
-  bench.step(Amend{.job = bench.earlier, .backlog_timeout = 20s}, at(1s));
+  bench.step(Amend{bench.earlier, {.backlog_timeout = 20s}}, at(1s));
   EXPECT_EQ(bench.job(bench.earlier).terms.priority, 7);
-  EXPECT_FALSE(bench.job(bench.earlier).terms.replans_on_timeout);
-  bench.step(Amend{.job = bench.earlier, .replans_on_timeout = true}, at(1s));
-  EXPECT_TRUE(bench.job(bench.earlier).terms.replans_on_timeout);
+  EXPECT_EQ(bench.job(bench.earlier).terms.on_timeout, OnTimeout::abort);
+  bench.step(Amend{bench.earlier, {.on_timeout = OnTimeout::replan}}, at(1s));
+  EXPECT_EQ(bench.job(bench.earlier).terms.on_timeout, OnTimeout::replan);
 }
 
 TEST(Amending, AJobThatHasEndedOrIsUnknownIsLeftAlone) {
@@ -82,8 +82,8 @@ TEST(Amending, AJobThatHasEndedOrIsUnknownIsLeftAlone) {
   ASSERT_EQ(bench.state(bench.later), JobState::canceled);
   ASSERT_TRUE(bench.question) << "what is left is tried again";
   const Version version = bench.question->version;
-  bench.step(Amend{bench.later, 5}, at(1s));
-  bench.step(Amend{JobId{77}, 5}, at(1s));
+  bench.step(Amend{bench.later, {.priority = 5}}, at(1s));
+  bench.step(Amend{JobId{77}, {.priority = 5}}, at(1s));
   EXPECT_EQ(bench.job(bench.later).terms.priority, 0);
   bench.answer_free(at(2s));
   EXPECT_EQ(bench.state(bench.earlier), JobState::scheduled)
@@ -107,7 +107,7 @@ TEST(Amending, AdmittedMotionsChangePlacesWhereThePolicyWeighsThatAgain) {
     bench.progressed(first, t, at(5ms) + t);
     bench.progressed(second, t, at(6ms) + t);
   }
-  bench.step(Amend{second, 9}, at(1500ms));
+  bench.step(Amend{second, {.priority = 9}}, at(1500ms));
   for (Duration t = 1600ms; t < 5900ms; t += 100ms) {
     bench.progressed(first, t, at(5ms) + t);
     bench.progressed(second, t, at(6ms) + t);

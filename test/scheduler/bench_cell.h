@@ -84,7 +84,7 @@ class Bench {
   }
 
   JobId submit(TrajectoryPtr trajectory, TimePoint now, Duration timeout = 60s, int priority = 0) {
-    return submit(Submit{JobId{0}, std::move(trajectory), priority, timeout}, now);
+    return submit(Submit{JobId{0}, std::move(trajectory), {priority, timeout}}, now);
   }
   // The same under the next id.
   JobId submit(Submit submitted, TimePoint now) {

@@ -21,7 +21,7 @@ struct AnyOrder : ::testing::Test {
   static Submit visit_from(double place, int priority = 0) {
     return {.job = JobId{0},
             .trajectory = visit(0, place, place + 0.5, 2s),
-            .terms = {.priority = priority, .backlog_timeout = 600s, .any_order = true}};
+            .terms = {.priority = priority, .backlog_timeout = 600s, .order = JobOrder::any}};
   }
   void expect_behind(JobId job, JobId before) {
     EXPECT_FALSE(bench.question) << "it is not its turn";

@@ -197,7 +197,10 @@ TEST(Priority, PassesThroughTheOrderOfAnArmAndThroughPredecessors) {
   const JobId first = after.submit(move({2}, 0, 1, 2s), at(0ms));
   const JobId before = after.submit(move({1}, 0, 1, 2s), at(0ms), 60s, 0);
   const JobId fair = after.submit(move({0}, 0, 1, 2s), at(0ms), 60s, 5);
-  after.step(Submit{JobId{9}, move({2}, 1, 0, 2s), 9, 60s, {before}}, at(0ms));
+  after.step(
+      Submit{
+          .job = JobId{9}, .trajectory = move({2}, 1, 0, 2s), .terms = {9, 60s}, .after = {before}},
+      at(0ms));
   ASSERT_EQ(after.question->candidates.front().job, first);
   after.answer_free(at(1ms));
   EXPECT_EQ(after.question->candidates.front().job, before);

@@ -22,11 +22,11 @@ IdealArms::IdealArms(const CellPtr& description, std::unique_ptr<const Policy> p
 }
 
 JobId IdealArms::submit(Submit submitted) {
-  const std::vector<JobId> after = submitted.terms.after;
+  const std::vector<JobId> after = submitted.after;
   const std::vector<ArmId> arms = submitted.trajectory->arms();
   submitted.job = next_id();
   after_[submitted.job] = after;
-  const bool is_given = submitted.alternatives.empty() && !submitted.terms.any_order;
+  const bool is_given = submitted.alternatives.empty() && submitted.terms.order != JobOrder::any;
   for (const ArmId arm : arms) {
     if (is_given) of_arm_[arm].push_back(submitted.job);
   }
@@ -178,7 +178,7 @@ void IdealArms::come_to_rest(const Moving& arm, MotionReport::Kind kind) {
 
 void IdealArms::heard(const Effect& effect) {
   if (const auto* aside = std::get_if<YieldMove>(&effect))
-    after_[aside->job] = job(aside->job).terms.after;
+    after_[aside->job] = job(aside->job).after;
   if (const auto* dispatch = std::get_if<Dispatch>(&effect)) on(*dispatch);
   if (const auto* grant = std::get_if<Grant>(&effect)) on(*grant);
   if (const auto* brake = std::get_if<Brake>(&effect)) on(*brake);

@@ -90,11 +90,11 @@ std::optional<Submit> World::draw(bool any) {
     if (from == to) continue;
     const auto motion = move(arms, from, to, 500ms + up_to(4s));
     if (!any && !bench_.crossings.free_beside(*motion, rest)) continue;
-    Submit job{JobId{0}, motion, static_cast<int>(random_() % 3), 1'000'000s};
+    Submit job{JobId{0}, motion, {static_cast<int>(random_() % 3), 1'000'000s}};
     if (disturbances_.cancels) job.terms.backlog_timeout = 20s + up_to(100s);
     const auto active = bench_.scheduler.active();
     if (!active.empty() && random_() % 5 == 0) {
-      job.terms.after.push_back(active[random_() % active.size()]);
+      job.after.push_back(active[random_() % active.size()]);
     }
     return job;
   }
@@ -105,7 +105,7 @@ std::optional<Submit> World::draw(bool any) {
 std::optional<Submit> World::draw_visit(const Configuration& rest, bool any) {
   const bool by_any = random_() % 2 == 0;
   const auto first = static_cast<std::uint32_t>(random_() % arms_);
-  Submit job{JobId{0}, nullptr, static_cast<int>(random_() % 2), 1'000'000s};
+  Submit job{JobId{0}, nullptr, {static_cast<int>(random_() % 2), 1'000'000s}};
   if (disturbances_.cancels) job.terms.backlog_timeout = 20s + up_to(100s);
   for (std::uint32_t arm = by_any ? 0 : first; arm < (by_any ? arms_ : first + 1); ++arm) {
     const auto motion = visit(arm, rest[arm], place(), 1s + up_to(4s));
@@ -114,7 +114,7 @@ std::optional<Submit> World::draw_visit(const Configuration& rest, bool any) {
   if (job.alternatives.empty()) return std::nullopt;
   job.trajectory = job.alternatives.front();
   if (job.alternatives.size() == 1) job.alternatives.clear();
-  job.terms.any_order = job.alternatives.empty();
+  if (job.alternatives.empty()) job.terms.order = JobOrder::any;
   return job;
 }
 
@@ -134,8 +134,8 @@ void World::disturb() {
     bench_.input(Cancel{active[random_() % active.size()]});
   }
   if (disturbances_.amends && dice >= 5 && !active.empty()) {
-    Amend amend{active[random_() % active.size()], static_cast<int>(random_() % 3)};
-    if (disturbances_.cancels) amend.backlog_timeout = 20s + up_to(100s);
+    Amend amend{active[random_() % active.size()], {static_cast<int>(random_() % 3)}};
+    if (disturbances_.cancels) amend.terms.backlog_timeout = 20s + up_to(100s);
     bench_.input(amend);
   }
   if (disturbances_.scenes && dice == 4) {

@@ -135,7 +135,9 @@ TEST(Deadlock, ThroughAPredecessor) {
   Bench bench(2, "certified");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
-  bench.step(Submit{JobId{2}, move({1}, 0, 1, 2s), 0, 60s, {a}}, at(2ms));
+  bench.step(
+      Submit{.job = JobId{2}, .trajectory = move({1}, 0, 1, 2s), .terms = {0, 60s}, .after = {a}},
+      at(2ms));
   EXPECT_THAT(bench.job(a).ring, ElementsAre(a, JobId{2}));
   bench.step(Wake{}, at(3ms));
   EXPECT_EQ(bench.job(JobId{2}).reason(), Reason::deadlock);

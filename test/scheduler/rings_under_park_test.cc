@@ -62,7 +62,7 @@ TEST(RingUnderPark, TheArmGoesAsideAndComesBackByJobsOfTheSchedulersOwn) {
   EXPECT_TRUE(bench.asides[1].returns);
   EXPECT_NEAR(bench.job(bench.way).trajectory->goal()[0], -1.0, 1e-9);
   EXPECT_NEAR(bench.job(bench.back).trajectory->goal()[0], 0.0, 1e-9);
-  EXPECT_TRUE(bench.job(bench.way).terms.system_job);
+  EXPECT_TRUE(bench.job(bench.way).system_job);
 }
 
 TEST(RingUnderPark, NobodyFailsWhileAWayIsAskedFor) {

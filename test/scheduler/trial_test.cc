@@ -85,8 +85,7 @@ class Look {
     }
   }
   bool is_first(const Submit& job) {
-    return job.terms.after.empty() &&
-           std::ranges::none_of(job.trajectory->arms(), [this](ArmId arm) {
+    return job.after.empty() && std::ranges::none_of(job.trajectory->arms(), [this](ArmId arm) {
              return std::ranges::any_of(bench().scheduler.active(), [&](JobId id) {
                const auto& arms = bench().job(id).trajectory->arms();
                return std::ranges::find(arms, arm) != arms.end();

@@ -180,7 +180,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
         return (void)executive_->cancel(some_job());
       case 4:
         return (void)executive_->amend(
-            some_job(), {.name = "named", .priority = 7, .backlog_timeout = 1234567ns});
+            some_job(), {.name = "named", .terms = {.priority = 7, .backlog_timeout = 1234567ns}});
       case 5:
         return (void)executive_->replan(some_job());
       case 6:

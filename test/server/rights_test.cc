@@ -33,7 +33,7 @@ TEST_F(Rights, AreThoseOfTheTableForEveryVerbAndRole) {
       }
     }
     for (const char* name : {"viewer", "operator", "admin"}) {
-      const bool may = !route.role || *role_named(name) >= *route.role;
+      const bool may = !route.role || *value_named<Role>(name) >= *route.role;
       for (const std::string& header :
            {bearer(tokens_[name]), "Cookie: a=b; armloom_token=" + tokens_[name] + "; c=d\r\n"}) {
         const test::Answered answer = ask(route, header);

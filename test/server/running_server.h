@@ -10,7 +10,7 @@
 #include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
 #include "server/recording/recording.h"
-#include "server/service.h"
+#include "server/service/service.h"
 #include "test/server/wire.h"
 #include "test/source_dir.h"
 

@@ -28,7 +28,7 @@ class TokenServer : public RunningServer {
     std::filesystem::create_directories(folder);
     file_ = folder / "tokens";
     for (const char* name : {"viewer", "operator", "admin", "withdrawn"}) {
-      const auto role = role_named(name).value_or(Role::admin);
+      const auto role = value_named<Role>(name).value_or(Role::admin);
       tokens_[name] = TokenFile(file_).add(name, role).value();
     }
     ASSERT_TRUE(TokenFile(file_).withdraw("withdrawn"));

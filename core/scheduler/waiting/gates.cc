@@ -59,12 +59,12 @@ void add_open_arm(const State& state, const Record& record, Edges& edges) {
 }
 
 Closed after(const Turns&, const Record& record) {
-  if (record.job.terms.after.empty()) return std::nullopt;
-  return order(record.job.terms.after.front());
+  if (record.job.after.empty()) return std::nullopt;
+  return order(record.job.after.front());
 }
 
 void add_after(const State& state, const Record& record, Edges& edges) {
-  for (JobId before : record.job.terms.after) {
+  for (JobId before : record.job.after) {
     if (stands(state, state.jobs.at(before))) edges.push_back({record.job.id, before});
   }
 }
@@ -112,9 +112,8 @@ bool may_go(const State& state, const Record& record) {
   const Job& job = record.job;
   if (!stands(state, record)) return true;
   return job.is_waiting() && is_at_head(state.jobs, record) && !state.is_judged(job) &&
-         job.terms.after.empty() && !lets_another_pass(state.jobs, record) &&
-         !state.arms.stop_of(job) && !state.policy->place_taken_by(state, record) &&
-         !any_is_aged(state);
+         job.after.empty() && !lets_another_pass(state.jobs, record) && !state.arms.stop_of(job) &&
+         !state.policy->place_taken_by(state, record) && !any_is_aged(state);
 }
 
 // No way to its goal was found past where all others will rest. Once one of them is to rest

@@ -17,8 +17,9 @@ bool is_loop(const Record& record) {
 }
 
 bool may_change_places(const Record& record) {
-  return record.job.terms.any_order && record.job.in<Queued>() != nullptr && is_loop(record) &&
-         record.job.terms.after.empty() && !record.errand.before && !record.errand.lets_pass;
+  return record.job.terms.order == JobOrder::any && record.job.in<Queued>() != nullptr &&
+         is_loop(record) && record.job.after.empty() && !record.errand.before &&
+         !record.errand.lets_pass;
 }
 
 bool is_overtaken_no_more(const State& state, const Record& record) {

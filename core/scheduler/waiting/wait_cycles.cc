@@ -62,8 +62,8 @@ void resolve(State& state, const WaitCycle& ring) {
   }
   const auto dispensable = [&](JobId id) {
     const Record& record = state.jobs.at(id);
-    return std::tuple(!record.job.terms.system_job || !is_counted_on(state, record),
-                      record.job.terms.system_job, id);
+    return std::tuple(!record.job.system_job || !is_counted_on(state, record),
+                      record.job.system_job, id);
   };
   Record& last = state.jobs.at(*std::ranges::max_element(ring, {}, dispensable));
   give_up(state, last, {AfterStop::Then::fail, Reason::deadlock});

@@ -21,14 +21,13 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
   TrajectoryPtr way = line_or_stay(*state.cell, joints, joints_of(state.arms.rest(), joints), to);
   if (!way) return false;
   const double speed = std::min(kApproachSpeed, state.cell->execution.velocity_scaling_factor);
-  Record record =
-      record_of(state, {.job = state.jobs.next_id(),
-                        .trajectory = std::move(way),
-                        .terms = {.priority = head.job.terms.priority,
-                                  .backlog_timeout = head.job.terms.backlog_timeout,
-                                  .system_job = true,
-                                  .replans_on_timeout = head.job.terms.replans_on_timeout},
-                        .goals = {{.arm = arm, .to = to, .speed = speed}}});
+  Record record = record_of(state, {.job = state.jobs.next_id(),
+                                    .trajectory = std::move(way),
+                                    .terms = {.priority = head.job.terms.priority,
+                                              .backlog_timeout = head.job.terms.backlog_timeout,
+                                              .on_timeout = head.job.terms.on_timeout},
+                                    .goals = {{.arm = arm, .to = to, .speed = speed}},
+                                    .system_job = true});
   record.errand.on_behalf_of = head.errand.on_behalf_of;
   record.errand.before = head.job.id;
   const JobId id = record.job.id;
@@ -41,7 +40,7 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
 // Whether its arms are, or may be. It is the first of these, waits, and does not begin where they
 // stand.
 bool goes_to_start(State& state, Record& head) {
-  if (!head.job.terms.approaches || head.approaches.refusal ||
+  if (head.job.terms.approach != Approach::plan || head.approaches.refusal ||
       head.approaches.tries >= kApproachesMax)
     return false;
   if (head.approaches.feasibility == Approaches::Feasibility::unknown) {
@@ -76,7 +75,7 @@ std::vector<JobId> approaches_of(const State& state, const Record& record) {
   for (ArmId arm : record.job.trajectory->arms()) {
     for (JobId id : state.jobs.queues()[arm]) {
       const Record& own = state.jobs.at(id);
-      if (own.errand.before == record.job.id && own.job.terms.system_job && own.job.goal)
+      if (own.errand.before == record.job.id && own.job.system_job && own.job.goal)
         approaches.push_back(id);
     }
   }
@@ -95,7 +94,7 @@ void fail_impossible_starts(State& state) {
     if (!job.is_waiting() || job.has_started() || !is_at_head(state.jobs, head)) continue;
     if (job.goal) continue;  // its way begins where the arm stands
     if (head.approaches.are_in_question() || may_go_first(state, head)) continue;
-    if (job.terms.is_held_over && state.arms.stop_of(job)) continue;
+    if (job.is_held_over && state.arms.stop_of(job)) continue;
     auto mismatch = state.arms.start_mismatch(*state.cell, *job.trajectory);
     if (!mismatch) continue;
     unchanged = 0;

@@ -8,7 +8,7 @@
 namespace armloom {
 
 // Arms that stand elsewhere than where the next job of theirs begins, and that this job wants to be
-// brought there (Submit::approaches): by jobs of the scheduler's own that say where to go
+// brought there (Approach::plan): by jobs of the scheduler's own that say where to go
 // (goals.h), slowly, each in front of that job. Where one comes to an end elsewhere (it was
 // stopped, has failed), another one follows, so many in all. Nothing moves for a job that would hit
 // itself on its way: whether it does is asked first (Admission).

@@ -87,7 +87,7 @@ void expire(State& state, Record& record, const std::string& why) {
   const char* where = record.job.has_started() ? " on its path" : " in the backlog";
   give_up(state, record,
           {AfterStop::Then::fail, Reason::backlog_timeout,
-           "waited " + seconds_text(record.job.terms.backlog_timeout) + where +
+           "waited " + seconds_text(*record.job.terms.backlog_timeout) + where +
                "; no other way: " + why});
 }
 
@@ -193,7 +193,8 @@ bool goes_around_idle_arm(State& state) {
 bool goes_on_after_timeout(State& state, Record& record) {
   const Job& job = record.job;
   if (job.is_replanned_now()) return true;
-  if (!job.terms.replans_on_timeout || job.is_unplanned() || why_not_replanned(job)) return false;
+  if (job.terms.on_timeout != OnTimeout::replan || job.is_unplanned() || why_not_replanned(job))
+    return false;
   if (job.another_way && job.another_way->tries >= kReplansMax) return false;
   ask_for_another_way(state, record, AnotherWay::Cause::timeout);
   return true;

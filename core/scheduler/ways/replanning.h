@@ -33,7 +33,7 @@ void plan_other_ways(State& state);
 // there is one.
 [[nodiscard]] bool goes_around_idle_arm(State& state);
 // Its time in the backlog, or on its path for what no job moves, is over: whether it tries another
-// way instead (Submit::replans_on_timeout).
+// way instead (OnTimeout::replan).
 [[nodiscard]] bool goes_on_after_timeout(State& state, Record& record);
 
 }  // namespace armloom

@@ -16,14 +16,14 @@ bool helps_somebody(const State& state, const Record& own) {
 }
 
 bool returns_from(const Record& own, const std::vector<JobId>& moves) {
-  return std::ranges::find_first_of(own.job.terms.after, moves) != own.job.terms.after.end();
+  return std::ranges::find_first_of(own.job.after, moves) != own.job.after.end();
 }
 
 // Of the first jobs of an arm, while all that is before them is over: where the arm will be when a
 // move that stays is done is not where it stands now, so what follows that stays too. Needless ones
 // as they are to end: who does not go does not return.
 void pass_on(State& state, const std::deque<JobId>& queue, std::vector<JobId>& needless) {
-  const auto is_of_a_client = [&](JobId id) { return !state.jobs.at(id).job.terms.system_job; };
+  const auto is_of_a_client = [&](JobId id) { return !state.jobs.at(id).job.system_job; };
   const auto next = std::ranges::find_if(queue, is_of_a_client);
   if (next == queue.end()) return;
   bool all_end = true;

@@ -12,16 +12,14 @@ JobId add_own(State& state, const YieldTrial& move, TrajectoryPtr way, std::opti
   const JobId id = state.jobs.next_id();
   const JobId helped = goes ? *move.before : move.blocked_job;
   const Job& blocked = state.jobs.at(move.blocked_job).job;
-  Record record =
-      record_of(state, {.job = id,
-                        .trajectory = std::move(way),
-                        .terms = {.priority = blocked.terms.priority,
-                                  .backlog_timeout = state.cell->scheduling.backlog_timeout,
-                                  .system_job = true}});
+  Record record = record_of(state, {.job = id,
+                                    .trajectory = std::move(way),
+                                    .terms = {.priority = blocked.terms.priority},
+                                    .system_job = true});
   record.errand.on_behalf_of = state.jobs.at(helped).errand.on_behalf_of;
   record.errand.before = move.before;
   if (goes) {
-    record.job.terms.after = {*goes};
+    record.job.after = {*goes};
     record.errand.lets_pass = move.blocked_job;
   }
   add(state, std::move(record));

@@ -110,14 +110,14 @@ std::optional<YieldTrial> next_yield(State& state) {
 std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring) {
   const bool dispensable = std::ranges::any_of(ring, [&](JobId id) {
     const Record& record = state.jobs.at(id);
-    return record.job.terms.system_job && !is_counted_on(state, record);
+    return record.job.system_job && !is_counted_on(state, record);
   });
   if (dispensable) return std::nullopt;
   const WaitCycle from_last = beginning_with(*std::ranges::max_element(ring), ring);
   for (std::size_t i = 0; i < from_last.size(); ++i) {
     const Job& next = state.jobs.at(from_last[i]).job;
     const Record& waits = state.jobs.at(from_last[(i + from_last.size() - 1) % from_last.size()]);
-    if (!next.is_waiting() || next.has_started() || next.terms.system_job) continue;
+    if (!next.is_waiting() || next.has_started() || next.system_job) continue;
     for (const Wait& wait : waits_of(waits.job)) {
       const bool near = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::job;
       if (!near || !wait.arm) continue;
@@ -185,7 +185,7 @@ void note_tried(State& state, const YieldTrial& move, bool goes) {
 bool is_counted_on(const State& state, const Record& own) {
   const ArmId arm = own.job.trajectory->arms().front();
   const auto& queue = state.jobs.queues()[arm];
-  const auto of_a_client = [&](JobId id) { return !state.jobs.at(id).job.terms.system_job; };
+  const auto of_a_client = [&](JobId id) { return !state.jobs.at(id).job.system_job; };
   const auto next = std::find_if(std::ranges::find(queue, own.job.id), queue.end(), of_a_client);
   if (next == queue.end()) return false;
   if (state.jobs.at(*next).job.goal) return false;  // begins wherever the arm stands

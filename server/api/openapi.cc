@@ -1,4 +1,4 @@
-#include "server/openapi/openapi.h"
+#include "server/api/openapi.h"
 
 #include <algorithm>
 #include <map>

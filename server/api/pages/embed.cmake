@@ -1,6 +1,6 @@
 # cmake -DOUT=pages.cc -DFOLDER=. -P embed.cmake
 # Writes a source file that holds these files as they are.
-file(WRITE "${OUT}" "#include \"server/openapi/openapi.h\"\n\nnamespace armloom {\n\n")
+file(WRITE "${OUT}" "#include \"server/api/openapi.h\"\n\nnamespace armloom {\n\n")
 foreach(name docs.html docs.css docs.js login.html login.js)
   file(READ "${FOLDER}/${name}" text)
   string(FIND "${text}" ")ARMLOOM\"" end)

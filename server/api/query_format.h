@@ -1,0 +1,158 @@
+#pragma once
+
+#include <charconv>
+#include <functional>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/base/enumeration.h"
+#include "core/base/problem.h"
+#include "server/api/route.h"
+#include "server/http/message.h"
+
+namespace armloom {
+
+// A parameter of a query, described once: how it is read into a T, and what /openapi.json says.
+template <class T>
+struct QueryPart {
+  Parameter told;
+  // Takes its value; or says what is wrong with it.
+  std::function<std::optional<std::string>(const std::string& value, T& out)> take;
+};
+
+// The query of one verb.
+template <class T>
+class QueryFormat {
+ public:
+  // `bad`: what a value is that cannot be read: `invalid` (422) or `malformed` (400).
+  QueryFormat(std::vector<QueryPart<T>> parts, ProblemKind bad)
+      : parts_(std::move(parts)), bad_(bad) {}
+
+  // Problems, one for each parameter that cannot be read, or is missing (malformed). Those that no
+  // part knows are the router's to refuse.
+  [[nodiscard]] Result<T> read(const Target& target) const {
+    T query{};
+    Problems problems;
+    for (const QueryPart<T>& part : parts_) {
+      const std::string& name = part.told.name;
+      const auto value = target.parameter(name);
+      if (!value && !part.told.required) continue;
+      auto fault = value ? part.take(*value, query) : std::optional(name + " is missing");
+      if (!fault) continue;
+      const bool is_missing = part.told.required && value.value_or("").empty();
+      problems.push_back({is_missing ? ProblemKind::malformed : bad_,
+                          is_missing ? "missing-parameter" : "bad-parameter", "?" + name,
+                          *std::move(fault), value.value_or("")});
+    }
+    if (!problems.empty()) return failure(std::move(problems));
+    return query;
+  }
+
+  [[nodiscard]] std::vector<Parameter> parameters() const {
+    std::vector<Parameter> all;
+    for (const QueryPart<T>& part : parts_) all.push_back(part.told);
+    return all;
+  }
+
+ private:
+  std::vector<QueryPart<T>> parts_;
+  ProblemKind bad_;
+};
+
+namespace query {
+
+// Whether all of it is a whole number within these bounds, which `out` is then.
+template <class Number>
+[[nodiscard]] bool read_between(const std::string& text, Number lowest, Number highest,
+                                Number& out) {
+  Number number{};
+  const char* end = text.data() + text.size();
+  const auto [stop, ec] = std::from_chars(text.data(), end, number);
+  if (ec != std::errc{} || stop != end || number < lowest || number > highest) return false;
+  out = number;
+  return true;
+}
+
+// T is named, so that members of what it derives from can be given, too: text<AuditQuery>(...).
+
+// Any text.
+template <class T, class Of, class Text>
+[[nodiscard]] QueryPart<T> text(std::string name, Text Of::*where, std::string told) {
+  return {{std::move(name), std::move(told), {{"type", "string"}}},
+          [where](const std::string& value, T& out) {
+            out.*where = value;
+            return std::optional<std::string>();
+          }};
+}
+
+// A text that has to be there.
+template <class T>
+[[nodiscard]] QueryPart<T> required_text(std::string name, std::string T::*where,
+                                         std::string told) {
+  return {{name, std::move(told), {{"type", "string"}, {"minLength", 1}}, true},
+          [name, where](const std::string& value, T& out) {
+            out.*where = value;
+            return value.empty() ? std::optional(name + " is empty") : std::nullopt;
+          }};
+}
+
+template <class T, class Of, class Number, class Value>
+[[nodiscard]] QueryPart<T> whole_number(std::string name, Number Of::*where, Value lowest,
+                                        Value highest, std::string told) {
+  const std::string rule = name + " is an integer within " + std::to_string(lowest) + ".." +
+                           std::to_string(highest) + ", found \"";
+  return {{std::move(name),
+           std::move(told),
+           {{"type", "integer"}, {"minimum", lowest}, {"maximum", highest}}},
+          [where, lowest, highest, rule](const std::string& value, T& out) {
+            Value number{};
+            const bool is_read = read_between(value, lowest, highest, number);
+            if (is_read) out.*where = number;
+            return is_read ? std::nullopt : std::optional(rule + value + "\"");
+          }};
+}
+
+// One of an enumeration, by its name; `told` as the schema of that stands elsewhere.
+template <class T, class E>
+[[nodiscard]] QueryPart<T> one_of(std::string name, std::optional<E> T::*where, Schema schema,
+                                  std::string told) {
+  const std::string rule = "no " + name + " is called \"";
+  return {{std::move(name), std::move(told), std::move(schema)},
+          [where, rule](const std::string& value, T& out) {
+            out.*where = value_named<E>(value);
+            return out.*where ? std::nullopt : std::optional(rule + value + "\"");
+          }};
+}
+
+// Where the page before ended, in the server's own words.
+template <class T, class Of>
+[[nodiscard]] QueryPart<T> cursor(std::optional<std::uint64_t> Of::*where) {
+  return {{"cursor", "next_cursor of the page before", {{"type", "string"}}},
+          [where](const std::string& value, T& out) -> std::optional<std::string> {
+            std::uint64_t number = 0;
+            if (!read_between<std::uint64_t>(value, 0, ~std::uint64_t{0}, number)) {
+              return "this is no cursor that the server gave: \"" + value + "\"";
+            }
+            out.*where = number;
+            return std::nullopt;
+          }};
+}
+
+// 0 or 1.
+template <class T>
+[[nodiscard]] QueryPart<T> flag(std::string name, bool T::*where, std::string told) {
+  const std::string rule = name + " is 0 or 1, found \"";
+  return {{std::move(name), std::move(told), {{"type", "string"}, {"enum", {"0", "1"}}}},
+          [where, rule](const std::string& value, T& out) {
+            out.*where = value == "1";
+            const bool is_read = value == "0" || value == "1";
+            return is_read ? std::nullopt : std::optional(rule + value + "\"");
+          }};
+}
+
+}  // namespace query
+
+}  // namespace armloom

@@ -1,0 +1,140 @@
+// The terms of a job: what a client may ask for stays with the job and is told of it, all by one
+// description.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "server/codec/json_writer.h"
+#include "server/messages/job.h"
+#include "server/messages/job_amendment.h"
+#include "server/messages/job_request.h"
+
+namespace armloom {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+const char* const kMotion = R"("trajectory": {"joint_names": ["a"], "points": [
+    {"positions": [1], "velocities": [0], "time_from_start": 0}]})";
+
+Result<JobRequest> asked_for(const std::string& terms) {
+  return read_job_text("{" + terms + (terms.empty() ? "" : ", ") + kMotion + "}");
+}
+
+json told(const JobTerms& terms) {
+  JobView job{.id = JobId{7}, .key = "a", .terms = terms};
+  JsonWriter out;
+  job_format()->write(out, job);
+  return json::parse(out.take());
+}
+
+TEST(JobTermsAreDescribedOnce, WhatIsAskedForIsTold) {
+  const json asked = {{"priority", -3},
+                      {"backlog_timeout_s", 1.5},
+                      {"on_timeout", "replan"},
+                      {"approach", "plan"},
+                      {"order", "any"}};
+  std::string text = asked.dump();
+  const auto job = asked_for(text.substr(1, text.size() - 2));
+  ASSERT_TRUE(job) << job.error().front().detail;
+  const json is_told = told(job->terms);
+  for (const auto& [key, value] : asked.items())
+    EXPECT_EQ(is_told.value(key, json()), value) << key;
+}
+
+TEST(JobTermsAreDescribedOnce, WhatIsUsualIsToldOnlyWhereItAlwaysWas) {
+  const auto job = asked_for("");
+  ASSERT_TRUE(job);
+  EXPECT_FALSE(job->terms.backlog_timeout) << "the cell's";
+  const json is_told = told(job->terms);
+  EXPECT_EQ(is_told["priority"], 0);
+  EXPECT_EQ(is_told["on_timeout"], "abort");
+  EXPECT_FALSE(is_told.contains("approach"));
+  EXPECT_FALSE(is_told.contains("order"));
+  EXPECT_FALSE(is_told.contains("backlog_timeout_s"));
+}
+
+TEST(JobTermsAreDescribedOnce, WhatTheyMayNotBeIsRefusedByNameWithWhatTheyMay) {
+  const std::pair<const char*, const char*> cases[] = {
+      {R"("priority": 1e7)", "/priority"},
+      {R"("priority": 0.5)", "/priority"},
+      {R"("backlog_timeout_s": -1)", "/backlog_timeout_s"},
+      {R"("backlog_timeout_s": 1e7)", "/backlog_timeout_s"},
+      {R"("on_timeout": "retry")", "/on_timeout"},
+      {R"("approach": "fast")", "/approach"},
+      {R"("order": "random")", "/order"},
+      {R"("order": null)", "/order"}};
+  for (const auto& [terms, pointer] : cases) {
+    const auto job = asked_for(terms);
+    ASSERT_FALSE(job) << terms;
+    ASSERT_EQ(job.error().size(), 1U) << terms;
+    EXPECT_EQ(job.error().front().pointer, pointer);
+  }
+  EXPECT_NE(asked_for(R"("order": "random")").error().front().detail.find("as_given"),
+            std::string::npos);
+}
+
+TEST(JobTermsAreDescribedOnce, TheSchemaStatesWhatAnAbsentOneMeans) {
+  const Schema in = job_request_format()->schema(Way::in);
+  const Schema& properties = in["$of"]["properties"];
+  EXPECT_EQ(properties["priority"]["default"], 0);
+  EXPECT_EQ(properties["on_timeout"]["default"], "abort");
+  EXPECT_EQ(properties["approach"]["default"], "none");
+  EXPECT_EQ(properties["order"]["default"], "as_given");
+  const Schema out = job_format()->schema(Way::out);
+  const auto& required = out["$of"]["required"];
+  const auto is_required = [&](const char* key) {
+    return std::find(required.begin(), required.end(), key) != required.end();
+  };
+  EXPECT_TRUE(is_required("priority"));
+  EXPECT_TRUE(is_required("on_timeout"));
+  EXPECT_FALSE(is_required("approach"));
+  EXPECT_FALSE(is_required("order"));
+}
+
+TEST(JobTermsAreDescribedOnce, AnAmendmentChangesWhatItNamesAndNothingElse) {
+  JobTerms terms{.priority = 3, .backlog_timeout = 60s, .order = JobOrder::any};
+  apply(AmendedTerms{.backlog_timeout = 5s}, terms);
+  EXPECT_EQ(terms.priority, 3);
+  EXPECT_EQ(terms.backlog_timeout, 5s);
+  apply(AmendedTerms{.priority = -1, .on_timeout = OnTimeout::replan}, terms);
+  EXPECT_EQ(terms.priority, -1);
+  EXPECT_EQ(terms.backlog_timeout, 5s);
+  EXPECT_EQ(terms.on_timeout, OnTimeout::replan);
+  EXPECT_EQ(terms.order, JobOrder::any);
+
+  JobTerms other;
+  apply(amendable(terms), other);
+  EXPECT_EQ(other.priority, -1);
+  EXPECT_EQ(other.backlog_timeout, 5s);
+  EXPECT_EQ(other.on_timeout, OnTimeout::replan);
+  EXPECT_EQ(other.order, JobOrder::as_given) << "that cannot be changed later";
+}
+
+TEST(JobTermsAreDescribedOnce, AnAmendmentOfWhatCannotBeChangedIsRefused) {
+  for (const char* text : {R"({"order": "any"})", R"({"approach": "plan"})", R"({"id": "b"})"}) {
+    EXPECT_FALSE(read_job_amendment(text)) << text;
+  }
+  const auto amendment = read_job_amendment(R"({"priority": 4, "name": "b"})");
+  ASSERT_TRUE(amendment);
+  EXPECT_EQ(amendment->terms.priority, 4);
+  EXPECT_EQ(amendment->name, "b");
+  EXPECT_FALSE(amendment->terms.on_timeout);
+}
+
+TEST(JobRequests, NameAnArmOnlyWithAGoal) {
+  for (const char* arm : {R"("arm": "left")", R"("arms": ["left"])"}) {
+    const auto job = asked_for(arm);
+    ASSERT_FALSE(job) << arm;
+    EXPECT_EQ(job.error().front().slug, "unknown-field");
+    EXPECT_NE(job.error().front().detail.find("move_to"), std::string::npos);
+  }
+  const Schema schema = job_request_format()->schema(Way::in);
+  EXPECT_EQ(schema["$of"]["dependentRequired"]["arm"], Schema::array({"move_to"}));
+  EXPECT_FALSE(schema.dump().find("\"steps\"") != std::string::npos)
+      << "what is refused is not described";
+}
+
+}  // namespace
+}  // namespace armloom
