@@ -6,7 +6,7 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { test } from 'node:test';
-import { arm_now as arm_of, ask as ask_server, job_through, path_for, resume, with_dashboard } from './harness.mjs';
+import { arm_now as arm_of, ask as ask_server, eventually, job_through, path_for, reads, resume, with_dashboard } from './harness.mjs';
 import { difference, pixels_like } from './pictures.mjs';
 
 // A robot of the cell covers several thousand pixels of the view; labels and text far fewer.
@@ -44,9 +44,10 @@ test('a pasted job appears, moves the arm, and finishes', { timeout: 90_000 }, a
   await row.waitFor();
   await page.locator('[data-test=list-running] [data-test="job-browser-1"]').waitFor();
   await page.waitForFunction(([name, from]) => Math.abs(window.armloom.q()[name] - from) > 0.5, [names[0], q[0]]);
-  const moving = await picture('moving');
-  const moved = await difference(browser, still, moving);
-  assert.ok(moved.count > kLeastRobot_px, `${moved.count} pixels changed while the arm moved`);
+  await eventually(async () => {
+    const moved = await difference(browser, still, await picture('moving'));
+    assert.ok(moved.count > kLeastRobot_px, `${moved.count} pixels changed while the arm moved`);
+  });
 
   const finished = page.locator('[data-test=list-finished] [data-test="job-browser-1"]');
   await finished.waitFor();
@@ -98,17 +99,21 @@ test('the diagram of two jobs that cross is red where they conflict', { timeout:
   await page.locator('[data-test=list-backlog] [data-test="job-cross-right"] [data-test=why]').click();
   const diagram = page.locator('[data-test=diagram]');
   await diagram.waitFor();
-  assert.match(await page.locator('[data-test=evidence]').innerText(), /(right_panda|left_panda).* s into cross-left and .* s into cross-right/);
-  assert.match(await page.locator('[data-test=plan]').innerText(), /If cross-right started now, they meet a conflict in/);
-  const first = await diagram.screenshot();
-  const red = await pixels_like(browser, first, kConflict, 12);
-  const light = await pixels_like(browser, first, kFree, 12);
-  assert.ok(red > kLeastArea_px, `${red} pixels are red`);
-  assert.ok(light > kLeastArea_px, `${light} pixels are light`);
+  await reads(page.locator('[data-test=evidence]'), /(right_panda|left_panda).* s into cross-left and .* s into cross-right/);
+  await reads(page.locator('[data-test=plan]'), /If cross-right started now, they meet a conflict in/);
+  const first = await eventually(async () => {
+    const shot = await diagram.screenshot();
+    const red = await pixels_like(browser, shot, kConflict, 12);
+    const light = await pixels_like(browser, shot, kFree, 12);
+    assert.ok(red > kLeastArea_px, `${red} pixels are red`);
+    assert.ok(light > kLeastArea_px, `${light} pixels are light`);
+    return shot;
+  });
   await page.screenshot(path_for('diagram'));
-  await page.evaluate(() => window.armloom.drawn());
-  const moved = await difference(browser, first, await diagram.screenshot());
-  assert.ok(moved.count > 20, `${moved.count} pixels changed while the left arm moved`);
+  await eventually(async () => {
+    const moved = await difference(browser, first, await diagram.screenshot());
+    assert.ok(moved.count > 20, `${moved.count} pixels changed while the left arm moved`);
+  });
 
   await ask_server(page, 'PUT', '/sim/speed', { speed: 2 });
   // The rest is free once the first has come home: the second starts by itself.
@@ -144,9 +149,8 @@ test('a refused job shows the place of the fault in the form', { timeout: 30_000
   const job = swing_job('browser-2', ['left_panda_joint99', ...names.slice(1)], q, 0.1, 4);
   await send(job);
   const problem = page.locator('[data-test=problem]');
-  await problem.waitFor();
-  assert.match(await problem.innerText(), /joint99/);
-  assert.match(await problem.innerText(), /\/trajectory\//);
+  await reads(problem, /joint99/);
+  await reads(problem, /\/trajectory\//);
   assert.equal(await page.locator('[data-test="job-browser-2"]').count(), 0);
   await page.screenshot(path_for('refused'));
 });
@@ -191,7 +195,7 @@ test('a banner says that the server is gone, and how old is what is seen', { tim
   const lost = page.locator('[data-test=lost]');
   await lost.waitFor();
   await lost.locator('[data-test=age]', { hasText: /^[\d.]+ s$/ }).waitFor();
-  assert.match(await lost.innerText(), /Connection lost.*last known state, [\d.]+ s old; arms may still be moving/s);
+  await reads(lost, /Connection lost.*last known state, [\d.]+ s old; arms may still be moving/s);
   await page.screenshot(path_for('lost'));
 });
 
@@ -199,6 +203,7 @@ test('a banner says that the server is gone, and how old is what is seen', { tim
 
 async function open_form() {
   if (await page.locator('[data-test=job-text]').count() === 0) await page.locator('[data-test=new-job]').click();
+  await page.locator('[data-test=job-text]').waitFor();
 }
 
 async function send(job) {

@@ -11,9 +11,10 @@ import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
-import { after, before } from 'node:test';
+import { after, afterEach, before } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
+import { difference } from './pictures.mjs';
 
 export const kRoot = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 export const web_require = createRequire(join(kRoot, 'web/package.json'));
@@ -29,6 +30,7 @@ const kFlags = [
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
 ];
 export const kPatience_ms = 20_000;
+const kAgain_ms = 50;
 
 /** A server of one cell; it can be ended, and begun anew at the same address. */
 export class Server {
@@ -116,6 +118,10 @@ export function with_dashboard(cell, policy, { more = [], visits = true, ...opti
     if (visits) await dashboard.chromium.visit(dashboard.url);
     await opened(dashboard);
   }, { timeout: 120_000 });
+  afterEach(async ({ name, passed }) => {
+    const picture = path_for(`failed-${name.replaceAll(/[^a-z0-9]+/gi, '-')}`);
+    if (passed === false && picture.path) await dashboard.page?.screenshot(picture).catch(() => undefined);  // it may be closed
+  }, { timeout: 30_000 });
   after(async () => {
     await dashboard.chromium.close();
     await dashboard.server.end();
@@ -123,9 +129,62 @@ export function with_dashboard(cell, policy, { more = [], visits = true, ...opti
   return dashboard;
 }
 
-/** The page's address, without a reload. */
+/**
+ * Asks again and again until nothing is to be said against it, and answers what that answers: what the page shows
+ * follows what it was told, on a busy machine seconds later. Only what `assert` throws is put up with meanwhile.
+ */
+export async function eventually(claim, patience_ms = kPatience_ms) {
+  for (const until_ms = Date.now() + patience_ms; ;) {
+    try {
+      return await claim();
+    } catch (error) {
+      if (!(error instanceof assert.AssertionError) || Date.now() > until_ms) throw error;
+    }
+    await new Promise((done) => setTimeout(done, kAgain_ms));
+  }
+}
+
+/** Kept once what is to be read of it is like this. */
+export function reads(locator, pattern) {
+  return eventually(async () => assert.match(await locator.innerText(), pattern));
+}
+
+/** Kept once there are so many. */
+export function counts(locator, count, words) {
+  return eventually(async () => assert.equal(await locator.count(), count, words));
+}
+
+/** Answers the page's address once it is like this. (What playwright takes for it comes later.) */
+export function address_like(page, pattern) {
+  return eventually(async () => {
+    const address = await page.evaluate(() => location.href);
+    assert.match(address, pattern);
+    return address;
+  });
+}
+
+/** The cell as a PNG, with nothing left out, once all that changed has been drawn. */
+export async function view_picture(page) {
+  for (let i = 0; i < 2; i++) await page.evaluate(() => window.armloom.drawn());
+  return page.locator('.view canvas').screenshot({ timeout: 60_000 });  // a busy machine draws slowly
+}
+
+/** Kept once the cell looks clearly different from a picture of it, by more than so many pixels. */
+export function looks_different(page, before, least_px, what = 'pixels changed') {
+  return eventually(async () => {
+    const { count } = await difference(page.context(), before, await view_picture(page));
+    assert.ok(count > least_px, `${count} ${what}`);
+  });
+}
+
+/** The page's address, without a reload; kept once the page has heard of it, and shows that place. */
 export function go_to(page, hash) {
-  return page.evaluate((hash) => { location.hash = hash; }, hash);
+  return page.evaluate((hash) => new Promise((done) => {
+    const before = location.hash;
+    window.addEventListener('hashchange', () => setTimeout(done), { once: true });
+    location.hash = hash;
+    if (location.hash === before) done();
+  }), hash);
 }
 
 /** Kept once a job stands among those that have ended. */
@@ -159,7 +218,7 @@ export async function resume(page, press = (locator) => locator.click()) {
   for (let i = 0; i < 4; i++) await press(page.locator(`[data-test=check-${i}]`));
   await press(page.locator('[data-test=resume-checked]'));
   await page.locator('[data-test=checks-left]', { hasText: 'Nothing is stopped' }).waitFor();
-  await page.evaluate((hash) => { location.hash = hash; }, hash);
+  await go_to(page, hash);
 }
 
 /** Files from a desktop, dropped on the middle of what a selector names. */
