@@ -102,7 +102,6 @@ test('a diagram shows authority, and both arms where it is pointed at', { timeou
 test('a job page has its joints as planned and as measured', { timeout: 90_000 }, async () => {
   await ask(page, 'DELETE', '/jobs/blocked');  // it may have begun: then it brakes first
   await ended('blocked');
-  await page.waitForTimeout(500);  // until the page has where the arm stands
   await speed(2);
   await send('right', 'measured', [kMiddle.map((angle, i) => (i === 0 ? 1 : angle)), null], 3);
   await go('#/job/measured');
@@ -251,5 +250,6 @@ test('the first view is light: all but the 3D part and what is loaded when it is
 });
 
 test('nothing so far was an error in the console', () => {
-  assert.deepEqual(chromium.errors.filter((text) => !/ERR_INTERNET_DISCONNECTED|ERR_NETWORK/.test(text)), []);
+  // What is canceled may have ended just before.
+  assert.deepEqual(chromium.errors.filter((text) => !/ERR_INTERNET_DISCONNECTED|ERR_NETWORK|409 \(Conflict\).*\/jobs\/blocked$/.test(text)), []);
 });

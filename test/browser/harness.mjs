@@ -253,13 +253,11 @@ export function job_through(id, joint_names, configurations, seconds, over = {})
   return { id, trajectory: { joint_names, points }, ...over };
 }
 
-/** An arm's joints and where they are. */
-export function arm_now(page, arm) {
-  return page.evaluate((arm) => {
-    const all = window.armloom.q();
-    const names = Object.keys(all).filter((name) => name.startsWith(`${arm}_panda_joint`)).sort();
-    return { names, q: names.map((name) => all[name]) };
-  }, arm);
+/** An arm's joints and where they are, as the server has it: what the page has may be older. */
+export async function arm_now(page, arm) {
+  const { status, value } = await ask(page, 'GET', `/arms/${arm}`);
+  assert.equal(status, 200, JSON.stringify(value));
+  return { names: value.joints, q: value.q };
 }
 
 /** Sends a job of an arm from where it is, through places of its joints; null: where it is. */
