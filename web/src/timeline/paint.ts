@@ -26,7 +26,7 @@ const kHatch_px = 5;
 // A bar is no narrower.
 const kLeast_px = 2;
 
-/** `covers`: where its bars are covered by stands on the way, and stops. */
+/** `covers`: where its bars are not seen: under stands on the way and stops, and beside the sheet. */
 interface Row { top: number; height: number; colour: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number; covers: readonly Stretch[] }
 
 export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly Lane[], lit: Lit, pointed: Pointed): void {
@@ -62,7 +62,10 @@ function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number, s
   const gap = roomy ? 4 : 1.5;
   const bar_height = Math.max(3, height - wait_height - 3 * gap);
   const bar_top = top + gap;
-  const covers = stands.map(({ from_s, to_s }) => ({ from: sheet.x(from_s), to: sheet.x(to_s ?? sheet.now_s) }));
+  const covers = [
+    { from: -Infinity, to: kLeft_px }, { from: sheet.width - kRight_px, to: Infinity },
+    ...stands.map(({ from_s, to_s }) => ({ from: sheet.x(from_s), to: sheet.x(to_s ?? sheet.now_s) })),
+  ];
   return { top, height, colour: ink(arm_colour(arms, arm)), bar_top, bar_height, wait_top: bar_top + bar_height + gap, wait_height, covers };
 }
 
@@ -217,7 +220,7 @@ function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, 
   g.font = `500 10.5px ${kFont}`;
   g.textAlign = 'left';
   g.textBaseline = 'middle';
-  const seen = widest_free({ from: Math.max(left, kLeft_px), to: left + width }, row.covers);
+  const seen = widest_free({ from: left, to: left + width }, row.covers);
   if (!seen) return;
   const room = seen.to - seen.from - 9;
   const name = shown_name(mark.label);
