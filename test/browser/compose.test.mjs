@@ -94,6 +94,7 @@ test('a request and a job are copied as curl and as Python, and both work', { ti
 });
 
 test('a job is cancelled after a question only', { timeout: 60_000 }, async () => {
+  await ask(page, 'PUT', '/sim/speed', { speed: 0.1 });  // a busy machine is given the time to ask
   await send('left', 'unwanted', [kMiddle, null], 5);
   const row = page.locator('[data-test="job-unwanted"]');
   await row.getByRole('button', { name: 'Cancel unwanted' }).click();
@@ -101,10 +102,12 @@ test('a job is cancelled after a question only', { timeout: 60_000 }, async () =
   assert.match(await row.getAttribute('data-state'), /queued|running|scheduled/);
   await row.getByRole('button', { name: 'Cancel unwanted' }).click();
   await row.locator('[data-test=confirm-cancel]').click();
+  await ask(page, 'PUT', '/sim/speed', { speed: 1 });
   await page.locator('[data-test=list-finished] [data-test="job-unwanted"]').waitFor();
+  await page.locator('[data-test="job-unwanted"][data-state=canceled]').waitFor();
   await page.locator('[data-test=filter]').fill('canceled left');
   await page.locator('[data-test="job-by-curl"]').waitFor({ state: 'detached' });
-  await page.locator('[data-test="job-unwanted"][data-state=canceled]').waitFor();
+  await page.locator('[data-test="job-unwanted"]').waitFor();
   await page.locator('[data-test=filter]').fill('');
 });
 
