@@ -23,7 +23,7 @@ let page;
 let finger;
 const tablet = new Browser();
 const { chromium: desk } = with_dashboard('config/two_pandas.json', 'certified', {}, (opened) => { ({ page, url } = opened); });
-after(() => tablet.close(), { timeout: 30_000 });
+after(() => tablet.close(), { timeout: 120_000 });
 
 const send = (...job) => send_through(page, ...job);
 
@@ -38,7 +38,7 @@ async function tab_to(selector, key = 'Tab') {
 
 const focus_is_on = (what, words) => eventually(async () => assert.equal(await page.evaluate(() => document.activeElement.dataset.test ?? document.activeElement.className), what, words));
 
-test('the cell is turned by keys and by buttons, without dragging', { timeout: 120_000 }, async () => {
+test('the cell is turned by keys and by buttons, without dragging', { timeout: 400_000 }, async () => {
   const first = await view_picture(page);
   await tab_to('[data-test=view]');
   for (const key of ['ArrowRight', 'ArrowRight', 'ArrowUp', '+']) await page.keyboard.press(key);
@@ -58,7 +58,7 @@ test('the cell is turned by keys and by buttons, without dragging', { timeout: 1
   });
 });
 
-test('a job is planned, sent, looked at and cancelled by keys alone', { timeout: 90_000 }, async () => {
+test('a job is planned, sent, looked at and cancelled by keys alone', { timeout: 300_000 }, async () => {
   await tab_to('[data-test=new-job]', 'Shift+Tab');
   await page.keyboard.press('Enter');
   await page.locator('[data-test=page-new]').waitFor();
@@ -69,7 +69,7 @@ test('a job is planned, sent, looked at and cancelled by keys alone', { timeout:
   await page.keyboard.type('ready');
   await tab_to('[data-test=plan]');
   await page.keyboard.press('Enter');
-  await page.locator('[data-test=planned]').waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=planned]').waitFor();
   await ask(page, 'PUT', '/sim/speed', { speed: 0.05 });
   await tab_to('[data-test=send]');
   await page.keyboard.press('Enter');
@@ -78,16 +78,16 @@ test('a job is planned, sent, looked at and cancelled by keys alone', { timeout:
   await page.keyboard.press('Escape');
   await page.locator('.pane').waitFor({ state: 'detached' });
   await focus_is_on('new-job', 'who had the focus before has it again');
-  await page.locator(`[data-test=list-running] [data-test="job-${id}"]`).waitFor({ timeout: 40_000 });
+  await page.locator(`[data-test=list-running] [data-test="job-${id}"]`).waitFor();
   await tab_to('.cancel');
   await page.keyboard.press('Enter');
   await page.locator('[data-test=confirm-cancel]').waitFor();
   await page.keyboard.press('Enter');
   await ask(page, 'PUT', '/sim/speed', { speed: 10 });
-  await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 40_000 });
+  await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();
 });
 
-test('what has the focus is never under a bar that sticks', { timeout: 60_000 }, async () => {
+test('what has the focus is never under a bar that sticks', { timeout: 300_000 }, async () => {
   // Slowly, so that what is reported is in sight for long: the next test looks at it.
   await ask(page, 'PUT', '/sim/speed', { speed: 0.1 });
   await ask(page, 'POST', '/stop');
@@ -111,7 +111,7 @@ test('what has the focus is never under a bar that sticks', { timeout: 60_000 },
   await page.setViewportSize({ width: 1440, height: 900 });
 });
 
-test('what is reported is marked on the timeline, and looked back at from its line', { timeout: 90_000 }, async () => {
+test('what is reported is marked on the timeline, and looked back at from its line', { timeout: 300_000 }, async () => {
   await page.evaluate(() => window.armloom.drawn());
   await page.locator('[data-test=stopped]').waitFor();
   await eventually(async () => {
@@ -177,7 +177,7 @@ test('what is reported is marked on the timeline, and looked back at from its li
   await ask(page, 'PUT', '/sim/speed', { speed: 10 });
 });
 
-test('on a tablet all is done by finger', { timeout: 180_000 }, async () => {
+test('on a tablet all is done by finger', { timeout: 500_000 }, async () => {
   finger = await tablet.open({ colorScheme: 'light', viewport: { width: 1024, height: 768 }, hasTouch: true, isMobile: true });
   await tablet.visit(url);
   const small = await finger.evaluate((least) => [...document.querySelectorAll('button, select, summary, input[type=search]')]
@@ -216,7 +216,7 @@ test('on a tablet all is done by finger', { timeout: 180_000 }, async () => {
   assert.deepEqual(tablet.errors, []);
 });
 
-test('a diagram is read without colours', { timeout: 60_000 }, async () => {
+test('a diagram is read without colours', { timeout: 300_000 }, async () => {
   await ask(page, 'PUT', '/sim/speed', { speed: 1 });
   await ask(page, 'POST', '/stop');
   await send('left', 'grey-left', [kMiddle, null], 6);

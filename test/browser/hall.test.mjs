@@ -44,7 +44,7 @@ function jobs_of(arm) {
   });
 }
 
-test('eight arms and two hundred waiting jobs stay legible', { timeout: 120_000 }, async () => {
+test('eight arms and two hundred waiting jobs stay legible', { timeout: 400_000 }, async () => {
   const lists = Array.from({ length: kArms }, (_, arm) => jobs_of(arm));
   const jobs = lists[0].flatMap((_, k) => lists.map((list) => list[k]));
   const { status, value } = await ask(page, 'POST', '/batches', { atomic: true, jobs });

@@ -29,7 +29,8 @@ const kFlags = [
   '--use-angle=swiftshader-webgl', '--enable-unsafe-swiftshader', '--no-sandbox', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
 ];
-export const kPatience_ms = 20_000;
+// A busy machine may take ten times as long as an idle one; who fails waits for it in vain, nobody else.
+export const kPatience_ms = 60_000;
 const kAgain_ms = 50;
 
 /** A server of one cell; it can be ended, and begun anew at the same address. */
@@ -85,8 +86,8 @@ export class Browser {
     this.context = await chromium.launchPersistentContext(this.profile_, {
       executablePath: kChromium, args: kFlags, viewport: { width: 1440, height: 900 }, ...options,
     });
+    this.context.setDefaultTimeout(kPatience_ms);
     this.page = this.context.pages()[0] ?? await this.context.newPage();
-    this.page.setDefaultTimeout(kPatience_ms);
     this.page.on('console', (message) => { if (message.type() === 'error') this.errors.push(`${message.text()} ${message.location().url}`); });
     this.page.on('pageerror', (error) => this.errors.push(String(error)));
     return this.page;
@@ -94,9 +95,9 @@ export class Browser {
 
   /** The dashboard, connected and drawn. */
   async visit(url) {
-    await this.page.goto(url, { timeout: 60_000 });  // a busy machine draws the first picture slowly
-    await this.page.locator('[data-test=link].open').waitFor({ timeout: 60_000 });
-    await this.page.waitForFunction(() => window.armloom?.is_drawn(), undefined, { timeout: 60_000 });
+    await this.page.goto(url);
+    await this.page.locator('[data-test=link].open').waitFor();
+    await this.page.waitForFunction(() => window.armloom?.is_drawn());
   }
 
   async close() {
@@ -117,15 +118,15 @@ export function with_dashboard(cell, policy, { more = [], visits = true, ...opti
     dashboard.page = await dashboard.chromium.open({ colorScheme: 'dark', ...options });
     if (visits) await dashboard.chromium.visit(dashboard.url);
     await opened(dashboard);
-  }, { timeout: 120_000 });
+  }, { timeout: 300_000 });
   afterEach(async ({ name, passed }) => {
     const picture = path_for(`failed-${name.replaceAll(/[^a-z0-9]+/gi, '-')}`);
     if (passed === false && picture.path) await dashboard.page?.screenshot(picture).catch(() => undefined);  // it may be closed
-  }, { timeout: 30_000 });
+  }, { timeout: 120_000 });
   after(async () => {
     await dashboard.chromium.close();
     await dashboard.server.end();
-  }, { timeout: 30_000 });
+  }, { timeout: 120_000 });
   return dashboard;
 }
 
@@ -166,7 +167,7 @@ export function address_like(page, pattern) {
 /** The cell as a PNG, with nothing left out, once all that changed has been drawn. */
 export async function view_picture(page) {
   for (let i = 0; i < 2; i++) await page.evaluate(() => window.armloom.drawn());
-  return page.locator('.view canvas').screenshot({ timeout: 60_000 });  // a busy machine draws slowly
+  return page.locator('.view canvas').screenshot();
 }
 
 /** Kept once the cell looks clearly different from a picture of it, by more than so many pixels. */
@@ -189,7 +190,7 @@ export function go_to(page, hash) {
 
 /** Kept once a job stands among those that have ended. */
 export function finished(page, id) {
-  return page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
+  return page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();
 }
 
 /** Where a picture of this name goes, as playwright wants it. */

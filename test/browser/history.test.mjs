@@ -19,7 +19,7 @@ after(() => rmSync(data, { recursive: true, force: true }));
 const go = (hash) => go_to(page, hash);
 const ended = (id) => finished(page, id);
 
-test('jobs of a former run stand in the history, and have their pages', { timeout: 120_000 }, async () => {
+test('jobs of a former run stand in the history, and have their pages', { timeout: 400_000 }, async () => {
   await send_through(page, 'left', 'long-ago', [kMiddle, null], 2, { name: 'picked long ago' });
   await ended('long-ago');
   const since = await page.evaluate(() => window.armloom.numbers().last);
@@ -54,7 +54,7 @@ test('jobs of a former run stand in the history, and have their pages', { timeou
   assert.ok(since > 0);
 });
 
-test('what the page is told of by itself is not asked for', { timeout: 120_000 }, async () => {
+test('what the page is told of by itself is not asked for', { timeout: 400_000 }, async () => {
   const asked = [];
   page.on('request', (request) => { if (/\/jobs(\?|\/)/.test(request.url())) asked.push(request.url()); });
   await go('#/');

@@ -26,7 +26,7 @@ async function log_in(with_token) {
 }
 const connected = () => page.locator('[data-test=link]', { hasText: 'connected' }).waitFor();
 
-test('who shows no token is asked for one, and a wrong one is refused', { timeout: 60_000 }, async () => {
+test('who shows no token is asked for one, and a wrong one is refused', { timeout: 300_000 }, async () => {
   await page.goto(url);
   await address_like(page, /\/login$/);
   await log_in('armloom_' + '0'.repeat(64));
@@ -35,14 +35,14 @@ test('who shows no token is asked for one, and a wrong one is refused', { timeou
   await connected();
 });
 
-test('who acknowledges is known by the token', { timeout: 60_000 }, async () => {
+test('who acknowledges is known by the token', { timeout: 300_000 }, async () => {
   await page.locator('button', { hasText: 'Stop' }).first().click();
   await page.locator('[data-test=open-alerts]').click();
   await page.locator('[data-test=acknowledge-all]').click();
   await page.locator('[data-test=alerts]', { hasText: 'Acknowledged by ada' }).waitFor();
 });
 
-test('copies take the token from the environment, and none without it', { timeout: 60_000 }, async () => {
+test('copies take the token from the environment, and none without it', { timeout: 300_000 }, async () => {
   const { names, q } = await arm_now(page, 'left');
   await go_to(page, '#/new');
   await page.locator('[data-test=job-text]').fill(JSON.stringify(job_through('copied', names, [q, q], 1)));
@@ -55,7 +55,7 @@ test('copies take the token from the environment, and none without it', { timeou
   assert.match(await run('python3', ['-c', python], { ARMLOOM_TOKEN: token }), /^(queued|backlogged|scheduled|running|succeeded) /);
 });
 
-test('logging out leads to the login page, and back only with a token', { timeout: 60_000 }, async () => {
+test('logging out leads to the login page, and back only with a token', { timeout: 300_000 }, async () => {
   await page.locator('[data-test=more-pages]').click();
   await page.locator('[data-test=go-settings]').click();
   await page.locator('[data-test=session]', { hasText: 'ada, operator' }).waitFor();
@@ -68,9 +68,9 @@ test('logging out leads to the login page, and back only with a token', { timeou
   await connected();
 });
 
-test('a page whose token is withdrawn goes to the login page', { timeout: 60_000 }, async () => {
+test('a page whose token is withdrawn goes to the login page', { timeout: 300_000 }, async () => {
   token_command('withdraw', '--name', 'ada');
-  await page.waitForURL('**/login', { timeout: 15_000 });
+  await page.waitForURL('**/login');
   await log_in(token);
   await page.locator('[role=alert]', { hasText: 'withdrawn' }).waitFor();
 });

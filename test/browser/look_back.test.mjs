@@ -24,7 +24,7 @@ const clock_beyond = (t_s) => eventually(async () => {
 }, 60_000);
 const says_of_then = (pattern) => reads(dashboard.page.locator('[data-test=as-of]'), pattern);
 
-test('something happens, and is over', { timeout: 180_000 }, async () => {
+test('something happens, and is over', { timeout: 500_000 }, async () => {
   const { page } = dashboard;
   at.first = await clock_beyond(await now_s() + 1.5);
   await clock_beyond(at.first + 0.3);
@@ -49,7 +49,7 @@ test('something happens, and is over', { timeout: 180_000 }, async () => {
   await ask(page, 'PUT', '/sim/speed', { speed: 1 });
 });
 
-test('the scene has the objects of that instant, and cannot be changed there', { timeout: 60_000 }, async () => {
+test('the scene has the objects of that instant, and cannot be changed there', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/scene/crate?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=objects]', { hasText: 'crate' }).waitFor();
@@ -61,7 +61,7 @@ test('the scene has the objects of that instant, and cannot be changed there', {
   await page.getByText('There was no object of the name crate.').waitFor();
 });
 
-test('recovery tells what each arm needed then, and resumes nothing', { timeout: 60_000 }, async () => {
+test('recovery tells what each arm needed then, and resumes nothing', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/recovery?t=${at.stopped.toFixed(2)}`);
   await page.getByText('2 of 2 arms stood until they would be resumed.').waitFor();
@@ -73,7 +73,7 @@ test('recovery tells what each arm needed then, and resumes nothing', { timeout:
   await page.getByText('No arm waited to be resumed.').waitFor();
 });
 
-test('alerts are those that had been told', { timeout: 60_000 }, async () => {
+test('alerts are those that had been told', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/alerts?t=${at.stopped.toFixed(2)}`);
   await page.locator('[data-test=alerts]', { hasText: 'stopped: left, right' }).waitFor();
@@ -82,7 +82,7 @@ test('alerts are those that had been told', { timeout: 60_000 }, async () => {
   await says_of_then(/as it is now/);
 });
 
-test('the policy is the one that was in force', { timeout: 60_000 }, async () => {
+test('the policy is the one that was in force', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/policies?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=policy-form] input[value=coordinated]:checked').waitFor();
@@ -91,7 +91,7 @@ test('the policy is the one that was in force', { timeout: 60_000 }, async () =>
   await page.screenshot(path_for('look-back-policies-dark'));
 });
 
-test('a diagram shows where both were, without what nobody knows of then', { timeout: 60_000 }, async () => {
+test('a diagram shows where both were, without what nobody knows of then', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/pair/there/back?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=diagram] canvas').first().waitFor();

@@ -17,7 +17,7 @@ const go = (hash) => go_to(page, hash);
 const speed = (value) => ask(page, 'PUT', '/sim/speed', { speed: value });
 const ended = (id) => finished(page, id);
 
-test('an arm is moved by hand as long as a button is held: by mouse, key and finger', { timeout: 120_000 }, async () => {
+test('an arm is moved by hand as long as a button is held: by mouse, key and finger', { timeout: 400_000 }, async () => {
   await speed(0.2);  // so that a busy machine lets go before the arm is there
   await go('#/arm/left');
   await page.locator('[data-test=control-person]').fill('Ada');
@@ -35,7 +35,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   const is_held = (yes) => page.locator(`[data-test=hold-ready][aria-pressed=${yes}]`).waitFor();
   await button.hover();
   await page.mouse.down();
-  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor();
   await is_held(true);
   await page.screenshot(path_for('by-hand-dark'));
   await page.mouse.up();
@@ -45,7 +45,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
 
   await button.focus();
   await page.keyboard.down('Space');
-  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor();
   await page.keyboard.up('Space');
   assert.equal((await canceled(2)).state, 'canceled');
 
@@ -55,7 +55,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   const { x, y, width, height } = await button.boundingBox();
   const finger = (type, dx = 0) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: type === 'touchEnd' ? [] : [{ x: x + width / 2 + dx, y: y + height / 2 }] });
   await finger('touchStart');
-  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor();
   await finger('touchMove', 15);  // a finger never lies still
   await is_held(true);
   assert.equal((await by_hand()).filter((job) => job.result === null).length, 1);
@@ -68,7 +68,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   // Somebody else takes control: what is held is let go, and the page says by whom.
   await button.hover();
   await page.mouse.down();
-  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor();
   await ask(page, 'POST', '/control', { who: 'Bob', take: true });
   await page.locator('[data-test=take-control]', { hasText: 'Take control from Bob' }).waitFor();
   await page.mouse.up();
@@ -82,7 +82,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   await ended('back-home');
 });
 
-test('what the other policies would have done is asked from the page, and one of them put in force', { timeout: 180_000 }, async () => {
+test('what the other policies would have done is asked from the page, and one of them put in force', { timeout: 500_000 }, async () => {
   await speed(10);
   const arms = ['left', 'right'];
   for (const arm of arms) await page.locator(`[data-test=arm-${arm}] [data-test=arm-state]`, { hasText: 'idle' }).waitFor();
@@ -110,7 +110,7 @@ test('what the other policies would have done is asked from the page, and one of
 });
 
 // The connection stays open, and nothing comes.
-test('what is old is shown as old, with its age, and as fresh once more is heard', { timeout: 60_000 }, async () => {
+test('what is old is shown as old, with its age, and as fresh once more is heard', { timeout: 300_000 }, async () => {
   const age_s = async (locator) => Number((await locator.textContent()).match(/([\d.]+) s/)[1]);
   const saturation = () => page.evaluate(() => getComputedStyle(document.querySelector('.view')).filter);
   await eventually(async () => assert.equal(await saturation(), 'none'));
