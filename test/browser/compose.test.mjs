@@ -8,8 +8,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
-import { arm_now, ask, copied_by, drop_files, finished, go_to, job_through, path_for, run, send_through, with_dashboard } from './harness.mjs';
-import { difference } from './pictures.mjs';
+import { arm_now, ask, copied_by, drop_files, eventually, finished, go_to, job_through, looks_different, path_for, reads, run, send_through, view_picture, with_dashboard } from './harness.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 const kLeastShown_px = 1500;
@@ -25,39 +24,32 @@ after(() => rmSync(folder, { recursive: true, force: true }));
 const go = (hash) => go_to(page, hash);
 const send = (...job) => send_through(page, ...job);
 const ended = (id) => finished(page, id);
+const holds = (field, pattern) => eventually(async () => assert.match(await field.inputValue(), pattern));
 
-async function view_picture() {
-  await page.evaluate(() => window.armloom.drawn());
-  return page.locator('.view canvas').screenshot({ timeout: 60_000 });
-}
-
-test('a job is judged before it is sent, a bag of jobs is taken whole', { timeout: 60_000 }, async () => {
+test('a job is judged before it is sent, a bag of jobs is taken whole', { timeout: 300_000 }, async () => {
   await page.locator('[data-test=new-job]').click();
   const { names, q } = await arm_now(page, 'left');
   const text = page.locator('[data-test=job-text]');
   await text.fill(JSON.stringify(job_through('judged', names, [q, kMiddle, q], 4)));
   await page.locator('[data-test=judge]').click();
-  assert.match(await page.locator('[data-test=judged]').innerText(), /free\s+It would start now/);
+  await reads(page.locator('[data-test=judged]'), /free\s+It would start now/);
   assert.equal((await ask(page, 'GET', '/jobs/judged')).status, 404);
 
   // Previewed: a ghost of the arm where it would be, and where it would meet what stands in its way.
-  const without = await view_picture();
+  const without = await view_picture(page);
   await page.locator('[data-test=preview-time]').fill('4');
-  // The ghost comes once the form has been drawn, which may be after a picture or two.
-  let ghost = { count: 0 };
-  for (let tries = 0; tries < 30 && ghost.count <= kLeastShown_px; tries++) ghost = await difference(chromium.context, without, await view_picture());
-  assert.ok(ghost.count > kLeastShown_px, `${ghost.count} pixels changed`);
+  await looks_different(page, without, kLeastShown_px);
   await ask(page, 'PUT', '/scene/objects/post', { box: [0.1, 0.1, 0.6], xyz: [-0.05, 0, 0.6], rpy: [0, 0, 0] });
   await page.locator('[data-test=judge]').click();
   await page.locator('[data-test=show-conflict]').first().click();
-  assert.match(await page.locator('[data-test=judged]').innerText(), /in conflict/);
+  await reads(page.locator('[data-test=judged]'), /in conflict/);
   await page.waitForFunction(() => { const at = Number(document.querySelector('[data-test=preview-time]').value); return at > 0.1 && at < 3.9; });
   await page.evaluate(() => window.armloom.drawn());
   await page.screenshot(path_for('preview-dark'));
   await ask(page, 'DELETE', '/scene/objects/post');
   const bag = [1, 2].map((i) => ({ at: 0, job: job_through(`bag-${i}`, names, [q, q.map((v, k) => v + (k === 0 ? 0.1 * i : 0)), q], 1) }));
   await text.fill(JSON.stringify(bag));
-  assert.match(await page.locator('[data-test=bag]').innerText(), /2 jobs/);
+  await reads(page.locator('[data-test=bag]'), /2 jobs/);
   await page.screenshot(path_for('compose-dark'));
   await page.locator('[data-test=send]').click();
   await page.locator('[data-test=accepted]').getByText('bag-2').click();
@@ -65,7 +57,7 @@ test('a job is judged before it is sent, a bag of jobs is taken whole', { timeou
   await page.locator('[data-test=list-finished] [data-test="job-bag-2"]').waitFor();
 });
 
-test('a file that is dropped anywhere on the page is shown, and sent', { timeout: 60_000 }, async () => {
+test('a file that is dropped anywhere on the page is shown, and sent', { timeout: 300_000 }, async () => {
   await go('#/');
   const { names, q } = await arm_now(page, 'left');
   const way = [q, q.map((v, k) => v + (k === 0 ? -0.3 : 0))];
@@ -74,7 +66,7 @@ test('a file that is dropped anywhere on the page is shown, and sent', { timeout
   writeFileSync(file, JSON.stringify(trajectory));  // as a ROS tool has it: no job around it
   await drop_files(page, [file], '.view canvas');
   await page.locator('[data-test=page-new]').waitFor();
-  assert.deepEqual(JSON.parse(await page.locator('[data-test=job-text]').inputValue()), trajectory);
+  await eventually(async () => assert.equal(await page.locator('[data-test=job-text]').inputValue(), JSON.stringify(trajectory)));
   await page.locator('[data-test=preview-time]').waitFor();
   await page.locator('[data-test=judge]').click();
   await page.locator('[data-test=judged]', { hasText: 'free' }).waitFor();
@@ -83,7 +75,7 @@ test('a file that is dropped anywhere on the page is shown, and sent', { timeout
   await page.locator(`[data-test=list-finished] [data-test="job-${id}"][data-state=succeeded]`).waitFor();
 });
 
-test('a request and a job are copied as curl and as Python, and both work', { timeout: 120_000 }, async () => {
+test('a request and a job are copied as curl and as Python, and both work', { timeout: 400_000 }, async () => {
   const { names, q } = await arm_now(page, 'right');
   const copy = (what) => page.locator(`.pane [data-test=copy-${what}]`);
   for (const [what, program] of [['curl', ['bash', '-c']], ['Python', ['python3', '-c']]]) {
@@ -101,7 +93,8 @@ test('a request and a job are copied as curl and as Python, and both work', { ti
   }
 });
 
-test('a job is cancelled after a question only', { timeout: 60_000 }, async () => {
+test('a job is cancelled after a question only', { timeout: 300_000 }, async () => {
+  await ask(page, 'PUT', '/sim/speed', { speed: 0.1 });  // a busy machine is given the time to ask
   await send('left', 'unwanted', [kMiddle, null], 5);
   const row = page.locator('[data-test="job-unwanted"]');
   await row.getByRole('button', { name: 'Cancel unwanted' }).click();
@@ -109,49 +102,53 @@ test('a job is cancelled after a question only', { timeout: 60_000 }, async () =
   assert.match(await row.getAttribute('data-state'), /queued|running|scheduled/);
   await row.getByRole('button', { name: 'Cancel unwanted' }).click();
   await row.locator('[data-test=confirm-cancel]').click();
+  await ask(page, 'PUT', '/sim/speed', { speed: 1 });
   await page.locator('[data-test=list-finished] [data-test="job-unwanted"]').waitFor();
+  await page.locator('[data-test="job-unwanted"][data-state=canceled]').waitFor();
   await page.locator('[data-test=filter]').fill('canceled left');
   await page.locator('[data-test="job-by-curl"]').waitFor({ state: 'detached' });
-  assert.equal(await row.getAttribute('data-state'), 'canceled');
+  await page.locator('[data-test="job-unwanted"]').waitFor();
   await page.locator('[data-test=filter]').fill('');
 });
 
-test('a way to a goal is planned by form, looked at, and sent', { timeout: 120_000 }, async () => {
+test('a way to a goal is planned by form, looked at, and sent', { timeout: 400_000 }, async () => {
   await page.locator('[data-test=new-job]').click();
   await page.locator('[data-test=plan-goal] summary').click();
   await page.locator('[data-test=plan-arm]').selectOption('left');
   await page.locator('[data-test=plan-kind]').selectOption('pose');
   await page.locator('[data-test=plan-xyz]').fill('0, 9, 0.5');
   await page.locator('[data-test=plan]').click();
-  await page.locator('[data-test=plan-form] [data-test=problem]').waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=plan-form] [data-test=problem]').waitFor();
   await page.locator('[data-test=plan-xyz]').fill('zero');
   await page.locator('[data-test=plan]').click();
-  assert.match(await page.locator('[data-test=plan-fault]').innerText(), /Position.*zero/);
-  const before = await view_picture();
+  await reads(page.locator('[data-test=plan-fault]'), /Position.*zero/);
+  const before = await view_picture(page);
   await page.locator('[data-test=plan-kind]').selectOption('named');
   await page.locator('[data-test=plan-named]').selectOption('ready');
   await page.locator('[data-test=plan]').click();
-  await page.locator('[data-test=planned]').waitFor({ timeout: 60_000 });
-  assert.match(await page.locator('[data-test=planned]').innerText(), /proven.*could start now/);
-  assert.match(await page.locator('[data-test=job-text]').inputValue(), /left to ready[^]*left_panda_joint1/);
-  const ghost = await difference(chromium.context, before, await view_picture());
-  assert.ok(ghost.count > kLeastGhost_px, `${ghost.count} pixels of ghosts`);
+  await page.locator('[data-test=planned]').waitFor();
+  await reads(page.locator('[data-test=planned]'), /proven.*could start now/);
+  await holds(page.locator('[data-test=job-text]'), /left to ready[^]*left_panda_joint1/);
+  await looks_different(page, before, kLeastGhost_px, 'pixels of ghosts');
   await page.screenshot(path_for('plan-dark'));
   await page.locator('[data-test=send]').click();
   const id = await page.locator('[data-test=accepted] a').innerText();
   await ended(id);
 });
 
-test('a pasted goal is planned and shown before it is sent', { timeout: 120_000 }, async () => {
+test('a pasted goal is planned and shown before it is sent', { timeout: 400_000 }, async () => {
   await page.locator('[data-test=new-job]').click();
   const ghost = () => page.evaluate(() => window.armloom.ghost());
   const text = page.locator('[data-test=job-text]');
   await text.fill(JSON.stringify({ id: 'by-goal', arm: 'right', move_to: { named: 'ready' } }));
   await page.locator('[data-test=goal-way]', { hasText: 'as it would be planned now' }).waitFor();
-  const [end, bar] = [await ghost(), page.locator('[data-test=preview-time]')];
-  assert.ok(Object.keys(end ?? {}).some((joint) => joint.startsWith('right_')), 'the arm stands at its goal, as a ghost');
-  await bar.fill('0');
-  assert.notDeepEqual(await ghost(), end);
+  const end = await eventually(async () => {
+    const shown = await ghost();
+    assert.ok(Object.keys(shown ?? {}).some((joint) => joint.startsWith('right_')), 'the arm stands at its goal, as a ghost');
+    return shown;
+  });
+  await page.locator('[data-test=preview-time]').fill('0');
+  await eventually(async () => assert.notDeepEqual(await ghost(), end));
   await page.screenshot(path_for('compose-goal'));
   // What is half typed asks nothing; a place that is out of reach says so.
   await text.fill(JSON.stringify({ arm: 'right', move_to: { named: 'rea' } }));
@@ -161,7 +158,7 @@ test('a pasted goal is planned and shown before it is sent', { timeout: 120_000 
   await text.fill('');
 });
 
-test('the goal of a tool is dragged in the cell: planned, judged and shown before it is sent', { timeout: 120_000 }, async () => {
+test('the goal of a tool is dragged in the cell: planned, judged and shown before it is sent', { timeout: 400_000 }, async () => {
   await go('#/');
   await page.locator('[data-test=new-job]').click();
   await page.locator('[data-test=plan-goal] summary').click();
@@ -169,25 +166,24 @@ test('the goal of a tool is dragged in the cell: planned, judged and shown befor
   await page.locator('[data-test=plan-kind]').selectOption('pose');
   await page.locator('[data-test=plan-xyz]').fill('');
   await page.locator('[data-test=plan-move]').click();
-  await page.evaluate(() => window.armloom.drawn());
-  const before = await view_picture();
+  await page.waitForFunction(() => window.armloom.where_is_tool() !== null);
+  const before = await view_picture(page);
   const view = await page.locator('.view canvas').boundingBox();
   const tool = await page.evaluate(() => window.armloom.where_is_tool());
   await page.mouse.move(view.x + tool.x, view.y + tool.y);
   await page.mouse.down();
   await page.mouse.move(view.x + tool.x + 20, view.y + tool.y - 20, { steps: 6 });
   await page.mouse.up();
-  await page.locator('[data-test=planned]').waitFor({ timeout: 60_000 });
-  assert.match(await page.locator('[data-test=planned]').innerText(), /proven.*could start now/);
-  assert.match(await page.locator('[data-test=plan-xyz]').inputValue(), /^-?[\d.]+, -?[\d.]+, -?[\d.]+$/);
-  assert.match(await page.locator('[data-test=job-text]').inputValue(), /right_panda_joint1/);
-  const ghost = await difference(chromium.context, before, await view_picture());
-  assert.ok(ghost.count > kLeastGhost_px, `${ghost.count} pixels of ghosts`);
+  await page.locator('[data-test=planned]').waitFor();
+  await reads(page.locator('[data-test=planned]'), /proven.*could start now/);
+  await holds(page.locator('[data-test=plan-xyz]'), /^-?[\d.]+, -?[\d.]+, -?[\d.]+$/);
+  await holds(page.locator('[data-test=job-text]'), /right_panda_joint1/);
+  await looks_different(page, before, kLeastGhost_px, 'pixels of ghosts');
   const { status, value } = await ask(page, 'GET', '/jobs?arm=right&state=running');
   assert.equal(status, 200);
   assert.deepEqual(value.jobs, [], 'nothing moves before it is sent');
   await page.locator('[data-test=plan-turn]').click();
-  assert.equal(await page.locator('[data-test=plan-move]').getAttribute('aria-pressed'), 'false');
+  await page.locator('[data-test=plan-move][aria-pressed=false]').waitFor();
   await page.screenshot(path_for('drag-tool-dark'));
   await page.locator('[data-test=send]').click();
   await ended(await page.locator('[data-test=accepted] a').innerText());

@@ -4,7 +4,7 @@
 
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
-import { ask, Browser, path_for, resume, send_through, with_dashboard } from './harness.mjs';
+import { address_like, ask, Browser, eventually, go_to, looks_different, path_for, reads, resume, send_through, view_picture, with_dashboard } from './harness.mjs';
 import { difference, pixels_like } from './pictures.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -23,14 +23,9 @@ let page;
 let finger;
 const tablet = new Browser();
 const { chromium: desk } = with_dashboard('config/two_pandas.json', 'certified', {}, (opened) => { ({ page, url } = opened); });
-after(() => tablet.close(), { timeout: 30_000 });
+after(() => tablet.close(), { timeout: 120_000 });
 
 const send = (...job) => send_through(page, ...job);
-
-async function view_picture(of = page) {
-  await of.evaluate(() => window.armloom.drawn());
-  return of.locator('.view canvas').screenshot({ timeout: 60_000 });
-}
 
 /** Goes on by Tab until this has the focus. */
 async function tab_to(selector, key = 'Tab') {
@@ -41,39 +36,40 @@ async function tab_to(selector, key = 'Tab') {
   assert.fail(`${selector} is not reached in ${kMostTabs} steps`);
 }
 
-const focused = () => page.evaluate(() => document.activeElement.dataset.test ?? document.activeElement.className);
+const focus_is_on = (what, words) => eventually(async () => assert.equal(await page.evaluate(() => document.activeElement.dataset.test ?? document.activeElement.className), what, words));
 
-test('the cell is turned by keys and by buttons, without dragging', { timeout: 120_000 }, async () => {
-  const first = await view_picture();
+test('the cell is turned by keys and by buttons, without dragging', { timeout: 400_000 }, async () => {
+  const first = await view_picture(page);
   await tab_to('[data-test=view]');
   for (const key of ['ArrowRight', 'ArrowRight', 'ArrowUp', '+']) await page.keyboard.press(key);
-  const turned = await difference(desk.context, first, await view_picture());
-  assert.ok(turned.count > kTurned_px, `${turned.count} pixels changed`);
-  assert.match(page.url(), /camera=/);
+  await looks_different(page, first, kTurned_px);
+  await address_like(page, /camera=/);
   await page.keyboard.press('0');
-  assert.doesNotMatch(page.url(), /camera=/);
+  await address_like(page, /^(?!.*camera=)/);
   await page.locator('[data-test=camera-left]').click();
-  assert.match(page.url(), /camera=/);
+  await address_like(page, /camera=/);
   await page.locator('[data-test=camera-whole]').click();
-  assert.doesNotMatch(page.url(), /camera=/);
+  await address_like(page, /^(?!.*camera=)/);
   await page.mouse.move(5, 5);
   await page.evaluate(() => document.activeElement.blur());
-  const whole = await difference(desk.context, first, await view_picture());
-  assert.ok(whole.count < kTurned_px / 10, `${whole.count} pixels are elsewhere`);
+  await eventually(async () => {
+    const whole = await difference(desk.context, first, await view_picture(page));
+    assert.ok(whole.count < kTurned_px / 10, `${whole.count} pixels are elsewhere`);
+  });
 });
 
-test('a job is planned, sent, looked at and cancelled by keys alone', { timeout: 90_000 }, async () => {
+test('a job is planned, sent, looked at and cancelled by keys alone', { timeout: 300_000 }, async () => {
   await tab_to('[data-test=new-job]', 'Shift+Tab');
   await page.keyboard.press('Enter');
   await page.locator('[data-test=page-new]').waitFor();
-  assert.equal(await focused(), 'page-new', 'what was opened has the focus');
+  await focus_is_on('page-new', 'what was opened has the focus');
   await tab_to('summary');
   await page.keyboard.press('Enter');
   await tab_to('[data-test=plan-named]');
   await page.keyboard.type('ready');
   await tab_to('[data-test=plan]');
   await page.keyboard.press('Enter');
-  await page.locator('[data-test=planned]').waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=planned]').waitFor();
   await ask(page, 'PUT', '/sim/speed', { speed: 0.05 });
   await tab_to('[data-test=send]');
   await page.keyboard.press('Enter');
@@ -81,17 +77,17 @@ test('a job is planned, sent, looked at and cancelled by keys alone', { timeout:
   const id = await accepted.innerText();
   await page.keyboard.press('Escape');
   await page.locator('.pane').waitFor({ state: 'detached' });
-  assert.equal(await focused(), 'new-job', 'who had the focus before has it again');
-  await page.locator(`[data-test=list-running] [data-test="job-${id}"]`).waitFor({ timeout: 40_000 });
+  await focus_is_on('new-job', 'who had the focus before has it again');
+  await page.locator(`[data-test=list-running] [data-test="job-${id}"]`).waitFor();
   await tab_to('.cancel');
   await page.keyboard.press('Enter');
   await page.locator('[data-test=confirm-cancel]').waitFor();
   await page.keyboard.press('Enter');
   await ask(page, 'PUT', '/sim/speed', { speed: 10 });
-  await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 40_000 });
+  await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();
 });
 
-test('what has the focus is never under a bar that sticks', { timeout: 60_000 }, async () => {
+test('what has the focus is never under a bar that sticks', { timeout: 300_000 }, async () => {
   // Slowly, so that what is reported is in sight for long: the next test looks at it.
   await ask(page, 'PUT', '/sim/speed', { speed: 0.1 });
   await ask(page, 'POST', '/stop');
@@ -115,12 +111,14 @@ test('what has the focus is never under a bar that sticks', { timeout: 60_000 },
   await page.setViewportSize({ width: 1440, height: 900 });
 });
 
-test('what is reported is marked on the timeline, and looked back at from its line', { timeout: 90_000 }, async () => {
+test('what is reported is marked on the timeline, and looked back at from its line', { timeout: 300_000 }, async () => {
   await page.evaluate(() => window.armloom.drawn());
   await page.locator('[data-test=stopped]').waitFor();
-  const strip = await page.locator('.timeline canvas').screenshot();
-  const found = await Promise.all([[0xff, 0x70, 0x78], [0xf0, 0xb5, 0x41]].map((rgb) => pixels_like(desk.context, strip, rgb, 12)));
-  assert.ok(Math.max(...found) > kLeastEvent_px, `${found} pixels of marks`);
+  await eventually(async () => {
+    const strip = await page.locator('.timeline canvas').screenshot();
+    const found = await Promise.all([[0xff, 0x70, 0x78], [0xf0, 0xb5, 0x41]].map((rgb) => pixels_like(desk.context, strip, rgb, 12)));
+    assert.ok(Math.max(...found) > kLeastEvent_px, `${found} pixels of marks`);
+  });
   // Keys that come faster than the page is painted: it is told, put away, and told again.
   const told_after = await page.evaluate(async () => {
     const canvas = document.querySelector('[data-test=lanes]');
@@ -153,7 +151,7 @@ test('what is reported is marked on the timeline, and looked back at from its li
     await page.locator('[data-test=instant]').waitFor({ state: 'detached' });
   };
   await to_the_stop();
-  assert.match(await page.locator('.timeline [role=status]').textContent(), kTold);
+  await page.locator('.timeline [role=status]', { hasText: kTold }).waitFor({ state: 'attached' });
   await page.screenshot(path_for('event-tip-dark'));
   await page.keyboard.press('Enter');
   await follow_now();
@@ -165,12 +163,12 @@ test('what is reported is marked on the timeline, and looked back at from its li
   const notch = { x: told.x + told.width / 2, y: lanes.y + lanes.height - 22 };
   await page.mouse.move(notch.x, notch.y - 30);
   await page.mouse.move(notch.x, notch.y);
-  assert.match(await tip.innerText(), kTold);
+  await reads(tip, kTold);
   await page.mouse.click(notch.x, notch.y);
   await follow_now();
   await page.locator('.notices [data-test^=then-]').first().click();
   await page.locator('[data-test=instant]').waitFor();
-  assert.match(page.url(), /[?&]t=\d/);
+  await address_like(page, /[?&]t=\d/);
   const [scrub, zoom] = [await page.locator('[data-test=scrub]').boundingBox(), await page.getByRole('button', { name: 'Zoom out' }).boundingBox()];
   assert.ok(scrub.width >= kLeastScrub_px && scrub.x + scrub.width <= zoom.x, `the scrub bar is ${scrub.width} px wide, from ${scrub.x}; its neighbour begins at ${zoom.x}`);
   await page.screenshot(path_for('event-marks-dark'));
@@ -179,7 +177,7 @@ test('what is reported is marked on the timeline, and looked back at from its li
   await ask(page, 'PUT', '/sim/speed', { speed: 10 });
 });
 
-test('on a tablet all is done by finger', { timeout: 180_000 }, async () => {
+test('on a tablet all is done by finger', { timeout: 500_000 }, async () => {
   finger = await tablet.open({ colorScheme: 'light', viewport: { width: 1024, height: 768 }, hasTouch: true, isMobile: true });
   await tablet.visit(url);
   const small = await finger.evaluate((least) => [...document.querySelectorAll('button, select, summary, input[type=search]')]
@@ -206,8 +204,7 @@ test('on a tablet all is done by finger', { timeout: 180_000 }, async () => {
   await finger.locator('[data-test=page-arm]').waitFor();
   await finger.setViewportSize({ width: 820, height: 1180 });
   await finger.locator('[data-test=page-arm] .uplot').waitFor();
-  const wide = await finger.evaluate(() => document.documentElement.scrollWidth - innerWidth);
-  assert.equal(wide, 0, 'nothing is beside the page');
+  await eventually(async () => assert.equal(await finger.evaluate(() => document.documentElement.scrollWidth - innerWidth), 0, 'nothing is beside the page'));
   await finger.screenshot(path_for('tablet-upright-light'));
   for (let i = 0; i < 12; i++) await ask(finger, 'DELETE', `/jobs/waits-${i}`);
   await resume(finger, (locator) => locator.tap());
@@ -219,20 +216,21 @@ test('on a tablet all is done by finger', { timeout: 180_000 }, async () => {
   assert.deepEqual(tablet.errors, []);
 });
 
-test('a diagram is read without colours', { timeout: 60_000 }, async () => {
+test('a diagram is read without colours', { timeout: 300_000 }, async () => {
   await ask(page, 'PUT', '/sim/speed', { speed: 1 });
   await ask(page, 'POST', '/stop');
   await send('left', 'grey-left', [kMiddle, null], 6);
   await send('right', 'grey-right', [kMiddle, null], 6);
   const eyes = await desk.context.newCDPSession(page);
   await eyes.send('Emulation.setEmulatedVisionDeficiency', { type: 'achromatopsia' });
-  await page.evaluate(() => { location.hash = '#/pair/grey-left/grey-right'; });
+  await go_to(page, '#/pair/grey-left/grey-right');
   const diagram = page.locator('[data-test=diagram]');
   await diagram.locator('canvas').first().waitFor();
-  await page.evaluate(() => window.armloom.drawn());
-  const stripes = await pixels_like(desk.context, await diagram.screenshot(), kStripes_grey, 10);
+  await eventually(async () => {
+    const stripes = await pixels_like(desk.context, await diagram.screenshot(), kStripes_grey, 10);
+    assert.ok(stripes > kLeastStripes_px, `${stripes} pixels of stripes`);
+  });
   await page.screenshot(path_for('diagram-without-colours'));
-  assert.ok(stripes > kLeastStripes_px, `${stripes} pixels of stripes`);
   await eyes.send('Emulation.setEmulatedVisionDeficiency', { type: 'none' });
 });
 

@@ -8,8 +8,7 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { ask, finished, go_to, kRoot, path_for, send_through, with_dashboard } from './harness.mjs';
-import { difference } from './pictures.mjs';
+import { address_like, ask, counts, eventually, finished, go_to, kRoot, looks_different, path_for, reads, send_through, view_picture, with_dashboard } from './harness.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 const kLeastWay_px = 60;
@@ -26,53 +25,44 @@ const ended = (id) => finished(page, id);
 
 const send = (...job) => send_through(page, ...job);
 
-async function view_picture() {
-  await page.evaluate(() => window.armloom.drawn());
-  await page.evaluate(() => window.armloom.drawn());
-  return page.locator('.view canvas').screenshot({ timeout: 60_000 });  // a busy machine draws slowly
+/** A button of the cell puts more than so many pixels away. */
+async function puts_away(test, least_px, what) {
+  const shown = await view_picture(page);
+  await page.locator(`[data-test=${test}]`).click();
+  await looks_different(page, shown, least_px, what);
+  await page.locator(`[data-test=${test}]`).click();
 }
 
-/** How many pixels a button of the cell puts away. */
-async function put_away(test) {
-  const shown = await view_picture();
-  await page.locator(`[data-test=${test}]`).click();
-  const { count } = await difference(chromium.context, shown, await view_picture());
-  await page.locator(`[data-test=${test}]`).click();
-  return count;
-}
-
-test('the cell shows the way ahead, where arms come to rest, and what is closest', { timeout: 120_000 }, async () => {
+test('the cell shows the way ahead, where arms come to rest, and what is closest', { timeout: 400_000 }, async () => {
   await speed(0.02);  // what is compared hardly moves meanwhile
   await send('left', 'ahead', [kMiddle, null], 6, { name: 'there and back' });
-  await page.locator('[data-test=list-running] [data-test="job-ahead"]').waitFor({ timeout: 60_000 });
-  await page.waitForFunction(() => window.armloom.ahead() > 0, undefined, { timeout: 60_000 });
+  await page.locator('[data-test=list-running] [data-test="job-ahead"]').waitFor();
+  await page.waitForFunction(() => window.armloom.ahead() > 0);
   await page.locator('.distance-label:not([hidden])').first().waitFor();
-  assert.match(await page.locator('.distance-label:not([hidden])').first().innerText(), /^[\d.]+ (mm|m)$/);
+  await reads(page.locator('.distance-label:not([hidden])').first(), /^[\d.]+ (mm|m)$/);
   await page.screenshot(path_for('ahead-dark'));
-  const way_px = await put_away('show-ways');
-  assert.ok(way_px > kLeastWay_px, `the way ahead covers ${way_px} pixels`);
+  await puts_away('show-ways', kLeastWay_px, 'pixels of the way ahead');
   await page.locator('[data-test=show-distances]').click();
-  assert.equal(await page.locator('.distance-label:not([hidden])').count(), 0);
+  await counts(page.locator('.distance-label:not([hidden])'), 0);
   await page.locator('[data-test=show-distances]').click();
   await speed(20);
   await ended('ahead');
   await speed(0.02);
   await send('left', 'away', [kMiddle], 6);
-  await page.locator('[data-test=list-running] [data-test="job-away"]').waitFor({ timeout: 60_000 });
-  await page.waitForFunction(() => window.armloom.ahead() > 0, undefined, { timeout: 60_000 });
-  const gone_px = await put_away('show-ghosts');
-  assert.ok(gone_px > kLeastGhost_px, `the ghost at its goal covers ${gone_px} pixels`);
+  await page.locator('[data-test=list-running] [data-test="job-away"]').waitFor();
+  await page.waitForFunction(() => window.armloom.ahead() > 0);
+  await puts_away('show-ghosts', kLeastGhost_px, 'pixels of the ghost at its goal');
 });
 
-test('who is blocked says by whom, which links, how close, since when and until when', { timeout: 90_000 }, async () => {
+test('who is blocked says by whom, which links, how close, since when and until when', { timeout: 300_000 }, async () => {
   await send('right', 'blocked', [kMiddle, null], 4, { backlog_timeout_s: 300 });
   const row = page.locator('[data-test=list-backlog] [data-test="job-blocked"]');
-  await row.waitFor({ timeout: 60_000 });
+  await row.waitFor();
   await row.locator('[data-test=when]', { hasText: /blocked for [\d.]+ s.*expires in \d+ min/ }).waitFor();
-  assert.match(await row.locator('[data-test=reason]').textContent(), /right_panda_\w+ would (touch|come within).*left_panda_\w+, [\d.]+ s into its motion/);
+  await row.locator('[data-test=reason]', { hasText: /right_panda_\w+ would (touch|come within).*left_panda_\w+, [\d.]+ s into its motion/ }).waitFor();
 });
 
-test('who waits is made more urgent, or less, in its row', { timeout: 60_000 }, async () => {
+test('who waits is made more urgent, or less, in its row', { timeout: 300_000 }, async () => {
   const row = page.locator('[data-test="job-blocked"]');
   const priority = async () => (await ask(page, 'GET', '/jobs/blocked')).value.priority;
   await row.hover();
@@ -90,35 +80,32 @@ test('who waits is made more urgent, or less, in its row', { timeout: 60_000 }, 
   assert.equal(await moving.locator('[data-test=urgency]').count(), 0, 'nobody goes before what moves');
 });
 
-test('a diagram shows authority, and both arms where it is pointed at', { timeout: 90_000 }, async () => {
+test('a diagram shows authority, and both arms where it is pointed at', { timeout: 300_000 }, async () => {
   await page.locator('[data-test="job-blocked"] [data-test=why]').click();
   const diagram = page.locator('[data-test=diagram]');
   await diagram.locator('canvas').first().waitFor();
-  await page.locator('[data-test=instant-a_s]').waitFor({ timeout: 40_000 });
-  const before = await view_picture();
+  await page.locator('[data-test=instant-a_s]').waitFor();
+  const before = await view_picture(page);
   const box = await diagram.boundingBox();
   await page.mouse.move(box.x + box.width * 0.55, box.y + box.height * 0.4);
-  const pointed = await difference(chromium.context, before, await view_picture());
-  assert.ok(pointed.count > kLeastGhost_px, `${pointed.count} pixels of ghosts`);
+  await looks_different(page, before, kLeastGhost_px, 'pixels of ghosts');
   await page.screenshot(path_for('diagram-pointed-dark'));
   await page.mouse.move(box.x + box.width + 400, box.y);
   await page.locator('[data-test=instant-b_s]').focus();
   for (let i = 0; i < 5; i++) await page.keyboard.press('PageUp');
-  const by_key = await difference(chromium.context, before, await view_picture());
-  assert.ok(by_key.count > kLeastGhost_px, `${by_key.count} pixels of ghosts`);
+  await looks_different(page, before, kLeastGhost_px, 'pixels of ghosts');
   await page.getByRole('button', { name: 'Close', exact: true }).click();
   await speed(10);
   await ended('away');
 });
 
-test('a job page has its joints as planned and as measured', { timeout: 90_000 }, async () => {
+test('a job page has its joints as planned and as measured', { timeout: 300_000 }, async () => {
   await ask(page, 'DELETE', '/jobs/blocked');  // it may have begun: then it brakes first
   await ended('blocked');
-  await page.waitForTimeout(500);  // until the page has where the arm stands
   await speed(2);
   await send('right', 'measured', [kMiddle.map((angle, i) => (i === 0 ? 1 : angle)), null], 3);
   await go('#/job/measured');
-  await page.locator('[data-test=page-job] h3', { hasText: /Planned/ }).waitFor({ timeout: 40_000 });
+  await page.locator('[data-test=page-job] h3', { hasText: /Planned/ }).waitFor();
   await ended('measured');
   await page.locator('[data-test=page-job] h3', { hasText: 'Planned and measured' }).waitFor();
   // Time, and every joint twice.
@@ -126,17 +113,17 @@ test('a job page has its joints as planned and as measured', { timeout: 90_000 }
   await page.screenshot(path_for('planned-dark'));
 });
 
-test('after a stop the recovery page says why, and leads back', { timeout: 120_000 }, async () => {
+test('after a stop the recovery page says why, and leads back', { timeout: 400_000 }, async () => {
   await speed(1);
   await send('left', 'interrupted', [kMiddle.map((angle, i) => (i === 0 ? 0.5 : angle))], 20);
-  await page.locator('[data-test=list-running] [data-test="job-interrupted"]').waitFor({ timeout: 40_000 });
+  await page.locator('[data-test=list-running] [data-test="job-interrupted"]').waitFor();
   await page.keyboard.press('F8');
   // It is told as stopped, everywhere, and nobody knows when it ends.
   await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'stopped' }).waitFor();
   await page.locator('.arm-label', { hasText: /left.*stopped/s }).waitFor();
   await page.locator('[data-test="job-interrupted"] [data-test=figure]', { hasText: 'stopped' }).waitFor();
   await page.waitForFunction(() => /waits for resume: left is stopped \(operator\), until it is resumed/.test(document.querySelector('[data-test=told-left]').textContent));
-  assert.ok((await page.evaluate(() => window.armloom.lanes())).every(({ marks }) => marks.every(({ expected, to_s }) => !expected || to_s === null || to_s === Infinity)));
+  await eventually(async () => assert.ok((await page.evaluate(() => window.armloom.lanes())).every(({ marks }) => marks.every(({ expected, to_s }) => !expected || to_s === null || to_s === Infinity))));
   await page.screenshot(path_for('stopped-told-dark'));
   await go('#/arm/left');
   await page.locator('[data-test=resume-arm]').click();
@@ -148,22 +135,22 @@ test('after a stop the recovery page says why, and leads back', { timeout: 120_0
     assert.ok(await resume.isDisabled() && await alone.isDisabled(), `with ${i} looked at`);
     await page.locator(`[data-test=check-${i}]`).check();
   }
-  assert.ok(await alone.isEnabled());
+  await page.locator('[data-test=resume-left]:enabled').waitFor();
   await page.screenshot(path_for('recovery-dark'));
   await resume.click();
   await page.locator('[data-test=stopped]').waitFor({ state: 'detached' });
   await speed(10);
   await ended('interrupted');
   await page.locator('[data-test=home-left]').click();
-  await page.locator('[data-test=need-left]', { hasText: 'at home' }).waitFor({ timeout: 60_000 });
+  await page.locator('[data-test=need-left]', { hasText: 'at home' }).waitFor();
   await speed(1);
 });
 
-test('alerts are counted until somebody acknowledges them, with a name', { timeout: 60_000 }, async () => {
+test('alerts are counted until somebody acknowledges them, with a name', { timeout: 300_000 }, async () => {
   await page.locator('[data-test=open-alerts]').click();
   await page.locator('[data-test=person]').fill('  ');
-  assert.ok(await page.locator('[data-test=acknowledge]').first().isDisabled(), 'nobody acknowledges nothing');
   await page.locator('[data-test=unnamed]').waitFor();
+  await counts(page.locator('[data-test=acknowledge]:enabled'), 0, 'nobody acknowledges nothing');
   await page.locator('[data-test=person]').fill('Ada <b>L</b>');
   await page.locator('[data-test=acknowledge]').first().click();
   await page.locator('[data-test=alerts]', { hasText: /Acknowledged by Ada <b>L<\/b>, \d{4}-\d\d-\d\d \d\d:\d\d:\d\d (UTC|[+−]\d\d:\d\d)/ }).waitFor();
@@ -175,7 +162,7 @@ test('alerts are counted until somebody acknowledges them, with a name', { timeo
   await page.locator('[data-test=open-alerts]').waitFor({ state: 'detached' });
 });
 
-test('an object is moved by hand', { timeout: 90_000 }, async () => {
+test('an object is moved by hand', { timeout: 300_000 }, async () => {
   await ask(page, 'PUT', '/scene/objects/crate', { box: [0.2, 0.2, 0.2], xyz: [0, 0.8, 0.3], rpy: [0, 0, 0] });
   await go('#/scene/crate');
   await page.locator('[data-test=by-hand]').click();
@@ -191,14 +178,14 @@ test('an object is moved by hand', { timeout: 90_000 }, async () => {
   await drag(60, 0);
   await page.waitForFunction(() => window.armloom.objects().find(({ name }) => name === 'crate').xyz[0] > 0.05);
   const there = (await page.evaluate(() => window.armloom.objects())).find(({ name }) => name === 'crate');
-  assert.match(page.url(), /#\/scene\/crate/);
+  await address_like(page, /#\/scene\/crate/);
   await page.waitForFunction((x) => document.querySelector('[data-test=object-x]').value === x, String(there.xyz[0]));
   await page.screenshot(path_for('by-hand-dark'));
   await ask(page, 'DELETE', '/scene/objects/crate');
   await go('#/');
 });
 
-test('another policy decides from the settings on, while no job is admitted', { timeout: 60_000 }, async () => {
+test('another policy decides from the settings on, while no job is admitted', { timeout: 300_000 }, async () => {
   const choose = (policy) => page.locator(`[data-test=policy-form] input[value=${policy}]`).check();
   await go('#/settings');
   await page.locator('[data-test=change-policy]:disabled').waitFor();
@@ -209,7 +196,7 @@ test('another policy decides from the settings on, while no job is admitted', { 
   await send('right', 'keeps-its-policy', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);
   await choose('certified');
   await page.locator('[data-test=no-change]', { hasText: 'Only while no job is admitted: 1 is' }).waitFor();
-  assert.ok(await page.locator('[data-test=change-policy]').isDisabled(), 'what would be refused is not asked');
+  await page.locator('[data-test=change-policy]:disabled').waitFor();  // what would be refused is not asked
   await page.screenshot(path_for('policy-dark'));
   await speed(10);
   await go('#/');
@@ -218,7 +205,7 @@ test('another policy decides from the settings on, while no job is admitted', { 
   await page.locator('.fact', { hasText: 'certified' }).waitFor({ state: 'attached' });
 });
 
-test('a job is given another way from its page', { timeout: 90_000 }, async () => {
+test('a job is given another way from its page', { timeout: 300_000 }, async () => {
   await speed(0.5);
   await send('right', 'another-way', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle))], 6);
   await go('#/job/another-way');
@@ -228,13 +215,13 @@ test('a job is given another way from its page', { timeout: 90_000 }, async () =
   await page.waitForFunction(async () => {
     const { replan } = await (await fetch('/api/v1/jobs/another-way')).json();
     return replan?.done > 0;
-  }, null, { timeout: 40_000 });
+  });
   await speed(10);
   await go('#/');
   await ended('another-way');
 });
 
-test('no event is missed or comes twice when the connection breaks', { timeout: 60_000 }, async () => {
+test('no event is missed or comes twice when the connection breaks', { timeout: 300_000 }, async () => {
   const before = await page.evaluate(() => window.armloom.numbers());
   assert.deepEqual([before.missed, before.doubled], [0, 0]);
   await chromium.context.setOffline(true);
@@ -242,7 +229,7 @@ test('no event is missed or comes twice when the connection breaks', { timeout: 
   await page.locator('[data-test=lost]').waitFor();
   await chromium.context.setOffline(false);
   await page.getByRole('button', { name: 'Try now' }).click().catch(() => {});  // it may be back already
-  await page.locator('[data-test=link].open').waitFor({ timeout: 40_000 });
+  await page.locator('[data-test=link].open').waitFor();
   await speed(4);
   await send('right', 'after-the-break', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);
   await ended('after-the-break');
@@ -263,5 +250,6 @@ test('the first view is light: all but the 3D part and what is loaded when it is
 });
 
 test('nothing so far was an error in the console', () => {
-  assert.deepEqual(chromium.errors.filter((text) => !/ERR_INTERNET_DISCONNECTED|ERR_NETWORK/.test(text)), []);
+  // What is canceled may have ended just before.
+  assert.deepEqual(chromium.errors.filter((text) => !/ERR_INTERNET_DISCONNECTED|ERR_NETWORK|409 \(Conflict\).*\/jobs\/blocked$/.test(text)), []);
 });

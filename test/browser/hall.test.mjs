@@ -8,7 +8,7 @@ import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
-import { ask, job_through, kRoot, path_for, with_dashboard } from './harness.mjs';
+import { ask, counts, eventually, go_to, job_through, kRoot, path_for, reads, with_dashboard } from './harness.mjs';
 
 const kArms = 8;
 const kJobsOfEach = 26;
@@ -44,7 +44,7 @@ function jobs_of(arm) {
   });
 }
 
-test('eight arms and two hundred waiting jobs stay legible', { timeout: 120_000 }, async () => {
+test('eight arms and two hundred waiting jobs stay legible', { timeout: 400_000 }, async () => {
   const lists = Array.from({ length: kArms }, (_, arm) => jobs_of(arm));
   const jobs = lists[0].flatMap((_, k) => lists.map((list) => list[k]));
   const { status, value } = await ask(page, 'POST', '/batches', { atomic: true, jobs });
@@ -53,25 +53,27 @@ test('eight arms and two hundred waiting jobs stay legible', { timeout: 120_000 
   await page.waitForFunction(() => window.armloom.lanes().every(({ marks }) => marks.length > 0));
   await page.evaluate(() => window.armloom.drawn());
 
-  const covered = await page.evaluate(() => {
+  const covered = () => page.evaluate(() => {
     const boxes = [...document.querySelectorAll('.arm-label')].map((label) => label.getBoundingClientRect());
     const overlap = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 2 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 2;
     return boxes.flatMap((a, i) => boxes.slice(i + 1).filter((b) => overlap(a, b))).length;
   });
-  assert.equal(covered, 0, 'labels cover each other');
-  assert.equal(await page.locator('.card').count(), kArms);
+  await eventually(async () => assert.equal(await covered(), 0, 'labels cover each other'));
+  await counts(page.locator('.card'), kArms);
   const lanes_px = (await page.locator('.timeline canvas').boundingBox()).height - 18;
   assert.ok(lanes_px / kArms >= kLeastLane_px, `a lane is ${(lanes_px / kArms).toFixed(1)} px high`);
-  const rows = await page.locator('.job').count();
-  assert.ok(rows > 2 * kArms && rows < 140, `${rows} rows are drawn`);
-  assert.equal(await page.locator('[data-test^=told-arm]').count(), kArms);
+  await eventually(async () => {
+    const rows = await page.locator('.job').count();
+    assert.ok(rows > 2 * kArms && rows < 140, `${rows} rows are drawn`);
+  });
+  await counts(page.locator('[data-test^=told-arm]'), kArms);
 
   await page.screenshot(path_for('hall-dark'));
   await page.locator('[data-test=filter]').fill('arm3');
-  assert.match(await page.locator('[data-test^=count-]').first().innerText(), /^\d+ of \d+$/);
-  await page.evaluate(() => { location.hash = '#/settings'; });
+  await reads(page.locator('[data-test^=count-]').first(), /^\d+ of \d+$/);
+  await go_to(page, '#/settings');
   await page.getByLabel('Light', { exact: true }).check();
-  await page.evaluate(() => { location.hash = '#/arm/arm3'; });
+  await go_to(page, '#/arm/arm3');
   await page.locator('[data-test=page-arm] .uplot').waitFor();
   await page.evaluate(() => window.armloom.drawn());
   await page.screenshot(path_for('hall-light'));

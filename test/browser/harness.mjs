@@ -11,9 +11,10 @@ import { mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
-import { after, before } from 'node:test';
+import { after, afterEach, before } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { promisify } from 'node:util';
+import { difference } from './pictures.mjs';
 
 export const kRoot = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 export const web_require = createRequire(join(kRoot, 'web/package.json'));
@@ -28,7 +29,9 @@ const kFlags = [
   '--use-angle=swiftshader-webgl', '--enable-unsafe-swiftshader', '--no-sandbox', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
 ];
-export const kPatience_ms = 20_000;
+// A busy machine may take ten times as long as an idle one; who fails waits for it in vain, nobody else.
+export const kPatience_ms = 60_000;
+const kAgain_ms = 50;
 
 /** A server of one cell; it can be ended, and begun anew at the same address. */
 export class Server {
@@ -83,8 +86,8 @@ export class Browser {
     this.context = await chromium.launchPersistentContext(this.profile_, {
       executablePath: kChromium, args: kFlags, viewport: { width: 1440, height: 900 }, ...options,
     });
+    this.context.setDefaultTimeout(kPatience_ms);
     this.page = this.context.pages()[0] ?? await this.context.newPage();
-    this.page.setDefaultTimeout(kPatience_ms);
     this.page.on('console', (message) => { if (message.type() === 'error') this.errors.push(`${message.text()} ${message.location().url}`); });
     this.page.on('pageerror', (error) => this.errors.push(String(error)));
     return this.page;
@@ -92,9 +95,9 @@ export class Browser {
 
   /** The dashboard, connected and drawn. */
   async visit(url) {
-    await this.page.goto(url, { timeout: 60_000 });  // a busy machine draws the first picture slowly
-    await this.page.locator('[data-test=link].open').waitFor({ timeout: 60_000 });
-    await this.page.waitForFunction(() => window.armloom?.is_drawn(), undefined, { timeout: 60_000 });
+    await this.page.goto(url);
+    await this.page.locator('[data-test=link].open').waitFor();
+    await this.page.waitForFunction(() => window.armloom?.is_drawn());
   }
 
   async close() {
@@ -115,22 +118,79 @@ export function with_dashboard(cell, policy, { more = [], visits = true, ...opti
     dashboard.page = await dashboard.chromium.open({ colorScheme: 'dark', ...options });
     if (visits) await dashboard.chromium.visit(dashboard.url);
     await opened(dashboard);
+  }, { timeout: 300_000 });
+  afterEach(async ({ name, passed }) => {
+    const picture = path_for(`failed-${name.replaceAll(/[^a-z0-9]+/gi, '-')}`);
+    if (passed === false && picture.path) await dashboard.page?.screenshot(picture).catch(() => undefined);  // it may be closed
   }, { timeout: 120_000 });
   after(async () => {
     await dashboard.chromium.close();
     await dashboard.server.end();
-  }, { timeout: 30_000 });
+  }, { timeout: 120_000 });
   return dashboard;
 }
 
-/** The page's address, without a reload. */
+/**
+ * Asks again and again until nothing is to be said against it, and answers what that answers: what the page shows
+ * follows what it was told, on a busy machine seconds later. Only what `assert` throws is put up with meanwhile.
+ */
+export async function eventually(claim, patience_ms = kPatience_ms) {
+  for (const until_ms = Date.now() + patience_ms; ;) {
+    try {
+      return await claim();
+    } catch (error) {
+      if (!(error instanceof assert.AssertionError) || Date.now() > until_ms) throw error;
+    }
+    await new Promise((done) => setTimeout(done, kAgain_ms));
+  }
+}
+
+/** Kept once what is to be read of it is like this. */
+export function reads(locator, pattern) {
+  return eventually(async () => assert.match(await locator.innerText(), pattern));
+}
+
+/** Kept once there are so many. */
+export function counts(locator, count, words) {
+  return eventually(async () => assert.equal(await locator.count(), count, words));
+}
+
+/** Answers the page's address once it is like this. (What playwright takes for it comes later.) */
+export function address_like(page, pattern) {
+  return eventually(async () => {
+    const address = await page.evaluate(() => location.href);
+    assert.match(address, pattern);
+    return address;
+  });
+}
+
+/** The cell as a PNG, with nothing left out, once all that changed has been drawn. */
+export async function view_picture(page) {
+  for (let i = 0; i < 2; i++) await page.evaluate(() => window.armloom.drawn());
+  return page.locator('.view canvas').screenshot();
+}
+
+/** Kept once the cell looks clearly different from a picture of it, by more than so many pixels. */
+export function looks_different(page, before, least_px, what = 'pixels changed') {
+  return eventually(async () => {
+    const { count } = await difference(page.context(), before, await view_picture(page));
+    assert.ok(count > least_px, `${count} ${what}`);
+  });
+}
+
+/** The page's address, without a reload; kept once the page has heard of it, and shows that place. */
 export function go_to(page, hash) {
-  return page.evaluate((hash) => { location.hash = hash; }, hash);
+  return page.evaluate((hash) => new Promise((done) => {
+    const before = location.hash;
+    window.addEventListener('hashchange', () => setTimeout(done), { once: true });
+    location.hash = hash;
+    if (location.hash === before) done();
+  }), hash);
 }
 
 /** Kept once a job stands among those that have ended. */
 export function finished(page, id) {
-  return page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor({ timeout: 60_000 });
+  return page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();
 }
 
 /** Where a picture of this name goes, as playwright wants it. */
@@ -159,7 +219,7 @@ export async function resume(page, press = (locator) => locator.click()) {
   for (let i = 0; i < 4; i++) await press(page.locator(`[data-test=check-${i}]`));
   await press(page.locator('[data-test=resume-checked]'));
   await page.locator('[data-test=checks-left]', { hasText: 'Nothing is stopped' }).waitFor();
-  await page.evaluate((hash) => { location.hash = hash; }, hash);
+  await go_to(page, hash);
 }
 
 /** Files from a desktop, dropped on the middle of what a selector names. */
@@ -194,13 +254,11 @@ export function job_through(id, joint_names, configurations, seconds, over = {})
   return { id, trajectory: { joint_names, points }, ...over };
 }
 
-/** An arm's joints and where they are. */
-export function arm_now(page, arm) {
-  return page.evaluate((arm) => {
-    const all = window.armloom.q();
-    const names = Object.keys(all).filter((name) => name.startsWith(`${arm}_panda_joint`)).sort();
-    return { names, q: names.map((name) => all[name]) };
-  }, arm);
+/** An arm's joints and where they are, as the server has it: what the page has may be older. */
+export async function arm_now(page, arm) {
+  const { status, value } = await ask(page, 'GET', `/arms/${arm}`);
+  assert.equal(status, 200, JSON.stringify(value));
+  return { names: value.joints, q: value.q };
 }
 
 /** Sends a job of an arm from where it is, through places of its joints; null: where it is. */

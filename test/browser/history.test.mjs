@@ -7,7 +7,7 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
-import { ask, finished, go_to, path_for, resume, send_through, with_dashboard } from './harness.mjs';
+import { ask, counts, finished, go_to, path_for, reads, resume, send_through, with_dashboard } from './harness.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 const data = mkdtempSync(join(tmpdir(), 'armloom-data-'));
@@ -19,7 +19,7 @@ after(() => rmSync(data, { recursive: true, force: true }));
 const go = (hash) => go_to(page, hash);
 const ended = (id) => finished(page, id);
 
-test('jobs of a former run stand in the history, and have their pages', { timeout: 120_000 }, async () => {
+test('jobs of a former run stand in the history, and have their pages', { timeout: 400_000 }, async () => {
   await send_through(page, 'left', 'long-ago', [kMiddle, null], 2, { name: 'picked long ago' });
   await ended('long-ago');
   const since = await page.evaluate(() => window.armloom.numbers().last);
@@ -38,15 +38,15 @@ test('jobs of a former run stand in the history, and have their pages', { timeou
     await page.locator('[data-test=link].open').waitFor();
     await history.getByRole('link', { name: 'picked long ago' }).waitFor();
     await page.locator('[data-test=earlier-said]', { hasText: 'all that the server has' }).waitFor();
-    assert.equal(await page.locator('[data-test=list-finished] .job').count(), 0, 'they are none of this run');
+    await counts(page.locator('[data-test=list-finished] .job'), 0, 'they are none of this run');
   }
   // Its times are those of the wall clock: the cell's clock began anew.
-  assert.match(await history.locator('tbody tr').first().innerText(), /^\s*(\d{4}-\d\d-\d\d )?\d\d:\d\d:\d\d\s/);
+  await reads(history.locator('tbody tr').first(), /^\s*(\d{4}-\d\d-\d\d )?\d\d:\d\d:\d\d\s/);
   await page.screenshot(path_for('history-former-dark'));
   await history.getByRole('link', { name: 'picked long ago' }).click();
   await page.locator('[data-test=page-job] [data-test=former]').waitFor();
-  assert.equal(await page.locator('[data-test=job-state]').innerText(), 'succeeded');
-  assert.match(await page.locator('[data-test=states]').innerText(), /\d\d:\d\d:\d\d/);
+  await reads(page.locator('[data-test=job-state]'), /^succeeded$/);
+  await reads(page.locator('[data-test=states]'), /\d\d:\d\d:\d\d/);
   await page.screenshot(path_for('job-former-dark'));
   // By its address alone, too.
   await page.reload();
@@ -54,7 +54,7 @@ test('jobs of a former run stand in the history, and have their pages', { timeou
   assert.ok(since > 0);
 });
 
-test('what the page is told of by itself is not asked for', { timeout: 120_000 }, async () => {
+test('what the page is told of by itself is not asked for', { timeout: 400_000 }, async () => {
   const asked = [];
   page.on('request', (request) => { if (/\/jobs(\?|\/)/.test(request.url())) asked.push(request.url()); });
   await go('#/');

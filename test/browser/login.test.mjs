@@ -8,7 +8,7 @@ import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, test } from 'node:test';
-import { arm_now, copied_by, job_through, kBinary, path_for, run, with_dashboard } from './harness.mjs';
+import { address_like, arm_now, copied_by, go_to, job_through, kBinary, path_for, run, with_dashboard } from './harness.mjs';
 
 const folder = mkdtempSync(join(tmpdir(), 'armloom-login-'));
 const tokens = join(folder, 'tokens');
@@ -26,36 +26,36 @@ async function log_in(with_token) {
 }
 const connected = () => page.locator('[data-test=link]', { hasText: 'connected' }).waitFor();
 
-test('who shows no token is asked for one, and a wrong one is refused', { timeout: 60_000 }, async () => {
+test('who shows no token is asked for one, and a wrong one is refused', { timeout: 300_000 }, async () => {
   await page.goto(url);
-  assert.equal(new URL(page.url()).pathname, '/login');
+  await address_like(page, /\/login$/);
   await log_in('armloom_' + '0'.repeat(64));
   await page.locator('[role=alert]', { hasText: 'none of this server' }).waitFor();
   await log_in(token);
   await connected();
 });
 
-test('who acknowledges is known by the token', { timeout: 60_000 }, async () => {
+test('who acknowledges is known by the token', { timeout: 300_000 }, async () => {
   await page.locator('button', { hasText: 'Stop' }).first().click();
   await page.locator('[data-test=open-alerts]').click();
   await page.locator('[data-test=acknowledge-all]').click();
   await page.locator('[data-test=alerts]', { hasText: 'Acknowledged by ada' }).waitFor();
 });
 
-test('copies take the token from the environment, and none without it', { timeout: 60_000 }, async () => {
+test('copies take the token from the environment, and none without it', { timeout: 300_000 }, async () => {
   const { names, q } = await arm_now(page, 'left');
-  await page.evaluate(() => { location.hash = '#/new'; });
+  await go_to(page, '#/new');
   await page.locator('[data-test=job-text]').fill(JSON.stringify(job_through('copied', names, [q, q], 1)));
   const curl = await copied_by(page, page.locator('.pane [data-test=copy-curl]'));
   assert.ok(!curl.includes(token));
   assert.match(await run('bash', ['-c', curl]), /"status": ?401/);
   assert.match(await run('bash', ['-c', curl], { ARMLOOM_TOKEN: token }), /"id": ?"copied"/);
-  await page.evaluate(() => { location.hash = '#/job/copied'; });
+  await go_to(page, '#/job/copied');
   const python = await copied_by(page, page.locator('.pane [data-test=copy-Python]'));
   assert.match(await run('python3', ['-c', python], { ARMLOOM_TOKEN: token }), /^(queued|backlogged|scheduled|running|succeeded) /);
 });
 
-test('logging out leads to the login page, and back only with a token', { timeout: 60_000 }, async () => {
+test('logging out leads to the login page, and back only with a token', { timeout: 300_000 }, async () => {
   await page.locator('[data-test=more-pages]').click();
   await page.locator('[data-test=go-settings]').click();
   await page.locator('[data-test=session]', { hasText: 'ada, operator' }).waitFor();
@@ -63,14 +63,14 @@ test('logging out leads to the login page, and back only with a token', { timeou
   await page.locator('[data-test=log-out]').click();
   await page.waitForURL('**/login');
   await page.goto(url);
-  assert.equal(new URL(page.url()).pathname, '/login');
+  await address_like(page, /\/login$/);
   await log_in(token);
   await connected();
 });
 
-test('a page whose token is withdrawn goes to the login page', { timeout: 60_000 }, async () => {
+test('a page whose token is withdrawn goes to the login page', { timeout: 300_000 }, async () => {
   token_command('withdraw', '--name', 'ada');
-  await page.waitForURL('**/login', { timeout: 15_000 });
+  await page.waitForURL('**/login');
   await log_in(token);
   await page.locator('[role=alert]', { hasText: 'withdrawn' }).waitFor();
 });

@@ -6,23 +6,21 @@
 "Your own robot" and "Without a server" run in a folder that holds build/armloom and what the
 repository has; each command must succeed. The blocks with curl are run in one and the same shell;
 the ```json block behind each lists what must be in the answers, one JSON value for each answer:
-every key shown must be there with that value ("…" stands for any value). The server is started on
-the README's port, in a network of its own where that is possible, so that nothing else can be
-listening there.
+every key shown must be there with that value ("…" stands for any value). Servers listen at a free
+port, and what the page names as their address is put in place by the one that they tell.
 """
 import json
-import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
-import time
+import threading
 import urllib.request
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 MARK = "==== end of block ===="
+ADDRESS = "http://127.0.0.1:8080/"  # as the page has it
 
 
 def blocks(readme, heading):
@@ -103,14 +101,8 @@ def own_robot(name, importing, armloom, folder):
     (folder / "my_cell.json").unlink(missing_ok=True)
     if not run_block(name, importing, folder):
         return 1
-    server = subprocess.Popen([armloom, "serve", "--cell", folder / "my_cell.json"],
-                              stdout=subprocess.DEVNULL)
-    try:
-        wait_until_up(server)
-        arms = json.load(urllib.request.urlopen("http://127.0.0.1:8080/api/v1/arms"))["arms"]
-    finally:
-        server.terminate()
-        server.wait(timeout=10)
+    with Server(armloom, folder / "my_cell.json") as url:
+        arms = json.load(urllib.request.urlopen(f"{url}api/v1/arms"))["arms"]
     found = [(arm["name"], arm["state"]) for arm in arms]
     good = found == [("left", "idle"), ("right", "idle")]
     print(f"{name} is served: {'ok' if good else 'FAIL'} {found}")
@@ -126,16 +118,23 @@ def without_a_server(readme, folder):
     return 0 if done and not written else 1
 
 
-def wait_until_up(server):
-    for _ in range(200):
-        if server.poll() is not None:
-            sys.exit(f"the server ended with {server.returncode}")
-        try:
-            urllib.request.urlopen("http://127.0.0.1:8080/healthz", timeout=1)
-            return
-        except OSError:
-            time.sleep(0.1)
-    sys.exit("the server did not come up")
+class Server:
+    """Serves a cell; as a context it is the dashboard's address, told once it listens."""
+
+    def __init__(self, armloom, cell):
+        self.process = subprocess.Popen([armloom, "serve", "--cell", cell, "--listen", "127.0.0.1:0"],
+                                        stdout=subprocess.PIPE, text=True)
+
+    def __enter__(self):
+        for line in self.process.stdout:
+            if found := re.search(r"dashboard: (http://\S+/)", line):
+                threading.Thread(target=self.process.stdout.read, daemon=True).start()
+                return found[1]
+        sys.exit(f"the server ended with {self.process.wait()}")
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait(timeout=10)
 
 
 def run_tour(tour):
@@ -158,9 +157,9 @@ def run_tour(tour):
     return failed
 
 
-def reasons_are_explained(readme):
+def reasons_are_explained(readme, url):
     """The closed list of result.reason stands in the README, and each is explained beside it."""
-    document = json.load(urllib.request.urlopen("http://127.0.0.1:8080/openapi.json"))
+    document = json.load(urllib.request.urlopen(f"{url}openapi.json"))
     explained = (TOP / "core/scheduler/README.md").read_text()
     reasons = document["components"]["schemas"]["Reason"]["enum"]
     lost = [r for r in reasons if f"`{r}`" not in readme or f"| `{r}` |" not in explained]
@@ -169,14 +168,6 @@ def reasons_are_explained(readme):
 
 
 def main():
-    # A network of its own: loopback only, nobody else on the README's port.
-    if "ARMLOOM_TOUR_INSIDE" not in os.environ and os.geteuid() == 0 and shutil.which("unshare"):
-        inside = ["unshare", "-n", "sh", "-c", 'ip link set lo up && exec "$@"', "sh",
-                  sys.executable, *sys.argv]
-        probe = subprocess.run(["unshare", "-n", "ip", "link", "set", "lo", "up"],
-                               capture_output=True)
-        if probe.returncode == 0:
-            os.execvpe("unshare", inside, dict(os.environ, ARMLOOM_TOUR_INSIDE="1"))
     readme = (TOP / "README.md").read_text()
     api = (TOP / "server/README.md").read_text()
     tour = blocks(readme, "A tour with curl") + blocks(api, "The API")
@@ -187,14 +178,11 @@ def main():
         folder = pathlib.Path(scratch)
         like_a_clone(folder, sys.argv[1])
         failed = own_robots(readme, sys.argv[1], folder) + without_a_server(readme, folder)
-    server = subprocess.Popen([sys.argv[1], "serve", "--cell", TOP / "config/two_pandas.json"],
-                              stdout=subprocess.DEVNULL)
-    try:
-        wait_until_up(server)
-        failed += run_tour(tour) + reasons_are_explained(readme)
-    finally:
-        server.terminate()
-        server.wait(timeout=10)
+    if ADDRESS not in "".join(commands for commands, _ in tour):
+        sys.exit(f"no block names {ADDRESS}")
+    with Server(sys.argv[1], TOP / "config/two_pandas.json") as url:
+        here = [(commands.replace(ADDRESS, url), expected) for commands, expected in tour]
+        failed += run_tour(here) + reasons_are_explained(readme, url)
     sys.exit(1 if failed else 0)
 
 

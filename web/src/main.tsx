@@ -22,7 +22,7 @@ import { Player } from './recordings/player';
 import { Checklist } from './recovery/checklist';
 import { place_in_words } from './route/address';
 import { address_bar_of, Router } from './route/router';
-import { Api } from './server/api';
+import { Api, kApi } from './server/api';
 import { backoff_ms, Connection, type SocketLike, type Timers } from './server/connection';
 import { earlier_events } from './server/earlier_events';
 import { follow_timeline } from './server/follow_timeline';
@@ -43,10 +43,8 @@ import { Timeline } from './timeline/timeline';
 import { CellPanel } from './view/cell_panel';
 import { shown_name } from './names';
 
-const kBase = '/api/v1';
-
 const store = new Store();
-const api = new Api(kBase, (url, init) => fetch(url, init));
+const api = new Api(kApi, (url, init) => fetch(url, init));
 const motions = new MotionBook((id) => api.job_motion(id));
 const timers: Timers = {
   set: (callback, delay_ms) => window.setTimeout(callback, delay_ms),
@@ -56,7 +54,7 @@ const alerts = new AlertList(api, timers);
 const hand = new Hand(api, timers, (id) => store.book.has_ended(id));
 const session = signal<Session | null>(null);
 const connection = new Connection({
-  url: `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${kBase}/ws`,
+  url: `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${kApi}/ws`,
   open_socket: (url) => new WebSocket(url) as unknown as SocketLike,
   timers,
   on_message: (message) => {
@@ -111,7 +109,7 @@ async function know_who(): Promise<void> {
 
 /** What the server told before this page listened. */
 async function look_before(stream: string, seq: number): Promise<void> {
-  store.take_earlier(await earlier_events(kBase, (url, init) => fetch(url, init), stream, seq));
+  store.take_earlier(await earlier_events(kApi, (url, init) => fetch(url, init), stream, seq));
 }
 
 /** Where the arms were before this page listened, or while it could not. */

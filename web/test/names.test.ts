@@ -51,6 +51,12 @@ describe('names from users', () => {
     expect(cut_text('pick 77', 6)).toBe('pick …');
   });
 
+  it('are cut in no time, however long they are: what counts characters takes time with the square of the length', () => {
+    expect(cut_text('x'.repeat(1_000_000), 4)).toBe('xxx…');
+    expect(cut_text(`a${'\u0301'.repeat(1_000_000)}`, 4)).toBe('…');  // one character without end: nothing of it is whole
+    expect(cut_text(`ab${'\u0301'.repeat(1_000_000)}`, 4)).toBe('a…');
+  });
+
   it('within texts of the server are treated alike', () => {
     expect(shown_text('\u202e acknowledged: stopped')).toBe('⟨U+202E⟩ acknowledged: stopped');
   });

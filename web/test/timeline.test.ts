@@ -1,6 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { Forecast, Job } from '../src/server/messages';
 import { drawn_of, lanes_of, mark_at, pasts_of, type Lane } from '../src/timeline/lanes';
+import { widest_free } from '../src/timeline/sheet';
 import { around, begin_of, kFollowing, kNowAt, moved, tick_of, zoomed } from '../src/timeline/span';
 import { lane_in_words } from '../src/timeline/told';
 import { job_json, wait_json } from './samples';
@@ -112,5 +113,29 @@ describe('what is drawn of a lane', () => {
   it('is all of it where there is room, and nothing beside it', () => {
     const drawn = drawn_of(marks, 300, 330, 0.05);
     expect(drawn.length).toBe(marks.filter(({ from_s, to_s }) => to_s >= 300 && from_s <= 330).length);
+  });
+});
+
+describe('the part of a bar that has room for its name', () => {
+  const bar = { from: 100, to: 200 };
+
+  it('is all of it where nothing covers it, or what does lies beside it', () => {
+    expect(widest_free(bar, [])).toEqual(bar);
+    expect(widest_free(bar, [{ from: 0, to: 100 }, { from: 200, to: 300 }])).toEqual(bar);
+  });
+
+  it('is behind a stop that covers its beginning, and before one that covers its end', () => {
+    expect(widest_free(bar, [{ from: 90, to: 130 }])).toEqual({ from: 130, to: 200 });
+    expect(widest_free(bar, [{ from: 160, to: Infinity }])).toEqual({ from: 100, to: 160 });
+  });
+
+  it('is the widest one between several, in whatever order they come and however they overlap', () => {
+    const covers = [{ from: 180, to: 190 }, { from: 110, to: 120 }, { from: 105, to: 140 }, { from: 112, to: 115 }];
+    expect(widest_free(bar, covers)).toEqual({ from: 140, to: 180 });
+  });
+
+  it('is none where all is covered', () => {
+    expect(widest_free(bar, [{ from: 50, to: 150 }, { from: 140, to: 250 }])).toBeNull();
+    expect(widest_free({ from: 100, to: 100 }, [])).toBeNull();
   });
 });

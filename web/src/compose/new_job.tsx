@@ -6,6 +6,7 @@ import { InSight } from '../frame/in_sight';
 import { asked_of, Copy } from '../jobs/copy';
 import { curl_to_post, python_to_post } from '../jobs/snippets';
 import { Link } from '../route/link';
+import { kApi } from '../server/api';
 import type { Problem } from '../server/messages';
 import type { App } from '../state/app';
 import { why_mute } from '../wording';
@@ -58,7 +59,7 @@ export function NewJob({ app }: { app: App }) {
     <div class="page compose">
       <h2>New job</h2>
       <p class="hint">
-        A body as for <code>POST /api/v1/jobs</code>, with a trajectory shaped like
+        A body as for <code>POST {kApi}/jobs</code>, with a trajectory shaped like
         a <code>trajectory_msgs/JointTrajectory</code>; or a bag of them, as a jobs file has. Paste it, or drop a file.
       </p>
       <details class="plan-goal" data-test="plan-goal">

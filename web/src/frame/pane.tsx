@@ -8,6 +8,7 @@ import { NewJob } from '../compose/new_job';
 import { DiagramPanel } from '../diagram/diagram';
 import { HistoryPage } from '../history/history_page';
 import { place_in_words, type Place } from '../route/address';
+import { Link } from '../route/link';
 import type { App } from '../state/app';
 import { PoliciesPage } from '../policies/policies_page';
 import { RecordingsPage } from '../recordings/recordings_page';
@@ -68,6 +69,6 @@ function content_of(place: Place, app: App): ComponentChildren {
     case 'policies': return <PoliciesPage app={seen_app(app)} />;
     case 'recordings': return <RecordingsPage app={app} />;
     case 'settings': return <SettingsPage app={app} />;
-    case 'unknown': return <><h2>No such page</h2><p class="hint">There is nothing at {place.path}.</p></>;
+    case 'unknown': return <><h2>No such page</h2><p class="hint">There is nothing at {place.path}. <Link app={app} to={{ page: 'cell' }}>To the cell</Link></p></>;
   }
 }

@@ -2,6 +2,7 @@
 // named is quoted, never pasted raw: a command that is copied must not do more than it says. Where the server
 // asks for tokens, the program's is taken from the environment and never shown.
 
+import { kApi } from '../server/api';
 import type { Job } from '../server/messages';
 
 /** Where it is asked, and whether that wants a token. */
@@ -27,7 +28,7 @@ export function python_of(job: Pick<Job, 'id'>, asked: Asked): string {
 export function curl_to_post(path: string, body: string, asked: Asked): string {
   let end = 'END';
   while (body.includes(end)) end += '_';
-  const address = quoted_for_shell(`${asked.origin}/api/v1${path}`);
+  const address = quoted_for_shell(`${asked.origin}${kApi}${path}`);
   return `curl -s ${curl_token(asked)}${address} -H 'Content-Type: application/json' --data-binary @- <<'${end}'\n${body}\n${end}`;
 }
 
@@ -36,14 +37,14 @@ export function python_to_post(path: string, body: string, asked: Asked): string
     ...imports(asked),
     `body = ${python_text(body)}`,
     `headers = {"Content-Type": "application/json"${asked.with_token ? `, ${python_token()}` : ''}}`,
-    `request = urllib.request.Request(${JSON.stringify(`${asked.origin}/api/v1${path}`)}, body.encode(), headers)`,
+    `request = urllib.request.Request(${JSON.stringify(`${asked.origin}${kApi}${path}`)}, body.encode(), headers)`,
     'with urllib.request.urlopen(request) as answer:',
     '    print(json.load(answer))',
   ].join('\n');
 }
 
 function address_of(job: Pick<Job, 'id'>, { origin }: Asked): string {
-  return `${origin}/api/v1/jobs/${encodeURIComponent(job.id)}`;
+  return `${origin}${kApi}/jobs/${encodeURIComponent(job.id)}`;
 }
 
 function curl_token({ with_token }: Asked): string {

@@ -9,6 +9,9 @@ import {
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
 export type Fetch = (url: string, init?: RequestInit) => Promise<Response>;
 
+/** What every path of the API begins with. */
+export const kApi = '/api/v1';
+
 export class Api {
   constructor(private readonly base_: string, private readonly fetch_: Fetch) {}
 

@@ -5,7 +5,7 @@ import { arm_colour, ink } from '../state/palette';
 import { short_id } from '../wording';
 import { draw_events, type EventMark } from './events';
 import { drawn_of, type Lane, type Mark } from './lanes';
-import { kAxis_px, kLeft_px, kRight_px, lane_height, type Sheet } from './sheet';
+import { kAxis_px, kLeft_px, kRight_px, lane_height, widest_free, type Sheet, type Stretch } from './sheet';
 import { tick_of } from './span';
 import { characters_of, shown_name } from '../names';
 
@@ -26,13 +26,15 @@ const kHatch_px = 5;
 // A bar is no narrower.
 const kLeast_px = 2;
 
-interface Row { top: number; height: number; colour: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number }
+/** `covers`: where its bars are not seen: under stands on the way and stops, and beside the sheet. */
+interface Row { top: number; height: number; colour: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number; covers: readonly Stretch[] }
 
 export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly Lane[], lit: Lit, pointed: Pointed): void {
   const { mark: hover } = pointed;
   g.clearRect(0, 0, sheet.width, sheet.height);
   const arms = lanes.map((lane) => lane.arm);
-  const rows = lanes.map((lane, i) => row_of(sheet, arms, lane.arm, i));
+  const drawn = lanes.map(({ marks }) => drawn_of(marks, sheet.from_s, sheet.from_s + sheet.length_s, sheet.t_s(kLeast_px) - sheet.t_s(0)));
+  const rows = lanes.map(({ arm }, i) => row_of(sheet, arms, arm, i, [...lit.halts.get(arm) ?? [], ...(drawn[i] ?? []).filter(({ kind }) => kind === 'pause')]));
   draw_axis(g, sheet);
   g.save();
   g.beginPath();
@@ -42,7 +44,7 @@ export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly
     const row = rows[i];
     if (!row) return;
     for (const halt of lit.halts.get(lane.arm) ?? []) draw_halt(g, sheet, row, halt, lit.arms.length > 0 && !lit.arms.includes(lane.arm));
-    for (const mark of drawn_of(lane.marks, sheet.from_s, sheet.from_s + sheet.length_s, sheet.t_s(kLeast_px) - sheet.t_s(0))) draw_mark(g, sheet, row, mark, is_dim(mark, lane.arm, lit), mark === hover);
+    for (const mark of drawn[i] ?? []) draw_mark(g, sheet, row, mark, is_dim(mark, lane.arm, lit), mark === hover);
   });
   lanes.forEach((lane, i) => draw_threads(g, sheet, lane, i, rows, arms, hover));
   draw_events(g, sheet, lit.events, pointed.events);
@@ -52,7 +54,7 @@ export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly
   rows.forEach((row, i) => draw_name(g, row, lanes[i]?.arm ?? ''));
 }
 
-function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number): Row {
+function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number, stands: readonly Pick<Stand, 'from_s' | 'to_s'>[]): Row {
   const height = lane_height(sheet, arms.length);
   const roomy = height >= 30;
   const top = i * height;
@@ -60,7 +62,11 @@ function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number): 
   const gap = roomy ? 4 : 1.5;
   const bar_height = Math.max(3, height - wait_height - 3 * gap);
   const bar_top = top + gap;
-  return { top, height, colour: ink(arm_colour(arms, arm)), bar_top, bar_height, wait_top: bar_top + bar_height + gap, wait_height };
+  const covers = [
+    { from: -Infinity, to: kLeft_px }, { from: sheet.width - kRight_px, to: Infinity },
+    ...stands.map(({ from_s, to_s }) => ({ from: sheet.x(from_s), to: sheet.x(to_s ?? sheet.now_s) })),
+  ];
+  return { top, height, colour: ink(arm_colour(arms, arm)), bar_top, bar_height, wait_top: bar_top + bar_height + gap, wait_height, covers };
 }
 
 function is_dim(mark: Mark, arm: string, lit: Lit): boolean {
@@ -106,7 +112,7 @@ function draw_now(g: CanvasRenderingContext2D, sheet: Sheet): void {
   g.textAlign = 'center';
   g.textBaseline = 'alphabetic';
   g.fillStyle = ink('--text');
-  g.fillText('now', at, sheet.height - 5);
+  g.fillText('now', Math.min(at, sheet.width - kRight_px - g.measureText('now').width / 2), sheet.height - 5);
 }
 
 function draw_held(g: CanvasRenderingContext2D, sheet: Sheet, held_s: number): void {
@@ -208,19 +214,20 @@ function bar(g: CanvasRenderingContext2D, left: number, top: number, width: numb
   g.roundRect(left, top, wide, height, Math.min(3, wide / 2));
 }
 
-/** The longest name that fits whole; a cut one says nothing. */
+/** The longest name that fits whole where its bar is seen; a cut one says nothing. */
 function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, colour: string): void {
   if (row.bar_height < 11 || width < 16) return;
   g.font = `500 10.5px ${kFont}`;
   g.textAlign = 'left';
   g.textBaseline = 'middle';
-  const begin = Math.max(left, kLeft_px);
-  const room = left + width - begin - 9;
+  const seen = widest_free({ from: left, to: left + width }, row.covers);
+  if (!seen) return;
+  const room = seen.to - seen.from - 9;
   const name = shown_name(mark.label);
   const text = [name, name.replace(/^[^:]*: /, ''), short_id(mark.job)].find((name) => name !== '' && g.measureText(name).width < room);
   if (!text) return;
   g.fillStyle = colour;
-  g.fillText(text, begin + 5, row.bar_top + row.bar_height / 2 + 0.5);
+  g.fillText(text, seen.from + 5, row.bar_top + row.bar_height / 2 + 0.5);
 }
 
 /** From the end of each wait to come, down to whoever is waited for, at the instant when it makes way. */

@@ -27,6 +27,22 @@ export function sheet_of(width: number, height: number, span: Span, now_s: numbe
   };
 }
 
+/** Across, px. */
+export interface Stretch { from: number; to: number }
+
+/** The widest part of it that nothing covers; null where all is covered. */
+export function widest_free(whole: Stretch, covers: readonly Stretch[]): Stretch | null {
+  const free: Stretch[] = [];
+  let from = whole.from;
+  for (const cover of [...covers].sort((a, b) => a.from - b.from)) {
+    free.push({ from, to: Math.min(cover.from, whole.to) });
+    from = Math.max(from, cover.to);
+  }
+  free.push({ from, to: whole.to });
+  const widest = free.reduce((a, b) => (b.to - b.from > a.to - a.from ? b : a));
+  return widest.to > widest.from ? widest : null;
+}
+
 export function lane_height(sheet: Sheet, lanes: number): number {
   return Math.min(kLane_px, (sheet.height - kAxis_px) / Math.max(1, lanes));
 }

@@ -270,6 +270,9 @@ export class CellView {
     if (this.robots_.group.visible !== (q !== null)) {
       this.robots_.group.visible = this.paths_.group.visible = q !== null;
       this.stage_.invalidate(true);
+      // On a busy machine the next picture may be seconds away, and this one shows arms that stand elsewhere, or nowhere.
+      this.stage_.hurry();
+      if (q === null) this.labels_.hide();
     }
     if (q === null) return;
     if (!this.robots_.set_q(q)) return;

@@ -7,12 +7,17 @@ import { ink } from '../state/palette';
 import { millimetres } from '../wording';
 import { FinishedMesh } from './finish';
 import { closest_points, corners_of, type Surface } from './closest';
+import { stacked } from './stacking';
 
 const kShown_m = 0.4;
 // What stands on a table is always close to it: an object is told of when an arm comes near its limit.
 const kNear = 3;
 
-interface Line { line: THREE.Line; element: HTMLElement; middle: THREE.Vector3 }
+// As labels are drawn (layout.css).
+const kLabel_px = 19;
+const kLabelGap_px = 2;
+
+interface Line { line: THREE.Line; element: HTMLElement; middle: THREE.Vector3; width_px: number }
 
 export class Distances {
   readonly group = new THREE.Group();
@@ -35,13 +40,16 @@ export class Distances {
     return this.seen() !== before;
   }
 
-  /** Labels follow their lines; the function says where a point stands, px from the view's top left. */
+  /** Labels follow their lines, below each other where they would lie on one; the function says where a point stands, px from the view's top left. */
   place(to_page: (p_W: THREE.Vector3) => { x: number; y: number } | null): void {
-    for (const { line, element, middle } of this.lines_) {
-      const p = line.visible ? to_page(middle) : null;
-      element.hidden = p === null;
-      if (p) element.style.transform = `translate(${p.x.toFixed(1)}px, ${p.y.toFixed(1)}px)`;
-    }
+    const found = this.lines_.flatMap((shown) => {
+      const p = shown.line.visible ? to_page(shown.middle) : null;
+      shown.element.hidden = p === null;
+      return p ? [{ shown, p }] : [];
+    });
+    for (const { shown } of found) shown.width_px ||= shown.element.offsetWidth;
+    const y = stacked(found.map(({ shown, p }) => ({ ...p, width_px: shown.width_px })), kLabel_px, kLabelGap_px);
+    found.forEach(({ shown, p }, i) => { shown.element.style.transform = `translate(${p.x.toFixed(1)}px, ${(y[i] ?? p.y).toFixed(1)}px)`; });
   }
 
   clear(): void {
@@ -61,7 +69,9 @@ export class Distances {
     shown.line.geometry.setFromPoints(points);
     (shown.line.material as THREE.LineBasicMaterial).color.set(ink(level === 'low' ? '--red' : level === 'near' ? '--amber' : '--text'));
     shown.middle.copy(points[0]).add(points[1]).multiplyScalar(0.5);
-    shown.element.textContent = millimetres(m);
+    const figure = millimetres(m);
+    if (figure.length !== shown.element.textContent?.length) shown.width_px = 0;  // measured when it is placed
+    shown.element.textContent = figure;
     shown.element.className = `distance-label ${level}`;
   }
 
@@ -76,7 +86,7 @@ export class Distances {
     const line = new THREE.Line(new THREE.BufferGeometry(), material);
     line.renderOrder = 2;
     line.frustumCulled = false;
-    const made = { line, element: document.createElement('div'), middle: new THREE.Vector3() };
+    const made = { line, element: document.createElement('div'), middle: new THREE.Vector3(), width_px: 0 };
     hide(made);  // until it is placed
     this.group.add(line);
     this.host_.append(made.element);

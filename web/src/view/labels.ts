@@ -71,6 +71,11 @@ export class ArmLabels {
     });
   }
 
+  /** Until they are placed again. */
+  hide(): void {
+    for (const { element } of this.labels_.values()) element.hidden = true;
+  }
+
   clear(): void {
     for (const { element } of this.labels_.values()) element.remove();
     this.labels_.clear();

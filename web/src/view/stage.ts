@@ -41,6 +41,7 @@ export class Stage {
   private frame_: number | null = null;
   private drawn_at_ms_ = 0;
   private next_at_ms_ = 0;
+  private hurried_ = false;
   private readonly fence_: Fence;
   private readonly pace_: Pace;
   private readonly full_ratio_: number;
@@ -136,7 +137,7 @@ export class Stage {
     if (shapes_moved) this.whole_ = false;
     if (this.frame_ !== null) return;
     const draw = (now_ms: number) => {
-      if (this.fence_.is_up || now_ms < this.next_at_ms_) {
+      if (this.fence_.is_up || (now_ms < this.next_at_ms_ && !this.hurried_)) {
         this.frame_ = requestAnimationFrame(draw);
         return;
       }
@@ -145,6 +146,9 @@ export class Stage {
     };
     this.frame_ = requestAnimationFrame(draw);
   }
+
+  /** What is seen is wrong: the next drawing is not put off, neither for its pace nor for a click. */
+  hurry(): void { this.hurried_ = true; }
 
   /** Whether a drag turns the view. */
   let_turn(yes: boolean): void { this.viewpoint_.let_turn(yes); }
@@ -180,6 +184,7 @@ export class Stage {
 
   private draw(): void {
     this.drawn_at_ms_ = performance.now();
+    this.hurried_ = false;
     this.pictures_ += 1;
     // Not before: a canvas of another size is empty until it is drawn on, and that may be a while.
     if (this.resized_) this.renderer_.setSize(this.host_.clientWidth, this.host_.clientHeight);

@@ -1,0 +1,66 @@
+import { describe, expect, it } from 'vitest';
+import type { Forecast } from '../src/server/messages';
+import { follow_timeline } from '../src/server/follow_timeline';
+import type { Store } from '../src/state/store';
+
+const kForecast = { now_s: 1, horizon_legs: 6, arms: [] } as unknown as Forecast;
+const settled = () => new Promise((done) => setTimeout(done));
+
+function page() {
+  const told: (Forecast | null)[] = [];
+  const store = { link: { status: 'open' }, set_forecast: (forecast: Forecast | null) => told.push(forecast) };
+  const state = { asked: 0, visible: true, ok: true, cleared: 0, next: null as (() => void) | null };
+  const api = {
+    timeline: () => {
+      state.asked += 1;
+      return Promise.resolve(state.ok ? { ok: true as const, value: kForecast } : { ok: false as const, problem: { type: '', title: 'no', status: 503 } });
+    },
+  };
+  const timers = { set: (callback: () => void) => { state.next = callback; return 1; }, clear: () => { state.cleared += 1; state.next = null; } };
+  const off = follow_timeline(api as never, store as unknown as Store, timers, () => state.visible);
+  return { told, store, state, off, wait: async () => { state.next?.(); await settled(); } };
+}
+
+describe('what arms are expected to do', () => {
+  it('is asked for again and again, one question after the other', async () => {
+    const { told, state, wait } = page();
+    expect(state.next).toBeNull();  // not before the answer
+    await settled();
+    await wait();
+    expect([state.asked, told]).toEqual([2, [kForecast, kForecast]]);
+  });
+
+  it('is not asked for while nobody looks', async () => {
+    const { state, wait } = page();
+    await settled();
+    state.visible = false;
+    await wait();
+    expect(state.asked).toBe(1);
+    state.visible = true;
+    await wait();
+    expect(state.asked).toBe(2);
+  });
+
+  it('is not known without a connection, or an answer', async () => {
+    const { told, store, state, wait } = page();
+    await settled();
+    store.link.status = 'lost';
+    await wait();
+    expect([state.asked, told.at(-1)]).toEqual([1, null]);
+    store.link.status = 'open';
+    state.ok = false;
+    await wait();
+    expect([state.asked, told.at(-1)]).toEqual([2, null]);
+  });
+
+  it('is told to nobody who has gone, whenever the answer comes', async () => {
+    const { told, state, off } = page();
+    off();
+    await settled();
+    expect([told, state.next]).toEqual([[], null]);
+    const other = page();
+    await settled();
+    other.off();
+    expect(other.state.cleared).toBe(1);
+  });
+});
