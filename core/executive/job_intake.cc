@@ -72,6 +72,12 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
   find_bad_after(request, ahead, problems);
   std::vector<MotionGoal> goals;
   std::vector<TrajectoryPtr> motions;
+  if (!request.move_to && (!request.arm.empty() || !request.arms.empty())) {
+    problems.push_back({ProblemKind::invalid, "unknown-field",
+                        request.arm.empty() ? "/arms" : "/arm",
+                        "an arm is named with move_to; a trajectory's joints say which arms move",
+                        request.arm.empty() ? request.arms.front() : request.arm});
+  }
   if (request.terms.approach == Approach::plan &&
       (request.move_to || request.motions().size() > 1)) {
     problems.push_back({ProblemKind::invalid, "not-served", "/approach",

@@ -1,5 +1,6 @@
 #include "server/messages/job_terms.h"
 
+#include "server/codec/later_part.h"
 #include "server/codec/part_groups.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/value_formats.h"
@@ -26,10 +27,10 @@ PartPtr<JobTerms> job_terms_part() {
       field("priority", &Terms::priority, priority_format(), "Larger goes first"),
       field("backlog_timeout_s", &Terms::backlog_timeout, backlog_timeout_format(),
             "How long it may wait in the backlog. Default: the cell's"),
-      field("on_timeout", &Terms::on_timeout, choice<OnTimeout>(),
-            "What becomes of it then. \"replan\": another way is planned to where it ends, from "
-            "where its arm stands and past what rests there; it expires when there is none, and "
-            "after the third"),
+      later(field("on_timeout", &Terms::on_timeout, choice<OnTimeout>(),
+                  "What becomes of it then. \"replan\": another way is planned to where it ends, "
+                  "from where its arm stands and past what rests there; it expires when there is "
+                  "none, and after the third")),
       unless_usual("approach", &Terms::approach, Approach::none, choice<Approach>(),
                    "\"plan\": its arms need not stand where it begins; each that stands elsewhere "
                    "at its turn is brought there first, slowly, by a planned motion of the "

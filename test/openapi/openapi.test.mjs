@@ -50,11 +50,11 @@ async function call(status, method, template, {args = {}, query = '', body, head
 }
 
 async function until(what, condition) {
-  const end = Date.now() + 15_000;
+  const end = Date.now() + 120_000;
   for (;;) {
     const value = await condition();
     if (value) return value;
-    assert.ok(Date.now() < end, `waited 15 s for ${what}`);
+    assert.ok(Date.now() < end, `waited two minutes for ${what}`);
     await new Promise((resolve) => setTimeout(resolve, 20));
   }
 }

@@ -88,13 +88,23 @@ export interface components {
             arms: string[];
             /** @description Larger goes first */
             priority: number;
-            /** @description How long it may wait in the backlog. Absent: an older version of the program stored the job */
+            /** @description How long it may wait in the backlog. Default: the cell's */
             backlog_timeout_s?: number;
             /**
-             * @description What becomes of it then. Absent as above
+             * @description What becomes of it then. "replan": another way is planned to where it ends, from where its arm stands and past what rests there; it expires when there is none, and after the third
              * @enum {string}
              */
             on_timeout?: "abort" | "replan";
+            /**
+             * @description "plan": its arms need not stand where it begins; each that stands elsewhere at its turn is brought there first, slowly, by a planned motion of the server's own
+             * @enum {string}
+             */
+            approach?: "none" | "plan";
+            /**
+             * @description "any": jobs of one arm that begin and end at one place, and say so, may be taken in another order
+             * @enum {string}
+             */
+            order?: "as_given" | "any";
             /** @description When it was accepted, in cell time */
             submitted_s: number;
             /**
@@ -137,11 +147,6 @@ export interface components {
             stopping: boolean;
             /** @description Empty when it does not wait */
             waits_on: components["schemas"]["Wait"][];
-            /**
-             * @description It may change places with others of its arm that say so
-             * @enum {string}
-             */
-            order?: "any";
             /** @description Arms of which one does it; `arms` is that one, or the likeliest while it waits */
             alternatives?: string[];
             /** @description Other ways that were looked for, to where its own ends */
