@@ -181,7 +181,8 @@ std::vector<Claim> claims(const Plan& plan, const std::vector<RunRow>& rows,
   for (const WorkloadKind& kind : plan.workloads) all.order(kind.name);
   for (const WorkloadKind& kind : plan.workloads) all.both_move(kind.name);
   for (const WorkloadKind& kind : plan.workloads) {
-    if (kind.freed_from.empty()) all.optimum_is_one(kind.name);
+    // Of one whose jobs are late and slow it is none: a run may be late where it waits anyway.
+    if (kind.freed_from.empty() && !kind.delayed) all.optimum_is_one(kind.name);
   }
   for (const WorkloadKind& kind : plan.workloads) {
     if (kind.delayed || !kind.freed_from.empty()) continue;

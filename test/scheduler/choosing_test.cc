@@ -74,5 +74,46 @@ TEST_F(AnyOrder, WhoHasBeenOvertakenForLongIsOvertakenNoMore) {
   expect_behind(bench.submit(visit_from(0.0), kAged + 2ms), turn);
 }
 
+// What could go in another order is not admitted ahead, however far the policy looks.
+struct AheadOfTheirTurns : ::testing::Test {
+  // Three visits of one arm; whatever is asked about is free.
+  void submit_three(JobOrder order) {
+    for (JobId& job : jobs) {
+      Submit visit = AnyOrder::visit_from(0.0);
+      visit.terms.order = order;
+      job = bench.submit(std::move(visit), now += 1ms);
+    }
+    while (bench.question) bench.answer_free(now += 1ms);
+  }
+
+  static CellPtr cell_that_looks_ahead() {
+    auto cell = std::make_shared<Cell>(*one_joint_arms(2));
+    cell->scheduling.horizon_legs = 3;
+    return cell;
+  }
+
+  Bench bench{cell_that_looks_ahead(), "coordinated"};
+  JobId jobs[3] = {JobId{0}, JobId{0}, JobId{0}};
+  TimePoint now = at(0ms);
+};
+
+TEST_F(AheadOfTheirTurns, JobsInOrderAreAdmittedTogether) {
+  submit_three(JobOrder::as_given);
+  for (const JobId job : jobs) EXPECT_EQ(bench.state(job), JobState::scheduled);
+}
+
+TEST_F(AheadOfTheirTurns, OfJobsInAnyOrderTheNextIsLeftOpenUntilOneMustGo) {
+  submit_three(JobOrder::any);
+  EXPECT_EQ(bench.state(jobs[0]), JobState::scheduled);
+  EXPECT_EQ(bench.state(jobs[2]), JobState::queued);
+  bench.progressed(jobs[0], 1s, now += 1s);
+  bench.finished(jobs[0], now += 1s);
+  while (bench.question) bench.answer_free(now += 1ms);
+  for (const JobId job : {jobs[1], jobs[2]}) {
+    EXPECT_EQ(bench.state(job), JobState::scheduled)
+        << "nobody is left that the last one could change places with";
+  }
+}
+
 }  // namespace
 }  // namespace armloom

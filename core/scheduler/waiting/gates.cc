@@ -19,12 +19,14 @@ Closed order(JobId first, std::optional<ArmId> arm = {}) {
 }
 
 // It is one of the arm's first jobs, as many as the policy looks ahead, and those before it are
-// admitted. Of an admitted one all others would have to have ended.
+// admitted. Of an admitted one all others would have to have ended; and of one in whose place
+// another could go: which of them does is left open until one must.
 bool is_next(const State& state, const Record& record, ArmId arm) {
   const auto& queue = state.jobs.queues()[arm];
   if (!queue.empty() && queue.front() == record.job.id) return true;
   const bool ahead = record.job.is_waiting() && state.lanes.follows_on(record.job.id);
-  const std::size_t horizon = ahead ? state.policy->horizon() : 1;
+  const bool is_open = ahead && others_may_take_its_turn(state, record);
+  const std::size_t horizon = ahead && !is_open ? state.policy->horizon() : 1;
   for (std::size_t place = 0; place < std::min(horizon, queue.size()); ++place) {
     if (queue[place] == record.job.id) return !holds_one_ahead(state, record);
     if (!state.jobs.at(queue[place]).job.is_admitted()) return false;

@@ -116,6 +116,10 @@ bool takes_arm_that_remains(State& state, Record& record, const char* why) {
 
 }  // namespace
 
+bool others_may_take_its_turn(const State& state, const Record& turn) {
+  return in_any_order(state, turn).size() > 1;
+}
+
 std::size_t place_on(const State& state, const Record& record, ArmId arm) {
   const auto goes_before = [&](JobId id) {
     const Record& other = state.jobs.at(id);

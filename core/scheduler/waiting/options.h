@@ -29,6 +29,8 @@ inline constexpr std::size_t kUndecidedMax = 16;
 // The first one is how things are. Who has been overtaken for scheduling.aging is overtaken no
 // more.
 [[nodiscard]] std::vector<Option> options_of(State& state, JobId turn);
+// There is another job of its arm that could go in its place.
+[[nodiscard]] bool others_may_take_its_turn(const State& state, const Record& turn);
 // It waits, has alternatives, and its turn has come on the arm of one of them.
 [[nodiscard]] bool has_turn_on_some_arm(const State& state, const Record& record);
 
