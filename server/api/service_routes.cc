@@ -1,9 +1,9 @@
+#include "server/api/openapi.h"
 #include "server/api/route.h"
 #include "server/codec/cell_schema.h"
 #include "server/http/security_headers.h"
 #include "server/http/served_bytes.h"
 #include "server/messages/arm.h"
-#include "server/api/openapi.h"
 
 namespace armloom {
 namespace {

@@ -2,11 +2,11 @@
 #include <string>
 #include <utility>
 
+#include "server/api/openapi.h"
 #include "server/api/route.h"
 #include "server/http/security_headers.h"
 #include "server/http/served_bytes.h"
 #include "server/messages/session.h"
-#include "server/api/openapi.h"
 
 namespace armloom {
 namespace {

@@ -1,8 +1,8 @@
 #include <iostream>
 
+#include "server/api/openapi.h"
 #include "server/codec/cell_schema.h"
 #include "server/command/command.h"
-#include "server/api/openapi.h"
 
 namespace armloom {
 

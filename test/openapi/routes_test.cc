@@ -4,8 +4,8 @@
 #include <set>
 #include <string>
 
-#include "server/api/route.h"
 #include "server/api/openapi.h"
+#include "server/api/route.h"
 
 namespace armloom {
 namespace {
