@@ -93,8 +93,8 @@ Record record_of(State& state, const Submit& job) {
                 .leg = state.arms.leg_of(*state.cell, job.job, *motion),
                 .turn = job.job,
                 .errand = {.on_behalf_of = job.job}};
-  Duration cells = state.cell->scheduling.backlog_timeout;
-  record.job.terms.backlog_timeout = job.terms.backlog_timeout.value_or(cells);
+  const Duration usual = state.cell->scheduling.backlog_timeout;
+  record.job.terms.backlog_timeout = job.terms.backlog_timeout.value_or(usual);
   record.job.times.submitted_at = state.now;
   if (job.goals.empty()) return record;
   JobGoal& goal = record.job.goal.emplace();

@@ -72,6 +72,32 @@ TEST(FreeOrder, IsKeptWhereTheClientDoesNotFreeIt) {
   EXPECT_FALSE(given.cell.job("beside").ways.choice);
 }
 
+// What several arms could do keeps its place among jobs in any order, which go around it.
+class FreeOrderAndAlternatives : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, FreeOrderAndAlternatives, ::testing::ValuesIn(known_policies()));
+
+TEST_P(FreeOrderAndAlternatives, AllAreDone) {
+  Crossing cell(crossing_description(), GetParam());
+  std::vector<JobRequest> jobs;
+  for (int round = 0; round < 3; ++round) {
+    const std::string number = std::to_string(round);
+    jobs.push_back(visit_job("y", -1, 1, 5, "y through " + number));
+    jobs.push_back(visit_job("x", -1, 1, 5, "x through " + number));
+    jobs.push_back(either(-0.6, 0.5, 4, "either " + number));
+    jobs.push_back(visit_job("x", -1, -0.6, 2, "x beside " + number));
+  }
+  for (JobRequest& job : jobs) {
+    std::ranges::replace(job.key, ' ', '-');
+    job.terms.order = JobOrder::any;
+    cell.submit(job);
+  }
+  cell.run_to_the_end();
+  for (const JobRequest& job : jobs) {
+    EXPECT_EQ(cell.job(job.key).state, JobState::succeeded) << job.key;
+  }
+  EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
+}
+
 TEST(Alternatives, AreSharedByTheArms) {
   Crossing cell;
   cell.submit(either(-0.6, -0.6, 4, "one"));

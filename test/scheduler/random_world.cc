@@ -114,7 +114,7 @@ std::optional<Submit> World::draw_visit(const Configuration& rest, bool any) {
   if (job.alternatives.empty()) return std::nullopt;
   job.trajectory = job.alternatives.front();
   if (job.alternatives.size() == 1) job.alternatives.clear();
-  if (job.alternatives.empty()) job.terms.order = JobOrder::any;
+  job.terms.order = JobOrder::any;
   return job;
 }
 

@@ -25,10 +25,11 @@ bool is_next(const State& state, const Record& record, ArmId arm) {
   const auto& queue = state.jobs.queues()[arm];
   if (!queue.empty() && queue.front() == record.job.id) return true;
   const bool ahead = record.job.is_waiting() && state.lanes.follows_on(record.job.id);
-  const bool is_open = ahead && others_may_take_its_turn(state, record);
-  const std::size_t horizon = ahead && !is_open ? state.policy->horizon() : 1;
+  const std::size_t horizon = ahead ? state.policy->horizon() : 1;
   for (std::size_t place = 0; place < std::min(horizon, queue.size()); ++place) {
-    if (queue[place] == record.job.id) return !holds_one_ahead(state, record);
+    if (queue[place] == record.job.id) {
+      return !holds_one_ahead(state, record) && !others_may_take_its_turn(state, record);
+    }
     if (!state.jobs.at(queue[place]).job.is_admitted()) return false;
   }
   return false;

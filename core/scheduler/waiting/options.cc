@@ -16,10 +16,11 @@ bool is_loop(const Record& record) {
   return record.leg.arms.size() == 1 && record.leg.from == record.leg.to;
 }
 
+// One that several arms could do has no place on any of them yet that it could change.
 bool may_change_places(const Record& record) {
   return record.job.terms.order == JobOrder::any && record.job.in<Queued>() != nullptr &&
-         is_loop(record) && record.job.after.empty() && !record.errand.before &&
-         !record.errand.lets_pass;
+         record.job.alternatives.empty() && is_loop(record) && record.job.after.empty() &&
+         !record.errand.before && !record.errand.lets_pass;
 }
 
 bool is_overtaken_no_more(const State& state, const Record& record) {
