@@ -163,7 +163,8 @@ test('stop answers within a second on a busy machine', { timeout: 400_000 }, asy
     await post({ ...swing_job('busy-there', names, q, 0.5, 30) });
     await page.locator('[data-test=list-running] [data-test="job-busy-there"]').waitFor();
     // The view has seen some slow drawings.
-    await page.waitForFunction((from) => window.armloom.pictures() >= from + 6, await page.evaluate(() => window.armloom.pictures()));
+    const seen = await page.evaluate(() => window.armloom.pictures());
+    await page.waitForFunction((from) => window.armloom.pictures() >= from + 6, seen, { timeout: 240_000 });
     // The machine may have something else to do for once: three tries.
     let took_ms = Infinity;
     for (let tries = 0; tries < 3 && took_ms >= 1000; tries++) {
