@@ -95,9 +95,13 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
 
   set_joints(ahead.rest, *motions.front(), motions.front()->goal());
   ahead.keys.push_back(request.key);
-  return PreparedJob{std::move(request.key), std::move(request.name), std::move(motions),
-                     std::move(goals),       request.terms,           std::move(request.after),
-                     std::move(returns)};
+  return PreparedJob{.key = std::move(request.key),
+                     .name = std::move(request.name),
+                     .alternatives = std::move(motions),
+                     .goals = std::move(goals),
+                     .terms = request.terms,
+                     .after = std::move(request.after),
+                     .returns = std::move(returns)};
 }
 
 // Its trajectory, or its alternatives; and what has to move first so that they can begin.

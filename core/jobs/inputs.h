@@ -34,8 +34,8 @@ struct Submit {
   // Where its arm is to go: the way is planned first (PlanMotion); `trajectory` is an estimate.
   // Several: one for each of `alternatives`, which are estimates.
   std::vector<MotionGoal> goals = {};
-  std::vector<JobId> after =
-      {};                   // active jobs that have to succeed first; smaller ids than its own
+  // Active jobs that have to succeed first; smaller ids than its own.
+  std::vector<JobId> after = {};
   bool system_job = false;  // the server's own: in a ring it gives way to jobs of clients
   // It waited when a former run ended: whether it can begin where its arms stand is not looked at
   // while one of them is stopped, but when they are resumed. (As of those that Interrupt keeps.)

@@ -1,5 +1,6 @@
 #include "core/scheduler/amending.h"
 
+#include <optional>
 #include <utility>
 
 namespace armloom {
@@ -16,17 +17,16 @@ void amend(State& state, const Amend& input) {
   Record* record = state.jobs.find(input.job);
   if (record == nullptr || record->job.has_ended()) return;
   Job& job = record->job;
-  JobTerms amended = job.terms;
-  apply(input.terms, amended);
-  const int priority = std::exchange(amended.priority, job.terms.priority);
-  job.terms = amended;
+  AmendedTerms terms = input.terms;
+  const auto priority = std::exchange(terms.priority, std::nullopt);  // not the job's alone
+  apply(terms, job.terms);
   state.jobs.changed(*record);
-  if (priority == job.terms.priority) return;
-  set_priority(state, *record, priority);
+  if (!priority || *priority == job.terms.priority) return;
+  set_priority(state, *record, *priority);
   for (JobId id : state.jobs.active()) {
     Record& other = state.jobs.at(id);
     const bool is_on_its_behalf = id != job.id && other.errand.on_behalf_of == job.id;
-    if (is_on_its_behalf) set_priority(state, other, priority);
+    if (is_on_its_behalf) set_priority(state, other, *priority);
   }
   ++state.version;
   state.expected.spoil();

@@ -32,8 +32,7 @@ const QueryFormat<AuditQuery>& audit_query() {
           query::whole_number<Query>("status", &Query::status, 100, 599, "Of the answer"),
           time("since", &Query::since_ms, "Answered then or later: RFC 3339"),
           time("before", &Query::before_ms, "Answered earlier: RFC 3339"),
-          query::whole_number<Query>("limit", &Query::limit, 1, 1000,
-                                     "At most so many, 100 unless given"),
+          query::limit<Query>(&Query::limit),
           query::cursor<Query>(&Query::below),
       },
       ProblemKind::invalid);

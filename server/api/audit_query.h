@@ -9,7 +9,7 @@ namespace armloom {
 
 // The query of GET /audit.
 struct AuditQuery : AuditFilter {
-  std::size_t limit = 100;
+  std::size_t limit = query::kPage;
 };
 [[nodiscard]] const QueryFormat<AuditQuery>& audit_query();
 

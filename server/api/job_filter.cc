@@ -6,6 +6,7 @@
 #include <utility>
 
 namespace armloom {
+
 const QueryFormat<JobFilter>& job_query() {
   using Query = JobFilter;
   static const QueryFormat<Query> format(
@@ -13,8 +14,7 @@ const QueryFormat<JobFilter>& job_query() {
           query::one_of("state", &Query::state, job_state_format()->schema(Way::in),
                         "In this state"),
           query::text<Query>("arm", &Query::arm, "That move this arm"),
-          query::whole_number<Query>("limit", &Query::limit, 1, 1000,
-                                     "At most so many, 100 unless given"),
+          query::limit<Query>(&Query::limit),
           query::cursor<Query>(&Query::before),
       },
       ProblemKind::invalid);

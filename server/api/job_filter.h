@@ -16,12 +16,9 @@ namespace armloom {
 
 // The query of GET /jobs: ?state=&arm=&limit=&cursor=
 struct JobFilter {
-  inline static constexpr std::size_t kLimit = 100;  // when none is given
-  inline static constexpr std::size_t kLimitMax = 1000;
-
   std::optional<JobState> state;
   std::string arm;  // empty: any
-  std::size_t limit = kLimit;
+  std::size_t limit = query::kPage;
   std::optional<std::uint64_t> before;  // the cursor: only jobs submitted before this one
 };
 

@@ -115,7 +115,7 @@ template <class T, class Of, class Number, class Value>
           }};
 }
 
-// One of an enumeration, by its name; `told` as the schema of that stands elsewhere.
+// One of an enumeration, by its name.
 template <class T, class E>
 [[nodiscard]] QueryPart<T> one_of(std::string name, std::optional<E> T::*where, Schema schema,
                                   std::string told) {
@@ -125,6 +125,15 @@ template <class T, class E>
             out.*where = value_named<E>(value);
             return out.*where ? std::nullopt : std::optional(rule + value + "\"");
           }};
+}
+
+// Of a list: so many entries make a page, at most.
+inline constexpr std::size_t kPage = 100;  // when none is asked for
+inline constexpr std::size_t kPageMax = 1000;
+template <class T>
+[[nodiscard]] QueryPart<T> limit(std::size_t T::*where) {
+  return whole_number<T>("limit", where, std::size_t{1}, kPageMax,
+                         "At most so many, " + std::to_string(kPage) + " unless given");
 }
 
 // Where the page before ended, in the server's own words.

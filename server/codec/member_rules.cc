@@ -45,16 +45,15 @@ void describe_count(Schema& object, HowMany how_many, const std::vector<std::str
   }
 }
 
-void check_companion(const JsonNode& object, std::string_view key, const Companion& companion) {
-  if (!object.has(key) || object.has(companion.key)) return;
-  const std::string usual = "only a " + companion.key + " has a " + std::string(key);
+void check_companion(const JsonNode& object, std::string_view key, const std::string& companion) {
+  if (!object.has(key) || object.has(companion)) return;
   object.optional(key, [&](const JsonNode& node) {
-    node.invalid(companion.slug, companion.sentence.empty() ? usual : companion.sentence);
+    node.invalid("without-companion", "only a " + companion + " has a " + std::string(key));
   });
 }
 
-void describe_companion(Schema& object, std::string_view key, const Companion& companion) {
-  object["dependentRequired"][std::string(key)] = Schema::array({companion.key});
+void describe_companion(Schema& object, std::string_view key, const std::string& companion) {
+  object["dependentRequired"][std::string(key)] = Schema::array({companion});
 }
 
 void describe_unless(Schema& object, const std::string& key, const Schema& before) {

@@ -16,14 +16,8 @@ namespace armloom::formats {
 enum class HowMany { exactly_one, at_most_one };
 void check_count(const JsonNode& object, HowMany how_many, const std::vector<std::string>& keys);
 void describe_count(Schema& object, HowMany how_many, const std::vector<std::string>& keys);
-// What has no meaning without the member `key`, and how that is told: empty: in the usual way.
-struct Companion {
-  std::string key;
-  std::string slug = "without-companion";
-  std::string sentence = "";
-};
-void check_companion(const JsonNode& object, std::string_view key, const Companion& companion);
-void describe_companion(Schema& object, std::string_view key, const Companion& companion);
+void check_companion(const JsonNode& object, std::string_view key, const std::string& companion);
+void describe_companion(Schema& object, std::string_view key, const std::string& companion);
 
 template <class T>
 class CountRule final : public Part<T> {
@@ -48,11 +42,11 @@ template <class T>
   return make_as_base<CountRule<T>>(HowMany::at_most_one, std::move(keys));
 }
 
-// The part, which has no meaning without its companion, and is not written without it.
+// The part, which has no meaning without the member `companion`, and is not written without it.
 template <class T, class M>
 class CompanionPart final : public Part<T> {
  public:
-  CompanionPart(Companion companion, std::optional<M> T::*where, PartPtr<T> part)
+  CompanionPart(std::string companion, std::optional<M> T::*where, PartPtr<T> part)
       : companion_(std::move(companion)), where_(where), part_(std::move(part)) {
     part_->list_keys(keys_);
   }
@@ -73,13 +67,13 @@ class CompanionPart final : public Part<T> {
   }
 
  private:
-  Companion companion_;
+  std::string companion_;
   std::optional<M> T::*where_;
   PartPtr<T> part_;
   std::vector<std::string_view> keys_;
 };
 template <class T, class M>
-[[nodiscard]] PartPtr<T> only_with(Companion companion, std::optional<M> T::*where,
+[[nodiscard]] PartPtr<T> only_with(std::string companion, std::optional<M> T::*where,
                                    PartPtr<T> part) {
   return make_as_base<CompanionPart<T, M>>(std::move(companion), where, std::move(part));
 }

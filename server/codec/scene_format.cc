@@ -60,7 +60,7 @@ PartPtr<Shape> shape_part() {
       parts.end(),
       {field("mesh", &ShapeWords::mesh, path(),
              "A mesh (STL, OBJ, DAE): a file. All that it encloses counts as solid, cavities too."),
-       only_with({"mesh"}, &ShapeWords::mesh,
+       only_with("mesh", &ShapeWords::mesh,
                  field("scale", &ShapeWords::scale, vector3(kAnyNumber),
                        "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1})),
        exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"})});

@@ -156,9 +156,6 @@ FormatPtr<std::string> job_name_format() {
 
 FormatPtr<JobRequest> job_request_format() {
   using Request = JobRequest;
-  const Companion with_goal{
-      "move_to", "unknown-field",
-      "an arm is named with move_to; a trajectory's joints say which arms move"};
   static const auto format = named(
       "JobRequest", "",
       object<Request>({
@@ -185,17 +182,11 @@ FormatPtr<JobRequest> job_request_format() {
           field("move_to", &Request::move_to, plan_goal_format(),
                 "Instead of a trajectory: where `arm` is to go. The way is planned from where it "
                 "will be when the jobs before it have run, and again where that has changed"),
-          only_with(
-              with_goal, &Request::move_to,
-              field("arm", &Request::arm, formats::name(), "With move_to: which arm goes there")),
-          only_with(
-              with_goal, &Request::move_to,
-              field(
-                  "arms",
-                  &Request::arms,
-                  list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
-                  "With move_to, instead of arm: the way is planned for each of these, and the one "
-                  "that arrives first takes it")),
+          field("arm", &Request::arm, formats::name(), "With move_to: which arm goes there"),
+          field("arms", &Request::arms,
+                list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
+                "With move_to, instead of arm: the way is planned for each of these, and the one "
+                "that arrives first takes it"),
           at_most_one<Request>({"arm", "arms"}),
           at_most_one<Request>({"trajectory", "alternatives", "move_to"}),
           // Both are read after the trajectory, which they time and stretch.

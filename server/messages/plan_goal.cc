@@ -23,7 +23,7 @@ FormatPtr<PlanGoal> plan_goal_format() {
                 field("named", &PlanGoal::named, name(), "A named state of the SRDF, or home"),
                 field("pose", &PlanGoal::pose, pose, "Of a link, in the world"),
                 exactly_one<PlanGoal>({"joints", "named", "pose"}),
-                only_with({"pose"}, &PlanGoal::pose,
+                only_with("pose", &PlanGoal::pose,
                           field("cartesian", &PlanGoal::cartesian, flag(),
                                 "With a pose: the link goes there in a straight line of the world, "
                                 "turning evenly, within 1 mm and 0.01 rad at every instant")),

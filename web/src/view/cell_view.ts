@@ -274,8 +274,7 @@ export class CellView {
       this.stage_.hurry();
       if (q === null) this.labels_.hide();
     }
-    if (q === null) return;
-    if (!this.robots_.set_q(q)) return;
+    if (q === null || !this.robots_.set_q(q)) return;
     this.paths_.follow(this.robots_, this.store_.arms, this.at_.t_s ?? this.store_.t_s);
     this.ahead_.move();
     this.stage_.invalidate(true);

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "core/base/enumeration.h"
+#include "core/base/ids.h"
+#include "core/base/time.h"
+#include "core/coordination/proximity.h"
+
+namespace armloom {
+
+// What clients are told of a job in a word: its state, what it waits for, and why it ended.
+
+// A job's state as clients are told it; follows from its phase (below).
+enum class JobState {
+  queued,      // not judged yet: just arrived, or behind another job of its arm
+  backlogged,  // judged, in conflict: `waits_on` says with what
+  scheduled,   // admitted, starts at scheduled_at
+  running,
+  holding,  // in the middle of its path, at rest or braking, until resumed
+  succeeded,
+  canceled,
+  expired,
+  failed,
+  interrupted,
+};
+[[nodiscard]] constexpr bool is_terminal(JobState s) { return s >= JobState::succeeded; }
+[[nodiscard]] constexpr const char* to_string(JobState state) {
+  switch (state) {
+    case JobState::queued:
+      return "queued";
+    case JobState::backlogged:
+      return "backlogged";
+    case JobState::scheduled:
+      return "scheduled";
+    case JobState::running:
+      return "running";
+    case JobState::holding:
+      return "holding";
+    case JobState::succeeded:
+      return "succeeded";
+    case JobState::canceled:
+      return "canceled";
+    case JobState::expired:
+      return "expired";
+    case JobState::failed:
+      return "failed";
+    case JobState::interrupted:
+      return "interrupted";
+  }
+  return nullptr;
+}
+// Those in which a job ends.
+inline constexpr auto kJobEnds = std::span(kValues<JobState>).last<5>();
+static_assert(is_terminal(kJobEnds.front()) && !is_terminal(*(kJobEnds.begin() - 1)));
+
+// Why a job does not move.
+struct Wait {
+  enum class Kind { job, arm, object, order, capacity, stop, plan };
+  Kind kind;
+  std::optional<JobId> job;            // job, order, capacity
+  std::optional<ArmId> arm;            // arm, stop; job: the other's arm that comes too close
+  std::optional<Proximity> proximity;  // job, arm, object: evidence
+  Duration own_time{};                 // with proximity: trajectory time of this job
+  Duration other_time{};               // and of the other one
+  std::string detail = {};             // stop: its cause
+  bool has_no_way_aside = false;       // arm: none of those that it could go is left to be tried
+
+  bool operator==(const Wait&) const = default;
+  // Same obstacle, whatever the figures: used to spare clients a repeated event.
+  [[nodiscard]] bool same_cause(const Wait& other) const {
+    return kind == other.kind && job == other.job && arm == other.arm && detail == other.detail &&
+           has_no_way_aside == other.has_no_way_aside;
+  }
+};
+[[nodiscard]] constexpr const char* to_string(Wait::Kind kind) {
+  switch (kind) {
+    case Wait::Kind::job:
+      return "job";
+    case Wait::Kind::arm:
+      return "arm";
+    case Wait::Kind::object:
+      return "object";
+    case Wait::Kind::order:
+      return "order";
+    case Wait::Kind::capacity:
+      return "capacity";
+    case Wait::Kind::stop:
+      return "stop";
+    case Wait::Kind::plan:
+      return "plan";
+  }
+  return nullptr;
+}
+
+// Closed list; README.md beside this file explains each.
+enum class Reason {
+  completed,
+  canceled_by_client,
+  backlog_timeout,
+  start_mismatch,      // the arm does not stand where the trajectory begins
+  self_collision,      // the arm would hit itself: it can never run
+  predecessor_failed,  // a job named in `after` ended without success
+  arm_fault,
+  overrun,  // took longer than execution.duration_scaling and _margin allow, and stands still
+  server_restart,
+  deadlock,  // it waited in a ring of jobs none of which could ever move, and came last
+  no_plan,   // no way to its goal was found, or none that still fitted when it was there
+};
+[[nodiscard]] constexpr const char* to_string(Reason reason) {
+  switch (reason) {
+    case Reason::completed:
+      return "completed";
+    case Reason::canceled_by_client:
+      return "canceled_by_client";
+    case Reason::backlog_timeout:
+      return "backlog_timeout";
+    case Reason::start_mismatch:
+      return "start_mismatch";
+    case Reason::self_collision:
+      return "self_collision";
+    case Reason::predecessor_failed:
+      return "predecessor_failed";
+    case Reason::arm_fault:
+      return "arm_fault";
+    case Reason::overrun:
+      return "overrun";
+    case Reason::server_restart:
+      return "server_restart";
+    case Reason::deadlock:
+      return "deadlock";
+    case Reason::no_plan:
+      return "no_plan";
+  }
+  return nullptr;
+}
+
+}  // namespace armloom
