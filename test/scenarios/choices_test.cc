@@ -120,7 +120,26 @@ TEST(Alternatives, OfAStoppedArmAreDoneByTheOther) {
   for (const char* key : {"one", "two", "three"}) {
     EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key;
     EXPECT_THAT(cell.job(key).arms, ElementsAre("y")) << key;
+    ASSERT_TRUE(cell.job(key).ways.choice) << key;
+    EXPECT_THAT(cell.job(key).ways.choice->among, ElementsAre("y", "x")) << key;
+    EXPECT_THAT(cell.job(key).ways.choice->detail, HasSubstr("x cannot: it is stopped")) << key;
   }
+}
+
+TEST(Alternatives, OfAnArmThatDoesNotComeToTheirBeginningAreDoneByTheOther) {
+  Crossing cell;
+  cell.submit(slide("x", -1, -0.5, 4, "leads-there"));
+  JobRequest job = either(-0.6, -0.6, 4, "job");
+  job.alternatives[0] = visit("x", -0.5, -0.6, 4);
+  cell.submit(visit_job("y", -1, -0.6, 30, "y-is-busy"));
+  cell.submit(std::move(job));
+  cell.run_until(at(2s));
+  EXPECT_TRUE(cell.simulation->executive().cancel("leads-there"));
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("job").state, JobState::succeeded);
+  ASSERT_TRUE(cell.job("job").ways.choice);
+  EXPECT_THAT(cell.job("job").ways.choice->among, ElementsAre("y", "x"));
+  EXPECT_THAT(cell.job("job").ways.choice->detail, HasSubstr("x cannot: it will not stand"));
 }
 
 TEST(Alternatives, ThatEndElsewhereOrMoveTheSameArmAreRefusedWithThePlace) {

@@ -84,16 +84,19 @@ std::optional<double> cost_behind_others(State& state, JobId job) {
   return cost_of(state, state.jobs.at(job).job, orders.prediction);
 }
 
-// By which arms it cannot go as things stand.
-std::vector<Choice::Without> without(const State& state, const Job& job) {
+std::string refusal_of(const State& state, const Job& job, std::size_t alternative) {
+  if (!job.may_go_by(alternative)) return job.goal->ways[alternative].refusal.value_or("");
+  const ArmId arm = job.alternatives[alternative]->arms().front();
+  return state.arms.is_stopped(arm) ? "it is stopped" : "it will not stand where the job begins";
+}
+
+// By which arms it cannot go as things stand: those of none of its options.
+std::vector<Choice::Without> without(const State& state, const Job& job,
+                                     const std::vector<Option>& options) {
   std::vector<Choice::Without> arms;
-  for (const GoalWay& way : job.goal->ways) {
-    const ArmId arm = way.goal.arm;
-    if (!way.is_planned) {
-      arms.push_back({arm, way.refusal.value_or("")});
-    } else if (state.arms.is_stopped(arm)) {
-      arms.push_back({arm, "it is stopped"});
-    }
+  for (std::size_t k = 0; k < job.alternatives.size(); ++k) {
+    if (std::ranges::find(options, k, &Option::alternative) != options.end()) continue;
+    arms.push_back({job.alternatives[k]->arms().front(), refusal_of(state, job, k)});
   }
   return arms;
 }
@@ -159,8 +162,9 @@ std::optional<Verdict> Choosing::decide(State& state) {
 // Where no other arm can.
 void Choosing::note_only_arm(State& state) const {
   Record& record = state.jobs.at(job());
-  if (options_.size() > 1 || !record.job.has_open_arm()) return;
-  Choice choice{.arms = record.job.trajectory->arms(), .without = without(state, record.job)};
+  if (options_.size() > 1 || record.job.alternatives.empty()) return;
+  Choice choice{.arms = record.job.trajectory->arms(),
+                .without = without(state, record.job, options_)};
   const auto& before = record.job.choice;
   if (before && before->arms == choice.arms) return;
   record.job.choice = std::move(choice);
@@ -184,7 +188,7 @@ void Choosing::note(State& state, std::size_t best) const {
   if (rated_[best].cost && rated_.front().cost) {
     choice.saves = from_seconds(*rated_.front().cost - *rated_[best].cost);
   }
-  if (taker.job.has_open_arm()) choice.without = without(state, taker.job);
+  choice.without = without(state, taker.job, options_);
   taker.job.choice = std::move(choice);
   state.jobs.changed(taker);
 }
