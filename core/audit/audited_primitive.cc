@@ -114,7 +114,7 @@ bool AuditedPrimitive::contains(const Vector3d& p, double within_m) const {
   return p.norm() - round_m() <= within_m;
 }
 
-double AuditedPrimitive::extent(const Vector3d& n) const {
+double AuditedPrimitive::support(const Vector3d& n) const {
   if (const auto* box = std::get_if<Box>(&shape_)) return 0.5 * n.cwiseAbs().dot(box->size_m);
   if (const auto* cylinder = std::get_if<Cylinder>(&shape_)) {
     return 0.5 * std::abs(n.z()) * cylinder->length_m +
@@ -142,8 +142,8 @@ std::optional<double> AuditedPrimitive::proven_distance(const AuditedPrimitive& 
   }
   const Vector3d n = (on_b - on_a) / at_most_m;
   const double at_least_m = n.dot(X_WB.translation() - X_WA.translation()) -
-                            a.extent(X_WA.linear().transpose() * n) -
-                            b.extent(X_WB.linear().transpose() * -n);
+                            a.support(X_WA.linear().transpose() * n) -
+                            b.support(X_WB.linear().transpose() * -n);
   if (at_least_m <= 0.0 || at_most_m - at_least_m > kProof_m) return std::nullopt;
   return at_least_m;
 }

@@ -36,7 +36,7 @@ class AuditedPrimitive {
 
  private:
   // The largest n·x over the shape, n of unit length in the shape's frame.
-  [[nodiscard]] double extent(const Eigen::Vector3d& n) const;
+  [[nodiscard]] double support(const Eigen::Vector3d& n) const;
 
   Shape shape_;
   std::shared_ptr<const fcl::CollisionGeometryd> solid_;

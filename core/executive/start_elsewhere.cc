@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "core/base/told.h"
+#include "core/base/rounding_noise.h"
 #include "core/base/whole_turns.h"
 
 namespace armloom {
@@ -20,7 +20,8 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
     std::snprintf(text, sizeof text,
                   "waypoint 0, %s: begins at %.6g, but will stand at %.6g when the jobs accepted "
                   "for the arm have run",
-                  joint.name.c_str(), told(begins), told(stands));
+                  joint.name.c_str(), without_rounding_noise(begins),
+                  without_rounding_noise(stands));
     std::string detail = text;
     if (joint.kind != JointKind::prismatic)
       detail += whole_turns_apart(stands, begins, cell.execution.start_tolerance_rad);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/base/told.h"
+#include "core/base/rounding_noise.h"
 #include "core/base/whole_turns.h"
 #include "core/trajectory/set_joints.h"
 
@@ -102,7 +102,8 @@ std::optional<std::string> ArmRests::start_mismatch(const Cell& cell,
   const double begins = trajectory.start()[j];
   char text[256];
   std::snprintf(text, sizeof text, "%s stands at %.6g, the trajectory begins at %.6g",
-                cell.joint(*joint).name.c_str(), told(stands), told(begins));
+                cell.joint(*joint).name.c_str(), without_rounding_noise(stands),
+                without_rounding_noise(begins));
   const bool turns_round = cell.joint(*joint).kind != JointKind::prismatic;
   return text + (turns_round ? whole_turns_apart(stands, begins, cell.execution.start_tolerance_rad)
                              : std::string());

@@ -46,8 +46,8 @@ std::optional<PlanRefusal> outside(const Cell& cell, const Arm& arm, const Eigen
   return std::nullopt;
 }
 
-std::string told(const LineChecker::Answer& answer) {
-  return armloom::told(*answer.proximity, answer.moves_m);
+std::string in_words(const LineChecker::Answer& answer) {
+  return armloom::in_words(*answer.proximity, answer.moves_m);
 }
 
 // Limits; of joints without any, half a turn beyond where the way begins and ends.
@@ -124,7 +124,7 @@ class Search {
   std::optional<PlanRefusal> check_ends() {
     if (auto refusal = outside(cell_, arm_, start_, kStart)) return refusal;
     if (const auto answer = lines_.state(start_); answer.kind != LineChecker::Kind::free) {
-      return PlanRefusal{Reason::start_in_collision, "at the start " + told(answer),
+      return PlanRefusal{Reason::start_in_collision, "at the start " + in_words(answer),
                          answer.proximity};
     }
     std::optional<PlanRefusal> first;
@@ -136,8 +136,8 @@ class Search {
           goals_.push_back(g);
           continue;
         }
-        refusal =
-            PlanRefusal{Reason::goal_in_collision, "at the goal " + told(answer), answer.proximity};
+        refusal = PlanRefusal{Reason::goal_in_collision, "at the goal " + in_words(answer),
+                              answer.proximity};
       }
       if (!first) first = std::move(refusal);
     }
@@ -184,7 +184,7 @@ std::string reason_name(Reason reason) {
   return "";
 }
 
-std::string told(const Proximity& p, double moves_m) {
+std::string in_words(const Proximity& p, double moves_m) {
   const std::string distance =
       p.clearance_m > 0.0 ? " is " + mm(p.clearance_m) + " from " : std::string(" touches ");
   std::string text = p.body_a + distance + p.body_b;

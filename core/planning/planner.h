@@ -91,6 +91,6 @@ class Planner {
 
 // "left_link7 is 3 mm from table; 20 mm are asked". `moves_m`: what the two may move on top, as the
 // tracking error lets them, where the distance alone would do (LineChecker::Answer).
-[[nodiscard]] std::string told(const Proximity& proximity, double moves_m = 0.0);
+[[nodiscard]] std::string in_words(const Proximity& proximity, double moves_m = 0.0);
 
 }  // namespace armloom

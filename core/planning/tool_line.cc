@@ -194,7 +194,7 @@ NearestFree last_free(const PlanningScenePtr& scene, const PlanRequest& request,
 PlanRefusal blocked_by(const Conflict& found, const std::string& place, NearestFree nearest) {
   const std::string what = found.proximity.body_a.empty()
                                ? "that nothing is too close is not proven"
-                               : told(found.proximity);
+                               : in_words(found.proximity);
   PlanRefusal blocked{Reason::line_blocked, what + ", " + place};
   if (!found.proximity.body_a.empty()) blocked.proximity = found.proximity;
   blocked.nearest = std::move(nearest.q);

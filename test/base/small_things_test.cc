@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "core/base/disjoint_sets.h"
+#include "core/base/rounding_noise.h"
 #include "core/base/time.h"
-#include "core/base/told.h"
 #include "core/base/whole_turns.h"
 
 namespace armloom {
@@ -37,9 +37,9 @@ TEST(DisjointSets, AreNamedByTheirFirstMemberHoweverTheyWereJoined) {
 }
 
 TEST(Positions, AreToldWithoutTheNoiseOfArithmetic) {
-  EXPECT_EQ(told(6.9e-18), 0.0);
-  EXPECT_FALSE(std::signbit(told(-6.9e-18)));
-  EXPECT_EQ(told(-1e-6), -1e-6);
+  EXPECT_EQ(without_rounding_noise(6.9e-18), 0.0);
+  EXPECT_FALSE(std::signbit(without_rounding_noise(-6.9e-18)));
+  EXPECT_EQ(without_rounding_noise(-1e-6), -1e-6);
 }
 
 TEST(WholeTurns, AreToldOfPositionsThatLookTheSame) {

@@ -106,7 +106,7 @@ Poses free_poses(const PlanningScenePtr& scene, ArmId id, const Poses& poses, Ro
       const auto same = [&q](const auto& other) { return (other.second - q).norm() < 1e-9; };
       if (std::ranges::none_of(free, same)) free.emplace(name, q);
     } else {
-      row.colliding.push_back(name + ": " + told(*answer.proximity, answer.moves_m));
+      row.colliding.push_back(name + ": " + in_words(*answer.proximity, answer.moves_m));
     }
   }
   add_postures(cell, id, lines, free);

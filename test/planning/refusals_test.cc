@@ -129,17 +129,17 @@ TEST_F(Refusals, TellWhatWasAskedWhateverIsThere) {
   Proximity near{.body_a = "hand", .body_b = "table", .arm_a = wall.left, .arm_b = {}};
   near.limit_m = 0.02;
   near.clearance_m = 0.003;
-  EXPECT_EQ(told(near), "hand is 3 mm from table; 20 mm are asked");
+  EXPECT_EQ(in_words(near), "hand is 3 mm from table; 20 mm are asked");
   near.clearance_m = -0.001;
-  EXPECT_EQ(told(near), "hand touches table; 20 mm are asked");
+  EXPECT_EQ(in_words(near), "hand touches table; 20 mm are asked");
   near.clearance_m = 0.0205;
   EXPECT_EQ(
-      told(near, 0.0012),
+      in_words(near, 0.0012),
       "hand is 20.5 mm from table; 20 mm are asked, and 1.2 mm on top for the tracking error");
-  EXPECT_THAT(told(near), HasSubstr("20 mm are asked, which is not proven"));
+  EXPECT_THAT(in_words(near), HasSubstr("20 mm are asked, which is not proven"));
   near.limit_m = 0.0;
   near.clearance_m = 0.0;
-  EXPECT_THAT(told(near), Not(HasSubstr("0 mm are asked")));
+  EXPECT_THAT(in_words(near), Not(HasSubstr("0 mm are asked")));
 }
 
 // The closest pair need not be the one that lacks something: an arm's own links are close by

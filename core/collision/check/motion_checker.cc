@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-DiagramCell::State told(CoordinationDiagram::CellState state) {
+DiagramCell::State state_of(CoordinationDiagram::CellState state) {
   using From = CoordinationDiagram::CellState;
   return state == From::free       ? DiagramCell::State::free
          : state == From::conflict ? DiagramCell::State::conflict
@@ -61,7 +61,7 @@ Diagram MotionChecker::draw(const Drawing& drawing) {
       }
       diagram.evaluations += pair.refine(drawing.resolution, drawing.budget);
       for (const auto& [box, state] : pair.cells()) {
-        cells.push_back({box.from_a, box.to_a, box.from_b, box.to_b, told(state)});
+        cells.push_back({box.from_a, box.to_a, box.from_b, box.to_b, state_of(state)});
       }
       cells = joined(std::move(cells), diagram);
     }

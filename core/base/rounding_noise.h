@@ -6,6 +6,8 @@ namespace armloom {
 
 // A joint position (rad or m) as people are told it, without the noise of arithmetic: 0, not
 // 6.9e-18.
-[[nodiscard]] inline double told(double q) { return std::abs(q) < 1e-9 ? 0.0 : q; }
+[[nodiscard]] inline double without_rounding_noise(double q) {
+  return std::abs(q) < 1e-9 ? 0.0 : q;
+}
 
 }  // namespace armloom
