@@ -44,6 +44,15 @@ Duration PairRegionSearch::closest() const {
   return question_.effort > 1 ? CellTree::kFinest : kClosest;
 }
 
+CoordinationDiagram::Resolution PairRegionSearch::resolution_of(Duration shorter) {
+  CoordinationDiagram::Resolution resolution = kResolution;
+  const double scale = std::clamp(to_seconds(shorter) / to_seconds(kShort), 1.0, 2.0);
+  for (Duration* width : {&resolution.fine, &resolution.passing.fine}) {
+    *width = from_seconds(scale * to_seconds(*width));
+  }
+  return resolution;
+}
+
 PairRegionSearch::PairRegionSearch(MotionStore& store, const Question& question)
     : store_(store),
       question_(question),
@@ -130,8 +139,9 @@ void PairRegionSearch::compare(const Side& a, const Side& b, std::vector<PairReg
 
 OrientedDiagram PairRegionSearch::outlined(const Side& a, const Side& b, OrientedDiagram layer) {
   const std::uint64_t budget = cells_for(a, b);
+  const auto resolution = resolution_of(std::min(a.end(), b.end()));
   const auto refine = [&](const OrientedDiagram& cells) {
-    evaluations_ += cells.refine_outline(a.now(), b.now(), kResolution, budget);
+    evaluations_ += cells.refine_outline(a.now(), b.now(), resolution, budget);
   };
   refine(layer);
   if (!question_.may_part || a.to_come() || b.to_come()) return layer;

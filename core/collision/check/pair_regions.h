@@ -15,7 +15,7 @@ namespace armloom {
 
 // The regions of one Coordinated question: every candidate against every motion of other arms and
 // every arm that no motion moves. Diagrams are those of the store, and are refined no further than
-// kResolution (but see kClosest); what is not known when kCells are used up counts as not free.
+// resolution_of() (but see kClosest); what is not known when kCells are used up counts as not free.
 //
 // Motions that share an arm follow each other and are not compared: those that are not to come,
 // then others, then candidates, as named. Where an arm stands before, between and after its motions
@@ -39,12 +39,16 @@ class PairRegionSearch {
   // Cells looked at.
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
+  // Where one of the motions takes no longer than kShort; where both do, fine cells are as much wider
+  // as the shorter one is longer, up to twice: what an arm loses at a region is the same share.
+  inline static constexpr Duration kShort = std::chrono::seconds(5);
   inline static constexpr CoordinationDiagram::Resolution kResolution{
       .coarse = std::chrono::milliseconds(160),
       .fine = std::chrono::milliseconds(80),
       .passing = {.fine = std::chrono::milliseconds(25),
                   .coarse = std::chrono::milliseconds(160),
                   .slope = 0.5}};
+  [[nodiscard]] static CoordinationDiagram::Resolution resolution_of(Duration shorter);
   // Of two arms, for each second of both motions together.
   inline static constexpr double kCells = 500.0;
   // Where no conflict is proven it may be a close pass: there, down to here, at as many cells more;

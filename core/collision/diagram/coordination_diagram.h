@@ -122,7 +122,8 @@ class CoordinationDiagram {
   std::uint64_t refine_passing_edges(Duration now_a, Duration now_b,
                                      const PassingResolution& resolution, std::uint64_t budget);
   void split_passing_edge(const CoarseLeaf& leaf, std::vector<int>& unknown);
-  [[nodiscard]] std::vector<OpenLeaf> open_leaves(Duration now_a, Duration now_b) const;
+  [[nodiscard]] bool is_open(const Node& cell, Duration now_a, Duration now_b) const;
+  [[nodiscard]] OpenLeaf open_leaf(int cell) const;
   [[nodiscard]] bool is_outlined(Duration now_a, Duration now_b,
                                  const Resolution& resolution) const;
 

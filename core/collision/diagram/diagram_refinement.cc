@@ -116,24 +116,24 @@ bool CoordinationDiagram::is_outlined(Duration now_a, Duration now_b,
   const Resolution& before = outlined_->resolution;
   if (before.coarse > resolution.coarse || before.fine > resolution.fine) return false;
   if (before.passing.fine > resolution.passing.fine) return false;
-  const auto blurs = [&](const OpenLeaf& leaf) {
-    const bool here = leaf.box.from_a <= now_a && leaf.box.from_b <= now_b;
-    return here && leaf.refinable && tree_.wider(tree_.at(leaf.cell), resolution.passing.fine);
+  const auto blurs = [&](const Node& cell) {
+    const bool refinable = cell.state == CellState::mixed || cell.state == CellState::unknown;
+    return refinable && tree_.remains(cell, now_a, now_b) && tree_.a().from(cell.a) <= now_a &&
+           tree_.b().from(cell.b) <= now_b && tree_.wider(cell, resolution.passing.fine);
   };
-  return std::ranges::none_of(open_leaves(now_a, now_b), blurs);
+  return std::none_of(tree_.begin(), tree_.end(), blurs);
 }
 
-// What remains and is not known to be free.
-std::vector<OpenLeaf> CoordinationDiagram::open_leaves(Duration now_a, Duration now_b) const {
-  std::vector<OpenLeaf> leaves;
-  for (int i = 0; i < tree_.size(); ++i) {
-    const Node& cell = tree_.at(i);
-    if (cell.state == CellState::inner || cell.state == CellState::free) continue;
-    if (!tree_.remains(cell, now_a, now_b)) continue;
-    const bool refinable = cell.state == CellState::mixed || cell.state == CellState::unknown;
-    leaves.push_back({i, tree_.box_of(cell), refinable, proven(cell) != nullptr});
-  }
-  return leaves;
+// A leaf of what remains that is not known to be free.
+bool CoordinationDiagram::is_open(const Node& cell, Duration now_a, Duration now_b) const {
+  return cell.state != CellState::inner && cell.state != CellState::free &&
+         tree_.remains(cell, now_a, now_b);
+}
+
+OpenLeaf CoordinationDiagram::open_leaf(int index) const {
+  const Node& cell = tree_.at(index);
+  const bool refinable = cell.state == CellState::mixed || cell.state == CellState::unknown;
+  return {index, tree_.box_of(cell), refinable, proven(cell) != nullptr};
 }
 
 // Of the children those are looked at that bear on where a motion passes: the corner, and its
@@ -158,8 +158,14 @@ std::uint64_t CoordinationDiagram::refine_passing_edges(Duration now_a, Duration
                                                         std::uint64_t budget) {
   const ProgressBox remaining{now_a, tree_.a().duration(), now_b, tree_.b().duration()};
   bool ended = false;
+  std::vector<int> open;  // no cell that is not open becomes so
+  int seen = 0;
   const auto expand = [&](const std::vector<int>&, std::vector<int>& unknown) {
-    const auto coarse = coarse_leaves(open_leaves(now_a, now_b), remaining, resolution);
+    for (; seen < tree_.size(); ++seen) open.push_back(seen);
+    std::erase_if(open, [&](int cell) { return !is_open(tree_.at(cell), now_a, now_b); });
+    std::vector<OpenLeaf> leaves;
+    for (const int cell : open) leaves.push_back(open_leaf(cell));
+    const auto coarse = coarse_leaves(std::move(leaves), remaining, resolution);
     ended = coarse.empty();
     for (const CoarseLeaf& leaf : coarse) {
       if (tree_.at(leaf.cell).state == CellState::unknown) {

@@ -8,8 +8,8 @@
 namespace armloom {
 namespace {
 
-// Leaves that touch are one component. Given by from_a.
-DisjointSets components_of(const std::vector<OpenLeaf>& leaves) {
+// Leaves that touch are one component, named by its first leaf. Given by from_a.
+std::vector<std::size_t> components_of(const std::vector<OpenLeaf>& leaves) {
   DisjointSets components;
   for (std::size_t i = 0; i < leaves.size(); ++i) components.add();
   for (std::size_t i = 0; i < leaves.size(); ++i) {
@@ -19,52 +19,77 @@ DisjointSets components_of(const std::vector<OpenLeaf>& leaves) {
       if (other.from_b <= box.to_b && box.from_b <= other.to_b) components.join(i, j);
     }
   }
-  return components;
+  std::vector<std::size_t> component(leaves.size());
+  for (std::size_t i = 0; i < leaves.size(); ++i) component[i] = components.root(i);
+  return component;
+}
+
+// A and B exchanged.
+ProgressBox exchanged(const ProgressBox& box) {
+  return {box.from_b, box.to_b, box.from_a, box.to_a};
 }
 
 // A leaf as it looks where A passes first; for the other side with A and B exchanged.
 struct Corner {
-  std::size_t component;
-  Duration far;     // to_a
-  Duration near;    // from_b
-  Duration middle;  // of the leaf: far - near
+  Duration far;   // to_a
+  Duration near;  // from_b
   bool at_rim;
   std::size_t leaf;
 };
 
-// What a path by the clock has to keep clear of for certain: the largest far - near that is proven.
-Duration certain_of(const std::vector<Corner>& of, std::size_t begin, std::size_t end,
-                    const std::vector<OpenLeaf>& leaves) {
+// Of one component: the corners with nothing of it farther out, far and near ascending.
+struct Staircase {
+  std::vector<Corner> corners;
+  // What a path by the clock has to keep clear of for certain: the largest far - near that is
+  // proven.
   Duration certain = Duration::min() / 4;
-  for (std::size_t i = begin; i < end; ++i) {
-    const OpenLeaf& leaf = leaves[of[i].leaf];
-    if (!leaf.refinable) certain = std::max(certain, of[i].far - of[i].near);
-    if (leaf.refinable && leaf.proven) certain = std::max(certain, of[i].middle);
-  }
-  return certain;
-}
 
-// allowed[leaf]: how wide it may be on this side; untouched where it does not matter.
-void judge_side(std::vector<Corner> corners, const std::vector<OpenLeaf>& leaves,
-                const PassingResolution& resolution, std::vector<Duration>& allowed) {
-  std::ranges::sort(corners, [](const Corner& x, const Corner& y) {
-    return std::tuple(x.component, -x.far, x.near, x.leaf) <
-           std::tuple(y.component, -y.far, y.near, y.leaf);
-  });
-  for (std::size_t begin = 0, end = 0; begin < corners.size(); begin = end) {
-    while (end < corners.size() && corners[end].component == corners[begin].component) ++end;
-    const Duration certain = certain_of(corners, begin, end, leaves);
-    Duration nearest = Duration::max();
-    for (std::size_t i = begin; i < end; ++i) {
-      const Corner& corner = corners[i];
-      if (corner.near >= nearest) continue;  // another one is farther out
-      nearest = corner.near;
-      const double behind_s = to_seconds(certain - (corner.far - corner.near));
+  // In the order of the leaves: of two alike the first one counts.
+  void add(const Corner& corner) {
+    const auto at = std::ranges::lower_bound(corners, corner.far, {}, &Corner::far);
+    if (at != corners.end() && at->near <= corner.near) return;
+    const auto end = at != corners.end() && at->far == corner.far ? at + 1 : at;
+    const auto begin =
+        std::ranges::lower_bound(corners.begin(), end, corner.near, {}, &Corner::near);
+    if (begin == end) {
+      corners.insert(end, corner);
+    } else {
+      *begin = corner;
+      corners.erase(begin + 1, end);
+    }
+  }
+};
+
+// How wide each leaf may be on this side; Duration::max(): it does not matter there. box_of(leaf):
+// as it looks where A passes first.
+template <class BoxOf>
+std::vector<Duration> allowed_widths(const std::vector<OpenLeaf>& leaves,
+                                     const std::vector<std::size_t>& component, const BoxOf& box_of,
+                                     const ProgressBox& remaining,
+                                     const PassingResolution& resolution) {
+  std::vector<Staircase> staircases(leaves.size());
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const ProgressBox box = box_of(leaves[i].box);
+    Staircase& staircase = staircases[component[i]];
+    staircase.add(
+        {box.to_a, box.from_b, box.to_a >= remaining.to_a || box.from_b <= remaining.from_b, i});
+    const bool all_of_it = !leaves[i].refinable;
+    if (all_of_it) staircase.certain = std::max(staircase.certain, box.to_a - box.from_b);
+    if (!all_of_it && leaves[i].proven) {
+      const Duration middle = ((box.from_a + box.to_a) - (box.from_b + box.to_b)) / 2;
+      staircase.certain = std::max(staircase.certain, middle);
+    }
+  }
+  std::vector<Duration> allowed(leaves.size(), Duration::max());
+  for (const Staircase& staircase : staircases) {
+    for (const Corner& corner : staircase.corners) {
+      const double behind_s = to_seconds(staircase.certain - (corner.far - corner.near));
       const Duration wider = from_seconds(resolution.slope * std::max(0.0, behind_s));
       allowed[corner.leaf] =
           corner.at_rim ? resolution.fine : std::clamp(wider, resolution.fine, resolution.coarse);
     }
   }
+  return allowed;
 }
 
 }  // namespace
@@ -75,21 +100,12 @@ std::vector<CoarseLeaf> coarse_leaves(std::vector<OpenLeaf> leaves, const Progre
     return std::tuple(x.box.from_a, x.box.from_b, x.cell) <
            std::tuple(y.box.from_a, y.box.from_b, y.cell);
   });
-  DisjointSets components = components_of(leaves);
-  std::vector<Corner> a_first, b_first;
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const ProgressBox& box = leaves[i].box;
-    const std::size_t component = components.root(i);
-    const Duration middle = ((box.from_a + box.to_a) - (box.from_b + box.to_b)) / 2;
-    a_first.push_back({component, box.to_a, box.from_b, middle,
-                       box.to_a >= remaining.to_a || box.from_b <= remaining.from_b, i});
-    b_first.push_back({component, box.to_b, box.from_a, -middle,
-                       box.to_b >= remaining.to_b || box.from_a <= remaining.from_a, i});
-  }
-  std::vector<Duration> allowed_a(leaves.size(), Duration::max());
-  std::vector<Duration> allowed_b = allowed_a;
-  judge_side(std::move(a_first), leaves, resolution, allowed_a);
-  judge_side(std::move(b_first), leaves, resolution, allowed_b);
+  const std::vector<std::size_t> component = components_of(leaves);
+  const auto as_it_is = [](const ProgressBox& box) { return box; };
+  const std::vector<Duration> allowed_a =
+      allowed_widths(leaves, component, as_it_is, remaining, resolution);
+  const std::vector<Duration> allowed_b =
+      allowed_widths(leaves, component, exchanged, exchanged(remaining), resolution);
   std::vector<CoarseLeaf> coarse;
   for (std::size_t i = 0; i < leaves.size(); ++i) {
     if (!leaves[i].refinable) continue;
