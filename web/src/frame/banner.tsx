@@ -13,7 +13,7 @@ export function Banner({ app }: { app: App }) {
   return (
     <div class="banners">
       {files_over.value && (
-        <div class="banner" role="status" data-test="files-over"><span>Let go: a job, a bag of jobs or a trajectory is shown before it is sent; a recording's files are opened.</span></div>
+        <div class="banner" role="status" data-test="files-over"><span>Let go: a job, a batch of jobs or a trajectory is shown before it is sent; a recording, as files or as their folder, is opened.</span></div>
       )}
       {store.link.status === 'lost' && <Lost app={app} />}
       {store.link.status === 'open' && stale_s !== null && (
