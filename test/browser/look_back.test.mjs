@@ -58,7 +58,7 @@ test('the scene has the objects of that instant, and cannot be changed there', {
   await page.screenshot(path_for('look-back-scene-dark'));
   await go_to(page, `#/scene/crate?t=${at.first.toFixed(2)}`);
   await page.locator('[data-test=objects] li').nth(1).waitFor({ state: 'detached' });
-  await page.getByText('There was no object of the name crate.').waitFor();
+  await page.getByText('There was no object called crate.').waitFor();
 });
 
 test('recovery tells what each arm needed then, and resumes nothing', { timeout: 300_000 }, async () => {

@@ -19,17 +19,19 @@ export function AlertsPage({ app }: { app: App }) {
   const acknowledge = (some: readonly KeptAlert[]) => void actions.ask('Acknowledge', alerts.acknowledge(some, who.trim()));
   return (
     <div class="page">
-      <h2>Alerts<span class="count" data-test="alerts-open">{open.length === 0 ? 'all acknowledged' : `${open.length} to acknowledge`}</span></h2>
-      <AsOf app={app}>{app.store.link.status === 'recording' ? 'These alerts are the server\'s, and not of the recording.' : 'Who has seen to them is told as it is now.'}</AsOf>
-      <p class="hint">Warnings and errors. The server keeps who has seen to them, and when.</p>
-      <div class="line wrap">
-        {known_as === null
-          ? <label class="line">Your name <input type="text" value={who} maxLength={100} autocomplete="name" placeholder="who acknowledges" required aria-describedby="who-acknowledges" data-test="person" onInput={(event) => settings.set_person(event.currentTarget.value)} /></label>
-          : <span>As <b>{shown_name(known_as)}</b></span>}
-        <button class="small" data-test="acknowledge-all" disabled={open.length === 0 || unnamed} title={mute ?? ''} onClick={() => acknowledge(open)}>Acknowledge all</button>
-      </div>
+      <h2>Alerts<span class="count" data-test="alerts-open">{all.length === 0 ? '' : open.length === 0 ? 'all acknowledged' : `${open.length} to acknowledge`}</span></h2>
+      <AsOf app={app}>{app.store.link.status === 'recording' ? 'These alerts are the server\'s, and not of the recording.' : 'Who acknowledged them is told as it is now.'}</AsOf>
+      <p class="hint">Warnings and errors. The server keeps who acknowledged each, and when.</p>
+      {all.length > 0 && (
+        <div class="line wrap">
+          {known_as === null
+            ? <label class="line">Your name <input type="text" value={who} maxLength={100} autocomplete="name" placeholder="who acknowledges" required aria-describedby="who-acknowledges" data-test="person" onInput={(event) => settings.set_person(event.currentTarget.value)} /></label>
+            : <span>As <b>{shown_name(known_as)}</b></span>}
+          <button class="small" data-test="acknowledge-all" disabled={open.length === 0 || unnamed} title={mute ?? ''} onClick={() => acknowledge(open)}>Acknowledge all</button>
+        </div>
+      )}
       {unnamed && open.length > 0 && <p class="hint" id="who-acknowledges" data-test="unnamed">An alert is acknowledged by somebody: say who you are.</p>}
-      {all.length === 0 && <p class="none">{t_s === null ? 'None so far.' : 'None until then.'}</p>}
+      {all.length === 0 && <p class="none">{t_s === null ? 'No alert so far.' : 'No alert until then.'}</p>}
       <ul class="alerts" data-test="alerts">
         {all.map((alert) => <Alert key={alert.id} alert={alert} mute={mute} acknowledge={() => acknowledge([alert])} />)}
       </ul>

@@ -4,8 +4,9 @@
 import { useState } from 'preact/hooks';
 import { arm_of, states_of } from '../compose/goal';
 import { ByHand } from '../control/by_hand';
+import { AsOf } from '../frame/as_of';
 import { Link } from '../route/link';
-import { Plot } from '../plot/plot';
+import { Plot, units_of } from '../plot/plot';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
@@ -41,11 +42,12 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
       <p class="hint">
         {job ? <>{then === app ? 'Executes' : 'Executed'} <Link app={app} to={{ page: 'job', id: job.id }}>{title_of(job)}</Link></> : nothing}
       </p>
+      <AsOf app={app}>Stop, Send and By hand act now.</AsOf>
       <SendTo arm={arm} app={app} />
       <ByHand arm={arm} app={app} />
       <h3>Joints</h3>
       <Joints arm={arm} app={app} />
-      <h3>Measured, the last {kPlotted_s} s</h3>
+      <h3>Measured, {units_of(arm.joints, app)}, the last {kPlotted_s} s</h3>
       <Plot app={app} joints={arm.joints} last_s={kPlotted_s} label={`Measured joints of ${name}`} />
       <h3>What comes</h3>
       <Coming name={name} app={app} />
@@ -72,8 +74,8 @@ function SendTo({ arm, app }: { arm: Arm; app: App }) {
       <label class="line">Send to <select value={state} data-test="send-state" onChange={(event) => set_state(event.currentTarget.value)}>
         {states.map((name) => <option key={name} value={name}>{name}</option>)}
       </select></label>
-      <button class="small" data-test="send-there" disabled={mute !== null} title={mute ?? 'The server plans the way; it goes at 30 % of its speed'}
-        onClick={() => void app.actions.send_to(arm.name, state, kSlowly)}>Send, slowly</button>
+      <button class="small" data-test="send-there" disabled={mute !== null} title={mute ?? 'The server plans the way; the job waits its turn as any other'}
+        onClick={() => void app.actions.send_to(arm.name, state, kSlowly)}>Send at 30 % speed</button>
       <Link app={app} to={{ page: 'new' }}>Other goals</Link>
     </div>
   );
@@ -95,7 +97,7 @@ function Joints({ arm, app }: { arm: Arm; app: App }) {
     <table class="joints" data-test={`joints-${arm.name}`}>
       <thead><tr><th scope="col">joint</th><th scope="col">lower</th><th scope="col">where it is</th><th scope="col">upper</th><th scope="col">measured</th></tr></thead>
       <tbody>{arm.joints.map((name, i) => <Joint key={name} name={name} title={titles[i] ?? name} value={q[i] ?? 0} joint={limits.get(name)} />)}</tbody>
-      {app.router.address.value.t_s === null && <tfoot><tr><th scope="row" colSpan={4}>off its path, the largest joint</th><td class="mono">{arm.deviation_rad.toFixed(4)} rad</td></tr></tfoot>}
+      {app.router.address.value.t_s === null && <tfoot><tr><th scope="row" colSpan={4}>largest deviation of a joint from its path</th><td class="mono">{arm.deviation_rad.toFixed(4)} rad</td></tr></tfoot>}
     </table>
   );
 }

@@ -59,8 +59,8 @@ export function NewJob({ app }: { app: App }) {
     <div class="page compose">
       <h2>New job</h2>
       <p class="hint">
-        A body as for <code>POST {kApi}/jobs</code>, with a trajectory shaped like
-        a <code>trajectory_msgs/JointTrajectory</code>; or a bag of them, as a jobs file has. Paste it, or drop a file.
+        Paste or drop a job as JSON, as <code>POST {kApi}/jobs</code> takes it, its trajectory in the form
+        of <code>trajectory_msgs/JointTrajectory</code>; or a batch, a list of jobs as in a jobs file.
       </p>
       <details class="plan-goal" data-test="plan-goal">
         <summary>Plan the way to a goal</summary>
@@ -75,7 +75,7 @@ export function NewJob({ app }: { app: App }) {
       {ways.kind !== 'none' && <WaysSaid ways={ways} />}
       <div class="line">
         <FileButton change={change} />
-        <span class="grow dim small" data-test="bag">{bag.kind === 'bag' ? `${bag.jobs.length} jobs, taken whole or not at all` : 'Ctrl + Enter sends'}</span>
+        <span class="grow dim small" data-test="bag">{bag.kind === 'bag' ? `A batch of ${bag.jobs.length} jobs: all are accepted or none` : 'Ctrl + Enter sends'}</span>
         <button data-test="judge" title="As things are now; nothing is stored" disabled={idle} onClick={() => void judge()}>Judge</button>
         <button class={is_sent ? '' : 'primary'} data-test="send" title={mute ?? (is_sent ? 'It was sent; this makes another one of it' : '')} disabled={idle}
           onClick={(event) => { if (event.detail < 2) void send(); /* not by the second click of a double one */ }}>
@@ -129,12 +129,11 @@ function Examples({ app, change }: { app: App; change(text: string): void }) {
   const idle = [...store.arms.values()].filter((arm) => arm.state === 'idle' && arm.job === null);
   return (
     <div class="line wrap">
-      <span class="dim">Example for</span>
+      <span class="dim">{idle.length === 0 ? 'Examples are for an idle arm: none is idle now.' : 'Example for'}</span>
       {idle.map((arm) => (
         <button key={arm.name} class="small" data-test={`example-${arm.name}`}
           onClick={() => change(pretty(example_job(arm, store.q_of(arm), store.cell?.joints ?? [])))}>{arm.name}</button>
       ))}
-      {idle.length === 0 && <span class="dim">an idle arm: none at the moment</span>}
     </div>
   );
 }

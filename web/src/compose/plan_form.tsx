@@ -64,9 +64,10 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
         <label>Goal <select value={shown.kind} data-test="plan-kind" onChange={(event) => set({ kind: event.currentTarget.value as GoalKind })}>
           {kKinds.map(([kind, title]) => <option key={kind} value={kind}>{title}</option>)}
         </select></label>
+        {shown.kind === 'named' && <Named form={shown} app={app} set={set} />}
         <label>Speed <input class="narrow" type="number" min="1" max="100" value={shown.speed} data-test="plan-speed" onInput={(event) => set({ speed: event.currentTarget.value })} /> %</label>
       </div>
-      <Goal form={shown} app={app} set={set} />
+      {shown.kind !== 'named' && <Goal form={shown} app={app} set={set} />}
       {shown.kind === 'pose' && <Drag form={shown} app={app} drag={drag} />}
       <div class="line">
         <button type="submit" data-test="plan" disabled={outcome.kind === 'busy' || mute !== null} title={mute ?? 'Nothing moves: the way is shown first'}>
@@ -83,20 +84,20 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
   );
 }
 
+function Named({ form, app: { store: { cell } }, set }: { form: GoalForm; app: App; set(part: Partial<GoalForm>): void }) {
+  const states = cell ? states_of(arm_of(cell, form.arm)) : [];
+  return (
+    <label>State <select value={form.named} data-test="plan-named" onChange={(event) => set({ named: event.currentTarget.value })}>
+      {states.map((name) => <option key={name} value={name}>{name}</option>)}
+    </select></label>
+  );
+}
+
 function Goal({ form, app, set }: { form: GoalForm; app: App; set(part: Partial<GoalForm>): void }) {
-  const { cell } = app.store;
   const arm = app.store.arms.get(form.arm);
   const text = (key: 'joints' | 'xyz' | 'rpy' | 'link', label: string, hint: string) => (
     <label class="grow">{label}<input type="text" value={form[key]} placeholder={hint} data-test={`plan-${key}`} onInput={(event) => set({ [key]: event.currentTarget.value })} /></label>
   );
-  if (form.kind === 'named') {
-    const states = cell ? states_of(arm_of(cell, form.arm)) : [];
-    return (
-      <label>State <select value={form.named} data-test="plan-named" onChange={(event) => set({ named: event.currentTarget.value })}>
-        {states.map((name) => <option key={name} value={name}>{name}</option>)}
-      </select></label>
-    );
-  }
   if (form.kind === 'joints') {
     const here = arm ? app.store.q_of(arm).map((angle) => angle.toFixed(3)).join(', ') : '';
     return (

@@ -50,7 +50,7 @@ function Control({ app }: { app: App }) {
   }
   return (
     <div class="line wrap">
-      <span class="grow dim">{holder ? <><b>{shown_name(holder.who)}</b> has control.</> : 'Nobody has control.'} One at a time moves arms by hand.</span>
+      <span class="grow dim">{holder ? <><b>{shown_name(holder.who)}</b> has control.</> : 'Nobody has control.'} One person at a time moves arms by hand.</span>
       {!session.value?.name && (
         <label class="line">Your name <input class="name" type="text" value={settings.person.value} maxLength={100} autocomplete="name" data-test="control-person" onInput={(event) => settings.set_person(event.currentTarget.value)} /></label>
       )}

@@ -36,7 +36,7 @@ export function DiagramPanel({ a, b, app }: Props) {
       <h2>Diagram</h2>
       <AsOf app={app}>{app.store.link.status === 'recording'
         ? 'The diagram itself is the server\'s, which knows its own jobs alone.'
-        : 'What is free is told of the scene as it is now; how far both were allowed to go, and what lay ahead, is not kept.'}</AsOf>
+        : 'What is free is for the scene as it is now; how far both were allowed to go, and what lay ahead, is not kept.'}</AsOf>
       <div class="pair">
         <Pick what="Across" side={a} store={store} on_pick={(side) => app.router.go({ page: 'pair', a: side, b })} />
         <Pick what="Up" side={b} store={store} on_pick={(side) => app.router.go({ page: 'pair', a, b: side })} />
@@ -226,7 +226,7 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
       <Instant diagram={diagram} jobs={jobs} app={app} show={point_at} />
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
       {plans && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null, resting?.id ?? null)}</p>}
-      <p class="hint">
+      <p class="hint explains">
         Each cell holds for every instant in it, at any pace: {layer.cells?.length === 1 ? '1 cell' : `${layer.cells?.length ?? 0} cells`} between
         the {layer.arms[0]} and the {layer.arms[1]} arm, {diagram.evaluations} states looked at.
       </p>
@@ -248,7 +248,7 @@ function Instant({ diagram, jobs, app, show }: { diagram: Diagram; jobs: DrawnPr
   const [place, set_place] = useState<Point>({ a_s: 0, b_s: 0 });
   app.motions.changes.value;
   const known = [jobs.a, jobs.b].every((job) => job !== null && app.motions.of(job) !== null);
-  if (!known) return <p class="hint">Their motions are not known any more: they cannot be shown in the cell.</p>;
+  if (!known) return <p class="hint">Their trajectories are not known any more: they cannot be shown in the cell.</p>;
   const bar = (key: 'a_s' | 'b_s', { id, duration_s }: Diagram['a']) => (
     <label class="line small"><span class="ellipsis">{short_id(id)}</span>
       <input class="grow" type="range" min={0} max={duration_s} step={0.01} value={place[key]} data-test={`instant-${key}`} aria-valuetext={`${place[key].toFixed(2)} s`}
@@ -261,7 +261,7 @@ function Instant({ diagram, jobs, app, show }: { diagram: Diagram; jobs: DrawnPr
     </label>
   );
   return (
-    <fieldset class="pair" aria-label="Show both arms in the cell at an instant of each">{bar('a_s', diagram.a)}{bar('b_s', diagram.b)}</fieldset>
+    <fieldset class="pair instants" aria-label="Show both arms as ghosts in the cell, at an instant of each"><span class="small dim" title="Show both arms as ghosts in the cell, at an instant of each">Ghosts at</span>{bar('a_s', diagram.a)}{bar('b_s', diagram.b)}</fieldset>
   );
 }
 

@@ -33,7 +33,7 @@ export function why_no_pair(a: string, b: string, store: Known): string | null {
   const idle = [[a, job_a], [b, job_b]].find(([name, job]) => job === null && is_arm(name as string, store));
   if (idle) return `The arm ${String(idle[0])} has had no job yet: there is no way of it to draw.`;
   if (!job_a || !job_b) return null;
-  if (job_a.id === job_b.id) return a === b ? 'Two are needed: choose another one.' : 'One job moves both, in step: nothing of it is in its own way.';
+  if (job_a.id === job_b.id) return a === b ? 'A diagram is of two: choose another arm or job on one side.' : 'One job moves both, in step: nothing of it is in its own way.';
   const arms = new Set([...job_a.arms, ...job_b.arms]);
-  return arms.size === 1 ? 'Both move the same arm: one comes after the other.' : null;
+  return arms.size === 1 ? 'Both move the same arm, one after the other: they cannot be in conflict.' : null;
 }

@@ -3,7 +3,7 @@
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
 import { seconds } from '../wording';
-import { files_over } from './drops';
+import { drop_fault, files_over } from './drops';
 import { use_staleness } from './staleness';
 
 export function Banner({ app }: { app: App }) {
@@ -13,7 +13,7 @@ export function Banner({ app }: { app: App }) {
   return (
     <div class="banners">
       {files_over.value && (
-        <div class="banner" role="status" data-test="files-over"><span>Let go: a job, a bag of jobs or a trajectory is shown before it is sent; a recording's files are opened.</span></div>
+        <div class="banner" role="status" data-test="files-over"><span>Let go: a job, a batch of jobs or a trajectory is shown before it is sent; a recording, as files or as their folder, is opened.</span></div>
       )}
       {store.link.status === 'lost' && <Lost app={app} />}
       {store.link.status === 'open' && stale_s !== null && (
@@ -27,17 +27,17 @@ export function Banner({ app }: { app: App }) {
           <button onClick={() => app.player.close()}>Back to the present</button>
         </div>
       )}
-      {refusal !== null && (
-        <div class="banner error" role="alert" data-test="refusal">
-          <span>{refusal}</span>
-          <button onClick={() => { actions.refusal.value = null; }}>Dismiss</button>
-        </div>
-      )}
+      {refusal !== null && <Fault words={refusal} test="refusal" dismiss={() => { actions.refusal.value = null; }} />}
+      {drop_fault.value !== null && <Fault words={drop_fault.value} test="drop-fault" dismiss={() => { drop_fault.value = null; }} />}
       {store.cell_fault !== null && !store.cell && (
         <div class="banner error" role="alert"><span>The cell cannot be shown: {store.cell_fault}</span></div>
       )}
     </div>
   );
+}
+
+function Fault({ words, test, dismiss }: { words: string; test: string; dismiss(): void }) {
+  return <div class="banner error" role="alert" data-test={test}><span>{words}</span><button onClick={dismiss}>Dismiss</button></div>;
 }
 
 function Lost({ app }: { app: App }) {

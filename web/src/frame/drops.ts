@@ -1,13 +1,20 @@
-// Files that are dropped anywhere on the page, which a browser would leave it for: a job, a bag of jobs or a
-// trajectory goes to where jobs are composed, the files of a recording are opened.
+// What is dropped anywhere on the page, which a browser would leave it for: a job, a batch of jobs or a
+// trajectory goes to where jobs are composed, a recording is opened, be it its files or the folder that they are in.
 
 import { signal } from '@preact/signals';
 import type { App } from '../state/app';
 
 /** Whether files are held over the page. */
 export const files_over = signal(false);
+/** Why what was dropped was not taken, until that is put away. */
+export const drop_fault = signal<string | null>(null);
 
-export function listen_to_drops(app: App, window: Window): void {
+/** `folder`: where the files were found, when one was dropped. */
+interface Dropped { files: readonly File[]; folder: string | null }
+
+const kRecorded = /\.(csv|jsonl|mcap)$/;
+
+export function listen_to_drops(app: App, window: Pick<Window, 'addEventListener'>): void {
   window.addEventListener('dragover', (event) => {
     if (!event.dataTransfer?.types.includes('Files')) return;  // text goes where it is dropped
     event.preventDefault();
@@ -16,20 +23,47 @@ export function listen_to_drops(app: App, window: Window): void {
   window.addEventListener('dragleave', (event) => { if (event.relatedTarget === null) files_over.value = false; });
   window.addEventListener('drop', (event) => {
     files_over.value = false;
-    const files = [...event.dataTransfer?.files ?? []];
-    if (files.length === 0) return;
+    const { dataTransfer } = event;
+    if (!dataTransfer || dataTransfer.files.length === 0) return;
     event.preventDefault();
-    void take(files, app);
+    drop_fault.value = null;
+    // What was dropped is known no longer than this event lasts.
+    void what_of(dataTransfer).then((dropped) => take(dropped, app)).catch((error: unknown) => { drop_fault.value = `What was dropped cannot be read: ${String(error)}`; });
   });
 }
 
-async function take(files: readonly File[], app: App): Promise<void> {
+async function take({ files, folder }: Dropped, app: App): Promise<void> {
+  if (folder !== null || files.some(({ name }) => kRecorded.test(name))) {
+    app.router.go({ page: 'recordings' });
+    return app.player.open(files, folder);
+  }
   const [first] = files;
   if (!first) return;
-  if (files.some(({ name }) => /\.(csv|jsonl|mcap)$/.test(name))) {
-    app.router.go({ page: 'recordings' });
-    return app.player.open(files);
-  }
   app.draft.value = await first.text();
   app.router.go({ page: 'new' });
+  if (files.length > 1) drop_fault.value = `Only ${first.name} was taken: jobs come from one file at a time. A batch is a list of jobs in one file.`;
+}
+
+/** The files; of a folder what is recorded in it, not in folders within. */
+function what_of({ items, files }: DataTransfer): Promise<Dropped> {
+  const folder = [...items].map((item) => item.webkitGetAsEntry()).find((entry) => entry?.isDirectory);
+  return folder ? in_folder(folder as FileSystemDirectoryEntry) : Promise.resolve({ files: [...files], folder: null });
+}
+
+async function in_folder(folder: FileSystemDirectoryEntry): Promise<Dropped> {
+  const reader = folder.createReader();
+  const files: File[] = [];
+  // It tells of some at a time, of none at its end.
+  for (let some = await next_of(reader); some.length > 0; some = await next_of(reader)) {
+    for (const entry of some) if (entry.isFile && kRecorded.test(entry.name)) files.push(await file_of(entry as FileSystemFileEntry));
+  }
+  return { files, folder: folder.name };
+}
+
+function next_of(reader: FileSystemDirectoryReader): Promise<FileSystemEntry[]> {
+  return new Promise((done, fail) => reader.readEntries(done, fail));
+}
+
+function file_of(entry: FileSystemFileEntry): Promise<File> {
+  return new Promise((done, fail) => entry.file(done, fail));
 }

@@ -14,7 +14,9 @@ import { PoliciesPage } from '../policies/policies_page';
 import { RecordingsPage } from '../recordings/recordings_page';
 import { RecoveryPage } from '../recovery/recovery_page';
 import { seen_app } from '../state/as_of';
+import { kPages } from './pages';
 import { SettingsPage } from './settings_page';
+import { shown_text } from '../names';
 import { ScenePage } from '../scene/scene_page';
 import { JobPage } from '../jobs/job_page';
 
@@ -69,6 +71,12 @@ function content_of(place: Place, app: App): ComponentChildren {
     case 'policies': return <PoliciesPage app={seen_app(app)} />;
     case 'recordings': return <RecordingsPage app={app} />;
     case 'settings': return <SettingsPage app={app} />;
-    case 'unknown': return <><h2>No such page</h2><p class="hint">There is nothing at {place.path}. <Link app={app} to={{ page: 'cell' }}>To the cell</Link></p></>;
+    case 'unknown': return (
+      <>
+        <h2>No such page</h2>
+        <p class="hint">There is nothing at {shown_text(place.path)}. The pages are:</p>
+        <ul class="plain">{kPages.map((page) => <li key={page.title}><Link app={app} to={page.place(app)}>{page.title}</Link></li>)}</ul>
+      </>
+    );
   }
 }

@@ -11,10 +11,10 @@ const kPolicies: Record<Policy, string> = {
   sequential: 'one job at a time in the whole cell',
   lockstep: 'rounds of one job for each arm',
   reservation: 'a motion has all that it sweeps to itself',
-  timed_discrete: "the paper's: equal instants compared; nothing is promised between them",
-  certified: 'a start now that is proven to pass all others without a stop, or none',
-  earliest_start: 'the earliest start that is proven to pass all others without a stop',
-  coordinated: 'orders instead of times: arms pause on their way for each other',
+  timed_discrete: 'as in the paper: equal instants are compared; nothing is promised between them',
+  certified: 'starts now if it is proven to pass all others without a stop, else waits',
+  earliest_start: 'starts at the earliest time that is proven to pass all others without a stop',
+  coordinated: 'decides who goes first, not when: arms pause on their way for each other',
 };
 
 export function PolicyForm({ app }: { app: App }) {
@@ -43,8 +43,8 @@ export function PolicyForm({ app }: { app: App }) {
         {policy === store.policy ? 'In force' : `Change to ${policy}`}
       </button>
       <p class="hint">
-        {mute !== null && <b data-test="no-change">{mute}. </b>}Only while no job is admitted; jobs that wait are judged anew. Until the next start of the server: a cell
-        file says for good.
+        {mute === null ? 'Possible while no job is admitted.' : <b data-test="no-change">{mute}.</b>} Jobs that wait are judged anew. It lasts until the server is
+        started again: the cell file sets it for good.
       </p>
     </form>
   );

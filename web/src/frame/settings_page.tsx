@@ -44,7 +44,7 @@ export function SettingsPage({ app }: { app: App }) {
         <h2>Keys</h2>
         <label class="check">
           <input type="checkbox" checked={settings.letter_keys.value} onChange={(event) => settings.set_letter_keys(event.currentTarget.checked)} />
-          {' '}Single letters lead to pages
+          {' '}Single letters open pages
         </label>
         <dl class="keys-list">
           {kKeys.map(([key, what]) => <div key={key}><dt><kbd>{key}</kbd></dt><dd>{what}</dd></div>)}
@@ -53,14 +53,14 @@ export function SettingsPage({ app }: { app: App }) {
       {cell && (
         <section>
           <h2>The cell</h2>
-          <p class="hint">As the server runs it; a cell file sets these.</p>
+          <p class="hint">Set by the cell file and by how the server was started.</p>
           <dl class="facts-list" data-test="cell-facts">
             {([
               ['Cell', cell.name], ['Speed', `× ${store.speed}`], ['Arms', String(store.arms.size)],
               ['Clearance', `${(1000 * cell.clearance_m).toFixed(0)} mm`],
               ['Monitor stops below', `${(1000 * cell.monitor.stop_clearance_m).toFixed(0)} mm`],
               ['Backlog timeout', seconds(cell.scheduling.backlog_timeout_s)],
-              ['Overtaken no more after', seconds(cell.scheduling.aging_s)],
+              ['A waiting job is overtaken for at most', seconds(cell.scheduling.aging_s)],
               ['Admitted ahead', `${cell.scheduling.horizon_legs} jobs of each arm`],
               ['An idle arm in the way', kIdleBlockers[cell.scheduling.on_idle_blocker]],
             ] as const).map(([what, value]) => <div key={what}><dt>{what}</dt><dd>{value}</dd></div>)}

@@ -26,15 +26,15 @@ export function HistoryPage({ app }: { app: App }) {
   return (
     <div class="history">
       <section class="page" aria-label="Jobs that have ended">
-        <h2>Ended<span class="count">{jobs.length === all.length ? all.length : `${jobs.length} of ${all.length}`}</span></h2>
+        <h2>History<span class="count">{jobs.length === all.length ? all.length : `${jobs.length} of ${all.length}`}</span></h2>
         <div class="filter">
           <input type="search" placeholder="Filter: id, name, arm, state, reason" aria-label="Filter ended jobs" value={words} onInput={(event) => set_words(event.currentTarget.value)} />
-          <button class="small" aria-pressed={only_failed} onClick={() => set_only_failed(!only_failed)}>failed</button>
+          <button class="small" aria-pressed={only_failed} title="Only jobs that did not succeed" onClick={() => set_only_failed(!only_failed)}>Failed</button>
         </div>
-        {jobs.length === 0 ? <p class="none">None.</p> : (
+        {jobs.length === 0 ? <p class="none">{all.length === 0 ? 'No job has ended yet.' : 'No job matches the filter.'}</p> : (
           <table class="history-table" data-test="history">
             <thead><tr><th scope="col">ended</th><th scope="col">job</th><th scope="col">arms</th><th scope="col">state</th><th scope="col">waited</th><th scope="col">ran</th><th scope="col">reason</th></tr></thead>
-            <tbody>{jobs.slice(0, shown).map((job) => <Line key={job.id} job={job} app={app} former={app.store.job(job.id) === null} />)}</tbody>
+            <tbody>{jobs.slice(0, shown).map((job, i, lines) => <Line key={job.id} job={job} app={app} before={lines[i - 1] ?? null} />)}</tbody>
           </table>
         )}
         {jobs.length > shown ? <button class="more" onClick={() => set_shown(shown + 5 * kShown)}>{jobs.length - shown} more</button> : <Earlier app={app} show={() => set_shown(shown + 5 * kShown)} />}
@@ -46,7 +46,7 @@ export function HistoryPage({ app }: { app: App }) {
 /** What the page was not told of: of former runs of the server, where it keeps them. */
 function Earlier({ app: { archive, store }, show }: { app: App; show(): void }) {
   const mute = why_mute(store.link);
-  const said = archive.fault ? `Not told: ${archive.fault.detail ?? archive.fault.title}` : archive.state === 'all' ? 'That is all that the server has.' : 'Of former runs of the server, too, where it keeps jobs.';
+  const said = archive.fault ? `They cannot be had: ${archive.fault.detail ?? archive.fault.title}` : archive.state === 'all' ? 'That is all that the server has.' : 'Those of former runs, too, if the server keeps jobs (--data).';
   return (
     <div class="line">
       {archive.state !== 'all' && (
@@ -59,19 +59,25 @@ function Earlier({ app: { archive, store }, show }: { app: App; show(): void }) 
   );
 }
 
-function Line({ job, app, former }: { job: Job; app: App; former: boolean }) {
+/** `before`: the one above it; where former runs begin their times are those of another clock. */
+function Line({ job, app, before }: { job: Job; app: App; before: Job | null }) {
+  const is_former = ({ id }: Job) => app.store.job(id) === null;
+  const former = is_former(job);
   const arms = [...app.store.arms.keys()];
   const waited_s = (job.started_s ?? job.ended_s ?? job.submitted_s) - job.submitted_s;
   const ran = job.started_s === null || job.ended_s === null ? '–' : seconds(job.ended_s - job.started_s);
   return (
-    <tr class={job.state}>
-      <td class="mono whole" title={wall_time(job.ended_at ?? '')}>{job.ended_s === null ? '–' : former ? short_wall_time(job.ended_at ?? '', Date.now()) : clock(job.ended_s)}</td>
-      <td><Link app={app} to={{ page: 'job', id: job.id }} title={job.id}>{title_of(job)}</Link></td>
-      <td class="whole">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_colour(arms, arm) }}>{shown_name(arm)}</span>)}</td>
-      <td class="verdict whole">{job.state}</td>
-      <td class="mono whole">{seconds(waited_s)}</td>
-      <td class="mono whole">{ran}</td>
-      <td>{result_in_words(job)}</td>
-    </tr>
+    <>
+      {former && before && !is_former(before) && <tr class="divider"><td colSpan={7}>Of former runs of the server: times of the wall clock</td></tr>}
+      <tr class={job.state}>
+        <td class="mono whole" title={wall_time(job.ended_at ?? '')}>{job.ended_s === null ? '–' : former ? short_wall_time(job.ended_at ?? '', Date.now()) : clock(job.ended_s)}</td>
+        <td><Link app={app} to={{ page: 'job', id: job.id }} title={job.id}>{title_of(job)}</Link></td>
+        <td class="whole">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_colour(arms, arm) }}>{shown_name(arm)}</span>)}</td>
+        <td class="verdict whole">{job.state}</td>
+        <td class="mono whole">{seconds(waited_s)}</td>
+        <td class="mono whole">{ran}</td>
+        <td>{result_in_words(job)}</td>
+      </tr>
+    </>
   );
 }

@@ -4,15 +4,15 @@
 import { useEffect, useState } from 'preact/hooks';
 import { pretty } from '../compose/example';
 import { partner_of } from '../diagram/partner';
-import { Plot } from '../plot/plot';
+import { Plot, units_of } from '../plot/plot';
 import { Link } from '../route/link';
-import { kCanReplan, type Job, type WaitsOn } from '../server/messages';
+import { kCanReplan, type Job } from '../server/messages';
 import type { App } from '../state/app';
 import { is_terminal } from '../state/job_book';
 import { arm_colour } from '../state/palette';
 import { told_state } from '../state/standing';
 import { use_beats } from '../state/seen';
-import { clock, millimetres, reason_in_words, result_in_words, short_id, wait_in_words, ways_in_words, why_mute } from '../wording';
+import { clock, reason_in_words, result_in_words, short_id, wait_in_words, ways_in_words, why_mute } from '../wording';
 import { short_wall_time } from '../wall_time';
 import { asked_of, Copy } from './copy';
 import { curl_of, python_of } from './snippets';
@@ -31,9 +31,10 @@ export function JobPage({ id, app }: { id: string; app: App }) {
   const ask = job === null && connected && !looks_back;
   useEffect(() => { if (ask) void app.archive.find(id); }, [app, id, ask]);
   useEffect(() => (goes_on ? app.actions.follow_job(id) : undefined), [app, id, goes_on]);
-  if (!job) return <><h2 class="ellipsis">{shown_name(id)}</h2><p class="hint">{looks_back ? 'It was not there at the time that is looked at, or that is not known here.' : app.store.stream === null ? 'Not connected yet.' : 'The server has no job of this name, or has forgotten it.'}</p></>;
+  if (!job) return <><h2 class="ellipsis">{shown_name(id)}</h2><p class="hint">{looks_back ? 'There was no such job at that time, or this page does not know of it.' : app.store.stream === null ? 'Not connected yet.' : 'The server has no job with this id, or does not keep it any more.'}</p></>;
   const former = known === null;
-  const words = job.result ? result_in_words(job) : reason_in_words(job);
+  // What it waits for stands below with its evidence, but for a ring of jobs.
+  const words = job.result ? result_in_words(job) : job.ring.length > 0 || job.waits_on.length === 0 ? reason_in_words(job) : '';
   const arms = [...app.store.arms.keys()];
   return (
     <div class="page">
@@ -44,9 +45,9 @@ export function JobPage({ id, app }: { id: string; app: App }) {
         <span class="mono ellipsis">{job.id}</span>
       </p>
       {words !== '' && <p class="words">{words}</p>}
+      {job.waits_on.length > 0 && <Evidence job={job} app={app} />}
       <States job={job} app={app} />
       {ways_in_words(job).map((words) => <p key={words} class="hint" data-test="way">{words}</p>)}
-      {job.waits_on.length > 0 && <Evidence job={job} app={app} />}
       {looks_back ? null : former ? <p class="hint" data-test="former">The server tells of it from what it keeps; how it moved is not kept.</p> : <Beside job={job} app={app} />}
       {kCanReplan && goes_on && job.arms.length === 1 && <AnotherWay job={job} app={app} />}
       {!former && <Moves job={job} app={app} />}
@@ -90,28 +91,18 @@ function wall_of(job: Job, state: string): string {
 function Evidence({ job, app }: Props) {
   return (
     <>
-      <h3>What it waits for</h3>
+      <h3 class="sr-only">What it waits for</h3>
       <ul class="evidence" data-test="evidence-list">
         {job.waits_on.map((wait, i) => (
           <li key={i}>
-            <div>{wait_in_words(wait)}</div>
-            <div class="dim small">{figures_of(wait)}</div>
+            <div class="why">{wait_in_words(wait)}</div>
+            {wait.id !== null && wait.other_time_s !== null && <div class="dim small">{wait.other_time_s.toFixed(2)} s into the motion of {short_id(wait.id)}</div>}
             {wait.kind === 'job' && wait.id !== null && <Link app={app} to={{ page: 'pair', a: wait.id, b: job.id }}>Where they conflict</Link>}
           </li>
         ))}
       </ul>
     </>
   );
-}
-
-function figures_of(wait: WaitsOn): string {
-  const parts = [
-    wait.links.length === 2 ? `${wait.links[0]} and ${wait.links[1]}` : '',
-    wait.clearance_m === null ? '' : `${millimetres(wait.clearance_m)} apart`,
-    wait.own_time_s === null ? '' : `${wait.own_time_s.toFixed(3)} s into this one`,
-    wait.other_time_s === null ? '' : `${wait.other_time_s.toFixed(3)} s into the other one`,
-  ];
-  return parts.filter((part) => part !== '').join(' · ');
 }
 
 /** Of one that moves this is asked first: what its trajectory was to do on the way is lost. */
@@ -136,7 +127,7 @@ function AnotherWay({ job, app }: Props) {
 
 function Beside({ job, app }: Props) {
   const partner = partner_of(job, app.store);
-  if (!partner) return null;
+  if (!partner || job.waits_on.some(({ kind, id }) => kind === 'job' && id === partner.id)) return null;
   return <p><Link app={app} to={{ page: 'pair', a: partner.id, b: job.id }} test="show-diagram">Diagram beside {short_id(partner.id)}</Link></p>;
 }
 
@@ -154,7 +145,7 @@ function Moves({ job, app }: Props) {
   const title = planned ? (measured ? 'Planned and measured' : 'Planned') : 'Measured';
   return (
     <>
-      <h3>{title}{planned && <span class="key"><i class="band" /> planned</span>}{measured && <span class="key"><i class="stroke" /> measured</span>}</h3>
+      <h3>{title}, {units_of(joints, app)}{planned && <span class="key"><i class="band" /> planned</span>}{measured && <span class="key"><i class="stroke" /> measured</span>}</h3>
       {unseen && <p class="hint">It moved before this page listened.</p>}
       <Plot app={app} joints={joints} planned={planned} stretch={measured ? [from_s, job.ended_s] : [0, 0]} label={`${title} joints of ${job.id}`} />
     </>

@@ -17,10 +17,10 @@ interface Section { list: JobList; title: string; none: string; hint: string }
 
 const kSections: readonly Section[] = [
   { list: 'running', title: 'Running', none: 'Nothing is moving.', hint: 'Has authority to move, or stands on its path' },
-  { list: 'backlog', title: 'Blocked', none: 'No job is blocked.', hint: 'In the backlog: it was tried and is in conflict; it expires there' },
-  { list: 'scheduled', title: 'Scheduled', none: '', hint: 'Admitted: who passes first is chosen' },
-  { list: 'queued', title: 'Queued', none: 'Empty.', hint: 'Not tried yet: others come first' },
-  { list: 'finished', title: 'Finished', none: 'None yet.', hint: 'Newest first' },
+  { list: 'backlog', title: 'Blocked', none: 'No job is blocked.', hint: 'In the backlog: each was tried and is in conflict; it is tried again until it expires' },
+  { list: 'scheduled', title: 'Scheduled', none: '', hint: 'Admitted: it is decided who passes first' },
+  { list: 'queued', title: 'Queued', none: 'No job is queued.', hint: 'Not tried yet: others come first' },
+  { list: 'finished', title: 'Finished', none: 'No job has ended yet.', hint: 'Newest first' },
 ];
 
 export function Jobs({ app }: { app: App }) {
@@ -32,7 +32,7 @@ export function Jobs({ app }: { app: App }) {
       <div class="filter">
         <input type="search" placeholder="Filter: id, name, arm, state" aria-label="Filter jobs" data-test="filter" value={words}
           onInput={(event) => set_words(event.currentTarget.value)} />
-        <button class="small" aria-pressed={only_failed} data-test="only-failed" title="Only jobs that did not succeed" onClick={() => set_only_failed(!only_failed)}>failed</button>
+        <button class="small" aria-pressed={only_failed} data-test="only-failed" title="Only jobs that did not succeed" onClick={() => set_only_failed(!only_failed)}>Failed</button>
       </div>
       <LookedAt app={app} />
       {is_known(app.store) && kSections.map((section) => <List key={section.list} section={section} app={app} is_asked={is_asked} filtered={words !== '' || only_failed} />)}

@@ -12,7 +12,7 @@ export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'for
   const parts: string[] = [];
   const since_s = store.book.since(job.id);
   if (job.state === 'backlogged') parts.push(`blocked for ${seconds(Math.max(0, now_s - (job.backlogged_s ?? since_s ?? now_s)))}`);
-  if (job.state === 'holding' && since_s !== null) parts.push(`stands for ${seconds(Math.max(0, now_s - since_s))}`);
+  if (job.state === 'holding' && since_s !== null) parts.push(`holding for ${seconds(Math.max(0, now_s - since_s))}`);
   const starts_s = leg ? leg.starts_s : job.scheduled_s;
   const stopped = is_stopped(job);  // its reason says so, and until when
   if (!stopped && job.started_s === null && starts_s !== null) {

@@ -28,6 +28,12 @@ function planned_of(motion: Motion, joints: readonly string[], from_s: number): 
   return { t_s: t_s.map((at_s) => from_s + at_s), q: joints.map((joint) => states.map((q) => q[joint] ?? null)) };
 }
 
+/** What the axis counts. */
+export function units_of(joints: readonly string[], { store }: App): string {
+  const units = store.cell?.joints.flatMap(({ name, unit }) => (joints.includes(name) ? [unit] : [])) ?? [];
+  return [...new Set(units)].join(' and ') || 'rad';
+}
+
 export function Plot({ app, joints, label, last_s, stretch, planned }: Props) {
   const host = useRef<HTMLDivElement>(null);
   const { store, settings } = app;

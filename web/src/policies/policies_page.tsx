@@ -47,7 +47,7 @@ function Asking({ app }: { app: App }) {
           ? <button class="small" data-test="cancel-comparison" onClick={() => void comparing.cancel()}>Give up</button>
           : <button class="small" data-test="compare" disabled={mute !== null} title={mute ?? 'Runs in the background'} onClick={() => void comparing.start(null)}>Compare</button>}
         {latest === null && <button class="small" data-test="look-comparison" disabled={mute !== null} title={mute ?? 'That another page has asked for'} onClick={() => void comparing.look()}>Show the last one</button>}
-        <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? 'None was made so far.' : 'Not asked by this page yet.'}</span>
+        <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? 'No comparison was made so far.' : ''}</span>
       </div>
       <InSight answer={comparing.refusal.value}>{comparing.refusal.value !== null && <p class="refused" role="alert" data-test="comparison-refused">{comparing.refusal.value}</p>}</InSight>
     </>

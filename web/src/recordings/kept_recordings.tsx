@@ -18,9 +18,9 @@ export function KeptRecordings({ app }: { app: App }) {
   const fault = kept.fault.value;
   return (
     <>
-      <h3>Of this server {list?.kept && <span class="count">{list.recordings.length}</span>}<span class="spacer" />
+      <h3>On this server {list?.kept && <span class="count">{list.recordings.length}</span>}<span class="spacer" />
         {list?.kept && <button class="small" data-test="recordings-again" onClick={() => void kept.look()}>Look again</button>}</h3>
-      {fault !== null && <p class="refused" role="alert">They are not told: {fault}</p>}
+      {fault !== null && <p class="refused" role="alert">The list cannot be had: {fault}</p>}
       {list && !list.kept && <p class="hint" data-test="not-kept">This server records nothing: <code>armloom serve --data DIR</code> writes down each run, with <code>--record</code> the arms' positions, too.</p>}
       {list?.kept && (
         <ul class="kept" data-test="kept-recordings">

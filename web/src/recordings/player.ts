@@ -7,6 +7,7 @@ import type { Router } from '../route/router';
 import type { Store } from '../state/store';
 import { EventsReader, type Events } from './read_events';
 import { StatesReader, type Frames } from './read_states';
+import { shown_name } from '../names';
 import { of_blob, texts_of, type Source } from './sources';
 
 /** `frames`: pictures; none: it has no positions. */
@@ -30,19 +31,19 @@ export class Player {
 
   constructor(private readonly store_: Store, private readonly connection_: Pick<Connection, 'stop' | 'begin_anew'>, private readonly router_: Router) {}
 
-  /** The files of a recording's folder; or an MCAP file. */
-  open(files: readonly File[]): Promise<void> {
+  /** The files of a recording's folder, whose name is `folder` where that is known; or an MCAP file. */
+  open(files: readonly File[], folder: string | null = null): Promise<void> {
     const mcap = files.find(({ name }) => name.endsWith('.mcap'));
     if (mcap) return this.show(mcap.name, mcap.size, (told, stop) => read_mcap_file(mcap, told, stop));
     const find = (wanted: string) => files.find(({ name }) => name === wanted);
     const [states, events] = [find('states.csv'), find('events.jsonl')];
-    const name = (states ?? events)?.webkitRelativePath.split('/').at(-2) ?? (states ?? events)?.name ?? '';
+    const name = folder ?? (states ?? events)?.name ?? '';
     return this.open_sources(name, { states: states ? of_blob(states) : null, events: events ? of_blob(events) : null });
   }
 
   open_sources(name: string, sources: Sources): Promise<void> {
     const of_bytes = (sources.states?.bytes ?? 0) + (sources.events?.bytes ?? 0);
-    return this.show(name, of_bytes, (told, stop) => read_sources(sources, told, stop));
+    return this.show(name, of_bytes, (told, stop) => read_sources(name, sources, told, stop));
   }
 
   /** Gives up what is being read. */
@@ -101,8 +102,8 @@ export class Player {
   }
 }
 
-async function read_sources({ states, events }: Sources, told: (bytes: number) => void, stop: AbortSignal): Promise<Read> {
-  if (!states && !events) return { ok: false, fault: 'There is neither a states.csv nor an events.jsonl among the files, which a recording consists of, and no MCAP file.' };
+async function read_sources(name: string, { states, events }: Sources, told: (bytes: number) => void, stop: AbortSignal): Promise<Read> {
+  if (!states && !events) return { ok: false, fault: `${name === '' ? 'Among the files' : `In ${shown_name(name)}`} there is neither a states.csv nor an events.jsonl, which a recording consists of, and no MCAP file. Take the folder of one run, or the files in it.` };
   const events_reader = new EventsReader();
   if (events) for await (const text of texts_of(events, stop, told)) events_reader.take(text);
   if (!states) return { ok: true, frames: null, events: events_reader.end() };

@@ -24,13 +24,13 @@ export function RecordingsPage({ app }: { app: App }) {
       <KeptRecordings app={app} />
       <h3>From files</h3>
       <p class="hint">
-        Of a folder that <code>armloom serve --data DIR</code> or <code>armloom simulate --out DIR</code> has written <code>states.csv</code> and <code>events.jsonl</code> together,
-        or an MCAP file that was exported here; they may be dropped anywhere on the page. Nothing leaves this browser.
+        Drop a run's folder anywhere on the page, as <code>armloom serve --data DIR</code> and <code>armloom simulate --out DIR</code> write it; or
+        choose <code>states.csv</code> and <code>events.jsonl</code> from it together, or an MCAP file that was exported here. Nothing leaves this browser.
       </p>
       <label class="drop">
         <input type="file" multiple accept=".csv,.jsonl,.json,.mcap" class="sr-only" data-test="recording-files"
           onChange={(event) => { if (event.currentTarget.files?.length) void app.player.open([...event.currentTarget.files]); }} />
-        Choose the files, or drop them
+        Choose the files, or drop them or their folder
       </label>
       <Export app={app} />
     </div>
@@ -69,7 +69,7 @@ function Export({ app }: { app: App }) {
   };
   return (
     <>
-      <h3>Take away</h3>
+      <h3>Export</h3>
       <p class="hint">{app.player.opened.value ? 'The recording' : 'What this page has heard, the last five minutes at most,'} as an MCAP file for Foxglove: joint states, transforms of all links, the scene, jobs and events.</p>
       <div class="line">
         <button data-test="export-mcap" disabled={length_s <= 0 || words.startsWith('Writing')} onClick={() => void write()}>Export {seconds(length_s)} as MCAP</button>

@@ -6,7 +6,7 @@ import type { Store } from '../state/store';
 import { cause_of, waiting_arms } from './needs';
 
 export const kChecks: readonly string[] = [
-  'I know why the arms stopped.', 'Nobody is within their reach.', 'What stands in the cell stands where the scene has it.', 'Nothing is damaged, and grippers hold what they should.',
+  'I know why the arms stopped.', 'Nobody is within reach of an arm.', 'Every object stands where the scene has it.', 'Nothing is damaged, and grippers hold what they should.',
 ];
 
 export class Checklist {

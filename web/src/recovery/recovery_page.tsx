@@ -26,7 +26,7 @@ export function RecoveryPage({ app }: { app: App }) {
     <div class="page" data-test="recovery">
       <h2>Recovery</h2>
       <AsOf app={app}>Arms are resumed from the present alone.</AsOf>
-      <p class="words" data-test="cause">{cause ? <><span class="mono">{clock(cause.t_s)}</span> {shown_text(cause.text)}</> : waiting.length > 0 ? 'The arms were stopped before this page listened.' : looks_back ? 'Nothing that this page knows of had stopped an arm by then.' : 'No arm was stopped since this page listens.'}</p>
+      <p class={cause || waiting.length > 0 ? 'words' : 'hint'} data-test="cause">{cause ? <><span class="mono">{clock(cause.t_s)}</span> {shown_text(cause.text)}</> : waiting.length > 0 ? 'The arms were stopped before this page listened.' : looks_back ? 'As far as this page knows no arm had been stopped by then.' : 'As far as this page knows no arm has been stopped.'}</p>
       <p class="hint">{waiting_in_words(waiting.length, arms.length, looks_back)}{' '}
         <Link app={app} to={{ page: 'alerts' }}>Alerts</Link></p>
       {!looks_back && <><h3>1. Look</h3><Checks app={app} needed={waiting.length > 0} /></>}
@@ -50,12 +50,12 @@ function Checks({ app, needed }: { app: App; needed: boolean }) {
       <legend class="sr-only">Before the arms move again</legend>
       {kChecks.map((text, i) => (
         <label key={i} class="check">
-          <input type="checkbox" data-test={`check-${i}`} checked={checklist.is_ticked(i)} onChange={(event) => checklist.tick(i, event.currentTarget.checked)} /> {text}
+          <input type="checkbox" data-test={`check-${i}`} disabled={!needed} checked={checklist.is_ticked(i)} onChange={(event) => checklist.tick(i, event.currentTarget.checked)} /> {text}
         </label>
       ))}
       <div class="line">
         <button class="primary" data-test="resume-checked" disabled={!needed || left > 0 || mute !== null} title={mute ?? ''} onClick={() => void app.actions.resume()}>Resume all arms</button>
-        <span class="dim small" role="status" data-test="checks-left">{!needed ? 'Nothing is stopped.' : left > 0 ? `${left} still to look at.` : 'They go on with their jobs as their ways are free.'}</span>
+        <span class="dim small" role="status" data-test="checks-left">{!needed ? 'Nothing is stopped.' : left > 0 ? `${left} still to confirm.` : 'They go on with their jobs as soon as their ways are free.'}</span>
       </div>
     </fieldset>
   );
@@ -67,7 +67,7 @@ function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) 
   const { store } = app;
   const job = arm.job === null ? null : store.job(arm.job);
   const need = need_of(arm, job, pose_at(instant_of(app.router.address.value, store), store));
-  const mute = why_mute(store.link) ?? (guarded ? 'First what is to be looked at, above' : null);
+  const mute = why_mute(store.link) ?? (guarded ? 'First confirm the list above' : null);
   return (
     <li data-test={`need-${arm.name}`} style={{ '--arm': arm_colour([...store.arms.keys()], arm.name) }}>
       <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{shown_name(arm.name)}</Link><StatePill arm={arm} app={app} /></div>

@@ -18,7 +18,7 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
     <div class="page">
       <h2>Scene<span class="count">{objects.length}</span></h2>
       {app.router.address.value.t_s === null
-        ? <p class="hint">What is changed here is judged at once: a motion that an object stands in the way of is held.</p>
+        ? <p class="hint">A change counts at once: a motion that an object is in the way of holds before it.</p>
         : <AsOf app={app}>Nothing can be changed there.</AsOf>}
       <ul class="objects" data-test="objects">
         {objects.map((object) => (
@@ -29,7 +29,7 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
           </li>
         ))}
       </ul>
-      {name !== null && !chosen && <p class="hint">{app.router.address.value.t_s === null ? 'There is' : 'There was'} no object of the name {shown_name(name)}.</p>}
+      {name !== null && !chosen && <p class="hint">{app.router.address.value.t_s === null ? 'There is' : 'There was'} no object called {shown_name(name)}.</p>}
       {chosen && app.router.address.value.t_s === null && <HandButton name={chosen.name} app={app} />}
       {chosen?.mesh !== undefined
         ? <p class="hint">A mesh: change it through the API.</p>
@@ -82,7 +82,7 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
     <form class="object-form" data-test="object-form" onSubmit={(event) => void submit(event)}>
       <h3>{chosen ? `Change ${shown_name(chosen.name)}` : 'Add an object'}</h3>
       <div class="line wrap">
-        <label>Name <input type="text" required maxLength={kLongestName} value={form.name} readOnly={chosen !== null} data-test="object-name" aria-invalid={name_fault !== null} aria-describedby="object-name-fault"
+        <label class="name">Name <input type="text" required maxLength={kLongestName} value={form.name} readOnly={chosen !== null} data-test="object-name" aria-invalid={name_fault !== null} aria-describedby="object-name-fault"
           onInput={(event) => edit({ name: event.currentTarget.value })} /></label>
         <label>Shape <select value={form.kind} data-test="object-kind" onChange={(event) => edit({ kind: event.currentTarget.value as Kind })}>
           {kKinds.map((kind) => <option key={kind} value={kind}>{kind}</option>)}

@@ -81,8 +81,8 @@ function InstantMark({ app }: { app: App }) {
   const { first_s } = store.trace;
   return (
     <div class="unheard" role="status" data-test="unheard" style={{ '--covered': `${app.covered_px.value}px` }}>
-      <p><b>The arms are not shown: <span class="mono">{clock(instant.t_s)}</span> was not heard here.</b></p>
-      <p class="dim">{why_unheard(instant.why, store)}{is_known(app.seen.store.value) && ' What they did then the server has told: the lists and events are of that time.'}</p>
+      <p><b>The arms are not shown: where they were at <span class="mono">{clock(instant.t_s)}</span> is not known here.</b></p>
+      <p class="dim">{why_unheard(instant.why, store)}{is_known(app.seen.store.value) && ' The lists and the events are of that time all the same: the server told them.'}</p>
       <div class="line">
         <button class="small" data-test="unheard-now" onClick={() => router.hold_at(null)}>Look at now</button>
         {instant.why === 'before' && first_s !== null && <button class="small" onClick={() => router.hold_at(first_s)}>The earliest that is kept</button>}
