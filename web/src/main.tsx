@@ -10,7 +10,7 @@ import { Header } from './frame/header';
 import { listen_to_drops } from './frame/drops';
 import { Pane } from './frame/pane';
 import { listen_to_keys } from './frame/shortcuts';
-import { use_staleness } from './frame/staleness';
+import { use_stale } from './frame/staleness';
 import { AlertList } from './alerts/alert_list';
 import { Notices } from './alerts/notices';
 import { Archive } from './history/archive';
@@ -130,7 +130,7 @@ async function load_cell(attempt = 1): Promise<void> {
 
 function Page() {
   const { store } = app;
-  const stale = use_staleness(store) !== null || store.link.status === 'lost';
+  const stale = use_stale(store);
   const then = seen_app(app);
   document.title = `${place_in_words(app.router.address.value.place)} · ${shown_name(store.cell?.name ?? 'Armloom')}`;
   return (

@@ -1,8 +1,9 @@
 // What the page says about jobs, in words. Pure functions from the contract's data to sentences.
 
 import type { Link } from './server/connection';
+import type { Facts, Restart } from './state/facts';
 import { is_stopped } from './state/standing';
-import { pair_of, type Clearance, type Job, type MonitorData, type WaitsOn } from './server/messages';
+import { pair_of, type Arm, type Clearance, type Job, type MonitorData, type WaitsOn } from './server/messages';
 import { cut_text, shown_name, shown_text } from './names';
 
 const kLongestId = 24;
@@ -95,11 +96,11 @@ function approach(w: WaitsOn): string {
 
 export interface Figure { text: string; title: string }
 
-/** The one number that matters at this stage of a job's life, and what it means. */
-export function figure_in_words(job: Job, now_s: number, progress: number): Figure {
+/** The one number that matters at this stage of a job's life, and what it means; `ends_s`: as the server expects it. */
+export function figure_in_words(job: Job, now_s: number, progress: number, ends_s: number | null = null): Figure {
   if (job.stopping) return { text: 'stopping', title: 'Brakes on its path' };
   switch (job.state) {
-    case 'running': return { text: `${seconds((1 - progress) * (job.duration_s ?? 0))} left`, title: 'Time until its motion ends' };
+    case 'running': return { text: `${seconds(ends_s === null ? (1 - progress) * (job.duration_s ?? 0) : Math.max(0, ends_s - now_s))} left`, title: ends_s === null ? 'Time until its motion ends' : 'Time until its motion ends, with the pauses that are expected' };
     case 'holding': return is_stopped(job) ? { text: 'stopped', title: 'Stands on its path until its arm is resumed' } : { text: 'holding', title: 'Stands still on its path' };
     case 'queued': case 'backlogged': case 'scheduled': return waited(job, now_s);
     default: break;
@@ -107,6 +108,37 @@ export function figure_in_words(job: Job, now_s: number, progress: number): Figu
   if (job.started_s === null) return waited(job, job.ended_s);
   if (job.ended_s === null) return { text: '', title: '' };
   return { text: `ran ${seconds(job.ended_s - job.started_s)}`, title: 'From its start to its end' };
+}
+
+/** The same of a job that nothing has been heard of for a while. */
+export function as_last_heard(figure: string): string {
+  if (figure === '') return '';
+  return /^waited|left$/.test(figure) ? `had ${figure}` : `was ${figure}`;
+}
+
+/** The object that a job waits for before all else. */
+export function object_of({ waits_on: [first] }: Pick<Job, 'waits_on'>): string | null {
+  return first?.kind === 'object' ? first.id ?? first.links[1] ?? null : null;
+}
+
+/** For whom or what a job waits, short enough for a label. */
+export function waited_for(job: Pick<Job, 'waits_on'>): string {
+  const [first] = job.waits_on;
+  if (!first) return 'waiting';
+  switch (first.kind) {
+    case 'job': case 'arm': case 'object': return `waits for ${subject(first)}`;
+    case 'stop': return 'waits for resume';
+    case 'plan': return 'waits for its plan';
+    case 'capacity': return 'waits for a free place';
+    case 'order': return 'waits its turn';
+  }
+}
+
+/** What an arm does, or for what it waits. */
+export function arm_in_words(arm: Arm, facts: Pick<Facts, 'arm_state' | 'waiting_of'>): string {
+  const state = facts.arm_state(arm);
+  const next = state === 'waiting' ? facts.waiting_of(arm.name) : null;
+  return next ? waited_for(next) : state;
 }
 
 function waited(job: Job, until_s: number | null): Figure {
@@ -144,6 +176,16 @@ export function why_mute(link: Link): string | null {
 }
 
 const kSaidByState: ReadonlySet<string> = new Set(['completed', 'succeeded', 'canceled', 'canceled_by_client']);
+
+const kMostNamed = 6;
+
+/** What is not known any more after a restart; `since`: when it was heard of. */
+export function restart_in_words({ lost }: Pick<Restart, 'lost'>, since: string): string {
+  const named = lost.slice(0, kMostNamed).map((job) => title_of(job)).join(', ');
+  const more = lost.length > kMostNamed ? ` and ${lost.length - kMostNamed} more` : '';
+  const jobs = lost.length === 0 ? 'No job was under way that it does not tell of.' : `What became of ${lost.length === 1 ? 'a job' : `${lost.length} jobs`} it does not tell: ${named}${more}; the history has them, if it is kept.`;
+  return `The server was restarted; it answers again since ${since}. ${jobs} Where the arms were before is not shown any more.`;
+}
 
 /** How a job ended: the reason of the closed list as words, with the server's detail. */
 export function result_in_words(job: Job): string {

@@ -28,7 +28,7 @@ function page() {
 }
 
 const entry_of = (file: File) => ({ isFile: true, isDirectory: false, name: file.name, file: (done: (file: File) => void) => done(file) });
-const unreadable = { name: 'run', text: () => Promise.reject(new Error('NotFoundError')) };
+const unreadable = { name: 'run', size: 4096, text: () => Promise.reject(new Error('NotFoundError')) };
 /** Tells of two at a time. */
 function folder_of(entries: readonly object[]) {
   return {
@@ -66,9 +66,9 @@ describe('what is dropped on the page', () => {
 
   it('is not left out without a word', async () => {
     const { drop, draft } = page();
-    const [first, second] = ['a.json', 'b.json'].map((name) => new File([name], name));
+    const [first, second] = ['a.json', 'b.json'].map((name) => new File(['{}'], name));
     await drop([first, second].map((file) => entry_of(file!)), [first!, second!]);
-    expect([draft.value, drop_fault.value]).toEqual(['a.json', expect.stringContaining('Only a.json was taken')]);
+    expect([draft.value, drop_fault.value]).toEqual(['{}', expect.stringContaining('Only a.json was taken')]);
     await drop([{ isFile: true, isDirectory: false }], [unreadable]);
     expect(drop_fault.value).toMatch(/cannot be read: .*NotFoundError/);
   });

@@ -38,9 +38,9 @@ describe('an arm that was stopped', () => {
     told(store, envelope('job', 4, stopped_job()));
     told(store, envelope('arm', 5, arm({ state: 'stopped' })));
     expect(store.arms.get('left') && store.arm_state(store.arms.get('left') as Arm)).toBe('stopped');
-    expect(store.book.stands('pick')).toEqual([{ from_s: 3, to_s: 4, stopped: false }, { from_s: 4, to_s: null, stopped: true }]);
+    expect(store.book.stands('pick')).toMatchObject([{ from_s: 3, to_s: 4, stopped: false }, { from_s: 4, to_s: null, stopped: true }]);
     told(store, envelope('job', 7, stopped_job({ state: 'running', waits_on: [] })));
-    expect(store.book.stands('pick').at(-1)).toEqual({ from_s: 4, to_s: 7, stopped: true });
+    expect(store.book.stands('pick').at(-1)).toMatchObject({ from_s: 4, to_s: 7, stopped: true });
     expect(states_of(store.job('pick') as Job, store.book.changes('pick')).map(([name]) => name)).toEqual(['submitted', 'running', 'holding', 'stopped', 'running', 'ended']);
     expect(known_lanes({ store })[0]?.marks.filter(({ kind }) => kind === 'pause').map(({ stopped }) => stopped)).toEqual([false, true]);
   });

@@ -5,6 +5,7 @@ import { useState } from 'preact/hooks';
 import { arm_of, states_of } from '../compose/goal';
 import { ByHand } from '../control/by_hand';
 import { AsOf } from '../frame/as_of';
+import { when_in_words } from '../jobs/when';
 import { Link } from '../route/link';
 import { Plot, units_of } from '../plot/plot';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
@@ -16,7 +17,7 @@ import { use_beats } from '../state/seen';
 import { known_lanes } from '../timeline/known';
 import { lane_in_words } from '../timeline/told';
 import { short_names, shown_name } from '../names';
-import { title_of, why_mute } from '../wording';
+import { reason_in_words, title_of, why_mute } from '../wording';
 import { StatePill } from './arms';
 
 const kPlotted_s = 20;
@@ -29,6 +30,7 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
   const then = seen_app(app);
   const arm_then = then.store.arms.get(name) ?? arm;
   const job = arm_then.job === null ? null : then.store.job(arm_then.job);
+  const waiting = then.store.arm_state(arm_then) === 'waiting' ? then.store.waiting_of(name) : null;
   const nothing = then.store.arm_state(arm_then) === 'not known' ? 'What it did then is not known here.' : then === app ? 'No job is under way.' : 'No job was under way.';
   const colour = arm_colour([...store.arms.keys()], name);
   return (
@@ -40,7 +42,7 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
         <StopOfArm arm={arm} app={app} />
       </div>
       <p class="hint">
-        {job ? <>{then === app ? 'Executes' : 'Executed'} <Link app={app} to={{ page: 'job', id: job.id }}>{title_of(job)}</Link></> : nothing}
+        {job ? <>{then === app ? 'Executes' : 'Executed'} <Link app={app} to={{ page: 'job', id: job.id }}>{title_of(job)}</Link></> : waiting ? <>Next is <Link app={app} to={{ page: 'job', id: waiting.id }}>{title_of(waiting)}</Link>: {reason_in_words(waiting)}{when_in_words(waiting, then.store) !== '' && `; ${when_in_words(waiting, then.store)}`}</> : nothing}
       </p>
       <AsOf app={app}>Stop, Send and By hand act now.</AsOf>
       <SendTo arm={arm} app={app} />

@@ -2,12 +2,13 @@
 
 import { Link } from '../route/link';
 import { selection_of } from '../route/selection';
-import type { Arm } from '../server/messages';
+import { when_in_words } from '../jobs/when';
+import type { Arm, Job } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
 import { use_beats } from '../state/seen';
 import { shown_name } from '../names';
-import { short_id, title_of } from '../wording';
+import { reason_in_words, short_id, title_of, waited_for } from '../wording';
 import { Bar } from './bar';
 
 export function Arms({ app }: { app: App }) {
@@ -25,6 +26,7 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
   use_beats(app.store);
   const { store } = app;
   const job = arm.job === null ? null : store.job(arm.job);
+  const waiting = !job && store.arm_state(arm) === 'waiting' ? store.waiting_of(arm.name) : null;
   const progress = job ? store.progress(job) : 0;
   const lit = selection_of(app.router.address.value.place, store).arms.includes(arm.name);
   return (
@@ -37,13 +39,19 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
           <StatePill arm={arm} app={app} />
         </span>
         <span class="line dim job-of-arm">
-          <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : store.arm_state(arm) === 'not known' ? 'not known then' : 'no job'}</span>
+          {waiting ? <Waiting job={waiting} app={app} /> : <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : store.arm_state(arm) === 'not known' ? 'not known then' : 'no job'}</span>}
           <span class="mono">{job ? `${Math.round(100 * progress)} %` : ''}</span>
         </span>
         <Bar share={progress} />
       </Link>
     </div>
   );
+}
+
+/** For whom or what its next job waits, and since when. */
+function Waiting({ job, app }: { job: Job; app: App }) {
+  const short = [waited_for(job), when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
+  return <span class="grow ellipsis waiting" data-test="arm-waits" title={`${title_of(job)}: ${reason_in_words(job)}`}>{short}</span>;
 }
 
 export function StatePill({ arm, app }: { arm: Arm; app: App }) {

@@ -18,7 +18,7 @@ export function read_bag(text: string): Bag {
   } catch {
     return { kind: 'one', text };
   }
-  if (is_trajectory(value)) return { kind: 'one', text: JSON.stringify({ trajectory: value }, null, 1) };
+  if (is_trajectory(value)) return { kind: 'one', text: JSON.stringify({ trajectory: value }) };
   const list = Array.isArray(value) ? value : (value as { jobs?: unknown } | null)?.jobs;
   if (!Array.isArray(list) || list.length === 0) return { kind: 'one', text };
   return { kind: 'bag', jobs: list.map((entry) => (is_trajectory(entry) ? { trajectory: entry as unknown } : (entry as { job?: unknown } | null)?.job ?? entry)) };

@@ -3,7 +3,7 @@
 import type { Api } from '../server/api';
 import type { Problem, Verdict } from '../server/messages';
 import { conflict_in_words, millimetres, seconds, wait_in_words } from '../wording';
-import { bodies_of, type Bag } from './bag';
+import type { Composed } from './composed';
 import { Refused } from './refused';
 
 export type Judgement = { title: string } & ({ ok: true; verdict: Verdict } | { ok: false; problem: Problem });
@@ -11,9 +11,9 @@ export type Judgement = { title: string } & ({ ok: true; verdict: Verdict } | { 
 const kMost = 50;
 
 /** One after the other: each costs the server some checks. */
-export async function judge_all(bag: Bag, api: Pick<Api, 'check'>): Promise<Judgement[]> {
+export async function judge_all(bodies: Composed['bodies'], api: Pick<Api, 'check'>): Promise<Judgement[]> {
   const judgements: Judgement[] = [];
-  for (const { title, text } of bodies_of(bag).slice(0, kMost)) {
+  for (const { title, text } of bodies.slice(0, kMost)) {
     const answer = await api.check(text);
     judgements.push(answer.ok ? { title, ok: true, verdict: answer.value } : { title, ok: false, problem: answer.problem });
   }

@@ -11,13 +11,16 @@ import type { Problem } from '../server/messages';
 import type { App } from '../state/app';
 import { why_mute } from '../wording';
 import { read_bag, type Bag } from './bag';
+import { composed, type Composed } from './composed';
 import { example_job, pretty } from './example';
 import { has_goal, ways_to_goals, type Ways } from './goals';
 import { Judged, judge_all, type Judgement } from './judged';
-import { motion_of } from '../motion/pasted';
+import { motion_of, motion_of_parts } from '../motion/pasted';
+import { composed_beside, kLong } from './long_text';
 import { PlanForm } from './plan_form';
 import { Preview, type Chosen } from './preview';
 import { Refused } from './refused';
+import { TextField } from './text_field';
 
 type Outcome =
   | { kind: 'none' } | { kind: 'busy'; what: string } | { kind: 'accepted'; ids: string[] }
@@ -37,23 +40,25 @@ export function NewJob({ app }: { app: App }) {
   const set_chosen = (next: Chosen) => set_said({ of: text, outcome, chosen: next });
   const change = (next: string) => { app.draft.value = next; };
   const show_end = (next: string) => set_said({ of: next, outcome: { kind: 'none' }, chosen: { t_s: motion_of(read_bag(next))?.duration_s ?? 0 } });
-  const bag = useMemo(() => read_bag(text), [text]);
+  const made = use_composed(text);
+  const bag = useMemo(() => read_bag(text.length > kLong ? '' : text), [text]);  // ways to goals are shown of short ones
   const ways = use_ways(bag, app);
-  const motion = useMemo(() => motion_of(ways.kind === 'planned' ? ways.ways.bag : bag), [bag, ways]);
+  const motion = useMemo(() => (ways.kind === 'planned' ? motion_of(ways.ways.bag) : motion_of_parts(made?.parts ?? [])), [made, ways]);
   // Where a goal leads is shown as soon as there is a way.
   useEffect(() => { if (ways.kind === 'planned' && ways.ways.planned > 0 && motion) set_chosen({ t_s: motion.duration_s }); }, [ways]);
   const mute = why_mute(app.store.link);
-  const idle = text.trim() === '' || outcome.kind === 'busy' || mute !== null;
+  const idle = made === null || text.trim() === '' || outcome.kind === 'busy' || mute !== null;
   // The same once more is another job: it has to be asked for by the button that says so.
   const is_sent = outcome.kind === 'accepted';
   const send = async () => {
     if (idle) return;
     set_outcome({ kind: 'busy', what: 'Sending…' });
-    set_outcome(await sent(bag, app));
+    set_outcome(await sent(made, app));
   };
   const judge = async () => {
+    if (idle) return;
     set_outcome({ kind: 'busy', what: 'Judging…' });
-    set_outcome({ kind: 'judged', judgements: await judge_all(bag, app.api) });
+    set_outcome({ kind: 'judged', judgements: await judge_all(made.bodies, app.api) });
   };
   return (
     <div class="page compose">
@@ -67,29 +72,43 @@ export function NewJob({ app }: { app: App }) {
         <PlanForm app={app} change={(next) => { change(next); show_end(next); }} />
       </details>
       <Examples app={app} change={change} />
-      <textarea class="mono" spellcheck={false} aria-label="Job as JSON" data-test="job-text" value={text}
-        placeholder={'{\n  "trajectory": {\n    "joint_names": […],\n    "points": […]\n  }\n}'}
-        onInput={(event) => change(event.currentTarget.value)}
-        onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey) && !is_sent) void send(); }} />
+      <TextField text={text} change={change} send={() => { if (!is_sent) void send(); }} />
       {motion && <Preview motion={motion} app={app} chosen={chosen} />}
       {ways.kind !== 'none' && <WaysSaid ways={ways} />}
       <div class="line">
-        <FileButton change={change} />
-        <span class="grow dim small" data-test="bag">{bag.kind === 'bag' ? `A batch of ${bag.jobs.length} jobs: all are accepted or none` : 'Ctrl + Enter sends'}</span>
+        <span class="grow dim small" data-test="bag">{made === null ? 'Reading…' : kind_in_words(made)}</span>
         <button data-test="judge" title="As things are now; nothing is stored" disabled={idle} onClick={() => void judge()}>Judge</button>
         <button class={is_sent ? '' : 'primary'} data-test="send" title={mute ?? (is_sent ? 'It was sent; this makes another one of it' : '')} disabled={idle}
           onClick={(event) => { if (event.detail < 2) void send(); /* not by the second click of a double one */ }}>
-          {outcome.kind === 'busy' ? outcome.what : `${bag.kind === 'bag' ? 'Send all' : 'Send'}${is_sent ? ' again' : ''}`}
+          {outcome.kind === 'busy' ? outcome.what : `${made?.kind === 'bag' ? 'Send all' : 'Send'}${is_sent ? ' again' : ''}`}
         </button>
       </div>
-      {text.trim() !== '' && <Copies bag={bag} app={app} />}
+      {made && text.trim() !== '' && <Copies made={made} app={app} />}
       <InSight answer={outcome.kind === 'none' || outcome.kind === 'busy' ? null : outcome}>
         {outcome.kind === 'accepted' && <Accepted ids={outcome.ids} app={app} />}
-        {outcome.kind === 'judged' && <Judged judgements={outcome.judgements} show={motion && bag.kind === 'one' ? (t_s) => set_chosen({ t_s }) : null} />}
+        {outcome.kind === 'judged' && <Judged judgements={outcome.judgements} show={motion && made?.kind === 'one' ? (t_s) => set_chosen({ t_s }) : null} />}
         {outcome.kind === 'refused' && <Refused problem={outcome.problem} />}
       </InSight>
     </div>
   );
+}
+
+/** What the text comes to; null: a long one is being read. */
+function use_composed(text: string): Composed | null {
+  const [read, set_read] = useState<{ of: string; made: Composed } | null>(null);
+  const is_long = text.length > kLong;
+  useEffect(() => {
+    if (!is_long) return;
+    const stop = new AbortController();
+    composed_beside(text, stop.signal).then((made) => set_read({ of: text, made }), (error: unknown) => { if (!stop.signal.aborted) console.warn(String(error)); });
+    return () => stop.abort();
+  }, [text, is_long]);
+  return useMemo(() => (!is_long ? composed(text) : read?.of === text ? read.made : null), [text, is_long, read]);
+}
+
+function kind_in_words({ kind, bodies, parts }: Composed): string {
+  const what = kind === 'bag' ? `A batch of ${bodies.length} jobs: all are accepted or none` : 'Ctrl + Enter sends';
+  return parts === null ? `${what}. Too long to be previewed` : what;
 }
 
 type WaysState = { kind: 'none' } | { kind: 'planning' } | { kind: 'planned'; ways: Ways };
@@ -139,27 +158,14 @@ function Examples({ app, change }: { app: App; change(text: string): void }) {
 }
 
 /** The same request for a terminal or a program. */
-function Copies({ bag, app }: { bag: Bag; app: App }) {
-  const with_it = (make: typeof curl_to_post) => () => {
-    const { path, body } = request_of(bag);
-    return make(path, body, asked_of(app));
-  };
+function Copies({ made: { request: { path, body } }, app }: { made: Composed; app: App }) {
+  const with_it = (make: typeof curl_to_post) => () => make(path, body, asked_of(app));
   return (
     <div class="line">
       <span class="grow dim small">The same for programs</span>
       <Copy what="curl" text={with_it(curl_to_post)} />
       <Copy what="Python" text={with_it(python_to_post)} />
     </div>
-  );
-}
-
-function FileButton({ change }: { change(text: string): void }) {
-  return (
-    <label class="file small">
-      <input type="file" accept=".json,application/json" data-test="file" class="sr-only"
-        onChange={(event) => { void event.currentTarget.files?.[0]?.text().then(change); }} />
-      Open a file
-    </label>
   );
 }
 
@@ -172,15 +178,7 @@ function Accepted({ ids, app }: { ids: string[]; app: App }) {
   );
 }
 
-/** What is sent, and where. */
-function request_of(bag: Bag): { path: '/batches' | '/jobs'; body: string } {
-  return bag.kind === 'bag'
-    ? { path: '/batches', body: JSON.stringify({ atomic: true, jobs: bag.jobs }) }
-    : { path: '/jobs', body: bag.text };
-}
-
-async function sent(bag: Bag, app: App): Promise<Outcome> {
-  const { path, body } = request_of(bag);
+async function sent({ request: { path, body } }: Composed, app: App): Promise<Outcome> {
   const answer = path === '/batches' ? await app.api.post_batch(body) : await app.api.post_job(body);
   return answer.ok ? { kind: 'accepted', ids: ids_of(answer.value) } : { kind: 'refused', problem: answer.problem };
 }

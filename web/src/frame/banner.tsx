@@ -2,7 +2,8 @@
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
-import { seconds } from '../wording';
+import { short_wall_time } from '../wall_time';
+import { restart_in_words, seconds } from '../wording';
 import { drop_fault, files_over } from './drops';
 import { use_staleness } from './staleness';
 
@@ -26,6 +27,9 @@ export function Banner({ app }: { app: App }) {
           <span><b>Recording {store.link.name}.</b> What you see is past; the arms may be moving. Stop still stops them.</span>
           <button onClick={() => app.player.close()}>Back to the present</button>
         </div>
+      )}
+      {store.restart !== null && store.link.status === 'open' && (
+        <div class="banner" role="status" data-test="restarted"><span>{restart_in_words(store.restart, short_wall_time(store.restart.at, Date.now()))}</span><button onClick={() => store.put_restart_away()}>Dismiss</button></div>
       )}
       {refusal !== null && <Fault words={refusal} test="refusal" dismiss={() => { actions.refusal.value = null; }} />}
       {drop_fault.value !== null && <Fault words={drop_fault.value} test="drop-fault" dismiss={() => { drop_fault.value = null; }} />}

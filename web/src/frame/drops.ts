@@ -2,6 +2,7 @@
 // trajectory goes to where jobs are composed, a recording is opened, be it its files or the folder that they are in.
 
 import { signal } from '@preact/signals';
+import { read_job_file } from '../compose/job_file';
 import type { App } from '../state/app';
 
 /** Whether files are held over the page. */
@@ -39,7 +40,12 @@ async function take({ files, folder }: Dropped, app: App): Promise<void> {
   }
   const [first] = files;
   if (!first) return;
-  app.draft.value = await first.text();
+  const read = await read_job_file(first);
+  if (!read.ok) {
+    drop_fault.value = read.fault;
+    return;
+  }
+  app.draft.value = read.text;
   app.router.go({ page: 'new' });
   if (files.length > 1) drop_fault.value = `Only ${first.name} was taken: jobs come from one file at a time. A batch is a list of jobs in one file.`;
 }

@@ -1,11 +1,11 @@
-// Keys: F8 stops, wherever the focus is; Escape leads back to the cell; single letters lead to pages,
+// Keys: F8 stops, wherever the focus is; Escape lets go of what is moved by hand, or leads back to the cell; single letters lead to pages,
 // unless somebody types, or has turned them off.
 
 import type { App } from '../state/app';
 import { kPageOfKey } from './pages';
 import { kStopKey } from './stop_button';
 
-export function listen_to_keys(app: App, window: Window): void {
+export function listen_to_keys(app: App, window: Pick<Window, 'addEventListener'>): void {
   window.addEventListener('keydown', (event) => {
     if (event.key === kStopKey) {
       event.preventDefault();
@@ -14,6 +14,10 @@ export function listen_to_keys(app: App, window: Window): void {
     }
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (document.querySelector('dialog[open], .more-pages[open]')) return;
+    if (event.key === 'Escape' && app.by_hand.value !== null) {
+      app.by_hand.value = null;
+      return;
+    }
     if (event.key === 'Escape' && app.router.place.page !== 'cell') return app.router.go({ page: 'cell' });
     const page = kPageOfKey.get(event.key);
     if (!page || !app.settings.letter_keys.value || is_typing(event.target)) return;

@@ -18,6 +18,11 @@ export function use_staleness(store: Store): number | null {
   return stale_s.value;
 }
 
+/** Whether what is shown is of some time ago, and nobody knows what is now. */
+export function use_stale(store: Store): boolean {
+  return use_staleness(store) !== null || store.link.status === 'lost';
+}
+
 function watch(store: Store): ReadonlySignal<number | null> {
   const stale_s = signal<number | null>(null);
   window.setInterval(() => {

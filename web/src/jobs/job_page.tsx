@@ -1,22 +1,23 @@
 // One job: its states with their times, why it waits with the evidence, how its arm moved, and the job
 // as programs have it.
 
-import { useEffect, useState } from 'preact/hooks';
+import { useEffect } from 'preact/hooks';
 import { pretty } from '../compose/example';
 import { partner_of } from '../diagram/partner';
 import { Plot, units_of } from '../plot/plot';
 import { Link } from '../route/link';
-import { kCanReplan, type Job } from '../server/messages';
+import type { Job } from '../server/messages';
 import type { App } from '../state/app';
-import { is_terminal } from '../state/job_book';
+import { is_terminal, type Stand } from '../state/job_book';
 import { arm_colour } from '../state/palette';
 import { told_state } from '../state/standing';
 import { use_beats } from '../state/seen';
-import { clock, reason_in_words, result_in_words, short_id, wait_in_words, ways_in_words, why_mute } from '../wording';
+import { clock, reason_in_words, result_in_words, short_id, wait_in_words, ways_in_words } from '../wording';
 import { short_wall_time } from '../wall_time';
+import { JobActions } from './actions';
 import { asked_of, Copy } from './copy';
 import { curl_of, python_of } from './snippets';
-import { states_of } from './states';
+import { states_of, stood_in_words } from './states';
 import { when_in_words } from './when';
 import { shown_json, shown_name } from '../names';
 
@@ -49,7 +50,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
       <States job={job} app={app} />
       {ways_in_words(job).map((words) => <p key={words} class="hint" data-test="way">{words}</p>)}
       {looks_back ? null : former ? <p class="hint" data-test="former">The server tells of it from what it keeps; how it moved is not kept.</p> : <Beside job={job} app={app} />}
-      {kCanReplan && goes_on && job.arms.length === 1 && <AnotherWay job={job} app={app} />}
+      {goes_on && <JobActions job={job} app={app} />}
       {!former && <Moves job={job} app={app} />}
       <h3>For programs</h3>
       <div class="line">
@@ -66,6 +67,7 @@ function States({ job, app }: Props) {
   use_beats(app.store);
   const former = app.store.job(job.id) === null;
   const times = states_of(job, app.store.book.changes(job.id));
+  const stands = app.store.book.stands(job.id);
   const when = is_terminal(job) ? '' : when_in_words(job, app.store);
   return (
     <>
@@ -74,12 +76,19 @@ function States({ job, app }: Props) {
           <li key={i} class={t_s === null ? 'open' : ''}>
             <span>{name}</span><span class="mono" title={wall_of(job, name)}>{t_s === null ? '–' : former ? short_wall_time(wall_of(job, name), Date.now()) : clock(t_s)}</span>
             <span class="dim">{t_s === null || name === 'submitted' ? '' : `+${(t_s - job.submitted_s).toFixed(2)} s`}</span>
+            <StoodFor stand={stands.find(({ from_s }) => from_s === t_s) ?? null} />
           </li>
         ))}
       </ol>
       <p class="hint">Its trajectory takes {job.duration_s.toFixed(2)} s; {Math.round(100 * app.store.progress(job))} % is done{when === '' ? '' : `; ${when}`}.</p>
     </>
   );
+}
+
+/** Why it stood there, and for how long, as far as the page was told. */
+function StoodFor({ stand }: { stand: Stand | null }) {
+  const words = stand ? stood_in_words(stand) : '';
+  return words === '' ? null : <span class="small" data-test="stood">{words}</span>;
 }
 
 /** Of a job of a former run the wall clock's times alone mean something now. */
@@ -97,31 +106,12 @@ function Evidence({ job, app }: Props) {
           <li key={i}>
             <div class="why">{wait_in_words(wait)}</div>
             {wait.id !== null && wait.other_time_s !== null && <div class="dim small">{wait.other_time_s.toFixed(2)} s into the motion of {short_id(wait.id)}</div>}
+            {wait.kind === 'object' && <Link app={app} to={{ page: 'scene', name: wait.id ?? wait.links[1] ?? null }} test="show-object">Show it in the scene</Link>}
             {wait.kind === 'job' && wait.id !== null && <Link app={app} to={{ page: 'pair', a: wait.id, b: job.id }}>Where they conflict</Link>}
           </li>
         ))}
       </ul>
     </>
-  );
-}
-
-/** Of one that moves this is asked first: what its trajectory was to do on the way is lost. */
-function AnotherWay({ job, app }: Props) {
-  const [asked, set_asked] = useState(false);
-  const mute = why_mute(app.store.link);
-  const moves = job.state === 'running' || job.state === 'holding';
-  const ask = () => {
-    if (moves && !asked) return set_asked(true);
-    set_asked(false);
-    void app.actions.replan(job.id);
-  };
-  return (
-    <div class="line">
-      <button class="small" data-test="replan" disabled={mute !== null || job.stopping} title={mute ?? 'From where its arm stands to where the job ends, past what rests there'} onClick={ask}>
-        {asked ? 'Brake, and plan another way' : 'Plan another way'}
-      </button>
-      {asked && <><span class="small">What its trajectory was to do on the way is lost.</span><button class="small" onClick={() => set_asked(false)}>Keep its way</button></>}
-    </div>
   );
 }
 

@@ -1,7 +1,7 @@
 // The side: what moves, what is planned, what is blocked and why, what merely waits its turn, and what
 // has ended. A filter goes over all of them.
 
-import { useState } from 'preact/hooks';
+import { useRef, useState } from 'preact/hooks';
 import type { Job } from '../server/messages';
 import type { App } from '../state/app';
 import { instant_of } from '../state/instant';
@@ -9,6 +9,7 @@ import type { JobList } from '../state/job_book';
 import { is_known } from '../state/as_of';
 import { clock } from '../wording';
 import { matches } from './filter';
+import { held_lists, type Lists } from './held';
 import { Row } from './row';
 
 const kShown = 40;
@@ -23,19 +24,34 @@ const kSections: readonly Section[] = [
   { list: 'finished', title: 'Finished', none: 'No job has ended yet.', hint: 'Newest first' },
 ];
 
+const kLists = kSections.map(({ list }) => list);
+
+/** The job whose row something is in. */
+function row_of(target: EventTarget | null): string | null {
+  return target instanceof Element ? target.closest('.job')?.getAttribute('data-test')?.replace(/^job-/, '') ?? null : null;
+}
+
 export function Jobs({ app }: { app: App }) {
   const [words, set_words] = useState('');
   const [only_failed, set_only_failed] = useState(false);
+  const [held, set_held] = useState<string | null>(null);
+  const { store } = app;
+  const shown = useRef<{ of: unknown; lists: Lists }>({ of: store, lists: new Map() });
+  const now = new Map(kLists.map((list) => [list, store.jobs(list)]));
+  const lists = shown.current.of === store ? held_lists(kLists, now, shown.current.lists, held) : now;
+  shown.current = { of: store, lists };
   const is_asked = (job: Job) => matches(job, words, only_failed);
   return (
-    <section class="jobs" aria-label="Jobs">
+    <section class="jobs" aria-label="Jobs"
+      onPointerOver={(event) => set_held(row_of(event.target))} onPointerLeave={() => set_held(null)}
+      onFocusIn={(event) => { if (event.target instanceof HTMLButtonElement) set_held(row_of(event.target)); }} onFocusOut={() => set_held(null)}>
       <div class="filter">
         <input type="search" placeholder="Filter: id, name, arm, state" aria-label="Filter jobs" data-test="filter" value={words}
           onInput={(event) => set_words(event.currentTarget.value)} />
         <button class="small" aria-pressed={only_failed} data-test="only-failed" title="Only jobs that did not succeed" onClick={() => set_only_failed(!only_failed)}>Failed</button>
       </div>
       <LookedAt app={app} />
-      {is_known(app.store) && kSections.map((section) => <List key={section.list} section={section} app={app} is_asked={is_asked} filtered={words !== '' || only_failed} />)}
+      {is_known(app.store) && kSections.map((section) => <List key={section.list} section={section} all={lists.get(section.list) ?? []} app={app} is_asked={is_asked} filtered={words !== '' || only_failed} />)}
     </section>
   );
 }
@@ -51,11 +67,10 @@ function LookedAt({ app }: { app: App }) {
   );
 }
 
-interface ListProps { section: Section; app: App; filtered: boolean; is_asked(job: Job): boolean }
+interface ListProps { section: Section; all: readonly Job[]; app: App; filtered: boolean; is_asked(job: Job): boolean }
 
-function List({ section: { list, title, none, hint }, app, filtered, is_asked }: ListProps) {
+function List({ section: { list, title, none, hint }, all, app, filtered, is_asked }: ListProps) {
   const [shown, set_shown] = useState(kShown);
-  const all = app.store.jobs(list);
   const jobs = filtered ? all.filter(is_asked) : all;
   if (jobs.length === 0 && (filtered || none === '')) return null;
   const count = filtered ? `${jobs.length} of ${all.length}` : String(all.length);

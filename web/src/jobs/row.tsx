@@ -1,7 +1,8 @@
 // One job in a list: arms, name, the number that matters now, and why it waits.
 
-import { useState } from 'preact/hooks';
 import { Bar } from '../arms/bar';
+import { use_stale } from '../frame/staleness';
+import type { Place } from '../route/address';
 import { selection_of } from '../route/selection';
 import { Link } from '../route/link';
 import type { Job } from '../server/messages';
@@ -10,8 +11,9 @@ import { is_terminal } from '../state/job_book';
 import { arm_colour } from '../state/palette';
 import { told_state } from '../state/standing';
 import { use_beats } from '../state/seen';
-import { figure_in_words, reason_in_words, result_in_words, short_id, title_of, why_mute } from '../wording';
-import { when_in_words } from './when';
+import { as_last_heard, figure_in_words, object_of, reason_in_words, result_in_words, short_id, title_of } from '../wording';
+import { Cancel, Urgency, waits } from './actions';
+import { leg_of, when_in_words } from './when';
 import { shown_name } from '../names';
 
 interface Props { job: Job; app: App }
@@ -22,7 +24,7 @@ export function Row({ job, app }: Props) {
   const selection = selection_of(place, store);
   const selected = selection.jobs.includes(job.id);
   const of_arm = selection.jobs.length === 0 && job.arms.some((arm) => selection.arms.includes(arm));
-  const blocker = job.waits_on.find((wait) => wait.kind === 'job' && wait.id !== null)?.id ?? null;
+  const why = reason_place(job);
   const arms = [...store.arms.keys()];
   const ended = is_terminal(job);
   return (
@@ -40,11 +42,11 @@ export function Row({ job, app }: Props) {
           <Figure job={job} app={app} />
         </span>
         {job.name !== '' && <span class="id ellipsis" title={job.id}>{job.id}</span>}
-        {blocker === null && <Reason job={job} />}
+        {why === null && <Reason job={job} />}
         <Progress job={job} app={app} />
       </Link>
-      {blocker !== null && (
-        <Link app={app} to={{ page: 'pair', a: blocker, b: job.id }} class="why" test="why" title={`Show where ${job.id} and ${blocker} conflict`}>
+      {why !== null && (
+        <Link app={app} to={why} class="why" test="why" title={why.page === 'pair' ? `Show where ${job.id} and ${why.a} conflict` : `Show ${shown_name(why.name ?? '')}`}>
           <Reason job={job} />
         </Link>
       )}
@@ -55,6 +57,14 @@ export function Row({ job, app }: Props) {
   );
 }
 
+/** What its reason leads to: where two jobs conflict, or the object that is in its way. */
+function reason_place(job: Job): Extract<Place, { page: 'pair' | 'scene' }> | null {
+  const blocker = job.waits_on.find((wait) => wait.kind === 'job' && wait.id !== null)?.id ?? null;
+  if (blocker !== null) return { page: 'pair', a: blocker, b: job.id };
+  const object = object_of(job);
+  return object === null ? null : { page: 'scene', name: object };
+}
+
 function Progress({ job, app }: Props) {
   use_beats(app.store);
   return job.state === 'running' || job.state === 'holding' ? <Bar share={app.store.progress(job)} /> : null;
@@ -62,8 +72,9 @@ function Progress({ job, app }: Props) {
 
 function Figure({ job, app }: Props) {
   if (!is_terminal(job)) use_beats(app.store);
-  const { text, title } = figure_in_words(job, app.store.t_s, app.store.progress(job));
-  return <span class="figure" title={title} data-test="figure">{text}</span>;
+  const stale = use_stale(app.store) && !is_terminal(job);
+  const { text, title } = figure_in_words(job, app.store.t_s, app.store.progress(job), leg_of(job, app.store.forecast)?.ends_s ?? null);
+  return <span class="figure" title={title} data-test="figure">{stale ? as_last_heard(text) : text}</span>;
 }
 
 /** That others of its arm come first is said with its times, in one line. */
@@ -82,39 +93,6 @@ function When({ job, app }: Props) {
   use_beats(app.store);
   const first = only_waits_its_turn(job) ? job.waits_on[0]?.id ?? null : null;
   const words = [first === null ? '' : `after ${short_id(first)}`, when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
-  return words === '' ? null : <span class="when" data-test="when">{words}</span>;
-}
-
-function waits(job: Job): boolean {
-  return job.state === 'queued' || job.state === 'backlogged';
-}
-
-/** Who of those that wait goes first: seen when the row is pointed at or has the focus. */
-function Urgency({ job, app }: Props) {
-  const mute = why_mute(app.store.link);
-  const step = (by: number, sign: string, what: string) => (
-    <button class="small" disabled={mute !== null} title={mute ?? `${what}: priority ${job.priority + by}`} aria-label={`${what}: ${job.id}`}
-      onClick={() => { void app.actions.set_priority(job.id, job.priority + by); }}>{sign}</button>
-  );
-  return <div class="urgency" data-test="urgency">{step(1, '▲', 'More urgent')}{step(-1, '▼', 'Less urgent')}</div>;
-}
-
-/** The first click asks, the second does it; the question goes away by itself. */
-function Cancel({ job, app }: Props) {
-  const [asked, set_asked] = useState(false);
-  const mute = why_mute(app.store.link);
-  if (!asked) {
-    return (
-      <button class="cancel" disabled={job.stopping || mute !== null} title={mute ?? `Cancel ${job.id}`} aria-label={`Cancel ${job.id}`}
-        onClick={() => set_asked(true)}>×</button>
-    );
-  }
-  const moves = job.state === 'running' || job.state === 'holding';
-  return (
-    <div class="confirm" role="alertdialog" aria-label={`Cancel ${job.id}?`} onKeyDown={(event) => { if (event.key === 'Escape') { event.stopPropagation(); set_asked(false); } }}>
-      <span>{moves ? 'It brakes on its path.' : 'Cancel this job?'}</span>
-      <button class="small danger" data-test="confirm-cancel" ref={(button) => button?.focus()} onClick={() => { set_asked(false); void app.actions.cancel(job.id); }}>Cancel it</button>
-      <button class="small" onClick={() => set_asked(false)}>Keep</button>
-    </div>
-  );
+  const stale = use_stale(app.store);
+  return words === '' ? null : <span class="when" data-test="when">{stale ? `when last heard: ${words}` : words}</span>;
 }

@@ -1,7 +1,8 @@
 // The states of a job with their times: all that were heard, or what the job itself says. Pure.
 
 import type { Job } from '../server/messages';
-import { is_terminal, type Change } from '../state/job_book';
+import { is_terminal, type Change, type Stand } from '../state/job_book';
+import { seconds, wait_in_words } from '../wording';
 
 // A state that is left at once is a step on the way.
 const kLeast_s = 0.005;
@@ -18,4 +19,9 @@ export function states_of(job: Job, heard: readonly Change[]): StateAt[] {
   if (started) steps.push(['started', job.started_s]);
   const by_time = steps.sort(([, a], [, b]) => (a ?? Infinity) - (b ?? Infinity));
   return [['submitted', job.submitted_s], ...by_time, end];
+}
+
+/** Why a job stood on its path, and how long; empty where that was not told, or goes on: it stands beside then. */
+export function stood_in_words({ from_s, to_s, why }: Stand): string {
+  return why === null || to_s === null ? '' : `${wait_in_words(why)}, ${seconds(to_s - from_s)} long`.replace(/^waits/, 'waited');
 }

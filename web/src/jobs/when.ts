@@ -1,14 +1,19 @@
 // When a job that has not ended came into its state, is expected to start and end, and expires, in words.
 // Pure. Times are cell time.
 
-import type { Job } from '../server/messages';
+import type { Forecast, ForecastLeg, Job } from '../server/messages';
 import { is_stopped } from '../state/standing';
 import type { Store } from '../state/store';
 import { seconds } from '../wording';
 
+/** What the server expects of a job; null: nothing is known. */
+export function leg_of({ id }: Pick<Job, 'id'>, forecast: Forecast | null): ForecastLeg | null {
+  return forecast?.arms.flatMap((lane) => lane.legs).find((known) => known.id === id) ?? null;
+}
+
 export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'forecast'>): string {
   const now_s = store.t_s;
-  const leg = store.forecast?.arms.flatMap((lane) => lane.legs).find((known) => known.id === job.id);
+  const leg = leg_of(job, store.forecast);
   const parts: string[] = [];
   const since_s = store.book.since(job.id);
   if (job.state === 'backlogged') parts.push(`blocked for ${seconds(Math.max(0, now_s - (job.backlogged_s ?? since_s ?? now_s)))}`);

@@ -2,30 +2,42 @@
 // Pure.
 
 import type { Bag } from '../compose/bag';
-import { child, motion_of_piece, read_trajectory, type Motion } from './motion';
+import { child, motion_of_piece, read_trajectory, type Motion, type Piece } from './motion';
 
-interface Part { motion: Motion; begins_s: number }
+/** One that begins so long after the first. */
+export interface Part { piece: Piece; begins_s: number }
 
-/** Jobs of one arm follow each other; null where there is nothing that could be shown. */
-export function motion_of(bag: Bag): Motion | null {
+/** Jobs of one arm follow each other. */
+export function parts_of(bag: Bag): Part[] {
   const bodies = bag.kind === 'bag' ? bag.jobs : [json_of(bag.text)];
   const ends_s = new Map<string, number>();
   const parts: Part[] = [];
   for (const body of bodies) {
     const piece = read_trajectory(child(body, 'trajectory'));
     if (!piece) continue;
-    const motion = motion_of_piece(piece);
     const begins_s = Math.max(0, ...piece.names.map((name) => ends_s.get(name) ?? 0));
-    for (const name of piece.names) ends_s.set(name, begins_s + motion.duration_s);
-    parts.push({ motion, begins_s });
+    for (const name of piece.names) ends_s.set(name, begins_s + (piece.points.at(-1)?.t_s ?? 0));
+    parts.push({ piece, begins_s });
   }
-  if (parts.length === 0) return null;
-  return { duration_s: Math.max(...ends_s.values()), names: [...ends_s.keys()], q_at: (t_s) => q_of(parts, t_s) };
+  return parts;
 }
 
-function q_of(parts: readonly Part[], t_s: number): Record<string, number> {
+/** Null where there is nothing that could be shown. */
+export function motion_of_parts(parts: readonly Part[]): Motion | null {
+  if (parts.length === 0) return null;
+  const motions = parts.map(({ piece, begins_s }) => ({ motion: motion_of_piece(piece), begins_s }));
+  const names = new Set(parts.flatMap(({ piece }) => piece.names));
+  const duration_s = Math.max(...motions.map(({ motion, begins_s }) => begins_s + motion.duration_s));
+  return { duration_s, names: [...names], q_at: (t_s) => q_of(motions, t_s) };
+}
+
+export function motion_of(bag: Bag): Motion | null {
+  return motion_of_parts(parts_of(bag));
+}
+
+function q_of(motions: readonly { motion: Motion; begins_s: number }[], t_s: number): Record<string, number> {
   const q: Record<string, number> = {};
-  for (const { motion, begins_s } of parts) {
+  for (const { motion, begins_s } of motions) {
     if (t_s < begins_s && motion.names.some((name) => name in q)) continue;
     Object.assign(q, motion.q_at(t_s - begins_s));
   }

@@ -75,7 +75,8 @@ export class Player {
     const got = await read(told, stop.signal).catch((error: unknown): Read => ({ ok: false, fault: `It could not be read to its end: ${String(error)}` }));
     if (stop.signal.aborted) return;  // nobody waits for it any more
     this.reading.value = null;
-    this.fault.value = got.ok ? this.look_at(name, got.frames, got.events) : got.fault;
+    const fault = got.ok ? this.look_at(name, got.frames, got.events) : got.fault;
+    this.fault.value = fault === null || name === '' || fault.includes(shown_name(name)) ? fault : `${shown_name(name)}: ${fault}`;
   }
 
   /** Why it cannot be; null: it is. */

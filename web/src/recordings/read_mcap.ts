@@ -8,7 +8,9 @@ import type { Frames } from './read_states';
 export interface Mcap { frames: Frames; /** A line each, as events.jsonl has them. */ events: string }
 
 // The page goes on to answer clicks meanwhile.
-const kAtOnce = 200;
+const kBreath_ms = 20;
+// Every MCAP file begins so.
+const kMagic = [0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a];
 
 export async function read_mcap(file: Blob): Promise<{ ok: true; mcap: Mcap } | { ok: false; fault: string }> {
   const names: string[] = [];
@@ -27,15 +29,21 @@ export async function read_mcap(file: Blob): Promise<{ ok: true; mcap: Mcap } | 
     frames.t_s.push(Number(logTime - zero_ns) / 1e9);
     frames.q.push(names.map((name, i) => places.get(name) ?? frames.q.at(-1)?.[i] ?? 0));
   };
+  if (file.size === 0) return { ok: false, fault: 'It is empty.' };
+  const begin = new Uint8Array(await file.slice(0, kMagic.length).arrayBuffer());
+  if (kMagic.some((byte, i) => begin[i] !== byte)) return { ok: false, fault: 'It is no MCAP file: it does not begin as one.' };
   try {
     const reader = new McapStreamReader();
     reader.append(new Uint8Array(await file.arrayBuffer()));
-    let count = 0;
+    let breath_ms = performance.now();
     for (let record = reader.nextRecord(); record; record = reader.nextRecord()) {
       if (record.type === 'Channel') topics.set(record.id, record.messageEncoding === 'json' ? record.topic : '');
       if (record.type === 'Metadata' && record.name === kMetadata) zero_ns = wall_ns(Number(record.metadata.get(kWallAtZero)));
       if (record.type === 'Message') take(record);
-      if (++count % kAtOnce === 0) await new Promise((done) => setTimeout(done));
+      if (performance.now() - breath_ms > kBreath_ms) {
+        await new Promise((done) => setTimeout(done));
+        breath_ms = performance.now();
+      }
     }
   } catch (error) {
     return { ok: false, fault: `It is no MCAP file that can be read here: ${String(error)}` };

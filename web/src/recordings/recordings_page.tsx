@@ -70,7 +70,7 @@ function Export({ app }: { app: App }) {
   return (
     <>
       <h3>Export</h3>
-      <p class="hint">{app.player.opened.value ? 'The recording' : 'What this page has heard, the last five minutes at most,'} as an MCAP file for Foxglove: joint states, transforms of all links, the scene, jobs and events.</p>
+      <p class="hint">{app.player.opened.value ? 'The recording' : 'What this page has heard lately'} as an MCAP file for Foxglove: joint states, transforms of all links, the scene, jobs and events.</p>
       <div class="line">
         <button data-test="export-mcap" disabled={length_s <= 0 || words.startsWith('Writing')} onClick={() => void write()}>Export {seconds(length_s)} as MCAP</button>
         <span class="dim small" role="status" data-test="export-words">{words}</span>

@@ -10,6 +10,9 @@ import type { ToldState } from './standing';
 
 type Snapshot = Extract<SequencedMessage, { type: 'snapshot' }>;
 
+/** `at`: wall time of the first that was heard of its next run; `lost`: jobs that had not ended, of which that one does not tell. */
+export interface Restart { at: string; lost: readonly Job[] }
+
 const kStands: ReadonlySet<Arm['state']> = new Set(['holding', 'stopped', 'fault'] as const);
 
 export class Facts {
@@ -22,6 +25,8 @@ export class Facts {
   objects: SceneObject[] = [];
   arms = new Map<string, Arm>();
   q: Record<string, number> = {};
+  /** The last one while the page was there, until it is put away. */
+  restart: Restart | null = null;
   numbers: Numbers = kNoNumbers;
   readonly book = new JobBook();
   /** Of these nothing was told until the time that is shown: only what looks back has any. */
@@ -40,6 +45,10 @@ export class Facts {
     this.notices_.take(message);
     switch (message.type) {
       case 'snapshot':
+        if (restarted) {
+          const lost = this.book.open.filter(({ id }) => !message.data.jobs.some((job) => job.id === id));
+          this.restart = { at: message.at, lost };
+        }
         this.take_snapshot(message, same_run);
         if (restarted) this.notices_.note(this.stream, message.t_s, 'warning', 'The server was restarted. Jobs of its former run are in the history, if it keeps them.');
         else if (message.data.gap) this.notices_.note(this.stream, message.t_s, 'info', 'Some events were missed while the connection was lost.');
@@ -97,7 +106,17 @@ export class Facts {
 
   /** What an arm does, as people are told of it. */
   arm_state(arm: Arm): ToldState {
-    return this.unknown_arms_.has(arm.name) ? 'not known' : arm.state;
+    if (this.unknown_arms_.has(arm.name)) return 'not known';
+    return arm.state === 'idle' && this.waiting_of(arm.name) ? 'waiting' : arm.state;
+  }
+
+  /** The job that an arm would go on with, where that waits; null: there is none. */
+  waiting_of(arm: string): Job | null {
+    for (const list of ['scheduled', 'backlog', 'queued'] as const) {
+      const next = this.jobs(list).find((job) => job.arms.includes(arm));
+      if (next) return next.state === 'backlogged' || next.waits_on.length > 0 ? next : null;
+    }
+    return null;
   }
 
   /** The arm's configuration as last measured, in the order of its joints. */

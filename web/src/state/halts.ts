@@ -1,7 +1,9 @@
 // When each arm was stopped, or at fault, whether it had a job or none.
 
 import type { Arm, SequencedMessage } from '../server/messages';
-import { remember, type Stand } from './job_book';
+import { remember, type Stand as JobStand } from './job_book';
+
+type Stand = Omit<JobStand, 'why'>;
 
 export type Halts = ReadonlyMap<string, readonly Stand[]>;
 

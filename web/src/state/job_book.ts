@@ -2,7 +2,7 @@
 // since when each is in its state, and when it stood on its path. Those that have ended are kept in the
 // order in which they did, so that ten thousand of them cost nothing when one more is heard of.
 
-import type { Job, JobState, QueueData } from '../server/messages';
+import type { Job, JobState, QueueData, WaitsOn } from '../server/messages';
 import { is_stopped, told_state } from './standing';
 
 export type JobList = 'running' | 'scheduled' | 'queued' | 'backlog' | 'finished';
@@ -21,8 +21,8 @@ export function is_terminal(job: Pick<Job, 'state'>): boolean {
   return kListOfState[job.state] === 'finished';
 }
 
-/** Cell time; to_s is null while it lasts. `stopped`: until somebody resumes its arm. */
-export interface Stand { from_s: number; to_s: number | null; stopped: boolean }
+/** Cell time; to_s is null while it lasts. `stopped`: until somebody resumes its arm. `why`: as last told while it stood. */
+export interface Stand { from_s: number; to_s: number | null; stopped: boolean; why: WaitsOn | null }
 
 /** `stopped`: it stands until its arm is resumed. */
 export interface Change { state: JobState | 'stopped'; t_s: number }
@@ -192,9 +192,13 @@ function stand(stands: Stand[], job: Job, t_s: number): void {
   const last = stands.at(-1);
   const open = last && last.to_s === null ? last : null;
   const stopped = is_stopped(job);
-  if (open && job.state === 'holding' && open.stopped === stopped) return;
+  const why = job.waits_on[0] ?? null;
+  if (open && job.state === 'holding' && open.stopped === stopped) {
+    open.why = why ?? open.why;
+    return;
+  }
   if (open) open.to_s = t_s;
-  if (job.state === 'holding') remember(stands, { from_s: t_s, to_s: null, stopped });
+  if (job.state === 'holding') remember(stands, { from_s: t_s, to_s: null, stopped, why });
 }
 
 export function remember<T>(list: T[], one: T): void {

@@ -11,6 +11,7 @@ export const kStateColours: Record<ToldState, string> = {
   idle: 'var(--idle)',
   moving: 'var(--moving)',
   holding: 'var(--holding)',
+  waiting: 'var(--holding)',
   stopped: 'var(--alarm)',
   fault: 'var(--alarm)',
   'not known': 'var(--dim)',
@@ -18,7 +19,7 @@ export const kStateColours: Record<ToldState, string> = {
 
 /** A state is never told by colour alone. */
 export const kStateGlyphs: Record<ToldState, string> = {
-  idle: '○', moving: '▶', holding: '❚❚', stopped: '■', fault: '✕', 'not known': '?',
+  idle: '○', moving: '▶', holding: '❚❚', waiting: '◔', stopped: '■', fault: '✕', 'not known': '?',
 };
 
 /** An arm's own colour, by its place in the cell. */

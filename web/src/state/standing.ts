@@ -3,8 +3,8 @@
 
 import type { ArmState, Job, JobState } from '../server/messages';
 
-/** `not known`: of the time that is looked at nothing tells it. */
-export type ToldState = ArmState | 'not known';
+/** `not known`: of the time that is looked at nothing tells it. `waiting`: it is idle, and its next job waits. */
+export type ToldState = ArmState | 'waiting' | 'not known';
 
 /** Whether a job waits until an arm is resumed: this one, or any of its own. */
 export function is_stopped(job: Pick<Job, 'waits_on'> | null, arm: string | null = null): boolean {

@@ -112,6 +112,7 @@ export class Store extends Facts {
     this.stream = null;
     this.t_s = 0;
     this.stopped = false;
+    this.restart = null;
     this.clearance = [];
     this.motions = [];
     this.forecast = null;
@@ -196,6 +197,11 @@ export class Store extends Facts {
 
   set_forecast(forecast: Forecast | null): void {
     this.forecast = forecast;
+    this.pulse_.change();
+  }
+
+  put_restart_away(): void {
+    this.restart = null;
     this.pulse_.change();
   }
 

@@ -93,9 +93,8 @@ function done_of(jobs: readonly Job[], past: Past, now_s: number, stands: Known[
     if (start_s - could_s > kLeastWait_s) marks.push(mark('wait', job, could_s, start_s, null));
     const end_s = job.ended_s ?? now_s;
     marks.push(mark('motion', job, start_s, end_s, null));
-    for (const { from_s, to_s, stopped } of stands(job.id)) {
-      // Why it stood before is not remembered.
-      marks.push({ ...mark('pause', job, from_s, to_s ?? end_s, to_s === null ? job.waits_on[0] ?? null : null), stopped });
+    for (const { from_s, to_s, stopped, why } of stands(job.id)) {
+      marks.push({ ...mark('pause', job, from_s, to_s ?? end_s, to_s === null ? job.waits_on[0] ?? null : why), stopped });
     }
     free_from_s = Math.max(free_from_s, end_s);
   }

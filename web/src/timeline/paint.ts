@@ -14,6 +14,8 @@ export interface Lit {
   jobs: readonly string[];
   arms: readonly string[];
   held_s: number | null;
+  /** Nothing has been heard for a while: where now was. */
+  stale: boolean;
   events: readonly EventMark[];
   /** When each arm was stopped. */
   halts: ReadonlyMap<string, readonly Pick<Stand, 'from_s' | 'to_s'>[]>;
@@ -48,7 +50,7 @@ export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly
   });
   lanes.forEach((lane, i) => draw_threads(g, sheet, lane, i, rows, arms, hover));
   draw_events(g, sheet, lit.events, pointed.events);
-  draw_now(g, sheet);
+  draw_now(g, sheet, now_in_words(lit.stale));
   if (lit.held_s !== null) draw_held(g, sheet, lit.held_s);
   g.restore();
   rows.forEach((row, i) => draw_name(g, row, lanes[i]?.arm ?? ''));
@@ -101,8 +103,13 @@ function tick_label(t_s: number, step_s: number): string {
   return step_s < 1 ? `${clock}.${Math.round((t_s - whole) * 10)}` : clock;
 }
 
+/** What stands at the line where the page's knowledge ends. */
+export function now_in_words(stale: boolean): string {
+  return stale ? 'last heard' : 'now';
+}
+
 /** The line that is now. */
-function draw_now(g: CanvasRenderingContext2D, sheet: Sheet): void {
+function draw_now(g: CanvasRenderingContext2D, sheet: Sheet, words: string): void {
   const at = Math.round(sheet.x(sheet.now_s)) + 0.5;
   if (at < kLeft_px || at > sheet.width - kRight_px) return;
   g.strokeStyle = ink('--text');
@@ -112,7 +119,7 @@ function draw_now(g: CanvasRenderingContext2D, sheet: Sheet): void {
   g.textAlign = 'center';
   g.textBaseline = 'alphabetic';
   g.fillStyle = ink('--text');
-  g.fillText('now', Math.min(at, sheet.width - kRight_px - g.measureText('now').width / 2), sheet.height - 5);
+  g.fillText(words, Math.min(at, sheet.width - kRight_px - g.measureText(words).width / 2), sheet.height - 5);
 }
 
 function draw_held(g: CanvasRenderingContext2D, sheet: Sheet, held_s: number): void {

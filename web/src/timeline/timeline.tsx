@@ -2,6 +2,7 @@
 // follows now, or is held where the address, the scrub bar, a drag or the keys have put it.
 
 import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
+import { use_stale } from '../frame/staleness';
 import { selection_of } from '../route/selection';
 import type { App } from '../state/app';
 import { event_beside, events_in_words, type EventMark } from './events';
@@ -32,9 +33,12 @@ export function Timeline({ app }: { app: App }) {
     const { span: now } = drawing.current;
     change(held_s === null ? { ...now, held_from_s: null } : is_shown(now, held_s, store.t_s) ? now : around(now, held_s, store.t_s));
   }, [held_s]);
+  const stale = use_stale(store);
+  const is_stale = useRef(stale);
+  is_stale.current = stale;
   const draw = useRef(() => {});
   useEffect(() => {
-    draw.current = () => { if (canvas.current) draw_now(canvas.current, drawing.current, app); };
+    draw.current = () => { if (canvas.current) draw_now(canvas.current, drawing.current, app, is_stale.current); };
     return drive(canvas, store, () => draw.current());
   }, [app]);
   const look_away = () => {
@@ -80,7 +84,7 @@ export function Timeline({ app }: { app: App }) {
   };
   const theme = settings.shown_theme.value;
   const address = router.address.value;
-  useEffect(() => draw.current(), [span, theme, address]);
+  useEffect(() => draw.current(), [span, theme, address, stale]);
   return (
     <section class="timeline" aria-label="Timeline">
       <div class={`line head${held_s === null ? '' : ' looks-back'}`}>
@@ -140,7 +144,7 @@ function drive(canvas: { current: HTMLCanvasElement | null }, store: App['store'
   };
 }
 
-function draw_now(canvas: HTMLCanvasElement, drawing: Drawing, app: App): void {
+function draw_now(canvas: HTMLCanvasElement, drawing: Drawing, app: App, stale: boolean): void {
   const g = fit(canvas);
   if (!g) return;
   drawing.sheet = sheet_of(canvas.clientWidth, canvas.clientHeight, drawing.span, app.store.t_s);
@@ -148,7 +152,7 @@ function draw_now(canvas: HTMLCanvasElement, drawing: Drawing, app: App): void {
   const { jobs, arms } = selection_of(app.router.place, app.store);
   const at = app.router.address.peek();
   const held_s = is_of_this_run(at.run, app.store) ? at.t_s : null;
-  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s, events: app.store.events, halts: app.store.halts }, drawing.pointed);
+  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s, stale, events: app.store.events, halts: app.store.halts }, drawing.pointed);
 }
 
 function span_by_key(key: string, span: Span, now_s: number): Span | null {

@@ -8,6 +8,7 @@ import type { App } from '../state/app';
 import { arm_colour, ink } from '../state/palette';
 import { instant_of, pose_at, type Instant } from '../state/instant';
 import type { Store } from '../state/store';
+import { arm_in_words } from '../wording';
 import type { Level } from './pace';
 import { Ahead } from './ahead';
 import { on_click } from './click';
@@ -171,7 +172,7 @@ export class CellView {
     if (cell && cell !== this.cell_) this.build(cell);
     this.objects_.show(objects);
     this.take_in_hand();
-    const states = [...arms.values()].map((arm) => `${arm.name} ${this.seen_.arm_state(arm)}`).join('\n');
+    const states = [...arms.values()].map((arm) => `${arm.name} ${arm_in_words(arm, this.seen_)}`).join('\n');
     if (states !== this.states_) {
       for (const arm of arms.values()) this.show_arm(arm);
       this.stage_.invalidate();
@@ -260,9 +261,8 @@ export class CellView {
   }
 
   private show_arm(arm: Arm): void {
-    const state = this.seen_.arm_state(arm);
-    this.robots_.get(arm.robot)?.show_state(arm.name, state);
-    this.labels_.show(arm.name, state, [...this.store_.arms.keys()]);
+    this.robots_.get(arm.robot)?.show_state(arm.name, this.seen_.arm_state(arm));
+    this.labels_.show(arm.name, this.seen_.arm_state(arm), [...this.store_.arms.keys()], arm_in_words(arm, this.seen_));
   }
 
   private move(): void {

@@ -24,7 +24,7 @@ export class ArmLabels {
 
   constructor(private readonly host_: HTMLElement) {}
 
-  show(arm: string, state: ToldState, arms: readonly string[]): void {
+  show(arm: string, state: ToldState, arms: readonly string[], words: string): void {
     let label = this.labels_.get(arm);
     if (!label) {
       label = make_label();
@@ -33,9 +33,9 @@ export class ArmLabels {
       label.element.classList.toggle('lit', this.lit_.includes(arm));
     }
     label.name.textContent = shown_name(arm);
-    if (label.state.textContent !== state) label.width_px = 0;
+    if (label.state.textContent !== words) label.width_px = 0;
     label.glyph.textContent = kStateGlyphs[state];
-    label.state.textContent = state;
+    label.state.textContent = words;
     label.element.classList.toggle('alarmed', state === 'stopped' || state === 'fault');
     label.element.classList.toggle('short', arms.length > kMostInWords);
     label.element.style.setProperty('--arm', arm_colour(arms, arm));

@@ -1,0 +1,42 @@
+// What was pasted or read from a file, ready to be judged and sent. Pure. Of a long text it is made beside the
+// page (long_text.ts), so it holds texts, which are handed over at once however long they are.
+
+import { cut_text } from '../names';
+import { parts_of, type Part } from '../motion/pasted';
+import { bodies_of, read_bag } from './bag';
+
+export interface Composed {
+  kind: 'one' | 'bag';
+  bodies: { title: string; text: string }[];
+  /** What is sent, and where. */
+  request: { path: '/batches' | '/jobs'; body: string };
+  /** The motions in it; null: longer than can be shown before they are sent. */
+  parts: Part[] | null;
+  /** Why it is no job; null: as far as is seen here it is one. */
+  fault: string | null;
+}
+
+/** Of more the parts would take the page long to be handed. */
+const kMostShown = 10_000;
+
+export function composed(text: string): Composed {
+  const bag = read_bag(text);
+  const parts = parts_of(bag);
+  const points = parts.reduce((sum, { piece }) => sum + piece.points.length, 0);
+  return {
+    kind: bag.kind, bodies: bodies_of(bag), parts: points > kMostShown ? null : parts, fault: fault_in(text),
+    request: bag.kind === 'bag' ? { path: '/batches', body: JSON.stringify({ atomic: true, jobs: bag.jobs }) } : { path: '/jobs', body: bag.text },
+  };
+}
+
+/** Why a text is no JSON of a job; it stands behind the name of its file. */
+function fault_in(text: string): string | null {
+  if (text.trim() === '') return 'is empty';
+  if (!/^\s*[[{]/.test(text)) return `is no JSON, which jobs are written in: it begins with "${cut_text(text.trim().split('\n', 1)[0] ?? '', 40)}"`;
+  try {
+    JSON.parse(text);
+    return null;
+  } catch (error) {
+    return `is JSON with a mistake: ${error instanceof Error ? cut_text(error.message, 160) : String(error)}`;
+  }
+}

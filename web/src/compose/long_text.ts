@@ -1,0 +1,42 @@
+// A long text is read beside the page, which goes on to answer clicks and Stop meanwhile.
+
+import type { Composed } from './composed';
+
+/** A longer one is not put into the text field either: a browser lays it out for seconds. */
+export const kLong = 200_000;
+
+/** The part of a Worker that is used. */
+export interface Beside {
+  postMessage(text: string): void;
+  terminate(): void;
+  onmessage: ((event: MessageEvent<Composed>) => void) | null;
+  onerror: ((event: ErrorEvent) => void) | null;
+}
+
+const kMake = (): Beside => new Worker(new URL('./composing.ts', import.meta.url), { type: 'module' });
+
+/** The same as composed(); `stop` gives it up. */
+export function composed_beside(text: string, stop: AbortSignal, make: () => Beside = kMake): Promise<Composed> {
+  return new Promise((done, fail) => {
+    const worker = make();
+    const end = () => {
+      worker.terminate();
+      stop.removeEventListener('abort', give_up);
+    };
+    const give_up = () => {
+      end();
+      fail(new Error('it was given up'));
+    };
+    worker.onmessage = ({ data }) => {
+      end();
+      done(data);
+    };
+    worker.onerror = ({ message }) => {
+      end();
+      fail(new Error(message));
+    };
+    stop.addEventListener('abort', give_up);
+    if (stop.aborted) give_up();
+    else worker.postMessage(text);
+  });
+}

@@ -1,0 +1,67 @@
+// Where a job's text is written, pasted or opened from a file. A long one is shown by its beginning alone: it is
+// judged and sent as it is.
+
+import { useState } from 'preact/hooks';
+import { bytes_in_words } from '../wording';
+import { read_job_file, too_large } from './job_file';
+import { kLong } from './long_text';
+
+const kBeginning = 2_000;
+
+interface Props { text: string; change(text: string): void; send(): void }
+
+export function TextField({ text, change, send }: Props) {
+  const [fault, set_fault] = useState<string | null>(null);
+  const paste = (event: ClipboardEvent) => {
+    const pasted = event.clipboardData?.getData('text') ?? '';
+    if (pasted.length <= kLong) return;
+    event.preventDefault();  // the field would be laid out for seconds
+    const large = too_large('What was pasted', pasted.length);
+    set_fault(large);
+    if (large === null) change(pasted);
+  };
+  return (
+    <>
+      {text.length > kLong ? <LongText text={text} clear={() => change('')} /> : (
+        <textarea class="mono" spellcheck={false} aria-label="Job as JSON" data-test="job-text" value={text}
+          placeholder={'{\n  "trajectory": {\n    "joint_names": […],\n    "points": […]\n  }\n}'}
+          onPaste={paste} onInput={(event) => { set_fault(null); change(event.currentTarget.value); }}
+          onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) send(); }} />
+      )}
+      <div class="line">
+        <FileButton change={change} told={set_fault} />
+      </div>
+      {fault !== null && <p class="refused" role="alert" data-test="file-fault">{fault}</p>}
+    </>
+  );
+}
+
+function LongText({ text, clear }: { text: string; clear(): void }) {
+  return (
+    <>
+      <div class="line" data-test="long-text">
+        <span class="grow small">{bytes_in_words(text.length)}: too long to be edited here. It is judged and sent as it is.</span>
+        <button class="small" onClick={clear}>Clear</button>
+      </div>
+      <pre class="mono" tabIndex={0} aria-label="The beginning of the job">{text.slice(0, kBeginning)}…</pre>
+    </>
+  );
+}
+
+function FileButton({ change, told }: { change(text: string): void; told(fault: string | null): void }) {
+  const open = async (input: HTMLInputElement) => {
+    const file = input.files?.[0];
+    if (!file) return;
+    told(null);
+    const read = await read_job_file(file);
+    input.value = '';  // the same one may be chosen again, mended
+    if (read.ok) change(read.text);
+    else told(read.fault);
+  };
+  return (
+    <label class="file small">
+      <input type="file" accept=".json,application/json" data-test="file" class="sr-only" onChange={(event) => void open(event.currentTarget)} />
+      Open a file
+    </label>
+  );
+}

@@ -1,0 +1,75 @@
+// What can be asked for a job that has not ended, in its row and on its page alike.
+
+import { useState } from 'preact/hooks';
+import { kCanReplan, type Job } from '../server/messages';
+import type { App } from '../state/app';
+import { is_terminal } from '../state/job_book';
+import { title_of, why_mute } from '../wording';
+
+interface Props { job: Job; app: App }
+
+/** All of it, on the job's page. */
+export function JobActions({ job, app }: Props) {
+  if (is_terminal(job)) return null;
+  return (
+    <div class="job-actions" data-test="job-actions">
+      {waits(job) && <Urgency job={job} app={app} />}
+      {kCanReplan && job.arms.length === 1 && <AnotherWay job={job} app={app} />}
+      <Cancel job={job} app={app} words="Cancel the job" />
+    </div>
+  );
+}
+
+export function waits(job: Pick<Job, 'state'>): boolean {
+  return job.state === 'queued' || job.state === 'backlogged';
+}
+
+/** Who of those that wait goes first. */
+export function Urgency({ job, app }: Props) {
+  const mute = why_mute(app.store.link);
+  const step = (by: number, sign: string, what: string) => (
+    <button class="small" disabled={mute !== null} title={mute ?? `${what}: priority ${job.priority + by}`} aria-label={`${what}: ${job.id}`}
+      onClick={() => { void app.actions.set_priority(job.id, job.priority + by); }}>{sign}</button>
+  );
+  return <div class="urgency" data-test="urgency">{step(1, '▲', 'More urgent')}{step(-1, '▼', 'Less urgent')}</div>;
+}
+
+/** The first click asks, the second does it; the question goes away by itself. */
+export function Cancel({ job, app, words }: Props & { words?: string }) {
+  const [asked, set_asked] = useState(false);
+  const mute = why_mute(app.store.link);
+  if (!asked) {
+    return (
+      <button class={words === undefined ? 'cancel' : 'small'} data-test={words === undefined ? undefined : 'cancel-job'} disabled={job.stopping || mute !== null} title={mute ?? `Cancel ${job.id}`}
+        aria-label={`Cancel ${job.id}`} onClick={() => set_asked(true)}>{words ?? '×'}</button>
+    );
+  }
+  const moves = job.state === 'running' || job.state === 'holding';
+  return (
+    <div class="confirm" role="alertdialog" aria-label={`Cancel ${job.id}?`} onKeyDown={(event) => { if (event.key === 'Escape') { event.stopPropagation(); set_asked(false); } }}>
+      <span>{moves ? `${title_of(job)} brakes on its path.` : `Cancel ${title_of(job)}?`}</span>
+      <button class="small danger" data-test="confirm-cancel" ref={(button) => button?.focus()} onClick={() => { set_asked(false); void app.actions.cancel(job.id); }}>Cancel it</button>
+      <button class="small" onClick={() => set_asked(false)}>Keep</button>
+    </div>
+  );
+}
+
+/** Of one that moves this is asked first: what its trajectory was to do on the way is lost. */
+function AnotherWay({ job, app }: Props) {
+  const [asked, set_asked] = useState(false);
+  const mute = why_mute(app.store.link);
+  const moves = job.state === 'running' || job.state === 'holding';
+  const ask = () => {
+    if (moves && !asked) return set_asked(true);
+    set_asked(false);
+    void app.actions.replan(job.id);
+  };
+  return (
+    <div class="line">
+      <button class="small" data-test="replan" disabled={mute !== null || job.stopping} title={mute ?? 'From where its arm stands to where the job ends, past what rests there'} onClick={ask}>
+        {asked ? 'Brake, and plan another way' : 'Plan another way'}
+      </button>
+      {asked && <><span class="small">What its trajectory was to do on the way is lost.</span><button class="small" onClick={() => set_asked(false)}>Keep its way</button></>}
+    </div>
+  );
+}

@@ -1,0 +1,72 @@
+import { describe, expect, it } from 'vitest';
+import { composed, type Composed } from '../src/compose/composed';
+import { kBodyMax_bytes, read_job_file } from '../src/compose/job_file';
+import { composed_beside, kLong, type Beside } from '../src/compose/long_text';
+import { read_mcap } from '../src/recordings/read_mcap';
+
+const file = (name: string, text: string) => new File([text], name);
+const trajectory = (points: number) => ({ joint_names: ['j1'], points: Array.from({ length: points }, (_, i) => ({ time_from_start: i, positions: [i] })) });
+
+describe('a file that jobs are read from', () => {
+  it('is not read when the server would not take it for its size', async () => {
+    let reads = 0;
+    const huge = { name: 'huge.json', size: 20_000_000, text: () => { reads += 1; return Promise.resolve('{}'); } };
+    expect(await read_job_file(huge)).toEqual({ ok: false, fault: 'huge.json has 20 MB, and the server takes 8.4 MB (8 MiB) in one request at most. It was not read.' });
+    expect(reads).toBe(0);
+    expect(await read_job_file({ ...huge, size: kBodyMax_bytes })).toEqual({ ok: true, text: '{}' });
+  });
+
+  it('is refused at once with its name where it is no JSON', async () => {
+    for (const [text, words] of [['', 'is empty'], ['joint_names:\n- j1', /YAML|it begins with "joint_names:"/], ['{"a": ', 'is JSON with a mistake: ']] as const) {
+      const read = await read_job_file(file('x.json', text));
+      expect(read, text).toMatchObject({ ok: false, fault: expect.stringMatching(words) as unknown });
+      expect(read.ok ? '' : read.fault).toContain('x.json ');
+    }
+  });
+
+  it('is looked at beside the page when it is long', async () => {
+    const text = JSON.stringify({ id: 'x'.repeat(kLong), trajectory: trajectory(1) });
+    const beside: number[] = [];
+    const read = (text: string): Promise<Composed> => { beside.push(text.length); return Promise.resolve(composed(text)); };
+    expect(await read_job_file(file('long.json', text), read)).toEqual({ ok: true, text });
+    expect(await read_job_file(file('short.json', '{}'), read)).toEqual({ ok: true, text: '{}' });
+    expect(beside).toEqual([text.length]);
+  });
+});
+
+describe('a text that jobs are made of', () => {
+  it('comes to what is judged, sent and shown', () => {
+    expect(composed(JSON.stringify(trajectory(2)))).toMatchObject({ kind: 'one', fault: null, request: { path: '/jobs', body: JSON.stringify({ trajectory: trajectory(2) }) }, parts: [{ begins_s: 0 }] });
+    const bag = composed(JSON.stringify([{ trajectory: trajectory(3) }, { trajectory: trajectory(2) }]));
+    expect([bag.kind, bag.request.path, bag.bodies.length, bag.parts?.map(({ begins_s }) => begins_s)]).toEqual(['bag', '/batches', 2, [0, 2]]);
+  });
+
+  it('is not handed over with motions that are too long to be shown', () => {
+    expect(composed(JSON.stringify(trajectory(10_000))).parts).toHaveLength(1);
+    expect(composed(JSON.stringify(trajectory(10_001)))).toMatchObject({ parts: null, fault: null });
+  });
+
+  it('is given up with what reads it', async () => {
+    const workers: (Beside & { ended: number; got: string[] })[] = [];
+    const make = () => {
+      const worker = { ended: 0, got: [] as string[], onmessage: null, onerror: null, postMessage: (text: string) => void worker.got.push(text), terminate: () => { worker.ended += 1; } };
+      workers.push(worker);
+      return worker as Beside;
+    };
+    const stop = new AbortController();
+    const given_up = composed_beside('{}', stop.signal, make);
+    stop.abort();
+    await expect(given_up).rejects.toThrow('given up');
+    const done = composed_beside('[1]', new AbortController().signal, make);
+    workers[1]?.onmessage?.({ data: composed('[1]') } as MessageEvent<Composed>);
+    expect((await done).kind).toBe('bag');
+    expect(workers.map(({ ended, got }) => [ended, got])).toEqual([[1, ['{}']], [1, ['[1]']]]);
+  });
+});
+
+describe('a file that is called an MCAP file', () => {
+  it('is told by its beginning', async () => {
+    expect(await read_mcap(new Blob(['hello']))).toEqual({ ok: false, fault: 'It is no MCAP file: it does not begin as one.' });
+    expect(await read_mcap(new Blob([]))).toEqual({ ok: false, fault: 'It is empty.' });
+  });
+});

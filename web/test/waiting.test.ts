@@ -1,0 +1,82 @@
+import { describe, expect, it } from 'vitest';
+import { leg_of, when_in_words } from '../src/jobs/when';
+import { partner_of } from '../src/diagram/partner';
+import { stood_in_words } from '../src/jobs/states';
+import { selection_of } from '../src/route/selection';
+import { parse_message, type Forecast, type Job } from '../src/server/messages';
+import { kStateColours } from '../src/state/palette';
+import { Store } from '../src/state/store';
+import { known_lanes } from '../src/timeline/known';
+import { now_in_words } from '../src/timeline/paint';
+import { arm_in_words, as_last_heard, figure_in_words } from '../src/wording';
+import { arm_json, envelope, job_json, snapshot, wait_json } from './samples';
+
+const crate = wait_json({ kind: 'object', id: 'crate', arm: null, links: ['left_panda_hand', 'crate'] });
+
+function store_of(jobs: Record<string, unknown>[], arms = [arm_json('left'), arm_json('right')]): Store {
+  const store = new Store(() => 0);
+  const queue = { stopped: false, queued: [], backlog: [], scheduled: [], running: [] };
+  for (const text of [snapshot(1, { arms, queue }), ...jobs.map((job, i) => envelope('job', i + 2, job))]) {
+    const parsed = parse_message(text);
+    if (parsed.kind !== 'message') throw new Error(JSON.stringify(parsed));
+    store.take(parsed.message);
+  }
+  return store;
+}
+const told = (store: Store, name: string) => {
+  const arm = store.arms.get(name);
+  return arm ? [store.arm_state(arm), arm_in_words(arm, store)] : [];
+};
+
+describe('an arm whose next job waits', () => {
+  const blocked = job_json('b', { state: 'backlogged', backlogged_s: 2, waits_on: [crate] });
+
+  it('is said to wait, and for what', () => {
+    const store = store_of([blocked]);
+    expect(told(store, 'left')).toEqual(['waiting', 'waits for crate']);
+    expect(told(store, 'right')).toEqual(['idle', 'idle']);
+    expect(kStateColours.waiting).toBe('var(--holding)');
+    expect(when_in_words(store.waiting_of('left') as Job, store)).toMatch(/^blocked for/);
+  });
+  it('does what it does while it moves or is stopped', () => {
+    expect(told(store_of([blocked], [arm_json('left', { state: 'stopped' }), arm_json('right')]), 'left')).toEqual(['stopped', 'stopped']);
+  });
+  it('is idle while its next job goes at once', () => {
+    expect(told(store_of([job_json('q', { state: 'scheduled', scheduled_s: 2 }), blocked]), 'left')).toEqual(['idle', 'idle']);
+  });
+});
+
+describe('an object that a job waits for', () => {
+  it('is lit up with the job, beside which no other is drawn', () => {
+    const store = store_of([job_json('b', { state: 'backlogged', waits_on: [crate] }), job_json('other', { arms: ['right'] })]);
+    expect(selection_of({ page: 'job', id: 'b' }, store)).toEqual({ jobs: ['b'], arms: ['left'], object: 'crate' });
+    expect(partner_of(store.job('b') as Job, store)).toBeNull();
+    expect(partner_of(store.job('other') as Job, store)?.id).toBe('b');
+  });
+});
+
+describe('the figure of a job that moves', () => {
+  const job = store_of([job_json('r', { state: 'running', started_s: 1, duration_s: 4 })]).job('r') as Job;
+
+  it('is until when the server expects it to end, pauses with it, where that is known', () => {
+    const forecast = { arms: [{ name: 'left', waiting: 0, legs: [{ id: 'r', ends_s: 30 }] }] } as unknown as Forecast;
+    expect(figure_in_words(job, 3.4, 0.5, leg_of(job, forecast)?.ends_s ?? null).text).toBe('26.6 s left');
+    expect(figure_in_words(job, 3.4, 0.5, leg_of({ ...job, id: 'other' }, forecast)?.ends_s ?? null).text).toBe('2.0 s left');
+  });
+  it('is told as past when nothing is heard any more', () => {
+    expect(['17.4 s left', 'waited 2.0 s', 'holding', ''].map(as_last_heard)).toEqual(['had 17.4 s left', 'had waited 2.0 s', 'was holding', '']);
+    expect([true, false].map(now_in_words)).toEqual(['last heard', 'now']);
+  });
+});
+
+describe('why a job stood on its path', () => {
+  it('is remembered when it has gone on', () => {
+    const at = (state: string, waits_on: object[]) => job_json('h', { state, started_s: 1, waits_on });
+    const store = store_of([at('running', []), at('holding', []), at('holding', [crate]), at('running', [])]);
+    const [stand] = store.book.stands('h');
+    expect(stand).toMatchObject({ from_s: 3, to_s: 5, why: { kind: 'object', id: 'crate' } });
+    expect(stand && stood_in_words(stand)).toMatch(/^waited for crate to be clear.*, 2\.0 s long$/);
+    const [mark] = known_lanes({ store }, 0).flatMap(({ marks }) => marks.filter(({ kind }) => kind === 'pause'));
+    expect(mark?.waits_on?.id).toBe('crate');
+  });
+});
