@@ -15,6 +15,13 @@ namespace armloom {
   return arms;
 }
 
+[[nodiscard]] inline std::vector<std::string> each_name(const Cell& cell,
+                                                        const std::vector<ArmId>& arms) {
+  std::vector<std::string> names;
+  for (ArmId arm : arms) names.push_back(cell.arm(arm).name);
+  return names;
+}
+
 // "left, right"
 [[nodiscard]] inline std::string names_of(const Cell& cell, const std::vector<ArmId>& arms) {
   std::string names;

@@ -1,6 +1,8 @@
 // The public face of what stands in executive_impl.h.
 #include "core/executive/executive.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/executive/arms_of.h"
@@ -9,20 +11,27 @@
 #include "core/executive/timeline.h"
 
 namespace armloom {
+namespace {
+
+ExecutiveInput::AskedJob asked(const JobRequest& request) {
+  return {request.known.succeeded, request.body};
+}
+
+}  // namespace
 
 Executive::Executive(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Executive::~Executive() = default;
 
 Result<JobView> Executive::submit(JobRequest request) {
-  std::vector<JobRequest> alone;
-  alone.push_back(std::move(request));
-  impl_->note({ExecutiveInput::Submitted{alone, ExecutiveInput::Submitted::How::alone}});
-  return impl_->submit(std::move(alone.front()));
+  impl_->note({ExecutiveInput::Submitted{{asked(request)}}});
+  return impl_->submit(std::move(request));
 }
 std::shared_ptr<Executive::Batch> Executive::open_batch(std::vector<JobRequest> requests,
                                                         bool atomic) {
-  using How = ExecutiveInput::Submitted::How;
-  impl_->note({ExecutiveInput::Submitted{requests, atomic ? How::atomic_batch : How::batch}});
+  std::vector<ExecutiveInput::AskedJob> jobs;
+  std::ranges::transform(requests, std::back_inserter(jobs), asked);
+  impl_->note(atomic ? ExecutiveInput{ExecutiveInput::AtomicBatchOpened{std::move(jobs)}}
+                     : ExecutiveInput{ExecutiveInput::BatchOpened{std::move(jobs)}});
   return std::make_shared<Batch>(*impl_, std::move(requests), atomic);
 }
 std::optional<Executive::BatchAnswers> Executive::Batch::go_on() {
@@ -63,11 +72,11 @@ void Executive::alert(Alert alert) {
   impl_->publisher_.tell(std::move(alert), impl_->clock_.now);
 }
 void Executive::stop(const std::vector<ArmId>& arms, const std::string& cause) {
-  impl_->note({ExecutiveInput::Stopped{arms, cause}});
+  impl_->note({ExecutiveInput::Stopped{each_name(*impl_->cell_, arms), cause}});
   impl_->stop(arms, cause);
 }
 void Executive::resume(const std::vector<ArmId>& arms) {
-  impl_->note({ExecutiveInput::Resumed{arms}});
+  impl_->note({ExecutiveInput::Resumed{each_name(*impl_->cell_, arms)}});
   impl_->resume(arms);
 }
 void Executive::wind_down(const std::string& cause, Waiting waiting, std::function<void()> done) {
@@ -75,7 +84,12 @@ void Executive::wind_down(const std::string& cause, Waiting waiting, std::functi
   impl_->end(cause, waiting == Waiting::is_kept, std::move(done));
 }
 std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
-  impl_->note({ExecutiveInput::Restored{jobs}});
+  std::vector<ExecutiveInput::FormerJob> former;
+  for (const auto& [id, request, submitted_at] : jobs) {
+    former.push_back(
+        {id, request.key, submitted_at, {request.name, amendable(request.terms)}, asked(request)});
+  }
+  impl_->note({ExecutiveInput::Restored{std::move(former)}});
   return impl_->restore(std::move(jobs));
 }
 LiveScene& Executive::scene() { return impl_->scene_; }

@@ -14,14 +14,31 @@ namespace armloom {
 // cell, its options and the ticks this is all that decides what it does: arms are simulated from a
 // seed, and verdicts and plans follow from their questions; only when they come is an input.
 struct ExecutiveInput {
+  // A job as its client has it: all else of a request is read from its body.
+  struct AskedJob {
+    std::vector<std::string> succeeded = {};       // of JobRequest::known
+    std::shared_ptr<const std::string> body = {};  // null: nobody keeps it
+  };
   struct Submitted {
-    const std::vector<JobRequest>& requests;
-    enum class How { alone, batch, atomic_batch } how;
+    std::vector<AskedJob> jobs;  // one
+  };
+  struct BatchOpened {
+    std::vector<AskedJob> jobs;
+  };
+  struct AtomicBatchOpened {
+    std::vector<AskedJob> jobs;
   };
   // One more part of the batch that was opened last was taken.
   struct WentOn {};
+  struct FormerJob {
+    JobId id{0};
+    std::string key;
+    TimePoint submitted_at;
+    JobAmendment amended;  // all that can be, as it is by now
+    AskedJob asked;
+  };
   struct Restored {
-    const std::vector<RestoredJob>& jobs;
+    std::vector<FormerJob> jobs;
   };
   struct Canceled {
     std::string job;
@@ -41,11 +58,11 @@ struct ExecutiveInput {
     std::string job;
   };
   struct Stopped {
-    std::vector<ArmId> arms;
+    std::vector<std::string> arms;  // names
     std::string cause;
   };
   struct Resumed {
-    std::vector<ArmId> arms;
+    std::vector<std::string> arms;
   };
   struct PolicyChanged {
     std::string policy;
@@ -79,16 +96,17 @@ struct ExecutiveInput {
   };
   // The answer to the open question about this job's way.
   struct Planned {
-    JobId job;
+    JobId job{0};
     std::uint64_t question;
   };
   // That this job may have moved is on disk (StartLog).
   struct StartWritten {
-    JobId job;
+    JobId job{0};
   };
-  std::variant<Submitted, WentOn, Restored, Canceled, Withdrawn, Held, Amended, Replanned, Stopped,
-               Resumed, PolicyChanged, WoundDown, ObjectAdded, ObjectReplaced, ObjectRemoved,
-               Injected, FaultRemoved, Alerted, Judged, Planned, StartWritten>
+  std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, Withdrawn,
+               Held, Amended, Replanned, Stopped, Resumed, PolicyChanged, WoundDown, ObjectAdded,
+               ObjectReplaced, ObjectRemoved, Injected, FaultRemoved, Alerted, Judged, Planned,
+               StartWritten>
       what;
 };
 

@@ -144,6 +144,19 @@ template <class T, class Where, class M>
                 std::move(format));
 }
 
+// A member that is always there, empty or not. `spell` makes of the value what is written, `mean`
+// the value of what is read.
+template <class T, class Where, class M, class Spell = std::identity, class Mean = std::identity>
+[[nodiscard]] PartPtr<T> always(std::string_view key, Where T::*where, FormatPtr<M> format,
+                                std::string_view text = "", Spell spell = {}, Mean mean = {}) {
+  return make_as_base<MemberPart<T, M>>(
+      MemberText{std::string(key), std::string(text), Need::required, {}}, std::move(format),
+      [where, spell](const T& from) -> std::optional<M> {
+        return std::optional<M>(std::in_place, spell(from.*where));
+      },
+      [where, mean](T& to, M value) { to.*where = mean(std::move(value)); });
+}
+
 // A value that is told only where it is not the usual one.
 template <class T, class M>
 [[nodiscard]] PartPtr<T> unless_usual(std::string_view key, M T::*where, M usual,

@@ -48,7 +48,7 @@ class SpeltPart final : public Part<T> {
 
   void list_keys(std::vector<std::string_view>& keys) const override { parts_.list_keys(keys); }
   void read(const JsonNode& object, T& out) const override {
-    Words words;
+    Words words{};
     parts_.read(object, words);
     out = mean_(words);
   }

@@ -165,5 +165,6 @@ FormatPtr<std::array<double, size>> numbers(Range range) {
 }
 template FormatPtr<std::array<double, 1>> numbers<1>(Range);
 template FormatPtr<std::array<double, 2>> numbers<2>(Range);
+template FormatPtr<std::array<double, 12>> numbers<12>(Range);
 
 }  // namespace armloom::formats

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace armloom {
 namespace {
@@ -21,14 +22,17 @@ std::string sentence_of_jobs(const std::vector<std::string>& ids) {
 }  // namespace
 
 Alert alert_of(const Damage& damage) {
-  std::string text = "the data folder is damaged: ";
-  const bool has_jobs = !damage.jobs.empty();
-  if (has_jobs) text += sentence_of_jobs(damage.jobs);
+  std::vector<std::string> found;
+  if (!damage.jobs.empty()) found.push_back(sentence_of_jobs(damage.jobs));
   if (damage.alerts + damage.audit > 0) {
-    text += std::string(has_jobs ? "; " : "") + std::to_string(damage.alerts) + " alerts and " +
-            std::to_string(damage.audit) +
-            " entries of the audit trail are not as they were written, and left out";
+    found.push_back(std::to_string(damage.alerts) + " alerts and " + std::to_string(damage.audit) +
+                    " entries of the audit trail are not as they were written, and left out");
   }
+  if (damage.stops) {
+    found.push_back("which arms were stopped is not as it was written: all are, until resumed");
+  }
+  std::string text = "the data folder is damaged: ";
+  for (const std::string& one : found) text += (&one == &found.front() ? "" : "; ") + one;
   return {Alert::Level::error, text};
 }
 

@@ -54,6 +54,7 @@ Result<Restart> Restart::prepare(JobKeeper& keeper) {
   const Leftover& left = keeper.store().leftover();
   Restart restart;
   restart.stopped_arms_ = left.stopped_arms;
+  restart.stops_are_damaged_ = left.stops_are_damaged;
   for (const LeftJob& job : left.jobs) restart.sort_out(job, keeper);
   for (const WrittenOff& off : restart.written_off_) {
     keeper.store().see(ended(off.job, off.state, off.reason, off.detail, keeper.clock()));
@@ -134,10 +135,13 @@ std::string Restart::summary() const {
 }
 
 void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
-  if (!unreadable_.empty()) executive.alert(alert_of(Damage{.jobs = unreadable_}));
+  const Damage damage{.jobs = unreadable_, .stops = stops_are_damaged_};
+  if (!damage.is_none()) executive.alert(alert_of(damage));
   const bool asks = cell.scheduling.on_restart == OnRestart::ask;
   if (asks && (!waiting_.empty() || !written_off_.empty())) {
     stop_all(executive, summary());
+  } else if (stops_are_damaged_) {
+    stop_all(executive, "which arms were stopped before is not known");
   } else {
     std::vector<ArmId> arms;
     for (const std::string& name : stopped_arms_) {

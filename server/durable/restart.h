@@ -19,8 +19,8 @@ class Restart {
   [[nodiscard]] static Result<Restart> prepare(JobKeeper& keeper);
 
   // The first thing that the executive does. Stops arms first: all of them where the cell says
-  // `ask` and something was left, else those that were stopped when the former run ended. `keeper`
-  // outlives it.
+  // `ask` and something was left, or where it is not known which were stopped when the former run
+  // ended, else those that were. `keeper` outlives it.
   void go_on(Executive& executive, const Cell& cell, JobKeeper& keeper);
 
  private:
@@ -44,6 +44,7 @@ class Restart {
   std::vector<WrittenOff> written_off_;
   std::vector<std::string> unreadable_;  // ids
   std::vector<std::string> stopped_arms_;
+  bool stops_are_damaged_ = false;
 };
 
 }  // namespace armloom

@@ -129,6 +129,32 @@ class KindsOwn final : public Part<FaultRequest> {
   }
 };
 
+// What is told of a value, or of an end, is as the kind has it.
+class WithinKind final : public Part<FaultRequest> {
+ public:
+  void read(const JsonNode& object, FaultRequest& fault) const override {
+    const KindRule& rule = rule_of(fault.kind);
+    if (fault.value < 0.0 || fault.value > rule.value_max || (fault.lasting && !rule.lasts)) {
+      object.invalid("out-of-range", std::string("a ") + rule.name + " has no such value or end");
+    }
+  }
+  void describe(Schema&, const FaultRequest&, Way) const override {}
+};
+
+// A fault as it is told: all members, always.
+PartPtr<FaultRequest> told_members(FormatPtr<TimePoint> at, FormatPtr<Duration> lasting) {
+  using Fault = FaultRequest;
+  return parts<Fault>({
+      always("arm", &Fault::arm, text()),
+      always("kind", &Fault::kind, kind_format()),
+      always("at_s", &Fault::at, nullable(std::move(at)), "Cell time; null: at once"),
+      always("for_s", &Fault::lasting, nullable(std::move(lasting)),
+             "null: until removed; of a fault: until it has struck"),
+      always("value", &Fault::value, number(kAnyNumber)),
+      make_as_base<WithinKind>(),
+  });
+}
+
 FormatPtr<FaultRequest> make_fault_format(Need time_needed) {
   using Fault = FaultRequest;
   return object<Fault>({
@@ -186,20 +212,16 @@ FormatPtr<FaultView> fault_format() {
             object<View>({
                 told(
                     "id", [](const View& view) { return std::to_string(view.id); }, text()),
-                told(
-                    "arm", [](const View& view) { return view.fault.arm; }, text()),
-                told(
-                    "kind", [](const View& view) { return view.fault.kind; }, kind_format()),
-                told(
-                    "at_s", [](const View& view) { return view.fault.at; }, nullable(cell_time()),
-                    "Cell time; null: at once"),
-                told(
-                    "for_s", [](const View& view) { return view.fault.lasting; },
-                    nullable(seconds(kAnyNumber)),
-                    "null: until removed; of a fault: until it has struck"),
-                told(
-                    "value", [](const View& view) { return view.fault.value; }, number(kAnyNumber)),
+                inlined(&View::fault, told_members(cell_time(), seconds(kAnyNumber))),
             }));
+  return format;
+}
+
+FormatPtr<FaultRequest> logged_fault_format() {
+  static const auto format = object<FaultRequest>({
+      constant<FaultRequest>("id", "0"),
+      told_members(cell_time(kFaultTimeMax_s), seconds({0.0, kFaultTimeMax_s})),
+  });
   return format;
 }
 

@@ -27,6 +27,8 @@ struct FaultView {
   FaultRequest fault;
 };
 [[nodiscard]] FormatPtr<FaultView> fault_format();
+// The same of one that has no id yet, read back as strictly as a request.
+[[nodiscard]] FormatPtr<FaultRequest> logged_fault_format();
 
 // The body of PUT /sim/speed, and the answer.
 struct SimulationSpeed {

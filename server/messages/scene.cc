@@ -47,9 +47,13 @@ FormatPtr<ObjectDescription> make_object_format(Need name) {
   });
 }
 
-class ObjectFormatOut final : public Format<CollisionObject> {
+class CollisionObjectFormat final : public Format<CollisionObject> {
  public:
-  void read(const JsonNode&, CollisionObject&) const override {}
+  void read(const JsonNode& node, CollisionObject& object) const override {
+    ObjectDescription description;
+    object_request_format()->read(node, description);
+    object = {std::move(description.name), description.shape, description.X_WO};
+  }
   void write(JsonWriter& out, const CollisionObject& object) const override {
     ObjectDescription description{object.name, object.shape, object.X_WO};
     if (auto* mesh = std::get_if<Mesh>(&description.shape)) mesh->path = mesh_address(mesh->path);
@@ -102,7 +106,7 @@ Result<CollisionObject> read_object_text(std::string_view text,
 FormatPtr<CollisionObject> object_format() {
   static const auto format = named<CollisionObject>(
       "Object", "An object of the scene: exactly one shape. A mesh is told by its address.",
-      make_as_base<ObjectFormatOut>());
+      make_as_base<CollisionObjectFormat>());
   return format;
 }
 

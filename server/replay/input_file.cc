@@ -1,5 +1,7 @@
 #include "server/replay/input_file.h"
 
+#include "server/codec/read_text.h"
+
 namespace armloom {
 
 Result<std::unique_ptr<InputFile>> InputFile::create(const std::filesystem::path& folder,
@@ -7,14 +9,14 @@ Result<std::unique_ptr<InputFile>> InputFile::create(const std::filesystem::path
   std::unique_ptr<InputFile> log(new InputFile(std::move(parts)));
   const std::filesystem::path path = folder / kName;
   log->file_.open(path, std::ios::binary);
-  log->file_ << head_text(head) << '\n' << std::flush;
+  log->file_ << text_of(*input_log_head_format(), head) << '\n' << std::flush;
   if (log->file_) return log;
   return failure(Problem{ProblemKind::unavailable, "cannot-write", "--data",
                          path.string() + " cannot be written", path.string()});
 }
 
 void InputFile::came(std::uint64_t ticks, const ExecutiveInput& input) {
-  parts_.post([this, line = input_text(ticks, input, *parts_.cell)] { write(line); });
+  parts_.post([this, line = text_of(*logged_input_format(), {ticks, input})] { write(line); });
 }
 
 // After a gap nothing could be replayed.

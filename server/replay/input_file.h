@@ -9,7 +9,7 @@
 
 #include "core/base/problem.h"
 #include "core/executive/executive_input.h"
-#include "server/replay/input_text.h"
+#include "server/replay/input_format.h"
 
 namespace armloom {
 
@@ -22,7 +22,6 @@ class InputFile final : public InputLog {
   // `post`: to the thread that writes events, in order. `alarm`: is told there, once, when the file
   // cannot be written any more. Problem (unavailable): it cannot be made.
   struct Parts {
-    CellPtr cell;
     std::function<void(std::function<void()>)> post;
     std::function<void(const std::string&)> alarm;  // may be null
   };

@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// Runs an executive again from the log of its inputs (input_text.h): each at the control cycle at
+// Runs an executive again from the log of its inputs (input_format.h): each at the control cycle at
 // which it came, verdicts and plans computed anew. Comes to the same state, and tells `observer`
 // the same events. On one thread.
 class Replay {

@@ -158,7 +158,7 @@ class Service::Impl {
     const std::string& policy = options.policy.empty() ? cell->scheduling.policy : options.policy;
     auto inputs =
         InputFile::create(recording_->folder(), {policy, options.seed, options.first_job.value()},
-                          {cell, post, [this](const std::string& what) {
+                          {post, [this](const std::string& what) {
                              tell({Alert::Level::error, what});
                            }});
     if (!inputs) return std::move(inputs.error());

@@ -44,8 +44,9 @@ struct Damage {
   std::vector<std::string> jobs = {};  // their ids
   std::size_t alerts = 0;
   std::size_t audit = 0;  // entries
+  bool stops = false;     // which arms were stopped
 
-  [[nodiscard]] bool is_none() const { return jobs.empty() && alerts == 0 && audit == 0; }
+  [[nodiscard]] bool is_none() const { return jobs.empty() && alerts == 0 && audit == 0 && !stops; }
 };
 
 // Reads what a JobStore has written, while it is written or not. Sees what was on disk when each

@@ -44,6 +44,7 @@ struct Leftover {
   std::uint64_t last_number = 0;  // of any job ever
   std::vector<LeftJob> jobs;      // in order of their numbers
   std::vector<std::string> stopped_arms;
+  bool stops_are_damaged = false;   // there were more: which ones is not known
   std::vector<StoredAlert> alerts;  // oldest first
 };
 

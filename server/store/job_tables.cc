@@ -57,6 +57,7 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
       seal_body_(database_.prepare(std::string("UPDATE body SET sum = ") + kSumOfBody +
                                    " WHERE number = ?1")),
       stop_(database_.prepare("INSERT OR IGNORE INTO stopped_arm(name) VALUES(?1)")),
+      seal_stops_(database_.prepare(std::string("UPDATE stopped_arm SET sum = ") + kSumOfStop)),
       forget_stops_(database_.prepare("DELETE FROM stopped_arm")),
       note_(database_.prepare("INSERT INTO audit(at_ms, who, peer, method, path, status) "
                               "VALUES(?1, ?2, ?3, ?4, ?5, ?6)")),
@@ -94,8 +95,15 @@ Leftover JobTables::leftover() const {
     if (!jobs.is_null(8)) found.amended = jobs.text(8);
     found.is_damaged = jobs.number(9) != 0;
   }
-  Statement arms = database_.prepare("SELECT name FROM stopped_arm ORDER BY name");
-  while (arms.step()) left.stopped_arms.push_back(arms.text(0));
+  Statement arms = database_.prepare(std::string("SELECT name, coalesce(sum != ") + kSumOfStop +
+                                     ", 0) FROM stopped_arm ORDER BY name");
+  while (arms.step()) {
+    if (arms.number(1) != 0) {
+      left.stops_are_damaged = true;
+    } else {
+      left.stopped_arms.push_back(arms.text(0));
+    }
+  }
   Statement alerts = database_.prepare(
       std::string("SELECT id, at_ms, level, text, who, acknowledged_ms FROM (SELECT * FROM alert "
                   "WHERE coalesce(sum = ") +
@@ -116,6 +124,7 @@ void JobTables::write(const Pending& changes) {
     forget_stops_.run();
     for (const std::string& name : *changes.stopped_arms)
       stop_.bind_all(std::string_view(name)).run();
+    seal_stops_.run();
   }
   for (const AuditEntry& entry : changes.audit.entries()) {
     note_.bind_all(entry.at_ms, std::string_view(entry.who), std::string_view(entry.peer),

@@ -27,7 +27,7 @@ class JobTables {
   void write(const StoredAlert& alert);
   Database database_;
   Statement see_, expect_, move_, come_, seal_, put_body_, amend_, drop_body_, seal_body_, stop_,
-      forget_stops_, note_, seal_note_, keep_alert_, seal_alert_;
+      seal_stops_, forget_stops_, note_, seal_note_, keep_alert_, seal_alert_;
 };
 
 }  // namespace armloom

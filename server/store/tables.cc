@@ -80,6 +80,10 @@ constexpr const char* kVersions[] = {
     ALTER TABLE alert ADD COLUMN sum INTEGER;
     ALTER TABLE audit ADD COLUMN sum INTEGER;
     )",
+    // And of which arms are stopped (kSumOfStop).
+    R"(
+    ALTER TABLE stopped_arm ADD COLUMN sum INTEGER;
+    )",
 };
 constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
 

@@ -17,10 +17,11 @@
 #include "core/executive/validated.h"
 #include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
+#include "server/codec/read_text.h"
 #include "server/messages/events.h"
 #include "server/messages/job_request.h"
 #include "server/recording/recording.h"
-#include "server/replay/input_text.h"
+#include "server/replay/input_format.h"
 #include "test/server/panda_jobs.h"
 #include "test/source_dir.h"
 
@@ -58,7 +59,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
     options.seed = seed;
     options.starts = this;
     options.inputs = this;
-    log.push_back(head_text({policy, seed, 1}));
+    log.push_back(text_of(*input_log_head_format(), {policy, seed, 1}));
     executive_ = std::move(*Executive::create(two_pandas(), std::move(options), *this, *this));
   }
 
@@ -94,7 +95,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
   }
   void about_to_move(JobId, std::function<void()> written) override { later(std::move(written)); }
   void came(std::uint64_t ticks, const ExecutiveInput& input) override {
-    log.push_back(input_text(ticks, input, *two_pandas()));
+    log.push_back(text_of(*logged_input_format(), {ticks, input}));
   }
 
   [[nodiscard]] TimePoint ended_at() const { return now_ - kControlPeriod; }

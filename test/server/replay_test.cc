@@ -79,7 +79,8 @@ TEST(Replay, RefusesWhatIsNoLog) {
        {"", "{}", "[1]", R"({"armloom_inputs": 2})", R"({"armloom_inputs": 1})"}) {
     EXPECT_FALSE(Replay::begin(two_pandas(), head, told)) << head;
   }
-  auto replay = Replay::begin(two_pandas(), head_text({"certified", 1, 1}), told);
+  auto replay =
+      Replay::begin(two_pandas(), text_of(*input_log_head_format(), {"certified", 1, 1}), told);
   for (const char* line :
        {"", "{", "{}", R"({"ticks": 1})", R"({"ticks": 1, "input": "dance"})",
         R"({"ticks": 1, "input": "stop", "arms": ["nobody"], "cause": ""})",

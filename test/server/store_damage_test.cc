@@ -100,6 +100,43 @@ TEST_F(Store, ARowThatIsNotAsItWasWrittenIsKnown) {
   EXPECT_NE(read.error().front().detail.find("2 jobs are not as"), std::string::npos);
 }
 
+TEST_F(Store, WhichArmsWereStoppedIsKnownToBeAsItWasWrittenOrNot) {
+  const auto leave = [&] {
+    fs::remove_all(folder_);
+    const auto store = open();
+    store->stopped({"left", "right"});
+    EXPECT_TRUE(store->flush());
+  };
+  using Names = std::vector<std::string>;
+  leave();
+  EXPECT_FALSE(open()->leftover().stops_are_damaged);
+  EXPECT_EQ(open()->leftover().stopped_arms, (Names{"left", "right"}));
+  for (const char* damage : {"UPDATE stopped_arm SET name = 'lefu' WHERE name = 'left'",
+                             "UPDATE stopped_arm SET sum = sum + 1 WHERE name = 'left'"}) {
+    leave();
+    sql(damage);
+    const auto store = open();
+    EXPECT_TRUE(store->leftover().stops_are_damaged) << damage;
+    EXPECT_EQ(store->leftover().stopped_arms, Names{"right"}) << damage;
+    store->stopped({"left"});
+    EXPECT_TRUE(store->flush());
+  }
+  EXPECT_FALSE(open()->leftover().stops_are_damaged) << "written anew, it is whole";
+  EXPECT_EQ(open()->leftover().stopped_arms, Names{"left"});
+}
+
+TEST_F(Store, ArmsThatAnOlderVersionHadStoppedAreStopped) {
+  {
+    const auto store = open();
+    store->stopped({"left"});
+    EXPECT_TRUE(store->flush());
+  }
+  sql("ALTER TABLE stopped_arm DROP COLUMN sum; PRAGMA user_version = 6");
+  const auto store = open();
+  EXPECT_EQ(store->leftover().stopped_arms, std::vector<std::string>{"left"});
+  EXPECT_FALSE(store->leftover().stops_are_damaged);
+}
+
 // Nobody is told what nobody said, nor that somebody did what they did not.
 TEST_F(Store, AnAlertOrAnEntryOfTheAuditTrailThatIsNotAsItWasWrittenIsLeftOutAndCounted) {
   {

@@ -1,0 +1,248 @@
+#include "server/replay/input_format.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <variant>
+
+#include "server/codec/list_formats.h"
+#include "server/codec/object_format.h"
+#include "server/codec/read_text.h"
+#include "server/codec/scalar_formats.h"
+#include "server/codec/told_part.h"
+#include "server/codec/value_formats.h"
+#include "server/messages/fault.h"
+#include "server/messages/job_amendment.h"
+#include "server/messages/scene.h"
+
+namespace armloom {
+
+using namespace formats;
+
+namespace {
+
+using In = ExecutiveInput;
+
+// All that the type can hold, where count() ends with what clients may say.
+template <class T>
+class WholeFormat final : public Format<T> {
+ public:
+  void read(const JsonNode& node, T& out) const override {
+    const nlohmann::json& raw = node.raw();
+    const bool fits = raw.is_number_integer() && std::in_range<T>(raw.get<std::int64_t>());
+    if (raw.is_number_unsigned() ? std::in_range<T>(raw.get<std::uint64_t>()) : fits) {
+      return void(out = raw.get<T>());
+    }
+    node.fault(ProblemKind::malformed, "wrong-type", "a whole number is expected here");
+  }
+  void write(JsonWriter& out, const T& number) const override { out.value(number); }
+  Schema schema(Way) const override { return {{"type", "integer"}}; }
+};
+template <class T = std::uint64_t>
+FormatPtr<T> whole() {
+  return make_as_base<WholeFormat<T>>();
+}
+
+// In the client's words, as everything is validated anew.
+class BodyFormat final : public Format<std::shared_ptr<const std::string>> {
+ public:
+  using Body = std::shared_ptr<const std::string>;
+  void read(const JsonNode& node, Body& out) const override {
+    if (node.raw().is_null()) return node.invalid("no-body", "the body of a job is not logged");
+    out = std::make_shared<const std::string>(node.raw().dump());
+  }
+  void write(JsonWriter& out, const Body& body) const override { out.raw(body ? *body : "null"); }
+  Schema schema(Way) const override { return Schema::object(); }
+};
+
+PartPtr<In::AskedJob> asked_job_part() {
+  return parts<In::AskedJob>({
+      field("succeeded", &In::AskedJob::succeeded, list(text()), ""),
+      always("body", &In::AskedJob::body, FormatPtr<BodyFormat::Body>(make_as_base<BodyFormat>())),
+  });
+}
+
+template <class Input>
+PartPtr<Input> jobs_part(ListSize size = {}) {
+  return always("jobs", &Input::jobs, list(object<In::AskedJob>({asked_job_part()}), size));
+}
+
+template <class T>
+PartPtr<T> number_part(std::string_view key, JobId T::*where) {
+  return always(
+      key, where, whole(), "", [](JobId job) { return job.value(); },
+      [](std::uint64_t number) { return JobId{number}; });
+}
+
+template <class T>
+PartPtr<T> nanoseconds_part(std::string_view key, TimePoint T::*where) {
+  return always(
+      key, where, whole<std::int64_t>(), "",
+      [](TimePoint time) { return std::int64_t{time.time_since_epoch().count()}; },
+      [](std::int64_t since) { return at(Duration(since)); });
+}
+
+FormatPtr<In::FormerJob> former_job_format() {
+  return object<In::FormerJob>({
+      number_part("number", &In::FormerJob::id),
+      always("id", &In::FormerJob::key, text()),
+      nanoseconds_part("submitted_ns", &In::FormerJob::submitted_at),
+      always("amended", &In::FormerJob::amended, job_amendment_format()),
+      inlined(&In::FormerJob::asked, asked_job_part()),
+  });
+}
+
+// Angles do not read back to the same matrix: that stands beside them, row by row.
+template <class Input>
+PartPtr<Input> object_part() {
+  using Rows = std::array<double, 12>;
+  using Matrix = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
+  const auto rows = [](const Eigen::Isometry3d& X_WO) {
+    Rows all{};
+    Eigen::Map<Matrix>(all.data()) = X_WO.matrix().topRows<3>();
+    return all;
+  };
+  const auto pose = [](const Rows& all) {
+    Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
+    X_WO.matrix().topRows<3>() = Eigen::Map<const Matrix>(all.data());
+    return X_WO;
+  };
+  return parts<Input>({
+      always("object", &Input::object, object_format()),
+      inlined(&Input::object,
+              always("X_WO", &CollisionObject::X_WO, numbers<12>(kAnyNumber), "", rows, pose)),
+  });
+}
+
+PartPtr<Alert> alert_part() {
+  using Level = Alert::Level;
+  return parts<Alert>({
+      always(
+          "level", &Alert::level, integer(0, static_cast<int>(Level::error)), "",
+          [](Level level) { return static_cast<int>(level); },
+          [](int number) { return static_cast<Level>(number); }),
+      always("text", &Alert::text, text()),
+  });
+}
+
+// What an input is called, and what belongs to it.
+template <class Input>
+struct Kind {
+  const char* name;
+  std::vector<PartPtr<Input>> fields;
+};
+template <class>
+struct KindOfEach;
+template <class... Inputs>
+struct KindOfEach<std::variant<Inputs...>> {
+  using Table = std::tuple<Kind<Inputs>...>;
+};
+
+// The one table of inputs, in their order.
+KindOfEach<decltype(In::what)>::Table kinds() {
+  using Waiting = Executive::Waiting;
+  return {
+      {"submit", {jobs_part<In::Submitted>({.fewest = 1, .most = 1})}},
+      {"batch", {jobs_part<In::BatchOpened>()}},
+      {"atomic_batch", {jobs_part<In::AtomicBatchOpened>()}},
+      {"went_on", {}},
+      {"restore", {always("jobs", &In::Restored::jobs, list(former_job_format()))}},
+      {"cancel", {always("job", &In::Canceled::job, text())}},
+      {"withdraw", {always("job", &In::Withdrawn::job, text())}},
+      {"hold",
+       {always("job", &In::Held::job, text()), nanoseconds_part("until_ns", &In::Held::until)}},
+      {"amend",
+       {always("job", &In::Amended::job, text()),
+        always("amendment", &In::Amended::amendment, job_amendment_format())}},
+      {"replan", {always("job", &In::Replanned::job, text())}},
+      {"stop",
+       {always("arms", &In::Stopped::arms, list(text())),
+        always("cause", &In::Stopped::cause, text())}},
+      {"resume", {always("arms", &In::Resumed::arms, list(text()))}},
+      {"change_policy", {always("policy", &In::PolicyChanged::policy, text())}},
+      {"wind_down",
+       {always("cause", &In::WoundDown::cause, text()),
+        always(
+            "keeps_waiting", &In::WoundDown::waiting, flag(), "",
+            [](Waiting waiting) { return waiting == Waiting::is_kept; },
+            [](bool kept) { return kept ? Waiting::is_kept : Waiting::ends; })}},
+      {"add_object", {object_part<In::ObjectAdded>()}},
+      {"replace_object", {object_part<In::ObjectReplaced>()}},
+      {"remove_object", {always("object", &In::ObjectRemoved::name, text())}},
+      {"inject", {always("fault", &In::Injected::fault, logged_fault_format())}},
+      {"remove_fault", {always("fault", &In::FaultRemoved::fault, whole())}},
+      {"alert", {inlined(&In::Alerted::alert, alert_part())}},
+      {"judged", {always("evaluations", &In::Judged::evaluations, whole())}},
+      {"planned",
+       {number_part("job", &In::Planned::job),
+        always("question", &In::Planned::question, whole())}},
+      {"start_written", {number_part("job", &In::StartWritten::job)}},
+  };
+}
+
+constexpr const char* kNameKey = "input";
+
+class LoggedInputFormat final : public Format<LoggedInput> {
+ public:
+  LoggedInputFormat() {
+    std::apply([this](const auto&... kind) { (add(kind), ...); }, kinds());
+  }
+  void read(const JsonNode& node, LoggedInput& out) const override {
+    if (!node.is_object()) return;
+    node.required(kNameKey, [&](const JsonNode& named) {
+      std::string name;
+      if (!named.read(name)) return;
+      const auto line = std::ranges::find(lines_, name, &Line::name);
+      if (line != lines_.end()) return line->format->read(node, out);
+      named.invalid("unknown-input", "unknown input \"" + name + "\"");
+    });
+  }
+  void write(JsonWriter& out, const LoggedInput& logged) const override {
+    lines_[logged.input.what.index()].format->write(out, logged);
+  }
+  Schema schema(Way way) const override {
+    Schema all = Schema::array();
+    for (const Line& line : lines_) all.push_back(line.format->schema(way));
+    return {{"oneOf", std::move(all)}};
+  }
+
+ private:
+  struct Line {
+    std::string name;
+    FormatPtr<LoggedInput> format;
+  };
+  template <class Input>
+  void add(const Kind<Input>& kind) {
+    const auto of_it = make_as_base<SpeltPart<ExecutiveInput, Input>>(
+        kind.fields, [](const ExecutiveInput& input) { return std::get<Input>(input.what); },
+        [](const Input& input) { return ExecutiveInput{input}; });
+    lines_.push_back({kind.name, object<LoggedInput>({
+                                     always("ticks", &LoggedInput::ticks, whole()),
+                                     constant<LoggedInput>(kNameKey, kind.name),
+                                     inlined(&LoggedInput::input, of_it),
+                                 })});
+  }
+  std::vector<Line> lines_;  // by the index of the alternative
+};
+
+}  // namespace
+
+FormatPtr<InputLogHead> input_log_head_format() {
+  using Head = InputLogHead;
+  static const auto format = object<Head>({
+      always("armloom_inputs", &Head::version, integer(Head::kVersion, Head::kVersion)),
+      always("policy", &Head::policy, text()),
+      always("seed", &Head::seed, whole()),
+      always("first_job", &Head::first_job, whole()),
+  });
+  return format;
+}
+
+FormatPtr<LoggedInput> logged_input_format() {
+  static const auto format = make_as_base<LoggedInputFormat>();
+  return format;
+}
+
+}  // namespace armloom
