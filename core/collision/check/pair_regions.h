@@ -39,8 +39,9 @@ class PairRegionSearch {
   // Cells looked at.
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
-  // Where one of the motions takes no longer than kShort; where both do, fine cells are as much wider
-  // as the shorter one is longer, up to twice: what an arm loses at a region is the same share.
+  // Where one of the motions takes no longer than kShort; where both do, fine cells are as much
+  // wider as the shorter one is longer, up to twice: what an arm loses at a region is the same
+  // share.
   inline static constexpr Duration kShort = std::chrono::seconds(5);
   inline static constexpr CoordinationDiagram::Resolution kResolution{
       .coarse = std::chrono::milliseconds(160),
