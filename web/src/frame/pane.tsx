@@ -75,7 +75,7 @@ function content_of(place: Place, app: App): ComponentChildren {
       <>
         <h2>No such page</h2>
         <p class="hint">There is nothing at {shown_text(place.path)}. The pages are:</p>
-        <ul class="plain">{kPages.map((page) => <li key={page.title}><Link app={app} to={page.place(app)}>{page.title}</Link></li>)}</ul>
+        <ul class="plain places">{kPages.map((page) => <li key={page.title}><Link app={app} to={page.place(app)}>{page.title}</Link></li>)}</ul>
       </>
     );
   }
