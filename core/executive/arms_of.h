@@ -18,6 +18,7 @@ namespace armloom {
 [[nodiscard]] inline std::vector<std::string> each_name(const Cell& cell,
                                                         const std::vector<ArmId>& arms) {
   std::vector<std::string> names;
+  names.reserve(arms.size());
   for (ArmId arm : arms) names.push_back(cell.arm(arm).name);
   return names;
 }

@@ -85,6 +85,7 @@ void Executive::wind_down(const std::string& cause, Waiting waiting, std::functi
 }
 std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
   std::vector<ExecutiveInput::FormerJob> former;
+  former.reserve(jobs.size());
   for (const auto& [id, request, submitted_at] : jobs) {
     former.push_back(
         {id, request.key, submitted_at, {request.name, amendable(request.terms)}, asked(request)});

@@ -66,7 +66,8 @@ PartPtr<In::AskedJob> asked_job_part() {
 
 template <class Input>
 PartPtr<Input> jobs_part(ListSize size = {}) {
-  return always("jobs", &Input::jobs, list(object<In::AskedJob>({asked_job_part()}), size));
+  return always("jobs", &Input::jobs,
+                list(object<In::AskedJob>({asked_job_part()}), std::move(size)));
 }
 
 template <class T>
