@@ -13,7 +13,7 @@ namespace armloom {
 
 // What clients are told of a job in a word: its state, what it waits for, and why it ended.
 
-// A job's state as clients are told it; follows from its phase (below).
+// A job's state as clients are told it; follows from its phase (job.h).
 enum class JobState {
   queued,      // not judged yet: just arrived, or behind another job of its arm
   backlogged,  // judged, in conflict: `waits_on` says with what

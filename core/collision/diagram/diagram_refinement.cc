@@ -6,6 +6,14 @@
 #include "core/collision/diagram/passing_edges.h"
 
 namespace armloom {
+namespace {
+
+// Neither decided nor as fine as cells can be.
+bool is_refinable(const CellTree::Node& cell) {
+  return cell.state == CellTree::CellState::mixed || cell.state == CellTree::CellState::unknown;
+}
+
+}  // namespace
 
 // expand(leaves, unknown): splits leaves as far as they have to be, and names what is to be looked
 // at; follow(unknown): the leaves to go on with. As far as the budget goes; returns how many cells
@@ -63,14 +71,12 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
            tree_.leaves_at(cell,
                            [&](int other) { return tree_.at(other).state == CellState::free; });
   };
-  const auto is_open = [&](int index) {
-    const CellState state = tree_.at(index).state;
-    return (state == CellState::mixed || state == CellState::unknown) &&
-           tree_.remains(tree_.at(index), now_a, now_b);
+  const auto may_be_finer = [&](int index) {
+    return is_refinable(tree_.at(index)) && tree_.remains(tree_.at(index), now_a, now_b);
   };
   std::vector<int> border;  // leaves that may be entered from what is free
   for (int i = 0; i < tree_.size(); ++i) {
-    if (is_open(i) && may_be_entered(tree_.at(i))) border.push_back(i);
+    if (may_be_finer(i) && may_be_entered(tree_.at(i))) border.push_back(i);
   }
   const auto expand = [&](std::vector<int>& leaves, std::vector<int>& unknown) {
     std::ranges::sort(leaves);
@@ -93,7 +99,7 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
       if (tree_.at(leaf).state == CellState::mixed) next.push_back(leaf);
       if (tree_.at(leaf).state != CellState::free) continue;
       tree_.leaves_at(tree_.at(leaf), [&](int other) {
-        if (is_open(other)) next.push_back(other);
+        if (may_be_finer(other)) next.push_back(other);
         return false;
       });
     }
@@ -117,9 +123,9 @@ bool CoordinationDiagram::is_outlined(Duration now_a, Duration now_b,
   if (before.coarse > resolution.coarse || before.fine > resolution.fine) return false;
   if (before.passing.fine > resolution.passing.fine) return false;
   const auto blurs = [&](const Node& cell) {
-    const bool refinable = cell.state == CellState::mixed || cell.state == CellState::unknown;
-    return refinable && tree_.remains(cell, now_a, now_b) && tree_.a().from(cell.a) <= now_a &&
-           tree_.b().from(cell.b) <= now_b && tree_.wider(cell, resolution.passing.fine);
+    return is_refinable(cell) && tree_.remains(cell, now_a, now_b) &&
+           tree_.a().from(cell.a) <= now_a && tree_.b().from(cell.b) <= now_b &&
+           tree_.wider(cell, resolution.passing.fine);
   };
   return std::none_of(tree_.begin(), tree_.end(), blurs);
 }
@@ -132,8 +138,7 @@ bool CoordinationDiagram::is_open(const Node& cell, Duration now_a, Duration now
 
 OpenLeaf CoordinationDiagram::open_leaf(int index) const {
   const Node& cell = tree_.at(index);
-  const bool refinable = cell.state == CellState::mixed || cell.state == CellState::unknown;
-  return {index, tree_.box_of(cell), refinable, proven(cell) != nullptr};
+  return {index, tree_.box_of(cell), is_refinable(cell), proven(cell) != nullptr};
 }
 
 // Of the children those are looked at that bear on where a motion passes: the corner, and its

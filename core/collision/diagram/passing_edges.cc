@@ -1,6 +1,7 @@
 #include "core/collision/diagram/passing_edges.h"
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 
 #include "core/base/disjoint_sets.h"
@@ -73,9 +74,9 @@ std::vector<Duration> allowed_widths(const std::vector<OpenLeaf>& leaves,
     Staircase& staircase = staircases[component[i]];
     staircase.add(
         {box.to_a, box.from_b, box.to_a >= remaining.to_a || box.from_b <= remaining.from_b, i});
-    const bool all_of_it = !leaves[i].refinable;
-    if (all_of_it) staircase.certain = std::max(staircase.certain, box.to_a - box.from_b);
-    if (!all_of_it && leaves[i].proven) {
+    if (!leaves[i].refinable) {
+      staircase.certain = std::max(staircase.certain, box.to_a - box.from_b);
+    } else if (leaves[i].proven) {
       const Duration middle = ((box.from_a + box.to_a) - (box.from_b + box.to_b)) / 2;
       staircase.certain = std::max(staircase.certain, middle);
     }
@@ -101,9 +102,8 @@ std::vector<CoarseLeaf> coarse_leaves(std::vector<OpenLeaf> leaves, const Progre
            std::tuple(y.box.from_a, y.box.from_b, y.cell);
   });
   const std::vector<std::size_t> component = components_of(leaves);
-  const auto as_it_is = [](const ProgressBox& box) { return box; };
   const std::vector<Duration> allowed_a =
-      allowed_widths(leaves, component, as_it_is, remaining, resolution);
+      allowed_widths(leaves, component, std::identity{}, remaining, resolution);
   const std::vector<Duration> allowed_b =
       allowed_widths(leaves, component, exchanged, exchanged(remaining), resolution);
   std::vector<CoarseLeaf> coarse;
