@@ -17,7 +17,7 @@ MonitorEvent event_of(const MonitorFinding& finding, const Cell& cell) {
       event.arms.push_back(cell.arm(*arm).name);
     }
   }
-  for (ArmId arm : finding.stops) event.stopped.push_back(cell.arm(arm).name);
+  event.stopped = each_name(cell, finding.stops);
   return event;
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/executive/arms_of.h"
 #include "core/scheduler/deadlines.h"
 
 namespace armloom {
@@ -204,7 +205,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
                .times = times_of(job),
                .motion = motion_of(job),
                .ways = ways_of(job, cell, names)};
-  for (ArmId arm : job.trajectory->arms()) view.arms.push_back(cell.arm(arm).name);
+  view.arms = each_name(cell, job.trajectory->arms());
   const bool in_vain = job.reason() == Reason::backlog_timeout;
   for (const Wait& wait : job.waits_on) {
     view.waits_on.push_back(view_of(wait, cell, names, in_vain));
