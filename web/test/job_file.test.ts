@@ -35,9 +35,13 @@ describe('a file that jobs are read from', () => {
 });
 
 describe('a text that jobs are made of', () => {
-  it('comes to what is judged, sent and shown', () => {
-    expect(composed(JSON.stringify(trajectory(2)))).toMatchObject({ kind: 'one', fault: null, request: { path: '/jobs', body: JSON.stringify({ trajectory: trajectory(2) }) }, parts: [{ begins_s: 0 }] });
+  it('comes to what is judged, sent and shown', async () => {
+    const one = composed(JSON.stringify(trajectory(2)));
+    expect(one).toMatchObject({ kind: 'one', fault: null, request: { path: '/jobs' }, parts: [{ begins_s: 0 }] });
+    expect([await one.request.body.text(), await one.bodies[0]?.body.text()]).toEqual([JSON.stringify({ trajectory: trajectory(2) }), JSON.stringify({ trajectory: trajectory(2) })]);
     const bag = composed(JSON.stringify([{ trajectory: trajectory(3) }, { trajectory: trajectory(2) }]));
+    expect(await bag.request.body.text()).toBe(JSON.stringify({ atomic: true, jobs: [{ trajectory: trajectory(3) }, { trajectory: trajectory(2) }] }));
+    expect(await bag.bodies[1]?.body.text()).toBe(JSON.stringify({ trajectory: trajectory(2) }));
     expect([bag.kind, bag.request.path, bag.bodies.length, bag.parts?.map(({ begins_s }) => begins_s)]).toEqual(['bag', '/batches', 2, [0, 2]]);
   });
 
@@ -61,6 +65,13 @@ describe('a text that jobs are made of', () => {
     workers[1]?.onmessage?.({ data: composed('[1]') } as MessageEvent<Composed>);
     expect((await done).kind).toBe('bag');
     expect(workers.map(({ ended, got }) => [ended, got])).toEqual([[1, ['{}']], [1, ['[1]']]]);
+    expect(await composed_beside('[1]', new AbortController().signal, make)).toBe(await done);  // not read twice
+    expect(workers).toHaveLength(2);
+  });
+
+  it('is read by the page itself where nothing can run beside it', async () => {
+    const worker: Beside = { onmessage: null, onerror: null, postMessage: () => worker.onerror?.({} as ErrorEvent), terminate: () => undefined };
+    expect(await composed_beside('[2]', new AbortController().signal, () => worker)).toMatchObject({ kind: 'bag', fault: null });
   });
 });
 

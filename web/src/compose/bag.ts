@@ -30,12 +30,14 @@ function is_trajectory(value: unknown): boolean {
   return Array.isArray(joint_names) && Array.isArray(points);
 }
 
-/** Each body with a name for people. */
-export function bodies_of(bag: Bag): { title: string; text: string }[] {
-  if (bag.kind === 'one') return [{ title: 'This job', text: bag.text }];
+/** What is asked of the server, with a name for people. */
+export interface Body { title: string; body: Blob }
+
+export function bodies_of(bag: Bag): Body[] {
+  if (bag.kind === 'one') return [{ title: 'This job', body: new Blob([bag.text]) }];
   return bag.jobs.map((job, i) => {
     const { id, name } = (job ?? {}) as { id?: unknown; name?: unknown };
     const title = [id, name].find((one): one is string => typeof one === 'string' && one !== '');
-    return { title: title === undefined ? `job ${i + 1}` : shown_name(title), text: JSON.stringify(job) };
+    return { title: title === undefined ? `job ${i + 1}` : shown_name(title), body: new Blob([JSON.stringify(job)]) };
   });
 }

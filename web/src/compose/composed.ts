@@ -1,15 +1,15 @@
 // What was pasted or read from a file, ready to be judged and sent. Pure. Of a long text it is made beside the
-// page (long_text.ts), so it holds texts, which are handed over at once however long they are.
+// page (long_text.ts), so what is sent is held in blobs, which are handed over at once however long they are.
 
 import { cut_text } from '../names';
 import { parts_of, type Part } from '../motion/pasted';
-import { bodies_of, read_bag } from './bag';
+import { bodies_of, read_bag, type Body } from './bag';
 
 export interface Composed {
   kind: 'one' | 'bag';
-  bodies: { title: string; text: string }[];
+  bodies: Body[];
   /** What is sent, and where. */
-  request: { path: '/batches' | '/jobs'; body: string };
+  request: { path: '/batches' | '/jobs'; body: Blob };
   /** The motions in it; null: longer than can be shown before they are sent. */
   parts: Part[] | null;
   /** Why it is no job; null: as far as is seen here it is one. */
@@ -25,7 +25,7 @@ export function composed(text: string): Composed {
   const points = parts.reduce((sum, { piece }) => sum + piece.points.length, 0);
   return {
     kind: bag.kind, bodies: bodies_of(bag), parts: points > kMostShown ? null : parts, fault: fault_in(text),
-    request: bag.kind === 'bag' ? { path: '/batches', body: JSON.stringify({ atomic: true, jobs: bag.jobs }) } : { path: '/jobs', body: bag.text },
+    request: bag.kind === 'bag' ? { path: '/batches', body: new Blob([JSON.stringify({ atomic: true, jobs: bag.jobs })]) } : { path: '/jobs', body: new Blob([bag.text]) },
   };
 }
 

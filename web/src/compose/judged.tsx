@@ -3,7 +3,7 @@
 import type { Api } from '../server/api';
 import type { Problem, Verdict } from '../server/messages';
 import { conflict_in_words, millimetres, seconds, wait_in_words } from '../wording';
-import type { Composed } from './composed';
+import type { Body } from './bag';
 import { Refused } from './refused';
 
 export type Judgement = { title: string } & ({ ok: true; verdict: Verdict } | { ok: false; problem: Problem });
@@ -11,10 +11,10 @@ export type Judgement = { title: string } & ({ ok: true; verdict: Verdict } | { 
 const kMost = 50;
 
 /** One after the other: each costs the server some checks. */
-export async function judge_all(bodies: Composed['bodies'], api: Pick<Api, 'check'>): Promise<Judgement[]> {
+export async function judge_all(bodies: readonly Body[], api: Pick<Api, 'check'>): Promise<Judgement[]> {
   const judgements: Judgement[] = [];
-  for (const { title, text } of bodies.slice(0, kMost)) {
-    const answer = await api.check(text);
+  for (const { title, body } of bodies.slice(0, kMost)) {
+    const answer = await api.check(body);
     judgements.push(answer.ok ? { title, ok: true, verdict: answer.value } : { title, ok: false, problem: answer.problem });
   }
   return judgements;

@@ -1,6 +1,6 @@
 // A long text is read beside the page, which goes on to answer clicks and Stop meanwhile.
 
-import type { Composed } from './composed';
+import { composed, type Composed } from './composed';
 
 /** A longer one is not put into the text field either: a browser lays it out for seconds. */
 export const kLong = 200_000;
@@ -15,8 +15,21 @@ export interface Beside {
 
 const kMake = (): Beside => new Worker(new URL('./composing.ts', import.meta.url), { type: 'module' });
 
-/** The same as composed(); `stop` gives it up. */
-export function composed_beside(text: string, stop: AbortSignal, make: () => Beside = kMake): Promise<Composed> {
+/** A file is looked at before its text is taken: what it came to is not made twice. */
+let last: { of: string; made: Composed } | null = null;
+
+/**
+ * The same as composed(); `stop` gives it up, which rejects. Where nothing can run beside the page, as when the
+ * server was updated under it and has other files now, the page reads it itself.
+ */
+export async function composed_beside(text: string, stop: AbortSignal, make: () => Beside = kMake): Promise<Composed> {
+  if (last?.of === text) return last.made;
+  const made = await read_beside(text, stop, make);
+  last = { of: text, made };
+  return made;
+}
+
+function read_beside(text: string, stop: AbortSignal, make: () => Beside): Promise<Composed> {
   return new Promise((done, fail) => {
     const worker = make();
     const end = () => {
@@ -31,9 +44,9 @@ export function composed_beside(text: string, stop: AbortSignal, make: () => Bes
       end();
       done(data);
     };
-    worker.onerror = ({ message }) => {
+    worker.onerror = () => {
       end();
-      fail(new Error(message));
+      done(composed(text));
     };
     stop.addEventListener('abort', give_up);
     if (stop.aborted) give_up();

@@ -100,7 +100,7 @@ function use_composed(text: string): Composed | null {
   useEffect(() => {
     if (!is_long) return;
     const stop = new AbortController();
-    composed_beside(text, stop.signal).then((made) => set_read({ of: text, made }), (error: unknown) => { if (!stop.signal.aborted) console.warn(String(error)); });
+    composed_beside(text, stop.signal).then((made) => set_read({ of: text, made }), () => undefined /* given up */);
     return () => stop.abort();
   }, [text, is_long]);
   return useMemo(() => (!is_long ? composed(text) : read?.of === text ? read.made : null), [text, is_long, read]);
@@ -159,7 +159,7 @@ function Examples({ app, change }: { app: App; change(text: string): void }) {
 
 /** The same request for a terminal or a program. */
 function Copies({ made: { request: { path, body } }, app }: { made: Composed; app: App }) {
-  const with_it = (make: typeof curl_to_post) => () => make(path, body, asked_of(app));
+  const with_it = (make: typeof curl_to_post) => async () => make(path, await body.text(), asked_of(app));
   return (
     <div class="line">
       <span class="grow dim small">The same for programs</span>

@@ -6,10 +6,10 @@ import type { Asked } from './snippets';
 
 const kTold_ms = 1500;
 
-export function Copy({ what, text }: { what: string; text(): string }) {
+export function Copy({ what, text }: { what: string; text(): string | Promise<string> }) {
   const [told, set_told] = useState('');
   const copy = async () => {
-    set_told(await copied(text()) ? 'copied' : 'not allowed here');
+    set_told(await copied(await text()) ? 'copied' : 'not allowed here');
     setTimeout(() => set_told(''), kTold_ms);
   };
   return (

@@ -43,19 +43,19 @@ export class Api {
     return checked('diagram', await this.ask('GET', path), parse_diagram);
   }
 
-  /** Posts the text as it stands: the server is the judge of it, JSON errors included. */
-  post_job(text: string): Promise<Answer<unknown>> {
-    return this.ask('POST', '/jobs', text);
+  /** Posts the body as it stands: the server is the judge of it, JSON errors included. */
+  post_job(body: Blob | string): Promise<Answer<unknown>> {
+    return this.ask('POST', '/jobs', body);
   }
 
   /** All of them or none. */
-  post_batch(text: string): Promise<Answer<unknown>> {
-    return this.ask('POST', '/batches', text);
+  post_batch(body: Blob | string): Promise<Answer<unknown>> {
+    return this.ask('POST', '/batches', body);
   }
 
   /** What if this job came now? Nothing is stored. */
-  async check(text: string): Promise<Answer<Verdict>> {
-    return checked('verdict', await this.ask('POST', '/check', text), parse_verdict);
+  async check(body: Blob | string): Promise<Answer<Verdict>> {
+    return checked('verdict', await this.ask('POST', '/check', body), parse_verdict);
   }
 
   /** A way to a goal; nothing is stored and nothing moves. */
@@ -176,7 +176,7 @@ export class Api {
     return this.ask('DELETE', '/session');
   }
 
-  private async ask(method: string, path: string, body?: string): Promise<Answer<unknown>> {
+  private async ask(method: string, path: string, body?: Blob | string): Promise<Answer<unknown>> {
     const init: RequestInit = { method, headers: { accept: 'application/json' } };
     if (body !== undefined) {
       init.body = body;
