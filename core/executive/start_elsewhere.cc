@@ -18,10 +18,10 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
     if (std::abs(begins - stands) <= cell.execution.start_tolerance_rad) continue;
     char text[256];
     std::snprintf(text, sizeof text,
-                  "waypoint 0, %s: begins at %.6g, but will stand at %.6g when the jobs accepted "
-                  "for the arm have run",
-                  joint.name.c_str(), without_rounding_noise(begins),
-                  without_rounding_noise(stands));
+                  "waypoint 0, %s: begins at %.6g %s, but will stand at %.6g %s when the jobs "
+                  "accepted for the arm have run",
+                  joint.name.c_str(), without_rounding_noise(begins), joint.unit().c_str(),
+                  without_rounding_noise(stands), joint.unit().c_str());
     std::string detail = text;
     if (joint.kind != JointKind::prismatic)
       detail += whole_turns_apart(stands, begins, cell.execution.start_tolerance_rad);

@@ -46,6 +46,8 @@ struct Joint {
 
   [[nodiscard]] bool has_lower() const { return lower > -kFarthestPosition; }
   [[nodiscard]] bool has_upper() const { return upper < kFarthestPosition; }
+  // Of its positions, as people are told.
+  [[nodiscard]] std::string unit() const { return kind == JointKind::prismatic ? "m" : "rad"; }
 
   // Limits that no file gives: the defaults that cell_description.h states.
   struct Assumed {

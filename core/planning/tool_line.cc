@@ -141,8 +141,8 @@ class ToolLine {
     const double jump = (q - before).cwiseAbs().maxCoeff(&farthest);
     const Joint& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(farthest)]);
     if (jump > kLineJump || !q.allFinite()) {
-      return refusal(share, joint.name + " would have to jump by " + text(jump) +
-                                (joint.kind == JointKind::prismatic ? " m" : " rad") +
+      return refusal(share, joint.name + " would have to jump by " + text(jump) + " " +
+                                joint.unit() +
                                 " within one step: the line leads past a singular place");
     }
     const Eigen::Isometry3d off = along(share).inverse() * pose_at(q);

@@ -22,7 +22,7 @@ constexpr Quantity kVelocity{"velocity-limit", "velocities", "/s", 2};
 constexpr Quantity kAcceleration{"acceleration-limit", "accelerations", "/s^2", 4};
 
 std::string unit(const Joint& joint, const Quantity& quantity) {
-  return (joint.kind == JointKind::prismatic ? "m" : "rad") + std::string(quantity.per);
+  return joint.unit() + quantity.per;
 }
 
 std::string digits(double value, int count) {

@@ -51,7 +51,7 @@ void print_joint(const Joint& joint) {
   print_limit(joint.acceleration_max, joint.assumed.acceleration);
   print_limit(joint.jerk_max, joint.assumed.jerk);
   print_limit(joint.brake, joint.assumed.brake);
-  std::cout << " " << (joint.kind == JointKind::prismatic ? "m" : "rad") << '\n';
+  std::cout << " " << joint.unit() << '\n';
 }
 
 void print_arm(const Cell& cell, const Arm& arm) {

@@ -100,24 +100,21 @@ PartPtr<CellJointView> bound(const char* key, double Joint::*where) {
 
 FormatPtr<CellJointView> joint_view_format() {
   using View = CellJointView;
-  return named("CellJoint", "",
-               object<View>({
-                   told(
-                       "name", [](const View& view) { return view.joint->name; }, text()),
-                   told("arm", &View::arm, text_or_null(), "null: of none"),
-                   limit("lower", &Joint::lower),
-                   limit("upper", &Joint::upper),
-                   bound("velocity_max", &Joint::velocity_max),
-                   bound("acceleration_max", &Joint::acceleration_max),
-                   bound("jerk_max", &Joint::jerk_max),
-                   bound("brake", &Joint::brake),
-                   told(
-                       "unit",
-                       [](const View& view) -> std::string {
-                         return view.joint->kind == JointKind::prismatic ? "m" : "rad";
-                       },
-                       one_of({"rad", "m"})),
-               }));
+  return named(
+      "CellJoint", "",
+      object<View>({
+          told(
+              "name", [](const View& view) { return view.joint->name; }, text()),
+          told("arm", &View::arm, text_or_null(), "null: of none"),
+          limit("lower", &Joint::lower),
+          limit("upper", &Joint::upper),
+          bound("velocity_max", &Joint::velocity_max),
+          bound("acceleration_max", &Joint::acceleration_max),
+          bound("jerk_max", &Joint::jerk_max),
+          bound("brake", &Joint::brake),
+          told(
+              "unit", [](const View& view) { return view.joint->unit(); }, one_of({"rad", "m"})),
+      }));
 }
 
 }  // namespace

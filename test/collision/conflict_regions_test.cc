@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <random>
 
+#include "core/collision/check/pair_regions.h"
+
 namespace armloom {
 namespace {
 
@@ -32,6 +34,25 @@ void expect_box(const ProgressBox& box, Duration from_a, Duration to_a, Duration
   EXPECT_EQ(box.to_a, to_a);
   EXPECT_EQ(box.from_b, from_b);
   EXPECT_EQ(box.to_b, to_b);
+}
+
+// A pause at the edge of a region costs up to a fine cell.
+TEST(Regions, AreAsFineAsTheShorterMotionNeeds) {
+  const auto fine = [](Duration shorter) {
+    return PairRegionSearch::resolution_of(shorter).passing.fine;
+  };
+  for (const Duration shorter : {Duration(0s), Duration(1s), Duration(5s)}) {
+    const auto resolution = PairRegionSearch::resolution_of(shorter);
+    EXPECT_EQ(resolution.fine, 80ms);
+    EXPECT_EQ(resolution.passing.fine, 25ms);
+  }
+  EXPECT_EQ(fine(7500ms), 37500us);
+  EXPECT_EQ(fine(10s), 50ms);
+  EXPECT_EQ(fine(60s), 50ms);
+  const auto widest = PairRegionSearch::resolution_of(60s);
+  EXPECT_EQ(widest.fine, 160ms);
+  EXPECT_EQ(widest.coarse, 160ms);
+  EXPECT_EQ(widest.passing.coarse, 160ms);
 }
 
 TEST(BlockedRegions, OfNoCellsAreNone) { EXPECT_TRUE(blocked_regions({}, kAll).empty()); }

@@ -8,8 +8,7 @@ namespace armloom {
 namespace {
 
 std::string span_text(const Joint& joint) {
-  const char* unit = joint.kind == JointKind::prismatic ? " m" : " rad";
-  return "[" + text_of(joint.lower) + ", " + text_of(joint.upper) + "]" + unit;
+  return "[" + text_of(joint.lower) + ", " + text_of(joint.upper) + "] " + joint.unit();
 }
 
 void warn_if_held_elsewhere(const RobotBuild& robot, const ArmBuild& build, std::size_t index,

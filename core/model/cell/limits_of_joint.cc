@@ -187,27 +187,26 @@ void LimitsOfJoint::warn_of_units() {
   const char* meant = slides ? " (millimetres?)" : " (degrees?)";
   const double farthest = slides ? kFarthestSlide_m : kFarthestTurn_rad;
   const double fastest = slides ? kFastestSlide_m_s : kFastestTurn_rad_s;
-  const std::string unit = slides ? " m" : " rad";
   const bool endless = joint_.kind == JointKind::continuous;
   const auto beyond = [&](double limit) {
     return std::abs(limit) > farthest && !(endless && std::abs(limit) == kFarthestPosition);
   };
   if (beyond(joint_.lower) || beyond(joint_.upper)) {
     warn("wrong-unit", place_in_urdf(),
-         "it may go from " + text_of(joint_.lower) + " to " + text_of(joint_.upper) + unit +
-             ", hardly meant" + meant + ": jobs that go so far are taken",
+         "it may go from " + text_of(joint_.lower) + " to " + text_of(joint_.upper) + " " +
+             joint_.unit() + ", hardly meant" + meant + ": jobs that go so far are taken",
          beyond(joint_.lower) ? joint_.lower : joint_.upper);
   }
   if (joint_.acceleration_max > kStrongest) {
     warn("wrong-unit", place_.empty() ? place_in_urdf() : place_,
-         "its acceleration is " + text_of(joint_.acceleration_max) + unit + "/s^2, hardly meant" +
-             meant + ": jobs that speed up so are taken",
+         "its acceleration is " + text_of(joint_.acceleration_max) + " " + joint_.unit() +
+             "/s^2, hardly meant" + meant + ": jobs that speed up so are taken",
          joint_.acceleration_max);
   }
   if (joint_.velocity_max > fastest) {
     warn("wrong-unit", place_in_urdf(),
-         "its velocity is " + text_of(joint_.velocity_max) + unit + "/s, hardly meant" + meant +
-             ": jobs that go so fast are taken",
+         "its velocity is " + text_of(joint_.velocity_max) + " " + joint_.unit() +
+             "/s, hardly meant" + meant + ": jobs that go so fast are taken",
          joint_.velocity_max);
   }
 }
