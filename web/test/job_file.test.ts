@@ -2,6 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { composed, type Composed } from '../src/compose/composed';
 import { kBodyMax_bytes, read_job_file } from '../src/compose/job_file';
 import { composed_beside, kLong, type Beside } from '../src/compose/long_text';
+import { motion_of_parts } from '../src/motion/pasted';
 import { read_mcap } from '../src/recordings/read_mcap';
 
 const file = (name: string, text: string) => new File([text], name);
@@ -42,12 +43,17 @@ describe('a text that jobs are made of', () => {
     const bag = composed(JSON.stringify([{ trajectory: trajectory(3) }, { trajectory: trajectory(2) }]));
     expect(await bag.request.body.text()).toBe(JSON.stringify({ atomic: true, jobs: [{ trajectory: trajectory(3) }, { trajectory: trajectory(2) }] }));
     expect(await bag.bodies[1]?.body.text()).toBe(JSON.stringify({ trajectory: trajectory(2) }));
-    expect([bag.kind, bag.request.path, bag.bodies.length, bag.parts?.map(({ begins_s }) => begins_s)]).toEqual(['bag', '/batches', 2, [0, 2]]);
+    expect([bag.kind, bag.request.path, bag.bodies.length, bag.parts.map(({ begins_s }) => begins_s)]).toEqual(['bag', '/batches', 2, [0, 2]]);
   });
 
-  it('is not handed over with motions that are too long to be shown', () => {
-    expect(composed(JSON.stringify(trajectory(10_000))).parts).toHaveLength(1);
-    expect(composed(JSON.stringify(trajectory(10_001)))).toMatchObject({ parts: null, fault: null });
+  it('is handed over with as many points as can be seen, from the first to the last', () => {
+    const points = (n: number) => composed(JSON.stringify(trajectory(n))).parts[0]?.piece.points.map(({ t_s }) => t_s) ?? [];
+    expect(points(10_000)).toHaveLength(10_000);
+    expect(points(10_002).length).toBe(5_002);
+    expect([points(10_002)[1], points(10_002).at(-1)]).toEqual([2, 10_001]);
+    expect(points(50_000).length).toBeLessThanOrEqual(10_001);
+    expect(composed('[]').parts).toEqual([]);
+    expect(motion_of_parts(composed(JSON.stringify(trajectory(30_000))).parts)?.q_at(14_999.5)).toEqual({ j1: 14_999.5 });
   });
 
   it('is given up with what reads it', async () => {

@@ -5,7 +5,7 @@ import type { Notice } from '../src/state/notices';
 import { arm_json, job_json, wait_json } from './samples';
 
 const arm = (over: object) => arm_json('left', over) as Arm;
-const notice = (over: Partial<Notice>): Notice => ({ key: 1, stream: 's', seq: 1, t_s: 1, level: 'warning', source: 'alert', text: '', arms: [], ...over });
+const notice = (over: Partial<Notice>): Notice => ({ key: 1, stream: 's', seq: 1, at: null, t_s: 1, level: 'warning', source: 'alert', text: '', arms: [], ...over });
 
 describe('after a stop', () => {
   it('the cause is what stopped arms last', () => {

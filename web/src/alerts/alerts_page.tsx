@@ -5,7 +5,8 @@ import { AsOf } from '../frame/as_of';
 import type { KeptAlert } from '../server/messages';
 import { shown_name, shown_text } from '../names';
 import { short_wall_time, wall_time } from '../wall_time';
-import { told_until } from './alerts';
+import { id_of, told_until } from './alerts';
+import { Then } from './notices';
 
 export function AlertsPage({ app }: { app: App }) {
   const { settings, alerts, actions, session } = app;
@@ -33,17 +34,18 @@ export function AlertsPage({ app }: { app: App }) {
       {unnamed && open.length > 0 && <p class="hint" id="who-acknowledges" data-test="unnamed">An alert is acknowledged by somebody: say who you are.</p>}
       {all.length === 0 && <p class="none">{t_s === null ? 'No alert so far.' : 'No alert until then.'}</p>}
       <ul class="alerts" data-test="alerts">
-        {all.map((alert) => <Alert key={alert.id} alert={alert} mute={mute} acknowledge={() => acknowledge([alert])} />)}
+        {all.map((alert) => <Alert key={alert.id} alert={alert} app={app} mute={mute} acknowledge={() => acknowledge([alert])} />)}
       </ul>
     </div>
   );
 }
 
-function Alert({ alert, mute, acknowledge }: { alert: KeptAlert; mute: string | null; acknowledge(): void }) {
+function Alert({ alert, app, mute, acknowledge }: { alert: KeptAlert; app: App; mute: string | null; acknowledge(): void }) {
   const seen = alert.acknowledged;
+  const event = app.store.notices.find((notice) => id_of(notice) === alert.id);
   return (
     <li class={`${alert.level}${seen ? ' seen' : ''}`}>
-      <span class="mono dim"><time dateTime={alert.at} title={wall_time(alert.at)}>{short_wall_time(alert.at, Date.now())}</time></span>
+      <span class="mono dim"><time dateTime={alert.at} title={wall_time(alert.at)}>{short_wall_time(alert.at, Date.now())}</time>{event && <span class="below"><Then notice={event} app={app} /></span>}</span>
       <span class="grow"><b>{alert.level === 'error' ? '✕ Error' : '! Warning'}</b> {shown_text(alert.text)}
         {seen && <span class="dim small"> Acknowledged by {shown_name(seen.who) || 'somebody without a name'}, {wall_time(seen.at)}.</span>}
       </span>

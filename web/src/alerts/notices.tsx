@@ -7,6 +7,7 @@ import { events_until } from '../state/as_of';
 import { clock } from '../wording';
 import { id_of, is_later } from './alerts';
 import { shown_text } from '../names';
+import { wall_time } from '../wall_time';
 
 export function Notices({ app }: { app: App }) {
   const { t_s } = app.router.address.value;
@@ -41,12 +42,20 @@ function Line({ notice, app }: { notice: Notice; app: App }) {
   const later = is_later(notice, app.router.address.value.t_s, app.store.stream);
   return (
     <div class={`notice ${notice.level}${seen ? ' seen' : ''}${later ? ' later' : ''}`} title={later ? 'Later than what is shown' : undefined}>
-      {is_kept(notice, app)
-        ? <button class="then mono" title="Look back at it, in every view" data-test={`then-${notice.seq ?? notice.key}`} onClick={() => app.router.hold_at(notice.t_s)}>{clock(notice.t_s)}</button>
-        : <span class="mono">{clock(notice.t_s)}</span>}
+      <Then notice={notice} app={app} />
       <span class="glyph" aria-label={notice.level} role="img">{kGlyphs[notice.level]}</span>
       <span>{shown_text(notice.text)}</span>
     </div>
+  );
+}
+
+/** When it was, by the cell's clock, which every view can be brought back to. */
+export function Then({ notice, app }: { notice: Notice; app: App }) {
+  const at = notice.at === null ? '' : wall_time(notice.at);
+  if (!is_kept(notice, app)) return <span class="mono" title={at}>{clock(notice.t_s)}</span>;
+  return (
+    <button class="then mono" title={`${at === '' ? '' : `${at}. `}Look back at it, in every view`} data-test={`then-${notice.seq ?? notice.key}`}
+      onClick={() => app.router.hold_at(notice.t_s)}>{clock(notice.t_s)}</button>
   );
 }
 

@@ -2,7 +2,7 @@
 // page (long_text.ts), so what is sent is held in blobs, which are handed over at once however long they are.
 
 import { cut_text } from '../names';
-import { parts_of, type Part } from '../motion/pasted';
+import { parts_of, thinned, type Part } from '../motion/pasted';
 import { bodies_of, read_bag, type Body } from './bag';
 
 export interface Composed {
@@ -10,21 +10,19 @@ export interface Composed {
   bodies: Body[];
   /** What is sent, and where. */
   request: { path: '/batches' | '/jobs'; body: Blob };
-  /** The motions in it; null: longer than can be shown before they are sent. */
-  parts: Part[] | null;
+  /** The motions in it, as they are shown. */
+  parts: Part[];
   /** Why it is no job; null: as far as is seen here it is one. */
   fault: string | null;
 }
 
-/** Of more the parts would take the page long to be handed. */
+/** More points would take the page long to be handed, and nobody sees a ghost of them. */
 const kMostShown = 10_000;
 
 export function composed(text: string): Composed {
   const bag = read_bag(text);
-  const parts = parts_of(bag);
-  const points = parts.reduce((sum, { piece }) => sum + piece.points.length, 0);
   return {
-    kind: bag.kind, bodies: bodies_of(bag), parts: points > kMostShown ? null : parts, fault: fault_in(text),
+    kind: bag.kind, bodies: bodies_of(bag), parts: thinned(parts_of(bag), kMostShown), fault: fault_in(text),
     request: bag.kind === 'bag' ? { path: '/batches', body: new Blob([JSON.stringify({ atomic: true, jobs: bag.jobs })]) } : { path: '/jobs', body: new Blob([bag.text]) },
   };
 }

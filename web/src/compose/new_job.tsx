@@ -106,9 +106,8 @@ function use_composed(text: string): Composed | null {
   return useMemo(() => (!is_long ? composed(text) : read?.of === text ? read.made : null), [text, is_long, read]);
 }
 
-function kind_in_words({ kind, bodies, parts }: Composed): string {
-  const what = kind === 'bag' ? `A batch of ${bodies.length} jobs: all are accepted or none` : 'Ctrl + Enter sends';
-  return parts === null ? `${what}. Too long to be previewed` : what;
+function kind_in_words({ kind, bodies }: Composed): string {
+  return kind === 'bag' ? `A batch of ${bodies.length} jobs: all are accepted or none` : 'Ctrl + Enter sends';
 }
 
 type WaysState = { kind: 'none' } | { kind: 'planning' } | { kind: 'planned'; ways: Ways };

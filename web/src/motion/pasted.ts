@@ -22,6 +22,15 @@ export function parts_of(bag: Bag): Part[] {
   return parts;
 }
 
+/** Of so many points in all, or a few more: every so-manieth of each part, its first and its last. */
+export function thinned(parts: readonly Part[], most: number): Part[] {
+  const points = parts.reduce((sum, { piece }) => sum + piece.points.length, 0);
+  const every = Math.ceil(points / most);
+  return parts.map(({ piece, begins_s }) => ({
+    begins_s, piece: { ...piece, points: piece.points.filter((_, i) => i % every === 0 || i === piece.points.length - 1) },
+  }));
+}
+
 /** Null where there is nothing that could be shown. */
 export function motion_of_parts(parts: readonly Part[]): Motion | null {
   if (parts.length === 0) return null;

@@ -9,6 +9,8 @@ export interface Notice {
   stream: string | null;
   seq: number | null;
   t_s: number;
+  /** Wall time, where the server told it. */
+  at: string | null;
   level: 'info' | 'warning' | 'error';
   source: 'monitor' | 'alert';
   text: string;
@@ -36,7 +38,7 @@ export class Notices {
 
   /** Said by this page. */
   note(stream: string | null, t_s: number, level: Notice['level'], text: string): void {
-    this.keep({ key: this.next_key_++, stream, seq: null, t_s, level, source: 'alert', text, arms: [] });
+    this.keep({ key: this.next_key_++, stream, seq: null, t_s, at: null, level, source: 'alert', text, arms: [] });
   }
 
   /** What was told earlier than what is known, in its order. */
@@ -54,7 +56,7 @@ export class Notices {
   }
 
   private of(message: SequencedMessage): Notice | null {
-    const common = { stream: message.stream, seq: message.seq, t_s: message.t_s };
+    const common = { stream: message.stream, seq: message.seq, t_s: message.t_s, at: message.at ?? null };
     switch (message.type) {
       case 'monitor': {
         const { data } = message;

@@ -51,11 +51,11 @@ export function CellPanel({ app, on_view }: Props) {
           event.preventDefault();
           view?.steer(step);
         }} />
-      {!view && <p class="loading">{fault === null ? 'Loading the 3D view…' : `The 3D view cannot be shown here: ${fault}`}</p>}
+      {!view && <p class="loading">{fault === null ? 'Loading the 3D view…' : `The 3D view cannot be shown here; everything else can. ${fault}`}</p>}
       {view && <Waits app={app} />}
       <ClearanceFigure app={app} />
       <InstantMark app={app} />
-      <div class="cell-top"><StoppedMark app={seen_app(app)} /><ShownBar app={app} /><CameraBar view={view} /></div>
+      <div class="cell-top"><StoppedMark app={seen_app(app)} />{fault === null && <><ShownBar app={app} /><CameraBar view={view} /></>}</div>
     </div>
   );
 }
