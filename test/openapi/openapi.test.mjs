@@ -2,6 +2,7 @@
 // that every status it lists is seen (of 503 and 507, which take a server in distress, only a few), and
 // every answer and message is held against its schema.
 // Its examples are the good requests.
+//   ARMLOOM_PRISM=node_modules/.bin/prism      all calls go through that proxy, which must not complain
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import fs from 'node:fs';
@@ -11,6 +12,7 @@ import path from 'node:path';
 import {after, before, test} from 'node:test';
 
 import {Contract} from './contract.mjs';
+import {startPrism, violations} from './prism.mjs';
 import {ask, handshake, openEvents, openWebSocket, startServer} from './server.mjs';
 
 const top = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), '../..');
@@ -19,7 +21,8 @@ const v1 = '/api/v1';
 const json = {'Content-Type': 'application/json'};
 const tetrahedron = `v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n`;
 
-let folder, server, contract, example;
+let folder, server, proxy, contract, example;
+let proxied = 0;
 const streams = [];
 
 // The two-Panda cell with a mesh in it, so that there is one to be served.
@@ -37,16 +40,25 @@ function writeCell() {
 }
 
 // Asks, holds the answer against openapi.json, and demands the status.
-async function call(status, method, template, {args = {}, query = '', body, headers = {}, raw, ...rest} = {}) {
+async function call(status, method, template, {args = {}, query = '', body, headers = {}, raw, direct = !proxy || raw !== undefined, ...rest} = {}) {
   const target = template.replace(/\{(\w+)\}/g, (all, name) => encodeURIComponent(args[name])) + query;
   const text = raw ?? (body === undefined ? undefined : JSON.stringify(body));
-  const answer = await ask(server.port, method, target,
+  const answer = await ask((direct ? server : proxy).port, method, target,
                            {...rest, body: text, headers: {...(text === undefined ? {} : json), ...headers}});
+  if (!direct) unopposed(`${method} ${target}`, answer);
   contract.answer(template, method, answer);
   assert.equal(answer.status, status, `${method} ${target}: ${answer.text.slice(0, 400)}`);
   // A body that the schema takes may still be wrong; one that is accepted must fit it.
   if (body !== undefined && status < 300) assert.ok(contract.fitsBody(template, method, body), `${method} ${target}: accepted, but not to the schema`);
   return answer.headers['content-type']?.includes('json') ? JSON.parse(answer.text) : answer.text;
+}
+
+// Requests that are refused may be wrong, that is what they are for.
+function unopposed(what, answer) {
+  const found = violations(answer);
+  proxied += 1;
+  assert.deepEqual(found.answer, [], `prism of the answer to ${what}`);
+  if (answer.status < 300) assert.deepEqual(found.request, [], `prism of ${what}`);
 }
 
 async function until(what, condition) {
@@ -66,14 +78,17 @@ const ended = (id) => until(`the end of ${id}`, async () => {
 before(async () => {
   folder = fs.mkdtempSync(path.join(os.tmpdir(), 'armloom-openapi-'));
   writeCell();
-  server = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', '10', '--hold-lease', '5', '--web', path.join(folder, 'web')]);
+  server = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', process.env.ARMLOOM_PRISM ? '2' : '10', '--hold-lease', '5', '--web', path.join(folder, 'web')]);
   const {text} = await ask(server.port, 'GET', '/openapi.json');
   contract = new Contract(JSON.parse(text));
+  if (process.env.ARMLOOM_PRISM) proxy = await startPrism(process.env.ARMLOOM_PRISM, contract.document, path.join(folder, 'openapi.json'), server.port);
   example = (template, method, name) => structuredClone(contract.document.paths[template][method.toLowerCase()]
     .requestBody.content['application/json'].examples[name].value);
 });
 after(() => {
   for (const stream of streams) stream.close();
+  if (proxy) console.log(`${proxied} requests through prism`);
+  proxy?.end();
   server?.end();
   fs.rmSync(folder, {recursive: true, force: true});
 });
@@ -339,25 +354,27 @@ test('Speed and faults', async () => {
   await call(200, 'PUT', `${v1}/sim/speed`, {body: example(`${v1}/sim/speed`, 'PUT', 'double')});
 });
 
+// Not through a proxy, which takes few of them itself.
+const straight = (status, method, template, how) => call(status, method, template, {...how, direct: true});
 test('Requests that no operation takes', async () => {
   const args = {id: 'x', name: 'x'};
   const large = 'x'.repeat(20 * 1024);
   for (const {path: template, method, operation} of contract.operations()) {
     const listed = operation.responses;
-    await call(400, method, template, {args, query: '?a=%zz'});
-    await call(431, method, template, {args, headers: {'X-Large': large}});
-    await call(417, method, template, {args, headers: {Expect: 'the unexpected'}});
-    await call(413, method, template, {args, headers: {'Content-Length': 9 << 20}, bodyless: true});
+    await straight(400, method, template, {args, query: '?a=%zz'});
+    await straight(431, method, template, {args, headers: {'X-Large': large}});
+    await straight(417, method, template, {args, headers: {Expect: 'the unexpected'}});
+    await straight(413, method, template, {args, headers: {'Content-Length': 9 << 20}, bodyless: true});
     const socket = template === `${v1}/ws`;
-    if (method !== 'GET' || socket) await call(403, method, template, {args, headers: {Origin: 'http://elsewhere.example', ...(socket ? handshake() : {})}});
-    if (403 in listed) await call(403, method, template, {args, headers: {Host: 'elsewhere.example', ...(socket ? handshake() : {})}});
-    if (template !== '/') await call(400, method, template, {args, query: '?bogus=1'});
-    if (426 in listed) await call(426, method, template);
+    if (method !== 'GET' || socket) await straight(403, method, template, {args, headers: {Origin: 'http://elsewhere.example', ...(socket ? handshake() : {})}});
+    if (403 in listed) await straight(403, method, template, {args, headers: {Host: 'elsewhere.example', ...(socket ? handshake() : {})}});
+    if (template !== '/') await straight(400, method, template, {args, query: '?bogus=1'});
+    if (426 in listed) await straight(426, method, template);
     if (operation.requestBody) {
-      await call(415, method, template, {args, raw: '{}', headers: {'Content-Type': 'text/plain'}});
-      await call(422, method, template, {args, body: {bogus: 1}});
+      await straight(415, method, template, {args, raw: '{}', headers: {'Content-Type': 'text/plain'}});
+      await straight(422, method, template, {args, body: {bogus: 1}});
       assert.ok(!contract.fitsBody(template, method, {bogus: 1}), `${template} takes unknown fields`);
-      await call(400, method, template, {args, raw: '{"a": '});
+      await straight(400, method, template, {args, raw: '{"a": '});
     }
   }
 });
