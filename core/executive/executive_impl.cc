@@ -193,8 +193,13 @@ void Executive::Impl::watch() {
 
 void Executive::Impl::stop(const std::vector<ArmId>& arms, const std::string& cause,
                            Alert::Level level) {
-  publisher_.tell(Alert{level, "stopped: " + names_of(*cell_, arms) + " (" + cause + ")"},
-                  clock_.now);
+  // Whoever asks again and again is heard each time, and told of once.
+  const bool is_news =
+      std::ranges::any_of(arms, [&](ArmId arm) { return scheduler_.stop_cause(arm) != cause; });
+  if (is_news) {
+    publisher_.tell(Alert{level, "stopped: " + names_of(*cell_, arms) + " (" + cause + ")"},
+                    clock_.now);
+  }
   step(Stop{arms, cause});
 }
 

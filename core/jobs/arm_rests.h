@@ -30,7 +30,10 @@ class ArmRests {
 
   void stop(ArmId arm, std::string cause) { stopped_[arm.index()] = std::move(cause); }
   void resume(ArmId arm) { stopped_[arm.index()].reset(); }
-  [[nodiscard]] bool is_stopped(ArmId arm) const { return stopped_[arm.index()].has_value(); }
+  [[nodiscard]] bool is_stopped(ArmId arm) const { return stop_cause(arm).has_value(); }
+  [[nodiscard]] const std::optional<std::string>& stop_cause(ArmId arm) const {
+    return stopped_[arm.index()];
+  }
   [[nodiscard]] std::optional<Wait> stop_of(const Job& job) const;
 
   // A motion of these arms as a leg of their lanes.

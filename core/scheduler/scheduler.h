@@ -76,6 +76,10 @@ class Scheduler {
   [[nodiscard]] const Job* find(JobId job) const;   // null: unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
   [[nodiscard]] bool stopped(ArmId arm) const { return state_.arms.is_stopped(arm); }
+  // Nothing: it is not stopped.
+  [[nodiscard]] const std::optional<std::string>& stop_cause(ArmId arm) const {
+    return state_.arms.stop_cause(arm);
+  }
   [[nodiscard]] std::optional<JobId> occupant(ArmId arm) const;  // in motion or held on this arm
   // All that is admitted comes to its end by its orders. For tests.
   [[nodiscard]] bool is_acyclic() const { return state_.graph.is_acyclic(); }

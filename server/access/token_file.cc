@@ -104,6 +104,11 @@ Result<std::vector<KeptToken>> TokenFile::read() const {
     token.role = *known;
     tokens.push_back(std::move(token));
   }
+  if (in.bad()) {
+    return failure(Problem{ProblemKind::invalid, "bad-token-file", "--tokens",
+                           file_.string() + " cannot be read: it is no file of lines",
+                           file_.string()});
+  }
   return tokens;
 }
 

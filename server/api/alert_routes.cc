@@ -1,5 +1,6 @@
 // What somebody has to see to, and who has.
 #include <algorithm>
+#include <iterator>
 #include <ranges>
 #include <utility>
 
@@ -35,10 +36,19 @@ std::optional<Refusal> unknown_of(const AlertBook& book, const AlertsSeen& seen)
   return std::nullopt;
 }
 
-void tell_others(const ApiParts& parts, const std::string& who, const AlertsSeen& seen) {
-  const std::size_t count = seen.ids.size();
+// Those that nobody has acknowledged yet.
+std::vector<std::string> unseen_of(const AlertBook& book, const AlertsSeen& seen) {
+  std::vector<std::string> unseen;
+  std::ranges::copy_if(seen.ids, std::back_inserter(unseen),
+                       [&](const std::string& id) { return !book.find(id)->acknowledged; });
+  return unseen;
+}
+
+void tell_others(const ApiParts& parts, const std::string& who,
+                 const std::vector<std::string>& ids) {
+  const std::size_t count = ids.size();
   const std::string what =
-      count == 1 ? parts.alerts.find(seen.ids.front())->text : std::to_string(count) + " alerts";
+      count == 1 ? parts.alerts.find(ids.front())->text : std::to_string(count) + " alerts";
   parts.loop.post([text = who + " acknowledged: " + what](Executive& executive) {
     executive.alert({Alert::Level::info, text});
   });
@@ -53,7 +63,9 @@ void acknowledge(Call call) {
       return respond(refusal_response(*refusal));
     }
     const std::string who = who_of(parts.guard, caller, seen, peer);
-    if (!seen.ids.empty()) tell_others(parts, who, seen);
+    if (const auto news = unseen_of(parts.alerts, seen); !news.empty()) {
+      tell_others(parts, who, news);
+    }
     parts.alerts.acknowledge(
         seen.ids, who, [&parts, ids = seen.ids, respond](const std::optional<Refusal>& refusal) {
           if (refusal) return respond(refusal_response(*refusal));
@@ -75,7 +87,9 @@ std::vector<Route> alert_routes() {
             .id = "listAlerts",
             .tag = "service",
             .summary = "Warnings and errors, and who has seen to them; newest first",
-            .text = "The last 1,000; with `--data` those of former runs, too."};
+            .text =
+                "1,000 at most: what somebody has seen to goes first, and errors last. With "
+                "`--data` those of former runs, too."};
   get.outcomes = {outcome(200, "The alerts", alert_list_format())};
   get.run = get_alerts;
   Route seen{.method = "POST",

@@ -3,31 +3,10 @@
 
 #include "server/api/job_answers.h"
 #include "server/api/route.h"
-#include "server/http/entity_tag.h"
 #include "server/messages/job_amendment.h"
 
 namespace armloom {
 namespace {
-
-// The job changed; nothing: it is not any more as If-Match has it.
-using Amended = Result<std::optional<JobView>>;
-
-Response is_another_by_now(const std::string& key, const std::string& if_match) {
-  return refusal_response({412, "precondition-failed",
-                           "job \"" + key + "\" was changed since: read it again", "If-Match",
-                           if_match});
-}
-
-// Of one that has ended it does not matter how it was.
-Amended amended(Executive& executive, const std::string& key,
-                const std::optional<std::string>& if_match, JobAmendment amendment) {
-  const auto job = executive.job(key);
-  const bool goes_on = job && !is_terminal(job->state);
-  if (goes_on && if_match && !is_as_tagged(*if_match, *job)) return std::nullopt;
-  auto view = executive.amend(key, std::move(amendment));
-  if (!view) return failure(view.error());
-  return std::optional(std::move(*view));
-}
 
 void answer_amended(const ApiParts& parts, const JobView& job, const Respond& respond) {
   if (parts.keeper == nullptr) return respond(job_answer(200, job, parts.clock));
@@ -36,15 +15,9 @@ void answer_amended(const ApiParts& parts, const JobView& job, const Respond& re
   });
 }
 
-Response is_no_tag(const std::string& if_match) {
-  return refusal_response(
-      {400, "bad-if-match", "If-Match is \"*\" or entity tags, in quotes", "If-Match", if_match});
-}
-
 void amend_job(Call call) {
   const ApiParts& parts = call.parts;
-  const auto& asked = call.request.if_match;
-  if (asked && !is_tag_list(*asked)) return call.respond(is_no_tag(*asked));
+  if (const auto bad = bad_if_match(call.request)) return call.respond(*bad);
   if (parts.keeper != nullptr) {
     if (const auto refusal = parts.keeper->refusal()) {
       return call.respond(refusal_response(*refusal));
@@ -55,11 +28,13 @@ void amend_job(Call call) {
     ask(
         parts,
         [key, if_match, amendment = std::move(amendment)](Executive& executive) {
-          return amended(executive, key, if_match, amendment);
+          return commanded(executive, key, if_match, [&](Executive& it, const std::string& job) {
+            return it.amend(job, amendment);
+          });
         },
-        [&parts, key, if_match, respond](const Amended& job) {
+        [&parts, key, if_match, respond](const Commanded& job) {
           if (!job) return respond(refused_command(parts, key, job.error()));
-          if (!*job) return respond(is_another_by_now(key, *if_match));
+          if (!*job) return respond(was_changed_since(key, if_match));
           answer_amended(parts, **job, respond);
         });
   };
@@ -81,11 +56,7 @@ Route amend_route() {
       "the order that follows from it. With `--data` it is on disk when it is answered. `If-Match` "
       "holds as long as nobody else has changed the job, whatever else has happened to it. 409 "
       "when it has ended.";
-  route.parameters = {{"If-Match",
-                       "The `ETag` of the job as it was read: 412 when it was changed since",
-                       {{"type", "string"}},
-                       false,
-                       "header"}};
+  route.parameters = {if_match_parameter()};
   route.reads =
       body(job_amendment_format(), {{"sooner", R"({"priority": 5})"},
                                     {"later", R"({"priority": -1, "backlog_timeout_s": 600})"}});

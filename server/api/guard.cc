@@ -1,11 +1,13 @@
 #include "server/api/guard.h"
 
 #include <string>
+#include <utility>
 
 namespace armloom {
 
-Guard::Guard(const std::optional<std::filesystem::path>& tokens, bool tls) : tls_(tls) {
-  if (tokens) book_.emplace(TokenFile(*tokens));
+Guard::Guard(const std::optional<std::filesystem::path>& tokens, bool tls, TokenBook::Told told)
+    : tls_(tls) {
+  if (tokens) book_.emplace(TokenFile(*tokens), std::move(told));
 }
 
 std::optional<Caller> Guard::caller(const std::optional<std::string>& token) {

@@ -13,8 +13,9 @@ namespace armloom {
 // everybody may everything. On the server's thread.
 class Guard {
  public:
-  // `tokens`: the file; nothing: there is none. `tls`: cookies go through TLS only.
-  Guard(const std::optional<std::filesystem::path>& tokens, bool tls);
+  // `tokens`: the file; nothing: there is none. `tls`: cookies go through TLS only. `told`: as
+  // TokenBook has it.
+  Guard(const std::optional<std::filesystem::path>& tokens, bool tls, TokenBook::Told told = {});
 
   [[nodiscard]] bool asks() const { return book_.has_value(); }
   [[nodiscard]] bool is_tls() const { return tls_; }
@@ -22,6 +23,8 @@ class Guard {
   [[nodiscard]] std::optional<Caller> caller(const std::optional<std::string>& token);
   // By which limits know whoever asks: the token's name, or the address.
   [[nodiscard]] std::string client(const Request& request);
+  // What is wrong with the file of tokens.
+  [[nodiscard]] std::optional<std::string> fault() { return book_ ? book_->fault() : std::nullopt; }
   // Why this may not be done.
   [[nodiscard]] std::optional<Refusal> refusal(const Request& request, Role needed);
 

@@ -31,10 +31,32 @@ Response job_answer(int status, const JobView& job, const WallClock& clock) {
 
 Response job_answer(const StoredJob& job) { return tagged(json_response(200, job.view), "ended"); }
 
-bool is_as_tagged(const std::string& if_match, const JobView& job) {
-  const std::string mine = '"' + changeable_tag(job) + '.';
-  return any_tag(if_match,
+bool is_as_tagged(const IfMatch& if_match, const std::optional<JobView>& job) {
+  if (!if_match || !job || is_terminal(job->state)) return true;
+  const std::string mine = '"' + changeable_tag(*job) + '.';
+  return any_tag(*if_match,
                  [&](std::string_view tag) { return tag == "*" || tag.starts_with(mine); });
+}
+
+std::optional<Response> bad_if_match(const Request& request) {
+  const IfMatch& asked = request.if_match;
+  if (!asked || is_tag_list(*asked)) return std::nullopt;
+  return refusal_response(
+      {400, "bad-if-match", "If-Match is \"*\" or entity tags, in quotes", "If-Match", asked});
+}
+
+Parameter if_match_parameter() {
+  return {"If-Match",
+          "The `ETag` of the job as it was read: 412 when it was changed since",
+          {{"type", "string"}},
+          false,
+          "header"};
+}
+
+Response was_changed_since(const std::string& key, const IfMatch& if_match) {
+  return refusal_response({412, "precondition-failed",
+                           "job \"" + key + "\" was changed since: read it again", "If-Match",
+                           if_match});
 }
 
 Response refused_command(const ApiParts& parts, const std::string& key, const Problems& problems) {

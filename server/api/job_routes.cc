@@ -72,14 +72,20 @@ void get_job(Call call) {
 // What becomes of a command to one job that has not ended: `command(executive, key)`.
 template <class Command>
 void command_job(Call call, Command command) {
+  if (const auto bad = bad_if_match(call.request)) return call.respond(*bad);
   const ApiParts& parts = call.parts;
   const std::string& key = call.arguments.front();
   ask(
-      parts, [key, command](Executive& executive) { return command(executive, key); },
-      [&parts, respond = call.respond, key](const Result<JobView>& job) {
-        if (!job) return respond(refused_command(parts, key, job.error()));
+      parts,
+      [key, if_match = call.request.if_match, command](Executive& executive) {
+        return commanded(executive, key, if_match, command);
+      },
+      [&parts, respond = call.respond, key,
+       if_match = call.request.if_match](const Commanded& done) {
+        if (!done) return respond(refused_command(parts, key, done.error()));
+        if (!*done) return respond(was_changed_since(key, if_match));
         // Who commands may rely on it, whatever happens to the server.
-        const auto tell = [&parts, respond, job = *job](std::optional<Refusal> refusal) {
+        const auto tell = [&parts, respond, job = **done](std::optional<Refusal> refusal) {
           if (!refusal) return respond(answer(202, job_format(), job, &parts.clock));
           refusal->detail = "this is done, but the next run may not know of it: " + refusal->detail;
           respond(refusal_response(*refusal));
@@ -181,7 +187,8 @@ Route replan_route() {
       "come, or keeps its own way where there is no other: its member `replan` says which. 409 "
       "when it has ended, moves several arms, ends where it begins, or is the server's own.";
   replan.outcomes = {outcome(202, "Another way is being looked for", job_format())};
-  replan.refuses = {404, 409, 507};
+  replan.parameters = {if_match_parameter()};
+  replan.refuses = {404, 409, 412, 507};
   replan.who = Who::commander;
   replan.role = Role::operate;
   replan.run = replan_job;
@@ -237,7 +244,8 @@ std::vector<Route> job_routes() {
       "An arm in motion brakes on its path; the others go on. 409 when the job has ended.";
   cancel.outcomes = {
       outcome(202, "Canceled, or \"stopping\" until its arm is at rest", job_format())};
-  cancel.refuses = {404, 409, 507};
+  cancel.parameters = {if_match_parameter()};
+  cancel.refuses = {404, 409, 412, 507};
   cancel.who = Who::commander;
   cancel.role = Role::operate;
   cancel.run = cancel_job;

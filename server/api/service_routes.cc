@@ -18,18 +18,27 @@ ServedBytes served_text(std::string_view text) { return served(std::string(text)
 
 void get_health(Call call) { call.respond(answer(200, health_format(), Health{})); }
 
-void get_ready(Call call) {
-  const auto lost = call.parts.recording != nullptr ? call.parts.recording->fault() : std::nullopt;
-  if (lost) {
-    return call.respond(
-        refusal_response({503, "recording-lost", said_of_lost_recording(*lost), "--data", *lost}));
-  }
-  if (call.parts.keeper != nullptr) {
-    if (auto refusal = call.parts.keeper->refusal()) {
+// Why the server is not what it should be: what keeps arms where they are, whom it does not know,
+// what is lost.
+std::optional<Refusal> why_not_ready(const ApiParts& parts) {
+  if (parts.keeper != nullptr) {
+    if (auto refusal = parts.keeper->refusal()) {
       refusal->status = 503;
-      return call.respond(refusal_response(*refusal));
+      return refusal;
     }
   }
+  if (parts.guard.fault()) {  // whoever asks here has shown no token
+    return Refusal{503, "tokens-unreadable",
+                   "the file of tokens has a mistake, or is not there: the log says which",
+                   "--tokens"};
+  }
+  const auto lost = parts.recording != nullptr ? parts.recording->fault() : std::nullopt;
+  if (!lost) return std::nullopt;
+  return Refusal{503, "recording-lost", said_of_lost_recording(*lost), "--data", *lost};
+}
+
+void get_ready(Call call) {
+  if (const auto why = why_not_ready(call.parts)) return call.respond(refusal_response(*why));
   ask(
       call.parts, [](Executive& executive) { return Ready{executive.now()}; },
       [respond = call.respond](const Ready& ready) {
@@ -39,9 +48,12 @@ void get_ready(Call call) {
 
 void get_metrics(Call call) {
   const ApiParts& parts = call.parts;
-  const bool lost = parts.recording != nullptr && parts.recording->fault();
-  const Metrics::Readings readings{parts.hub.readers(), parts.hub.frames_dropped(),
-                                   parts.hub.readers_sent_away(), lost};
+  const Metrics::Readings readings{
+      .readers = parts.hub.readers(),
+      .frames_dropped = parts.hub.frames_dropped(),
+      .readers_sent_away = parts.hub.readers_sent_away(),
+      .recording_lost = parts.recording != nullptr && parts.recording->fault(),
+      .storage_failed = parts.keeper != nullptr && parts.keeper->refusal()};
   call.respond(Response{200,
                         "text/plain; version=0.0.4; charset=utf-8",
                         parts.metrics.text(readings),

@@ -78,6 +78,7 @@ class StrictBuilder {
     if (levels_.empty()) {
       root_ = std::move(value);
     } else if (levels_.back().value->is_array()) {
+      if (is_full(*levels_.back().value)) return refuse_more();
       levels_.back().value->push_back(std::move(value));
     } else {
       *levels_.back().slot = std::move(value);
@@ -95,6 +96,7 @@ class StrictBuilder {
     if (levels_.empty()) {
       root_ = std::move(container);
     } else if (Level& parent = levels_.back(); parent.value->is_array()) {
+      if (is_full(*parent.value)) return refuse_more();
       parent.value->push_back(std::move(container));
       place = &parent.value->back();
     } else {
@@ -104,6 +106,13 @@ class StrictBuilder {
     // Stays valid while open: nothing is added to the parent before this one is closed.
     levels_.push_back(Level{place, {}, nullptr});
     return true;
+  }
+
+  static bool is_full(const json& array) { return array.size() >= kJsonElementsMax; }
+  bool refuse_more() {
+    problem_.kind = ProblemKind::too_large;
+    return refuse("too-many-elements",
+                  "an array with more than " + std::to_string(kJsonElementsMax) + " elements", "");
   }
 
   bool close() {

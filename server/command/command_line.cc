@@ -232,15 +232,30 @@ Command audit_command(CLI::App& app) {
   return {command, [options] { return audit_recording(*options); }};
 }
 
+// What a variable that is not set leaves behind is no value: without its tokens a server would let
+// everybody in.
+void refuse_empty_values(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_items_expected_max() == 0) continue;  // a flag
+    option->check([](const std::string& value) {
+      return value.empty() ? std::string("is empty: give it a value, or leave the option out")
+                           : std::string();
+    });
+  }
+  for (CLI::App* below : command.get_subcommands({})) refuse_empty_values(*below);
+}
+
 }  // namespace
 
 std::vector<Command> add_commands(CLI::App& app) {
-  return {
+  std::vector<Command> commands{
       serve_command(app),   validate_command(app), schema_command(app),  import_command(app),
       check_command(app),   plan_command(app),     reach_command(app),   simulate_command(app),
       compare_command(app), replay_command(app),   history_command(app), token_command(app),
       audit_command(app),
   };
+  refuse_empty_values(app);
+  return commands;
 }
 
 }  // namespace armloom

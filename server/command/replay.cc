@@ -164,14 +164,17 @@ int replay_recording(const ReplayOptions& options) {
   EventComparison comparison(whole_lines(*folder / "events.jsonl"), options.out);
   auto replay = Replay::begin(loaded->cell, lines.front(), comparison);
   if (!replay) return refuse((*folder / InputFile::kName).string(), replay.error());
+  // Nothing is known of what came after the last line.
+  const TimePoint end =
+      std::max(comparison.end(), Replay::time_of(lines.back()).value_or(TimePoint{}));
   std::optional<TimePoint> until;
-  if (options.until_s) until = TimePoint(from_seconds(*options.until_s));
+  if (options.until_s) until = std::min(end, TimePoint(from_seconds(*options.until_s)));
   auto done = run(**replay, lines, until);
   if (!done) {
     complain((*folder / InputFile::kName).string(), done.error());
     return done.error().front().slug == "diverged" ? 1 : kExitBadInput;
   }
-  (*replay)->run_until(until.value_or(comparison.end()));
+  (*replay)->run_until(until.value_or(end));
   done->ended = (*replay)->executive().now();
   comparison.expect_all_until(done->ended);
   return tell(*folder, *done, comparison);

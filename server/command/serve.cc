@@ -79,15 +79,19 @@ void find_faults_of_access(const ServeOptions& options, const std::string& addre
     problems.push_back(Problem{ProblemKind::invalid, "half-of-tls", "--tls-key",
                                "--tls-certificate and --tls-key go together"});
   }
-  const bool is_closed = !options.tokens.empty() && !options.tls_certificate.empty();
-  if (reach_of(address) == Reach::others && !is_closed) {
-    problems.push_back(
-        Problem{ProblemKind::invalid, "open-to-others", "--listen",
-                "whoever reaches " + address +
-                    " could move the arms: give --tokens FILE (`armloom token add --tokens FILE "
-                    "--name NAME --role operator` makes it), --tls-certificate and --tls-key; or "
-                    "listen on 127.0.0.1, behind a proxy or a tunnel",
-                address});
+  const bool asks = !options.tokens.empty(), is_sealed = !options.tls_certificate.empty();
+  if (reach_of(address) == Reach::others && !(asks && is_sealed)) {
+    const std::string danger =
+        asks ? "whoever is between could read the tokens that are shown at " + address
+             : "whoever reaches " + address + " could move the arms";
+    const std::string tokens =
+        "--tokens FILE (`armloom token add --tokens FILE --name NAME --role operator` makes it)";
+    problems.push_back(Problem{ProblemKind::invalid, "open-to-others", "--listen",
+                               danger + ": give " + (asks ? "" : tokens) +
+                                   (asks || is_sealed ? "" : ", ") +
+                                   (is_sealed ? "" : "--tls-certificate and --tls-key") +
+                                   "; or listen on 127.0.0.1, behind a proxy or a tunnel",
+                               address});
   }
   if (options.tokens.empty()) return;
   const auto tokens = TokenFile(options.tokens).read();

@@ -8,28 +8,34 @@ namespace armloom {
 namespace {
 
 void add_data(CLI::App& command, ServeOptions& options) {
-  command.add_option("--data", options.data,
-                     "folder for jobs, kept when the server ends, and a recording of the run");
+  CLI::Option* data =
+      command.add_option("--data", options.data,
+                         "folder for jobs, kept when the server ends, and a recording of the run");
   command.add_option("--keep-jobs", options.keep_jobs, "with --data: so many that have ended")
       ->check(CLI::Range(0, 100'000'000))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(data);
   command
       .add_option("--keep-days", options.keep_days,
                   "with --data: those that have ended for so long at most (for ever)")
-      ->check(CLI::Range(1, 36'500));
+      ->check(CLI::Range(1, 36'500))
+      ->needs(data);
   command
       .add_option("--keep-recordings", options.keep_recordings,
                   "with --data: so many, the running one included; the oldest go first (all)")
-      ->check(CLI::Range(1, 1'000'000));
+      ->check(CLI::Range(1, 1'000'000))
+      ->needs(data);
   command
       .add_option("--keep-recording-days", options.keep_recording_days,
                   "with --data: those that were written last so long ago at most (for ever)")
-      ->check(CLI::Range(1, 36'500));
+      ->check(CLI::Range(1, 36'500))
+      ->needs(data);
   command
       .add_option("--keep-recording-mb", options.keep_recording_mb,
                   "with --data: as many as fit, the running one included (all)")
-      ->check(CLI::Range(1, 1'000'000'000));
-  command.add_flag("--record", options.record, "with --data: write states.csv, too");
+      ->check(CLI::Range(1, 1'000'000'000))
+      ->needs(data);
+  command.add_flag("--record", options.record, "with --data: write states.csv, too")->needs(data);
 }
 
 void add_log(CLI::App& command, ServeOptions& options) {

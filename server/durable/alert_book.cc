@@ -29,8 +29,17 @@ void AlertBook::happened(const Event& event) {
     return;
   }
   alerts_.push_back(alert);
-  if (alerts_.size() > kAlertsKept) alerts_.pop_front();
+  if (alerts_.size() > kAlertsKept) alerts_.erase(least_needed());
   if (keeper_ != nullptr) keeper_->store().keep(std::move(alert));
+}
+
+// What somebody has seen goes first, and errors last; of these the oldest.
+std::deque<StoredAlert>::const_iterator AlertBook::least_needed() const {
+  const auto oldest = [&](auto goes) { return std::ranges::find_if(alerts_, goes); };
+  const auto seen = oldest([](const StoredAlert& one) { return one.acknowledged.has_value(); });
+  if (seen != alerts_.end()) return seen;
+  const auto warning = oldest([](const StoredAlert& one) { return one.level != "error"; });
+  return warning != alerts_.end() ? warning : alerts_.begin();
 }
 
 const StoredAlert* AlertBook::find(const std::string& id) const {

@@ -14,8 +14,8 @@
 
 namespace armloom {
 
-// The last kAlertsKept warnings and errors, each until somebody acknowledges it. With a keeper they
-// outlive the process. On the server's thread.
+// Warnings and errors, kAlertsKept of them: what nobody has acknowledged yet, errors first of all,
+// and the newest. With a keeper they outlive the process. On the server's thread.
 class AlertBook {
  public:
   // `keeper`: null: they end with the server; it outlives this, as `clock` does.
@@ -31,6 +31,7 @@ class AlertBook {
                    std::function<void(std::optional<Refusal>)> then);
 
  private:
+  [[nodiscard]] std::deque<StoredAlert>::const_iterator least_needed() const;
   std::string stream_;
   const WallClock& clock_;
   JobKeeper* keeper_;

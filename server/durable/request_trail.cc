@@ -1,5 +1,6 @@
 #include "server/durable/request_trail.h"
 
+#include <cmath>
 #include <cstddef>
 
 namespace armloom {
@@ -39,9 +40,10 @@ void RequestTrail::tell(const AuditEntry& entry, const std::string& id, bool onl
   if (logged_ == LoggedRequests::none) return;
   if (logged_ == LoggedRequests::commands && only_looks) return;
   LogLine line{entry.status >= 500 ? LogLine::Level::warning : LogLine::Level::info, "request"};
-  line.fields = {{"request_id", id},   {"method", entry.method},
-                 {"path", entry.path}, {"status", std::int64_t{entry.status}},
-                 {"from", entry.peer}, {"ms", 1e-6 * static_cast<double>(within.count())}};
+  line.fields = {
+      {"request_id", id},   {"method", entry.method},
+      {"path", entry.path}, {"status", std::int64_t{entry.status}},
+      {"from", entry.peer}, {"ms", 1e-3 * std::round(1e-3 * static_cast<double>(within.count()))}};
   if (!entry.who.empty()) line.fields.emplace_back("who", entry.who);
   log_(line);
 }

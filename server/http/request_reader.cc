@@ -48,7 +48,9 @@ NoRequest stopped_by(ErrorCode ec, std::string_view buffered) {
   const bool in_chunk_line = buffered.find("\r\n", line) == buffered.npos;
   if (ec == http::error::bad_chunk_extension ||
       (ec == http::error::buffer_overflow && in_chunk_line)) {
-    return {bad_request("chunk extensions are broken, or have more than 16 KiB in all")};
+    return {bad_request(
+        "a chunk's size is no hexadecimal number, or its chunk extensions are broken, or have more "
+        "than 16 KiB in all")};
   }
   if (ec == http::error::buffer_overflow) {
     return {Refusal{431, "header-too-large", "the trailers may have at most 16 KiB"}};

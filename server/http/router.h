@@ -13,7 +13,8 @@
 
 namespace armloom {
 
-// Whose requests are served. Anyone's, by whatever name they come: probes. Readers': those that
+// Whose requests are served. Anyone's, by whatever name they come, and however much else comes from
+// there: probes. Readers': those that
 // come by a name that is the server's, pages of other sites among them (a browser does not show
 // them the answer). Commanders': of those, the site's own pages, and programs.
 enum class Who { anyone, reader, commander };
@@ -80,6 +81,11 @@ class Router {
   [[nodiscard]] Found find(const Request& request) const;
   [[nodiscard]] static bool is_never_limited(const Found& found) {
     return found.route != nullptr && found.route->rights.is_never_limited;
+  }
+  // What others ask for from the same address is not the doing of a probe.
+  [[nodiscard]] static bool counts(const Found& found) {
+    return found.route == nullptr ||
+           !(found.route->rights.is_never_limited || found.route->rights.who == Who::anyone);
   }
   [[nodiscard]] std::string allowed_at(const std::string& path) const;
   [[nodiscard]] std::optional<Response> refusal(const Request& request, const Found& found) const;

@@ -1,6 +1,9 @@
 #include "server/http/transport.h"
 
 #include <boost/asio/ssl/error.hpp>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
 
 #include "server/http/http_server.h"
 
@@ -9,9 +12,14 @@ namespace {
 
 namespace ssl = asio::ssl;
 
-Problem unusable(const char* option, const std::string& file, const ErrorCode& why) {
+// The library says of a file that is not there no more than that it cannot be used.
+Problem unusable(const char* option, const std::string& file, const char* expected,
+                 const ErrorCode& why) {
+  const bool is_readable = std::ifstream(file).good();
   return {ProblemKind::invalid, "bad-certificate", option,
-          file + " cannot be used: " + why.message(), file};
+          is_readable ? file + " holds no " + expected + " (" + why.message() + ")"
+                      : file + " cannot be read: " + std::generic_category().message(errno),
+          file};
 }
 
 }  // namespace
@@ -23,9 +31,10 @@ Result<TlsContextPtr> tls_context(const TlsFiles& files) {
                        ssl::context::single_dh_use);
   ErrorCode ec;
   context->use_certificate_chain_file(files.certificate, ec);
-  if (ec) return failure(unusable("--tls-certificate", files.certificate, ec));
+  if (ec)
+    return failure(unusable("--tls-certificate", files.certificate, "certificate in PEM", ec));
   context->use_private_key_file(files.key, ssl::context::pem, ec);
-  if (ec) return failure(unusable("--tls-key", files.key, ec));
+  if (ec) return failure(unusable("--tls-key", files.key, "private key in PEM", ec));
   return context;
 }
 

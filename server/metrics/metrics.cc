@@ -109,6 +109,7 @@ class Metrics::Impl {
     raise(frames_dropped_, readings.frames_dropped);
     raise(sent_away_, readings.readers_sent_away);
     recording_lost_.Set(readings.recording_lost ? 1 : 0);
+    storage_failed_.Set(readings.storage_failed ? 1 : 0);
     return prometheus::TextSerializer().Serialize(registry_.Collect());
   }
 
@@ -225,6 +226,8 @@ class Metrics::Impl {
       counters("armloom_readers_sent_away_total", "Readers that fell too far behind").Add({});
   Gauge& recording_lost_ =
       gauges("armloom_recording_lost", "1: the recording is no longer whole").Add({});
+  Gauge& storage_failed_ =
+      gauges("armloom_storage_failed", "1: jobs cannot be stored, and no arm is let go").Add({});
   std::map<std::string, Open> open_;  // by key; as many as the executive takes
 };
 

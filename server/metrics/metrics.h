@@ -41,6 +41,7 @@ class Metrics {
     std::uint64_t frames_dropped = 0;
     std::uint64_t readers_sent_away = 0;
     bool recording_lost = false;
+    bool storage_failed = false;
   };
   [[nodiscard]] std::string text(const Readings& readings);
 

@@ -25,7 +25,8 @@ class Service::Impl {
   explicit Impl(ServiceOptions options)
       : options_(std::move(options)),
         files_(options_.web, refusal_response),
-        guard_(options_.tokens, options_.tls.has_value()),
+        guard_(options_.tokens, options_.tls.has_value(),
+               [this](const std::string& what) { alarm(what); }),
         limits_(options_.limits) {
     if (!options_.log) options_.log = [](const LogLine&) {};
   }

@@ -30,7 +30,7 @@ Result<std::unique_ptr<DataLock>> DataLock::take(const std::filesystem::path& fo
   std::error_code ec;
   std::filesystem::create_directories(folder, ec);
   if (ec) return cannot_write(folder, ec.message());
-  const int file = open((folder / "armloom.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  const int file = open((folder / kFile).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   if (file < 0) return cannot_write(folder, std::generic_category().message(errno));
   std::unique_ptr<DataLock> lock(new DataLock(file));
   if (flock(file, LOCK_EX | LOCK_NB) != 0) {

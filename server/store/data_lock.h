@@ -7,10 +7,11 @@
 
 namespace armloom {
 
-// That a data folder is this process's. Given back when it is destroyed, or with the process,
-// however that ends.
+// That a data folder is this process's, as long as kFile stands in it. Given back when it is
+// destroyed, or with the process, however that ends.
 class DataLock {
  public:
+  static constexpr const char* kFile = "armloom.lock";
   // Makes the folder. Problem: another process has it, or it cannot be written.
   [[nodiscard]] static Result<std::unique_ptr<DataLock>> take(const std::filesystem::path& folder);
   ~DataLock();

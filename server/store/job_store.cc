@@ -1,5 +1,7 @@
 #include "server/store/job_store.h"
 
+#include <algorithm>
+#include <array>
 #include <condition_variable>
 #include <future>
 #include <mutex>
@@ -8,6 +10,7 @@
 
 #include "server/store/data_lock.h"
 #include "server/store/job_tables.h"
+#include "server/store/placed_file.h"
 #include "server/store/tables.h"
 
 namespace armloom {
@@ -15,6 +18,7 @@ namespace {
 
 using Wall = std::chrono::steady_clock;
 constexpr Wall::duration kCleaned = std::chrono::minutes(1);
+constexpr Wall::duration kLookedAfter = std::chrono::seconds(1);
 
 tl::unexpected<Problems> cannot_use(const std::filesystem::path& file, const std::string& why) {
   return failure(
@@ -29,8 +33,10 @@ tl::unexpected<Problems> cannot_use(const std::filesystem::path& file, const std
 
 class JobStore::Impl {
  public:
-  Impl(std::unique_ptr<DataLock> lock, std::unique_ptr<JobTables> tables, StoreOptions options)
+  Impl(const std::filesystem::path& folder, std::unique_ptr<DataLock> lock,
+       std::unique_ptr<JobTables> tables, StoreOptions options)
       : lock_(std::move(lock)),
+        files_{PlacedFile(folder / DataLock::kFile), PlacedFile(folder / kStoreFile)},
         tables_(std::move(tables)),
         options_(std::move(options)),
         leftover_(tables_->leftover()),
@@ -69,7 +75,8 @@ class JobStore::Impl {
     while (!stop.stop_requested()) {
       {
         std::unique_lock lock(mutex_);
-        arrived_.wait_until(lock, stop, cleaned_at_ + kCleaned,
+        arrived_.wait_until(lock, stop,
+                            std::min(cleaned_at_ + kCleaned, Wall::now() + kLookedAfter),
                             [this] { return !pending_.is_empty(); });
       }
       if (write_pending()) {
@@ -90,6 +97,10 @@ class JobStore::Impl {
       const std::scoped_lock lock(mutex_);
       batch = std::exchange(pending_, {});
     }
+    if (const auto lost = lost_file()) {
+      give_back(std::move(batch), {false, *lost});
+      return false;
+    }
     if (batch.is_empty()) return true;
     const auto begun = Wall::now();
     try {
@@ -108,6 +119,17 @@ class JobStore::Impl {
     for (const Pending::Acceptance& acceptance : batch.acceptances) acceptance.done(true);
     for (const Pending::Start& start : batch.starts) start.done(true);
     return true;
+  }
+
+  // Whoever starts on the folder now would not find what is written, nor that it is in use.
+  [[nodiscard]] std::optional<std::string> lost_file() const {
+    for (const PlacedFile& file : files_) {
+      if (file.is_in_place()) continue;
+      return file.path().string() +
+             " was removed or replaced under the running server: put it back, or stop the server "
+             "before anything else uses the folder";
+    }
+    return std::nullopt;
   }
 
   void give_back(Pending batch, const StoreFault& fault) {
@@ -137,6 +159,7 @@ class JobStore::Impl {
   }
 
   std::unique_ptr<DataLock> lock_;  // the last to go
+  std::array<PlacedFile, 2> files_;
   std::unique_ptr<JobTables> tables_;
   StoreOptions options_;
   Leftover leftover_;
@@ -158,7 +181,7 @@ Result<std::unique_ptr<JobStore>> JobStore::open(const std::filesystem::path& fo
   try {
     auto tables = std::make_unique<JobTables>(file, options.vfs);
     return std::unique_ptr<JobStore>(new JobStore(
-        std::make_unique<Impl>(std::move(*lock), std::move(tables), std::move(options))));
+        std::make_unique<Impl>(folder, std::move(*lock), std::move(tables), std::move(options))));
   } catch (const std::runtime_error& fault) {
     return cannot_use(file, fault.what());
   }

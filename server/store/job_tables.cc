@@ -27,6 +27,9 @@ Database opened(const std::filesystem::path& file, const std::string& vfs) {
   return database;
 }
 
+// Of alerts, as AlertBook has it.
+constexpr const char* kNeededFirst =
+    "who IS NULL DESC, (who IS NULL AND level = 'error') DESC, number DESC";
 // Of an audit row, as was_refused() has it.
 constexpr const char* kIsRefusal = "(status BETWEEN 400 AND 499)";
 
@@ -107,7 +110,7 @@ Leftover JobTables::leftover() const {
   Statement alerts = database_.prepare(
       std::string("SELECT id, at_ms, level, text, who, acknowledged_ms FROM (SELECT * FROM alert "
                   "WHERE coalesce(sum = ") +
-      kSumOfAlert + ", 1) ORDER BY number DESC LIMIT ?1) ORDER BY number");
+      kSumOfAlert + ", 1) ORDER BY " + kNeededFirst + " LIMIT ?1) ORDER BY number");
   alerts.bind_all(std::int64_t{kAlertsKept});
   while (alerts.step()) {
     left.alerts.push_back({alerts.text(0), alerts.number(1), alerts.text(2), alerts.text(3)});
@@ -204,7 +207,11 @@ bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::
   };
   keep_last(std::string("audit WHERE ") + kIsRefusal, retention.audit_max);
   keep_last(std::string("audit WHERE NOT ") + kIsRefusal, retention.audit_max);
-  keep_last("alert WHERE true", kAlertsKept);
+  Statement alerts = database_.prepare(std::string("DELETE FROM alert WHERE number IN (SELECT "
+                                                   "number FROM alert ORDER BY ") +
+                                       kNeededFirst + " LIMIT ?2 OFFSET ?1)");
+  alerts.bind_all(static_cast<std::int64_t>(kAlertsKept), kCleanedAtOnce).run();
+  deleted = std::max(deleted, database_.number("SELECT changes()"));
   transaction.commit();
   return deleted == kCleanedAtOnce;
 }

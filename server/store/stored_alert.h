@@ -7,7 +7,7 @@
 
 namespace armloom {
 
-// So many are kept, the latest.
+// So many are kept (AlertBook says which).
 inline constexpr std::size_t kAlertsKept = 1'000;
 
 // What somebody has to see to, until somebody has. Times are of wall time, since 1970.

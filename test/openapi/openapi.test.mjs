@@ -208,7 +208,10 @@ test('Jobs, good and bad', async () => {
   await amend(412, {priority: 6}, {headers: {'If-Match': '"nothing"'}});
   await amend(422, {priority: 1e9});
   await call(404, 'PATCH', `${v1}/jobs/{id}`, {args: {id: 'nothing'}, body: {priority: 1}});
+  const stale = {args: {id: 'meet'}, headers: {'If-Match': '"nothing"'}};
+  await call(412, 'POST', `${v1}/jobs/{id}/replan`, stale);
   await call(202, 'POST', `${v1}/jobs/{id}/replan`, {args: {id: 'meet'}});
+  await call(412, 'DELETE', `${v1}/jobs/{id}`, stale);
   await call(202, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'meet'}});
   await call(409, 'DELETE', `${v1}/jobs/{id}`, {args: {id: 'meet'}});
   await amend(409, {priority: 1});

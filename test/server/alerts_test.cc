@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "server/durable/alert_book.h"
 #include "test/server/running_server.h"
 
 namespace armloom {
@@ -47,6 +48,37 @@ TEST_F(Alerts, AreAcknowledgedOnceWithWhoAndWhen) {
 
   EXPECT_EQ(acknowledge({open[0]["id"]}, "Bob").status, 200);
   EXPECT_EQ(alerts()[0]["acknowledged"]["who"], "Ada") << "whoever was the first one stays";
+}
+
+// Whoever asks again and again for what is so already, as a PLC does, puts nothing out of sight.
+TEST_F(Alerts, AStopThatChangesNothingIsNone) {
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(post("/api/v1/stop", "").status, 202);
+  EXPECT_EQ(alerts().size(), 2U) << "the first stop, and this one";
+  post("/api/v1/resume", "");
+  post("/api/v1/stop", "");
+  EXPECT_EQ(alerts().size(), 3U);
+}
+
+TEST(AlertBook, KeepsWhatNobodyHasSeenAndErrorsLongest) {
+  const WallClock clock({}, 1.0);
+  AlertBook book("s", clock, nullptr);
+  std::uint64_t seq = 0;
+  const auto happens = [&](Alert::Level level) {
+    book.happened({.seq = ++seq, .time = {}, .body = Alert{level, "x"}});
+    return "s:" + std::to_string(seq);
+  };
+  const std::string error = happens(Alert::Level::error);
+  const std::string warning = happens(Alert::Level::warning);
+  std::string seen;
+  for (std::size_t i = 2; i < kAlertsKept; ++i) seen = happens(Alert::Level::warning);
+  book.acknowledge({seen}, "Ada", [](const auto&) {});
+  happens(Alert::Level::warning);
+  EXPECT_EQ(book.find(seen), nullptr) << "somebody has seen to it";
+  EXPECT_NE(book.find(warning), nullptr);
+  for (std::size_t i = 0; i < 2 * kAlertsKept; ++i) happens(Alert::Level::warning);
+  EXPECT_EQ(book.find(warning), nullptr);
+  EXPECT_NE(book.find(error), nullptr);
+  EXPECT_EQ(book.alerts().size(), kAlertsKept);
 }
 
 TEST_F(Alerts, AllOfThemAreAcknowledgedOrNone) {

@@ -67,6 +67,13 @@ TEST_F(Amending, OnlyWhoHasSeenTheLastChangeMayMakeTheNext) {
   const std::string second = changed.headers.at("etag");
   EXPECT_NE(second, first);
   expect_refused(patch("a", {{"priority", 6}}, first), 412, "If-Match", first);
+  for (const char* command : {"DELETE /api/v1/jobs/a", "POST /api/v1/jobs/a/replan"}) {
+    test::Wire wire(port());
+    wire.send(std::string(command) +
+              " HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 0\r\nIf-Match: " + first +
+              "\r\n\r\n");
+    expect_refused(test::read_answer(wire), 412, "If-Match", first);
+  }
   EXPECT_EQ(get("/api/v1/jobs/a").json()["priority"], 5);
   EXPECT_EQ(patch("a", {{"priority", 6}}, "\"other\", " + second).status, 200);
   EXPECT_EQ(patch("a", {{"priority", 7}}, "W/" + tag("a")).status, 412) << "weak";

@@ -73,6 +73,8 @@ TEST_F(Limited, StopIsServedHoweverMuchItsClientAsks) {
     EXPECT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
   }
   EXPECT_EQ(post("/api/v1/resume", "").status, 429);
+  EXPECT_EQ(get("/healthz").status, 200) << "a probe is not to blame for who else asks from there";
+  EXPECT_EQ(get("/readyz").status, 200);
 }
 
 TEST_F(Limited, EachTokenIsAClient) {

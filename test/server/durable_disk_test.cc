@@ -15,7 +15,10 @@ TEST_F(Durable, AFullDiskRefusesJobsStopsArmsAndIsOverWhenItIs) {
   const auto refused = submit("refused", "right");
   EXPECT_EQ(refused.status, 507) << refused.body;
   EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:storage-full");
-  EXPECT_EQ(get("/readyz").status, 503);
+  const auto ready = get("/readyz");
+  EXPECT_EQ(ready.status, 503);
+  EXPECT_EQ(ready.json()["type"], "urn:armloom:problem:storage-full") << "before all else";
+  EXPECT_NE(get("/metrics").body.find("\narmloom_storage_failed 1\n"), std::string::npos);
   EXPECT_EQ(get("/healthz").status, 200);
   const json batch = {{"jobs", json::array({swing("refused-2", "right")})}};
   EXPECT_EQ(post("/api/v1/batches", batch.dump()).status, 507);

@@ -195,9 +195,19 @@ TEST_F(Limits, AnEnormousBodyKeepsNobodyWaiting) {
   // It asks as often as it is answered.
   options_.limits.requests = options_.limits.requests_of_all = {1e6, 1e6};
   start(1.0);
-  std::string body = "{\"jobs\": [";
-  while (body.size() < 8'000'000) body += "{},";
-  body += "{}]}";
+  std::string some = "[{}";
+  for (int i = 1; i < 50'000; ++i) some += ",{}";
+  some += "]";
+  std::string body = "{\"jobs\": [" + some;
+  while (body.size() < 7'800'000) body += "," + some;
+  body += "]}";
+  std::string elements = "{\"jobs\": [{}";
+  for (int i = 0; i < 100'000; ++i) elements += ",{}";
+  elements += "]}";
+  const auto refused = post("/api/v1/batches", elements);
+  EXPECT_EQ(refused.status, 413);
+  EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:too-many-elements");
+  EXPECT_EQ(refused.json()["pointer"], "/jobs/100000");
   std::string members = "{";
   for (int i = 0; i < 20'000; ++i) members += "\"" + std::to_string(i) + "\":0,";
   members += "\"x\":0}";

@@ -75,6 +75,7 @@ TEST_F(MetricsRoute, WatchesLoopsClearanceAndStops) {
   EXPECT_GE(values.at("armloom_clearance_metres{a=\"left\",b=\"right\"}"),
             values.at("armloom_clearance_min_metres{a=\"left\",b=\"right\"}"));
   EXPECT_EQ(values.at("armloom_recording_lost"), 0);
+  EXPECT_EQ(values.at("armloom_storage_failed"), 0);
 }
 
 TEST_F(MetricsRoute, CountsAnswersByRouteAndStatusAndNothingThatAClientNames) {

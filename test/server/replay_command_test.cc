@@ -76,6 +76,9 @@ TEST_F(ReplayCommand, ComesToTheEventsThatAKilledServerHadTold) {
   EXPECT_EQ(part.exit_code, 0) << part.out << part.err;
   EXPECT_LT(part.last_line()["events"], summary["events"]);
   EXPECT_NEAR(part.last_line()["ended_s"].get<double>(), 1.5, 0.01);
+  const auto beyond = run("replay --recording " + data() + " --until 1e9");
+  EXPECT_EQ(beyond.exit_code, 0) << beyond.err;
+  EXPECT_EQ(beyond.last_line(), summary) << "nothing is known of what came after";
 }
 
 // Meshes and all: the cell's own files are not needed.

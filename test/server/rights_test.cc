@@ -94,6 +94,21 @@ TEST_F(Rights, TokensCountAsSoonAsTheyAreMadeAndNoLongerThanTheyAre) {
   EXPECT_EQ(ask("GET", "/api/v1/arms", bearer(tokens_["admin"])).status, 401) << "nobody's";
 }
 
+// A slip of whoever edits the file takes Stop from nobody, and is told.
+TEST_F(Rights, AFileWithAMistakeIsToldAndLeavesTheTokensOfBefore) {
+  const std::uintmax_t size = fs::file_size(file_);
+  EXPECT_EQ(ask("GET", "/readyz", "").status, 200);
+  std::ofstream(file_, std::ios::app) << "a slip\n";
+  EXPECT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
+  EXPECT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["withdrawn"])).status, 401);
+  const auto ready = get("/readyz");
+  EXPECT_EQ(ready.status, 503);
+  EXPECT_EQ(ready.json()["type"], "urn:armloom:problem:tokens-unreadable");
+  fs::resize_file(file_, size);
+  EXPECT_EQ(ask("GET", "/readyz", "").status, 200);
+  EXPECT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
+}
+
 TEST_F(Rights, EachTokenHasIdempotencyKeysOfItsOwn) {
   const auto send = [&](const char* name, const std::string& arm) {
     const std::string body =

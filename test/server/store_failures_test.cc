@@ -46,6 +46,29 @@ TEST_F(Store, AFullDiskIsSaidAndWhatWaitsIsWrittenWhenThereIsSpace) {
   EXPECT_TRUE(store->leftover().jobs.front().may_have_moved);
 }
 
+// Another server could begin on the folder, or would not find what is written.
+TEST_F(Store, AFolderThatIsNoLongerItsOwnIsSaidAndNothingIsWritten) {
+  for (const char* name : {"armloom.lock", "armloom.db"}) {
+    SCOPED_TRACE(name);
+    fs::remove_all(folder_);
+    std::promise<std::string> told;
+    StoreOptions watched = options();
+    watched.on_fault = [&](const StoreFault* fault) {
+      if (fault != nullptr) told.set_value(fault->text);
+    };
+    const auto store = open(watched);
+    EXPECT_TRUE(accept(*store, 1).get());
+    fs::rename(folder_ / name, folder_ / "aside");
+    EXPECT_NE(told.get_future().get().find(name), std::string::npos) << "also if nobody asks";
+    EXPECT_FALSE(accept(*store, 2).get());
+    auto started = start(*store, 1);
+    EXPECT_EQ(started.wait_for(std::chrono::milliseconds(30)), std::future_status::timeout);
+    fs::rename(folder_ / "aside", folder_ / name);
+    EXPECT_TRUE(started.get());
+    EXPECT_FALSE(store->fault());
+  }
+}
+
 // What its client was told is not accepted is nowhere, whatever else is said of it.
 TEST_F(Store, AJobThatWasGivenUpIsNeverWritten) {
   {

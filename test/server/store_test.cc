@@ -138,6 +138,25 @@ TEST_F(Store, TablesAreBroughtUpToDateWhole) {
   }
 }
 
+TEST_F(Store, OfAlertsThoseThatNobodyHasSeenAreKeptAndErrorsLongest) {
+  const auto alert = [](std::size_t number, const char* level) {
+    return StoredAlert{.id = "s:" + std::to_string(number), .level = level, .text = "x"};
+  };
+  const std::size_t told = kAlertsKept + 500;
+  {
+    const auto store = open();
+    store->keep(alert(0, "error"));
+    for (std::size_t i = 1; i < told; ++i) store->keep(alert(i, "warning"));
+    StoredAlert seen = alert(told, "error");
+    seen.acknowledged = {"Ada", 1};
+    store->keep(std::move(seen));
+  }
+  const auto left = open()->leftover().alerts;
+  ASSERT_EQ(left.size(), kAlertsKept);
+  EXPECT_EQ(left.front().id, "s:0");
+  EXPECT_EQ(left.back().id, "s:" + std::to_string(told - 1));
+}
+
 TEST_F(Store, OldJobsThatHaveEndedAreDeleted) {
   StoreOptions few = options();
   few.retention.jobs_max = 10;

@@ -52,7 +52,11 @@ TEST_F(Token, AServerThatOthersReachDoesNotStartWithoutTokensAndTls) {
         std::string(" --listen 0.0.0.0:0 --tls-certificate x --tls-key y")}) {
     const auto refused = run(serve(options));
     EXPECT_EQ(refused.exit_code, 2) << options;
-    EXPECT_NE(refused.err.find("armloom token add"), std::string::npos) << refused.err;
+    const bool has_tokens = options.find("--tokens") != options.npos;
+    EXPECT_EQ(refused.err.find("armloom token add") == std::string::npos, has_tokens)
+        << refused.err;
+    const bool has_tls = options.find("--tls") != options.npos;
+    EXPECT_EQ(refused.err.find("--tls-key") == std::string::npos, has_tls) << refused.err;
     EXPECT_NE(refused.err.find("listen on 127.0.0.1"), std::string::npos) << refused.err;
   }
   const auto half = run(serve(" --listen 127.0.0.1:0 --tls-key y"));
@@ -65,6 +69,25 @@ TEST_F(Token, AServerThatOthersReachDoesNotStartWithoutTokensAndTls) {
       run(serve(" --listen 127.0.0.1:0 --tls-certificate " + tokens() + " --tls-key " + tokens()));
   EXPECT_EQ(bad.exit_code, 2);
   EXPECT_NE(bad.err.find("--tls-certificate"), std::string::npos) << bad.err;
+  EXPECT_NE(bad.err.find("holds no certificate in PEM"), std::string::npos) << bad.err;
+  const auto missing =
+      run(serve(" --listen 127.0.0.1:0 --tls-certificate nowhere --tls-key " + tokens()));
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_NE(missing.err.find("nowhere cannot be read: No such file"), std::string::npos)
+      << missing.err;
+}
+
+// What a variable that is not set leaves behind must not open a server to everybody.
+TEST_F(Token, AnEmptyValueIsNone) {
+  for (const char* option : {"--tokens", "--data", "--tls-certificate", "--allow-host"}) {
+    const auto refused = run(serve(" --listen 127.0.0.1:0 " + std::string(option) + " ''"));
+    EXPECT_EQ(refused.exit_code, 2) << option;
+    EXPECT_NE(refused.err.find(option + std::string(": is empty")), std::string::npos)
+        << refused.err;
+  }
+  const auto alone = run(serve(" --listen 127.0.0.1:0 --record"));
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_NE(alone.err.find("--record requires --data"), std::string::npos) << alone.err;
 }
 
 TEST_F(Token, IsAskedForOnLoopbackWhereTheFileIsGiven) {
