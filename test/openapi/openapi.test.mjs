@@ -440,7 +440,7 @@ test('A client that asks for too much is told when to come again, and may stop a
     return answer;
   };
   try {
-    assert.equal((await asked('GET', '/healthz')).status, 200);
+    assert.equal((await asked('GET', '/metrics')).status, 200);
     for (const {path: template, method, operation} of contract.operations()) {
       const headers = template === `${v1}/ws` ? handshake() : {};
       if (!(429 in operation.responses)) {
