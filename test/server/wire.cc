@@ -13,7 +13,7 @@
 namespace armloom::test {
 namespace {
 
-constexpr int kPatience_ms = 15'000;
+constexpr int kPatience_ms = 60'000;
 
 }  // namespace
 

@@ -20,7 +20,7 @@ class Wire {
 
   // Whether all of it went: else the peer has closed, its answer says why.
   bool send(std::string_view bytes);
-  // At least one byte more, or nothing: the peer has closed. Throws when ten seconds pass.
+  // At least one byte more, or nothing: the peer has closed. Throws when a minute passes.
   bool receive();
   // Exactly `size` bytes from what was received; throws when the peer closes before.
   std::string take(std::size_t size);
