@@ -223,6 +223,12 @@ int serve(const ServeOptions& options) {
         {"arms", static_cast<std::int64_t>(loaded->cell->arms.size())},
         {"policy", options.policy.empty() ? loaded->cell->scheduling.policy : options.policy},
         {"speed", options.speed}}});
+  if (service_options.tokens &&
+      TokenFile(*service_options.tokens).read().value_or(std::vector<KeptToken>{}).empty()) {
+    log({LogLine::Level::warning,
+         "nobody is let in: there is no token; `armloom token add` makes one",
+         {{"tokens", service_options.tokens->string()}}});
+  }
   if (const auto folder = (*service)->recorded_to()) {
     log({LogLine::Level::info, "recording", {{"folder", folder->string()}}});
   }

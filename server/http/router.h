@@ -14,9 +14,9 @@
 namespace armloom {
 
 // Whose requests are served. Anyone's, by whatever name they come, and however much else comes from
-// there: probes. Readers': those that
-// come by a name that is the server's, pages of other sites among them (a browser does not show
-// them the answer). Commanders': of those, the site's own pages, and programs.
+// there: probes. Readers': those that come by a name that is the server's, pages of other sites
+// among them (a browser does not show them the answer). Commanders': of those, the site's own
+// pages, and programs.
 enum class Who { anyone, reader, commander };
 
 // Whose requests a route serves, and what the token that they show has to allow. No role: none is
