@@ -84,7 +84,8 @@ class JobHistory::Impl {
         std::string("SELECT number, at_ms, who, peer, method, path, status, coalesce(sum != ") +
         kSumOfAudit +
         ", 0) AS is_damaged FROM audit WHERE number < ?1 AND (is_damaged OR ((?2 OR who = ?3) AND "
-        "(?4 = '' OR peer = ?4) AND (?5 = '' OR method = ?5) AND substr(path, 1, length(?6)) = ?6 "
+        "(?4 = '' OR peer = ?4) AND (?5 = '' OR method = upper(?5)) AND substr(path, 1, "
+        "length(?6)) = ?6 "
         "AND status = coalesce(?7, status) AND at_ms >= coalesce(?8, at_ms) AND (?9 IS NULL OR "
         "at_ms < ?9))) ORDER BY number DESC");
     const auto below = static_cast<std::int64_t>(std::min(filter.below.value_or(kAny), kAny));

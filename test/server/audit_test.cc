@@ -117,6 +117,7 @@ TEST_F(Audit, IsAskedByWhoWhatAndWhen) {
   EXPECT_EQ(statuses("?who="), "401 ") << "no name was shown";
   EXPECT_EQ(statuses("?who=oper"), "");
   EXPECT_EQ(statuses("?method=POST"), "403 202 ");
+  EXPECT_EQ(statuses("?method=post"), "403 202 ");
   EXPECT_EQ(statuses("?path=/api/v1/jobs"), "401 404 ");
   EXPECT_EQ(statuses("?path=/api/v1/jobs&method=DELETE&status=404"), "404 ");
   EXPECT_EQ(statuses("?from=127.0.0.2"), "");
