@@ -14,7 +14,7 @@ void Api::add_routes(Router& router) {
       if (std::string_view(parameter.in) == "query") parameters.push_back(parameter.name);
     }
     router.add(
-        route.method, route.path, Rights{route.who, route.role, route.is_never_limited},
+        route.method, route.path, route.rights(),
         [this, run = route.run](const Request& request, const Router::Arguments& arguments,
                                 Respond respond) {
           run(Call{parts_, meshes_, recordings_, request, arguments, std::move(respond)});

@@ -15,7 +15,7 @@ class Guard {
  public:
   // `tokens`: the file; nothing: there is none. `tls`: cookies go through TLS only. `told`: as
   // TokenBook has it.
-  Guard(const std::optional<std::filesystem::path>& tokens, bool tls, TokenBook::Told told = {});
+  Guard(const std::optional<std::filesystem::path>& tokens, bool tls, TokenBook::Told told);
 
   [[nodiscard]] bool asks() const { return book_.has_value(); }
   [[nodiscard]] bool is_tls() const { return tls_; }

@@ -24,10 +24,7 @@ namespace armloom {
 using IfMatch = std::optional<std::string>;
 // A command to one job: nothing where If-Match does not hold.
 using Commanded = Result<std::optional<JobView>>;
-// `command(executive, key)`, a Result<JobView>.
-template <class Command>
-[[nodiscard]] Commanded commanded(Executive& executive, const std::string& key,
-                                  const IfMatch& if_match, const Command& command);
+[[nodiscard]] bool is_as_tagged(const IfMatch& if_match, const std::optional<JobView>& job);
 // Why the request's is none.
 [[nodiscard]] std::optional<Response> bad_if_match(const Request& request);
 [[nodiscard]] Parameter if_match_parameter();
@@ -37,11 +34,10 @@ template <class Command>
                                        const Problems& problems);
 [[nodiscard]] Response was_changed_since(const std::string& key, const IfMatch& if_match);
 
-[[nodiscard]] bool is_as_tagged(const IfMatch& if_match, const std::optional<JobView>& job);
-
+// `command(executive, key)`, a Result<JobView>.
 template <class Command>
-Commanded commanded(Executive& executive, const std::string& key, const IfMatch& if_match,
-                    const Command& command) {
+[[nodiscard]] Commanded commanded(Executive& executive, const std::string& key,
+                                  const IfMatch& if_match, const Command& command) {
   if (!is_as_tagged(if_match, executive.job(key))) return std::nullopt;
   auto job = command(executive, key);
   if (!job) return failure(std::move(job.error()));

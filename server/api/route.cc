@@ -23,9 +23,8 @@ const std::vector<Route>& all_routes() {
 
 std::vector<int> common_refusals(const Route& route) {
   std::vector<int> statuses{400, 413, 417, 431, 503};
-  const bool is_probe = route.who == Who::anyone;
-  if (!route.is_never_limited && !is_probe) statuses.push_back(429);
-  if (!is_probe) statuses.push_back(403);
+  if (route.rights().is_counted()) statuses.push_back(429);
+  if (route.who != Who::anyone) statuses.push_back(403);
   if (route.role) statuses.push_back(401);
   if (route.reads) statuses.push_back(415);
   return statuses;

@@ -66,6 +66,8 @@ struct Route {
   std::optional<Role> role = Role::viewer;  // none: no token is needed
   bool is_never_limited = false;            // whatever else its client asks for (ClientLimits)
   void (*run)(Call call);  // null: the dashboard's files, which the router leaves to others
+
+  [[nodiscard]] Rights rights() const { return {who, role, is_never_limited}; }
 };
 
 // The routes by resource. All of them, in the order in which they are tried.

@@ -125,7 +125,7 @@ void Router::dispatch(const Request& request, Respond respond) const {
       inner(std::move(response));
     };
   }
-  if (limit_ && counts(found)) {
+  if (limit_ && is_counted(found)) {
     if (const auto why = limit_(request)) return respond(refuse_(*why));
   }
   if (auto refused = refusal(request, found)) return respond(std::move(*refused));

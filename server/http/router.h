@@ -25,6 +25,9 @@ struct Rights {
   Who who = Who::reader;
   std::optional<Role> role = Role::viewer;
   bool is_never_limited = false;
+
+  // Among the requests that its client may ask so many of.
+  [[nodiscard]] bool is_counted() const { return !is_never_limited && who != Who::anyone; }
 };
 
 // Which function answers which method and path. A pattern is a path in which {id} stands for any
@@ -82,10 +85,8 @@ class Router {
   [[nodiscard]] static bool is_never_limited(const Found& found) {
     return found.route != nullptr && found.route->rights.is_never_limited;
   }
-  // What others ask for from the same address is not the doing of a probe.
-  [[nodiscard]] static bool counts(const Found& found) {
-    return found.route == nullptr ||
-           !(found.route->rights.is_never_limited || found.route->rights.who == Who::anyone);
+  [[nodiscard]] static bool is_counted(const Found& found) {
+    return found.route == nullptr || found.route->rights.is_counted();
   }
   [[nodiscard]] std::string allowed_at(const std::string& path) const;
   [[nodiscard]] std::optional<Response> refusal(const Request& request, const Found& found) const;

@@ -7,25 +7,23 @@
 
 namespace armloom {
 
-// A file as it stood at its path when this was made: whoever has it open goes on to write where
-// nobody will look when it was removed or replaced since.
+// A file as it stood at its path when this was made (precondition: it did): whoever has it open
+// goes on to write where nobody will look when it was removed or replaced since.
 class PlacedFile {
  public:
-  explicit PlacedFile(std::filesystem::path path)
-      : path_(std::move(path)), was_there_(stat(path_.c_str(), &was_) == 0) {}
+  explicit PlacedFile(std::filesystem::path path) : path_(std::move(path)) {
+    (void)stat(path_.c_str(), &was_);
+  }
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  // Of one that was not there it is not asked.
   [[nodiscard]] bool is_in_place() const {
     struct stat now {};
-    return !was_there_ || (stat(path_.c_str(), &now) == 0 && now.st_dev == was_.st_dev &&
-                           now.st_ino == was_.st_ino);
+    return stat(path_.c_str(), &now) == 0 && now.st_dev == was_.st_dev && now.st_ino == was_.st_ino;
   }
 
  private:
   std::filesystem::path path_;
   struct stat was_ {};
-  bool was_there_;
 };
 
 }  // namespace armloom
