@@ -37,6 +37,8 @@ class WallClock {
   // The cell time that is told as `wall`, which was before the beginning: less than zero, or zero
   // where the wall's clock was set back since.
   [[nodiscard]] TimePoint time_before(Wall wall) const;
+  // Cell seconds per wall second, of now.
+  [[nodiscard]] double speed() const { return anchors_.back().speed; }
   // As rfc3339().
   [[nodiscard]] std::string at(TimePoint time) const;
 

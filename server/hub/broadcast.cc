@@ -72,7 +72,8 @@ void Broadcast::on_state(const StateFrame& frame) {
     watch_recording();
     readers_ = parts_.hub.readers();
     if (readers_ == 0) return;
-    parts_.hub.publish_frame(std::make_shared<const std::string>(state_json(*frame, *parts_.cell)));
+    parts_.hub.publish_frame(std::make_shared<const std::string>(
+        state_json(*frame, *parts_.cell, parts_.clock.speed())));
   });
 }
 

@@ -205,6 +205,7 @@ FormatPtr<ArmAuthority> authority_format() {
 struct FrameView {
   const StateFrame* frame;
   const Cell* cell;
+  double speed;
 };
 // {"<joint>": rad}, in the order of the cell.
 class PosesFormat final : public Format<FrameView> {
@@ -246,6 +247,7 @@ FormatPtr<FrameView> frame_format() {
                 told(
                     "motions", [](const View& view) { return &view.frame->motions; },
                     list(authority_format()), "Of every arm that has been told to move"),
+                told("speed", &View::speed, number(kPositive), "Cell seconds per wall second"),
             }));
   return format;
 }
@@ -266,8 +268,8 @@ std::string snapshot_json(const SnapshotView& view, const std::string& stream,
   return text_of(*kinds().snapshot.format, {&stream, snapshot.seq, snapshot.time, &view}, &clock);
 }
 
-std::string state_json(const StateFrame& frame, const Cell& cell) {
-  return text_of(*frame_format(), {&frame, &cell});
+std::string state_json(const StateFrame& frame, const Cell& cell, double speed) {
+  return text_of(*frame_format(), {&frame, &cell, speed});
 }
 
 std::vector<std::pair<std::string, std::string>> message_types() {

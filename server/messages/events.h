@@ -30,8 +30,9 @@ struct SnapshotView {
 [[nodiscard]] std::string snapshot_json(const SnapshotView& view, const std::string& stream,
                                         const WallClock& clock);
 
-// A pose frame, without stream and seq; positions rounded to 1e-6.
-[[nodiscard]] std::string state_json(const StateFrame& frame, const Cell& cell);
+// A pose frame, without stream and seq; positions rounded to 1e-6. `speed`: cell seconds per wall
+// second.
+[[nodiscard]] std::string state_json(const StateFrame& frame, const Cell& cell, double speed);
 
 // The schema of all of these, as one; the types by which it tells them apart, with their schemas'
 // names.

@@ -200,7 +200,8 @@ test('names never become HTML', { timeout: 300_000 }, async () => {
     const { names, q } = await arm_now(page, 'right');
     assert.equal((await ask(page, 'POST', '/jobs', job_through(`name-${id}`, names, [q, q], 1, { name }))).status, 202);
   }
-  const row = (id) => page.locator(`[data-test="job-name-${id}"]`);
+  // Rows move from list to list until their jobs have ended.
+  const row = (id) => page.locator(`[data-test=list-finished] [data-test="job-name-${id}"]`);
   for (const id of Object.keys(strange)) await row(id).waitFor();
   await row('blank').getByText('(blank)').first().waitFor({ state: 'attached' });
   await row('turned').getByText('⟨U+202E⟩deeccus').first().waitFor({ state: 'attached' });

@@ -100,6 +100,9 @@ TEST_F(Verbs, TheSpeedChangesAndWallTimesStayRight) {
   ASSERT_EQ(changed.status, 200) << changed.body;
   EXPECT_EQ(changed.json()["speed"], 50.0);
   EXPECT_EQ(get("/api/v1/cell").json()["speed"], 50.0);
+  double told = 0.0;  // to every client, with the poses; those of before are on their way still
+  for (int i = 0; i < 1000 && told != 50.0; ++i) told = listener.next_of("state")["speed"];
+  EXPECT_EQ(told, 50.0);
   ASSERT_EQ(post("/api/v1/jobs", job("l", test::kHome, kAside, "left", 10.0).dump()).status, 202);
   const json ended = until(listener, "l", "succeeded");
   const auto second_of = [](const std::string& at) { return std::stod(at.substr(17, 6)); };

@@ -37,7 +37,7 @@ describe('a message of the server', () => {
     const job = good(envelope('job', 1, job_json('a', { name: '', waits_on: [wait_json({ kind: 'capacity', links: [] })] })));
     expect(job.type === 'job' && [job.data.name, pair_of(job.data.waits_on[0]?.links ?? ['x', 'y'])]).toEqual(['', null]);
     const near = { arms: ['left'], m: 0.05, links: ['left_panda_hand', 'table'] };
-    const state = good(JSON.stringify({ type: 'state', t_s: 1, q: {}, clearance: [near], motions: [] }));
+    const state = good(JSON.stringify({ type: 'state', t_s: 1, q: {}, clearance: [near], motions: [], speed: 1 }));
     expect(state.type === 'state' && state.clearance).toEqual([near]);
   });
 

@@ -40,8 +40,8 @@ export function snapshot(seq: number, over: object = {}, envelope_over: object =
   return envelope('snapshot', seq, data, envelope_over);
 }
 
-export function frame(t_s: number, q: Record<string, number>): string {
-  return JSON.stringify({ type: 'state', t_s, q, clearance: [{ arms: ['left', 'right'], m: 0.2, links: ['a', 'b'] }], motions: [] });
+export function frame(t_s: number, q: Record<string, number>, over: object = {}): string {
+  return JSON.stringify({ type: 'state', t_s, q, clearance: [{ arms: ['left', 'right'], m: 0.2, links: ['a', 'b'] }], motions: [], speed: 1, ...over });
 }
 
 type Ranges = [state: string, a0: number, a1: number, b0: number, b1: number];

@@ -89,6 +89,16 @@ describe('the store', () => {
     expect(store.q_of(left)).toEqual([0.7, -1.2]);
   });
 
+  it('follows the speed that somebody else set, and tells of it once', () => {
+    take(frame(2, {}));
+    let changes = 0;
+    const off = store.on_change(() => { changes += 1; });
+    for (const t_s of [3, 4]) take(frame(t_s, {}, { speed: 2.5 }));
+    expect(store.speed).toBe(2.5);
+    expect(changes).toBe(1);
+    off();
+  });
+
   it('takes the order of the lists from a snapshot that has it', () => {
     const queue = { stopped: false, queued: ['b', 'a'], backlog: [], scheduled: [], running: [] };
     take(snapshot(5, { jobs: [job_json('a'), job_json('b')], queue }));

@@ -561,6 +561,8 @@ export interface components {
             }[];
             /** @description Of every arm that has been told to move */
             motions: components["schemas"]["ArmAuthority"][];
+            /** @description Cell seconds per wall second */
+            speed: number;
         };
         CellRobot: {
             name: string;

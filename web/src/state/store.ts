@@ -240,6 +240,9 @@ export class Store extends Facts {
     this.put_in_earlier_states();
     this.courses.take(frame.t_s, frame.motions);
     this.pulse_.frame();
+    if (frame.speed === this.speed) return;
+    this.speed = frame.speed;
+    this.pulse_.change();
   }
 
   private put_in_earlier_states(): void {
