@@ -22,7 +22,7 @@ class StrictBuilder {
   bool number_integer(std::int64_t value) { return put(value); }
   bool number_unsigned(std::uint64_t value) { return put(value); }
   bool number_float(double value, const std::string&) { return put(value); }
-  bool string(std::string& value) { return put(std::move(value)); }
+  bool string(std::string& value) { return count_part() && put(std::move(value)); }
   bool binary(json::binary_t&) { return false; }  // not in JSON text
 
   bool start_object(std::size_t) { return open(json::object()); }
@@ -31,12 +31,12 @@ class StrictBuilder {
   bool end_array() { return close(); }
 
   bool key(std::string& name) {
+    if (!count_part()) return false;
     Level& level = levels_.back();
     if (level.value->size() >= kJsonMembersMax) {
-      problem_.kind = ProblemKind::too_large;
-      return refuse("too-many-members",
-                    "an object with more than " + std::to_string(kJsonMembersMax) + " members",
-                    name);
+      return refuse_size("too-many-members",
+                         "an object with more than " + std::to_string(kJsonMembersMax) + " members",
+                         name);
     }
     const auto [place, is_new] = level.value->emplace(name, nullptr);
     level.key = name;
@@ -88,10 +88,10 @@ class StrictBuilder {
 
   bool open(json container) {
     if (levels_.size() >= kJsonDepthMax) {
-      problem_.kind = ProblemKind::too_large;
-      return refuse("nesting-too-deep",
-                    "nested more than " + std::to_string(kJsonDepthMax) + " levels deep", "");
+      return refuse_size("nesting-too-deep",
+                         "nested more than " + std::to_string(kJsonDepthMax) + " levels deep");
     }
+    if (!count_part()) return false;
     json* place = &root_;
     if (levels_.empty()) {
       root_ = std::move(container);
@@ -108,16 +108,26 @@ class StrictBuilder {
     return true;
   }
 
+  bool count_part() {
+    if (++parts_ <= kJsonPartsMax) return true;
+    return refuse_size("too-many-parts", "a text of more than " + std::to_string(kJsonPartsMax) +
+                                             " arrays, objects, members and strings");
+  }
+
   static bool is_full(const json& array) { return array.size() >= kJsonElementsMax; }
   bool refuse_more() {
-    problem_.kind = ProblemKind::too_large;
-    return refuse("too-many-elements",
-                  "an array with more than " + std::to_string(kJsonElementsMax) + " elements", "");
+    return refuse_size("too-many-elements",
+                       "an array with more than " + std::to_string(kJsonElementsMax) + " elements");
   }
 
   bool close() {
     levels_.pop_back();
     return true;
+  }
+
+  bool refuse_size(std::string slug, std::string detail, std::string found = "") {
+    problem_.kind = ProblemKind::too_large;
+    return refuse(std::move(slug), std::move(detail), std::move(found));
   }
 
   bool refuse(std::string slug, std::string detail, std::string found) {
@@ -158,6 +168,7 @@ class StrictBuilder {
   std::string_view text_;
   json root_;
   std::vector<Level> levels_;
+  std::size_t parts_ = 0;
   Problem problem_{ProblemKind::malformed, "", "", "", {}};
 };
 

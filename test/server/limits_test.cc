@@ -200,16 +200,17 @@ TEST_F(Limits, AnEnormousBodyKeepsNobodyWaiting) {
   std::string some = "[{}";
   for (int i = 1; i < 50'000; ++i) some += ",{}";
   some += "]";
-  std::string body = "{\"jobs\": [" + some;
-  while (body.size() < 7'800'000) body += "," + some;
-  body += "]}";
-  std::string elements = "{\"jobs\": [{}";
-  for (int i = 0; i < 100'000; ++i) elements += ",{}";
-  elements += "]}";
-  const auto refused = post("/api/v1/batches", elements);
+  const auto lists_of_them = [&some](int count) {
+    std::string text = "{\"jobs\": [" + some;
+    for (int i = 1; i < count; ++i) text += "," + some;
+    return text + "]}";
+  };
+  // The object, its member, the list, 23 lists of 50,000, and as many of the next as are left.
+  const auto refused = post("/api/v1/batches", lists_of_them(50));
   EXPECT_EQ(refused.status, 413);
-  EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:too-many-elements");
-  EXPECT_EQ(refused.json()["pointer"], "/jobs/100000");
+  EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:too-many-parts");
+  EXPECT_EQ(refused.json()["pointer"], "/jobs/23/49973");
+  const std::string body = lists_of_them(23);
   std::string members = "{";
   for (int i = 0; i < 20'000; ++i) members += "\"" + std::to_string(i) + "\":0,";
   members += "\"x\":0}";
