@@ -20,7 +20,7 @@ AHEAD = 2  # jobs of each arm that are accepted and have not ended
 
 class Server:
     def __init__(self, url):
-        self.url = url + "/api/v1"
+        self.url = url.rstrip("/") + "/api/v1"
 
     def call(self, method, path, body=None):
         request = urllib.request.Request(

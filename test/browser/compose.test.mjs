@@ -99,6 +99,13 @@ test('a job is cancelled after a question only', { timeout: 300_000 }, async () 
   const row = page.locator('[data-test="job-unwanted"]');
   await row.getByRole('button', { name: 'Cancel unwanted' }).click();
   await row.getByRole('button', { name: 'Keep' }).click();
+  // Who keeps it goes on where they were.
+  const focused = () => page.evaluate(() => document.activeElement?.getAttribute('aria-label'));
+  await eventually(async () => assert.equal(await focused(), 'Cancel unwanted'));
+  await page.keyboard.press('Enter');
+  await row.locator('[data-test=confirm-cancel]').waitFor();
+  await page.keyboard.press('Escape');
+  await eventually(async () => assert.equal(await focused(), 'Cancel unwanted'));
   assert.match(await row.getAttribute('data-state'), /queued|running|scheduled/);
   await row.getByRole('button', { name: 'Cancel unwanted' }).click();
   await row.locator('[data-test=confirm-cancel]').click();

@@ -14,6 +14,7 @@ const folder = mkdtempSync(join(tmpdir(), 'armloom-login-'));
 const tokens = join(folder, 'tokens');
 const token_command = (...words) => execFileSync(kBinary, ['token', words[0], '--tokens', tokens, ...words.slice(1)], { encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }).trim();
 const token = token_command('add', '--name', 'ada', '--role', 'operator');
+const viewer = token_command('add', '--name', 'vic', '--role', 'viewer');
 
 let url;
 let page;
@@ -62,15 +63,39 @@ test('logging out leads to the login page, and back only with a token', { timeou
   await page.screenshot(path_for('session-dark'));
   await page.locator('[data-test=log-out]').click();
   await page.waitForURL('**/login');
-  await page.goto(url);
-  await address_like(page, /\/login$/);
+  await page.goto(`${url}#/arm/right`);
+  await address_like(page, /\/login#\/arm\/right$/);
   await log_in(token);
   await connected();
+  await address_like(page, /\/#\/arm\/right$/);  // the page that was asked for
 });
 
 test('a page whose token is withdrawn goes to the login page', { timeout: 300_000 }, async () => {
   token_command('withdraw', '--name', 'ada');
-  await page.waitForURL('**/login');
+  await address_like(page, /\/login#\/arm\/right$/);
   await log_in(token);
   await page.locator('[role=alert]', { hasText: 'withdrawn' }).waitFor();
+});
+
+test('who may only look is told so before, not by a refusal', { timeout: 300_000 }, async () => {
+  await log_in(viewer);
+  await connected();
+  await page.locator('[data-test=only-looks]', { hasText: 'vic: may only look' }).waitFor();
+  await page.locator('[data-test=stop]', { hasText: 'not with your token' }).waitFor();
+  const off = async (name) => {
+    const command = page.locator(`[data-test=${name}]`);
+    await command.and(page.locator(':disabled')).waitFor();
+    assert.match(await command.getAttribute('title'), /takes the role operator/, name);
+  };
+  await off('take-control');
+  await go_to(page, '#/scene');
+  await off('object-save');
+  await go_to(page, '#/policies');
+  await off('compare');
+  await go_to(page, '#/new');
+  await page.locator('[data-test=job-text]').fill('{"arm": "left", "move_to": {"named": "home"}}');
+  await off('send');
+  await page.locator('[data-test=judge]').click();  // which changes nothing
+  await page.locator('[data-test=judged]').waitFor();
+  await page.screenshot(path_for('viewer-dark'));
 });

@@ -156,6 +156,14 @@ test('objects are added, moved and taken away by form', { timeout: 300_000 }, as
   await page.locator('[data-test=go-scene]').click();
   const fill = async (values) => { for (const [key, value] of Object.entries(values)) await page.locator(`[data-test=object-${key}]`).fill(value); };
   await fill({ name: 'can' });
+  // A comma is not dropped unseen: 0,15 m would become 15.
+  await page.locator('[data-test=object-size_x]').fill('');
+  await page.locator('[data-test=object-size_x]').pressSequentially('0,15');
+  await page.locator('[data-test=object-save]').click();
+  await reads(page.locator('[data-test=problem]'), /size x: "0,15" is no number: the decimal sign is a point/);
+  await fill({ size_x: '0.15' });
+  await page.locator('[data-test=object-size_x]').press('ArrowUp');
+  assert.equal(await page.locator('[data-test=object-size_x]').inputValue(), '0.16');
   await page.locator('[data-test=object-kind]').selectOption('cylinder');
   await fill({ radius: '0.08', length: '0.3', x: '-0.3', y: '0.9', z: '0.4', roll: '90' });
   await page.locator('[data-test=object-save]').click();

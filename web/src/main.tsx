@@ -104,7 +104,7 @@ async function know_who(): Promise<void> {
   const answer = await api.session();
   if (!answer.ok) return;
   session.value = answer.value;
-  if (answer.value.role === null) location.assign('/login');
+  if (answer.value.role === null) location.assign(`/login${location.hash}`);
 }
 
 /** What the server told before this page listened. */

@@ -81,7 +81,9 @@ function subject(w: WaitsOn): string {
   if (w.kind === 'arm') return arm ? `arm ${arm}` : 'an arm at rest';
   if (w.kind === 'object') return shown_name(w.id ?? w.links[1] ?? 'an object');
   const owner = arm ? ` of ${arm}` : '';
-  return w.id ? `job ${short_id(w.id)}${owner}` : `another job${owner}`;
+  if (w.id === null) return `another job${owner}`;
+  const id = short_id(w.id);
+  return `${/^job\b/i.test(id) ? id : `job ${id}`}${owner}`;
 }
 
 function approach(w: WaitsOn): string {

@@ -19,7 +19,7 @@ describe('what was asked for', () => {
   it('is not said to be refused when nobody answered: arms may still move', async () => {
     const actions = asked({ ok: false, problem: { ...problem, title: 'The server does not answer', status: 0, detail: 'TypeError: Failed to fetch' } });
     await actions.stop();
-    expect(actions.refusal.value).toMatch(/^Stop all was not answered: .*arms may still move/);
+    expect(actions.refusal.value).toMatch(/^Stop all was not answered at \d\d:\d\d:\d\d: .*arms may still move/);
     expect(actions.stopping.value).toBe(false);
   });
 });

@@ -34,5 +34,6 @@ describe('a form of an object', () => {
 
   it('says which field is no number', () => {
     expect(object_of(with_edits(form_of(kCan), { values: { x: 'wide' } }))).toEqual({ fault: 'x: "wide" is no number' });
+    expect(object_of(with_edits(form_of(kCan), { values: { x: '0,15', y: ' ' } }))).toEqual({ fault: 'x: "0,15" is no number: the decimal sign is a point; y: "" is no number' });
   });
 });

@@ -28,6 +28,7 @@ describe('the reason why a job waits', () => {
   });
   it('does without what the server does not know', () => {
     expect(reason(kBare)).toBe('waits for job place-6 of right to end');
+    expect(reason({ ...kBare, id: 'job-6' })).toBe('waits for job-6 of right to end');
   });
   it('tells an arm at rest, an object, the order, the capacity and a stop apart', () => {
     expect(reason({ kind: 'arm', id: null })).toMatch(/^waits for arm right to move away: left_panda_hand would/);

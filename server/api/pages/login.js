@@ -11,7 +11,7 @@ form.addEventListener('submit', async (event) => {
       headers: {'Content-Type': 'application/json'},
       body: JSON.stringify({token: document.getElementById('token').value.trim()}),
     });
-    if (answer.ok) return location.assign('/');
+    if (answer.ok) return location.assign('/' + location.hash);  // the page that was asked for
     said.textContent = (await answer.json()).detail;
   } catch {
     said.textContent = 'the server does not answer';

@@ -1,6 +1,7 @@
 // Alerts, each until somebody acknowledges it, with who and when.
 
 import type { App } from '../state/app';
+import { why_no_command } from '../state/permission';
 import { AsOf } from '../frame/as_of';
 import type { KeptAlert } from '../server/messages';
 import { shown_name, shown_text } from '../names';
@@ -16,7 +17,7 @@ export function AlertsPage({ app }: { app: App }) {
   const known_as = session.value?.name ?? null;
   const who = settings.person.value;
   const unnamed = known_as === null && who.trim() === '';
-  const mute = unnamed ? 'Say who you are first' : null;
+  const mute = why_no_command(app) ?? (unnamed ? 'Say who you are first' : null);
   const acknowledge = (some: readonly KeptAlert[]) => void actions.ask('Acknowledge', alerts.acknowledge(some, who.trim()));
   return (
     <div class="page">
@@ -28,7 +29,7 @@ export function AlertsPage({ app }: { app: App }) {
           {known_as === null
             ? <label class="line">Your name <input type="text" value={who} maxLength={100} autocomplete="name" placeholder="who acknowledges" required aria-describedby="who-acknowledges" data-test="person" onInput={(event) => settings.set_person(event.currentTarget.value)} /></label>
             : <span>As <b>{shown_name(known_as)}</b></span>}
-          <button class="small" data-test="acknowledge-all" disabled={open.length === 0 || unnamed} title={mute ?? ''} onClick={() => acknowledge(open)}>Acknowledge all</button>
+          <button class="small" data-test="acknowledge-all" disabled={open.length === 0 || mute !== null} title={mute ?? ''} onClick={() => acknowledge(open)}>Acknowledge all</button>
         </div>
       )}
       {unnamed && open.length > 0 && <p class="hint" id="who-acknowledges" data-test="unnamed">An alert is acknowledged by somebody: say who you are.</p>}

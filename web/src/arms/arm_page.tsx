@@ -10,6 +10,7 @@ import { Link } from '../route/link';
 import { Plot, units_of } from '../plot/plot';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
 import type { App } from '../state/app';
+import { why_no_command } from '../state/permission';
 import { arm_colour } from '../state/palette';
 import { instant_of, pose_at } from '../state/instant';
 import { seen_app } from '../state/as_of';
@@ -17,7 +18,7 @@ import { use_beats } from '../state/seen';
 import { known_lanes } from '../timeline/known';
 import { lane_in_words } from '../timeline/told';
 import { short_names, shown_name } from '../names';
-import { reason_in_words, title_of, why_mute } from '../wording';
+import { reason_in_words, title_of } from '../wording';
 import { StatePill } from './arms';
 
 const kPlotted_s = 20;
@@ -58,7 +59,7 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
 }
 
 function StopOfArm({ arm, app }: { arm: Arm; app: App }) {
-  const mute = why_mute(app.store.link);
+  const mute = why_no_command(app);
   const state = app.store.arm_state(arm);
   return state === 'stopped' || state === 'fault'
     ? <button class="small" data-test="resume-arm" title="Leads to what is to be looked at first" onClick={() => app.router.go({ page: 'recovery' })}>Resume…</button>
@@ -67,10 +68,10 @@ function StopOfArm({ arm, app }: { arm: Arm; app: App }) {
 
 /** Along a way that the server plans; the job waits its turn as any other. */
 function SendTo({ arm, app }: { arm: Arm; app: App }) {
-  const { cell, link } = app.store;
+  const { cell } = app.store;
   const states = cell ? states_of(arm_of(cell, arm.name)) : [];
   const [state, set_state] = useState('home');
-  const mute = why_mute(link);
+  const mute = why_no_command(app);
   return (
     <div class="line wrap">
       <label class="line">Send to <select value={state} data-test="send-state" onChange={(event) => set_state(event.currentTarget.value)}>

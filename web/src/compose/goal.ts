@@ -1,5 +1,6 @@
 // A goal as a form has it: numbers are texts until they are asked for. Pure.
 
+import { no_number, number_in } from '../frame/number_text';
 import type { Cell, CellArm } from '../server/messages';
 import type { ToolPose } from '../view/tool_in_hand';
 
@@ -17,7 +18,8 @@ export function states_of(arm: CellArm | undefined): string[] {
 
 /** The body of POST /plan, or what cannot be read. */
 export function plan_request(form: GoalForm): { ok: true; text: string } | { ok: false; fault: string } {
-  const speed = Number(form.speed);
+  const speed = number_in(form.speed);
+  if (speed === null) return { ok: false, fault: `Speed: ${no_number(form.speed)}` };
   if (!(speed > 0 && speed <= 100)) return { ok: false, fault: `Speed: more than 0, at most 100 %; found ${form.speed}` };
   const to = goal_of(form);
   if (typeof to === 'string') return { ok: false, fault: to };

@@ -37,14 +37,20 @@ const kWords: Record<Verdict['verdict'], string> = {
   free: '✓ free', conflict: '✕ in conflict', undecided: '? not proven free',
 };
 
+/** Nothing is in its way but those that its arm does first. */
+export function only_in_turn({ verdict, waits_on }: Pick<Verdict, 'verdict' | 'waits_on'>): boolean {
+  return verdict === 'conflict' && waits_on.length > 0 && waits_on.every(({ kind }) => kind === 'order');
+}
+
 function Said({ title, verdict, show }: { title: string; verdict: Verdict; show: ((t_s: number) => void) | null }) {
   const { earliest_start_s: start_s, clearance_bound_m: bound_m, self_clearance_bound_m: self_m } = verdict;
-  const in_words = verdict.verdict === 'free' ? wait_in_words : conflict_in_words;
+  const in_turn = only_in_turn(verdict);
+  const in_words = verdict.verdict === 'free' || in_turn ? wait_in_words : conflict_in_words;
   const could = verdict.verdict === 'free' ? 'would' : 'could';
-  const when = start_s === null ? 'Not as things stand.' : start_s > 0 ? `It ${could} start in ${seconds(start_s)}.` : `It ${could} start now.`;
+  const when = start_s === null ? (in_turn ? 'When it would start is decided at its turn.' : 'Not as things stand.') : start_s > 0 ? `It ${could} start in ${seconds(start_s)}.` : `It ${could} start now.`;
   return (
     <>
-      <div class={`verdict-word ${verdict.verdict}`}><b>{title}</b>: {kWords[verdict.verdict]}</div>
+      <div class={`verdict-word ${in_turn ? 'in-turn' : verdict.verdict}`}><b>{title}</b>: {in_turn ? '… comes after others' : kWords[verdict.verdict]}</div>
       <div>{when}</div>
       {bound_m !== null && <div class="dim small">At least {millimetres(bound_m)} are kept{self_m !== null && `, ${millimetres(self_m)} from the arm's own links`}, proven.</div>}
       {verdict.waits_on.map((conflict, i) => (

@@ -9,6 +9,7 @@ import { Link } from '../route/link';
 import { kApi } from '../server/api';
 import type { Problem } from '../server/messages';
 import type { App } from '../state/app';
+import { why_no_command } from '../state/permission';
 import { why_mute } from '../wording';
 import { read_bag, type Bag } from './bag';
 import { composed, type Composed } from './composed';
@@ -38,7 +39,7 @@ export function NewJob({ app }: { app: App }) {
   const { outcome, chosen } = said.of === text ? said : kNothingSaid;
   const set_outcome = (next: Outcome) => set_said({ of: text, outcome: next, chosen });
   const set_chosen = (next: Chosen) => set_said({ of: text, outcome, chosen: next });
-  const change = (next: string) => { app.draft.value = next; };
+  const change = (next: string) => { app.draft.value = next.replace(/^\uFEFF/, ''); };  // some editors begin files by it
   const show_end = (next: string) => set_said({ of: next, outcome: { kind: 'none' }, chosen: { t_s: motion_of(read_bag(next))?.duration_s ?? 0 } });
   const made = use_composed(text);
   const bag = useMemo(() => read_bag(text.length > kLong ? '' : text), [text]);  // ways to goals are shown of short ones
@@ -46,12 +47,14 @@ export function NewJob({ app }: { app: App }) {
   const motion = useMemo(() => (ways.kind === 'planned' ? motion_of(ways.ways.bag) : motion_of_parts(made?.parts ?? [])), [made, ways]);
   // Where a goal leads is shown as soon as there is a way.
   useEffect(() => { if (ways.kind === 'planned' && ways.ways.planned > 0 && motion) set_chosen({ t_s: motion.duration_s }); }, [ways]);
-  const mute = why_mute(app.store.link);
-  const idle = made === null || text.trim() === '' || outcome.kind === 'busy' || mute !== null;
+  const unheard = why_mute(app.store.link);
+  const mute = why_no_command(app);
+  const busy = made === null || text.trim() === '' || outcome.kind === 'busy';
+  const idle = busy || unheard !== null;
   // The same once more is another job: it has to be asked for by the button that says so.
   const is_sent = outcome.kind === 'accepted';
   const send = async () => {
-    if (idle) return;
+    if (busy || mute !== null) return;
     set_outcome({ kind: 'busy', what: 'Sending…' });
     set_outcome(await sent(made, app));
   };
@@ -73,12 +76,13 @@ export function NewJob({ app }: { app: App }) {
       </details>
       <Examples app={app} change={change} />
       <TextField text={text} change={change} send={() => { if (!is_sent) void send(); }} />
+      {is_yaml(text) && <p class="hint" data-test="yaml">This looks like YAML, as ROS's tools print it. The server reads JSON: <code>python3 -c 'import json, sys, yaml; json.dump(yaml.safe_load(sys.stdin), sys.stdout)' &lt; job.yaml</code></p>}
       {motion && <Preview motion={motion} app={app} chosen={chosen} />}
       {ways.kind !== 'none' && <WaysSaid ways={ways} />}
       <div class="line">
         <span class="grow dim small" data-test="bag">{made === null ? 'Reading…' : kind_in_words(made)}</span>
         <button data-test="judge" title="As things are now; nothing is stored" disabled={idle} onClick={() => void judge()}>Judge</button>
-        <button class={is_sent ? '' : 'primary'} data-test="send" title={mute ?? (is_sent ? 'It was sent; this makes another one of it' : '')} disabled={idle}
+        <button class={is_sent ? '' : 'primary'} data-test="send" title={mute ?? (is_sent ? 'It was sent; this makes another one of it' : '')} disabled={busy || mute !== null}
           onClick={(event) => { if (event.detail < 2) void send(); /* not by the second click of a double one */ }}>
           {outcome.kind === 'busy' ? outcome.what : `${made?.kind === 'bag' ? 'Send all' : 'Send'}${is_sent ? ' again' : ''}`}
         </button>
@@ -106,8 +110,13 @@ function use_composed(text: string): Composed | null {
   return useMemo(() => (!is_long ? composed(text) : read?.of === text ? read.made : null), [text, is_long, read]);
 }
 
+/** It begins with a key, or with the line that begins a document. */
+export function is_yaml(text: string): boolean {
+  return /^\s*(---|[A-Za-z_]\w*:)(\s|$)/.test(text.slice(0, 200));
+}
+
 function kind_in_words({ kind, bodies }: Composed): string {
-  return kind === 'bag' ? `A batch of ${bodies.length} jobs: all are accepted or none` : 'Ctrl + Enter sends';
+  return kind === 'bag' ? `A batch of ${bodies.length} ${bodies.length === 1 ? 'job' : 'jobs: all are accepted or none'}` : 'Ctrl + Enter sends';
 }
 
 type WaysState = { kind: 'none' } | { kind: 'planning' } | { kind: 'planned'; ways: Ways };

@@ -6,6 +6,7 @@ import type { Plan, Problem } from '../server/messages';
 import type { App } from '../state/app';
 import { millimetres, seconds, why_mute } from '../wording';
 import { InSight } from '../frame/in_sight';
+import { NumberField } from '../frame/number_field';
 import { pretty } from './example';
 import type { Grip } from '../view/by_hand';
 import type { ToolPose } from '../view/tool_in_hand';
@@ -65,7 +66,7 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
           {kKinds.map(([kind, title]) => <option key={kind} value={kind}>{title}</option>)}
         </select></label>
         {shown.kind === 'named' && <Named form={shown} app={app} set={set} />}
-        <label>Speed <input class="narrow" type="number" min="1" max="100" value={shown.speed} data-test="plan-speed" onInput={(event) => set({ speed: event.currentTarget.value })} /> %</label>
+        <label>Speed <NumberField narrow value={shown.speed} step={1} test="plan-speed" change={(speed) => set({ speed })} /> %</label>
       </div>
       {shown.kind !== 'named' && <Goal form={shown} app={app} set={set} />}
       {shown.kind === 'pose' && <Drag form={shown} app={app} drag={drag} />}

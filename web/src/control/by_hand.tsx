@@ -5,7 +5,8 @@ import { arm_of, states_of } from '../compose/goal';
 import { InSight } from '../frame/in_sight';
 import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
-import { reason_in_words, why_mute } from '../wording';
+import { why_no_command } from '../state/permission';
+import { reason_in_words } from '../wording';
 import { shown_name } from '../names';
 
 export function ByHand({ arm, app }: { arm: Arm; app: App }) {
@@ -36,8 +37,8 @@ export function ByHand({ arm, app }: { arm: Arm; app: App }) {
 }
 
 function Control({ app }: { app: App }) {
-  const { hand, settings, session, store } = app;
-  const mute = why_mute(store.link);
+  const { hand, settings, session } = app;
+  const mute = why_no_command(app);
   const who = session.value?.name ?? settings.person.value.trim();
   const holder = hand.holder.value;
   if (hand.key.value !== null) {

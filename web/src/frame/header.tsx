@@ -2,6 +2,7 @@
 
 import { Link } from '../route/link';
 import type { App } from '../state/app';
+import { is_viewer } from '../state/permission';
 import { use_beats } from '../state/seen';
 import { waiting_arms } from '../recovery/needs';
 import { wall_time } from '../wall_time';
@@ -22,6 +23,7 @@ export function Header({ app }: { app: App }) {
       <Navigation app={app} />
       <div class="facts">
         <ConnectionState app={app} />
+        <OnlyLooks app={app} />
         <OpenAlerts app={app} />
         <InControl app={app} />
         {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
@@ -32,6 +34,17 @@ export function Header({ app }: { app: App }) {
         onClick={() => app.router.go({ page: 'recovery' })}>Resume…</button>
       <StopButton app={app} />
     </header>
+  );
+}
+
+/** Said before a command is refused. */
+function OnlyLooks({ app }: { app: App }) {
+  const session = app.session.value;
+  if (!is_viewer(session)) return null;
+  return (
+    <span class="fact gives-way" data-test="only-looks" title={`${shown_name(session?.name ?? '')} is a viewer: commands take the role operator`}>
+      <Link app={app} to={{ page: 'settings' }}>{shown_name(session?.name ?? '')}: may only look</Link>
+    </span>
   );
 }
 

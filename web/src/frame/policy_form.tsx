@@ -3,8 +3,9 @@
 import { useState } from 'preact/hooks';
 import type { Cell } from '../server/messages';
 import type { App } from '../state/app';
+import { why_no_command } from '../state/permission';
 import { why_no_change } from '../policies/change';
-import { why_mute } from '../wording';
+
 
 type Policy = Cell['scheduling']['policy'];
 const kPolicies: Record<Policy, string> = {
@@ -21,7 +22,7 @@ export function PolicyForm({ app }: { app: App }) {
   const { store } = app;
   const [chosen, set_chosen] = useState<string | null>(null);
   const policy = chosen ?? store.policy;
-  const mute = why_mute(store.link) ?? why_no_change(store);
+  const mute = why_no_command(app) ?? why_no_change(store);
   return (
     <form
       data-test="policy-form"

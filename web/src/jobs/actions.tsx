@@ -1,10 +1,11 @@
 // What can be asked for a job that has not ended, in its row and on its page alike.
 
-import { useState } from 'preact/hooks';
+import { use_question } from '../frame/question';
 import { kCanReplan, type Job } from '../server/messages';
 import type { App } from '../state/app';
+import { why_no_command } from '../state/permission';
 import { is_terminal } from '../state/job_book';
-import { title_of, why_mute } from '../wording';
+import { title_of } from '../wording';
 
 interface Props { job: Job; app: App }
 
@@ -26,7 +27,7 @@ export function waits(job: Pick<Job, 'state'>): boolean {
 
 /** Who of those that wait goes first. */
 export function Urgency({ job, app }: Props) {
-  const mute = why_mute(app.store.link);
+  const mute = why_no_command(app);
   const step = (by: number, sign: string, what: string) => (
     <button class="small" disabled={mute !== null} title={mute ?? `${what}: priority ${job.priority + by}`} aria-label={`${what}: ${job.id}`}
       onClick={() => { void app.actions.set_priority(job.id, job.priority + by); }}>{sign}</button>
@@ -36,40 +37,40 @@ export function Urgency({ job, app }: Props) {
 
 /** The first click asks, the second does it; the question goes away by itself. */
 export function Cancel({ job, app, words }: Props & { words?: string }) {
-  const [asked, set_asked] = useState(false);
-  const mute = why_mute(app.store.link);
-  if (!asked) {
+  const question = use_question();
+  const mute = why_no_command(app);
+  if (!question.asked) {
     return (
-      <button class={words === undefined ? 'cancel' : 'small'} data-test={words === undefined ? undefined : 'cancel-job'} disabled={job.stopping || mute !== null} title={mute ?? `Cancel ${job.id}`}
-        aria-label={`Cancel ${job.id}`} onClick={() => set_asked(true)}>{words ?? '×'}</button>
+      <button ref={question.button} class={words === undefined ? 'cancel' : 'small'} data-test={words === undefined ? undefined : 'cancel-job'} disabled={job.stopping || mute !== null} title={mute ?? `Cancel ${job.id}`}
+        aria-label={`Cancel ${job.id}`} onClick={question.ask}>{words ?? '×'}</button>
     );
   }
   const moves = job.state === 'running' || job.state === 'holding';
   return (
-    <div class="confirm" role="alertdialog" aria-label={`Cancel ${job.id}?`} onKeyDown={(event) => { if (event.key === 'Escape') { event.stopPropagation(); set_asked(false); } }}>
+    <div class="confirm" role="alertdialog" aria-label={`Cancel ${job.id}?`} onKeyDown={(event) => { if (event.key === 'Escape') { event.stopPropagation(); question.take_back(); } }}>
       <span>{moves ? `${title_of(job)} brakes on its path.` : `Cancel ${title_of(job)}?`}</span>
-      <button class="small danger" data-test="confirm-cancel" ref={(button) => button?.focus()} onClick={() => { set_asked(false); void app.actions.cancel(job.id); }}>Cancel it</button>
-      <button class="small" onClick={() => set_asked(false)}>Keep</button>
+      <button class="small danger" data-test="confirm-cancel" ref={(button) => button?.focus()} onClick={() => { question.end(); void app.actions.cancel(job.id); }}>Cancel it</button>
+      <button class="small" onClick={question.take_back}>Keep</button>
     </div>
   );
 }
 
 /** Of one that moves this is asked first: what its trajectory was to do on the way is lost. */
 function AnotherWay({ job, app }: Props) {
-  const [asked, set_asked] = useState(false);
-  const mute = why_mute(app.store.link);
+  const { asked, ...question } = use_question();
+  const mute = why_no_command(app);
   const moves = job.state === 'running' || job.state === 'holding';
   const ask = () => {
-    if (moves && !asked) return set_asked(true);
-    set_asked(false);
+    if (moves && !asked) return question.ask();
+    question.end();
     void app.actions.replan(job.id);
   };
   return (
     <div class="line">
-      <button class="small" data-test="replan" disabled={mute !== null || job.stopping} title={mute ?? 'From where its arm stands to where the job ends, past what rests there'} onClick={ask}>
+      <button ref={question.button} class="small" data-test="replan" disabled={mute !== null || job.stopping} title={mute ?? 'From where its arm stands to where the job ends, past what rests there'} onClick={ask}>
         {asked ? 'Brake, and plan another way' : 'Plan another way'}
       </button>
-      {asked && <><span class="small">What its trajectory was to do on the way is lost.</span><button class="small" onClick={() => set_asked(false)}>Keep its way</button></>}
+      {asked && <><span class="small">What its trajectory was to do on the way is lost.</span><button class="small" onClick={question.take_back}>Keep its way</button></>}
     </div>
   );
 }

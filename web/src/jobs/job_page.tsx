@@ -74,7 +74,7 @@ function States({ job, app }: Props) {
       <ol class="states" data-test="states">
         {times.map(([name, t_s], i) => (
           <li key={i} class={t_s === null ? 'open' : ''}>
-            <span>{name}</span><span class="mono" title={wall_of(job, name)}>{t_s === null ? '–' : former ? short_wall_time(wall_of(job, name), Date.now()) : clock(t_s)}</span>
+            <span>{name}</span><span class="mono" title={wall_of(job, name)}>{t_s === null ? '–' : former || t_s < 0 ? short_wall_time(wall_of(job, name), Date.now()) : clock(t_s)}</span>
             <span class="dim">{t_s === null || name === 'submitted' ? '' : `+${(t_s - job.submitted_s).toFixed(2)} s`}</span>
             <StoodFor stand={stands.find(({ from_s }) => from_s === t_s) ?? null} />
           </li>
@@ -91,7 +91,7 @@ function StoodFor({ stand }: { stand: Stand | null }) {
   return words === '' ? null : <span class="small" data-test="stood">{words}</span>;
 }
 
-/** Of a job of a former run the wall clock's times alone mean something now. */
+/** Of what was in a former run the wall clock's times alone mean something now. */
 function wall_of(job: Job, state: string): string {
   const at = state === 'submitted' ? job.submitted_at : state === 'started' ? job.started_at : job.ended_at;
   return at ?? '';

@@ -7,7 +7,8 @@ import { PolicyForm } from '../frame/policy_form';
 import { why_no_change } from './change';
 import type { Comparison, PolicyRun } from '../server/messages';
 import type { App } from '../state/app';
-import { clock, millimetres, seconds, why_mute } from '../wording';
+import { why_no_command } from '../state/permission';
+import { clock, millimetres, seconds , why_mute } from '../wording';
 import { ends_in_words, share_in_words } from './told';
 
 export function PoliciesPage({ app }: { app: App }) {
@@ -32,7 +33,8 @@ export function PoliciesPage({ app }: { app: App }) {
 
 function Asking({ app }: { app: App }) {
   const { comparing, store } = app;
-  const mute = why_mute(store.link);
+  const unheard = why_mute(store.link);
+  const mute = why_no_command(app);
   const latest = comparing.latest.value;
   const is_running = latest?.state === 'running';
   return (
@@ -46,7 +48,7 @@ function Asking({ app }: { app: App }) {
         {is_running
           ? <button class="small" data-test="cancel-comparison" onClick={() => void comparing.cancel()}>Give up</button>
           : <button class="small" data-test="compare" disabled={mute !== null} title={mute ?? 'Runs in the background'} onClick={() => void comparing.start(null)}>Compare</button>}
-        {latest === null && <button class="small" data-test="look-comparison" disabled={mute !== null} title={mute ?? 'That another page has asked for'} onClick={() => void comparing.look()}>Show the last one</button>}
+        {latest === null && <button class="small" data-test="look-comparison" disabled={unheard !== null} title={unheard ?? 'That another page has asked for'} onClick={() => void comparing.look()}>Show the last one</button>}
         <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? 'No comparison was made so far.' : ''}</span>
       </div>
       <InSight answer={comparing.refusal.value}>{comparing.refusal.value !== null && <p class="refused" role="alert" data-test="comparison-refused">{comparing.refusal.value}</p>}</InSight>
@@ -82,7 +84,7 @@ function Table({ comparison, app }: { comparison: Comparison; app: App }) {
 
 function Run({ run, jobs, longest_s, app }: { run: PolicyRun; jobs: number; longest_s: number; app: App }) {
   const { store, actions } = app;
-  const mute = why_mute(store.link) ?? why_no_change(store);
+  const mute = why_no_command(app) ?? why_no_change(store);
   const is_in_force = run.policy === store.policy;
   const ends = ends_in_words(run);
   return (

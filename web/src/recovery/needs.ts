@@ -20,16 +20,16 @@ export interface Need { words: string; resume: boolean; home: boolean }
 
 const kAtHome_rad = 0.02;
 
-/** `pose`: every joint; null: nobody knows where it stands. */
-export function need_of(arm: Arm, job: Job | null, pose: Readonly<Record<string, number>> | null): Need {
+/** `job`: that it is in the middle of; `pose`: every joint, null: nobody knows where it stands; `next`: that it begins afterwards. */
+export function need_of(arm: Arm, job: Job | null, pose: Readonly<Record<string, number>> | null, next: Job | null = null): Need {
   const name = job ? title_of(job) : '';
   switch (arm.state) {
     case 'fault':
-      return { words: 'Its controller is at fault: what it did has failed. Clear the fault there, then resume it.', resume: true, home: false };
+      return { words: `Its controller is at fault: what it did has failed. Clear the fault there, then resume it${next ? `: then ${title_of(next)} begins as soon as that is free` : ''}.`, resume: true, home: false };
     case 'stopped':
       return job
         ? { words: `Resume: ${name} goes on from ${Math.round(100 * job.progress)} % of its path as soon as that is free. Cancel it first if it should not.`, resume: true, home: false }
-        : { words: 'Resume: then it takes jobs again.', resume: true, home: false };
+        : { words: next ? `Resume: ${title_of(next)} begins as soon as that is free. Cancel it first if it should not.` : 'Resume: then it takes jobs again; none waits for it.', resume: true, home: false };
     case 'holding':
       return { words: `Stands on its path until the way of ${name || 'its job'} is free. Nothing to do.`, resume: false, home: false };
     case 'moving':

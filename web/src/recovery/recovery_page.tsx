@@ -3,13 +3,15 @@
 
 import { StatePill } from '../arms/arms';
 import { AsOf } from '../frame/as_of';
+import { Cancel } from '../jobs/actions';
 import { Link } from '../route/link';
 import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
+import { why_no_command } from '../state/permission';
 import { arm_colour } from '../state/palette';
 import { instant_of, pose_at } from '../state/instant';
 import { use_beats } from '../state/seen';
-import { clock, why_mute } from '../wording';
+import { clock, title_of } from '../wording';
 import { kChecks } from './checklist';
 import { cause_of, need_of, waiting_arms } from './needs';
 import { shown_name, shown_text } from '../names';
@@ -44,7 +46,7 @@ function waiting_in_words(waiting: number, arms: number, looks_back: boolean): s
 function Checks({ app, needed }: { app: App; needed: boolean }) {
   const { checklist } = app;
   const { left } = checklist;
-  const mute = why_mute(app.store.link);
+  const mute = why_no_command(app);
   return (
     <fieldset class="checks">
       <legend class="sr-only">Before the arms move again</legend>
@@ -54,7 +56,8 @@ function Checks({ app, needed }: { app: App; needed: boolean }) {
         </label>
       ))}
       <div class="line">
-        <button class="primary" data-test="resume-checked" disabled={!needed || left > 0 || mute !== null} title={mute ?? ''} onClick={() => void app.actions.resume()}>Resume all arms</button>
+        <button class="primary" data-test="resume-checked" disabled={!needed || left > 0 || mute !== null} title={mute ?? ''}
+          onClick={(event) => { if (event.detail < 2) void app.actions.resume(); /* not by the second click of a double one */ }}>Resume all arms</button>
         <span class="dim small" role="status" data-test="checks-left">{!needed ? 'Nothing is stopped.' : left > 0 ? `${left} still to confirm.` : 'They go on with their jobs as soon as their ways are free.'}</span>
       </div>
     </fieldset>
@@ -66,15 +69,18 @@ function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) 
   use_beats(app.store);
   const { store } = app;
   const job = arm.job === null ? null : store.job(arm.job);
-  const need = need_of(arm, job, pose_at(instant_of(app.router.address.value, store), store));
-  const mute = why_mute(store.link) ?? (guarded ? 'First confirm the list above' : null);
+  const next = store.next_of(arm.name);
+  const its = job ?? next;
+  const need = need_of(arm, job, pose_at(instant_of(app.router.address.value, store), store), next);
+  const mute = why_no_command(app) ?? (guarded ? 'First confirm the list above' : null);
   return (
     <li data-test={`need-${arm.name}`} style={{ '--arm': arm_colour([...store.arms.keys()], arm.name) }}>
       <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{shown_name(arm.name)}</Link><StatePill arm={arm} app={app} /></div>
       <p>{need.words}</p>
       <div class="line">
         {need.resume && <button class="small" data-test={`resume-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.resume_arm(arm.name)}>Resume {shown_name(arm.name)} alone</button>}
-        {need.resume && job && <Link app={app} to={{ page: 'job', id: job.id }}>Its job</Link>}
+        {need.resume && its && <Link app={app} to={{ page: 'job', id: its.id }}>{job ? 'Its job' : 'Its next job'}</Link>}
+        {need.resume && its && <Cancel job={its} app={app} words={`Cancel ${title_of(its)}`} />}
         {need.home && <button class="small" data-test={`home-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.send_to(arm.name, 'home', kHomeSpeed)}>Send {shown_name(arm.name)} home, slowly</button>}
       </div>
     </li>

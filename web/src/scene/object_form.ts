@@ -1,5 +1,6 @@
 // An object of the scene as a form has it: texts, lengths in metres, turns in degrees. Pure.
 
+import { no_number, number_in } from '../frame/number_text';
 import { shape_of, type SceneObject } from '../server/messages';
 
 export type Kind = 'box' | 'cylinder' | 'sphere';
@@ -23,17 +24,17 @@ export interface Form { name: string; kind: Kind; values: Record<string, string>
 /** What was typed and is not saved yet; the rest of a form follows the object. */
 export type Edits = Partial<Form>;
 
-type Field = readonly [key: string, label: string, step: string];
+type Field = readonly [key: string, label: string, step: number];
 interface Fields { legend: string; keys: readonly Field[] }
 
 const kSizes: Record<Kind, Fields> = {
-  box: { legend: 'Size, m', keys: [['size_x', 'x', '0.01'], ['size_y', 'y', '0.01'], ['size_z', 'z', '0.01']] },
-  cylinder: { legend: 'Size, m (along z)', keys: [['radius', 'radius', '0.01'], ['length', 'length', '0.01']] },
-  sphere: { legend: 'Size, m', keys: [['radius', 'radius', '0.01']] },
+  box: { legend: 'Size, m', keys: [['size_x', 'x', 0.01], ['size_y', 'y', 0.01], ['size_z', 'z', 0.01]] },
+  cylinder: { legend: 'Size, m (along z)', keys: [['radius', 'radius', 0.01], ['length', 'length', 0.01]] },
+  sphere: { legend: 'Size, m', keys: [['radius', 'radius', 0.01]] },
 };
 const kPose: readonly Fields[] = [
-  { legend: 'Position, m', keys: [['x', 'x', '0.05'], ['y', 'y', '0.05'], ['z', 'z', '0.05']] },
-  { legend: 'Turn about fixed axes, degrees', keys: [['roll', 'roll', '5'], ['pitch', 'pitch', '5'], ['yaw', 'yaw', '5']] },
+  { legend: 'Position, m', keys: [['x', 'x', 0.05], ['y', 'y', 0.05], ['z', 'z', 0.05]] },
+  { legend: 'Turn about fixed axes, degrees', keys: [['roll', 'roll', 5], ['pitch', 'pitch', 5], ['yaw', 'yaw', 5]] },
 ];
 
 export function fields_of(kind: Kind): readonly Fields[] {
@@ -78,10 +79,10 @@ function text_of(value: number): string {
 export function object_of(form: Form): SceneObject | { fault: string } {
   const faults: string[] = [];
   const number_of = (key: string): number => {
-    const text = form.values[key]?.trim() ?? '';
-    const value = text === '' ? NaN : Number(text);
-    if (!Number.isFinite(value)) faults.push(`${key.replace('_', ' ')}: "${text}" is no number`);
-    return value;
+    const text = form.values[key] ?? '';
+    const value = number_in(text);
+    if (value === null) faults.push(`${key.replace('_', ' ')}: ${no_number(text)}`);
+    return value ?? NaN;
   };
   const name_fault = fault_of_name(form.name);
   if (name_fault !== null) faults.push(name_fault);

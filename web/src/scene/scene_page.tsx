@@ -4,10 +4,13 @@ import { useEffect, useState } from 'preact/hooks';
 import { Refused } from '../compose/refused';
 import { AsOf } from '../frame/as_of';
 import { InSight } from '../frame/in_sight';
+import { NumberField } from '../frame/number_field';
+import { use_question } from '../frame/question';
 import { Link } from '../route/link';
 import { shape_of, type Problem, type SceneObject } from '../server/messages';
 import type { App } from '../state/app';
-import { number_in_words, why_mute } from '../wording';
+import { why_no_command } from '../state/permission';
+import { number_in_words } from '../wording';
 import { blank_form, edits_since, fault_of_name, fields_of, form_of, kKinds, kLongestName, object_of, with_edits, type Edits, type Kind } from './object_form';
 import { shown_name } from '../names';
 
@@ -66,7 +69,7 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
   const edit = (more: Edits) => set_edits((now) => ({ ...now, ...more, values: { ...now.values, ...more.values } }));
   const form = with_edits(chosen ? form_of(chosen) : blank_form(), edits);
   const [problem, set_problem] = useState<Problem | null>(null);
-  const mute = why_mute(app.store.link);
+  const mute = why_no_command(app);
   const name_fault = form.name === '' ? null : fault_of_name(form.name);
   const submit = async (event: Event) => {
     event.preventDefault();
@@ -93,8 +96,7 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
         <fieldset key={legend}>
           <legend>{legend}</legend>
           {keys.map(([key, label, step]) => (
-            <label key={key}>{label} <input type="number" required step={step} value={form.values[key] ?? ''} data-test={`object-${key}`}
-              onInput={(event) => edit({ values: { [key]: event.currentTarget.value } })} /></label>
+            <label key={key}>{label} <NumberField value={form.values[key] ?? ''} step={step} test={`object-${key}`} change={(text) => edit({ values: { [key]: text } })} /></label>
           ))}
         </fieldset>
       ))}
@@ -109,12 +111,12 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
 }
 
 function Remove({ object, app }: { object: SceneObject; app: App }) {
-  const [asked, set_asked] = useState(false);
-  const mute = why_mute(app.store.link);
+  const question = use_question();
+  const mute = why_no_command(app);
   const remove = async () => {
     if (await app.actions.ask(`Remove ${object.name}`, app.api.remove_object(object.name))) app.router.go({ page: 'scene', name: null });
   };
-  return asked
-    ? <><button type="button" class="danger" data-test="object-removal" disabled={mute !== null} title={mute ?? ''} onClick={() => void remove()}>Remove {shown_name(object.name)}</button><button type="button" onClick={() => set_asked(false)}>Keep</button></>
-    : <button type="button" data-test="object-remove" disabled={mute !== null} title={mute ?? ''} onClick={() => set_asked(true)}>Remove…</button>;
+  return question.asked
+    ? <><button type="button" class="danger" data-test="object-removal" disabled={mute !== null} title={mute ?? ''} onClick={() => void remove()}>Remove {shown_name(object.name)}</button><button type="button" onClick={question.take_back}>Keep</button></>
+    : <button ref={question.button} type="button" data-test="object-remove" disabled={mute !== null} title={mute ?? ''} onClick={question.ask}>Remove…</button>;
 }

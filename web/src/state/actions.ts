@@ -1,6 +1,7 @@
 // What a click may ask of the server, with the answer shown where it concerns everyone.
 
 import { signal } from '@preact/signals';
+import { short_wall_time } from '../wall_time';
 import type { Answer, Api } from '../server/api';
 import type { Timers } from '../server/connection';
 import { follow_job } from '../server/follow_job';
@@ -79,5 +80,5 @@ export class Actions {
 /** Status 0: nobody has answered, so that nobody knows whether it was heard. */
 function why_not(what: string, problem: Problem): string {
   if (problem.status !== 0) return `${what} was refused: ${problem.detail ?? problem.title}`;
-  return `${what} was not answered: the server may not have heard it, and arms may still move. Ask again, or use the cell's own emergency stop.`;
+  return `${what} was not answered at ${short_wall_time(Date.now(), Date.now())}: the server may not have heard it, and arms may still move. Ask again, or use the cell's own emergency stop.`;
 }

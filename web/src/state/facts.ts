@@ -110,13 +110,19 @@ export class Facts {
     return arm.state === 'idle' && this.waiting_of(arm.name) ? 'waiting' : arm.state;
   }
 
-  /** The job that an arm would go on with, where that waits; null: there is none. */
-  waiting_of(arm: string): Job | null {
+  /** The job that an arm would go on with, of those that have not begun; null: there is none. */
+  next_of(arm: string): Job | null {
     for (const list of ['scheduled', 'backlog', 'queued'] as const) {
       const next = this.jobs(list).find((job) => job.arms.includes(arm));
-      if (next) return next.state === 'backlogged' || next.waits_on.length > 0 ? next : null;
+      if (next) return next;
     }
     return null;
+  }
+
+  /** The same, where that waits. */
+  waiting_of(arm: string): Job | null {
+    const next = this.next_of(arm);
+    return next && (next.state === 'backlogged' || next.waits_on.length > 0) ? next : null;
   }
 
   /** The arm's configuration as last measured, in the order of its joints. */

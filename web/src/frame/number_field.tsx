@@ -1,0 +1,21 @@
+// A field for one number. It is text, so that nothing of what was typed is dropped unseen: Chromium makes 015 of
+// 0,15 in a field of the type number. Arrow keys step as there.
+
+import { number_in, stepped } from './number_text';
+
+interface Props { value: string; step: number; test: string; narrow?: boolean; change(text: string): void }
+
+export function NumberField({ value, step, test, narrow, change }: Props) {
+  const number = number_in(value);
+  const on_key = (event: KeyboardEvent) => {
+    const steps = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (steps === undefined) return;
+    event.preventDefault();
+    change(stepped(value, steps * step));
+  };
+  return (
+    <input type="text" role="spinbutton" class={narrow ? 'narrow' : ''} required autocomplete="off" spellcheck={false} value={value} data-test={test}
+      aria-valuenow={number ?? undefined} aria-valuetext={value} aria-invalid={number === null}
+      onKeyDown={on_key} onInput={(event) => change(event.currentTarget.value)} />
+  );
+}

@@ -1,0 +1,18 @@
+// One number as a person types it. Pure.
+
+/** Null: it is none. With a comma it is none, either: who writes 1,500 may mean the one or the other. */
+export function number_in(text: string): number | null {
+  const value = text.trim() === '' ? NaN : Number(text);
+  return Number.isFinite(value) ? value : null;
+}
+
+/** Why it is none, in words. */
+export function no_number(text: string): string {
+  return `"${text.trim()}" is no number${text.includes(',') ? ': the decimal sign is a point' : ''}`;
+}
+
+/** So much more, in the digits of the step. */
+export function stepped(text: string, by: number): string {
+  const value = number_in(text);
+  return value === null ? text : String(Number((value + by).toFixed(6)));
+}

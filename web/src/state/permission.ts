@@ -1,0 +1,15 @@
+// What whoever uses this browser may do, by the role of their token. The server decides; the page says it before.
+
+import type { Session } from '../server/messages';
+import { why_mute } from '../wording';
+import type { App } from './app';
+
+/** Whose token lets them look only. */
+export function is_viewer(session: Session | null): boolean {
+  return session?.role === 'viewer';
+}
+
+/** Why no command can be given now; null when one can. */
+export function why_no_command({ store, session }: Pick<App, 'store' | 'session'>): string | null {
+  return why_mute(store.link) ?? (is_viewer(session.value) ? 'Your token may only look: this takes the role operator' : null);
+}

@@ -1,0 +1,23 @@
+import { describe, expect, it } from 'vitest';
+import { only_in_turn } from '../src/compose/judged';
+import { is_yaml } from '../src/compose/new_job';
+import type { WaitsOn } from '../src/server/messages';
+import { wait_json } from './samples';
+
+const wait = (kind: string) => wait_json({ kind }) as WaitsOn;
+
+describe('a job that was asked about', () => {
+  it('merely comes after others where nothing but their order is in its way', () => {
+    expect(only_in_turn({ verdict: 'conflict', waits_on: [wait('order'), wait('order')] })).toBe(true);
+    expect(only_in_turn({ verdict: 'conflict', waits_on: [wait('order'), wait('job')] })).toBe(false);
+    expect(only_in_turn({ verdict: 'conflict', waits_on: [] })).toBe(false);
+    expect(only_in_turn({ verdict: 'undecided', waits_on: [wait('order')] })).toBe(false);
+  });
+});
+
+describe('what was pasted', () => {
+  it('is told as YAML where it begins as ROS prints it', () => {
+    expect(['joint_names:\n- a', '---\ntrajectory:', 'header:\n  stamp: 1'].map(is_yaml)).toEqual([true, true, true]);
+    expect(['{"a": 1}', '[1]', '', 'hello', '"a: b"'].map(is_yaml)).toEqual(Array(5).fill(false));
+  });
+});

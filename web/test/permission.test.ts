@@ -1,0 +1,17 @@
+import { signal } from '@preact/signals';
+import { describe, expect, it } from 'vitest';
+import type { Session } from '../src/server/messages';
+import { why_no_command } from '../src/state/permission';
+import { Store } from '../src/state/store';
+
+describe('a command', () => {
+  const store = new Store();
+  store.set_link({ status: 'open' });
+  const why = (session: Session | null) => why_no_command({ store, session: signal(session) });
+  const with_role = (role: Session['role']): Session => ({ asks_for_token: true, name: 'vic', role });
+
+  it('is for whoever may operate the cell', () => {
+    expect(why(with_role('viewer'))).toMatch(/takes the role operator/);
+    expect([with_role('operator'), with_role('admin'), { asks_for_token: false, name: null, role: 'admin' as const }, null].map(why)).toEqual([null, null, null, null]);
+  });
+});
