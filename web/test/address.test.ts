@@ -24,6 +24,7 @@ describe('addresses', () => {
     expect(parse_address('#/job/a?t=-1&camera=1,2,x,0,0,0').t_s).toBeNull();
     expect(parse_address('#/job/a?t=-1&camera=1,2,x,0,0,0').camera).toBeNull();
     expect(parse_address('#/?camera=1,2,3,4,5,6,7').camera).toBeNull();
+    expect(parse_address('#/?camera=1,2,3,1,2,3').camera).toBeNull();
     expect(parse_address('#/?t=').t_s).toBeNull();
     expect(parse_address('#/?t=3&run=<b>').run).toBeNull();
     expect(parse_address('#/?run=7997886f').run).toBeNull();

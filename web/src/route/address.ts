@@ -68,10 +68,13 @@ function parse_run(text: string | null): string | null {
   return text !== null && /^[0-9a-f]{8}/i.test(text) ? text.slice(0, 8) : null;
 }
 
+const kLeast_m = 0.01;
+
 function parse_camera(text: string | null): Camera | null {
   const [a, b, c, d, e, f, ...more] = (text ?? '').split(',').map((part) => (part === '' ? NaN : Number(part)));
   if (a === undefined || b === undefined || c === undefined || d === undefined || e === undefined || f === undefined) return null;
   const camera: Camera = [a, b, c, d, e, f];
+  if (Math.hypot(a - d, b - e, c - f) < kLeast_m) return null;  // it would look nowhere
   return more.length === 0 && camera.every((value) => Number.isFinite(value) && Math.abs(value) < 1000) ? camera : null;
 }
 
