@@ -98,6 +98,14 @@ test('an address shows the same to whoever opens it: job, instant and camera', {
   assert.equal(await other.evaluate(() => location.href), address);
   // It listens since then: of before it has what the server kept.
   await other.locator('[data-test=instant]').waitFor();
+  const middle_s = () => other.locator('[data-test=lanes]').evaluate(({ dataset }) => Number(dataset.from) + Number(dataset.length) / 2);
+  const held_s = Number(/[?&]t=([\d.]+)/.exec(address)[1]);
+  assert.ok(Math.abs(await middle_s() - held_s) < 0.01, 'its timeline stands around that instant');
+  // The page is loaded before it knows how late it is: a time of hours ago is not taken for one that is far ahead.
+  await go_to(other, '#/?t=7200');
+  await other.reload();
+  await other.locator('[data-test=lanes]').waitFor();
+  assert.equal(await middle_s(), 7200);
   // What nobody heard it does not show, nor another instant in its place.
   await go_to(other, '#/?t=3&run=00000000');
   await other.locator('[data-test=unheard]', { hasText: 'another run' }).waitFor();

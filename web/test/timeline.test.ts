@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { Forecast, Job } from '../src/server/messages';
 import { drawn_of, lanes_of, mark_at, pasts_of, type Lane } from '../src/timeline/lanes';
-import { widest_free } from '../src/timeline/sheet';
+import { sheet_of, widest_free } from '../src/timeline/sheet';
 import { around, begin_of, kFollowing, kNowAt, moved, tick_of, zoomed } from '../src/timeline/span';
 import { lane_in_words } from '../src/timeline/told';
 import { job_json, wait_json } from './samples';
@@ -78,12 +78,19 @@ describe('the span of the timeline', () => {
   });
 
   it('zooms about the instant that is pointed at, within bounds', () => {
-    const held = around({ length_s: 40, held_from_s: null }, 60, 100);
+    const held = around({ length_s: 40, held_from_s: null }, 60);
     expect(held.held_from_s).toBe(40);
     const near = zoomed(held, 0.5, 100, 0.25);
     expect(near).toEqual({ length_s: 20, held_from_s: 45 });
     expect(zoomed(held, 1e9, 100).length_s).toBe(3600);
     expect(zoomed(kFollowing, 1e-9, 100)).toEqual({ length_s: 4, held_from_s: null });
+  });
+
+  it('shows an instant that is looked at wherever it lies, also while it is not known yet what time it is', () => {
+    const opened = around(kFollowing, 873.92);
+    const sheet = sheet_of(1000, 100, opened, 0);
+    expect((sheet.x(873.92) - sheet.x(opened.held_from_s ?? 0)) / (sheet.x(923.92) - sheet.x(873.92))).toBeCloseTo(0.5);
+    expect(around(kFollowing, 0).held_from_s).toBe(-25);
   });
 
   it('never goes farther than what may be known', () => {

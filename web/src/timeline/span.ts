@@ -32,9 +32,9 @@ export function moved(span: Span, by_s: number, now_s: number): Span {
   return within({ length_s: span.length_s, held_from_s: begin_of(span, now_s) + by_s }, now_s);
 }
 
-/** Held so that an instant stands in its middle. */
-export function around(span: Span, t_s: number, now_s: number): Span {
-  return within({ length_s: span.length_s, held_from_s: t_s - span.length_s / 2 }, now_s);
+/** Held so that an instant stands in its middle: any, as an address is opened before it is known what time it is now. */
+export function around(span: Span, t_s: number): Span {
+  return { length_s: span.length_s, held_from_s: t_s - span.length_s / 2 };
 }
 
 function within(span: Span, now_s: number): Span {

@@ -31,7 +31,7 @@ export function Timeline({ app }: { app: App }) {
   // Before anybody can press another key: what that one asks for is not undone.
   useLayoutEffect(() => {
     const { span: now } = drawing.current;
-    change(held_s === null ? { ...now, held_from_s: null } : is_shown(now, held_s, store.t_s) ? now : around(now, held_s, store.t_s));
+    change(held_s === null ? { ...now, held_from_s: null } : is_shown(now, held_s, store.t_s) ? now : around(now, held_s));
   }, [held_s]);
   const stale = use_stale(store);
   const is_stale = useRef(stale);
@@ -57,7 +57,7 @@ export function Timeline({ app }: { app: App }) {
   /** By key: shown where it stands, and said. */
   const choose = (event: EventMark) => {
     const { span: now } = drawing.current;
-    change(is_shown({ ...now, held_from_s: begin_of(now, store.t_s) }, event.t_s, store.t_s) ? moved(now, 0, store.t_s) : around(now, event.t_s, store.t_s));
+    change(is_shown({ ...now, held_from_s: begin_of(now, store.t_s) }, event.t_s, store.t_s) ? moved(now, 0, store.t_s) : around(now, event.t_s));
     drawing.current.pointed = { mark: null, events: [event] };
     draw.current();
     const { sheet } = drawing.current;
