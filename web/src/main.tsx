@@ -64,6 +64,8 @@ const connection = new Connection({
     if (is_new_run) void look_before(message.stream, message.seq);
     if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
     if (message.type === 'snapshot' || message.type === 'alert') void hand.look();  // a change of control is told
+    // It has less than what the page was told before.
+    if (message.type === 'snapshot') archive.reopen();
     if (other_run) {
       motions.clear();
       archive.forget();

@@ -1,5 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { Archive } from '../src/history/archive';
+import { loaded_in_words } from '../src/history/loaded';
 import type { Answer } from '../src/server/api';
 import type { Job, JobPage, Problem } from '../src/server/messages';
 import { short_wall_time, wall_time } from '../src/wall_time';
@@ -34,12 +35,20 @@ describe('jobs that the page was never told of', () => {
     const { api, asked } = server(10_000);
     const archive = new Archive(api, (id) => Number(id.slice(1)) >= 9_500);
     await archive.more();
-    expect(asked).toEqual(['200 newest', '200 9800', '200 9600']);
+    expect(asked).toEqual(['1000 newest']);
     expect(archive.jobs.map(({ id }) => id).slice(0, 2)).toEqual(['j9499', 'j9498']);
-    expect(archive.jobs).toHaveLength(100);
+    expect(archive.jobs).toHaveLength(500);
     await archive.more();
-    expect(archive.jobs).toHaveLength(300);
+    expect(archive.jobs).toHaveLength(1500);
     expect(archive.state).toBe('more');
+  });
+
+  it('are gone on for past pages of which all is known', async () => {
+    const { api, asked } = server(10_000);
+    const archive = new Archive(api, (id) => Number(id.slice(1)) >= 7_500);
+    await archive.more();
+    expect(asked).toEqual(['1000 newest', '1000 9000', '1000 8000']);
+    expect(archive.jobs).toHaveLength(500);
   });
 
   it('end with the last, and are asked for one at a time', async () => {
@@ -70,11 +79,33 @@ describe('jobs that the page was never told of', () => {
     expect([archive.jobs.length, archive.state]).toEqual([0, 'more']);
   });
 
+  it('are asked for again when the page has less than it was told before, and none of them is lost', async () => {
+    const { api } = server(150);
+    let told = 100;
+    const archive = new Archive(api, (id) => Number(id.slice(1)) >= 150 - told);
+    await archive.more();
+    expect([archive.state, archive.jobs.length]).toEqual(['all', 50]);
+    told = 20;
+    archive.reopen();
+    expect([archive.state, archive.jobs.length]).toEqual(['more', 50]);
+    await archive.more();
+    expect([archive.state, archive.jobs.length]).toEqual(['all', 130]);
+  });
+
   it('say why they are not told', async () => {
     const problem = { type: 'about:blank', title: 'Busy', status: 503 } as Problem;
     const archive = new Archive({ jobs: async () => ({ ok: false, problem }), job: async () => ({ ok: false, problem }) }, () => false);
     await archive.more();
     expect([archive.fault, archive.state]).toEqual([problem, 'more']);
+  });
+});
+
+describe('how far back the jobs reach that are loaded', () => {
+  it('is said until there are no more: no number is taken for all that there were', () => {
+    expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 0, is_all: false })).toMatch(/^Those that ended since 0:09:12.0 are loaded\. Earlier ones are not/);
+    expect(loaded_in_words({ told: 1137, ended_from_s: null, fetched: 0, is_all: false })).toMatch(/^All of this run .* former runs are not loaded, and the filter/);
+    expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 800, is_all: false })).toMatch(/^The last 1008 are loaded/);
+    expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 932, is_all: true })).toBeNull();
   });
 });
 

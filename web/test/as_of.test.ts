@@ -1,8 +1,9 @@
 import { beforeEach, describe, expect, it } from 'vitest';
 import { is_later } from '../src/alerts/alerts';
 import { Router } from '../src/route/router';
-import { parse_message, type SequencedMessage } from '../src/server/messages';
+import { parse_message, type Job, type SequencedMessage } from '../src/server/messages';
 import { events_until, Seen, state_after } from '../src/state/as_of';
+import { JobBook } from '../src/state/job_book';
 import { Store } from '../src/state/store';
 import { arm_json, envelope, frame, job_json, snapshot } from './samples';
 
@@ -140,4 +141,33 @@ it('the log is bounded, and what is folded away still counts', () => {
   take(envelope('alert', 30_000, { level: 'info', text: 'late' }, { t_s: 2000 }));
   expect(store.log.entries.length).toBeLessThanOrEqual(3);
   expect(arm_at(2000)?.[0]).toBe('idle');
+});
+
+describe('since when all that ended are known', () => {
+  const ended = (count: number, last_s = 500) => Array.from({ length: count }, (_, i) => job_json(`e${i}`, { state: 'succeeded', started_s: 1, ended_s: last_s - i }));
+
+  it('is the beginning of the run where a snapshot has fewer than it may', () => {
+    take(snapshot(30, { jobs: ended(199) }));
+    expect(store.book.ended_from_s).toBeNull();
+  });
+
+  it('is the oldest that it has where there may be more', () => {
+    take(snapshot(30, { jobs: ended(200) }));
+    expect(store.book.ended_from_s).toBe(301);
+    take(envelope('job', 31, job_json('next', { state: 'succeeded', started_s: 1, ended_s: 501 }), { t_s: 501 }));
+    expect([store.book.ended_from_s, store.jobs('finished').length]).toEqual([301, 201]);
+  });
+
+  it('is the same, or earlier, at an instant that is looked back at', () => {
+    const [first_s, last_s] = [400, 500];
+    take(snapshot(130, { jobs: ended(200) }, { t_s: last_s }));
+    earlier(...Array.from({ length: 101 }, (_, i) => envelope('job', 30 + i, ended(101, last_s)[100 - i], { t_s: first_s + i })));
+    expect([at(450).jobs('finished').length, at(450).book.ended_from_s]).toEqual([150, 301]);
+  });
+
+  it('is later once the oldest are forgotten', () => {
+    const book = new JobBook(10);
+    for (let i = 1; i <= 11; i++) book.take(job_json(`e${i}`, { state: 'succeeded', ended_s: i }) as unknown as Job, i);
+    expect([book.list('finished').length, book.ended_from_s]).toEqual([10, 2]);
+  });
 });

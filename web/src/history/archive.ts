@@ -6,7 +6,7 @@ import { signal } from '@preact/signals';
 import type { Answer, Api } from '../server/api';
 import type { Job, Problem } from '../server/messages';
 
-const kPage = 200;
+const kPage = 1000;  // the server's most: somebody waits for what is asked for
 
 export class Archive {
   private readonly jobs_ = signal<ReadonlyMap<string, Job>>(new Map());
@@ -69,14 +69,19 @@ export class Archive {
     if (turn === this.turn_ && answer.ok) this.keep([answer.value]);
   }
 
-  /** Another run of the server: what it has is asked for anew. */
-  forget(): void {
+  /** The page is not told any more of all that it was: what it has not is asked for again. */
+  reopen(): void {
     this.turn_ += 1;
     this.cursor_ = null;
-    this.asked_.clear();
-    this.jobs_.value = new Map();
     this.state_.value = 'more';
     this.fault_.value = null;
+  }
+
+  /** Another run of the server: what it has is asked for anew. */
+  forget(): void {
+    this.reopen();
+    this.asked_.clear();
+    this.jobs_.value = new Map();
   }
 
   private keep(jobs: readonly Job[]): number {

@@ -9,6 +9,7 @@ import { arm_colour } from '../state/palette';
 import { short_wall_time, wall_time } from '../wall_time';
 import { clock, result_in_words, seconds, title_of, why_mute } from '../wording';
 import { shown_name } from '../names';
+import { loaded_in_words } from './loaded';
 
 const kShown = 100;
 
@@ -20,18 +21,20 @@ export function HistoryPage({ app }: { app: App }) {
   const former = archive.jobs;
   const known = app.store.jobs('finished');
   const all = former.length === 0 ? known : [...known, ...former];
+  const reach = app.store.link.status === 'recording' ? null : loaded_in_words({ told: known.length, ended_from_s: app.store.book.ended_from_s, fetched: former.length, is_all: archive.state === 'all' });
   const few = app.router.address.value.t_s === null && known.length < kShown && app.store.link.status === 'open';
   useEffect(() => { if (few) void archive.more(); }, [archive, few, app.store.stream]);
   const jobs = words === '' && !only_failed ? all : all.filter((job) => matches(job, words, only_failed));
   return (
     <div class="history">
       <section class="page" aria-label="Jobs that have ended">
-        <h2>History<span class="count">{jobs.length === all.length ? all.length : `${jobs.length} of ${all.length}`}</span></h2>
+        <h2>History<span class="count">{jobs.length === all.length ? all.length : `${jobs.length} of ${all.length}`}{reach === null ? '' : ' loaded'}</span></h2>
         <div class="filter">
           <input type="search" placeholder="Filter: id, name, arm, state, reason" aria-label="Filter ended jobs" value={words} onInput={(event) => set_words(event.currentTarget.value)} />
           <button class="small" aria-pressed={only_failed} title="Only jobs that did not succeed" onClick={() => set_only_failed(!only_failed)}>Failed</button>
         </div>
-        {jobs.length === 0 ? <p class="none">{all.length === 0 ? 'No job has ended yet.' : 'No job matches the filter.'}</p> : (
+        {reach !== null && <div class="line"><span class="dim small grow" data-test="loaded">{reach}</span><More app={app} show={() => undefined} /></div>}
+        {jobs.length === 0 ? <p class="none">{none_in_words(all.length, reach !== null)}</p> : (
           <table class="history-table" data-test="history">
             <thead><tr><th scope="col">ended</th><th scope="col">job</th><th scope="col">arms</th><th scope="col">state</th><th scope="col">waited</th><th scope="col">ran</th><th scope="col">reason</th></tr></thead>
             <tbody>{jobs.slice(0, shown).map((job, i, lines) => <Line key={job.id} job={job} app={app} before={lines[i - 1] ?? null} />)}</tbody>
@@ -43,17 +46,29 @@ export function HistoryPage({ app }: { app: App }) {
   );
 }
 
-/** What the page was not told of: of former runs of the server, where it keeps them. */
-function Earlier({ app: { archive, store }, show }: { app: App; show(): void }) {
+function none_in_words(all: number, may_be_more: boolean): string {
+  if (all > 0) return may_be_more ? 'No job that is loaded matches the filter.' : 'No job matches the filter.';
+  return may_be_more ? 'No job has ended in this run of the server.' : 'No job has ended yet.';
+}
+
+/** Loads what the page was not told of: of former runs of the server, too, where it keeps them. */
+function More({ app: { archive, store }, show }: { app: App; show(): void }) {
   const mute = why_mute(store.link);
+  if (archive.state === 'all') return null;
+  return (
+    <button class="small" data-test="earlier" disabled={archive.state === 'asking' || mute !== null} title={mute ?? ''} onClick={() => { show(); void archive.more(); }}>
+      {archive.state === 'asking' ? 'Asking…' : 'Earlier jobs'}
+    </button>
+  );
+}
+
+/** At the table's end. */
+function Earlier({ app, show }: { app: App; show(): void }) {
+  const { archive } = app;
   const said = archive.fault ? `They cannot be had: ${archive.fault.detail ?? archive.fault.title}` : archive.state === 'all' ? 'That is all that the server has.' : 'Those of former runs, too, if the server keeps jobs (--data).';
   return (
     <div class="line">
-      {archive.state !== 'all' && (
-        <button class="small" data-test="earlier" disabled={archive.state === 'asking' || mute !== null} title={mute ?? ''} onClick={() => { show(); void archive.more(); }}>
-          {archive.state === 'asking' ? 'Asking…' : 'Earlier jobs'}
-        </button>
-      )}
+      <More app={app} show={show} />
       <span class="dim small" role="status" data-test="earlier-said">{said}</span>
     </div>
   );
@@ -68,7 +83,7 @@ function Line({ job, app, before }: { job: Job; app: App; before: Job | null }) 
   const ran = job.started_s === null || job.ended_s === null ? '–' : seconds(job.ended_s - job.started_s);
   return (
     <>
-      {former && before && !is_former(before) && <tr class="divider"><td colSpan={7}>Of former runs of the server: times of the wall clock</td></tr>}
+      {former && before && !is_former(before) && <tr class="divider"><td colSpan={7}>Earlier ones, and those of former runs of the server: times of the wall clock</td></tr>}
       <tr class={job.state}>
         <td class="mono whole" title={wall_time(job.ended_at ?? '')}>{job.ended_s === null ? '–' : former ? short_wall_time(job.ended_at ?? '', Date.now()) : clock(job.ended_s)}</td>
         <td><Link app={app} to={{ page: 'job', id: job.id }} title={job.id}>{title_of(job)}</Link></td>

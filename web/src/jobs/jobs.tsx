@@ -11,6 +11,7 @@ import { clock } from '../wording';
 import { matches } from './filter';
 import { held_lists, type Lists } from './held';
 import { Row } from './row';
+import { Link } from '../route/link';
 
 const kShown = 40;
 
@@ -21,7 +22,7 @@ const kSections: readonly Section[] = [
   { list: 'backlog', title: 'Blocked', none: 'No job is blocked.', hint: 'In the backlog: each was tried and is in conflict; it is tried again until it expires' },
   { list: 'scheduled', title: 'Scheduled', none: '', hint: 'Admitted: it is decided who passes first' },
   { list: 'queued', title: 'Queued', none: 'No job is queued.', hint: 'Not tried yet: others come first' },
-  { list: 'finished', title: 'Finished', none: 'No job has ended yet.', hint: 'Newest first' },
+  { list: 'finished', title: 'Finished', none: 'No job has ended in this run of the server.', hint: 'In this run of the server, newest first' },
 ];
 
 const kLists = kSections.map(({ list }) => list);
@@ -67,6 +68,17 @@ function LookedAt({ app }: { app: App }) {
   );
 }
 
+/** Since when those that have ended are all there, where not all of the run are. */
+function EndedFrom({ app }: { app: App }) {
+  const { ended_from_s } = app.store.book;
+  if (ended_from_s === null) return null;
+  return (
+    <p class="none" data-test="ended-from">
+      Since {clock(ended_from_s)}; earlier ones are not loaded: see <Link app={app} to={{ page: 'history' }}>History</Link>.
+    </p>
+  );
+}
+
 interface ListProps { section: Section; all: readonly Job[]; app: App; filtered: boolean; is_asked(job: Job): boolean }
 
 function List({ section: { list, title, none, hint }, all, app, filtered, is_asked }: ListProps) {
@@ -77,6 +89,7 @@ function List({ section: { list, title, none, hint }, all, app, filtered, is_ask
   return (
     <section data-test={`list-${list}`} class={`list ${list}`} aria-label={title}>
       <h3 title={hint}>{title}<span class="count" data-test={`count-${list}`}>{count}</span></h3>
+      {list === 'finished' && <EndedFrom app={app} />}
       {jobs.length === 0 && <p class="none">{none}</p>}
       {jobs.slice(0, shown).map((job) => <Row key={job.id} job={job} app={app} />)}
       {jobs.length > shown && (

@@ -5,10 +5,9 @@ import type { Arm, Job, SceneObject, SequencedMessage } from '../server/messages
 import { HaltBook, type Halts } from './halts';
 import { is_terminal, JobBook, type JobList } from './job_book';
 import { Notices, type Notice } from './notices';
+import type { Snapshot } from './snapshots';
 import { counted, kNoNumbers, type Numbers } from './numbers';
 import type { ToldState } from './standing';
-
-type Snapshot = Extract<SequencedMessage, { type: 'snapshot' }>;
 
 /** `at`: wall time of the first that was heard of its next run; `lost`: jobs that had not ended, of which that one does not tell. */
 export interface Restart { at: string; lost: readonly Job[] }
@@ -141,7 +140,7 @@ export class Facts {
       this.unknown_arms_.delete(arm.name);
       this.place(arm);
     }
-    this.book.reset(data.jobs, t_s, same_run);
+    this.book.reset(data.jobs, t_s, same_run, data.ended_from_s);
     this.book.set_order(data.queue);
   }
 

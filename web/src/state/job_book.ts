@@ -12,6 +12,8 @@ const kListOfState: Record<JobState, JobList> = {
   succeeded: 'finished', canceled: 'finished', expired: 'finished', failed: 'finished', interrupted: 'finished',
 };
 const kMaxFinished = 10_000;
+// A snapshot of the server has the last that ended, so many at most (see its schema).
+const kTold = 200;
 // Forgotten some at a time.
 const kSlack = 0.05;
 // Of one job that stands and goes on for hours the last ones.
@@ -47,11 +49,12 @@ export class JobBook {
   private order_ = new Map<string, number>();
   private lists_: Map<JobList, Job[]> | null = null;
   private endings_ = 0;
+  private ended_from_s_: number | null = null;
 
   constructor(private readonly most_finished_ = kMaxFinished) {}
 
-  /** All anew, from a snapshot; what is remembered of a job in the same run stays. */
-  reset(jobs: readonly Job[], t_s: number, same_run: boolean): void {
+  /** All anew, from a snapshot; what is remembered of a job in the same run stays. `ended_from_s`: where that is known. */
+  reset(jobs: readonly Job[], t_s: number, same_run: boolean, ended_from_s?: number | null): void {
     const before = same_run ? this.heard_ : new Map<string, Heard>();
     this.heard_ = new Map(jobs.map((job) => {
       const known = before.get(job.id);
@@ -60,6 +63,7 @@ export class JobBook {
     }));
     this.open_ = new Set(jobs.filter((job) => !is_terminal(job)).map((job) => job.id));
     this.ended_ = jobs.filter(is_terminal).sort((a, b) => ended(a) - ended(b));
+    this.ended_from_s_ = ended_from_s === undefined ? told_from(jobs) : ended_from_s;
     this.endings_ += 1;
     this.lists_ = null;
   }
@@ -141,6 +145,11 @@ export class JobBook {
     return this.endings_;
   }
 
+  /** Those of the run that ended at this time or later are all known; null: all of the run. */
+  get ended_from_s(): number | null {
+    return this.ended_from_s_;
+  }
+
   /** Those that ended at a time or later, newest first. */
   ended_since(t_s: number): Job[] {
     const jobs: Job[] = [];
@@ -184,7 +193,14 @@ export class JobBook {
     this.ended_.splice(at, 0, job);
     if (this.ended_.length <= this.most_finished_ * (1 + kSlack)) return;
     for (const old of this.ended_.splice(0, this.ended_.length - this.most_finished_)) this.heard_.delete(old.id);
+    this.ended_from_s_ = ended(this.ended_[0]);
   }
+}
+
+/** The same of a server's snapshot, by the jobs that it has. */
+export function told_from(jobs: readonly Job[]): number | null {
+  const ended_s = jobs.filter(is_terminal).map(ended);
+  return ended_s.length < kTold ? null : Math.min(...ended_s);
 }
 
 /** It stands, goes on, or stands for another reason than before. */

@@ -2,8 +2,11 @@
 
 import type { Arm, SequencedMessage } from '../server/messages';
 import { Facts } from './facts';
+import { told_from } from './job_book';
 
-type Snapshot = Extract<SequencedMessage, { type: 'snapshot' }>;
+type ToldSnapshot = Extract<SequencedMessage, { type: 'snapshot' }>;
+/** `ended_from_s`: of one that the page made itself, as JobBook has it. The server's have none. */
+export type Snapshot = ToldSnapshot & { data: { ended_from_s?: number | null } };
 
 /** What all these come to; null: the first is no snapshot, so that it would be a guess. */
 export function folded(entries: readonly SequencedMessage[]): Snapshot | null {
@@ -16,23 +19,27 @@ export function folded(entries: readonly SequencedMessage[]): Snapshot | null {
     data: {
       cell: first.data.cell, policy: facts.policy, speed: facts.speed, stopped: facts.stopped, arms: [...facts.arms.values()],
       jobs: facts.all_jobs(), queue: facts.book.order, objects: facts.objects,
+      ended_from_s: facts.book.ended_from_s,
     },
   };
 }
 
 /** What held before these, which led to the snapshot: whatever they do not tell of is as it was then. */
-export function before_all({ data, ...first }: Snapshot, led: readonly SequencedMessage[]): Snapshot {
+export function before_all({ data, ...first }: ToldSnapshot, led: readonly SequencedMessage[]): Snapshot {
   const arms = new Set(led.flatMap((message) => (message.type === 'arm' ? [message.data.name] : [])));
   const jobs = new Set(led.flatMap((message) => (message.type === 'job' ? [message.data.id] : [])));
   const [next] = led;
   // From the very beginning, when every arm stood idle.
   const is_whole = next?.seq === 1;
+  // These tell of each that ended while they came, the snapshot of those before.
+  const from_s = told_from(data.jobs);
   const idle = data.arms.map((arm) => (arms.has(arm.name) ? at_rest(arm) : arm));
   return {
     ...first, type: 'snapshot', seq: (next?.seq ?? 1) - 1, t_s: is_whole ? 0 : next?.t_s ?? first.t_s, at: next?.at ?? first.at,
     data: {
       ...data, gap: false, stopped: false, arms: is_whole ? idle : data.arms.filter(({ name }) => !arms.has(name)),
       jobs: data.jobs.filter(({ id }) => !jobs.has(id)),
+      ended_from_s: is_whole || from_s === null ? null : Math.min(from_s, next?.t_s ?? from_s),
     },
   };
 }
