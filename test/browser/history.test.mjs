@@ -39,6 +39,8 @@ test('jobs of a former run stand in the history, and have their pages', { timeou
     await history.getByRole('link', { name: 'picked long ago' }).waitFor();
     await page.locator('[data-test=earlier-said]', { hasText: 'all that the server has' }).waitFor();
     await counts(page.locator('[data-test=list-finished] .job'), 0, 'they are none of this run');
+    await reads(page.locator('[data-test=list-finished] .none'), /No job has ended in this run of the server/);
+    await counts(page.locator('[data-test=loaded]'), 0, 'the number is of all');
   }
   // Its times are those of the wall clock: the cell's clock began anew.
   await reads(history.locator('tbody tr').first(), /^\s*(\d{4}-\d\d-\d\d )?\d\d:\d\d:\d\d\s/);
