@@ -1,7 +1,9 @@
 import { describe, expect, it } from 'vitest';
 import { Api } from '../src/server/api';
-import { evidence_in_words, evidence_of, plan_from, plan_in_words, shares } from '../src/diagram/reading';
-import { parse_diagram, parse_job, type Diagram, type Job } from '../src/server/messages';
+import { ahead_of, first_met } from '../src/diagram/ahead';
+import { OneAtATime } from '../src/diagram/one_at_a_time';
+import { evidence_in_words, evidence_of, kept_in_words, plan_from, plan_in_words, shares, type Point } from '../src/diagram/reading';
+import { parse_diagram, parse_job, type Diagram, type DiagramMeeting, type Job } from '../src/server/messages';
 import { diagram_json, job_json, wait_json } from './samples';
 
 type Cells = Parameters<typeof diagram_json>[0];
@@ -47,8 +49,6 @@ describe('a diagram', () => {
     const answer = await api.diagram('a/1', 'b&2');
     expect(asked).toBe('/api/v1/jobs/a%2F1/diagram?with=b%262');
     expect(answer.ok && answer.value.layers[0]?.cells).toHaveLength(4);
-    await api.diagram('a/1', 'b&2', false);
-    expect(asked).toBe('/api/v1/jobs/a%2F1/diagram?with=b%262&cells=0');
   });
   it('has shares of its area that add up to one', () => {
     const { free, conflict, undecided } = shares(layer());
@@ -63,11 +63,66 @@ describe('the plan', () => {
     expect(plan_from({ a_s: 1, b_s: 0.5 }, diagram())).toEqual([{ a_s: 1, b_s: 0.5 }, { a_s: 3.5, b_s: 3 }, { a_s: 4, b_s: 3 }]);
     expect(plan_from({ a_s: 4, b_s: 0 }, diagram())).toEqual([{ a_s: 4, b_s: 0 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }]);
   });
-  it('is put into words', () => {
-    expect(plan_in_words({ state: 'conflict', in_s: 2, a_s: 2, b_s: 2 }, 'right')).toBe('If right started now, they meet a conflict in 2.00 s.');
-    expect(plan_in_words({ state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 }, null)).toBe('If both go on from here, they meet what is not proven free in 0.25 s.');
-    expect(plan_in_words(null, null, 'left')).toBe('While left rests at its end, the way of the other one is free.');
-    expect(plan_in_words(null, null)).toMatch(/through free cells only/);
+  it('meets the first conflict on it, else the first that is undecided, as the server says it', () => {
+    expect(first_met(plan_from({ a_s: 0, b_s: 0 }, diagram()), layer())).toEqual({ state: 'conflict', in_s: 2, a_s: 2, b_s: 2 });
+    expect(first_met(plan_from({ a_s: 3.5, b_s: 0 }, diagram()), layer())).toMatchObject({ state: 'conflict', in_s: 1, a_s: 4, b_s: 1 });  // along the border
+    const undecided: Cells = [['undecided', 2, 4, 0.5, 1]];
+    expect(first_met(plan_from({ a_s: 1, b_s: 0 }, diagram()), layer(undecided))).toBeNull();  // it passes by at a corner
+    expect(first_met(plan_from({ a_s: 1.75, b_s: 0.5 }, diagram()), layer(undecided))).toEqual({ state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 });
+    expect(first_met(plan_from({ a_s: 1.75, b_s: 2 }, diagram()), layer(undecided))).toBeNull();
+  });
+  it('never meets what lies behind', () => {
+    for (let a_s = 0; a_s < 4; a_s += 0.1) {
+      const met = first_met(plan_from({ a_s, b_s: 0.2 }, diagram()), layer());
+      expect(met && met.in_s >= 0 && met.a_s >= a_s && met.b_s >= 0.2).not.toBe(false);
+    }
+  });
+  it('is no alarm while one of them may not go that far, nor at the border of a conflict', () => {
+    const ahead = (now: Point, authority: Point | null) => ahead_of(now, authority, diagram(), layer()).kind;
+    expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 1 })).toBe('held');
+    expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 2, b_s: 3 })).toBe('held');
+    expect(ahead({ a_s: 2, b_s: 2 }, { a_s: 2, b_s: 3 })).toBe('held');  // left stands where it waits for right
+    expect(ahead({ a_s: 2.01, b_s: 2 }, { a_s: 2.01, b_s: 3 })).toBe('held');
+    expect(ahead({ a_s: 1, b_s: 1 }, null)).toBe('held');
+    expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 3 })).toBe('allowed');
+    expect(ahead({ a_s: 3, b_s: 2 }, { a_s: 3, b_s: 2 })).toBe('in_conflict');
+    expect(ahead_of({ a_s: 1, b_s: 1 }, null, diagram(), layer([['free', 0, 4, 0, 3]]))).toEqual({ kind: 'free' });
+    expect(ahead({ a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 })).toBe('allowed');  // left rests where right goes through
+  });
+  it('is put into words, which are red where nothing makes one of them wait', () => {
+    const conflict: DiagramMeeting = { state: 'conflict', in_s: 2, a_s: 2, b_s: 2 };
+    const undecided: DiagramMeeting = { state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 };
+    expect(plan_in_words({ kind: 'held', met: conflict }, 'right')).toEqual({ tone: 'calm', words: 'If right started now, they would come to a conflict in 2.00 s. One of them is not allowed that far (authority): it waits before that.' });
+    expect(plan_in_words({ kind: 'held', met: undecided }, null)).toMatchObject({ tone: 'calm', words: expect.stringMatching(/^If both went on from here, they would come to what is not proven free in 0.25 s\./) as unknown });
+    expect(plan_in_words({ kind: 'allowed', met: undecided }, null).tone).toBe('calm');
+    expect(plan_in_words({ kind: 'allowed', met: conflict }, null)).toMatchObject({ tone: 'alarm', words: expect.stringMatching(/nothing makes one of them wait/) as unknown });
+    expect(plan_in_words({ kind: 'in_conflict' }, null).tone).toBe('alarm');
+    expect(plan_in_words({ kind: 'free' }, null, 'left').words).toBe('While left rests at its end, the way of the other one is free.');
+    expect(plan_in_words({ kind: 'free' }, null)).toMatchObject({ tone: 'free', words: expect.stringMatching(/through free cells only/) as unknown });
+  });
+});
+
+describe('a drawing that is not there yet', () => {
+  it('leaves the last one, which says of when it is', () => {
+    const jobs = [job('left', { state: 'succeeded', ended_s: 73.2 }), job('right')];
+    expect(kept_in_words(diagram(), jobs, { a: 'next', b: 'right' })).toBe('As of 0:01:13.2: left and right. next and right are being drawn…');
+    expect(kept_in_words(diagram(), [null, null], null)).toBe('Drawn before: left and right.');
+  });
+  it('is asked for one at a time: each answer is told, and then the last question is asked', async () => {
+    const asked: [string, (answer: string) => void][] = [];
+    const told: string[] = [];
+    const drawings = new OneAtATime<string, string>((question) => new Promise((done) => { asked.push([question, done]); }), (answer, question) => told.push(`${question}: ${answer}`));
+    for (const question of ['a', 'b', 'c']) drawings.want(question);
+    expect(asked.map(([question]) => question)).toEqual(['a']);
+    asked[0]?.[1]('drawn');
+    await Promise.resolve();
+    await Promise.resolve();
+    expect([told, asked.map(([question]) => question)]).toEqual([['a: drawn'], ['a', 'c']]);
+    drawings.close();
+    asked[1]?.[1]('late');
+    await Promise.resolve();
+    await Promise.resolve();
+    expect(told).toHaveLength(1);
   });
 });
 

@@ -3,14 +3,16 @@
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import {
-  evidence_in_words, evidence_of, measured_way, plan_from, plan_in_words, shares, type Point,
+  evidence_in_words, evidence_of, drawn_in_words, kept_in_words, measured_way, plan_from, plan_in_words, shares, type Point,
 } from './reading';
-import type { Diagram, Job, Problem } from '../server/messages';
+import { ahead_of } from './ahead';
+import { OneAtATime } from './one_at_a_time';
+import type { ArmAuthority, Diagram, Job, Problem } from '../server/messages';
 import { arm_colour, ink, kCellColours, kUndecidedStripes } from '../state/palette';
 import { progress_at } from '../state/progress_book';
 import type { Store } from '../state/store';
 import { short_id } from '../wording';
-import type { Api } from '../server/api';
+import type { Answer, Api } from '../server/api';
 import type { App } from '../state/app';
 import { DiagramPicture, type Scene } from './picture';
 import { Refused } from '../compose/refused';
@@ -21,16 +23,15 @@ import { AsOf } from '../frame/as_of';
 
 const kShownFinished = 12;
 const kShownOpen = 100;
-const kAheadEvery_ms = 500;
 
 interface Props { a: string; b: string; app: App }
 
-type Fetched = { kind: 'none' } | { kind: 'diagram'; diagram: Diagram } | { kind: 'refused'; problem: Problem };
+/** `diagram`: the last that came, which may be of others than are asked for; `refused`: what was asked last. */
+interface Fetched { diagram: Diagram | null; refused: { a: string; b: string; problem: Problem } | null }
 
 /** Of two jobs, or of arms: then of what these do, or did at the instant that is looked at, from job to job. */
 export function DiagramPanel({ a, b, app }: Props) {
   const { store } = seen_app(app);
-  const why_not = why_no_pair(a, b, store);
   return (
     <>
       <h2>Diagram</h2>
@@ -41,40 +42,39 @@ export function DiagramPanel({ a, b, app }: Props) {
         <Pick what="Across" side={a} store={store} on_pick={(side) => app.router.go({ page: 'pair', a: side, b })} />
         <Pick what="Up" side={b} store={store} on_pick={(side) => app.router.go({ page: 'pair', a, b: side })} />
       </div>
-      {why_not === null
-        ? <Pair a={job_of_side(a, store)?.id ?? a} b={job_of_side(b, store)?.id ?? b} app={app} />
-        : <p class="hint" data-test="no-pair">{store.stream === null ? 'Not connected yet.' : why_not}</p>}
+      <Sides key={`${a} ${b}`} a={a} b={b} app={app} />
     </>
   );
 }
 
+/** Who is drawn as often as poses come in is told as often which jobs these are. */
+function Sides({ a, b, app }: Props) {
+  const { store } = seen_app(app);
+  use_beats(store);
+  const why_not = why_no_pair(a, b, store);
+  if (why_not !== null) return <p class="hint" data-test="no-pair">{store.stream === null ? 'Not connected yet.' : why_not}</p>;
+  return <Pair a={job_of_side(a, store)?.id ?? a} b={job_of_side(b, store)?.id ?? b} app={app} />;
+}
+
+/** Of two jobs. */
 function Pair({ a, b, app }: Props) {
   const { actions, api } = app;
   const then = seen_app(app);
   const { store } = then;
-  use_beats(store);
-  const [fetched, set_fetched] = useState<Fetched>({ kind: 'none' });
   const [layer, set_layer] = useState(0);
   const connected = app.store.link.status === 'open' && app.store.stream !== null;
-  // Another scene makes another diagram.
-  useEffect(() => {
-    if (!connected) return;
-    let closed = false;
-    void api.diagram(a, b).then((answer) => {
-      if (closed) return;
-      set_fetched(answer.ok ? { kind: 'diagram', diagram: answer.value } : { kind: 'refused', problem: answer.problem });
-    });
-    return () => { closed = true; };
-  }, [api, a, b, app.store.objects, connected]);
-  useEffect(() => set_layer(0), [a, b]);
-  const jobs = { a: store.job(a), b: store.job(b) };
+  const { diagram, refused } = use_fetched(api, a, b, app.store.objects, connected);
+  useEffect(() => set_layer(0), [diagram?.a.id, diagram?.b.id]);
   const goes_on = { a: is_followed(a, app.store), b: is_followed(b, app.store) };
   useEffect(() => (goes_on.a ? actions.follow_job(a) : undefined), [actions, a, goes_on.a]);
   useEffect(() => (goes_on.b ? actions.follow_job(b) : undefined), [actions, b, goes_on.b]);
-  const diagram = fetched.kind === 'diagram' && fetched.diagram.a.id === a && fetched.diagram.b.id === b ? fetched.diagram : null;
+  const is_refused = refused !== null && refused.a === a && refused.b === b;
+  const jobs = { a: diagram && store.job(diagram.a.id), b: diagram && store.job(diagram.b.id) };
+  const is_kept = diagram !== null && (diagram.a.id !== a || diagram.b.id !== b);
   return (
     <>
-      {fetched.kind === 'refused' && <Refused problem={fetched.problem} />}
+      {is_refused && <Refused problem={refused.problem} />}
+      {diagram && <p class="hint" data-test={is_kept ? 'kept' : 'drawn'}>{is_kept ? kept_in_words(diagram, [jobs.a, jobs.b], is_refused ? null : { a, b }) : drawn_in_words(diagram)}</p>}
       {diagram && diagram.layers.length > 1 && (
         <div class="line">
           {diagram.layers.map(({ arms }, i) => (
@@ -82,10 +82,26 @@ function Pair({ a, b, app }: Props) {
           ))}
         </div>
       )}
-      {diagram && <Drawn key={`${a} ${b} ${layer}`} diagram={diagram} layer={layer} jobs={jobs} app={then} />}
-      {fetched.kind !== 'refused' && !diagram && <p class="hint">{connected ? 'Drawing…' : 'Not connected.'}</p>}
+      {diagram && <Drawn key={`${diagram.a.id} ${diagram.b.id} ${layer}`} diagram={diagram} layer={layer} jobs={jobs} is_kept={is_kept} app={then} />}
+      {!is_refused && !diagram && <p class="hint">{connected ? 'Drawing…' : 'Not connected.'}</p>}
     </>
   );
+}
+
+/** Jobs of some seconds change faster than they are drawn: the last drawing stays until the next is there. */
+function use_fetched(api: Pick<Api, 'diagram'>, a: string, b: string, scene: unknown, connected: boolean): Fetched {
+  const [fetched, set_fetched] = useState<Fetched>({ diagram: null, refused: null });
+  const drawings = useRef<OneAtATime<{ a: string; b: string }, Answer<Diagram>> | null>(null);
+  useEffect(() => {
+    const asked = new OneAtATime<{ a: string; b: string }, Answer<Diagram>>((pair) => api.diagram(pair.a, pair.b), (answer, pair) => {
+      set_fetched(({ diagram }) => (answer.ok ? { diagram: answer.value, refused: null } : { diagram, refused: { ...pair, problem: answer.problem } }));
+    });
+    drawings.current = asked;
+    return () => asked.close();
+  }, [api]);
+  // Another scene makes another diagram.
+  useEffect(() => { if (connected) drawings.current?.want({ a, b }); }, [api, a, b, scene, connected]);
+  return fetched;
 }
 
 function is_followed(id: string, store: Store): boolean {
@@ -117,33 +133,13 @@ function Pick({ what, side, store, on_pick }: { what: string; side: string; stor
   );
 }
 
-/** The diagram as the server answers it again and again, without its cells: what lies ahead by now. */
-function use_ahead(diagram: Diagram, is_open: boolean, api: Api): Diagram {
-  const [ahead, set_ahead] = useState(diagram);
-  useEffect(() => {
-    set_ahead(diagram);
-    if (!is_open) return;
-    let closed = false;
-    const ask = async () => {
-      const answer = await api.diagram(diagram.a.id, diagram.b.id, false);
-      if (closed) return;
-      if (answer.ok) set_ahead(answer.value);
-      timer = setTimeout(() => void ask(), kAheadEvery_ms);
-    };
-    let timer = setTimeout(() => void ask(), kAheadEvery_ms);
-    return () => {
-      closed = true;
-      clearTimeout(timer);
-    };
-  }, [api, diagram, is_open]);
-  return ahead;
-}
-
 interface DrawnProps {
   diagram: Diagram; layer: number; jobs: { a: Job | null; b: Job | null }; app: App;
+  /** The arms do other jobs by now. */
+  is_kept: boolean;
 }
 
-function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
+function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
   const { store } = app;
   const held_s = app.router.address.value.t_s;
   const layer = diagram.layers[index] ?? diagram.layers[0];
@@ -157,11 +153,10 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
     picture_shown.current?.draw();
   };
   useEffect(() => () => { app.ghost.value = null; }, [app]);
-  // Where they are by the last answer and event, carried on with the clock.
+  // As the last poses have it, which tell of authority, too; else by the last event, carried on with the clock.
   const progress_s = (side: Diagram['a']) => {
-    const course = held_s === null ? null : store.courses.of(side.id);
-    const measured_s = course && progress_at(course, held_s ?? 0);
-    if (measured_s !== null) return measured_s;
+    const measured_s = held_s === null ? motion_of(store, side)?.progress_s : measured_at(store, side, held_s);
+    if (measured_s != null) return Math.min(measured_s, side.duration_s);
     const job = store.job(side.id);
     return job ? store.progress(job) * side.duration_s : held_s === null ? side.progress_s : 0;
   };
@@ -175,17 +170,18 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
   const is_open = [jobs.a, jobs.b].every((job) => job !== null && (!store.is_terminal(job) || job.state === 'succeeded'))
     && [jobs.a, jobs.b].some((job) => job !== null && !store.is_terminal(job));
   // What lay ahead then nobody kept.
-  const plans = is_open && held_s === null;
-  const ahead = use_ahead(diagram, plans, app.api);
-  const met = plans ? ahead.layers[index]?.met ?? null : null;
+  const plans = is_open && held_s === null && !is_kept;
+  const authority = () => (held_s === null && !is_kept ? authority_of(store, diagram) : null);
+  const ahead = (at: Point) => (plans && layer ? ahead_of(at, authority(), diagram, layer) : null);
   const evidence = evidence_of(jobs.a, jobs.b);
   const names = [...store.arms.keys()];
   scene.current = () => {
     if (!layer) return null;
     const at = now_point();
+    const lies = ahead(at);
     return {
-      authority: held_s === null ? authority_of(store, diagram) : null, pointed: pointed.current,
-      diagram, layer, now: at, way: plans ? plan_from(at, diagram) : [], trail: trail_to(at), met, evidence,
+      authority: authority(), pointed: pointed.current,
+      diagram, layer, now: at, way: plans ? plan_from(at, diagram) : [], trail: trail_to(at), met: lies && 'met' in lies ? lies.met : null, evidence,
       colours: { a: ink(arm_colour(names, layer.arms[0])), b: ink(arm_colour(names, layer.arms[1])) },
     };
   };
@@ -200,6 +196,7 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
     };
   }, [store, diagram, index, app.settings.shown_theme.value]);
   if (!layer) return null;
+  const lies = ahead(now_point());
   const share = shares(layer);
   const is_measured = measured().length > 1;
   const unheard = !is_measured && [jobs.a, jobs.b].every((job) => job?.started_s != null);
@@ -218,20 +215,26 @@ function Drawn({ diagram, layer: index, jobs, app }: DrawnProps) {
         <div class="line">{(['free', 'conflict', 'undecided'] as const).map((state) => (
           <span key={state} class="key"><i class={state} style={{ '--cell': kCellColours[state], '--stripes': kUndecidedStripes }} /> {state} <b class="mono">{percent(share[state])}</b></span>
         ))}</div>
-        <div class="line">{held_s === null && <><span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>
-        <span class="key"><i class="plan" /> plan from now</span></>}
+        <div class="line">{held_s === null && !is_kept && <span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>}
+        {plans && <><span class="key" title="As it is not going to be where one of them waits"><i class="plan" /> if both go on</span>
+        <span class="key" title="Where that would first be in conflict, or where it is not proven free"><i class="met">×</i> not free there</span></>}
         {is_measured && <span class="key" data-test="measured"><i class="measured" /> measured</span>}</div>
       </div>
       {unheard && <p class="hint" data-test="unmeasured">They moved before this page listened: the way that was measured is not known here.</p>}
       <Instant diagram={diagram} jobs={jobs} app={app} show={point_at} />
+      {share.free === 1 && <p class="hint" data-test="all-free">All of it is free: at no pace is one in the way of the other.</p>}
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
-      {plans && <p class={`plan-words${met ? '' : ' free'}`} data-test="plan">{plan_in_words(met, waiting?.id ?? null, resting?.id ?? null)}</p>}
+      {lies && <PlanWords {...plan_in_words(lies, waiting?.id ?? null, resting?.id ?? null)} />}
       <p class="hint explains">
         Each cell holds for every instant in it, at any pace: {layer.cells?.length === 1 ? '1 cell' : `${layer.cells?.length ?? 0} cells`} between
         the {layer.arms[0]} and the {layer.arms[1]} arm, {diagram.evaluations} states looked at.
       </p>
     </>
   );
+}
+
+function PlanWords({ tone, words }: ReturnType<typeof plan_in_words>) {
+  return <p class={`plan-words ${tone}`} data-test="plan">{words}</p>;
 }
 
 /** Both arms as they would stand there, as ghosts in the cell. */
@@ -265,9 +268,17 @@ function Instant({ diagram, jobs, app, show }: { diagram: Diagram; jobs: DrawnPr
   );
 }
 
+function motion_of(store: Store, { id }: Diagram['a']): ArmAuthority | null {
+  return store.motions.find((one) => one.job === id) ?? null;
+}
+
+function measured_at(store: Store, { id }: Diagram['a'], t_s: number): number | null {
+  const course = store.courses.of(id);
+  return course && progress_at(course, t_s);
+}
+
 function authority_of(store: Store, { a, b }: Diagram): Point | null {
-  const told = [a, b].map(({ id }) => store.motions.find((one) => one.job === id) ?? null);
-  const [of_a, of_b] = told;
+  const [of_a, of_b] = [motion_of(store, a), motion_of(store, b)];
   if (!of_a && !of_b) return null;
   return { a_s: of_a?.authority_s ?? a.progress_s, b_s: of_b?.authority_s ?? b.progress_s };
 }

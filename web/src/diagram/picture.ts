@@ -31,6 +31,9 @@ const kNarrowest = 3;  // a rectangle longer than this times its height is not d
 const kStripes_px = 6;
 const kInk = '#0c1118';
 const kPlan = '#10161f';
+// Strokes, px: as far as all is free, and beyond.
+const kGoesOn = [7, 6];
+const kBeyond = [1, 12];
 
 interface Sheet { width: number; height: number; x(a_s: number): number; y(b_s: number): number }
 
@@ -193,10 +196,12 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   draw_authority(g, sheet, scene);
   polyline(g, sheet, trail, kInk, 2.5);
   if (way.length > 0) {
-    g.setLineDash([2, 5]);
+    // Never as what was measured: it may not come to that.
+    g.setLineDash(kBeyond);
     polyline(g, sheet, way, kPlan, 1.8);
-    g.setLineDash([]);
+    g.setLineDash(kGoesOn);
     polyline(g, sheet, met ? up_to(way, met) : way, kPlan, 1.8);
+    g.setLineDash([]);
   }
   if (evidence) mark(g, sheet, evidence);
   if (scene.pointed) ring(g, sheet.x(scene.pointed.a_s), sheet.y(scene.pointed.b_s));

@@ -3,7 +3,8 @@
 
 import { pair_of, type CellState, type Diagram, type DiagramLayer, type DiagramMeeting, type Job, type WaitsOn } from '../server/messages';
 import { progress_at, type Course } from '../state/progress_book';
-import { millimetres, short_id } from '../wording';
+import { clock, millimetres, short_id } from '../wording';
+import type { Ahead } from './ahead';
 
 export interface Point { a_s: number; b_s: number }
 
@@ -64,15 +65,39 @@ export function evidence_in_words(evidence: Evidence, diagram: Diagram): string 
   return `${how}, ${when.map(([id, at_s]) => `${at_s.toFixed(2)} s into ${short_id(id)}`).join(' and ')}.`;
 }
 
+/** `calm`: it is seen to; `alarm`: nothing is known that keeps it from happening. */
+export interface PlanWords { tone: 'free' | 'calm' | 'alarm'; words: string }
+
 /**
- * What the plan from now meets, one sentence; `waiting` is the job that has not begun, `resting` the
- * one that has come to its end, if there is such a one.
+ * What lies ahead, as words; `waiting` is the job that has not begun, `resting` the one that has come to its
+ * end, if there is such a one.
  */
-export function plan_in_words(met: DiagramMeeting | null, waiting: string | null, resting: string | null = null): string {
+export function plan_in_words(ahead: Ahead, waiting: string | null, resting: string | null = null): PlanWords {
   const begin = waiting !== null ? `If ${short_id(waiting)} started now`
-    : resting === null ? 'If both go on from here' : `While ${short_id(resting)} rests at its end`;
-  if (!met && waiting === null && resting !== null) return `${begin}, the way of the other one is free.`;
-  if (!met) return `${begin}, both reach their ends through free cells only.`;
-  const what = met.state === 'conflict' ? 'a conflict' : 'what is not proven free';
-  return met.in_s < 0.005 ? `${begin}, they are at ${what} at once.` : `${begin}, they meet ${what} in ${met.in_s.toFixed(2)} s.`;
+    : resting === null ? 'If both went on from here' : `While ${short_id(resting)} rests at its end`;
+  switch (ahead.kind) {
+    case 'in_conflict': return { tone: 'alarm', words: 'Both are in a conflict now.' };
+    case 'free': return { tone: 'free', words: waiting === null && resting !== null ? `${begin}, the way of the other one is free.` : `${begin}, both would reach their ends through free cells only.` };
+    case 'held': return { tone: 'calm', words: `${begin}, they would come to ${met_in_words(ahead.met)}. One of them is not allowed that far (authority): it waits before that.` };
+    case 'allowed': return ahead.met.state === 'conflict'
+      ? { tone: 'alarm', words: `${begin}, they come to ${met_in_words(ahead.met)}. Both are allowed that far: nothing makes one of them wait.` }
+      : { tone: 'calm', words: `${begin}, they come to ${met_in_words(ahead.met)}, which need not be in conflict. Both are allowed that far.` };
+  }
+}
+
+function met_in_words({ state, in_s }: DiagramMeeting): string {
+  const what = state === 'conflict' ? 'a conflict' : 'what is not proven free';
+  return in_s < 0.005 ? `${what} at once` : `${what} in ${in_s.toFixed(2)} s`;
+}
+
+export function drawn_in_words({ a, b }: Diagram): string {
+  return `${short_id(a.id)} and ${short_id(b.id)}.`;
+}
+
+/** Of a drawing that stays until the one of the `wanted` jobs is there; null: it cannot be had. */
+export function kept_in_words({ a, b }: Diagram, jobs: readonly (Job | null)[], wanted: { a: string; b: string } | null): string {
+  const ends_s = jobs.flatMap((job) => job?.ended_s ?? []);
+  const until = ends_s.length === 0 ? 'Drawn before' : `As of ${clock(Math.min(...ends_s))}`;
+  const next = wanted === null ? '' : ` ${short_id(wanted.a)} and ${short_id(wanted.b)} are being drawn…`;
+  return `${until}: ${short_id(a.id)} and ${short_id(b.id)}.${next}`;
 }
