@@ -215,8 +215,8 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
         <div class="line">{(['free', 'conflict', 'undecided'] as const).map((state) => (
           <span key={state} class="key"><i class={state} style={{ '--cell': kCellColours[state], '--stripes': kUndecidedStripes }} /> {state} <b class="mono">{percent(share[state])}</b></span>
         ))}</div>
-        <div class="line">{held_s === null && !is_kept && <span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>}
-        {plans && <><span class="key" title="As it is not going to be where one of them waits"><i class="plan" /> if both go on</span>
+        <div class="line">{held_s === null && <><span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>
+        <span class="key" title="As it is not going to be where one of them waits"><i class="plan" /> if both go on</span>
         <span class="key" title="Where that would first be in conflict, or where it is not proven free"><i class="met">×</i> not free there</span></>}
         {is_measured && <span class="key" data-test="measured"><i class="measured" /> measured</span>}</div>
       </div>
