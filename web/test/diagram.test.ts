@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { Api } from '../src/server/api';
-import { ahead_of, first_met } from '../src/diagram/ahead';
+import { ahead_of } from '../src/diagram/ahead';
 import { OneAtATime } from '../src/diagram/one_at_a_time';
 import { evidence_in_words, evidence_of, kept_in_words, plan_from, plan_in_words, shares, type Point } from '../src/diagram/reading';
 import { parse_diagram, parse_job, type Diagram, type DiagramMeeting, type Job } from '../src/server/messages';
@@ -49,6 +49,8 @@ describe('a diagram', () => {
     const answer = await api.diagram('a/1', 'b&2');
     expect(asked).toBe('/api/v1/jobs/a%2F1/diagram?with=b%262');
     expect(answer.ok && answer.value.layers[0]?.cells).toHaveLength(4);
+    await api.diagram('a/1', 'b&2', false);
+    expect(asked).toBe('/api/v1/jobs/a%2F1/diagram?with=b%262&cells=0');
   });
   it('has shares of its area that add up to one', () => {
     const { free, conflict, undecided } = shares(layer());
@@ -63,31 +65,23 @@ describe('the plan', () => {
     expect(plan_from({ a_s: 1, b_s: 0.5 }, diagram())).toEqual([{ a_s: 1, b_s: 0.5 }, { a_s: 3.5, b_s: 3 }, { a_s: 4, b_s: 3 }]);
     expect(plan_from({ a_s: 4, b_s: 0 }, diagram())).toEqual([{ a_s: 4, b_s: 0 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }]);
   });
-  it('meets the first conflict on it, else the first that is undecided, as the server says it', () => {
-    expect(first_met(plan_from({ a_s: 0, b_s: 0 }, diagram()), layer())).toEqual({ state: 'conflict', in_s: 2, a_s: 2, b_s: 2 });
-    expect(first_met(plan_from({ a_s: 3.5, b_s: 0 }, diagram()), layer())).toMatchObject({ state: 'conflict', in_s: 1, a_s: 4, b_s: 1 });  // along the border
-    const undecided: Cells = [['undecided', 2, 4, 0.5, 1]];
-    expect(first_met(plan_from({ a_s: 1, b_s: 0 }, diagram()), layer(undecided))).toBeNull();  // it passes by at a corner
-    expect(first_met(plan_from({ a_s: 1.75, b_s: 0.5 }, diagram()), layer(undecided))).toEqual({ state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 });
-    expect(first_met(plan_from({ a_s: 1.75, b_s: 2 }, diagram()), layer(undecided))).toBeNull();
-  });
-  it('never meets what lies behind', () => {
-    for (let a_s = 0; a_s < 4; a_s += 0.1) {
-      const met = first_met(plan_from({ a_s, b_s: 0.2 }, diagram()), layer());
-      expect(met && met.in_s >= 0 && met.a_s >= a_s && met.b_s >= 0.2).not.toBe(false);
-    }
-  });
   it('is no alarm while one of them may not go that far, nor at the border of a conflict', () => {
-    const ahead = (now: Point, authority: Point | null) => ahead_of(now, authority, diagram(), layer()).kind;
+    const met: DiagramMeeting = { state: 'conflict', in_s: 1, a_s: 2, b_s: 2 };
+    const ahead = (now: Point, authority: Point | null) => ahead_of(met, now, authority, diagram())?.kind;
     expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 1 })).toBe('held');
     expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 2, b_s: 3 })).toBe('held');
     expect(ahead({ a_s: 2, b_s: 2 }, { a_s: 2, b_s: 3 })).toBe('held');  // left stands where it waits for right
     expect(ahead({ a_s: 2.01, b_s: 2 }, { a_s: 2.01, b_s: 3 })).toBe('held');
     expect(ahead({ a_s: 1, b_s: 1 }, null)).toBe('held');
     expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 3 })).toBe('allowed');
-    expect(ahead({ a_s: 3, b_s: 2 }, { a_s: 3, b_s: 2 })).toBe('in_conflict');
-    expect(ahead_of({ a_s: 1, b_s: 1 }, null, diagram(), layer([['free', 0, 4, 0, 3]]))).toEqual({ kind: 'free' });
-    expect(ahead({ a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 })).toBe('allowed');  // left rests where right goes through
+    expect(ahead_of(null, { a_s: 1, b_s: 1 }, null, diagram())).toEqual({ kind: 'free' });
+    // At the end of one of them nothing lies beyond.
+    expect(ahead_of({ ...met, a_s: 4 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }, diagram())?.kind).toBe('allowed');
+  });
+  it('says what is left of the way by now, and nothing of what lies behind', () => {
+    const met: DiagramMeeting = { state: 'undecided', in_s: 0.5, a_s: 2, b_s: 1.5 };
+    expect(ahead_of(met, { a_s: 1.75, b_s: 1.25 }, null, diagram())).toMatchObject({ met: { in_s: 0.25 } });
+    expect(ahead_of(met, { a_s: 2.1, b_s: 1.6 }, null, diagram())).toBeNull();
   });
   it('is put into words, which are red where nothing makes one of them wait', () => {
     const conflict: DiagramMeeting = { state: 'conflict', in_s: 2, a_s: 2, b_s: 2 };
@@ -96,7 +90,6 @@ describe('the plan', () => {
     expect(plan_in_words({ kind: 'held', met: undecided }, null)).toMatchObject({ tone: 'calm', words: expect.stringMatching(/^If both went on from here, they would come to what is not proven free in 0.25 s\./) as unknown });
     expect(plan_in_words({ kind: 'allowed', met: undecided }, null).tone).toBe('calm');
     expect(plan_in_words({ kind: 'allowed', met: conflict }, null)).toMatchObject({ tone: 'alarm', words: expect.stringMatching(/nothing makes one of them wait/) as unknown });
-    expect(plan_in_words({ kind: 'in_conflict' }, null).tone).toBe('alarm');
     expect(plan_in_words({ kind: 'free' }, null, 'left').words).toBe('While left rests at its end, the way of the other one is free.');
     expect(plan_in_words({ kind: 'free' }, null)).toMatchObject({ tone: 'free', words: expect.stringMatching(/through free cells only/) as unknown });
   });

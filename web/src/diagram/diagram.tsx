@@ -23,6 +23,7 @@ import { AsOf } from '../frame/as_of';
 
 const kShownFinished = 12;
 const kShownOpen = 100;
+const kAheadEvery_ms = 500;
 
 interface Props { a: string; b: string; app: App }
 
@@ -133,6 +134,28 @@ function Pick({ what, side, store, on_pick }: { what: string; side: string; stor
   );
 }
 
+/** The diagram as the server answers it again and again, without its cells: what lies ahead by now. */
+function use_latest(diagram: Diagram, is_open: boolean, api: Api): Diagram {
+  const [latest, set_latest] = useState(diagram);
+  useEffect(() => {
+    set_latest(diagram);
+    if (!is_open) return;
+    let closed = false;
+    const ask = async () => {
+      const answer = await api.diagram(diagram.a.id, diagram.b.id, false);
+      if (closed) return;
+      if (answer.ok) set_latest(answer.value);
+      timer = setTimeout(() => void ask(), kAheadEvery_ms);
+    };
+    let timer = setTimeout(() => void ask(), kAheadEvery_ms);
+    return () => {
+      closed = true;
+      clearTimeout(timer);
+    };
+  }, [api, diagram, is_open]);
+  return latest;
+}
+
 interface DrawnProps {
   diagram: Diagram; layer: number; jobs: { a: Job | null; b: Job | null }; app: App;
   /** The arms do other jobs by now. */
@@ -172,7 +195,8 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
   // What lay ahead then nobody kept.
   const plans = is_open && held_s === null && !is_kept;
   const authority = () => (held_s === null && !is_kept ? authority_of(store, diagram) : null);
-  const ahead = (at: Point) => (plans && layer ? ahead_of(at, authority(), diagram, layer) : null);
+  const latest = use_latest(diagram, plans, app.api);
+  const ahead = (at: Point) => (plans ? ahead_of(latest.layers[index]?.met ?? null, at, authority(), diagram) : null);
   const evidence = evidence_of(jobs.a, jobs.b);
   const names = [...store.arms.keys()];
   scene.current = () => {

@@ -76,7 +76,6 @@ export function plan_in_words(ahead: Ahead, waiting: string | null, resting: str
   const begin = waiting !== null ? `If ${short_id(waiting)} started now`
     : resting === null ? 'If both went on from here' : `While ${short_id(resting)} rests at its end`;
   switch (ahead.kind) {
-    case 'in_conflict': return { tone: 'alarm', words: 'Both are in a conflict now.' };
     case 'free': return { tone: 'free', words: waiting === null && resting !== null ? `${begin}, the way of the other one is free.` : `${begin}, both would reach their ends through free cells only.` };
     case 'held': return { tone: 'calm', words: `${begin}, they would come to ${met_in_words(ahead.met)}. One of them is not allowed that far (authority): it waits before that.` };
     case 'allowed': return ahead.met.state === 'conflict'

@@ -37,8 +37,9 @@ export class Api {
     return checked('timeline', await this.ask('GET', '/timeline'), parse_forecast);
   }
 
-  async diagram(a: string, b: string): Promise<Answer<Diagram>> {
-    const path = `/jobs/${encodeURIComponent(a)}/diagram?with=${encodeURIComponent(b)}`;
+  /** Without its cells, for who has them: what lies ahead by now. */
+  async diagram(a: string, b: string, cells = true): Promise<Answer<Diagram>> {
+    const path = `/jobs/${encodeURIComponent(a)}/diagram?with=${encodeURIComponent(b)}${cells ? '' : '&cells=0'}`;
     return checked('diagram', await this.ask('GET', path), parse_diagram);
   }
 
