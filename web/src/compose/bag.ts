@@ -24,7 +24,7 @@ export function read_bag(text: string): Bag {
   return { kind: 'bag', jobs: list.map((entry) => (is_trajectory(entry) ? { trajectory: entry as unknown } : (entry as { job?: unknown } | null)?.job ?? entry)) };
 }
 
-/** As ROS's tools print a JointTrajectory. */
+/** A JointTrajectory by itself. */
 function is_trajectory(value: unknown): boolean {
   const { joint_names, points } = (value ?? {}) as { joint_names?: unknown; points?: unknown };
   return Array.isArray(joint_names) && Array.isArray(points);
