@@ -130,8 +130,15 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
 }
 
 std::string Restart::summary() const {
-  return "the server was started again: " + std::to_string(stored_.size()) + " jobs wait, " +
-         std::to_string(written_off_.size()) + " were interrupted; resume to go on";
+  const auto counted = [](std::size_t count, const char* one, const char* more) {
+    return std::to_string(count) + (count == 1 ? one : more);
+  };
+  std::string words =
+      "the server was started again: " + counted(stored_.size(), " job waits", " jobs wait");
+  if (!written_off_.empty()) {
+    words += ", " + counted(written_off_.size(), " was interrupted", " were interrupted");
+  }
+  return words + "; resume to go on";
 }
 
 void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {

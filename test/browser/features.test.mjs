@@ -166,21 +166,31 @@ test('an object is moved by hand', { timeout: 300_000 }, async () => {
   await ask(page, 'PUT', '/scene/objects/crate', { box: [0.2, 0.2, 0.2], xyz: [0, 0.8, 0.3], rpy: [0, 0, 0] });
   await go('#/scene/crate');
   await page.locator('[data-test=by-hand]').click();
+  const where = () => page.evaluate(() => window.armloom.where_is('crate'));
   const drag = async (dx, dy) => {
     await page.evaluate(() => window.armloom.drawn());
     const view = await page.locator('.view canvas').boundingBox();
-    const { x, y } = await page.evaluate(() => window.armloom.where_is('crate'));
+    const { x, y } = await where();
     await page.mouse.move(view.x + x, view.y + y);
     await page.mouse.down();
     await page.mouse.move(view.x + x + dx, view.y + y + dy, { steps: 6 });
-    await page.mouse.up();
   };
   await drag(60, 0);
+  await page.mouse.up();
   await page.waitForFunction(() => window.armloom.objects().find(({ name }) => name === 'crate').xyz[0] > 0.05);
   const there = (await page.evaluate(() => window.armloom.objects())).find(({ name }) => name === 'crate');
   await address_like(page, /#\/scene\/crate/);
   await page.waitForFunction((x) => document.querySelector('[data-test=object-x]').value === x, String(there.xyz[0]));
   await page.screenshot(path_for('by-hand-dark'));
+  // What is taken back in the middle of it stands again where it stood.
+  const stood = await where();
+  const off_px = async () => Math.hypot((await where()).x - stood.x, (await where()).y - stood.y);
+  await drag(60, 0);
+  assert.ok(await off_px() > 20);
+  await page.keyboard.press('Escape');
+  await page.mouse.up();
+  await eventually(async () => assert.ok(await off_px() < 1));
+  assert.deepEqual((await page.evaluate(() => window.armloom.objects())).find(({ name }) => name === 'crate').xyz, there.xyz);
   await ask(page, 'DELETE', '/scene/objects/crate');
   await go('#/');
 });

@@ -109,7 +109,7 @@ TEST_F(Serve, AnEndStopsNoArmForTheNextRunAndIsNoAlert) {
     told += alert["text"].get<std::string>() + "\n";
   }
   EXPECT_EQ(told,
-            "stopped: left, right (the server was started again: 1 jobs wait, 0 were interrupted; "
+            "stopped: left, right (the server was started again: 1 job waits; "
             "resume to go on)\nstopped: right (operator)\n");
   end(third);
 }

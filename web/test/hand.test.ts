@@ -14,14 +14,14 @@ const settled = () => new Promise((done) => setTimeout(done, 0));
 function bench() {
   const said: string[] = [];
   const timers: (() => void)[] = [];
-  const server = { renews: true, has_ended: false, holder: holder('Ada') as Control['holder'] };
+  const server = { refusal: 'not-in-control', renews: true, has_ended: false, holder: holder('Ada') as Control['holder'] };
   let answer_hold: (answer: Answer<Hold>) => void = () => undefined;
   const hand = new Hand({
     control: () => fine<Control>({ holder: server.holder }),
     take_control: (who) => { said.push(`take ${who}`); return fine<ControlTaken>({ holder: holder(who), key: 'k' }); },
     release_control: (key) => { said.push(`release ${key}`); server.holder = null; return fine<Control>({ holder: null }); },
     hold: (arm, state, key) => { said.push(`hold ${arm} ${state} ${key}`); return new Promise((done) => { answer_hold = done; }); },
-    renew_hold: (arm) => { said.push(`renew ${arm}`); return server.renews ? fine<Hold>({ job, lease_s: 0.5 }) : refused('not-in-control'); },
+    renew_hold: (arm) => { said.push(`renew ${arm}`); return server.renews ? fine<Hold>({ job, lease_s: 0.5 }) : refused(server.refusal); },
     cancel_job: (id) => { said.push(`cancel ${id}`); return fine(null); },
   }, { set: (callback) => timers.push(callback), clear: () => undefined }, () => server.has_ended);
   return { hand, said, timers, server, accept: () => answer_hold({ ok: true, value: { job, lease_s: 0.5 } }) };
@@ -69,6 +69,21 @@ describe('moves by hand', () => {
     await settled();
     await settled();
     expect([hand.held.value, hand.key.value, hand.refusal.value, hand.holder.value?.who]).toEqual([null, null, 'Bob has control', 'Bob']);
+  });
+
+  it('say so when the server was told too late', async () => {
+    const { hand, timers, server, accept } = bench();
+    await hand.take('Ada');
+    void hand.press('left', 'ready');
+    accept();
+    await settled();
+    server.renews = false;
+    server.refusal = 'held-too-late';
+    timers.shift()?.();
+    await settled();
+    await settled();
+    expect([hand.held.value, hand.key.value]).toEqual([null, 'k']);
+    expect(hand.refusal.value).toMatch(/^The move has ended by itself.*press again/);
   });
 
   it('are asked for no more once the arm is there: nothing is renewed, nothing cancelled', async () => {

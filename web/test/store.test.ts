@@ -1,5 +1,5 @@
 import { beforeEach, describe, expect, it } from 'vitest';
-import { parse_job, parse_message, type Job } from '../src/server/messages';
+import { parse_job, parse_message, type Forecast, type Job } from '../src/server/messages';
 import { Store } from '../src/state/store';
 import { JobBook, type JobList } from '../src/state/job_book';
 import { arm_json, envelope, frame, job_json, kStream, snapshot } from './samples';
@@ -97,6 +97,23 @@ describe('the store', () => {
     expect(store.speed).toBe(2.5);
     expect(changes).toBe(1);
     off();
+  });
+
+  it('is as old as what it hears is late, by what came past that', () => {
+    let now_ms = 0;
+    store = new Store(() => now_ms);
+    take(snapshot(1));
+    take(frame(10, {}, { speed: 2 }));
+    const forecast = (now_s: number) => store.set_forecast({ now_s, arms: [] } as unknown as Forecast);
+    forecast(19);
+    expect(store.age_ms()).toBe(0);  // 4.5 s of the wall clock: much to do
+    forecast(22);
+    expect(store.age_ms()).toBe(6000);
+    now_ms = 7000;
+    expect(store.age_ms()).toBe(7000);
+    store.set_forecast(null);
+    take(frame(23, {}, { speed: 2 }));
+    expect(store.age_ms()).toBe(0);
   });
 
   it('takes the order of the lists from a snapshot that has it', () => {

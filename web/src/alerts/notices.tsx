@@ -31,10 +31,17 @@ export function NoticeList({ app }: { app: App }) {
   const { notices } = app.store;
   return (
     <div class="scroll" role="log" tabIndex={0} aria-label="Events, newest first">
-      {notices.length === 0 && <p class="none">Nothing to report yet.</p>}
+      {notices.length === 0 && <p class="none">{nothing_in_words(app)}</p>}
       {notices.map((notice) => <Line key={notice.key} notice={notice} app={app} />)}
     </div>
   );
+}
+
+/** A page that was opened late, or a former run, has told of none of what stands among the alerts. */
+function nothing_in_words({ store, alerts }: App): string {
+  const [first] = store.log.entries;
+  if (alerts.all.length === 0 || !first || store.link.status === 'recording') return 'Nothing to report yet.';
+  return `Nothing since ${clock(first.t_s)}. What was reported before stands among the alerts.`;
 }
 
 function Line({ notice, app }: { notice: Notice; app: App }) {

@@ -10,6 +10,7 @@ import type { ControlHolder, Hold } from '../server/messages';
 
 const kBeats = 4;  // in the time of a lease
 const kFirst_ms = 100;
+const kTooLate = 'The move has ended by itself: the server has to hear several times a second that the button is held. Let go and press again; where this comes again, the network or this computer is too slow for it.';
 
 type HandApi = Pick<Api, 'control' | 'take_control' | 'release_control' | 'hold' | 'renew_hold' | 'cancel_job'>;
 
@@ -98,7 +99,8 @@ export class Hand {
       }
       void this.api_.renew_hold(held.arm, key).then((answer) => {
         if (answer.ok || this.asked_ !== asked) return;
-        this.held.value = null;  // it is there, or somebody else has taken control
+        this.held.value = null;  // it is there, it was told too late, or somebody else has taken control
+        if (answer.problem.type.endsWith('held-too-late')) this.refusal.value = `${kTooLate} ${answer.problem.detail ?? ''}`.trim();
         this.lost(answer);
       });
       this.beat(asked, lease_s);

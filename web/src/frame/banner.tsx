@@ -5,7 +5,7 @@ import type { App } from '../state/app';
 import { short_wall_time } from '../wall_time';
 import { restart_in_words, seconds } from '../wording';
 import { drop_fault, files_over } from './drops';
-import { use_staleness } from './staleness';
+import { is_silent, use_staleness } from './staleness';
 
 export function Banner({ app }: { app: App }) {
   const { store, actions } = app;
@@ -19,7 +19,7 @@ export function Banner({ app }: { app: App }) {
       {store.link.status === 'lost' && <Lost app={app} />}
       {store.link.status === 'open' && stale_s !== null && (
         <div class="banner lost" role="alert" data-test="stale">
-          <span><b>Old data.</b> Nothing was heard from the server for {seconds(stale_s)}; arms may still be moving.</span>
+          <span><b>Old data.</b> {is_silent(store) ? `Nothing was heard from the server for ${seconds(stale_s)}` : `What is heard from the server comes ${seconds(stale_s)} late`}; arms may still be moving.</span>
         </div>
       )}
       {store.link.status === 'recording' && (

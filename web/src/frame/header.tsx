@@ -8,7 +8,7 @@ import { waiting_arms } from '../recovery/needs';
 import { wall_time } from '../wall_time';
 import { clock } from '../wording';
 import { Navigation } from './navigation';
-import { use_staleness } from './staleness';
+import { is_silent, use_staleness } from './staleness';
 import { StopButton } from './stop_button';
 import { shown_name } from '../names';
 
@@ -23,12 +23,12 @@ export function Header({ app }: { app: App }) {
       <Navigation app={app} />
       <div class="facts">
         <ConnectionState app={app} />
-        <OnlyLooks app={app} />
         <OpenAlerts app={app} />
+        <CellTime app={app} />
+        <OnlyLooks app={app} />
         <InControl app={app} />
         {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
         <span class="fact policy"><i>policy</i> <Link app={app} to={{ page: 'policies' }} test="go-policies" title="Policies, and what the others would have done">{store.policy || '–'}</Link></span>
-        <CellTime app={app} />
       </div>
       <button class="resume" disabled={!store.stopped && waiting_arms(store).length === 0} title="Leads to what is to be looked at before the arms move again" data-test="to-resume"
         onClick={() => app.router.go({ page: 'recovery' })}>Resume…</button>
@@ -84,12 +84,12 @@ function CellTime({ app }: { app: App }) {
 function ConnectionState({ app }: { app: App }) {
   const { store } = app;
   const stale_s = use_staleness(store);
-  const silent = store.link.status === 'open' && stale_s !== null;
-  const words = silent ? `silent for ${stale_s} s` : { connecting: 'connecting', open: 'connected', lost: 'disconnected', recording: 'recording', past: 'past' }[store.link.status];
+  const old = store.link.status === 'open' && stale_s !== null;
+  const words = old ? `${is_silent(store) ? 'silent for' : 'late by'} ${stale_s} s` : { connecting: 'connecting', open: 'connected', lost: 'disconnected', recording: 'recording', past: 'past' }[store.link.status];
   const { unknown, malformed } = store.rejected;
   const rejected = unknown + malformed;
   return (
-    <span class={`fact link-state ${silent ? 'connecting' : store.link.status}`} data-test="link" title={words}>
+    <span class={`fact link-state ${old ? 'connecting' : store.link.status}`} data-test="link" title={words}>
       <span class="dot" aria-hidden="true" /> <span class="link-words">{words}</span>
       {rejected > 0 && (
         <span class="rejected" title={`${unknown} of unknown type, ${malformed} malformed`}> · {rejected} unread</span>

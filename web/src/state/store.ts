@@ -14,6 +14,8 @@ import { Trace } from './trace';
 /** Positions of joints, as a recording has them. */
 export interface Frames { names: readonly string[]; t_s: readonly number[]; q: readonly (readonly number[])[] }
 
+// A page that has much to do is seconds late for a moment.
+const kLate_ms = 5_000;
 const kSilent_ms = 1000;
 const kMissed_s = 0.5;
 
@@ -33,6 +35,7 @@ export class Store extends Facts {
   readonly log = new Log(folded);
 
   private readonly pulse_: Pulse;
+  private late_ms_ = 0;
   private heard_at_ms_: number | null = null;
   private earlier_states_: MeasuredStates | null = null;
 
@@ -197,6 +200,8 @@ export class Store extends Facts {
 
   set_forecast(forecast: Forecast | null): void {
     this.forecast = forecast;
+    // It has come past all that is on its way to the page still.
+    this.late_ms_ = forecast === null ? 0 : Math.max(0, (1000 * (forecast.now_s - this.t_s)) / this.speed);
     this.pulse_.change();
   }
 
@@ -215,6 +220,12 @@ export class Store extends Facts {
     this.rejected = { ...this.rejected, [kind]: this.rejected[kind] + 1 };
     this.pulse_.change();
     return this.rejected[kind] === 1;
+  }
+
+  /** How old what is known is: nothing was heard, or what is heard comes late; null before anything was. */
+  age_ms(): number | null {
+    const silent_ms = this.silence_ms();
+    return silent_ms === null ? null : Math.max(silent_ms, this.late_ms_ > kLate_ms ? this.late_ms_ : 0);
   }
 
   /** For how long nothing was heard; null before anything was. */

@@ -30,6 +30,7 @@ export class ByHand {
     this.controls_.setMode(grip === 'move' ? 'translate' : 'rotate');
     this.controls_.setSpace(grip === 'move' ? 'world' : 'local');
     if (object === this.object_) return false;
+    if (this.controls_.dragging) this.controls_.reset();  // it is taken back: nobody was asked to move it
     this.object_ = object;
     if (object) this.controls_.attach(object);
     else this.controls_.detach();
