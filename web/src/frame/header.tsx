@@ -23,12 +23,12 @@ export function Header({ app }: { app: App }) {
       <Navigation app={app} />
       <div class="facts">
         <ConnectionState app={app} />
-        <OpenAlerts app={app} />
-        <CellTime app={app} />
         <OnlyLooks app={app} />
+        <OpenAlerts app={app} />
         <InControl app={app} />
         {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
         <span class="fact policy"><i>policy</i> <Link app={app} to={{ page: 'policies' }} test="go-policies" title="Policies, and what the others would have done">{store.policy || '–'}</Link></span>
+        <CellTime app={app} />
       </div>
       <button class="resume" disabled={!store.stopped && waiting_arms(store).length === 0} title="Leads to what is to be looked at before the arms move again" data-test="to-resume"
         onClick={() => app.router.go({ page: 'recovery' })}>Resume…</button>
