@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "server/api/openapi.h"
 #include "server/api/route.h"
 #include "server/codec/cell_schema.h"
@@ -41,7 +43,7 @@ void get_ready(Call call) {
   if (const auto why = why_not_ready(call.parts)) return call.respond(refusal_response(*why));
   ask(
       call.parts, [](Executive& executive) { return Ready{executive.now()}; },
-      [respond = call.respond](const Ready& ready) {
+      [respond = std::move(call.respond)](const Ready& ready) {
         respond(answer(200, ready_format(), ready));
       });
 }
