@@ -27,6 +27,19 @@ function bench() {
   return { hand, said, timers, server, accept: () => answer_hold({ ok: true, value: { job, lease_s: 0.5 } }) };
 }
 
+/** Held, and then refused when the server is told of it again. */
+async function refuse_held({ hand, timers, server, accept }: ReturnType<typeof bench>, refusal: string): Promise<void> {
+  await hand.take('Ada');
+  void hand.press('left', 'ready');
+  accept();
+  await settled();
+  server.renews = false;
+  server.refusal = refusal;
+  timers.shift()?.();
+  await settled();
+  await settled();
+}
+
 describe('moves by hand', () => {
   it('go on only as long as they are renewed, and end at once when the button is let go', async () => {
     const { hand, said, timers, accept } = bench();
@@ -58,30 +71,17 @@ describe('moves by hand', () => {
   });
 
   it('end when somebody else takes control, and say so', async () => {
-    const { hand, timers, server, accept } = bench();
-    await hand.take('Ada');
-    void hand.press('left', 'ready');
-    accept();
-    await settled();
-    server.renews = false;
+    const held = bench();
+    const { hand, server } = held;
     server.holder = holder('Bob');
-    timers.shift()?.();
-    await settled();
-    await settled();
+    await refuse_held(held, 'not-in-control');
     expect([hand.held.value, hand.key.value, hand.refusal.value, hand.holder.value?.who]).toEqual([null, null, 'Bob has control', 'Bob']);
   });
 
   it('say so when the server was told too late', async () => {
-    const { hand, timers, server, accept } = bench();
-    await hand.take('Ada');
-    void hand.press('left', 'ready');
-    accept();
-    await settled();
-    server.renews = false;
-    server.refusal = 'held-too-late';
-    timers.shift()?.();
-    await settled();
-    await settled();
+    const held = bench();
+    const { hand } = held;
+    await refuse_held(held, 'held-too-late');
     expect([hand.held.value, hand.key.value]).toEqual([null, 'k']);
     expect(hand.refusal.value).toMatch(/^The move has ended by itself.*press again/);
   });

@@ -1,7 +1,7 @@
 import { signal } from '@preact/signals';
 import { describe, expect, it } from 'vitest';
 import type { Session } from '../src/server/messages';
-import { why_no_command } from '../src/state/permission';
+import { why_no_command, why_not_permitted } from '../src/state/permission';
 import { Store } from '../src/state/store';
 
 describe('a command', () => {
@@ -12,6 +12,9 @@ describe('a command', () => {
 
   it('is for whoever may operate the cell', () => {
     expect(why(with_role('viewer'))).toMatch(/takes the role operator/);
+    store.set_link({ status: 'recording', name: 'r' });
+    expect([why(with_role('operator')), why_not_permitted(with_role('operator'))]).toEqual(['A recording is shown, not the present', null]);
+    store.set_link({ status: 'open' });
     expect([with_role('operator'), with_role('admin'), { asks_for_token: false, name: null, role: 'admin' as const }, null].map(why)).toEqual([null, null, null, null]);
   });
 });

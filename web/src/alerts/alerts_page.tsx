@@ -1,7 +1,7 @@
 // Alerts, each until somebody acknowledges it, with who and when.
 
 import type { App } from '../state/app';
-import { why_no_command } from '../state/permission';
+import { why_not_permitted } from '../state/permission';
 import { AsOf } from '../frame/as_of';
 import type { KeptAlert } from '../server/messages';
 import { shown_name, shown_text } from '../names';
@@ -17,7 +17,7 @@ export function AlertsPage({ app }: { app: App }) {
   const known_as = session.value?.name ?? null;
   const who = settings.person.value;
   const unnamed = known_as === null && who.trim() === '';
-  const mute = why_no_command(app) ?? (unnamed ? 'Say who you are first' : null);
+  const mute = why_not_permitted(session.value) ?? (unnamed ? 'Say who you are first' : null);
   const acknowledge = (some: readonly KeptAlert[]) => void actions.ask('Acknowledge', alerts.acknowledge(some, who.trim()));
   return (
     <div class="page">

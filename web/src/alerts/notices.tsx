@@ -37,7 +37,7 @@ export function NoticeList({ app }: { app: App }) {
   );
 }
 
-/** A page that was opened late, or a former run, has told of none of what stands among the alerts. */
+/** What was reported before the page listened, or in a former run, stands among the alerts alone. */
 function nothing_in_words({ store, alerts }: App): string {
   const [first] = store.log.entries;
   if (alerts.all.length === 0 || !first || store.link.status === 'recording') return 'Nothing to report yet.';

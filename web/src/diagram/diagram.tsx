@@ -5,14 +5,14 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import {
   evidence_in_words, evidence_of, drawn_in_words, kept_in_words, measured_way, plan_from, plan_in_words, shares, type Point,
 } from './reading';
-import { ahead_of } from './ahead';
-import { OneAtATime } from './one_at_a_time';
-import type { ArmAuthority, Diagram, Job, Problem } from '../server/messages';
-import { arm_colour, ink, kCellColours, kUndecidedStripes } from '../state/palette';
+import { ahead_of, type Ahead } from './ahead';
+import { use_fetched, use_latest } from './fetched';
+import { Legend } from './legend';
+import type { ArmAuthority, Diagram, Job } from '../server/messages';
+import { arm_colour, ink } from '../state/palette';
 import { progress_at } from '../state/progress_book';
 import type { Store } from '../state/store';
 import { short_id } from '../wording';
-import type { Answer, Api } from '../server/api';
 import type { App } from '../state/app';
 import { DiagramPicture, type Scene } from './picture';
 import { Refused } from '../compose/refused';
@@ -23,12 +23,8 @@ import { AsOf } from '../frame/as_of';
 
 const kShownFinished = 12;
 const kShownOpen = 100;
-const kAheadEvery_ms = 500;
 
 interface Props { a: string; b: string; app: App }
-
-/** `diagram`: the last that came, which may be of others than are asked for; `refused`: what was asked last. */
-interface Fetched { diagram: Diagram | null; refused: { a: string; b: string; problem: Problem } | null }
 
 /** Of two jobs, or of arms: then of what these do, or did at the instant that is looked at, from job to job. */
 export function DiagramPanel({ a, b, app }: Props) {
@@ -89,22 +85,6 @@ function Pair({ a, b, app }: Props) {
   );
 }
 
-/** Jobs of some seconds change faster than they are drawn: the last drawing stays until the next is there. */
-function use_fetched(api: Pick<Api, 'diagram'>, a: string, b: string, scene: unknown, connected: boolean): Fetched {
-  const [fetched, set_fetched] = useState<Fetched>({ diagram: null, refused: null });
-  const drawings = useRef<OneAtATime<{ a: string; b: string }, Answer<Diagram>> | null>(null);
-  useEffect(() => {
-    const asked = new OneAtATime<{ a: string; b: string }, Answer<Diagram>>((pair) => api.diagram(pair.a, pair.b), (answer, pair) => {
-      set_fetched(({ diagram }) => (answer.ok ? { diagram: answer.value, refused: null } : { diagram, refused: { ...pair, problem: answer.problem } }));
-    });
-    drawings.current = asked;
-    return () => asked.close();
-  }, [api]);
-  // Another scene makes another diagram.
-  useEffect(() => { if (connected) drawings.current?.want({ a, b }); }, [api, a, b, scene, connected]);
-  return fetched;
-}
-
 function is_followed(id: string, store: Store): boolean {
   const job = store.job(id);
   return job !== null && !store.is_terminal(job);
@@ -134,28 +114,6 @@ function Pick({ what, side, store, on_pick }: { what: string; side: string; stor
   );
 }
 
-/** The diagram as the server answers it again and again, without its cells: what lies ahead by now. */
-function use_latest(diagram: Diagram, is_open: boolean, api: Api): Diagram {
-  const [latest, set_latest] = useState(diagram);
-  useEffect(() => {
-    set_latest(diagram);
-    if (!is_open) return;
-    let closed = false;
-    const ask = async () => {
-      const answer = await api.diagram(diagram.a.id, diagram.b.id, false);
-      if (closed) return;
-      if (answer.ok) set_latest(answer.value);
-      timer = setTimeout(() => void ask(), kAheadEvery_ms);
-    };
-    let timer = setTimeout(() => void ask(), kAheadEvery_ms);
-    return () => {
-      closed = true;
-      clearTimeout(timer);
-    };
-  }, [api, diagram, is_open]);
-  return latest;
-}
-
 interface DrawnProps {
   diagram: Diagram; layer: number; jobs: { a: Job | null; b: Job | null }; app: App;
   /** The arms do other jobs by now. */
@@ -176,24 +134,10 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
     picture_shown.current?.draw();
   };
   useEffect(() => () => { app.ghost.value = null; }, [app]);
-  // As the last poses have it, which tell of authority, too; else by the last event, carried on with the clock.
-  const progress_s = (side: Diagram['a']) => {
-    const measured_s = held_s === null ? motion_of(store, side)?.progress_s : measured_at(store, side, held_s);
-    if (measured_s != null) return Math.min(measured_s, side.duration_s);
-    const job = store.job(side.id);
-    return job ? store.progress(job) * side.duration_s : held_s === null ? side.progress_s : 0;
-  };
-  // From where both were heard first: the way that was measured does not end at a stride of the clock.
-  const trail_to = (at: Point) => {
-    const way = measured();
-    return way.length === 0 ? [] : [...way, at];
-  };
   const measured = () => measured_way(store.courses.of(diagram.a.id), store.courses.of(diagram.b.id), held_s ?? Infinity);
-  const now_point = () => ({ a_s: progress_s(diagram.a), b_s: progress_s(diagram.b) });
-  const is_open = [jobs.a, jobs.b].every((job) => job !== null && (!store.is_terminal(job) || job.state === 'succeeded'))
-    && [jobs.a, jobs.b].some((job) => job !== null && !store.is_terminal(job));
+  const now_point = () => ({ a_s: progress_of(diagram.a, store, held_s), b_s: progress_of(diagram.b, store, held_s) });
   // What lay ahead then nobody kept.
-  const plans = is_open && held_s === null && !is_kept;
+  const plans = is_open(jobs, store) && held_s === null && !is_kept;
   const authority = () => (held_s === null && !is_kept ? authority_of(store, diagram) : null);
   const latest = use_latest(diagram, plans, app.api);
   const ahead = (at: Point) => (plans ? ahead_of(latest.layers[index]?.met ?? null, at, authority(), diagram) : null);
@@ -203,9 +147,10 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
     if (!layer) return null;
     const at = now_point();
     const lies = ahead(at);
+    const way = measured();
     return {
       authority: authority(), pointed: pointed.current,
-      diagram, layer, now: at, way: plans ? plan_from(at, diagram) : [], trail: trail_to(at), met: lies && 'met' in lies ? lies.met : null, evidence,
+      diagram, layer, now: at, way: plans ? plan_from(at, diagram) : [], trail: way.length === 0 ? [] : [...way, at] /* not to end at a stride of the clock */, met: lies && 'met' in lies ? lies.met : null, evidence,
       colours: { a: ink(arm_colour(names, layer.arms[0])), b: ink(arm_colour(names, layer.arms[1])) },
     };
   };
@@ -221,11 +166,8 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
   }, [store, diagram, index, app.settings.shown_theme.value]);
   if (!layer) return null;
   const lies = ahead(now_point());
-  const share = shares(layer);
   const is_measured = measured().length > 1;
   const unheard = !is_measured && [jobs.a, jobs.b].every((job) => job?.started_s != null);
-  const waiting = [jobs.a, jobs.b].find((job) => job !== null && job.started_s === null && !store.is_terminal(job)) ?? null;
-  const resting = [jobs.a, jobs.b].find((job) => job?.state === 'succeeded') ?? null;
   return (
     <>
       <div ref={host} class="diagram" data-test="diagram" role="img"
@@ -235,20 +177,12 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
         }}
         onPointerLeave={() => point_at(null)}
         aria-label={`Where ${diagram.a.id} (across) and ${diagram.b.id} (up) are in conflict`} />
-      <div class="keys">
-        <div class="line">{(['free', 'conflict', 'undecided'] as const).map((state) => (
-          <span key={state} class="key"><i class={state} style={{ '--cell': kCellColours[state], '--stripes': kUndecidedStripes }} /> {state} <b class="mono">{percent(share[state])}</b></span>
-        ))}</div>
-        <div class="line">{held_s === null && <><span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>
-        <span class="key" title="As it is not going to be where one of them waits"><i class="plan" /> if both go on</span>
-        <span class="key" title="Where that would first be in conflict, or where it is not proven free"><i class="met">×</i> not free there</span></>}
-        {is_measured && <span class="key" data-test="measured"><i class="measured" /> measured</span>}</div>
-      </div>
+      <Legend layer={layer} of_now={held_s === null} is_measured={is_measured} />
       {unheard && <p class="hint" data-test="unmeasured">They moved before this page listened: the way that was measured is not known here.</p>}
       <Instant diagram={diagram} jobs={jobs} app={app} show={point_at} />
-      {share.free === 1 && <p class="hint" data-test="all-free">All of it is free: at no pace is one in the way of the other.</p>}
+      {shares(layer).free === 1 && <p class="hint" data-test="all-free">All of it is free: at no pace is one in the way of the other.</p>}
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
-      {lies && <PlanWords {...plan_in_words(lies, waiting?.id ?? null, resting?.id ?? null)} />}
+      {lies && <PlanWords ahead={lies} jobs={[jobs.a, jobs.b]} store={store} />}
       <p class="hint explains">
         Each cell holds for every instant in it, at any pace: {layer.cells?.length === 1 ? '1 cell' : `${layer.cells?.length ?? 0} cells`} between
         the {layer.arms[0]} and the {layer.arms[1]} arm, {diagram.evaluations} states looked at.
@@ -257,7 +191,24 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
   );
 }
 
-function PlanWords({ tone, words }: ReturnType<typeof plan_in_words>) {
+/** As the last poses have it, which tell of authority, too; else by the last event, carried on with the clock. */
+function progress_of(side: Diagram['a'], store: Store, held_s: number | null): number {
+  const measured_s = held_s === null ? motion_of(store, side)?.progress_s : measured_at(store, side, held_s);
+  if (measured_s != null) return Math.min(measured_s, side.duration_s);
+  const job = store.job(side.id);
+  return job ? store.progress(job) * side.duration_s : held_s === null ? side.progress_s : 0;
+}
+
+/** Whether something lies ahead of them: one is under way or to begin, and none was given up. */
+function is_open({ a, b }: DrawnProps['jobs'], store: Store): boolean {
+  const both = [a, b];
+  return both.every((job) => job !== null && (!store.is_terminal(job) || job.state === 'succeeded')) && both.some((job) => job !== null && !store.is_terminal(job));
+}
+
+function PlanWords({ ahead, jobs, store }: { ahead: Ahead; jobs: readonly (Job | null)[]; store: Store }) {
+  const waiting = jobs.find((job) => job !== null && job.started_s === null && !store.is_terminal(job));
+  const resting = jobs.find((job) => job?.state === 'succeeded');
+  const { tone, words } = plan_in_words(ahead, waiting?.id ?? null, resting?.id ?? null);
   return <p class={`plan-words ${tone}`} data-test="plan">{words}</p>;
 }
 
@@ -305,8 +256,4 @@ function authority_of(store: Store, { a, b }: Diagram): Point | null {
   const [of_a, of_b] = [motion_of(store, a), motion_of(store, b)];
   if (!of_a && !of_b) return null;
   return { a_s: of_a?.authority_s ?? a.progress_s, b_s: of_b?.authority_s ?? b.progress_s };
-}
-
-function percent(share: number): string {
-  return share > 0 && share < 0.005 ? '< 1 %' : `${(100 * share).toFixed(0)} %`;
 }

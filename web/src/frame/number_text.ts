@@ -11,7 +11,7 @@ export function no_number(text: string): string {
   return `"${text.trim()}" is no number${text.includes(',') ? ': the decimal sign is a point' : ''}`;
 }
 
-/** So much more, in the digits of the step. */
+/** So much more, without digits that only a computer makes. */
 export function stepped(text: string, by: number): string {
   const value = number_in(text);
   return value === null ? text : String(Number((value + by).toFixed(6)));

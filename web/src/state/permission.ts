@@ -9,7 +9,12 @@ export function is_viewer(session: Session | null): boolean {
   return session?.role === 'viewer';
 }
 
-/** Why no command can be given now; null when one can. */
+/** Why whoever uses this browser may give no command; null: they may. */
+export function why_not_permitted(session: Session | null): string | null {
+  return is_viewer(session) ? 'Your token may only look: this takes the role operator' : null;
+}
+
+/** Why no command can be given to the cell now; null when one can. */
 export function why_no_command({ store, session }: Pick<App, 'store' | 'session'>): string | null {
-  return why_mute(store.link) ?? (is_viewer(session.value) ? 'Your token may only look: this takes the role operator' : null);
+  return why_mute(store.link) ?? why_not_permitted(session.value);
 }

@@ -1,0 +1,49 @@
+// Diagrams as they are asked of the server: whole ones as the jobs change, and what lies ahead by now.
+
+import { useEffect, useRef, useState } from 'preact/hooks';
+import type { Answer, Api } from '../server/api';
+import type { Diagram, Problem } from '../server/messages';
+import { OneAtATime } from './one_at_a_time';
+
+const kAheadEvery_ms = 500;
+
+/** `diagram`: the last that came, which may be of others than are asked for; `refused`: what was asked last. */
+export interface Fetched { diagram: Diagram | null; refused: { a: string; b: string; problem: Problem } | null }
+
+/** Jobs of some seconds change faster than they are drawn: the last drawing stays until the next is there. */
+export function use_fetched(api: Pick<Api, 'diagram'>, a: string, b: string, scene: unknown, connected: boolean): Fetched {
+  const [fetched, set_fetched] = useState<Fetched>({ diagram: null, refused: null });
+  const drawings = useRef<OneAtATime<{ a: string; b: string }, Answer<Diagram>> | null>(null);
+  useEffect(() => {
+    const asked = new OneAtATime<{ a: string; b: string }, Answer<Diagram>>((pair) => api.diagram(pair.a, pair.b), (answer, pair) => {
+      set_fetched(({ diagram }) => (answer.ok ? { diagram: answer.value, refused: null } : { diagram, refused: { ...pair, problem: answer.problem } }));
+    });
+    drawings.current = asked;
+    return () => asked.close();
+  }, [api]);
+  // Another scene makes another diagram.
+  useEffect(() => { if (connected) drawings.current?.want({ a, b }); }, [api, a, b, scene, connected]);
+  return fetched;
+}
+
+/** The diagram as the server answers it again and again, without its cells: what lies ahead by now. */
+export function use_latest(diagram: Diagram, is_open: boolean, api: Api): Diagram {
+  const [latest, set_latest] = useState(diagram);
+  useEffect(() => {
+    set_latest(diagram);
+    if (!is_open) return;
+    let closed = false;
+    const ask = async () => {
+      const answer = await api.diagram(diagram.a.id, diagram.b.id, false);
+      if (closed) return;
+      if (answer.ok) set_latest(answer.value);
+      timer = setTimeout(() => void ask(), kAheadEvery_ms);
+    };
+    let timer = setTimeout(() => void ask(), kAheadEvery_ms);
+    return () => {
+      closed = true;
+      clearTimeout(timer);
+    };
+  }, [api, diagram, is_open]);
+  return latest;
+}
