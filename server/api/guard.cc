@@ -30,7 +30,7 @@ std::optional<Refusal> Guard::refusal(const Request& request, Role needed) {
                                    "/login; `armloom token add` makes one",
                    "Authorization",
                    std::nullopt,
-                   {{"WWW-Authenticate", "Bearer realm=\"armloom\""}}};
+                   {kHowToShowAToken}};
   }
   if (who->role >= needed) return std::nullopt;
   return Refusal{403, "not-permitted",

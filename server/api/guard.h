@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "server/access/token_book.h"
 #include "server/http/message.h"
@@ -11,6 +12,10 @@ namespace armloom {
 
 // Who may what: with a file of tokens whoever shows one of them may what its role says; without one
 // everybody may everything. On the server's thread.
+// With every 401 (RFC 9110, 15.5.2).
+inline const std::pair<std::string, std::string> kHowToShowAToken{"WWW-Authenticate",
+                                                                  "Bearer realm=\"armloom\""};
+
 class Guard {
  public:
   // `tokens`: the file; nothing: there is none. `tls`: cookies go through TLS only. `told`: as

@@ -46,6 +46,7 @@ const std::map<int, RefusalText>& refusal_texts() {
        {"TooMany",
         "More requests or jobs a second, or more connections, than one client may have, or all "
         "together. `Retry-After` says when to come again"}},
+      {414, {"TargetTooLong", "A request line of more than 16 KiB"}},
       {431, {"HeaderTooLarge", "A header of more than 16 KiB"}},
       {503,
        {"Unavailable",

@@ -22,7 +22,7 @@ const std::vector<Route>& all_routes() {
 }
 
 std::vector<int> common_refusals(const Route& route) {
-  std::vector<int> statuses{400, 413, 417, 431, 503};
+  std::vector<int> statuses{400, 413, 414, 417, 431, 503};
   if (route.rights().is_counted()) statuses.push_back(429);
   if (route.who != Who::anyone) statuses.push_back(403);
   if (route.role) statuses.push_back(401);

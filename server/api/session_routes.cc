@@ -40,7 +40,10 @@ void log_in(Call call) {
     if (!session.role || (session.asks_for_token && !may_stand_in_a_cookie(read.token))) {
       return respond(
           refusal_response({401, "not-authenticated",
-                            "the token is none of this server's, or was withdrawn", "/token"}));
+                            "the token is none of this server's, or was withdrawn",
+                            "/token",
+                            std::nullopt,
+                            {kHowToShowAToken}}));
     }
     Response response = answer(200, session_format(), session);
     if (session.asks_for_token) {

@@ -12,16 +12,23 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // RFC 4180: quoted where it has to be.
-std::string csv_field(const std::string& text) {
+std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string quotes = "\"";
   for (char c : text) quotes += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quotes + '"';
 }
 
+// CSV is opened with a spreadsheet: what a client wrote must not be a formula there. JSON lines have
+// it as it was written.
+std::string csv_field(const std::string& text) {
+  const bool may_be_formula = !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+  return csv_quoted(may_be_formula ? "'" + text : text);
+}
+
 std::string cell_of(const Json& value) {
   if (value.is_null()) return "";
-  return csv_field(value.is_string() ? value.get<std::string>() : value.dump());
+  return value.is_string() ? csv_field(value.get<std::string>()) : csv_quoted(value.dump());
 }
 
 constexpr const char* kColumns[] = {"id",           "name",       "state",    "priority",

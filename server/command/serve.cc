@@ -74,7 +74,7 @@ void limit_clients(const ServeOptions& options, ServiceOptions& service) {
 // Of who may use it: whoever can reach an address that is not the machine's own has to show a
 // token, and nobody between may read it.
 void find_faults_of_access(const ServeOptions& options, const std::string& address,
-                           Problems& problems) {
+                           const Result<std::vector<KeptToken>>& tokens, Problems& problems) {
   if (options.tls_certificate.empty() != options.tls_key.empty()) {
     problems.push_back(Problem{ProblemKind::invalid, "half-of-tls", "--tls-key",
                                "--tls-certificate and --tls-key go together"});
@@ -84,17 +84,15 @@ void find_faults_of_access(const ServeOptions& options, const std::string& addre
     const std::string danger =
         asks ? "whoever is between could read the tokens that are shown at " + address
              : "whoever reaches " + address + " could move the arms";
-    const std::string tokens =
+    const std::string how =
         "--tokens FILE (`armloom token add --tokens FILE --name NAME --role operator` makes it)";
     problems.push_back(Problem{ProblemKind::invalid, "open-to-others", "--listen",
-                               danger + ": give " + (asks ? "" : tokens) +
+                               danger + ": give " + (asks ? "" : how) +
                                    (asks || is_sealed ? "" : ", ") +
                                    (is_sealed ? "" : "--tls-certificate and --tls-key") +
                                    "; or listen on 127.0.0.1, behind a proxy or a tunnel",
                                address});
   }
-  if (options.tokens.empty()) return;
-  const auto tokens = TokenFile(options.tokens).read();
   if (!tokens) problems.insert(problems.end(), tokens.error().begin(), tokens.error().end());
 }
 
@@ -179,7 +177,9 @@ int serve(const ServeOptions& options) {
     return kExitBadInput;
   }
   Problems faults = faults_of(options);
-  find_faults_of_access(options, service_options.address, faults);
+  const auto tokens = options.tokens.empty() ? Result<std::vector<KeptToken>>()
+                                             : TokenFile(options.tokens).read();
+  find_faults_of_access(options, service_options.address, tokens, faults);
   if (const Problems& problems = faults; !problems.empty()) {
     complain("", problems);
     return kExitBadInput;
@@ -223,8 +223,7 @@ int serve(const ServeOptions& options) {
         {"arms", static_cast<std::int64_t>(loaded->cell->arms.size())},
         {"policy", options.policy.empty() ? loaded->cell->scheduling.policy : options.policy},
         {"speed", options.speed}}});
-  if (service_options.tokens &&
-      TokenFile(*service_options.tokens).read().value_or(std::vector<KeptToken>{}).empty()) {
+  if (service_options.tokens && tokens->empty()) {
     log({LogLine::Level::warning,
          "nobody is let in: there is no token; `armloom token add` makes one",
          {{"tokens", service_options.tokens->string()}}});

@@ -5,19 +5,24 @@
 #include "server/access/digest.h"
 
 namespace armloom {
-Result<Control::Taken> Control::take(const std::string& who, bool from_another) {
+Result<Control::Taken> Control::take(const std::string& who, bool from_another,
+                                      std::optional<std::string> token) {
   if (holder_ && !from_another) {
     return failure(Problem{ProblemKind::conflict, "control-is-held", "",
                            holder_->who + " has control; \"take\": true takes it", holder_->who});
   }
   Taken taken{random_hex(), holder_ ? holder_->move : std::nullopt};
-  holder_ = Holder{who, std::chrono::system_clock::now()};
+  holder_ = Holder{who, std::move(token), std::chrono::system_clock::now()};
   key_ = taken.key;
   return taken;
 }
 
 Result<std::optional<Control::Move>> Control::give_back(const std::string& key) {
   if (auto held = check(key); !held) return failure(std::move(held.error()));
+  return end();
+}
+
+std::optional<Control::Move> Control::end() {
   auto move = holder_->move;
   holder_.reset();
   key_.clear();

@@ -22,6 +22,7 @@ class Control {
   };
   struct Holder {
     std::string who;  // for people
+    std::optional<std::string> token;  // by which it was taken, where tokens are asked for
     std::chrono::system_clock::time_point since;
     std::optional<Move> move = {};  // the last that was begun by hand
   };
@@ -30,9 +31,12 @@ class Control {
     std::optional<Move> interrupted;  // the move of whoever held it before: to be cancelled
   };
   // Problem (conflict): somebody else holds it, and it is not to be taken `from_another`.
-  [[nodiscard]] Result<Taken> take(const std::string& who, bool from_another);
+  [[nodiscard]] Result<Taken> take(const std::string& who, bool from_another,
+                                   std::optional<std::string> token = {});
   // The last move of who gives it back. Problem: that of check().
   [[nodiscard]] Result<std::optional<Move>> give_back(const std::string& key);
+  // Takes it from whoever holds it, for nobody; their last move. Precondition: somebody does.
+  std::optional<Move> end();
   // Problem (conflict): the key is not that of who holds it.
   [[nodiscard]] Result<void> check(const std::string& key) const;
   // Precondition: somebody holds it.

@@ -69,9 +69,13 @@ Result<Restart> Restart::prepare(JobKeeper& keeper) {
 }
 
 bool Restart::failed_before(const JobRequest& request) const {
-  return std::ranges::any_of(written_off_, [&](const WrittenOff& off) {
-    return std::ranges::find(request.after, off.job.id) != request.after.end();
-  });
+  return std::ranges::any_of(request.after,
+                             [&](const std::string& id) { return ids_written_off_.contains(id); });
+}
+
+void Restart::write_off(const StoredJob& job, JobState state, Reason reason, std::string detail) {
+  ids_written_off_.insert(job.id);
+  written_off_.push_back({job, state, reason, std::move(detail)});
 }
 
 void Restart::write_off_unreadable(const StoredJob& job, std::string detail) {
@@ -112,9 +116,7 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
                      "a job that it comes after did not succeed");
   }
   for (const std::string& before : request.after) {
-    const bool waits =
-        std::ranges::any_of(stored_, [&](const StoredJob& other) { return other.id == before; });
-    if (waits) continue;
+    if (ids_waiting_.contains(before)) continue;
     const auto found =
         keeper.history().find(before);  // none: it ended so long ago that it is deleted
     const bool has_succeeded =
@@ -127,6 +129,7 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
   }
   waiting_.push_back({JobId{job.number}, std::move(request), submitted_at(job, keeper.clock())});
   stored_.push_back(job);
+  ids_waiting_.insert(job.id);
 }
 
 std::string Restart::summary() const {

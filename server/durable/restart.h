@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "core/model/cell.h"
@@ -32,9 +33,7 @@ class Restart {
   };
   void sort_out(const LeftJob& left, const JobKeeper& keeper);
   [[nodiscard]] bool failed_before(const JobRequest& request) const;
-  void write_off(const StoredJob& job, JobState state, Reason reason, std::string detail) {
-    written_off_.push_back({job, state, reason, std::move(detail)});
-  }
+  void write_off(const StoredJob& job, JobState state, Reason reason, std::string detail);
   // What of the jobs is lost for that they cannot be read.
   void write_off_unreadable(const StoredJob& job, std::string detail);
   [[nodiscard]] std::string summary() const;
@@ -42,6 +41,8 @@ class Restart {
   std::vector<RestoredJob> waiting_;
   std::vector<StoredJob> stored_;  // as waiting_
   std::vector<WrittenOff> written_off_;
+  std::unordered_set<std::string> ids_waiting_;
+  std::unordered_set<std::string> ids_written_off_;
   std::vector<std::string> unreadable_;  // ids
   std::vector<std::string> stopped_arms_;
   bool stops_are_damaged_ = false;

@@ -121,9 +121,10 @@ bool may_command(const std::string& host, const HostRule& rule) {
                      [&](const std::string& name) { return host_of(name) == host; });
 }
 
-bool same_origin(std::string_view origin, std::string_view host) {
+bool same_origin(std::string_view origin, std::string_view host, bool is_sealed) {
   const std::size_t scheme = origin.find("://");
-  return scheme != origin.npos && equals_ignoring_case(origin.substr(scheme + 3), host);
+  if (scheme == origin.npos || !equals_ignoring_case(origin.substr(scheme + 3), host)) return false;
+  return !is_sealed || equals_ignoring_case(origin.substr(0, scheme), "https");
 }
 
 }  // namespace armloom

@@ -29,6 +29,13 @@ Problem cannot_listen(const std::string& address, std::uint16_t port, const std:
                  "cannot listen on " + place + ": " + why, place};
 }
 
+// Its address; empty: it is gone already.
+std::string client_of(const tcp::socket& socket) {
+  ErrorCode ec;
+  const auto peer = socket.remote_endpoint(ec);
+  return ec ? std::string() : peer.address().to_string();
+}
+
 }  // namespace
 
 Reach reach_of(const std::string& address) {
@@ -141,15 +148,17 @@ class HttpServer::Impl {
 
   asio::awaitable<void> serve_reserved(Transport transport, std::unique_ptr<Reserve::Place> place,
                                        Refusal why) {
-    co_await serve_in_reserve(std::move(transport), std::move(why), site_, *memory_);
+    co_await serve_in_reserve(std::move(transport), *place, std::move(why), site_, *memory_);
     place.reset();
     reserve_.fill();
   }
 
   // Precondition: there is room.
   void reserve(tcp::socket socket, const Refusal& why) {
+    std::string client = client_of(socket);
     Transport transport(std::move(socket), tls_);
-    auto place = std::make_unique<Reserve::Place>(reserve_, transport.next_layer());
+    auto place =
+        std::make_unique<Reserve::Place>(reserve_, transport.next_layer(), std::move(client));
     asio::co_spawn(io_, serve_reserved(std::move(transport), std::move(place), why),
                    asio::detached);
   }
@@ -160,9 +169,7 @@ class HttpServer::Impl {
 
   void take(tcp::socket socket) {
     if (connections_.open >= connections_.max) return refuse(std::move(socket), too_many());
-    ErrorCode ec;
-    const auto peer = socket.remote_endpoint(ec);
-    const std::string client = ec ? std::string() : peer.address().to_string();
+    const std::string client = client_of(socket);
     const auto known = connections_.of_client.find(client);
     if (known != connections_.of_client.end() &&
         known->second >= site_.connections_per_client_max) {

@@ -139,6 +139,7 @@ struct HostRule {
   std::vector<std::string> names;    // further ones
   std::vector<std::string> origins;  // of other sites whose pages may command: "https://a.example"
   bool any_plain = false;  // and every name without a dot: no site on the internet has one
+  bool is_sealed = false;  // by TLS: its own pages are https
 };
 
 // The cookie in which a browser keeps its token.

@@ -42,9 +42,12 @@ std::optional<Refusal> foreign_host(const std::string& authority, const HostRule
 
 // Why whoever asks may only read. A browser names the page that asks: other sites may not change
 // anything, nor listen.
-std::optional<Refusal> foreign_origin(const RequestHeader& header, const std::string& authority) {
+std::optional<Refusal> foreign_origin(const RequestHeader& header, const std::string& authority,
+                                      const HostRule& hosts) {
   const auto origin = header.find(http::field::origin);
-  if (origin == header.end() || same_origin(view(origin->value()), authority)) return std::nullopt;
+  if (origin == header.end() || same_origin(view(origin->value()), authority, hosts.is_sealed)) {
+    return std::nullopt;
+  }
   return Refusal{403, "foreign-origin", "pages of another site may not command this server",
                  std::nullopt, std::string(origin->value())};
 }
@@ -55,7 +58,8 @@ std::optional<std::string> token_of(const RequestHeader& header) {
   const std::string authorization = one_of(header, "Authorization").value_or("");
   if (authorization.size() > kScheme.size() &&
       beast::iequals({authorization.data(), kScheme.size()}, {kScheme.data(), kScheme.size()})) {
-    return authorization.substr(kScheme.size());
+    const std::size_t begins = authorization.find_first_not_of(' ', kScheme.size());
+    return begins == authorization.npos ? "" : authorization.substr(begins);
   }
   const std::string name = std::string(kTokenCookie) + "=";
   for (std::string_view cookies : all_of(header, "Cookie")) {
@@ -172,7 +176,7 @@ tl::expected<Request, Refusal> request_of(const RequestHeader& header, const Hos
   }
   request.stranger = foreign_host(authority, hosts);
   request.cross_origin = allowed_origin(header, hosts);
-  request.foreign = request.stranger ? request.stranger : foreign_origin(header, authority);
+  request.foreign = request.stranger ? request.stranger : foreign_origin(header, authority, hosts);
   if (request.cross_origin) request.foreign = request.stranger;
   return request;
 }

@@ -79,7 +79,10 @@ asio::awaitable<std::optional<NoRequest>> read_first_line(Connection& connection
       auto refusal = settle_version(static_cast<char*>(connection.buffer.data().data()), end);
       co_return refusal ? std::optional(NoRequest{std::move(refusal)}) : std::nullopt;
     }
-    if (text.size() >= kHeaderMax) co_return std::nullopt;  // the parser says so
+    if (text.size() >= kHeaderMax) {
+      co_return NoRequest{
+          Refusal{414, "target-too-long", "a request line may have at most 16 KiB"}};
+    }
     // The parser may say early what is no HTTP; but what was not sent cannot be judged.
     co_await read_some(connection, ec);
     if (ec) co_return NoRequest{};

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "server/http/asio.h"
@@ -12,8 +14,9 @@ namespace armloom {
 
 // Places for connections beyond those that are served, in which a stop is taken all the same. A
 // file descriptor is held for each, so that there is one when the system gives no other. For one
-// more connection than there are places the oldest goes: whoever holds them all cannot keep others
-// out. On the server's thread.
+// more connection than there are places one has to go: the oldest of the client that has most, so
+// that whoever holds them all cannot keep others out; never one whose request is being answered.
+// On the server's thread.
 class Reserve {
  public:
   explicit Reserve(std::size_t places) : places_(places) {}
@@ -31,13 +34,16 @@ class Reserve {
   // does `stream`, which is closed when the connection has to go.
   class Place {
    public:
-    Place(Reserve& reserve, boost::beast::tcp_stream& stream)
+    Place(Reserve& reserve, boost::beast::tcp_stream& stream, std::string client)
         : reserve_(reserve), number_(reserve.next_number_++) {
-      reserve.inside_.emplace(number_, &stream);
+      reserve.inside_.emplace(number_, Inside{&stream, std::move(client)});
     }
     ~Place() { reserve_.inside_.erase(number_); }
     Place(const Place&) = delete;
     Place& operator=(const Place&) = delete;
+
+    // From when its request is read until the answer is written. False: it has been let go.
+    bool keep(bool is_kept);
 
    private:
     Reserve& reserve_;
@@ -45,12 +51,17 @@ class Reserve {
   };
 
  private:
-  bool let_oldest_go();
+  struct Inside {
+    boost::beast::tcp_stream* stream;
+    std::string client;
+    bool is_kept = false;
+  };
+  bool let_one_go();
 
   std::size_t places_;
   std::vector<int> held_;  // descriptors
   std::uint64_t next_number_ = 0;
-  std::map<std::uint64_t, boost::beast::tcp_stream*> inside_;  // in the order in which they came
+  std::map<std::uint64_t, Inside> inside_;  // in the order in which they came
 };
 
 }  // namespace armloom

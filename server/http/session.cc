@@ -109,8 +109,8 @@ asio::awaitable<void> serve_connection(Transport transport, const Site& site,
   }
 }
 
-asio::awaitable<void> serve_in_reserve(Transport transport, Refusal why, const Site& site,
-                                       MemoryBudget& memory) {
+asio::awaitable<void> serve_in_reserve(Transport transport, Reserve::Place& place, Refusal why,
+                                       const Site& site, MemoryBudget& memory) {
   Connection connection(std::move(transport), memory);
   if (!co_await connection.stream.shake_hands(kReserveTime)) co_return;
   const Terms terms{{kReserveTime, kReserveTime}, [&](const Request& request) {
@@ -122,9 +122,11 @@ asio::awaitable<void> serve_in_reserve(Transport transport, Refusal why, const S
     if (!said) said = site.refuse(why);
     co_return co_await refuse(connection, std::move(*said));
   }
+  if (!place.keep(true)) co_return;
   Response response = co_await answer(site, arrived->request, connection.stream.socket());
   answer_across_origins(arrived->request, response);
   arrived->delivery.keep_alive = false;
+  place.keep(false);  // it is short: written at once, whoever does not read it
   co_await deliver(connection, std::move(response), arrived->delivery, site);
 }
 

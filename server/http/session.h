@@ -3,6 +3,7 @@
 #include "server/http/asio.h"
 #include "server/http/memory_budget.h"
 #include "server/http/message.h"
+#include "server/http/reserve.h"
 #include "server/http/transport.h"
 
 namespace armloom {
@@ -21,7 +22,7 @@ asio::awaitable<void> serve_connection(Transport transport, const Site& site, Me
 
 // Serves the first request if that is never limited, as a stop is; says `why` to any other, and to
 // who asks nothing soon. Then the connection is closed.
-asio::awaitable<void> serve_in_reserve(Transport transport, Refusal why, const Site& site,
-                                       MemoryBudget& memory);
+asio::awaitable<void> serve_in_reserve(Transport transport, Reserve::Place& place, Refusal why,
+                                       const Site& site, MemoryBudget& memory);
 
 }  // namespace armloom

@@ -1,6 +1,8 @@
 #include "server/log/log_line.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 
 #include "server/codec/json_writer.h"
 #include "server/codec/rfc3339.h"
@@ -16,6 +18,33 @@ std::string in_quotes(std::string_view text) {
   JsonWriter out;
   out.value(text);
   return out.take();
+}
+
+// Of text in which JSON has escaped what it must: what a terminal, or who reads it there, may be
+// misled by, too (C1 controls, ends of lines, marks of the direction of writing).
+std::string for_terminals(const std::string& text) {
+  std::string out;
+  out.reserve(text.size());
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
+  };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned code = 0;
+    if (byte(i) == 0xc2) code = byte(i + 1);
+    if (byte(i) == 0xe2) code = 0x2000U | (byte(i + 1) & 0x3fU) << 6U | (byte(i + 2) & 0x3fU);
+    const bool is_c1 = 0x80 <= code && code <= 0x9f;
+    const bool is_mark = code == 0x200e || code == 0x200f || (0x2028 <= code && code <= 0x202e) ||
+                         (0x2066 <= code && code <= 0x2069);
+    if (!is_c1 && !is_mark) {
+      out += text[i];
+      continue;
+    }
+    std::array<char, 7> escaped{};
+    std::snprintf(escaped.data(), escaped.size(), "\\u%04x", code);
+    out += escaped.data();
+    i += is_c1 ? 1 : 2;
+  }
+  return out;
 }
 
 void write(JsonWriter& out, const Value& value) {
@@ -41,7 +70,7 @@ std::string text_of(const LogLine& line) {
   std::string text = in_quotes(line.message);
   text = text.substr(1, text.size() - 2);
   for (const auto& [key, value] : line.fields) text += " " + key + "=" + shown(value);
-  return text;
+  return for_terminals(text);
 }
 
 std::string json_of(const LogLine& line, std::chrono::system_clock::time_point at) {
@@ -53,7 +82,7 @@ std::string json_of(const LogLine& line, std::chrono::system_clock::time_point a
     write(out, value);
   }
   out.end_object();
-  return out.take();
+  return for_terminals(out.take());
 }
 
 }  // namespace armloom

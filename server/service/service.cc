@@ -105,7 +105,8 @@ class Service::Impl {
       return router_.is_never_limited(request);
     };
     const bool everywhere = options_.address == "0.0.0.0" || options_.address == "::";
-    site.hosts = HostRule{options_.allowed_hosts, options_.allowed_origins, everywhere};
+    site.hosts = HostRule{options_.allowed_hosts, options_.allowed_origins, everywhere,
+                          options_.tls.has_value()};
     site.keep_alive = options_.keep_alive;
     site.send_time = options_.send_time;
     site.send_buffer = options_.send_buffer;

@@ -1,7 +1,10 @@
 #include "server/store/database.h"
 
 #include <sqlite3.h>
+#include <unistd.h>
 #include <zlib.h>
+
+#include <system_error>
 
 namespace armloom {
 namespace {
@@ -27,6 +30,24 @@ void checksum(sqlite3_context* context, int count, sqlite3_value** values) {
     if (text != nullptr) sum = crc32(sum, text, static_cast<uInt>(size));
   }
   sqlite3_result_int64(context, static_cast<sqlite3_int64>(sum));
+}
+
+// https://sqlite.org/uri.html. Who reads a file in WAL makes files beside it, too. Where the folder
+// does not let anybody (a copy, a mount for reading) and nothing is ahead of the file, nobody writes
+// it, and it is read as it lies there.
+std::string uri_to_read(const std::filesystem::path& file) {
+  std::string uri = "file:";
+  for (const char c : std::filesystem::absolute(file).string()) {
+    if (c == '%' || c == '?' || c == '#') {
+      uri += c == '%' ? "%25" : c == '?' ? "%3f" : "%23";
+    } else {
+      uri += c;
+    }
+  }
+  std::error_code ec;
+  const bool is_ahead = std::filesystem::exists(file.string() + "-wal", ec);
+  const bool lies_still = !is_ahead && ::access(file.parent_path().c_str(), W_OK) != 0;
+  return uri + (lies_still ? "?immutable=1" : "");
 }
 
 }  // namespace
@@ -108,12 +129,13 @@ bool Statement::is_null(int column) const {
 }
 
 Database::Database(const std::filesystem::path& file, Access access, const std::string& vfs) {
-  const int flags = access == Access::read    ? SQLITE_OPEN_READONLY
+  const int flags = access == Access::read    ? SQLITE_OPEN_READONLY | SQLITE_OPEN_URI
                     : access == Access::write ? SQLITE_OPEN_READWRITE
                                               : SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE;
   sqlite3* database = nullptr;
+  const std::string name = access == Access::read ? uri_to_read(file) : file.string();
   const int code =
-      sqlite3_open_v2(file.c_str(), &database, flags, vfs.empty() ? nullptr : vfs.c_str());
+      sqlite3_open_v2(name.c_str(), &database, flags, vfs.empty() ? nullptr : vfs.c_str());
   database_.reset(database);
   if (code != SQLITE_OK) throw fault_of(database, code);
   sqlite3_extended_result_codes(database, 1);

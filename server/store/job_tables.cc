@@ -18,7 +18,6 @@ Database opened(const std::filesystem::path& file, const std::string& vfs) {
   Database database(file, Database::Access::write, vfs);
   if (database.is_read_only()) throw SqlFault(0, "it is read-only");
   bring_up_to_date(database);
-  check_whole(database);
   database.know_checksum();
   if (database.text("PRAGMA journal_mode = WAL") != "wal") {
     throw SqlFault(0, "it cannot be written ahead (WAL), as on a network's file system");

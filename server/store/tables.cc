@@ -87,14 +87,19 @@ constexpr const char* kVersions[] = {
 };
 constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
 
+// All versions or none: a file that is not what its version says is left as it is.
 void upgrade(Database& database, std::int64_t version) {
-  for (std::int64_t next = version; next < kNewest; ++next) {
-    Transaction transaction(database);
-    database.run(kVersions[next]);
-    database.run("PRAGMA application_id = " + std::to_string(kApplication));
-    database.run("PRAGMA user_version = " + std::to_string(next + 1));
-    transaction.commit();
-  }
+  if (version == kNewest) return;
+  Transaction transaction(database);
+  for (std::int64_t next = version; next < kNewest; ++next) database.run(kVersions[next]);
+  database.run("PRAGMA application_id = " + std::to_string(kApplication));
+  database.run("PRAGMA user_version = " + std::to_string(kNewest));
+  transaction.commit();
+}
+
+void check_whole(const Database& database) {
+  const std::string found = database.text("PRAGMA integrity_check(1)");
+  if (found != "ok") throw std::runtime_error("it is corrupt: " + found);
 }
 
 // So that a name that was given outlives a power cut.
@@ -134,12 +139,8 @@ void bring_up_to_date(Database& database) {
                              std::to_string(version) + ", this one knows " +
                              std::to_string(kNewest) + ")");
   }
+  check_whole(database);
   upgrade(database, version);
-}
-
-void check_whole(const Database& database) {
-  const std::string found = database.text("PRAGMA integrity_check(1)");
-  if (found != "ok") throw std::runtime_error("it is corrupt: " + found);
 }
 
 }  // namespace armloom

@@ -31,13 +31,9 @@ inline constexpr std::int64_t kVersionWithAllSums = 6;  // of alerts and the aud
 // has it. Throws SqlFault, std::system_error.
 void make_store(const std::filesystem::path& file, const std::string& vfs);
 
-// Brings the tables of an older version of the program to this one's, one version after the other,
-// each whole or not at all. Throws SqlFault; std::runtime_error where the file is another
-// program's, a newer version's, or has lost its tables.
+// Looks the file through, then brings the tables of an older version of the program to this one's,
+// all or nothing: where it throws the file is as it was. Throws SqlFault; std::runtime_error where
+// the file is another program's, a newer version's, has lost its tables or is not whole.
 void bring_up_to_date(Database& database);
-
-// Throws std::runtime_error with what SQLite finds wrong with the file, SqlFault where it cannot
-// even be read.
-void check_whole(const Database& database);
 
 }  // namespace armloom

@@ -89,6 +89,14 @@ TEST_F(Framing, RefusesAHeaderThatIsTooLarge) {
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 431 ")) << answer;
 }
 
+// RFC 9112, 3.
+TEST_F(Framing, RefusesARequestLineThatIsTooLong) {
+  start(1.0);
+  const std::string answer =
+      answers_to("GET /" + std::string(70'000, 'a') + " HTTP/1.1\r\nHost: x\r\n\r\n");
+  EXPECT_TRUE(answer.starts_with("HTTP/1.1 414 ")) << answer;
+}
+
 TEST_F(Framing, AsksForABodyThatWaitsToBeAskedFor) {
   start(1.0);
   test::Wire wire(port());

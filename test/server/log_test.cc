@@ -25,6 +25,19 @@ TEST(LogLine, WhatClientsSayStaysOnItsLineAndIsNoCommandOfATerminal) {
             "serving cell=two_pandas policy=\"\"");
 }
 
+// Also where it does so beyond ASCII: C1 controls, ends of lines, marks of the direction.
+TEST(LogLine, WhatMisleadsATerminalIsEscapedAndWhatIsReadIsNot) {
+  const LogLine line{LogLine::Level::info,
+                     "asked",
+                     {{"path", "/\u202eevil\u009b31m\u0085\u2028\u2066x"}, {"name", "größe € 腕"}}};
+  EXPECT_EQ(text_of(line),
+            R"(asked path="/\u202eevil\u009b31m\u0085\u2028\u2066x" name="größe € 腕")");
+  const std::string text = json_of(line, {});
+  EXPECT_NE(text.find(R"(\u202eevil\u009b31m)"), std::string::npos) << text;
+  EXPECT_EQ(json::parse(text)["path"], "/\u202eevil\u009b31m\u0085\u2028\u2066x");
+  EXPECT_EQ(json::parse(text)["name"], "größe € 腕");
+}
+
 TEST(LogLine, AsJsonIsOneObjectOnOneLine) {
   using std::chrono::milliseconds;
   const std::string text =

@@ -109,6 +109,27 @@ TEST_F(Rights, AFileWithAMistakeIsToldAndLeavesTheTokensOfBefore) {
   EXPECT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
 }
 
+TEST_F(Rights, ControlEndsWithTheTokenThatTookIt) {
+  const std::string fresh = TokenFile(file_).add("fresh", Role::operate).value();
+  const std::string as_json = "Content-Type: application/json\r\n";
+  const std::string admin = bearer(tokens_["admin"]);
+  EXPECT_EQ(ask("POST", "/api/v1/control", bearer(fresh) + as_json, "{}").status, 200);
+  EXPECT_EQ(ask("POST", "/api/v1/control", admin + as_json, "{}").status, 409);
+  ASSERT_TRUE(TokenFile(file_).withdraw("fresh"));
+  EXPECT_EQ(ask("POST", "/api/v1/control", admin + as_json, "{}").status, 200);
+}
+
+TEST_F(Rights, WhoIsNotLetInIsToldHow) {
+  const auto answer =
+      ask("POST", "/api/v1/session", "Content-Type: application/json\r\n", R"({"token": "x"})");
+  EXPECT_EQ(answer.status, 401);
+  EXPECT_NE(answer.head.find("WWW-Authenticate: Bearer"), std::string::npos) << answer.head;
+  // Of any number of spaces (RFC 9110, 11.4).
+  const std::string spaced = "Authorization: Bearer   " + tokens_["viewer"] + "\r\n";
+  EXPECT_EQ(ask("GET", "/api/v1/arms", spaced).status, 200);
+  EXPECT_EQ(ask("GET", "/api/v1/arms", "Authorization: Bearer   \r\n").status, 401);
+}
+
 TEST_F(Rights, EachTokenHasIdempotencyKeysOfItsOwn) {
   const auto send = [&](const char* name, const std::string& arm) {
     const std::string body =

@@ -13,7 +13,8 @@ namespace armloom::test {
 class Wire {
  public:
   // `receive_buffer`: bytes that the system takes for a reader that does not; zero: as it likes.
-  explicit Wire(std::uint16_t port, int receive_buffer = 0);
+  // `from`: the client's address, one of the loopback's.
+  explicit Wire(std::uint16_t port, int receive_buffer = 0, const char* from = "127.0.0.1");
   ~Wire();
   Wire(const Wire&) = delete;
   Wire& operator=(const Wire&) = delete;
