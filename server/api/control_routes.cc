@@ -56,8 +56,8 @@ void post_control(Call call) {
   const auto caller = parts.guard.asks() ? parts.guard.caller(call.request.token) : std::nullopt;
   const auto take = [&parts, respond = call.respond, peer = call.request.peer,
                      proven = caller ? caller->name : std::string(),
-                     token = caller ? call.request.token : std::nullopt](
-                        const ControlRequest& asked) {
+                     token =
+                         caller ? call.request.token : std::nullopt](const ControlRequest& asked) {
     const std::string said = asked.who.value_or("").empty() ? peer : *asked.who;
     const std::string who = proven.empty() ? said : proven;
     auto taken = control_of(parts).take(who, asked.take, token);

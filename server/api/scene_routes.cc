@@ -50,19 +50,39 @@ void get_scene(Call call) {
       });
 }
 
+// Who commands may rely on it, whatever happens to the server. `text`: as it was asked for; none:
+// the object is taken away.
+void respond_when_stored(const ApiParts& parts, const std::string& name,
+                         std::optional<std::string> text, const Respond& respond,
+                         Response response) {
+  if (parts.keeper == nullptr) return respond(std::move(response));
+  const bool is_of_cell = std::ranges::any_of(
+      parts.cell->objects, [&](const CollisionObject& object) { return object.name == name; });
+  parts.keeper->change({name, std::move(text), is_of_cell},
+                       [respond, response = std::move(response)](std::optional<Refusal> refusal) {
+                         if (!refusal) return respond(response);
+                         refusal->detail = "this is done, but the next run may not know of it: " +
+                                           refusal->detail;
+                         respond(refusal_response(*refusal));
+                       });
+}
+
 // change: add or put, on the strand. `name`: of the path, if it has one.
 template <class Change>
 void set_object(Call& call, const std::optional<std::string>& name, Change change) {
-  const auto set = [&parts = call.parts, respond = call.respond, change](CollisionObject object) {
+  const auto set = [&parts = call.parts, respond = call.respond, text = call.request.body,
+                    change](CollisionObject object) {
     const auto shared = std::make_shared<const CollisionObject>(std::move(object));
     ask(
         parts, [shared, change](Executive& executive) { return change(executive, *shared); },
-        [respond, shared](const Result<Changed>& changed) {
+        [&parts, respond, text, shared](const Result<Changed>& changed) {
           if (!changed) return respond(problem_response(changed.error()));
-          const SceneChange now{changed->version, *shared};
-          if (!changed->created) return respond(answer(200, scene_change_format(), now));
-          respond(located(answer(201, scene_change_format(), now),
-                          "/scene/objects/" + url_segment(shared->name)));
+          Response told = answer(changed->created ? 201 : 200, scene_change_format(),
+                                 SceneChange{changed->version, *shared});
+          if (changed->created) {
+            told = located(std::move(told), "/scene/objects/" + url_segment(shared->name));
+          }
+          respond_when_stored(parts, shared->name, *text, respond, std::move(told));
         });
   };
   read_body(
@@ -80,9 +100,11 @@ void delete_object(Call call) {
         if (auto done = executive.scene().remove(name); !done) return failure(done.error());
         return executive.scene().version();
       },
-      [respond = call.respond](const Result<std::uint64_t>& version) {
-        respond(version ? answer(200, scene_version_format(), *version)
-                        : problem_response(version.error()));
+      [&parts = call.parts, respond = call.respond,
+       name = call.arguments.front()](const Result<std::uint64_t>& version) {
+        if (!version) return respond(problem_response(version.error()));
+        respond_when_stored(parts, name, std::nullopt, respond,
+                            answer(200, scene_version_format(), *version));
       });
 }
 

@@ -19,10 +19,11 @@ std::string csv_quoted(const std::string& text) {
   return quotes + '"';
 }
 
-// CSV is opened with a spreadsheet: what a client wrote must not be a formula there. JSON lines have
-// it as it was written.
+// CSV is opened with a spreadsheet: what a client wrote must not be a formula there. JSON lines
+// have it as it was written.
 std::string csv_field(const std::string& text) {
-  const bool may_be_formula = !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
+  const bool may_be_formula =
+      !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;
   return csv_quoted(may_be_formula ? "'" + text : text);
 }
 

@@ -91,6 +91,10 @@ class EventComparison final : public Observer {
   };
   [[nodiscard]] const std::optional<Difference>& difference() const { return differs_; }
   [[nodiscard]] std::size_t events() const { return events_; }
+  // With one that was recorded; the others came after what was on disk when the server ended.
+  [[nodiscard]] std::size_t compared() const { return std::min(events_, recorded_.size()); }
+  // Nothing that could differ was recorded.
+  [[nodiscard]] bool is_void() const { return compared() == 0 && events_ > 0; }
   [[nodiscard]] bool is_written() const { return !out_.is_open() || out_.good(); }
 
  private:
@@ -137,13 +141,21 @@ int tell(const fs::path& folder, const Run& done, const EventComparison& compari
   if (difference) {
     std::cerr << "armloom: recorded: " << difference->recorded << '\n'
               << "armloom: replayed: " << difference->replayed << '\n';
+  } else if (comparison.compared() < comparison.events()) {
+    std::cerr << "armloom: " << comparison.compared() << " of " << comparison.events()
+              << " events are compared: events.jsonl has no more\n";
   }
   JsonWriter out;
   out.begin_object().field("recording", folder.string()).field("ended_s", done.ended);
   out.field("inputs", done.inputs).field("events", comparison.events());
-  out.field("same", !difference).end_object();
+  out.field("compared", comparison.compared());
+  out.key("same");
+  comparison.is_void() ? out.value(nullptr) : out.value(!difference);
+  out.end_object();
   std::cout << out.text() << std::endl;
-  return difference ? 1 : comparison.is_written() ? kExitDone : kExitNotWritten;
+  return difference || comparison.is_void() ? 1
+         : comparison.is_written()          ? kExitDone
+                                            : kExitNotWritten;
 }
 
 }  // namespace

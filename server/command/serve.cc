@@ -177,8 +177,8 @@ int serve(const ServeOptions& options) {
     return kExitBadInput;
   }
   Problems faults = faults_of(options);
-  const auto tokens = options.tokens.empty() ? Result<std::vector<KeptToken>>()
-                                             : TokenFile(options.tokens).read();
+  const auto tokens =
+      options.tokens.empty() ? Result<std::vector<KeptToken>>() : TokenFile(options.tokens).read();
   find_faults_of_access(options, service_options.address, tokens, faults);
   if (const Problems& problems = faults; !problems.empty()) {
     complain("", problems);

@@ -6,7 +6,7 @@
 
 namespace armloom {
 Result<Control::Taken> Control::take(const std::string& who, bool from_another,
-                                      std::optional<std::string> token) {
+                                     std::optional<std::string> token) {
   if (holder_ && !from_another) {
     return failure(Problem{ProblemKind::conflict, "control-is-held", "",
                            holder_->who + " has control; \"take\": true takes it", holder_->who});

@@ -21,7 +21,7 @@ class Control {
     Time held_at{};   // when it was said last that the button is held
   };
   struct Holder {
-    std::string who;  // for people
+    std::string who;                   // for people
     std::optional<std::string> token;  // by which it was taken, where tokens are asked for
     std::chrono::system_clock::time_point since;
     std::optional<Move> move = {};  // the last that was begun by hand

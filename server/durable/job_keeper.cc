@@ -82,6 +82,12 @@ void JobKeeper::amend(const JobView& job, std::function<void(std::optional<Refus
                 });
 }
 
+void JobKeeper::change(StoredObject object, std::function<void(std::optional<Refusal>)> then) {
+  store_->change(std::move(object), [this, then = std::move(then)](bool is_written) {
+    post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });
+  });
+}
+
 void JobKeeper::when_written(std::function<void(std::optional<Refusal>)> then) {
   store_->accept({}, [this, then = std::move(then)](bool is_written) {
     post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });

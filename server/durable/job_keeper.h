@@ -48,6 +48,8 @@ class JobKeeper final : public StartLog {
   void accept(std::vector<AcceptedJob> jobs, std::function<void(std::optional<Refusal>)> then);
   // It was changed: `then` is called when that is on disk, or with the reason why not yet.
   void amend(const JobView& job, std::function<void(std::optional<Refusal>)> then);
+  // An object of the scene was changed: `then` as of amend().
+  void change(StoredObject object, std::function<void(std::optional<Refusal>)> then);
   // When all that was told before is on disk, or with the reason why not yet.
   void when_written(std::function<void(std::optional<Refusal>)> then);
   // Why nothing can be accepted, nor any arm be let go, at present.

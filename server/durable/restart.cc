@@ -7,6 +7,7 @@
 #include "server/codec/json_text.h"
 #include "server/codec/read_text.h"
 #include "server/durable/damage.h"
+#include "server/durable/left_objects.h"
 #include "server/messages/job.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
@@ -53,6 +54,7 @@ TimePoint submitted_at(const StoredJob& job, const WallClock& clock) {
 Result<Restart> Restart::prepare(JobKeeper& keeper) {
   const Leftover& left = keeper.store().leftover();
   Restart restart;
+  restart.objects_ = left.objects;
   restart.stopped_arms_ = left.stopped_arms;
   restart.stops_are_damaged_ = left.stops_are_damaged;
   for (const LeftJob& job : left.jobs) restart.sort_out(job, keeper);
@@ -147,9 +149,17 @@ std::string Restart::summary() const {
 void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
   const Damage damage{.jobs = unreadable_, .stops = stops_are_damaged_};
   if (!damage.is_none()) executive.alert(alert_of(damage));
+  const auto not_put_back = put_back(objects_, executive.scene());
+  for (const ObjectNotPutBack& one : not_put_back) {
+    executive.alert({Alert::Level::error, one.why});
+    // It is told, and the next run begins with what is there.
+    keeper.store().change({.name = one.name}, [](bool) {});
+  }
   const bool asks = cell.scheduling.on_restart == OnRestart::ask;
   if (asks && (!waiting_.empty() || !written_off_.empty())) {
     stop_all(executive, summary());
+  } else if (!not_put_back.empty()) {
+    stop_all(executive, "the scene is not what it was before the server was started again");
   } else if (stops_are_damaged_) {
     stop_all(executive, "which arms were stopped before is not known");
   } else {

@@ -19,8 +19,9 @@ class Restart {
   // written.
   [[nodiscard]] static Result<Restart> prepare(JobKeeper& keeper);
 
-  // The first thing that the executive does. Stops arms first: all of them where the cell says
-  // `ask` and something was left, or where it is not known which were stopped when the former run
+  // The first thing that the executive does. Makes the scene what clients had made of it, then
+  // stops arms: all of them where the cell says `ask` and something was left, where the scene could
+  // not be made what it was, or where it is not known which arms were stopped when the former run
   // ended, else those that were. `keeper` outlives it.
   void go_on(Executive& executive, const Cell& cell, JobKeeper& keeper);
 
@@ -44,6 +45,7 @@ class Restart {
   std::unordered_set<std::string> ids_waiting_;
   std::unordered_set<std::string> ids_written_off_;
   std::vector<std::string> unreadable_;  // ids
+  std::vector<LeftObject> objects_;
   std::vector<std::string> stopped_arms_;
   bool stops_are_damaged_ = false;
 };

@@ -31,8 +31,9 @@ struct FramingFault {
 [[nodiscard]] bool valid_authority(std::string_view text);
 
 // Whether a browser's Origin ("http://host:port") is the site itself. Pages of other sites must not
-// stop arms or post jobs through the visitor's browser. `is_sealed`: the site is served over TLS, so
-// that its pages are https; without TLS of its own it may still stand behind a proxy that has it.
+// stop arms or post jobs through the visitor's browser. `is_sealed`: the site is served over TLS,
+// so that its pages are https; without TLS of its own it may still stand behind a proxy that has
+// it.
 [[nodiscard]] bool same_origin(std::string_view origin, std::string_view host, bool is_sealed);
 
 // The host of an authority, in small letters, without port, brackets and a last dot.

@@ -40,8 +40,8 @@ bool Reserve::let_one_go() {
   auto goes = inside_.end();
   for (auto one = inside_.begin(); one != inside_.end(); ++one) {
     if (one->second.is_kept) continue;
-    const bool has_more = goes == inside_.end() ||
-                          places_of[one->second.client] > places_of[goes->second.client];
+    const bool has_more =
+        goes == inside_.end() || places_of[one->second.client] > places_of[goes->second.client];
     if (has_more) goes = one;
   }
   if (goes == inside_.end()) return false;

@@ -33,8 +33,8 @@ void checksum(sqlite3_context* context, int count, sqlite3_value** values) {
 }
 
 // https://sqlite.org/uri.html. Who reads a file in WAL makes files beside it, too. Where the folder
-// does not let anybody (a copy, a mount for reading) and nothing is ahead of the file, nobody writes
-// it, and it is read as it lies there.
+// does not let anybody (a copy, a mount for reading) and nothing is ahead of the file, nobody
+// writes it, and it is read as it lies there.
 std::string uri_to_read(const std::filesystem::path& file) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(file).string()) {
@@ -86,6 +86,12 @@ Statement& Statement::bind(int parameter, std::string_view text) {
 
 Statement& Statement::bind(int parameter, std::optional<std::int64_t> value) {
   if (value) return bind(parameter, *value);
+  check(sqlite3_bind_null(statement_.get(), parameter));
+  return *this;
+}
+
+Statement& Statement::bind(int parameter, std::optional<std::string_view> text) {
+  if (text) return bind(parameter, *text);
   check(sqlite3_bind_null(statement_.get(), parameter));
   return *this;
 }
@@ -143,6 +149,12 @@ Database::Database(const std::filesystem::path& file, Access access, const std::
 }
 
 void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+
+void Database::keep_log(bool is_kept) {
+  const int code = sqlite3_db_config(database_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE,
+                                     is_kept ? 1 : 0, nullptr);
+  if (code != SQLITE_OK) throw fault_of(database_.get(), code);
+}
 
 bool Database::is_read_only() const { return sqlite3_db_readonly(database_.get(), "main") == 1; }
 

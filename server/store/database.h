@@ -33,6 +33,7 @@ class Statement {
   Statement& bind(int parameter, std::int64_t value);
   Statement& bind(int parameter, std::string_view text);  // copied
   Statement& bind(int parameter, std::optional<std::int64_t> value);
+  Statement& bind(int parameter, std::optional<std::string_view> text);
   template <class... Values>
   Statement& bind_all(const Values&... values) {
     int parameter = 0;
@@ -68,6 +69,9 @@ class Database {
   // `vfs`: SQLite's name of the file system that it goes through; empty: the system's.
   Database(const std::filesystem::path& file, Access access, const std::string& vfs = {});
 
+  // Whether the log goes into the file, and is deleted, when this is closed as the last connection.
+  // As SQLite has it: yes.
+  void keep_log(bool is_kept);
   // Opened for writing all the same: the system does not let it be written.
   [[nodiscard]] bool is_read_only() const;
   // Makes checksum(...) known to the statements of this connection: of any values, by which one

@@ -233,6 +233,13 @@ void JobStore::stopped(std::vector<std::string> arms) {
   impl_->add(std::move(changes));
 }
 
+void JobStore::change(StoredObject object, Done done) {
+  Pending changes;
+  changes.objects.insert_or_assign(object.name, std::move(object));
+  changes.acceptances.push_back({.jobs = {}, .done = std::move(done)});
+  impl_->add(std::move(changes));
+}
+
 void JobStore::note(AuditEntry entry) {
   Pending changes;
   changes.audit.add(std::move(entry));

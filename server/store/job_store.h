@@ -13,6 +13,7 @@
 #include "core/base/problem.h"
 #include "server/store/stored_alert.h"
 #include "server/store/stored_job.h"
+#include "server/store/stored_object.h"
 
 namespace armloom {
 
@@ -45,6 +46,7 @@ struct Leftover {
   std::vector<LeftJob> jobs;      // in order of their numbers
   std::vector<std::string> stopped_arms;
   bool stops_are_damaged = false;   // there were more: which ones is not known
+  std::vector<LeftObject> objects;  // in the order in which they came
   std::vector<StoredAlert> alerts;  // oldest first
 };
 
@@ -82,6 +84,8 @@ class JobStore {
   // called back with true.
   void about_to_move(std::uint64_t number, Done done);
   void stopped(std::vector<std::string> arms);
+  // `done`: as of amend().
+  void change(StoredObject object, Done done);
 
   // Soon on disk.
   void note(AuditEntry entry);

@@ -17,7 +17,9 @@ Database opened(const std::filesystem::path& file, const std::string& vfs) {
   }
   Database database(file, Database::Access::write, vfs);
   if (database.is_read_only()) throw SqlFault(0, "it is read-only");
+  database.keep_log(true);  // as it is, where the file turns out to be of no use
   bring_up_to_date(database);
+  database.keep_log(false);
   database.know_checksum();
   if (database.text("PRAGMA journal_mode = WAL") != "wal") {
     throw SqlFault(0, "it cannot be written ahead (WAL), as on a network's file system");
@@ -61,6 +63,11 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
       stop_(database_.prepare("INSERT OR IGNORE INTO stopped_arm(name) VALUES(?1)")),
       seal_stops_(database_.prepare(std::string("UPDATE stopped_arm SET sum = ") + kSumOfStop)),
       forget_stops_(database_.prepare("DELETE FROM stopped_arm")),
+      set_object_(database_.prepare("INSERT INTO scene_object(name, text) VALUES(?1, ?2) ON "
+                                    "CONFLICT(name) DO UPDATE SET text = ?2")),
+      seal_object_(database_.prepare(std::string("UPDATE scene_object SET sum = ") + kSumOfObject +
+                                     " WHERE name = ?1")),
+      forget_object_(database_.prepare("DELETE FROM scene_object WHERE name = ?1")),
       note_(database_.prepare("INSERT INTO audit(at_ms, who, peer, method, path, status) "
                               "VALUES(?1, ?2, ?3, ?4, ?5, ?6)")),
       seal_note_(database_.prepare(std::string("UPDATE audit SET sum = ") + kSumOfAudit +
@@ -106,6 +113,14 @@ Leftover JobTables::leftover() const {
       left.stopped_arms.push_back(arms.text(0));
     }
   }
+  Statement objects = database_.prepare(std::string("SELECT name, text, coalesce(sum != ") +
+                                        kSumOfObject + ", 1) FROM scene_object ORDER BY number");
+  while (objects.step()) {
+    LeftObject& found = left.objects.emplace_back();
+    found.object.name = objects.text(0);
+    if (!objects.is_null(1)) found.object.text = objects.text(1);
+    found.is_damaged = objects.number(2) != 0;
+  }
   Statement alerts = database_.prepare(
       std::string("SELECT id, at_ms, level, text, who, acknowledged_ms FROM (SELECT * FROM alert "
                   "WHERE coalesce(sum = ") +
@@ -136,6 +151,7 @@ void JobTables::write(const Pending& changes) {
     seal_note_.run();
   }
   for (const StoredAlert& alert : changes.alerts) write(alert);
+  for (const auto& [name, object] : changes.objects) write(object);
   transaction.commit();
 }
 
@@ -147,6 +163,15 @@ void JobTables::write(const StoredAlert& alert) {
                        std::string_view(alert.text), who, when);
   keep_alert_.run();
   seal_alert_.bind_all(std::string_view(alert.id)).run();
+}
+
+void JobTables::write(const StoredObject& object) {
+  const std::string_view name = object.name;
+  if (!object.text && !object.is_of_cell) return forget_object_.bind_all(name).run();
+  set_object_.bind_all(name,
+                       object.text ? std::optional(std::string_view(*object.text)) : std::nullopt);
+  set_object_.run();
+  seal_object_.bind_all(name).run();
 }
 
 void JobTables::write(std::uint64_t number, const JobChange& change) {

@@ -25,9 +25,11 @@ class JobTables {
  private:
   void write(std::uint64_t number, const JobChange& change);
   void write(const StoredAlert& alert);
+  void write(const StoredObject& object);
   Database database_;
   Statement see_, expect_, move_, come_, seal_, put_body_, amend_, drop_body_, seal_body_, stop_,
-      seal_stops_, forget_stops_, note_, seal_note_, keep_alert_, seal_alert_;
+      seal_stops_, forget_stops_, set_object_, seal_object_, forget_object_, note_, seal_note_,
+      keep_alert_, seal_alert_;
 };
 
 }  // namespace armloom

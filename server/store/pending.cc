@@ -27,6 +27,7 @@ void Pending::join(Pending later) {
   for (StoredAlert& alert : later.alerts) {
     if (alerts.size() < kAlertsMax) alerts.push_back(std::move(alert));
   }
+  for (auto& [name, object] : later.objects) objects.insert_or_assign(name, std::move(object));
   std::ranges::move(later.acceptances, std::back_inserter(acceptances));
   std::ranges::move(later.starts, std::back_inserter(starts));
 }

@@ -10,6 +10,7 @@
 
 #include "server/store/stored_alert.h"
 #include "server/store/stored_job.h"
+#include "server/store/stored_object.h"
 
 namespace armloom {
 
@@ -43,7 +44,8 @@ struct Pending {
   std::map<std::uint64_t, JobChange> jobs = {};  // by number
   std::optional<std::vector<std::string>> stopped_arms = {};
   PendingAudit audit = {};
-  std::vector<StoredAlert> alerts = {};  // as they came: of one alert the last counts
+  std::vector<StoredAlert> alerts = {};              // as they came: of one alert the last counts
+  std::map<std::string, StoredObject> objects = {};  // by name
   struct Acceptance {
     std::vector<std::uint64_t> jobs;
     Done done;
@@ -60,7 +62,7 @@ struct Pending {
 
   [[nodiscard]] bool is_empty() const {
     return jobs.empty() && !stopped_arms && acceptances.empty() && audit.entries().empty() &&
-           alerts.empty();
+           alerts.empty() && objects.empty();
   }
   // What came after this.
   void join(Pending later);

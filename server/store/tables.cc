@@ -84,6 +84,15 @@ constexpr const char* kVersions[] = {
     R"(
     ALTER TABLE stopped_arm ADD COLUMN sum INTEGER;
     )",
+    // What clients made of the scene's objects (StoredObject), in the order in which they came.
+    R"(
+    CREATE TABLE scene_object(
+      number INTEGER PRIMARY KEY,
+      name TEXT NOT NULL UNIQUE,
+      text TEXT,
+      sum INTEGER
+    ) STRICT;
+    )",
 };
 constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
 

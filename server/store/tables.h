@@ -23,6 +23,8 @@ inline constexpr const char* kSumOfAudit =
     "checksum(audit.number, audit.at_ms, audit.who, audit.peer, audit.method, audit.path, "
     "audit.status)";
 inline constexpr const char* kSumOfStop = "checksum(stopped_arm.name)";
+inline constexpr const char* kSumOfObject =
+    "checksum(scene_object.number, scene_object.name, scene_object.text)";
 inline constexpr std::int64_t kVersionWithSums = 5;     // of jobs
 inline constexpr std::int64_t kVersionWithAllSums = 6;  // of alerts and the audit trail, too
 

@@ -132,6 +132,45 @@ TEST_F(Durable, AnOperatorsStopOutlivesTheServer) {
   EXPECT_EQ(get("/api/v1/arms/right").json()["state"], "idle");
 }
 
+// What waits for an object must not find the way free because the server was started again.
+TEST_F(Durable, TheSceneThatClientsMadeOutlivesTheServer) {
+  on_restart_ = OnRestart::continue_;
+  start(1);
+  const std::string at = "/api/v1/scene/objects";
+  const auto box = [](double z) {
+    return json{{"name", "crate"}, {"box", {0.2, 0.2, 0.2}}, {"xyz", {2, 0.3, z}}}.dump();
+  };
+  ASSERT_EQ(post(at, box(0.4)).status, 201);
+  ASSERT_EQ(test::request(port(), "PUT", at + "/crate", box(0.6)).status, 200);
+  ASSERT_EQ(post(at, R"({"name": "gone", "box": [0.1, 0.1, 0.1], "xyz": [2, 2, 2]})").status, 201);
+  ASSERT_EQ(remove(at + "/gone").status, 200);
+  ASSERT_EQ(remove(at + "/table").status, 200);
+  const json before = get("/api/v1/scene").json()["objects"];
+  EXPECT_EQ(before.size(), 1U) << before;
+  for (int run = 0; run < 2; ++run) {
+    restart();
+    EXPECT_EQ(get("/api/v1/scene").json()["objects"], before);
+    EXPECT_FALSE(get("/api/v1/queue").json()["stopped"]);
+  }
+  ASSERT_EQ(remove(at + "/crate").status, 200);
+  restart();
+  EXPECT_EQ(get("/api/v1/scene").json()["objects"], json::array());
+}
+
+TEST_F(Damaged, ASceneThatCannotBeMadeWhatItWasKeepsArmsStopped) {
+  on_restart_ = OnRestart::continue_;
+  start(1);
+  ASSERT_EQ(post("/api/v1/scene/objects",
+                 R"({"name": "crate", "box": [0.1, 0.1, 0.1], "xyz": [2, 2, 2]})")
+                .status,
+            201);
+  end();
+  damage("UPDATE scene_object SET text = replace(text, '0.1,', '0.2,')");
+  start(1);
+  EXPECT_TRUE(get("/api/v1/queue").json()["stopped"]);
+  EXPECT_TRUE(is_told("object \"crate\" is not as it was: it is damaged"));
+}
+
 TEST_F(Durable, ContinueGoesOnByItselfWithWhatHadNotBegun) {
   on_restart_ = OnRestart::continue_;
   start(1);

@@ -126,6 +126,23 @@ TEST_F(ReplayCommand, SaysWhatIsOtherwise) {
   EXPECT_NE(replayed.err.find("recorded: {"), std::string::npos) << replayed.err;
 }
 
+TEST_F(ReplayCommand, SaysHowMuchItHadToCompareWith) {
+  live();
+  const auto file = std::filesystem::path(data()) / "events.jsonl";
+  const json whole = run("replay --data " + data()).last_line();
+  EXPECT_GT(whole["compared"], 30);
+  std::string events = read_text_file(file).value();
+  events.resize(events.find('\n', events.find('\n') + 1) + 1);
+  std::ofstream(file) << events;
+  const auto cut = run("replay --data " + data());
+  EXPECT_EQ(cut.last_line()["compared"], 2);
+  EXPECT_NE(cut.err.find("2 of "), std::string::npos) << cut.err;
+  std::filesystem::remove(file);
+  const auto nothing = run("replay --data " + data());
+  EXPECT_EQ(nothing.exit_code, 1);
+  EXPECT_TRUE(nothing.last_line()["same"].is_null()) << nothing.out;
+}
+
 TEST_F(ReplayCommand, RefusesWhatIsNoRecording) {
   const auto none = run("replay --data " + folder_.string());
   EXPECT_EQ(none.exit_code, 2);

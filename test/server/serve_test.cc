@@ -226,6 +226,7 @@ TEST_F(Serve, ASignalLeavesWhatHasNotBegunToTheNextServer) {
     ASSERT_NO_FATAL_FAILURE(wait_until_moving(server.port()));
     json back = test::move("left", test::kMiddle, test::kHome);
     back["id"] = "back";
+    back["name"] = "=1+1";
     EXPECT_EQ(test::request(server.port(), "POST", "/api/v1/jobs", back.dump()).status, 202);
     server.signal(SIGTERM);
     EXPECT_EQ(server.wait(), 0);
@@ -247,6 +248,8 @@ TEST_F(Serve, ASignalLeavesWhatHasNotBegunToTheNextServer) {
   const auto table = run("history --data " + data() + " --csv");
   EXPECT_NE(table.out.find("\r\ngo,,interrupted,0,"), std::string::npos) << table.out;
   EXPECT_NE(table.out.find(",left,server_restart,"), std::string::npos) << table.out;
+  EXPECT_NE(table.out.find("\r\nback,'=1+1,queued,"), std::string::npos)
+      << "is no formula: " << table.out;
   EXPECT_EQ(run("history --data " + folder_.string()).exit_code, 2) << "there is no store";
 }
 

@@ -125,13 +125,39 @@ TEST_F(Store, WhichArmsWereStoppedIsKnownToBeAsItWasWrittenOrNot) {
   EXPECT_EQ(open()->leftover().stopped_arms, Names{"left"});
 }
 
+// What a killed server left beside a file that was damaged is the best that there is to repair it
+// with.
+TEST_F(Store, TheLogBesideAFileThatIsCorruptIsLeftAsItIs) {
+  const fs::path copy = folder_.string() + "-killed";
+  {
+    const auto store = open();
+    EXPECT_TRUE(accept(*store, 1).get());
+    fs::remove_all(copy);
+    fs::copy(folder_, copy, fs::copy_options::recursive);
+  }
+  fs::remove_all(folder_);
+  fs::rename(copy, folder_);
+  const auto all_of = [](const fs::path& one) {
+    std::ifstream in(one, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  const fs::path log = file().string() + "-wal";
+  const std::string of_log = all_of(log), damaged(5000, 'x');
+  EXPECT_GT(of_log.size(), 0U);
+  std::fstream(file(), std::ios::in | std::ios::out | std::ios::binary) << damaged;
+  const std::string of_file = all_of(file());
+  EXPECT_NE(why_not().find("nothing was changed"), std::string::npos) << why_not();
+  EXPECT_EQ(all_of(file()), of_file);
+  EXPECT_EQ(all_of(log), of_log);
+}
+
 TEST_F(Store, ArmsThatAnOlderVersionHadStoppedAreStopped) {
   {
     const auto store = open();
     store->stopped({"left"});
     EXPECT_TRUE(store->flush());
   }
-  sql("ALTER TABLE stopped_arm DROP COLUMN sum; PRAGMA user_version = 6");
+  sql("DROP TABLE scene_object; ALTER TABLE stopped_arm DROP COLUMN sum; PRAGMA user_version = 6");
   const auto store = open();
   EXPECT_EQ(store->leftover().stopped_arms, std::vector<std::string>{"left"});
   EXPECT_FALSE(store->leftover().stops_are_damaged);

@@ -1,5 +1,7 @@
 // Jobs on disk: what was said to be written is there in the next run, in its order, as long as it
 // is to be kept.
+#include <unistd.h>
+
 #include <cstdlib>
 #include <fstream>
 
@@ -196,6 +198,27 @@ constexpr const char* kFirstTables = R"(
     PRAGMA application_id = 0x41726d6c;
     PRAGMA user_version = 1;
   )";
+
+// As on a medium that is only read, or a colleague's folder.
+TEST_F(Store, AFolderThatMayNotBeWrittenIsReadAsItLies) {
+  { EXPECT_TRUE(accept(*open(), 1).get()); }
+  std::filesystem::permissions(folder_, std::filesystem::perms{0555});
+  const bool is_root = geteuid() == 0;  // who may write all the same
+  if (is_root) {
+    ASSERT_EQ(setresuid(65534, 65534, 0), 0);
+  }
+  {
+    const auto history = JobHistory::open(folder_);
+    EXPECT_TRUE(history.has_value()) << history.error().front().detail;
+    if (history) {
+      EXPECT_EQ((*history)->find("j1").value()->state, "queued");
+    }
+  }
+  if (is_root) {
+    ASSERT_EQ(setresuid(0, 0, 0), 0);
+  }
+  std::filesystem::permissions(folder_, std::filesystem::perms{0755});
+}
 
 // The number of the version may be what is damaged: then some of the steps up would succeed.
 TEST_F(Store, TablesThatAreNotWhatTheirVersionSaysAreLeftAsTheyAre) {

@@ -141,8 +141,8 @@ TEST_F(Tls, TheCookieGoesNowhereElse) {
 TEST_F(Tls, PagesThatCameWithoutItAreOfAnotherSite) {
   for (const auto& [scheme, answer] : {std::pair("http", "403"), std::pair("https", "202")}) {
     TlsWire wire(port());
-    wire.send(asking("POST /api/v1/resume", std::string("Content-Length: 0\r\nOrigin: ") + scheme +
-                                                "://localhost\r\n"));
+    wire.send(asking("POST /api/v1/resume",
+                     std::string("Content-Length: 0\r\nOrigin: ") + scheme + "://localhost\r\n"));
     EXPECT_TRUE(wire.read_until("\r\n").starts_with(std::string("HTTP/1.1 ") + answer)) << scheme;
   }
 }
