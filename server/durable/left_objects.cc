@@ -10,9 +10,8 @@ namespace armloom {
 namespace {
 
 Result<void> put_back(const StoredObject& stored, LiveScene& scene) {
-  const bool is_there = std::ranges::any_of(scene.objects(), [&](const CollisionObject& object) {
-    return object.name == stored.name;
-  });
+  const bool is_there = std::ranges::any_of(
+      scene.objects(), [&](const CollisionObject& object) { return object.name == stored.name; });
   if (!stored.text) return is_there ? scene.remove(stored.name) : Result<void>();
   auto object = read_object_text(*stored.text, stored.name);
   if (!object) return failure(std::move(object.error()));
