@@ -366,6 +366,7 @@ test('Requests that no operation takes', async () => {
     const listed = operation.responses;
     await straight(400, method, template, {args, query: '?a=%zz'});
     await straight(431, method, template, {args, headers: {'X-Large': large}});
+    await straight(414, method, template, {args, query: `?${large}`});
     await straight(417, method, template, {args, headers: {Expect: 'the unexpected'}});
     await straight(413, method, template, {args, headers: {'Content-Length': 9 << 20}, bodyless: true});
     const socket = template === `${v1}/ws`;
