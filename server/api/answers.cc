@@ -37,6 +37,11 @@ Response refusal_response(const Refusal& refusal) {
   return response;
 }
 
+Response done_but_not_stored(Refusal refusal) {
+  refusal.detail = "this is done, but the next run may not know of it: " + refusal.detail;
+  return refusal_response(refusal);
+}
+
 Response no_such(const char* what, const std::string& name) {
   return problem_response(
       {Problem{ProblemKind::not_found, std::string("no-such-") + what, "request target",

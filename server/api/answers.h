@@ -12,6 +12,8 @@ namespace armloom {
 [[nodiscard]] Response json_response(int status, std::string body);
 [[nodiscard]] Response problem_response(const Problems& problems);
 [[nodiscard]] Response refusal_response(const Refusal& refusal);
+// Of what acts already, and is not stored because of `refusal`.
+[[nodiscard]] Response done_but_not_stored(Refusal refusal);
 // There is no `what` ("arm") of that name.
 [[nodiscard]] Response no_such(const char* what, const std::string& name);
 

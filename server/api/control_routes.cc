@@ -37,7 +37,8 @@ void let_go(const ApiParts& parts, const std::optional<Control::Move>& move) {
   });
 }
 
-// Whose token was withdrawn holds nothing any more.
+// Whose token was withdrawn holds nothing any more. That may be at any time: to be asked once by a
+// verb, which works with what it got.
 Control& control_of(const ApiParts& parts) {
   const auto& holder = parts.control.holder();
   if (holder && holder->token && !parts.guard.caller(holder->token)) {
@@ -60,11 +61,12 @@ void post_control(Call call) {
                          caller ? call.request.token : std::nullopt](const ControlRequest& asked) {
     const std::string said = asked.who.value_or("").empty() ? peer : *asked.who;
     const std::string who = proven.empty() ? said : proven;
-    auto taken = control_of(parts).take(who, asked.take, token);
+    Control& control = control_of(parts);
+    auto taken = control.take(who, asked.take, token);
     if (!taken) return respond(problem_response(taken.error()));
     let_go(parts, taken->interrupted);
     tell_all(parts, who + " has control");
-    ControlView view = view_of(control_of(parts));
+    ControlView view = view_of(control);
     view.key = taken->key;
     respond(answer(200, control_taken_format(), view));
   };
@@ -74,11 +76,12 @@ void post_control(Call call) {
 void release_control(Call call) {
   const ApiParts& parts = call.parts;
   const auto give_back = [&parts, respond = call.respond](const ControlKey& shown) {
-    const auto move = control_of(parts).give_back(shown.control);
+    Control& control = control_of(parts);
+    const auto move = control.give_back(shown.control);
     if (!move) return respond(problem_response(move.error()));
     let_go(parts, *move);
     tell_all(parts, "nobody has control");
-    respond(answer(200, control_format(), view_of(control_of(parts))));
+    respond(answer(200, control_format(), view_of(control)));
   };
   read_body(parts, call.request, call.respond, read_control_key, give_back);
 }
@@ -126,12 +129,13 @@ void begin_hold(Call call) {
   const std::string arm = call.arguments.front();
   const auto begin = [&parts, arm, respond = call.respond](const HoldRequest& hold) {
     if (!parts.cell->find_arm(arm)) return respond(no_such("arm", arm));
-    if (const auto held = control_of(parts).check(hold.control); !held) {
+    Control& control = control_of(parts);
+    if (const auto held = control.check(hold.control); !held) {
       return respond(problem_response(held.error()));
     }
     auto asked = job_of(hold, arm);
     if (!asked) return respond(problem_response(in_words_of_hold(std::move(asked.error()))));
-    if (const auto& move = control_of(parts).holder()->move) let_go(parts, move);
+    if (const auto& move = control.holder()->move) let_go(parts, move);
     ask(
         parts,
         [job = std::make_shared<JobRequest>(std::move(*asked)), speed = parts.loop.speed(),
@@ -142,8 +146,9 @@ void begin_hold(Call call) {
         },
         [&parts, arm, respond, key = hold.control](const Result<JobView>& job) {
           // Somebody else may have taken control meanwhile.
-          const bool is_still = control_of(parts).check(key).has_value();
-          if (job && is_still) control_of(parts).begin({arm, job->key, now()});
+          Control& control_now = control_of(parts);
+          const bool is_still = control_now.check(key).has_value();
+          if (job && is_still) control_now.begin({arm, job->key, now()});
           if (job && !is_still) let_go(parts, Control::Move{arm, job->key});
           respond(hold_response(202, job, parts));
         });
@@ -156,15 +161,16 @@ void renew_hold(Call call) {
   const std::string arm = call.arguments.front();
   const auto renew = [&parts, arm, respond = call.respond](const ControlKey& shown) {
     if (!parts.cell->find_arm(arm)) return respond(no_such("arm", arm));
-    if (const auto held = control_of(parts).check(shown.control); !held) {
+    Control& control = control_of(parts);
+    if (const auto held = control.check(shown.control); !held) {
       return respond(problem_response(held.error()));
     }
-    const auto& move = control_of(parts).holder()->move;
+    const auto& move = control.holder()->move;
     if (!move || move->arm != arm) {
       return respond(problem_response({Problem{ProblemKind::conflict, "not-held", "",
                                                "arm " + arm + " is not moved by hand", arm}}));
     }
-    if (!control_of(parts).renew(parts.hold_lease, now())) {
+    if (!control.renew(parts.hold_lease, now())) {
       let_go(parts, move);
       return respond(problem_response({Problem{
           ProblemKind::conflict, "held-too-late", "",

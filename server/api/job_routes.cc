@@ -87,8 +87,7 @@ void command_job(Call call, Command command) {
         // Who commands may rely on it, whatever happens to the server.
         const auto tell = [&parts, respond, job = **done](std::optional<Refusal> refusal) {
           if (!refusal) return respond(answer(202, job_format(), job, &parts.clock));
-          refusal->detail = "this is done, but the next run may not know of it: " + refusal->detail;
-          respond(refusal_response(*refusal));
+          respond(done_but_not_stored(*std::move(refusal)));
         };
         parts.keeper != nullptr ? parts.keeper->when_written(tell) : tell(std::nullopt);
       });

@@ -16,11 +16,6 @@ struct Changed {
   bool created;
 };
 
-bool is_known(Executive& executive, const std::string& name) {
-  return std::ranges::any_of(executive.scene().objects(),
-                             [&](const CollisionObject& object) { return object.name == name; });
-}
-
 Result<Changed> add(Executive& executive, const CollisionObject& object) {
   if (executive.scene().objects().size() >= kObjectsMax) {
     return failure(Problem{
@@ -33,7 +28,7 @@ Result<Changed> add(Executive& executive, const CollisionObject& object) {
 }
 
 Result<Changed> put(Executive& executive, const CollisionObject& object) {
-  if (!is_known(executive, object.name)) return add(executive, object);
+  if (!has_object(executive.scene().objects(), object.name)) return add(executive, object);
   auto replaced = executive.scene().replace(object);
   if (!replaced) return failure(std::move(replaced.error()));
   return Changed{executive.scene().version(), false};
@@ -56,14 +51,9 @@ void respond_when_stored(const ApiParts& parts, const std::string& name,
                          std::optional<std::string> text, const Respond& respond,
                          Response response) {
   if (parts.keeper == nullptr) return respond(std::move(response));
-  const bool is_of_cell = std::ranges::any_of(
-      parts.cell->objects, [&](const CollisionObject& object) { return object.name == name; });
-  parts.keeper->change({name, std::move(text), is_of_cell},
+  parts.keeper->change({name, std::move(text), has_object(parts.cell->objects, name)},
                        [respond, response = std::move(response)](std::optional<Refusal> refusal) {
-                         if (!refusal) return respond(response);
-                         refusal->detail = "this is done, but the next run may not know of it: " +
-                                           refusal->detail;
-                         respond(refusal_response(*refusal));
+                         respond(refusal ? done_but_not_stored(*std::move(refusal)) : response);
                        });
 }
 

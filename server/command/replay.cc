@@ -149,8 +149,7 @@ int tell(const fs::path& folder, const Run& done, const EventComparison& compari
   out.begin_object().field("recording", folder.string()).field("ended_s", done.ended);
   out.field("inputs", done.inputs).field("events", comparison.events());
   out.field("compared", comparison.compared());
-  out.key("same");
-  comparison.is_void() ? out.value(nullptr) : out.value(!difference);
+  out.field("same", comparison.is_void() ? std::nullopt : std::optional(!difference));
   out.end_object();
   std::cout << out.text() << std::endl;
   return difference || comparison.is_void() ? 1

@@ -65,33 +65,33 @@ void JobKeeper::accept(std::vector<AcceptedJob> jobs,
     keys.push_back(job.key);
   }
   store_->accept(std::move(accepted),
-                 [this, keys = std::move(keys), then = std::move(then)](bool is_written) {
+                 [this, keys = std::move(keys), then = told(std::move(then))](bool is_written) {
                    if (!is_written) {
                      loop_->post_urgent([keys](Executive& executive) {
                        for (const std::string& key : keys) executive.withdraw(key);
                      });
                    }
-                   post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });
+                   then(is_written);
                  });
+}
+
+JobStore::Done JobKeeper::told(std::function<void(std::optional<Refusal>)> then) {
+  return [this, then = std::move(then)](bool is_written) {
+    post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });
+  };
 }
 
 void JobKeeper::amend(const JobView& job, std::function<void(std::optional<Refusal>)> then) {
   store_->amend(job.id.value(), text_of(*job_amendment_format(), amendable_of(job)),
-                [this, then = std::move(then)](bool is_written) {
-                  post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });
-                });
+                told(std::move(then)));
 }
 
 void JobKeeper::change(StoredObject object, std::function<void(std::optional<Refusal>)> then) {
-  store_->change(std::move(object), [this, then = std::move(then)](bool is_written) {
-    post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });
-  });
+  store_->change(std::move(object), told(std::move(then)));
 }
 
 void JobKeeper::when_written(std::function<void(std::optional<Refusal>)> then) {
-  store_->accept({}, [this, then = std::move(then)](bool is_written) {
-    post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });
-  });
+  store_->accept({}, told(std::move(then)));
 }
 
 std::optional<Refusal> JobKeeper::refusal() const {

@@ -66,6 +66,8 @@ class JobKeeper final : public StartLog {
 
  private:
   JobKeeper() = default;
+  // Calls `then`, on the server's thread, as of amend().
+  [[nodiscard]] JobStore::Done told(std::function<void(std::optional<Refusal>)> then);
 
   const WallClock* clock_ = nullptr;
   std::function<void(std::function<void()>)> post_;

@@ -1,6 +1,5 @@
 #include "server/durable/left_objects.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "server/messages/problem.h"
@@ -10,8 +9,7 @@ namespace armloom {
 namespace {
 
 Result<void> put_back(const StoredObject& stored, LiveScene& scene) {
-  const bool is_there = std::ranges::any_of(
-      scene.objects(), [&](const CollisionObject& object) { return object.name == stored.name; });
+  const bool is_there = has_object(scene.objects(), stored.name);
   if (!stored.text) return is_there ? scene.remove(stored.name) : Result<void>();
   auto object = read_object_text(*stored.text, stored.name);
   if (!object) return failure(std::move(object.error()));

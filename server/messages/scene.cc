@@ -80,6 +80,11 @@ FormatPtr<ObjectDescription> named_object_request_format() {
   return format;
 }
 
+bool has_object(const std::vector<CollisionObject>& objects, std::string_view name) {
+  return std::ranges::any_of(objects,
+                             [&](const CollisionObject& object) { return object.name == name; });
+}
+
 Result<CollisionObject> read_object_text(std::string_view text,
                                          const std::optional<std::string>& name) {
   const auto body = parse_json(text, JsonComments::refused);

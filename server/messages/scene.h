@@ -22,6 +22,8 @@ namespace armloom {
 [[nodiscard]] Result<CollisionObject> read_object_text(std::string_view text,
                                                        const std::optional<std::string>& name);
 
+[[nodiscard]] bool has_object(const std::vector<CollisionObject>& objects, std::string_view name);
+
 // An object as the server tells it: with the address of its mesh, not the file. Others read back,
 // to the digits of their angles.
 [[nodiscard]] FormatPtr<CollisionObject> object_format();

@@ -69,8 +69,8 @@ class Database {
   // `vfs`: SQLite's name of the file system that it goes through; empty: the system's.
   Database(const std::filesystem::path& file, Access access, const std::string& vfs = {});
 
-  // Whether the log goes into the file, and is deleted, when this is closed as the last connection.
-  // As SQLite has it: yes.
+  // Kept: when this is closed as the last connection, the log stays as it is. Else, as at first, it
+  // goes into the file and is deleted.
   void keep_log(bool is_kept);
   // Opened for writing all the same: the system does not let it be written.
   [[nodiscard]] bool is_read_only() const;

@@ -9,8 +9,8 @@ namespace armloom {
 struct StoredObject {
   std::string name;
   std::optional<std::string> text = {};  // as it was asked for (JSON); none: it was taken away
-  bool is_of_cell =
-      false;  // the cell file has one of this name, which is gone only if that is kept
+  // The cell file has one of this name: that it was taken away has to be kept.
+  bool is_of_cell = false;
 };
 
 // As the folder had it when it was opened.

@@ -157,6 +157,21 @@ TEST_F(Durable, TheSceneThatClientsMadeOutlivesTheServer) {
   EXPECT_EQ(get("/api/v1/scene").json()["objects"], json::array());
 }
 
+TEST_F(Durable, AChangeOfTheSceneIsAnsweredWhenItIsOnDisk) {
+  start(1);
+  const std::string crate = R"({"name": "crate", "box": [0.1, 0.1, 0.1], "xyz": [2, 2, 2]})";
+  FailingDisk::fail(FailingDisk::Fault::broken, FailingDisk::operations() + 1);
+  const auto warned = post("/api/v1/scene/objects", crate);
+  EXPECT_EQ(warned.status, 503) << warned.body;
+  EXPECT_NE(warned.body.find("this is done, but the next run may not know of it"),
+            std::string::npos);
+  EXPECT_NE(get("/api/v1/scene").body.find("crate"), std::string::npos);
+  FailingDisk::reset();
+  wait_until([&] { return get("/readyz").status == 200; });
+  restart();
+  EXPECT_NE(get("/api/v1/scene").body.find("crate"), std::string::npos) << "it was written later";
+}
+
 TEST_F(Damaged, ASceneThatCannotBeMadeWhatItWasKeepsArmsStopped) {
   on_restart_ = OnRestart::continue_;
   start(1);
