@@ -65,33 +65,33 @@ void JobKeeper::accept(std::vector<AcceptedJob> jobs,
     keys.push_back(job.key);
   }
   store_->accept(std::move(accepted),
-                 [this, keys = std::move(keys), then = told(std::move(then))](bool is_written) {
+                 [this, keys = std::move(keys), then = std::move(then)](bool is_written) {
                    if (!is_written) {
                      loop_->post_urgent([keys](Executive& executive) {
                        for (const std::string& key : keys) executive.withdraw(key);
                      });
                    }
-                   then(is_written);
+                   tell(is_written, then);
                  });
 }
 
-JobStore::Done JobKeeper::told(std::function<void(std::optional<Refusal>)> then) {
-  return [this, then = std::move(then)](bool is_written) {
-    post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });
-  };
+void JobKeeper::tell(bool is_written,
+                     const std::function<void(std::optional<Refusal>)>& then) const {
+  post_([this, is_written, then] { then(is_written ? std::nullopt : refusal()); });
 }
 
 void JobKeeper::amend(const JobView& job, std::function<void(std::optional<Refusal>)> then) {
   store_->amend(job.id.value(), text_of(*job_amendment_format(), amendable_of(job)),
-                told(std::move(then)));
+                [this, then = std::move(then)](bool is_written) { tell(is_written, then); });
 }
 
 void JobKeeper::change(StoredObject object, std::function<void(std::optional<Refusal>)> then) {
-  store_->change(std::move(object), told(std::move(then)));
+  store_->change(std::move(object),
+                 [this, then = std::move(then)](bool is_written) { tell(is_written, then); });
 }
 
 void JobKeeper::when_written(std::function<void(std::optional<Refusal>)> then) {
-  store_->accept({}, told(std::move(then)));
+  store_->accept({}, [this, then = std::move(then)](bool is_written) { tell(is_written, then); });
 }
 
 std::optional<Refusal> JobKeeper::refusal() const {

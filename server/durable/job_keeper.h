@@ -66,8 +66,8 @@ class JobKeeper final : public StartLog {
 
  private:
   JobKeeper() = default;
-  // Calls `then`, on the server's thread, as of amend().
-  [[nodiscard]] JobStore::Done told(std::function<void(std::optional<Refusal>)> then);
+  // Calls `then`, on the server's thread, with the reason why it is not written, if it is not.
+  void tell(bool is_written, const std::function<void(std::optional<Refusal>)>& then) const;
 
   const WallClock* clock_ = nullptr;
   std::function<void(std::function<void()>)> post_;
