@@ -68,13 +68,14 @@ std::optional<Response> refused_by_store(const ApiParts& parts, Batch& batch) {
 }
 
 // All were accepted before.
-void answer_known_batch(const ApiParts& parts, const KnownJobs& known, const Respond& respond) {
-  look_at(parts, known, [&parts, respond](const Results& results) {
+void answer_known_batch(const ApiParts& parts, const BatchPtr& batch, const Respond& respond) {
+  look_at(parts, batch->known, [&parts, batch, respond](const Results& results) {
     std::vector<ListedJob> jobs;
     for (const Result<ListedJob>& result : results) {
       if (!result) return respond(problem_response(result.error()));
       jobs.push_back(*result);
     }
+    note_answered(parts, *batch->sent, batch->known);
     respond(answer(200, batch_accepted_format(), jobs, &parts.clock));
   });
 }
@@ -133,6 +134,7 @@ void tell(const ApiParts& parts, const BatchPtr& batch,
       parts.post([&parts, batch, respond, all] {
         acknowledge(parts, std::move(all->accepted), respond, [&parts, batch, all] {
           note_accepted(parts, *batch->sent, all->ids);
+          note_answered(parts, *batch->sent, batch->known);
           return std::move(all->response);
         });
       });
@@ -173,7 +175,7 @@ void submit_batch(const ApiParts& parts, const std::shared_ptr<Batch>& batch,
   const auto first = std::ranges::find_if(known, [](const auto& id) { return !id.empty(); });
   if (batch->request.atomic && first != known.end()) {
     if (std::ranges::find(known, "") == known.end())
-      return answer_known_batch(parts, known, respond);
+      return answer_known_batch(parts, batch, respond);
     return respond(problem_response({partly_known(first - known.begin(), *first)}));
   }
   if (auto refused = refused_by_store(parts, *batch)) return respond(std::move(*refused));

@@ -140,6 +140,20 @@ void note_accepted(const ApiParts& parts, const SentRequest& sent, const KnownJo
   parts.accepted->remember(AcceptedRequests::name_of_key(sent.key), std::move(by_key));
 }
 
+void note_answered(const ApiParts& parts, const SentRequest& sent, const KnownJobs& known) {
+  if (sent.key.empty()) return;
+  const std::string name = AcceptedRequests::name_of_key(sent.key);
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const auto* before = parts.accepted->find(name);
+    if (known[i].empty() || (before != nullptr && before->jobs.contains(i))) continue;
+    parts.accepted->remember(name, {sent.digest, {{i, known[i]}}});
+    if (parts.keeper == nullptr) continue;
+    const auto stored = parts.keeper->history().find(known[i]);
+    if (!stored || !*stored || (*stored)->origin.key == sent.key) continue;
+    parts.keeper->store().answered_with((*stored)->number, origin_of(sent, i));
+  }
+}
+
 RequestOrigin origin_of(const SentRequest& sent, std::size_t place) {
   return {sent.jobs[place].digest, sent.key, sent.digest, place};
 }

@@ -39,6 +39,10 @@ void recall(const ApiParts& parts, const SentRequestPtr& sent, Respond respond,
 // Of its jobs these were accepted, in their places. Before the client is told.
 void note_accepted(const ApiParts& parts, const SentRequest& sent, const KnownJobs& accepted);
 
+// It was answered with these, accepted before, in their places: its key is its own from now on,
+// also where they were known by their ids.
+void note_answered(const ApiParts& parts, const SentRequest& sent, const KnownJobs& known);
+
 [[nodiscard]] RequestOrigin origin_of(const SentRequest& sent, std::size_t place);
 
 // Jobs that the executive has accepted are only said to be when they are on disk, where there is a

@@ -20,9 +20,11 @@ std::optional<Response> refused_by_store(const ApiParts& parts, JobRequest& job)
 }
 
 // It was accepted before: as it is now.
-void answer_known_job(const ApiParts& parts, const KnownJobs& known, const Respond& respond) {
-  look_at(parts, known, [&parts, known, respond](const std::vector<Result<ListedJob>>& jobs) {
+void answer_known_job(const ApiParts& parts, const SentRequestPtr& sent, const KnownJobs& known,
+                      const Respond& respond) {
+  look_at(parts, known, [&parts, sent, known, respond](const std::vector<Result<ListedJob>>& jobs) {
     if (!jobs.front()) return respond(problem_response(jobs.front().error()));
+    note_answered(parts, *sent, known);
     respond(located(answer(200, listed_job_format(), *jobs.front(), &parts.clock),
                     "/jobs/" + known.front()));
   });
@@ -60,7 +62,7 @@ void post_job(Call call) {
     const auto job = std::make_shared<JobRequest>(std::move(read.request));
     recall(parts, sent, respond,
            [&parts, sent, job, body](const KnownJobs& known, const Respond& ending) {
-             if (!known.front().empty()) return answer_known_job(parts, known, ending);
+             if (!known.front().empty()) return answer_known_job(parts, sent, known, ending);
              submit_job(parts, sent, std::move(*job), body, ending);
            });
   };

@@ -178,7 +178,7 @@ Command replay_command(CLI::App& app) {
   replayed_data->excludes(replayed_folder);
   command->require_option(1, 0);
   command->add_option("--until", options->until_s, "so far, in seconds of cell time (all)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0.0, 1e9));
   command->add_option("--out", options->out, "folder for the events of the replay");
   return {command, [options] { return replay_recording(*options); }};
 }

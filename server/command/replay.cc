@@ -55,15 +55,23 @@ std::vector<std::string> whole_lines(const fs::path& file) {
   return lines;
 }
 
+// Not open where none is asked for.
+Result<std::ofstream> open_events(const std::string& folder) {
+  if (folder.empty()) return std::ofstream();
+  std::error_code ec;
+  fs::create_directories(folder, ec);
+  std::ofstream events(fs::path(folder) / "events.jsonl", std::ios::binary);
+  if (events) return events;
+  return failure(Problem{ProblemKind::unavailable, "cannot-write", "--out",
+                         "the folder " + folder + " cannot be written", folder});
+}
+
 // Compares what is told with what was, event by event.
 class EventComparison final : public Observer {
  public:
-  EventComparison(std::vector<std::string> recorded, const std::string& out)
-      : recorded_(std::move(recorded)) {
-    if (out.empty()) return;
-    fs::create_directories(out);
-    out_.open(fs::path(out) / "events.jsonl", std::ios::binary);
-  }
+  // `out`: what is told goes there, too, where it is open.
+  EventComparison(std::vector<std::string> recorded, std::ofstream out)
+      : recorded_(std::move(recorded)), out_(std::move(out)) {}
   void on_event(const Event& event) override {
     const std::string replayed = event_json(event, stream(), nullptr);
     if (out_.is_open()) out_ << replayed << '\n';
@@ -172,7 +180,9 @@ int replay_recording(const ReplayOptions& options) {
   }
   const auto loaded = load_cell((*folder / "cell.json").string());
   if (!loaded) return kExitBadInput;
-  EventComparison comparison(whole_lines(*folder / "events.jsonl"), options.out);
+  auto out = open_events(options.out);
+  if (!out) return refuse("", out.error());
+  EventComparison comparison(whole_lines(*folder / "events.jsonl"), *std::move(out));
   auto replay = Replay::begin(loaded->cell, lines.front(), comparison);
   if (!replay) return refuse((*folder / InputFile::kName).string(), replay.error());
   // Nothing is known of what came after the last line.

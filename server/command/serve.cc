@@ -2,6 +2,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <charconv>
@@ -193,6 +194,7 @@ int serve(const ServeOptions& options) {
   service_options.speed = options.speed;
   service_options.policy = options.policy;
   service_options.web = web_folder(options.web);
+  (void)umask(umask(0) | S_IRWXO);  // who did what from where is not everybody's to read
   if (!options.data.empty()) service_options.data = options.data;
   service_options.record_states = options.record;
   service_options.store.retention.jobs_max = options.keep_jobs;

@@ -23,6 +23,17 @@ std::string sentence_of_jobs(const std::vector<std::string>& ids) {
 
 Alert alert_of(const Damage& damage) {
   std::vector<std::string> found;
+  if (damage.is_behind) {
+    found.push_back(
+        "it holds less than the former run had written (its log armloom.db-wal is damaged, cut off "
+        "or gone, or armloom.db is an older copy): the last jobs, what became of others, and the "
+        "last stops may be missing; all arms are stopped, until resumed");
+  }
+  if (damage.lost_jobs > 0) {
+    found.push_back(std::to_string(damage.lost_jobs) +
+                    (damage.lost_jobs == 1 ? " job is" : " jobs are") +
+                    " gone but for what the client had sent, and not begun");
+  }
   if (!damage.jobs.empty()) found.push_back(sentence_of_jobs(damage.jobs));
   if (damage.alerts + damage.audit > 0) {
     found.push_back(std::to_string(damage.alerts) + " alerts and " + std::to_string(damage.audit) +

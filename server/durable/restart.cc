@@ -56,7 +56,9 @@ Result<Restart> Restart::prepare(JobKeeper& keeper) {
   Restart restart;
   restart.objects_ = left.objects;
   restart.stopped_arms_ = left.stopped_arms;
-  restart.stops_are_damaged_ = left.stops_are_damaged;
+  restart.stops_are_unwritten_ = left.stops_are_unwritten;
+  restart.damage_ = {
+      .lost_jobs = left.lost_jobs, .stops = left.stops_are_damaged, .is_behind = left.is_behind};
   for (const LeftJob& job : left.jobs) restart.sort_out(job, keeper);
   for (const WrittenOff& off : restart.written_off_) {
     keeper.store().see(ended(off.job, off.state, off.reason, off.detail, keeper.clock()));
@@ -81,7 +83,7 @@ void Restart::write_off(const StoredJob& job, JobState state, Reason reason, std
 }
 
 void Restart::write_off_unreadable(const StoredJob& job, std::string detail) {
-  unreadable_.push_back(job.id);
+  damage_.jobs.push_back(job.id);
   write_off(job, JobState::interrupted, Reason::server_restart, std::move(detail));
 }
 
@@ -147,8 +149,7 @@ std::string Restart::summary() const {
 }
 
 void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
-  const Damage damage{.jobs = unreadable_, .stops = stops_are_damaged_};
-  if (!damage.is_none()) executive.alert(alert_of(damage));
+  if (!damage_.is_none()) executive.alert(alert_of(damage_));
   const auto not_put_back = put_back(objects_, executive.scene());
   for (const ObjectNotPutBack& one : not_put_back) {
     executive.alert({Alert::Level::error, one.why});
@@ -160,8 +161,8 @@ void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
     stop_all(executive, summary());
   } else if (!not_put_back.empty()) {
     stop_all(executive, "the scene is not what it was before the server was started again");
-  } else if (stops_are_damaged_) {
-    stop_all(executive, "which arms were stopped before is not known");
+  } else if (damage_.stops || damage_.is_behind || stops_are_unwritten_) {
+    stop_all(executive, "which arms were stopped when the former run ended is not known");
   } else {
     std::vector<ArmId> arms;
     for (const std::string& name : stopped_arms_) {

@@ -6,6 +6,7 @@
 
 #include "core/model/cell.h"
 #include "server/durable/job_keeper.h"
+#include "server/store/job_history.h"
 
 namespace armloom {
 
@@ -44,10 +45,10 @@ class Restart {
   std::vector<WrittenOff> written_off_;
   std::unordered_set<std::string> ids_waiting_;
   std::unordered_set<std::string> ids_written_off_;
-  std::vector<std::string> unreadable_;  // ids
   std::vector<LeftObject> objects_;
   std::vector<std::string> stopped_arms_;
-  bool stops_are_damaged_ = false;
+  bool stops_are_unwritten_ = false;
+  Damage damage_;
 };
 
 }  // namespace armloom

@@ -56,7 +56,8 @@ void Broadcast::on_stops(const std::vector<ArmId>& stopped) {
   if (parts_.keeper == nullptr) return;
   std::vector<std::string> names;
   for (ArmId arm : stopped) names.push_back(parts_.cell->arm(arm).name);
-  parts_.keeper->stopped(std::move(names));
+  // Before whoever asked for it is answered, who is told that way, too.
+  parts_.post_urgent([this, names = std::move(names)] { parts_.keeper->stopped(names); });
 }
 
 void Broadcast::on_state(const StateFrame& frame) {

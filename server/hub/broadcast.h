@@ -35,7 +35,8 @@ class Broadcast final : public Observer {
     Recording* recording;  // null: none
     JobKeeper* keeper;     // null: jobs end with the server
     AlertBook& alerts;
-    std::function<void(std::function<void()>)> post;  // to the server's thread, in order
+    std::function<void(std::function<void()>)> post;         // to the server's thread, in order
+    std::function<void(std::function<void()>)> post_urgent;  // before all of these
     Log log;
     std::function<void(Alert)> tell;  // as an event, and whoever wants alerts: on the executive
     Metrics& metrics;

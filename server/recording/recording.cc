@@ -77,7 +77,7 @@ std::optional<std::string> Recording::fault() const {
 // What comes after a gap could not be replayed: a new one begins with a new run.
 std::string said_of_lost_recording(const std::string& fault) {
   return "the recording is no longer whole: " + fault +
-         "; the cell goes on without one, until the server is started again with room on the disk";
+         "; the cell goes on without one, until the server is started again and can write one";
 }
 
 void Recording::event(std::string_view json) {

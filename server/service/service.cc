@@ -58,10 +58,13 @@ class Service::Impl {
     const auto post = [http_server = http_.get()](std::function<void()> task) {
       http_server->post(std::move(task));
     };
+    const auto post_urgent = [http_server = http_.get()](std::function<void()> task) {
+      http_server->post_urgent(std::move(task));
+    };
     alerts_ = std::make_unique<AlertBook>(stream_, *clock_, keeper_.get());
     broadcast_ = std::make_unique<Broadcast>(Broadcast::Parts{
         cell, stream_, *clock_, hub_, states_, recording_.get(), keeper_.get(), *alerts_, post,
-        options_.log, [this](Alert alert) { tell(std::move(alert)); }, *metrics_});
+        post_urgent, options_.log, [this](Alert alert) { tell(std::move(alert)); }, *metrics_});
     ExecutiveOptions executive_options{.policy = options_.policy};
     std::optional<Restart> restart;
     if (keeper_) {
@@ -80,11 +83,11 @@ class Service::Impl {
     if (restart) go_on(std::move(*restart), cell);
     keep_recordings(source.file.parent_path());
     comparison_ = std::make_unique<Comparison>(cell, post);
-    api_ = std::make_unique<Api>(ApiParts{
-        cell, stream_, *clock_, *loop_, hub_, states_, recording_.get(), keeper_.get(), *alerts_,
-        post, [this](std::function<void()> task) { http_->post_urgent(std::move(task)); }, guard_,
-        [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_, limits_,
-        *comparison_, control_, options_.data, options_.hold_lease});
+    api_ = std::make_unique<Api>(
+        ApiParts{cell, stream_, *clock_, *loop_, hub_, states_, recording_.get(), keeper_.get(),
+                 *alerts_, post, post_urgent, guard_,
+                 [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_,
+                 limits_, *comparison_, control_, options_.data, options_.hold_lease});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;

@@ -4,6 +4,8 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <iterator>
 #include <system_error>
 
 namespace armloom {
@@ -55,6 +57,12 @@ std::string uri_to_read(const std::filesystem::path& file) {
 bool SqlFault::is_full() const { return (code_ & 0xff) == SQLITE_FULL; }
 bool SqlFault::is_corrupt() const {
   return (code_ & 0xff) == SQLITE_CORRUPT || (code_ & 0xff) == SQLITE_NOTADB;
+}
+static_assert(SqlFault::kNoAccess == SQLITE_READONLY);
+bool SqlFault::is_of_access() const {
+  constexpr int kCodes[] = {SQLITE_CANTOPEN, SQLITE_READONLY, SQLITE_IOERR, SQLITE_PERM,
+                            SQLITE_BUSY};
+  return std::ranges::find(kCodes, code_ & 0xff) != std::end(kCodes);
 }
 
 Statement::Statement(sqlite3* database, std::string_view sql) : database_(database) {

@@ -17,9 +17,12 @@ namespace armloom {
 // values.
 class SqlFault : public std::runtime_error {
  public:
+  static constexpr int kNoAccess = 8;  // SQLITE_READONLY
+
   SqlFault(int code, const std::string& text) : std::runtime_error(text), code_(code) {}
-  [[nodiscard]] bool is_full() const;     // no space left, or a quota
-  [[nodiscard]] bool is_corrupt() const;  // what is there is no database, or not whole
+  [[nodiscard]] bool is_full() const;       // no space left, or a quota
+  [[nodiscard]] bool is_corrupt() const;    // what is there is no database, or not whole
+  [[nodiscard]] bool is_of_access() const;  // it cannot be read or written, whatever is there
 
  private:
   int code_;

@@ -76,6 +76,21 @@ class JobHistory::Impl {
     row.bind_all(std::string_view(key));
     std::vector<StoredJob> jobs;
     while (row.step()) jobs.push_back(whole_row_of(row));
+    if (database_.number("PRAGMA user_version") < kVersionWithRequests) return jobs;
+    Statement answered = database_.prepare(
+        std::string("SELECT job, digest, place FROM request WHERE key = ?1 AND sum = ") +
+        kSumOfRequest);
+    answered.bind_all(std::string_view(key));
+    Statement job = database_.prepare(columns_ + "WHERE number = ?1");
+    while (answered.step()) {
+      job.bind_all(answered.number(0));
+      while (job.step()) {
+        StoredJob& known = jobs.emplace_back(whole_row_of(job));
+        known.origin.key = key;
+        known.origin.key_digest = answered.text(1);
+        known.origin.place = static_cast<std::size_t>(answered.number(2));
+      }
+    }
     return jobs;
   }
 

@@ -42,11 +42,15 @@ struct AuditEntries {
 // What is not as it was written.
 struct Damage {
   std::vector<std::string> jobs = {};  // their ids
+  std::size_t lost_jobs = 0;           // whose ids are lost, too
   std::size_t alerts = 0;
-  std::size_t audit = 0;  // entries
-  bool stops = false;     // which arms were stopped
+  std::size_t audit = 0;   // entries
+  bool stops = false;      // which arms were stopped
+  bool is_behind = false;  // some of what was on disk is gone
 
-  [[nodiscard]] bool is_none() const { return jobs.empty() && alerts == 0 && audit == 0 && !stops; }
+  [[nodiscard]] bool is_none() const {
+    return jobs.empty() && lost_jobs + alerts + audit == 0 && !stops && !is_behind;
+  }
 };
 
 // Reads what a JobStore has written, while it is written or not. Sees what was on disk when each
@@ -60,7 +64,8 @@ class JobHistory {
 
   // The last one that was accepted under this id. Problem: it is damaged.
   [[nodiscard]] Result<std::optional<StoredJob>> find(const std::string& id) const;
-  // Those that came by a request with this Idempotency-Key, in order of their places.
+  // Those that came by a request with this Idempotency-Key, or that one was answered with; their
+  // origin is that request.
   [[nodiscard]] Result<std::vector<StoredJob>> of_request(const std::string& key) const;
   // Who did what, at most so many.
   [[nodiscard]] Result<AuditEntries> audit(const AuditFilter& filter, std::size_t most) const;

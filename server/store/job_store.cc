@@ -5,12 +5,15 @@
 #include <condition_variable>
 #include <future>
 #include <mutex>
+#include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include "server/store/data_lock.h"
 #include "server/store/job_tables.h"
 #include "server/store/placed_file.h"
+#include "server/store/store_mark.h"
 #include "server/store/tables.h"
 
 namespace armloom {
@@ -20,12 +23,21 @@ using Wall = std::chrono::steady_clock;
 constexpr Wall::duration kCleaned = std::chrono::minutes(1);
 constexpr Wall::duration kLookedAfter = std::chrono::seconds(1);
 
-tl::unexpected<Problems> cannot_use(const std::filesystem::path& file, const std::string& why) {
+std::string advice(const std::runtime_error& fault) {
+  const auto* of_database = dynamic_cast<const SqlFault*>(&fault);
+  if (of_database != nullptr && of_database->is_full()) return "make room on the disk";
+  const bool is_of_system = dynamic_cast<const std::system_error*>(&fault) != nullptr;
+  if (is_of_system || (of_database != nullptr && of_database->is_of_access())) {
+    return "see to it that it can be read and written";
+  }
+  return "repair it, put back a copy, or move it away to begin with an empty one";
+}
+
+tl::unexpected<Problems> cannot_use(const std::filesystem::path& file,
+                                    const std::runtime_error& fault) {
   return failure(
       Problem{ProblemKind::unavailable, "store-unusable", "--data",
-              file.string() + ": " + why +
-                  "; nothing was changed: repair it, put back a copy, or move it away to "
-                  "begin with an empty one",
+              file.string() + ": " + fault.what() + "; nothing was changed: " + advice(fault),
               file.string()});
 }
 
@@ -38,8 +50,9 @@ class JobStore::Impl {
       : lock_(std::move(lock)),
         files_{PlacedFile(folder / DataLock::kFile), PlacedFile(folder / kStoreFile)},
         tables_(std::move(tables)),
+        mark_(folder, tables_->commits()),
         options_(std::move(options)),
-        leftover_(tables_->leftover()),
+        leftover_(leftover_of(*tables_, mark_)),
         thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
   void add(Pending changes) {
@@ -50,6 +63,13 @@ class JobStore::Impl {
       pending_.join(std::move(changes));
     }
     arrived_.notify_one();
+  }
+
+  void add_stops(std::vector<std::string> arms) {
+    const std::scoped_lock in_order(stops_mutex_);
+    Pending changes;
+    changes.stops = {std::move(arms), mark_.stops_come()};
+    add(std::move(changes));
   }
 
   std::optional<StoreFault> fault() const {
@@ -71,6 +91,13 @@ class JobStore::Impl {
   const Leftover& leftover() const { return leftover_; }
 
  private:
+  static Leftover leftover_of(const JobTables& tables, const StoreMark& mark) {
+    Leftover left = tables.leftover();
+    left.is_behind = mark.found().store_is_behind;
+    left.stops_are_unwritten = mark.found().stops_are_ahead;
+    return left;
+  }
+
   void work(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
       {
@@ -109,6 +136,8 @@ class JobStore::Impl {
       give_back(std::move(batch), {fault.is_full(), fault.what()});
       return false;
     }
+    mark_.written(tables_->commits(),
+                  batch.stops ? std::optional(batch.stops->number) : std::nullopt);
     if (options_.on_written) options_.on_written(Wall::now() - begun);
     bool was_faulty = false;
     {
@@ -161,8 +190,10 @@ class JobStore::Impl {
   std::unique_ptr<DataLock> lock_;  // the last to go
   std::array<PlacedFile, 2> files_;
   std::unique_ptr<JobTables> tables_;
+  StoreMark mark_;
   StoreOptions options_;
   Leftover leftover_;
+  std::mutex stops_mutex_;
   mutable std::mutex mutex_;
   std::condition_variable_any arrived_;
   Pending pending_;
@@ -183,7 +214,7 @@ Result<std::unique_ptr<JobStore>> JobStore::open(const std::filesystem::path& fo
     return std::unique_ptr<JobStore>(new JobStore(
         std::make_unique<Impl>(folder, std::move(*lock), std::move(tables), std::move(options))));
   } catch (const std::runtime_error& fault) {
-    return cannot_use(file, fault.what());
+    return cannot_use(file, fault);
   }
 }
 
@@ -227,16 +258,18 @@ void JobStore::about_to_move(std::uint64_t number, Done done) {
   impl_->add(std::move(changes));
 }
 
-void JobStore::stopped(std::vector<std::string> arms) {
-  Pending changes;
-  changes.stopped_arms = std::move(arms);
-  impl_->add(std::move(changes));
-}
+void JobStore::stopped(std::vector<std::string> arms) { impl_->add_stops(std::move(arms)); }
 
 void JobStore::change(StoredObject object, Done done) {
   Pending changes;
   changes.objects.insert_or_assign(object.name, std::move(object));
   changes.acceptances.push_back({.jobs = {}, .done = std::move(done)});
+  impl_->add(std::move(changes));
+}
+
+void JobStore::answered_with(std::uint64_t job, RequestOrigin request) {
+  Pending changes;
+  changes.answers.push_back({job, std::move(request)});
   impl_->add(std::move(changes));
 }
 

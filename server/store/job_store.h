@@ -44,10 +44,13 @@ struct StoreOptions {
 struct Leftover {
   std::uint64_t last_number = 0;  // of any job ever
   std::vector<LeftJob> jobs;      // in order of their numbers
+  std::size_t lost_jobs = 0;      // of which nothing else is there than what their clients sent
   std::vector<std::string> stopped_arms;
-  bool stops_are_damaged = false;   // there were more: which ones is not known
-  std::vector<LeftObject> objects;  // in the order in which they came
-  std::vector<StoredAlert> alerts;  // oldest first
+  bool stops_are_damaged = false;    // there were more: which ones is not known
+  bool stops_are_unwritten = false;  // some came, or went, that were not on disk
+  bool is_behind = false;            // there was more: some of what was on disk is gone
+  std::vector<LeftObject> objects;   // in the order in which they came
+  std::vector<StoredAlert> alerts;   // oldest first
 };
 
 // The jobs of a data folder, on disk (SQLite, write-ahead log, synced). One thread writes: whatever
@@ -83,11 +86,15 @@ class JobStore {
   // It is about to move: from now on it is no longer one that can be run by the next run. Only ever
   // called back with true.
   void about_to_move(std::uint64_t number, Done done);
+  // All that are stopped. That there is something to write is known to the next run from when this
+  // returns, whatever becomes of the process, and of the disk.
   void stopped(std::vector<std::string> arms);
   // `done`: as of amend().
   void change(StoredObject object, Done done);
 
   // Soon on disk.
+  // A request, with a key, that it did not come by was answered with it.
+  void answered_with(std::uint64_t job, RequestOrigin request);
   void note(AuditEntry entry);
   void keep(StoredAlert alert);  // as it is now
 

@@ -16,18 +16,24 @@ Database opened(const std::filesystem::path& file, const std::string& vfs) {
     throw std::runtime_error("it is corrupt: it is empty, which none of armloom's ever is");
   }
   Database database(file, Database::Access::write, vfs);
-  if (database.is_read_only()) throw SqlFault(0, "it is read-only");
+  if (database.is_read_only()) throw SqlFault(SqlFault::kNoAccess, "it is read-only");
   database.keep_log(true);  // as it is, where the file turns out to be of no use
   bring_up_to_date(database);
   database.keep_log(false);
   database.know_checksum();
   if (database.text("PRAGMA journal_mode = WAL") != "wal") {
-    throw SqlFault(0, "it cannot be written ahead (WAL), as on a network's file system");
+    throw SqlFault(SqlFault::kNoAccess,
+                   "it cannot be written ahead (WAL), as on a network's file system");
   }
   database.run("PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 16777216");
   return database;
 }
 
+// Of jobs that are gone what their clients had sent.
+constexpr const char* kLostJobs =
+    "SELECT count(*) FROM body WHERE number NOT IN (SELECT number FROM job)";
+constexpr const char* kForgetLostJobs =
+    "DELETE FROM body WHERE number NOT IN (SELECT number FROM job)";
 // Of alerts, as AlertBook has it.
 constexpr const char* kNeededFirst =
     "who IS NULL DESC, (who IS NULL AND level = 'error') DESC, number DESC";
@@ -77,7 +83,13 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
           "nullif(?5, ''), ?6) ON CONFLICT(id) DO UPDATE SET at_ms = ?2, level = ?3, text = ?4, "
           "who = nullif(?5, ''), acknowledged_ms = ?6")),
       seal_alert_(database_.prepare(std::string("UPDATE alert SET sum = ") + kSumOfAlert +
-                                    " WHERE id = ?1")) {
+                                    " WHERE id = ?1")),
+      answer_(database_.prepare("INSERT OR IGNORE INTO request(key, place, digest, job) "
+                                "VALUES(?1, ?2, ?3, ?4)")),
+      seal_answer_(database_.prepare(std::string("UPDATE request SET sum = ") + kSumOfRequest +
+                                     " WHERE key = ?1 AND place = ?2")),
+      count_(database_.prepare("UPDATE written SET commits = ?1")),
+      commits_(as_number(database_.number("SELECT max(commits) FROM written"))) {
   database_.run(
       "DELETE FROM job WHERE view = ''");  // never acknowledged, and nothing is known of it
 }
@@ -90,7 +102,8 @@ Leftover JobTables::leftover() const {
           "SELECT job.number, id, state, submitted_ms, arms, view, may_have_moved, body.text, "
           "body.amended, coalesce(job.sum != ") +
       kSumOfJob + ", 0) OR coalesce(body.sum != " + kSumOfBody +
-      ", 0) FROM job LEFT JOIN body USING(number) WHERE has_ended = 0 ORDER BY job.number");
+      ", digest IS NOT NULL AND body.number IS NULL) FROM job LEFT JOIN body USING(number) WHERE "
+      "has_ended = 0 ORDER BY job.number");
   while (jobs.step()) {
     LeftJob& found = left.jobs.emplace_back();
     found.job = {.number = as_number(jobs.number(0)),
@@ -104,6 +117,7 @@ Leftover JobTables::leftover() const {
     if (!jobs.is_null(8)) found.amended = jobs.text(8);
     found.is_damaged = jobs.number(9) != 0;
   }
+  left.lost_jobs = static_cast<std::size_t>(database_.number(kLostJobs));
   Statement arms = database_.prepare(std::string("SELECT name, coalesce(sum != ") + kSumOfStop +
                                      ", 0) FROM stopped_arm ORDER BY name");
   while (arms.step()) {
@@ -137,9 +151,9 @@ Leftover JobTables::leftover() const {
 void JobTables::write(const Pending& changes) {
   Transaction transaction(database_);
   for (const auto& [number, change] : changes.jobs) write(number, change);
-  if (changes.stopped_arms) {
+  if (changes.stops) {
     forget_stops_.run();
-    for (const std::string& name : *changes.stopped_arms)
+    for (const std::string& name : changes.stops->arms)
       stop_.bind_all(std::string_view(name)).run();
     seal_stops_.run();
   }
@@ -152,7 +166,15 @@ void JobTables::write(const Pending& changes) {
   }
   for (const StoredAlert& alert : changes.alerts) write(alert);
   for (const auto& [name, object] : changes.objects) write(object);
+  for (const auto& [job, request] : changes.answers) {
+    const std::string_view key = request.key;
+    const auto place = static_cast<std::int64_t>(request.place);
+    answer_.bind_all(key, place, std::string_view(request.key_digest), as_stored(job)).run();
+    seal_answer_.bind_all(key, place).run();
+  }
+  count_.bind_all(as_stored(commits_ + 1)).run();
   transaction.commit();
+  ++commits_;
 }
 
 void JobTables::write(const StoredAlert& alert) {
@@ -202,6 +224,7 @@ bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::
   using std::chrono::milliseconds;
   std::int64_t deleted = 0;
   Transaction transaction(database_);
+  database_.run(kForgetLostJobs);
   const auto remove = [&](const char* which, std::int64_t bound) {
     Statement statement = database_.prepare(
         std::string("DELETE FROM job WHERE number IN (") + which +

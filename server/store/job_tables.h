@@ -16,7 +16,8 @@ class JobTables {
   // whole.
   JobTables(const std::filesystem::path& file, const std::string& vfs);
 
-  [[nodiscard]] Leftover leftover() const;
+  [[nodiscard]] Leftover leftover() const;  // but for what the mark beside it tells
+  [[nodiscard]] std::uint64_t commits() const { return commits_; }  // over all runs
   // All of it, synced, or nothing.
   void write(const Pending& changes);
   // Deletes some of what is over the bounds, oldest first; whether there is more.
@@ -29,7 +30,8 @@ class JobTables {
   Database database_;
   Statement see_, expect_, move_, come_, seal_, put_body_, amend_, drop_body_, seal_body_, stop_,
       seal_stops_, forget_stops_, set_object_, seal_object_, forget_object_, note_, seal_note_,
-      keep_alert_, seal_alert_;
+      keep_alert_, seal_alert_, answer_, seal_answer_, count_;
+  std::uint64_t commits_;
 };
 
 }  // namespace armloom

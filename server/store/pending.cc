@@ -22,12 +22,15 @@ void Pending::join(Pending later) {
     if (change.amended) mine.amended = std::move(change.amended);
     mine.may_have_moved = mine.may_have_moved || change.may_have_moved;
   }
-  if (later.stopped_arms) stopped_arms = std::move(later.stopped_arms);
+  if (later.stops) stops = std::move(later.stops);
   for (const AuditEntry& entry : later.audit.entries()) audit.add(entry);
   for (StoredAlert& alert : later.alerts) {
     if (alerts.size() < kAlertsMax) alerts.push_back(std::move(alert));
   }
   for (auto& [name, object] : later.objects) objects.insert_or_assign(name, std::move(object));
+  for (Answer& answer : later.answers) {
+    if (answers.size() < kAnswersMax) answers.push_back(std::move(answer));
+  }
   std::ranges::move(later.acceptances, std::back_inserter(acceptances));
   std::ranges::move(later.starts, std::back_inserter(starts));
 }

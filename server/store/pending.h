@@ -42,10 +42,19 @@ class PendingAudit {
 struct Pending {
   using Done = std::function<void(bool)>;
   std::map<std::uint64_t, JobChange> jobs = {};  // by number
-  std::optional<std::vector<std::string>> stopped_arms = {};
+  struct Stops {
+    std::vector<std::string> arms;
+    std::uint64_t number;  // by which StoreMark knows them
+  };
+  std::optional<Stops> stops = {};
   PendingAudit audit = {};
   std::vector<StoredAlert> alerts = {};              // as they came: of one alert the last counts
   std::map<std::string, StoredObject> objects = {};  // by name
+  struct Answer {
+    std::uint64_t job;
+    RequestOrigin request;
+  };
+  std::vector<Answer> answers = {};
   struct Acceptance {
     std::vector<std::uint64_t> jobs;
     Done done;
@@ -59,10 +68,11 @@ struct Pending {
 
   // While nothing can be written; what comes beyond is not told.
   inline static constexpr std::size_t kAlertsMax = 10'000;
+  inline static constexpr std::size_t kAnswersMax = 10'000;
 
   [[nodiscard]] bool is_empty() const {
-    return jobs.empty() && !stopped_arms && acceptances.empty() && audit.entries().empty() &&
-           alerts.empty() && objects.empty();
+    return jobs.empty() && !stops && acceptances.empty() && audit.entries().empty() &&
+           alerts.empty() && objects.empty() && answers.empty();
   }
   // What came after this.
   void join(Pending later);

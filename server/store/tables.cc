@@ -93,6 +93,27 @@ constexpr const char* kVersions[] = {
       sum INTEGER
     ) STRICT;
     )",
+    // How often it was written (StoreMark).
+    R"(
+    CREATE TABLE written(commits INTEGER NOT NULL) STRICT;
+    INSERT INTO written VALUES(0);
+    )",
+    // Other requests than the one by which it came that were answered with a job, as it was known
+    // by its id (RequestOrigin).
+    R"(
+    CREATE TABLE request(
+      key TEXT NOT NULL,
+      place INTEGER NOT NULL,
+      digest TEXT NOT NULL,
+      job INTEGER NOT NULL,
+      sum INTEGER,
+      PRIMARY KEY(key, place)
+    ) STRICT;
+    CREATE INDEX request_by_job ON request(job);
+    CREATE TRIGGER request_goes AFTER DELETE ON job BEGIN
+      DELETE FROM request WHERE job = old.number;
+    END;
+    )",
 };
 constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
 

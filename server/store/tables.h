@@ -25,8 +25,11 @@ inline constexpr const char* kSumOfAudit =
 inline constexpr const char* kSumOfStop = "checksum(stopped_arm.name)";
 inline constexpr const char* kSumOfObject =
     "checksum(scene_object.number, scene_object.name, scene_object.text)";
+inline constexpr const char* kSumOfRequest =
+    "checksum(request.key, request.place, request.digest, request.job)";
 inline constexpr std::int64_t kVersionWithSums = 5;     // of jobs
 inline constexpr std::int64_t kVersionWithAllSums = 6;  // of alerts and the audit trail, too
+inline constexpr std::int64_t kVersionWithRequests = 10;
 
 // Makes a new file with tables and nothing in them. It is made beside its place and put there
 // whole: whatever stands in that place has held jobs, also where it is empty. `vfs`: as Database

@@ -52,6 +52,9 @@ class Durable : public test::RunningServer {
     job.update(more);
     return post("/api/v1/jobs", job.dump());
   }
+  nlohmann::json state_of(const std::string& arm) {
+    return get("/api/v1/arms/" + arm).json()["state"];
+  }
   nlohmann::json job(const std::string& id) { return get("/api/v1/jobs/" + id).json(); }
   void wait_for(const std::string& id, const std::string& state) {
     test::Listener listener(port());

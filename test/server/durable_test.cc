@@ -28,7 +28,6 @@ class Damaged : public Durable {
       return alert["level"] == "error" && alert["text"].get<std::string>().find(what) != what.npos;
     });
   }
-  json state_of(const std::string& arm) { return get("/api/v1/arms/" + arm).json()["state"]; }
 };
 
 TEST_F(Durable, WhatWaitedWaitsAgainUnderAStopAndGoesOnWhenResumed) {
@@ -250,6 +249,42 @@ TEST_F(Damaged, WhereItIsNotKnownWhichArmsWereStoppedAllAreAndItIsTold) {
   restart();
   EXPECT_EQ(state_of("left"), "idle");
   EXPECT_EQ(state_of("right"), "idle");
+}
+
+// Whoever has stopped an arm beside a full disk, and starts the server anew to mend that.
+TEST_F(Durable, AStopThatWasNotWrittenKeepsAllArmsStoppedAlsoWhereARestartGoesOnByItself) {
+  on_restart_ = OnRestart::continue_;
+  start(1);
+  ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
+  EXPECT_EQ(submit("held").status, 202);
+  ASSERT_EQ(post("/api/v1/arms/left/resume", "").status, 202);
+  wait_for("held", "running");
+  ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
+  EXPECT_EQ(submit("next").status, 202);
+  FailingDisk::fail(FailingDisk::Fault::full, 0);
+  ASSERT_EQ(post("/api/v1/arms/right/stop", "").status, 202);
+  end();
+  FailingDisk::reset();
+  start(20);
+  EXPECT_EQ(state_of("left"), "stopped");
+  EXPECT_EQ(state_of("right"), "stopped");
+  EXPECT_EQ(job("next")["state"], "queued");
+  ASSERT_EQ(post("/api/v1/resume", "").status, 202);
+  wait_for("next", "succeeded");
+  restart();
+  EXPECT_EQ(state_of("right"), "idle");
+}
+
+TEST_F(Damaged, WhatIsGoneOfALogIsToldAndAllArmsAreStopped) {
+  on_restart_ = OnRestart::continue_;
+  start(1);
+  ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
+  EXPECT_EQ(submit("kept").status, 202);
+  end();
+  damage("UPDATE written SET commits = commits - 1");
+  start(1);
+  wait_until([&] { return is_told("it holds less than the former run had written"); });
+  EXPECT_EQ(state_of("right"), "stopped");
 }
 
 TEST_F(Durable, AJobThatTheCellNoLongerFitsIsInterruptedAndSaysWhy) {

@@ -100,6 +100,9 @@ class Trial:
         for job in jobs:
             if job["state"] in ENDED and job["id"] in known:
                 self.ended[job["id"]] = job["state"]
+        _, told = server.call("GET", API + "/alerts")
+        damage = [alert["text"] for alert in told["alerts"] if "data folder" in alert["text"]]
+        assert not damage, f"it is whole: {damage}"
         if open_jobs:
             _, queue = server.call("GET", API + "/queue")
             assert queue["stopped"], "arms may move before anyone has said so"

@@ -87,6 +87,28 @@ TEST_P(Resubmission, AKeyStandsForOneRequest) {
   EXPECT_EQ(jobs_known(), 3U);
 }
 
+// A key is bound by the first answer that it got, also where the job was known by its id.
+TEST_P(Resubmission, AKeyThatCameLaterThanItsJobStandsForOneRequest) {
+  start(1);
+  ASSERT_EQ(send(job("n1")).status, 202);
+  const json batch = {{"jobs", {job("n1"), job("n2", "right")}}, {"atomic", false}};
+  EXPECT_EQ(send("/batches", batch, "both").status, 207);
+  const auto expect_bound = [&] {
+    for (const std::string key : {"late", "later"}) {
+      EXPECT_EQ(send(job("n1"), key).status, 200) << key;
+      const auto other = send(job("n3"), key);
+      EXPECT_EQ(other.status, 409) << other.body;
+      EXPECT_EQ(other.json()["pointer"], "Idempotency-Key");
+    }
+    EXPECT_EQ(send("/batches", {{"jobs", {job("n1")}}}, "both").status, 409);
+    EXPECT_EQ(jobs_known(), 2U);
+  };
+  expect_bound();
+  if (!GetParam()) return;
+  restart();
+  expect_bound();
+}
+
 TEST_P(Resubmission, WhatWasRefusedWasNotAccepted) {
   start(1);
   json bad = job("");

@@ -48,6 +48,23 @@ TEST_F(Serve, ASignalBringsArmsToRestAndTheRecordingIsWhole) {
   }
 }
 
+// The answer comes before the disk has it: however soon the process is killed, the arm is stopped.
+TEST_F(Serve, AStopThatWasAnsweredOutlivesAKill) {
+  for (int kill = 0; kill < 6; ++kill) {
+    std::filesystem::remove_all(data());
+    const std::vector<std::string> arguments{"--cell", test::kCell, "--data", data()};
+    {
+      test::ServeProcess server(arguments, log());
+      ASSERT_EQ(test::request(server.port(), "POST", "/api/v1/arms/left/stop").status, 202);
+      server.signal(SIGKILL);
+      EXPECT_EQ(server.wait(), -SIGKILL);
+    }
+    test::ServeProcess server(arguments, log());
+    const json arm = test::request(server.port(), "GET", "/api/v1/arms/left").json();
+    EXPECT_EQ(arm["state"], "stopped");
+  }
+}
+
 // Who ends the server knows that the arms stop with it: what there is to see to, the next one says.
 TEST_F(Serve, AnEndStopsNoArmForTheNextRunAndIsNoAlert) {
   const std::vector<std::string> arguments{"--cell", test::kCell, "--data", data()};
@@ -165,6 +182,8 @@ TEST_F(Serve, ASignalLeavesWhatHasNotBegunToTheNextServer) {
   EXPECT_NE(table.out.find("\r\nback,'=1+1,queued,"), std::string::npos)
       << "is no formula: " << table.out;
   EXPECT_EQ(run("history --data " + folder_.string()).exit_code, 2) << "there is no store";
+  const auto who = std::filesystem::status(data() + "/armloom.db").permissions();
+  EXPECT_EQ(who & std::filesystem::perms::others_all, std::filesystem::perms::none);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What is not as it was written is told, and what was refused displaces nothing of what was done.
 #include <array>
 #include <fstream>
+#include <functional>
 
 #include "server/store/job_history.h"
 #include "test/server/store_fixture.h"
@@ -125,6 +126,97 @@ TEST_F(Store, WhichArmsWereStoppedIsKnownToBeAsItWasWrittenOrNot) {
   EXPECT_EQ(open()->leftover().stopped_arms, Names{"left"});
 }
 
+// SQLite takes what it cannot read of a log for the end of it.
+TEST_F(Store, AStoreThatHoldsLessThanWasWrittenIsKnown) {
+  const fs::path killed = folder_.string() + "-killed", older = folder_.string() + "-older";
+  fs::remove_all(killed);
+  fs::remove_all(older);
+  {
+    const auto store = open();
+    EXPECT_TRUE(accept(*store, 1).get());
+  }
+  fs::copy(folder_, older, fs::copy_options::recursive);
+  {
+    const auto store = open();
+    for (const std::uint64_t number : {2, 3, 4}) EXPECT_TRUE(accept(*store, number).get());
+    EXPECT_TRUE(store->flush());
+    fs::copy(folder_, killed, fs::copy_options::recursive);
+  }
+  const fs::path log = file().string() + "-wal";
+  const auto found = [&](const std::function<void()>& damage) {
+    fs::remove_all(folder_);
+    fs::copy(killed, folder_, fs::copy_options::recursive);
+    damage();
+    return open()->leftover();
+  };
+  EXPECT_FALSE(found([] {}).is_behind);
+  const std::function<void()> damages[] = {
+      [&] { fs::remove(log); }, [&] { fs::resize_file(log, fs::file_size(log) / 2); },
+      [&] { std::fstream(log, std::ios::in | std::ios::out) << "xxxx"; },
+      [&] {
+        fs::remove(log);
+        fs::copy(older / "armloom.db", file(), fs::copy_options::overwrite_existing);
+      },
+      [&] {
+        fs::remove(log);
+        fs::remove(file());
+      }};
+  for (const auto& damage : damages) {
+    SCOPED_TRACE(&damage - damages);
+    const Leftover left = found(damage);
+    EXPECT_TRUE(left.is_behind);
+    EXPECT_LT(left.jobs.size(), 4U);
+    {
+      const auto store = open();
+      EXPECT_TRUE(store->leftover().is_behind) << "until something is written";
+      EXPECT_TRUE(accept(*store, 9).get());
+    }
+    EXPECT_FALSE(open()->leftover().is_behind);
+    EXPECT_TRUE(open()->leftover().stops_are_unwritten) << "until they are written";
+  }
+}
+
+// A mark that is none says nothing.
+TEST_F(Store, AMarkThatCannotBeReadIsTakenForNone) {
+  {
+    const auto store = open();
+    EXPECT_TRUE(accept(*store, 1).get());
+  }
+  const std::string zeros(33, '\0');
+  for (const std::string& text : {zeros, std::string("00000000000000000099"), std::string("x")}) {
+    std::ofstream(folder_ / "armloom.mark") << text;
+    EXPECT_FALSE(open()->leftover().is_behind);
+    EXPECT_FALSE(open()->leftover().stops_are_unwritten);
+  }
+  std::ofstream(folder_ / "armloom.mark") << "00000000000000000099 stops known\n";
+  EXPECT_TRUE(open()->leftover().is_behind);
+}
+
+// Neither forgotten nor taken for one that nobody was told of.
+TEST_F(Store, AJobOfWhichAPartIsGoneIsKnown) {
+  {
+    const auto store = open();
+    for (std::uint64_t number = 1; number <= 3; ++number) {
+      std::promise<bool> written;
+      StoredJob one = job(number);
+      one.origin.digest = "d";
+      store->accept({{one, "body"}}, [&](bool is_written) { written.set_value(is_written); });
+      EXPECT_TRUE(written.get_future().get());
+    }
+    store->see(job(4));  // no client's
+    EXPECT_TRUE(store->flush());
+  }
+  sql("DELETE FROM body WHERE number = 1; DELETE FROM job WHERE number = 2");
+  {
+    const auto store = open();
+    ASSERT_EQ(store->leftover().jobs.size(), 3U);
+    EXPECT_TRUE(store->leftover().jobs[0].is_damaged);
+    EXPECT_FALSE(store->leftover().jobs[1].is_damaged);
+    EXPECT_FALSE(store->leftover().jobs[2].is_damaged);
+    EXPECT_EQ(store->leftover().lost_jobs, 1U);
+  }
+}
+
 // What a killed server left beside a file that was damaged is the best that there is to repair it
 // with.
 TEST_F(Store, TheLogBesideAFileThatIsCorruptIsLeftAsItIs) {
@@ -157,6 +249,7 @@ TEST_F(Store, ArmsThatAnOlderVersionHadStoppedAreStopped) {
     store->stopped({"left"});
     EXPECT_TRUE(store->flush());
   }
+  sql("DROP TRIGGER request_goes; DROP TABLE request; DROP TABLE written");
   sql("DROP TABLE scene_object; ALTER TABLE stopped_arm DROP COLUMN sum; PRAGMA user_version = 6");
   const auto store = open();
   EXPECT_EQ(store->leftover().stopped_arms, std::vector<std::string>{"left"});

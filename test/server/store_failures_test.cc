@@ -46,6 +46,42 @@ TEST_F(Store, AFullDiskIsSaidAndWhatWaitsIsWrittenWhenThereIsSpace) {
   EXPECT_TRUE(store->leftover().jobs.front().may_have_moved);
 }
 
+TEST_F(Store, WhoCannotOpenItIsToldWhatToDo) {
+  FailingDisk::fail(FailingDisk::Fault::full, 0);
+  EXPECT_NE(why_not().find("nothing was changed: make room on the disk"), std::string::npos);
+  FailingDisk::fail(FailingDisk::Fault::broken, 0);
+  EXPECT_NE(why_not().find("see to it that it can be read and written"), std::string::npos);
+  FailingDisk::reset();
+  std::ofstream(file()) << "no database, but a text that is long enough for one";
+  EXPECT_NE(why_not().find("repair it"), std::string::npos) << why_not();
+}
+
+// With a full disk, too: who starts the server anew must not find arms let go.
+TEST_F(Store, ThatStopsWereNotWrittenIsKnownToTheNextRunUntilItHasWrittenSome) {
+  {
+    const auto store = open();
+    store->stopped({"left"});
+    EXPECT_TRUE(store->flush());
+    FailingDisk::fail(FailingDisk::Fault::full, 0);
+    store->stopped({"left", "right"});
+  }
+  FailingDisk::fail(FailingDisk::Fault::none, 0);
+  EXPECT_TRUE(open()->leftover().stops_are_unwritten);
+  EXPECT_EQ(open()->leftover().stopped_arms, std::vector<std::string>{"left"});
+  {
+    const auto store = open();
+    EXPECT_TRUE(accept(*store, 1).get());
+    EXPECT_TRUE(store->leftover().stops_are_unwritten);
+  }
+  {
+    const auto store = open();
+    EXPECT_TRUE(store->leftover().stops_are_unwritten) << "nobody has seen to it yet";
+    store->stopped({});
+    EXPECT_TRUE(store->flush());
+  }
+  EXPECT_FALSE(open()->leftover().stops_are_unwritten);
+}
+
 // Another server could begin on the folder, or would not find what is written.
 TEST_F(Store, AFolderThatIsNoLongerItsOwnIsSaidAndNothingIsWritten) {
   for (const char* name : {"armloom.lock", "armloom.db"}) {
@@ -108,6 +144,8 @@ void live(JobStore& store, const std::function<void(const std::string&)>& acknow
   for (std::uint64_t number = 1; number <= 10; ++number) {
     if (!accept(store, number).get()) continue;
     acknowledged("a" + std::to_string(number));
+    store.stopped({"arm-" + std::to_string(number)});
+    acknowledged("s" + std::to_string(number));
     if (number % 2 == 0) continue;
     if (!start(store, number).get()) continue;
     acknowledged("m" + std::to_string(number));
@@ -133,8 +171,13 @@ void expect_kept(const fs::path& folder, const std::string& acknowledged, const 
   }
   const auto history = JobHistory::open(folder);
   std::istringstream lines(acknowledged);
+  std::vector<std::string> stop;
   for (std::string what; lines >> what;) {
     const std::uint64_t number = std::stoull(what.substr(1));
+    if (what[0] == 's') {
+      stop = {"arm-" + std::to_string(number)};
+      continue;
+    }
     const auto found = (*history)->find("j" + std::to_string(number)).value();
     ASSERT_TRUE(found) << when << ": job " << number << " is lost";
     EXPECT_TRUE(what[0] != 'e' || found->has_ended) << when << ": " << what;
@@ -143,6 +186,9 @@ void expect_kept(const fs::path& folder, const std::string& acknowledged, const 
     EXPECT_EQ(left[number].body, "body of " + std::to_string(number)) << when;
     EXPECT_TRUE(what[0] != 'm' || left[number].may_have_moved) << when << ": " << what;
   }
+  EXPECT_FALSE((*store)->leftover().is_behind) << when;
+  EXPECT_TRUE((*store)->leftover().stopped_arms == stop || (*store)->leftover().stops_are_unwritten)
+      << when;
 }
 
 class Cut : public Store, public ::testing::WithParamInterface<const char*> {};
