@@ -83,7 +83,10 @@ void set_object(Call& call, const std::optional<std::string>& name, Change chang
 void post_object(Call call) { set_object(call, std::nullopt, add); }
 void put_object(Call call) { set_object(call, call.arguments.front(), put); }
 
+// What is in the way of arms is not taken away while that cannot be put down, as no arm is let go.
 void delete_object(Call call) {
+  const auto refusal = call.parts.keeper != nullptr ? call.parts.keeper->refusal() : std::nullopt;
+  if (refusal) return call.respond(refusal_response(*refusal));
   ask(
       call.parts,
       [name = call.arguments.front()](Executive& executive) -> Result<std::uint64_t> {

@@ -7,9 +7,11 @@
 #include "server/store/job_store.h"
 #include "test/fuzz/fuzz.h"
 
-// A data folder whose database is damaged. An input is a list of (place, byte): each five bytes of
-// it change one byte of a sound database of a few jobs; a sixth kind cuts the file off there. The
-// store opens it and what it tells holds together, or it refuses and leaves the file as it is.
+// A data folder as a killed server leaves it, whose database or the log beside it is damaged. An
+// input is a list of (place, byte): each five bytes of it change one byte of a sound folder of a
+// few jobs, or cut a file off there. The store opens it and what it tells holds together, or it
+// refuses and leaves the database as it is. What of the log alone is damaged is not taken for the
+// whole.
 
 namespace armloom::fuzz {
 namespace {
@@ -39,39 +41,48 @@ StoredJob job(std::uint64_t number, const char* state) {
   return job;
 }
 
-// What a server leaves behind.
-std::string sound_database() {
+struct Folder {
+  std::string database, log, mark;
+};
+
+// What a server leaves behind that is killed.
+Folder sound_folder() {
   fs::remove_all(folder());
-  {
-    auto store = JobStore::open(folder(), {});
-    demand(store.has_value());
-    for (std::uint64_t number = 1; number <= 3; ++number) {
-      (*store)->accept({{job(number, "queued"), R"({"arm":"left","move_to":{"named":"home"}})"}},
-                       [](bool) {});
-    }
-    (*store)->see(job(1, "succeeded"));
-    (*store)->about_to_move(2, [](bool) {});
-    (*store)->amend(3, R"({"priority":2})", [](bool) {});
-    (*store)->stopped({"left"});
-    (*store)->note({});
-    (*store)->keep({});
-    demand((*store)->flush());
-    demand(!(*store)->close());
+  auto store = JobStore::open(folder(), {});
+  demand(store.has_value());
+  for (std::uint64_t number = 1; number <= 3; ++number) {
+    (*store)->accept({{job(number, "queued"), R"({"arm":"left","move_to":{"named":"home"}})"}},
+                     [](bool) {});
   }
-  return bytes_of(folder() / "armloom.db");
+  demand((*store)->flush());
+  (*store)->see(job(1, "succeeded"));
+  (*store)->about_to_move(2, [](bool) {});
+  (*store)->amend(3, R"({"priority":2})", [](bool) {});
+  (*store)->stopped({"left"});
+  (*store)->note({});
+  (*store)->keep({});
+  demand((*store)->flush());
+  return {bytes_of(folder() / "armloom.db"), bytes_of(folder() / "armloom.db-wal"),
+          bytes_of(folder() / "armloom.mark")};
 }
 
-std::string damaged(std::string database, const std::uint8_t* data, std::size_t size) {
-  for (; size >= 5 && !database.empty(); data += 5, size -= 5) {
+Folder damaged(Folder sound, const std::uint8_t* data, std::size_t size) {
+  for (; size >= 5; data += 5, size -= 5) {
+    std::string& file = data[2] % 2 == 0 ? sound.database : sound.log;
+    if (file.empty()) continue;
     const std::size_t place =
-        (data[0] | std::size_t{data[1]} << 8U | std::size_t{data[2]} << 16U) % database.size();
+        (data[0] | std::size_t{data[1]} << 8U | std::size_t{data[2]} / 2 << 16U) % file.size();
     if (data[3] % 64 == 63) {
-      database.resize(place);
+      file.resize(place);
     } else {
-      database[place] = static_cast<char>(data[4]);
+      file[place] = static_cast<char>(data[4]);
     }
   }
-  return database;
+  return sound;
+}
+
+void put(const char* name, const std::string& bytes) {
+  std::ofstream(folder() / name, std::ios::binary) << bytes;
 }
 
 void demand_whole(const Leftover& left) {
@@ -89,19 +100,26 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace armloom;
   using namespace armloom::fuzz;
   namespace fs = std::filesystem;
-  static const std::string sound = sound_database();
-  const std::string bytes = damaged(sound, data, size);
+  static const Folder sound = sound_folder();
+  const Folder left = damaged(sound, data, size);
   fs::remove_all(folder());
   fs::create_directories(folder());
-  std::ofstream(folder() / "armloom.db", std::ios::binary) << bytes;
+  put("armloom.db", left.database);
+  put("armloom.db-wal", left.log);
+  put("armloom.mark", left.mark);
   {
     const auto store = JobStore::open(folder(), {});
     if (!store) {
       demand(!store.error().empty() && !store.error().front().detail.empty());
-      demand(bytes_of(folder() / "armloom.db") == bytes);
+      demand(bytes_of(folder() / "armloom.db") == left.database);
       return 0;
     }
-    demand_whole((*store)->leftover());
+    const Leftover& found = (*store)->leftover();
+    demand_whole(found);
+    if (left.database == sound.database && !found.is_behind) {
+      demand(found.jobs.size() == 2 && found.jobs[0].may_have_moved && found.jobs[1].amended);
+      demand(found.stopped_arms.size() == 1);
+    }
     (*store)->see(job(7, "queued"));
     (void)(*store)->flush();
     (void)(*store)->close();

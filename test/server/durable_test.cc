@@ -165,6 +165,8 @@ TEST_F(Durable, AChangeOfTheSceneIsAnsweredWhenItIsOnDisk) {
   EXPECT_NE(warned.body.find("this is done, but the next run may not know of it"),
             std::string::npos);
   EXPECT_NE(get("/api/v1/scene").body.find("crate"), std::string::npos);
+  EXPECT_EQ(remove("/api/v1/scene/objects/crate").status, 503);
+  EXPECT_NE(get("/api/v1/scene").body.find("crate"), std::string::npos) << "as no arm is let go";
   FailingDisk::reset();
   wait_until([&] { return get("/readyz").status == 200; });
   restart();
