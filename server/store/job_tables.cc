@@ -19,7 +19,6 @@ Database opened(const std::filesystem::path& file, const std::string& vfs) {
   if (database.is_read_only()) throw SqlFault(SqlFault::kNoAccess, "it is read-only");
   database.keep_log(true);  // as it is, where the file turns out to be of no use
   bring_up_to_date(database);
-  database.keep_log(false);
   database.know_checksum();
   if (database.text("PRAGMA journal_mode = WAL") != "wal") {
     throw SqlFault(SqlFault::kNoAccess,
@@ -92,6 +91,7 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
       commits_(as_number(database_.number("SELECT max(commits) FROM written"))) {
   database_.run(
       "DELETE FROM job WHERE view = ''");  // never acknowledged, and nothing is known of it
+  database_.keep_log(false);
 }
 
 Leftover JobTables::leftover() const {
