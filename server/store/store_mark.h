@@ -16,13 +16,13 @@ class StoreMark {
  public:
   inline static constexpr const char* kFile = "armloom.mark";  // in the data folder
 
-  // What the former run's claims against a store that has so many commits.
+  // What the former run claimed, held against the store as it is.
   struct Found {
     bool store_is_behind = false;
     bool stops_are_ahead = false;  // which arms were stopped may not be what the store says
   };
 
-  // `commits`: of the store, over all runs. Throws std::system_error.
+  // `commits`: that the store has, over all runs. Throws std::system_error.
   StoreMark(const std::filesystem::path& folder, std::uint64_t commits);
   ~StoreMark();
   StoreMark(const StoreMark&) = delete;
