@@ -68,7 +68,7 @@ void acknowledge(Call call) {
     }
     parts.alerts.acknowledge(
         seen.ids, who, [&parts, ids = seen.ids, respond](const std::optional<Refusal>& refusal) {
-          if (refusal) return respond(refusal_response(*refusal));
+          if (refusal) return respond(done_but_not_stored(*refusal));
           AlertList list;
           for (const std::string& id : ids) {
             if (const auto* alert = parts.alerts.find(id)) list.alerts.push_back(*alert);

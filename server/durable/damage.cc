@@ -29,6 +29,12 @@ Alert alert_of(const Damage& damage) {
         "or gone, or armloom.db is an older copy): the last jobs, what became of others, and the "
         "last stops may be missing; all arms are stopped, until resumed");
   }
+  if (damage.is_unmarked) {
+    found.push_back(
+        "armloom.mark beside armloom.db is gone or cannot be read, or armloom.db is a copy without "
+        "it: it is not known whether the last jobs, what became of others, and the last stops are "
+        "there; all arms are stopped, until resumed");
+  }
   if (damage.lost_jobs > 0) {
     found.push_back(std::to_string(damage.lost_jobs) +
                     (damage.lost_jobs == 1 ? " job is" : " jobs are") +

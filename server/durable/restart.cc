@@ -56,9 +56,12 @@ Result<Restart> Restart::prepare(JobKeeper& keeper) {
   Restart restart;
   restart.objects_ = left.objects;
   restart.stopped_arms_ = left.stopped_arms;
-  restart.stops_are_unwritten_ = left.stops_are_unwritten;
-  restart.damage_ = {
-      .lost_jobs = left.lost_jobs, .stops = left.stops_are_damaged, .is_behind = left.is_behind};
+  restart.knows_stops_ =
+      !left.stops_are_damaged && !left.stops_are_unwritten && !left.is_behind && !left.is_unmarked;
+  restart.damage_ = {.lost_jobs = left.lost_jobs,
+                     .stops = left.stops_are_damaged,
+                     .is_behind = left.is_behind,
+                     .is_unmarked = left.is_unmarked};
   for (const LeftJob& job : left.jobs) restart.sort_out(job, keeper);
   for (const WrittenOff& off : restart.written_off_) {
     keeper.store().see(ended(off.job, off.state, off.reason, off.detail, keeper.clock()));
@@ -161,7 +164,7 @@ void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
     stop_all(executive, summary());
   } else if (!not_put_back.empty()) {
     stop_all(executive, "the scene is not what it was before the server was started again");
-  } else if (damage_.stops || damage_.is_behind || stops_are_unwritten_) {
+  } else if (!knows_stops_) {
     stop_all(executive, "which arms were stopped when the former run ended is not known");
   } else {
     std::vector<ArmId> arms;

@@ -47,7 +47,7 @@ class Restart {
   std::unordered_set<std::string> ids_written_off_;
   std::vector<LeftObject> objects_;
   std::vector<std::string> stopped_arms_;
-  bool stops_are_unwritten_ = false;
+  bool knows_stops_ = true;
   Damage damage_;
 };
 

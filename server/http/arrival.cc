@@ -30,6 +30,12 @@ bool waits_to_be_asked(const RequestParser& parser) {
          !parser.is_done();
 }
 
+// Of a body that does not count; whether another request may follow on the connection.
+bool is_all_here(const Connection& connection, const RequestParser& parser) {
+  const auto left = parser.content_length_remaining();
+  return parser.is_done() || (left && connection.buffer.size() >= *left);
+}
+
 }  // namespace
 
 asio::awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection,
@@ -55,6 +61,13 @@ asio::awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& conn
   }
   // Before the body, whose trailers are none of the header's fields.
   RequestHeader header = parser.get().base();
+  // No stop waits for what a body would say.
+  if (site.is_never_limited(*request) && !is_all_here(connection, parser)) {
+    request->body = std::make_shared<const std::string>();
+    const Delivery delivery{header.version(), false, false};
+    co_return Arrived{std::move(*request), std::move(header), delivery,
+                      MemoryBudget::Charge(connection.memory)};
+  }
   const bool waits = waits_to_be_asked(parser);
   if (waits) {
     if (auto refused = site.refuse_unread(*request)) {

@@ -67,7 +67,7 @@ class Copies {
     std::error_code error;
     if (fs::equivalent(file, folder_ / name, error)) return;  // the cell is itself such a copy
     fs::copy_file(file, folder_ / name, fs::copy_options::overwrite_existing, error);
-    if (error) note(file, error.message());
+    if (error) note(file, "to " + (folder_ / name).string() + ": " + error.message());
   }
 
   void make_folder() {

@@ -44,12 +44,13 @@ struct Damage {
   std::vector<std::string> jobs = {};  // their ids
   std::size_t lost_jobs = 0;           // whose ids are lost, too
   std::size_t alerts = 0;
-  std::size_t audit = 0;   // entries
-  bool stops = false;      // which arms were stopped
-  bool is_behind = false;  // some of what was on disk is gone
+  std::size_t audit = 0;     // entries
+  bool stops = false;        // which arms were stopped
+  bool is_behind = false;    // some of what was on disk is gone
+  bool is_unmarked = false;  // some may be
 
   [[nodiscard]] bool is_none() const {
-    return jobs.empty() && lost_jobs + alerts + audit == 0 && !stops && !is_behind;
+    return jobs.empty() && lost_jobs + alerts + audit == 0 && !stops && !is_behind && !is_unmarked;
   }
 };
 

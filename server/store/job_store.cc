@@ -30,7 +30,8 @@ std::string advice(const std::runtime_error& fault) {
   if (is_of_system || (of_database != nullptr && of_database->is_of_access())) {
     return "see to it that it can be read and written";
   }
-  return "repair it, put back a copy, or move it away to begin with an empty one";
+  return "repair it, put back a copy of the folder, or move it away, with armloom.db-wal and "
+         "armloom.db-shm, to begin with an empty one";
 }
 
 tl::unexpected<Problems> cannot_use(const std::filesystem::path& file,
@@ -41,6 +42,18 @@ tl::unexpected<Problems> cannot_use(const std::filesystem::path& file,
               file.string()});
 }
 
+std::filesystem::path log_of(const std::filesystem::path& folder) {
+  return folder / (std::string(kStoreFile) + "-wal");
+}
+
+void begin(const std::filesystem::path& folder, const std::string& vfs) {
+  if (const auto log = log_of(folder); std::filesystem::exists(log)) {
+    throw std::runtime_error("it is gone, and " + log.string() + " beside it may hold jobs");
+  }
+  { const StoreMark first(folder, std::nullopt); }
+  make_store(folder / kStoreFile, vfs);
+}
+
 }  // namespace
 
 class JobStore::Impl {
@@ -48,9 +61,11 @@ class JobStore::Impl {
   Impl(const std::filesystem::path& folder, std::unique_ptr<DataLock> lock,
        std::unique_ptr<JobTables> tables, StoreOptions options)
       : lock_(std::move(lock)),
-        files_{PlacedFile(folder / DataLock::kFile), PlacedFile(folder / kStoreFile)},
         tables_(std::move(tables)),
         mark_(folder, tables_->commits()),
+        files_{PlacedFile(folder / DataLock::kFile), PlacedFile(folder / kStoreFile),
+               PlacedFile(folder / StoreMark::kFile)},
+        log_(log_of(folder)),
         options_(std::move(options)),
         leftover_(leftover_of(*tables_, mark_)),
         thread_([this](const std::stop_token& stop) { work(stop); }) {}
@@ -94,6 +109,7 @@ class JobStore::Impl {
   static Leftover leftover_of(const JobTables& tables, const StoreMark& mark) {
     Leftover left = tables.leftover();
     left.is_behind = mark.found().store_is_behind;
+    left.is_unmarked = mark.found().is_missing;
     left.stops_are_unwritten = mark.found().stops_are_ahead;
     return left;
   }
@@ -136,7 +152,8 @@ class JobStore::Impl {
       give_back(std::move(batch), {fault.is_full(), fault.what()});
       return false;
     }
-    mark_.written(tables_->commits(),
+    log_.has_grown(JobTables::kLogKept);
+    mark_.written(tables_->commits().value_or(0),
                   batch.stops ? std::optional(batch.stops->number) : std::nullopt);
     if (options_.on_written) options_.on_written(Wall::now() - begun);
     bool was_faulty = false;
@@ -151,14 +168,19 @@ class JobStore::Impl {
   }
 
   // Whoever starts on the folder now would not find what is written, nor that it is in use.
-  [[nodiscard]] std::optional<std::string> lost_file() const {
+  [[nodiscard]] std::optional<std::string> lost_file() {
     for (const PlacedFile& file : files_) {
-      if (file.is_in_place()) continue;
-      return file.path().string() +
-             " was removed or replaced under the running server: put it back, or stop the server "
-             "before anything else uses the folder";
+      if (!file.is_in_place()) return lost(file, "removed or replaced");
     }
-    return std::nullopt;
+    if (!log_.is_in_place()) return lost(log_, "removed or replaced");
+    if (!log_.is_cut_off()) return std::nullopt;
+    tables_->leave_log();
+    return lost(log_, "cut off");
+  }
+  static std::string lost(const PlacedFile& file, const char* how) {
+    return file.path().string() + " was " + how +
+           " under the running server: put it back, or stop the server before anything else uses "
+           "the folder";
   }
 
   void give_back(Pending batch, const StoreFault& fault) {
@@ -188,9 +210,10 @@ class JobStore::Impl {
   }
 
   std::unique_ptr<DataLock> lock_;  // the last to go
-  std::array<PlacedFile, 2> files_;
   std::unique_ptr<JobTables> tables_;
   StoreMark mark_;
+  std::array<PlacedFile, 3> files_;
+  PlacedFile log_;
   StoreOptions options_;
   Leftover leftover_;
   std::mutex stops_mutex_;
@@ -210,6 +233,7 @@ Result<std::unique_ptr<JobStore>> JobStore::open(const std::filesystem::path& fo
   if (!lock) return failure(std::move(lock.error()));
   const std::filesystem::path file = folder / kStoreFile;
   try {
+    if (!std::filesystem::exists(file)) begin(folder, options.vfs);
     auto tables = std::make_unique<JobTables>(file, options.vfs);
     return std::unique_ptr<JobStore>(new JobStore(
         std::make_unique<Impl>(folder, std::move(*lock), std::move(tables), std::move(options))));

@@ -49,6 +49,7 @@ struct Leftover {
   bool stops_are_damaged = false;    // there were more: which ones is not known
   bool stops_are_unwritten = false;  // some came, or went, that were not on disk
   bool is_behind = false;            // there was more: some of what was on disk is gone
+  bool is_unmarked = false;          // there may have been: what would tell is gone (StoreMark)
   std::vector<LeftObject> objects;   // in the order in which they came
   std::vector<StoredAlert> alerts;   // oldest first
 };

@@ -10,7 +10,6 @@ namespace {
 constexpr std::int64_t kCleanedAtOnce = 1000;
 
 Database opened(const std::filesystem::path& file, const std::string& vfs) {
-  if (!std::filesystem::exists(file)) make_store(file, vfs);
   // Not even opened: SQLite would remove the log of one that is empty, and that may hold jobs.
   if (std::filesystem::file_size(file) == 0) {
     throw std::runtime_error("it is corrupt: it is empty, which none of armloom's ever is");
@@ -24,7 +23,8 @@ Database opened(const std::filesystem::path& file, const std::string& vfs) {
     throw SqlFault(SqlFault::kNoAccess,
                    "it cannot be written ahead (WAL), as on a network's file system");
   }
-  database.run("PRAGMA synchronous = FULL; PRAGMA journal_size_limit = 16777216");
+  database.run("PRAGMA synchronous = FULL; PRAGMA journal_size_limit = " +
+               std::to_string(JobTables::kLogKept));
   return database;
 }
 
@@ -41,6 +41,12 @@ constexpr const char* kIsRefusal = "(status BETWEEN 400 AND 499)";
 
 std::int64_t as_stored(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 std::uint64_t as_number(std::int64_t stored) { return static_cast<std::uint64_t>(stored); }
+
+std::optional<std::uint64_t> counted(const Database& database) {
+  Statement row = database.prepare("SELECT max(commits) FROM written");
+  if (!row.step() || row.is_null(0)) return std::nullopt;
+  return as_number(row.number(0));
+}
 
 }  // namespace
 
@@ -88,7 +94,7 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
       seal_answer_(database_.prepare(std::string("UPDATE request SET sum = ") + kSumOfRequest +
                                      " WHERE key = ?1 AND place = ?2")),
       count_(database_.prepare("UPDATE written SET commits = ?1")),
-      commits_(as_number(database_.number("SELECT max(commits) FROM written"))) {
+      commits_(counted(database_)) {
   database_.run(
       "DELETE FROM job WHERE view = ''");  // never acknowledged, and nothing is known of it
   database_.keep_log(false);
@@ -148,6 +154,8 @@ Leftover JobTables::leftover() const {
   return left;
 }
 
+void JobTables::leave_log() { database_.keep_log(true); }
+
 void JobTables::write(const Pending& changes) {
   Transaction transaction(database_);
   for (const auto& [number, change] : changes.jobs) write(number, change);
@@ -172,9 +180,10 @@ void JobTables::write(const Pending& changes) {
     answer_.bind_all(key, place, std::string_view(request.key_digest), as_stored(job)).run();
     seal_answer_.bind_all(key, place).run();
   }
-  count_.bind_all(as_stored(commits_ + 1)).run();
+  const std::uint64_t commits = commits_.value_or(0) + 1;
+  count_.bind_all(as_stored(commits)).run();
   transaction.commit();
-  ++commits_;
+  commits_ = commits;
 }
 
 void JobTables::write(const StoredAlert& alert) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include "server/store/database.h"
 #include "server/store/job_store.h"
@@ -12,14 +14,18 @@ namespace armloom {
 // The statements by which a store writes. All throw SqlFault. One thread.
 class JobTables {
  public:
-  // Opens the file, made if there is none, brings its tables up to date and looks whether it is
-  // whole.
+  static constexpr std::uintmax_t kLogKept = 16 * 1024 * 1024;  // it is not cut off below that
+
+  // Opens the file, brings its tables up to date and looks whether it is whole.
   JobTables(const std::filesystem::path& file, const std::string& vfs);
 
   [[nodiscard]] Leftover leftover() const;  // but for what the mark beside it tells
-  [[nodiscard]] std::uint64_t commits() const { return commits_; }  // over all runs
+  // Over all runs; none: not since an older version had it, which did not count.
+  [[nodiscard]] std::optional<std::uint64_t> commits() const { return commits_; }
   // All of it, synced, or nothing.
   void write(const Pending& changes);
+  // Its log is not what it wrote: that is not brought into the file at the end.
+  void leave_log();
   // Deletes some of what is over the bounds, oldest first; whether there is more.
   bool clean_up(const Retention& retention, std::chrono::system_clock::time_point now);
 
@@ -31,7 +37,7 @@ class JobTables {
   Statement see_, expect_, move_, come_, seal_, put_body_, amend_, drop_body_, seal_body_, stop_,
       seal_stops_, forget_stops_, set_object_, seal_object_, forget_object_, note_, seal_note_,
       keep_alert_, seal_alert_, answer_, seal_answer_, count_;
-  std::uint64_t commits_;
+  std::optional<std::uint64_t> commits_;
 };
 
 }  // namespace armloom

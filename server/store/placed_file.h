@@ -2,6 +2,8 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <utility>
 
@@ -21,9 +23,21 @@ class PlacedFile {
     return stat(path_.c_str(), &now) == 0 && now.st_dev == was_.st_dev && now.st_ino == was_.st_ino;
   }
 
+  // From now on it is at least as long as it is now, or as `most` if that is less.
+  void has_grown(std::uintmax_t most) {
+    struct stat now {};
+    if (stat(path_.c_str(), &now) == 0)
+      least_ = std::min(most, static_cast<std::uintmax_t>(now.st_size));
+  }
+  [[nodiscard]] bool is_cut_off() const {
+    struct stat now {};
+    return stat(path_.c_str(), &now) == 0 && static_cast<std::uintmax_t>(now.st_size) < least_;
+  }
+
  private:
   std::filesystem::path path_;
   struct stat was_ {};
+  std::uintmax_t least_ = 0;
 };
 
 }  // namespace armloom

@@ -11,6 +11,8 @@
 #include <string>
 #include <system_error>
 
+#include "server/store/sync_folder.h"
+
 namespace armloom {
 namespace {
 
@@ -42,23 +44,40 @@ std::optional<Claim> claim_in(int file) {
   return std::nullopt;
 }
 
+std::system_error fault(const std::filesystem::path& file) {
+  return {errno, std::generic_category(), file.string()};
+}
+
 }  // namespace
 
-StoreMark::StoreMark(const std::filesystem::path& folder, std::uint64_t commits)
-    : file_(open((folder / kFile).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0640)), commits_(commits) {
-  if (file_ < 0) {
-    throw std::system_error(errno, std::generic_category(), (folder / kFile).string());
-  }
-  const auto left = claim_in(file_);
-  if (!left) {
-    write();  // its place on the disk
+StoreMark::File::File(const std::filesystem::path& path)
+    : number(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0640)) {
+  if (number < 0) throw fault(path);
+}
+
+StoreMark::File::~File() { close(number); }
+
+StoreMark::StoreMark(const std::filesystem::path& folder, std::optional<std::uint64_t> commits)
+    : file_(folder / kFile), commits_(commits.value_or(0)) {
+  if (const auto left = claim_in(file_.number)) {
+    found_ = {false, left->commits > commits_, left->stops_are_ahead};
+    commits_ = std::max(commits_, left->commits);  // as it is until something is written
   } else {
-    found_ = {left->commits > commits, left->stops_are_ahead};
-    commits_ = std::max(commits, left->commits);  // as it is until something is written
+    found_.is_missing = commits.has_value();
+    write_first(folder);
   }
 }
 
-StoreMark::~StoreMark() { close(file_); }
+// That there is one outlives a power cut, with its place on the disk: it is never longer.
+void StoreMark::write_first(const std::filesystem::path& folder) {
+  const Text text = text_of({commits_, found_.is_missing});
+  const bool is_written =
+      ftruncate(file_.number, 0) == 0 &&
+      pwrite(file_.number, text.data(), kSize, 0) == static_cast<ssize_t>(kSize) &&
+      fsync(file_.number) == 0;
+  if (!is_written) throw fault(folder / kFile);
+  sync_folder(folder);
+}
 
 std::uint64_t StoreMark::stops_come() {
   const std::scoped_lock lock(mutex_);
@@ -76,10 +95,11 @@ void StoreMark::written(std::uint64_t commits, std::optional<std::uint64_t> stop
 
 // What cannot be written is not claimed; the store is told of it all the same.
 void StoreMark::write() {
-  const bool are_left_unknown = found_.store_is_behind || found_.stops_are_ahead;
+  const bool are_left_unknown =
+      found_.is_missing || found_.store_is_behind || found_.stops_are_ahead;
   const bool are_ahead = stops_told_ > stops_written_ || (stops_written_ == 0 && are_left_unknown);
   const Text text = text_of({commits_, are_ahead});
-  (void)!pwrite(file_, text.data(), kSize, 0);
+  (void)!pwrite(file_.number, text.data(), kSize, 0);
 }
 
 }  // namespace armloom

@@ -1,12 +1,10 @@
 #include "server/store/tables.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
+#include <algorithm>
 #include <iterator>
 #include <string>
-#include <system_error>
+
+#include "server/store/sync_folder.h"
 
 namespace armloom {
 namespace {
@@ -93,10 +91,10 @@ constexpr const char* kVersions[] = {
       sum INTEGER
     ) STRICT;
     )",
-    // How often it was written (StoreMark).
+    // How often it was written (StoreMark); null: not since an older version had it.
     R"(
-    CREATE TABLE written(commits INTEGER NOT NULL) STRICT;
-    INSERT INTO written VALUES(0);
+    CREATE TABLE written(commits INTEGER) STRICT;
+    INSERT INTO written VALUES(NULL);
     )",
     // Other requests than the one by which it came that were answered with a job, as it was known
     // by its id (RequestOrigin).
@@ -128,17 +126,9 @@ void upgrade(Database& database, std::int64_t version) {
 }
 
 void check_whole(const Database& database) {
-  const std::string found = database.text("PRAGMA integrity_check(1)");
+  std::string found = database.text("PRAGMA integrity_check(1)");
+  std::ranges::replace(found, '\n', ' ');
   if (found != "ok") throw std::runtime_error("it is corrupt: " + found);
-}
-
-// So that a name that was given outlives a power cut.
-void sync_folder(const std::filesystem::path& folder) {
-  const int opened = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  const bool is_synced = opened >= 0 && fsync(opened) == 0;
-  const int why = errno;
-  if (opened >= 0) close(opened);
-  if (!is_synced) throw std::system_error(why, std::generic_category(), folder.string());
 }
 
 }  // namespace
@@ -149,6 +139,7 @@ void make_store(const std::filesystem::path& file, const std::string& vfs) {
   {
     Database database(unfinished, Database::Access::make, vfs);
     upgrade(database, 0);
+    database.run("UPDATE written SET commits = 0");
   }
   std::filesystem::rename(unfinished, file);
   sync_folder(file.parent_path());

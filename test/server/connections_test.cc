@@ -15,6 +15,30 @@ using Clock = std::chrono::steady_clock;
 
 class Connections : public test::RunningServer {};
 
+// What its body would say changes nothing: arms do not move on until it has come, or never does.
+TEST_F(Connections, AStopDoesNotWaitForABody) {
+  for (const char* path : {"/api/v1/stop", "/api/v1/arms/left/stop"}) {
+    for (const char* length : {"Content-Length: 30", "Transfer-Encoding: chunked",
+                               "Content-Length: 30\r\nExpect: 100-continue"}) {
+      start(1.0);
+      test::Wire stop(port());
+      stop.send(std::string("POST ") + path + " HTTP/1.1\r\nHost: localhost\r\n" + length +
+                "\r\n\r\n{");
+      const auto stopped = test::read_answer(stop);
+      EXPECT_EQ(stopped.status, 202) << path << length;
+      EXPECT_EQ(stopped.headers.at("connection"), "close");
+      EXPECT_EQ(get("/api/v1/arms/left").json()["state"], "stopped");
+      end();
+    }
+  }
+  start(1.0);
+  test::Wire whole(port());
+  whole.send("POST /api/v1/stop HTTP/1.1\r\nHost: localhost\r\nContent-Length: 3\r\n\r\n{x}");
+  EXPECT_EQ(test::read_answer(whole).status, 202);
+  whole.send(test::request_text("GET", "/healthz", "", ""));
+  EXPECT_EQ(test::read_answer(whole).status, 200) << "the connection goes on";
+}
+
 TEST_F(Connections, AConnectionTooManyIsToldSoAndTheOthersAreServed) {
   options_.connections_max = 5;
   start(1.0);

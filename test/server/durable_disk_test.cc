@@ -66,6 +66,19 @@ TEST_F(Durable, WhatIsCanceledBesideAFullDiskIsNotSaidToBeKept) {
   EXPECT_EQ(job("waits")["state"], "canceled") << "it is done all the same";
 }
 
+TEST_F(Durable, AnAlertThatIsAcknowledgedBesideAFullDiskIsSaidToBeSo) {
+  start(1);
+  ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
+  const std::string id = get("/api/v1/alerts").json()["alerts"][0]["id"];
+  FailingDisk::fail(FailingDisk::Fault::full, 0);
+  const nlohmann::json seen = {{"ids", {id}}, {"who", "Ada"}};
+  const auto warned = post("/api/v1/alerts/acknowledge", seen.dump());
+  EXPECT_EQ(warned.status, 507);
+  EXPECT_NE(warned.body.find("this is done, but the next run may not know of it"),
+            std::string::npos)
+      << warned.body;
+}
+
 TEST_F(Durable, ABrokenDiskIsNoFullOne) {
   start(1);
   FailingDisk::fail(FailingDisk::Fault::broken, 0);

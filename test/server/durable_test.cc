@@ -287,6 +287,12 @@ TEST_F(Damaged, WhatIsGoneOfALogIsToldAndAllArmsAreStopped) {
   start(1);
   wait_until([&] { return is_told("it holds less than the former run had written"); });
   EXPECT_EQ(state_of("right"), "stopped");
+  ASSERT_EQ(post("/api/v1/resume", "").status, 202);
+  end();
+  std::filesystem::remove(data_ / "armloom.mark");
+  start(1);
+  wait_until([&] { return is_told("armloom.mark beside armloom.db is gone"); });
+  EXPECT_EQ(state_of("right"), "stopped");
 }
 
 TEST_F(Durable, AJobThatTheCellNoLongerFitsIsInterruptedAndSaysWhy) {

@@ -138,7 +138,7 @@ TEST_F(Store, AStoreThatHoldsLessThanWasWrittenIsKnown) {
   fs::copy(folder_, older, fs::copy_options::recursive);
   {
     const auto store = open();
-    for (const std::uint64_t number : {2, 3, 4}) EXPECT_TRUE(accept(*store, number).get());
+    for (const std::uint64_t number : {2U, 3U, 4U}) EXPECT_TRUE(accept(*store, number).get());
     EXPECT_TRUE(store->flush());
     fs::copy(folder_, killed, fs::copy_options::recursive);
   }
@@ -176,20 +176,62 @@ TEST_F(Store, AStoreThatHoldsLessThanWasWrittenIsKnown) {
   }
 }
 
-// A mark that is none says nothing.
-TEST_F(Store, AMarkThatCannotBeReadIsTakenForNone) {
+// Then it is not known whether there was more, as of a copy of the database alone.
+TEST_F(Store, AStoreWithoutItsMarkIsNotTakenForWhole) {
+  const auto leave = [&] {
+    fs::remove_all(folder_);
+    const auto store = open();
+    EXPECT_FALSE(store->leftover().is_unmarked) << "a new one has none yet";
+    EXPECT_TRUE(accept(*store, 1).get());
+  };
+  const fs::path mark = folder_ / "armloom.mark";
+  const std::string zeros(33, '\0'), half = "00000000000000000099";
+  const std::function<void()> damages[] = {
+      [&] { fs::remove(mark); }, [&] { std::ofstream(mark).flush(); },
+      [&] { std::ofstream(mark) << zeros; }, [&] { std::ofstream(mark) << half; }};
+  for (const auto& damage : damages) {
+    SCOPED_TRACE(&damage - damages);
+    leave();
+    damage();
+    EXPECT_TRUE(open()->leftover().is_unmarked);
+    {
+      const auto store = open();
+      EXPECT_FALSE(store->leftover().is_unmarked) << "told once";
+      EXPECT_TRUE(store->leftover().stops_are_unwritten) << "until they are written";
+      store->stopped({"left"});
+      EXPECT_TRUE(store->flush());
+    }
+    EXPECT_FALSE(open()->leftover().stops_are_unwritten);
+  }
+}
+
+// All that a young folder has may be in the log.
+TEST_F(Store, ANewFolderOfWhichLogAndMarkAreGoneIsNotTakenForNew) {
+  const fs::path killed = folder_.string() + "-killed";
+  fs::remove_all(killed);
+  {
+    const auto store = open();
+    EXPECT_TRUE(accept(*store, 1).get());
+    fs::copy(folder_, killed, fs::copy_options::recursive);
+  }
+  fs::remove_all(folder_);
+  fs::rename(killed, folder_);
+  fs::remove(folder_ / "armloom.mark");
+  fs::remove(file().string() + "-wal");
+  EXPECT_TRUE(open()->leftover().is_unmarked);
+}
+
+// It would be read into a new file, which it is not of.
+TEST_F(Store, ALogWithoutItsFileIsLeftAsItIs) {
   {
     const auto store = open();
     EXPECT_TRUE(accept(*store, 1).get());
   }
-  const std::string zeros(33, '\0');
-  for (const std::string& text : {zeros, std::string("00000000000000000099"), std::string("x")}) {
-    std::ofstream(folder_ / "armloom.mark") << text;
-    EXPECT_FALSE(open()->leftover().is_behind);
-    EXPECT_FALSE(open()->leftover().stops_are_unwritten);
-  }
-  std::ofstream(folder_ / "armloom.mark") << "00000000000000000099 stops known\n";
-  EXPECT_TRUE(open()->leftover().is_behind);
+  fs::remove(file());
+  std::ofstream(file().string() + "-wal") << "what may be jobs";
+  EXPECT_NE(why_not().find("it is gone"), std::string::npos) << why_not();
+  EXPECT_FALSE(fs::exists(file()));
+  EXPECT_EQ(fs::file_size(file().string() + "-wal"), 16U);
 }
 
 // Neither forgotten nor taken for one that nobody was told of.
@@ -252,11 +294,13 @@ TEST_F(Store, ArmsThatAnOlderVersionHadStoppedAreStopped) {
     store->stopped({"left"});
     EXPECT_TRUE(store->flush());
   }
+  fs::remove(folder_ / "armloom.mark");  // none of theirs
   sql("DROP TRIGGER request_goes; DROP TABLE request; DROP TABLE written");
   sql("DROP TABLE scene_object; ALTER TABLE stopped_arm DROP COLUMN sum; PRAGMA user_version = 6");
   const auto store = open();
   EXPECT_EQ(store->leftover().stopped_arms, std::vector<std::string>{"left"});
   EXPECT_FALSE(store->leftover().stops_are_damaged);
+  EXPECT_FALSE(store->leftover().is_unmarked);
 }
 
 // Nobody is told what nobody said, nor that somebody did what they did not.

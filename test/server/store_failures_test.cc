@@ -84,7 +84,7 @@ TEST_F(Store, ThatStopsWereNotWrittenIsKnownToTheNextRunUntilItHasWrittenSome) {
 
 // Another server could begin on the folder, or would not find what is written.
 TEST_F(Store, AFolderThatIsNoLongerItsOwnIsSaidAndNothingIsWritten) {
-  for (const char* name : {"armloom.lock", "armloom.db"}) {
+  for (const char* name : {"armloom.lock", "armloom.db", "armloom.mark", "armloom.db-wal"}) {
     SCOPED_TRACE(name);
     fs::remove_all(folder_);
     std::promise<std::string> told;
@@ -106,6 +106,21 @@ TEST_F(Store, AFolderThatIsNoLongerItsOwnIsSaidAndNothingIsWritten) {
 }
 
 // What its client was told is not accepted is nowhere, whatever else is said of it.
+// What was written of it is lost, but not the file beside it; and the next run is told.
+TEST_F(Store, ALogThatIsCutOffUnderTheServerIsSaidAndNotBroughtIntoTheFile) {
+  const fs::path log = file().string() + "-wal";
+  {
+    const auto store = open();
+    EXPECT_TRUE(accept(*store, 1).get());
+    fs::resize_file(log, 0);
+    EXPECT_FALSE(accept(*store, 2).get());
+    EXPECT_NE(store->fault()->text.find("armloom.db-wal was cut off"), std::string::npos);
+  }
+  const auto store = open();
+  EXPECT_TRUE(store->leftover().is_behind);
+  EXPECT_TRUE(accept(*store, 3).get());
+}
+
 TEST_F(Store, AJobThatWasGivenUpIsNeverWritten) {
   {
     const auto store = open();
