@@ -8,6 +8,9 @@
 namespace armloom {
 namespace {
 
+constexpr const char* kWhatToSeeTo =
+    "; all arms are stopped: jobs that wait may be done already, so cancel those before you resume";
+
 std::string sentence_of_jobs(const std::vector<std::string>& ids) {
   constexpr std::size_t kNamed = 10;  // what is left of a sentence
   std::string named;
@@ -25,15 +28,18 @@ Alert alert_of(const Damage& damage) {
   std::vector<std::string> found;
   if (damage.is_behind) {
     found.push_back(
-        "it holds less than the former run had written (its log armloom.db-wal is damaged, cut off "
-        "or gone, or armloom.db is an older copy): the last jobs, what became of others, and the "
-        "last stops may be missing; all arms are stopped, until resumed");
+        std::string(
+            "it holds less than the former run had written (its log armloom.db-wal is damaged, cut "
+            "off or gone, or armloom.db is an older copy): the last jobs, changes and stops may be "
+            "missing") +
+        kWhatToSeeTo);
   }
   if (damage.is_unmarked) {
     found.push_back(
-        "armloom.mark beside armloom.db is gone or cannot be read, or armloom.db is a copy without "
-        "it: it is not known whether the last jobs, what became of others, and the last stops are "
-        "there; all arms are stopped, until resumed");
+        std::string("armloom.mark beside armloom.db is gone or cannot be read, or armloom.db is a "
+                    "copy without it: whether the last jobs, changes and stops are there is not "
+                    "known") +
+        kWhatToSeeTo);
   }
   if (damage.lost_jobs > 0) {
     found.push_back(std::to_string(damage.lost_jobs) +
