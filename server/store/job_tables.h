@@ -14,8 +14,8 @@ namespace armloom {
 // The statements by which a store writes. All throw SqlFault. One thread.
 class JobTables {
  public:
-  static constexpr std::uintmax_t kLogKept = std::uintmax_t{16}
-                                             << 20U;  // it is not cut off below that
+  // It is not cut off below that many bytes.
+  static constexpr std::uintmax_t kLogKept = std::uintmax_t{16} << 20U;
 
   // Opens the file, brings its tables up to date and looks whether it is whole.
   JobTables(const std::filesystem::path& file, const std::string& vfs);
