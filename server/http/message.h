@@ -152,7 +152,7 @@ struct Site {
   // The answer to a request that is refused whatever its body says; absent: `handle` answers it.
   std::function<std::optional<Response>(const Request&)> refuse_unread;
   WriteRefusal refuse;  // what is wrong with HTTP itself: framing, limits, targets
-  // Whether this request is served however many connections are open.
+  // Whether this request is served however many connections are open, and before its body is here.
   std::function<bool(const Request&)> is_never_limited;
   // The server is asked to end: bring everything to rest, then call `done` (from any thread).
   std::function<void(std::function<void()> done)> wind_down;
