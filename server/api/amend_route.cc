@@ -18,10 +18,8 @@ void answer_amended(const ApiParts& parts, const JobView& job, const Respond& re
 void amend_job(Call call) {
   const ApiParts& parts = call.parts;
   if (const auto bad = bad_if_match(call.request)) return call.respond(*bad);
-  if (parts.keeper != nullptr) {
-    if (const auto refusal = parts.keeper->refusal()) {
-      return call.respond(refusal_response(*refusal));
-    }
+  if (const auto refusal = refusal_of_store(parts)) {
+    return call.respond(refusal_response(*refusal));
   }
   const auto amend = [&parts, key = call.arguments.front(), if_match = call.request.if_match,
                       respond = call.respond](JobAmendment amendment) {

@@ -50,7 +50,7 @@ void stop_arm(Call call) {
 }
 // Arms are not let go while it cannot be put down that they move.
 bool is_held_by_store(const Call& call) {
-  auto refusal = call.parts.keeper != nullptr ? call.parts.keeper->refusal() : std::nullopt;
+  auto refusal = refusal_of_store(call.parts);
   if (!refusal) return false;
   refusal->status = 503;
   call.respond(refusal_response(*refusal));

@@ -21,6 +21,10 @@ tl::unexpected<Problems> unsupported(const char* slug, const char* field, std::s
 
 }  // namespace
 
+std::optional<Refusal> refusal_of_store(const ApiParts& parts) {
+  return parts.keeper != nullptr ? parts.keeper->refusal() : std::nullopt;
+}
+
 bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jobs,
                 const Respond& respond) {
   const auto refusal = parts.limits.jobs(client, jobs, std::chrono::steady_clock::now());

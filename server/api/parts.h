@@ -83,6 +83,9 @@ void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
   });
 }
 
+// Why nothing can be stored at present, where there is a store.
+[[nodiscard]] std::optional<Refusal> refusal_of_store(const ApiParts& parts);
+
 // So many more jobs that whoever asks submits; answered, where they are too many.
 [[nodiscard]] bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jobs,
                               const Respond& respond);

@@ -85,8 +85,9 @@ void put_object(Call call) { set_object(call, call.arguments.front(), put); }
 
 // What is in the way of arms is not taken away while that cannot be put down, as no arm is let go.
 void delete_object(Call call) {
-  const auto refusal = call.parts.keeper != nullptr ? call.parts.keeper->refusal() : std::nullopt;
-  if (refusal) return call.respond(refusal_response(*refusal));
+  if (const auto refusal = refusal_of_store(call.parts)) {
+    return call.respond(refusal_response(*refusal));
+  }
   ask(
       call.parts,
       [name = call.arguments.front()](Executive& executive) -> Result<std::uint64_t> {

@@ -23,11 +23,9 @@ void get_health(Call call) { call.respond(answer(200, health_format(), Health{})
 // Why the server is not what it should be: what keeps arms where they are, whom it does not know,
 // what is lost.
 std::optional<Refusal> why_not_ready(const ApiParts& parts) {
-  if (parts.keeper != nullptr) {
-    if (auto refusal = parts.keeper->refusal()) {
-      refusal->status = 503;
-      return refusal;
-    }
+  if (auto refusal = refusal_of_store(parts)) {
+    refusal->status = 503;
+    return refusal;
   }
   if (parts.guard.fault()) {  // whoever asks here has shown no token
     return Refusal{503, "tokens-unreadable",
@@ -55,7 +53,7 @@ void get_metrics(Call call) {
       .frames_dropped = parts.hub.frames_dropped(),
       .readers_sent_away = parts.hub.readers_sent_away(),
       .recording_lost = parts.recording != nullptr && parts.recording->fault(),
-      .storage_failed = parts.keeper != nullptr && parts.keeper->refusal()};
+      .storage_failed = refusal_of_store(parts).has_value()};
   call.respond(Response{200,
                         "text/plain; version=0.0.4; charset=utf-8",
                         parts.metrics.text(readings),

@@ -1,7 +1,6 @@
 #include "server/store/job_store.h"
 
 #include <algorithm>
-#include <array>
 #include <condition_variable>
 #include <future>
 #include <mutex>
@@ -12,9 +11,9 @@
 
 #include "server/store/data_lock.h"
 #include "server/store/job_tables.h"
-#include "server/store/placed_file.h"
 #include "server/store/store_mark.h"
 #include "server/store/tables.h"
+#include "server/store/watched_files.h"
 
 namespace armloom {
 namespace {
@@ -42,10 +41,6 @@ tl::unexpected<Problems> cannot_use(const std::filesystem::path& file,
               file.string()});
 }
 
-std::filesystem::path log_of(const std::filesystem::path& folder) {
-  return folder / (std::string(kStoreFile) + "-wal");
-}
-
 void begin(const std::filesystem::path& folder, const std::string& vfs) {
   if (const auto log = log_of(folder); std::filesystem::exists(log)) {
     throw std::runtime_error("it is gone, and " + log.string() + " beside it may hold jobs");
@@ -63,9 +58,7 @@ class JobStore::Impl {
       : lock_(std::move(lock)),
         tables_(std::move(tables)),
         mark_(folder, tables_->commits()),
-        files_{PlacedFile(folder / DataLock::kFile), PlacedFile(folder / kStoreFile),
-               PlacedFile(folder / StoreMark::kFile)},
-        log_(log_of(folder)),
+        files_(folder),
         options_(std::move(options)),
         leftover_(leftover_of(*tables_, mark_)),
         thread_([this](const std::stop_token& stop) { work(stop); }) {}
@@ -140,8 +133,9 @@ class JobStore::Impl {
       const std::scoped_lock lock(mutex_);
       batch = std::exchange(pending_, {});
     }
-    if (const auto lost = lost_file()) {
-      give_back(std::move(batch), {false, *lost});
+    if (const auto lost = files_.lost()) {
+      if (lost->is_log_cut_off) tables_->leave_log();
+      give_back(std::move(batch), {false, lost->text});
       return false;
     }
     if (batch.is_empty()) return true;
@@ -152,7 +146,7 @@ class JobStore::Impl {
       give_back(std::move(batch), {fault.is_full(), fault.what()});
       return false;
     }
-    log_.has_grown(JobTables::kLogKept);
+    files_.log_has_grown();
     mark_.written(tables_->commits().value_or(0),
                   batch.stops ? std::optional(batch.stops->number) : std::nullopt);
     if (options_.on_written) options_.on_written(Wall::now() - begun);
@@ -165,22 +159,6 @@ class JobStore::Impl {
     for (const Pending::Acceptance& acceptance : batch.acceptances) acceptance.done(true);
     for (const Pending::Start& start : batch.starts) start.done(true);
     return true;
-  }
-
-  // Whoever starts on the folder now would not find what is written, nor that it is in use.
-  [[nodiscard]] std::optional<std::string> lost_file() {
-    for (const PlacedFile& file : files_) {
-      if (!file.is_in_place()) return lost(file, "removed or replaced");
-    }
-    if (!log_.is_in_place()) return lost(log_, "removed or replaced");
-    if (!log_.is_cut_off()) return std::nullopt;
-    tables_->leave_log();
-    return lost(log_, "cut off");
-  }
-  static std::string lost(const PlacedFile& file, const char* how) {
-    return file.path().string() + " was " + how +
-           " under the running server: put it back, or stop the server before anything else uses "
-           "the folder";
   }
 
   void give_back(Pending batch, const StoreFault& fault) {
@@ -212,8 +190,7 @@ class JobStore::Impl {
   std::unique_ptr<DataLock> lock_;  // the last to go
   std::unique_ptr<JobTables> tables_;
   StoreMark mark_;
-  std::array<PlacedFile, 3> files_;
-  PlacedFile log_;
+  WatchedFiles files_;
   StoreOptions options_;
   Leftover leftover_;
   std::mutex stops_mutex_;

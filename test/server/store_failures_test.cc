@@ -56,32 +56,6 @@ TEST_F(Store, WhoCannotOpenItIsToldWhatToDo) {
   EXPECT_NE(why_not().find("repair it"), std::string::npos) << why_not();
 }
 
-// With a full disk, too: who starts the server anew must not find arms let go.
-TEST_F(Store, ThatStopsWereNotWrittenIsKnownToTheNextRunUntilItHasWrittenSome) {
-  {
-    const auto store = open();
-    store->stopped({"left"});
-    EXPECT_TRUE(store->flush());
-    FailingDisk::fail(FailingDisk::Fault::full, 0);
-    store->stopped({"left", "right"});
-  }
-  FailingDisk::fail(FailingDisk::Fault::none, 0);
-  EXPECT_TRUE(open()->leftover().stops_are_unwritten);
-  EXPECT_EQ(open()->leftover().stopped_arms, std::vector<std::string>{"left"});
-  {
-    const auto store = open();
-    EXPECT_TRUE(accept(*store, 1).get());
-    EXPECT_TRUE(store->leftover().stops_are_unwritten);
-  }
-  {
-    const auto store = open();
-    EXPECT_TRUE(store->leftover().stops_are_unwritten) << "nobody has seen to it yet";
-    store->stopped({});
-    EXPECT_TRUE(store->flush());
-  }
-  EXPECT_FALSE(open()->leftover().stops_are_unwritten);
-}
-
 // Another server could begin on the folder, or would not find what is written.
 TEST_F(Store, AFolderThatIsNoLongerItsOwnIsSaidAndNothingIsWritten) {
   for (const char* name : {"armloom.lock", "armloom.db", "armloom.mark", "armloom.db-wal"}) {
