@@ -21,6 +21,16 @@ struct Motion {
   TrajectoryPtr trajectory;
   Duration progress;
   bool to_come = false;  // Coordinated: its arm makes another motion before it
+  // Its joints are up to so far from the path where it sets out (rad, m): certified methods take
+  // the larger of this and their tracking error.
+  double off_path = 0.0;
+  // TimedDiscrete, which has no orders that would keep others away from where it stands.
+  enum class Stands : std::uint8_t {
+    goes_on,
+    may_stay,  // it brakes, or has not moved for a while: compared both ways
+    stays,     // it was stopped, and is asked about before it goes on
+  };
+  Stands stands = Stands::goes_on;
 
   [[nodiscard]] Duration remaining() const { return trajectory->duration() - progress; }
 };

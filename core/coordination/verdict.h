@@ -10,6 +10,7 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
+#include "core/coordination/certificate.h"
 #include "core/coordination/conflict_region.h"
 #include "core/coordination/proximity.h"
 
@@ -71,6 +72,8 @@ struct Verdict {
   // Not all was decided, as the budget of evaluations ended: a larger Question::effort may find
   // more free.
   bool exhausted = false;
+  // Free, and by a certified method: everything about the candidates that the answer proves.
+  std::vector<Certificate> certificates = {};
 };
 [[nodiscard]] constexpr const char* to_string(Verdict::Kind kind) {
   switch (kind) {

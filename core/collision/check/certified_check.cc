@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/collision/check/certificates.h"
 #include "core/collision/check/motion_checker.h"
 #include "core/collision/check/pair_regions.h"
 #include "core/coordination/in_step.h"
@@ -55,8 +56,8 @@ CertifiedCheck::CertifiedCheck(MotionStore& store, const Question& question)
 std::vector<CertifiedCheck::ArmMotion> CertifiedCheck::arms_of(const Motion& motion) {
   std::vector<ArmMotion> arms;
   for (const ArmId arm : motion.trajectory->arms()) {
-    arms.push_back(
-        {&motion, &store_.motion(motion.trajectory, arm, question_.rest, tracking_error_)});
+    arms.push_back({&motion, &store_.motion(motion.trajectory, arm, question_.rest,
+                                            std::max(tracking_error_, motion.off_path))});
   }
   return arms;
 }
@@ -96,8 +97,67 @@ Verdict CertifiedCheck::swept() {
       is_one_motion ? check_in_step(all[own], all[other]) : check_swept(all[own], all[other]);
     }
   }
-  if (verdict_.kind != Verdict::Kind::free) verdict_.clearance_bound.reset();
+  if (verdict_.kind != Verdict::Kind::free) {
+    verdict_.clearance_bound.reset();
+    return std::move(verdict_);
+  }
+  certify_alone();
+  certify_swept(all, candidates);
   return std::move(verdict_);
+}
+
+// The candidates with themselves, what stands still, and arms that are out of their reach.
+void CertifiedCheck::certify_alone() {
+  const PlanningScene& scene = *store_.scene();
+  const SceneFingerprint& content = scene.fingerprint();
+  for (const Motion& motion : question_.candidates) {
+    std::vector<MotionStore::Entry*> entries;
+    for (const ArmMotion& arm : arms_of(motion)) entries.push_back(arm.entry);
+    const CertifiedSide side = certified_side(entries, &motion);
+    verdict_.certificates.emplace_back(
+        SceneCertificate{side, content.objects, content.of(side.arms)});
+    if (entries.size() > 1) {
+      Duration reach = motion.trajectory->duration();
+      for (MotionStore::Entry* arm : entries) {
+        reach = std::min(reach, from_seconds(store_.stopping_reach_s(*arm)));
+      }
+      verdict_.certificates.emplace_back(
+          TogetherCertificate{side, kOutOfStep + kUntilTold + reach, content.of(side.arms)});
+    }
+    for (const ArmId own : side.arms) {
+      for (std::uint32_t a = 0; a < scene.cell().arms.size(); ++a) {
+        const ArmId other{a}, first = std::min(own, other), second = std::max(own, other);
+        if (first == second || !store_.out_of_reach(first, second)) continue;
+        verdict_.certificates.emplace_back(
+            ApartCertificate{first, second, content.of({first, second})});
+      }
+    }
+  }
+}
+
+// Every candidate's motion with every other motion and every arm at rest: all of it is free.
+void CertifiedCheck::certify_swept(const std::vector<ArmMotion>& all, std::size_t candidates) {
+  struct Side {
+    const Motion* motion;
+    CertifiedSide certified;
+  };
+  std::vector<Side> sides;
+  std::size_t of_candidates = 0;
+  for (std::size_t i = 0; i < all.size();) {
+    std::vector<MotionStore::Entry*> entries{all[i].entry};
+    const Motion* motion = all[i].motion;
+    for (++i; motion != nullptr && i < all.size() && all[i].motion == motion; ++i) {
+      entries.push_back(all[i].entry);
+    }
+    sides.push_back({motion, certified_side(entries, motion)});
+    if (i <= candidates) of_candidates = sides.size();
+  }
+  for (std::size_t own = 0; own < of_candidates; ++own) {
+    for (std::size_t other = own + 1; other < sides.size(); ++other) {
+      verdict_.certificates.emplace_back(
+          pair_certificate(*store_.scene(), sides[own].certified, sides[other].certified, {}));
+    }
+  }
 }
 
 // Each candidate by itself, as its plan has it; only then the regions of the pairs.
@@ -118,6 +178,8 @@ Verdict CertifiedCheck::coordinated() {
   verdict_.evaluations += search.evaluations();
   verdict_.clearance_bound->lower(search.parted());
   verdict_.exhausted = search.exhausted();
+  verdict_.certificates = search.take_certificates();
+  certify_alone();
   return std::move(verdict_);
 }
 

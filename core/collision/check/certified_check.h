@@ -24,6 +24,8 @@ class CertifiedCheck {
   };
   [[nodiscard]] std::vector<ArmMotion> arms_of(const Motion& motion);
   [[nodiscard]] std::vector<ArmMotion> all_arms();
+  void certify_alone();
+  void certify_swept(const std::vector<ArmMotion>& all, std::size_t candidates);
   void check_alone(const ArmMotion& own);
   void check_swept(const ArmMotion& own, const ArmMotion& other);
   void check_in_step(const ArmMotion& own, const ArmMotion& other);

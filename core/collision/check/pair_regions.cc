@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/collision/check/certificates.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -35,6 +36,11 @@ Duration PairRegionSearch::Side::now() const {
   return motion == nullptr ? Duration{} : std::clamp(motion->progress, Duration{}, end());
 }
 
+const CertifiedSide& PairRegionSearch::Side::certify() {
+  if (!certified) certified = certified_side(arms, motion);
+  return *certified;
+}
+
 std::uint64_t PairRegionSearch::cells_for(const Side& a, const Side& b) const {
   return question_.effort *
          static_cast<std::uint64_t>(std::ceil(kCells * to_seconds(a.end() + b.end())));
@@ -65,7 +71,8 @@ PairRegionSearch::PairRegionSearch(MotionStore& store, const Question& question)
 PairRegionSearch::Side PairRegionSearch::side_of(const Motion& motion) {
   Side side{motion.job, &motion, {}};
   for (const ArmId arm : motion.trajectory->arms()) {
-    side.arms.push_back(&store_.motion(motion.trajectory, arm, question_.rest, tracking_error_));
+    side.arms.push_back(&store_.motion(motion.trajectory, arm, question_.rest,
+                                       std::max(tracking_error_, motion.off_path)));
   }
   return side;
 }
@@ -111,14 +118,14 @@ std::vector<PairRegions> PairRegionSearch::find() {
   for (const Motion& motion : question_.others) others.push_back(side_of(motion));
   std::vector<PairRegions> found;
   for (auto own = candidates.begin(); own != candidates.end(); ++own) {
-    for (const Side& other : others) compare(*own, other, found);
+    for (Side& other : others) compare(*own, other, found);
     for (auto other = own + 1; other != candidates.end(); ++other) compare(*own, *other, found);
-    for (const Side& rest : standing_beside(*own->motion)) compare(*own, rest, found);
+    for (Side& rest : standing_beside(*own->motion)) compare(*own, rest, found);
   }
   return found;
 }
 
-void PairRegionSearch::compare(const Side& a, const Side& b, std::vector<PairRegions>& found) {
+void PairRegionSearch::compare(Side& a, Side& b, std::vector<PairRegions>& found) {
   if (b.motion != nullptr && share_an_arm(*a.motion, *b.motion)) return;
   layers_.clear();
   for (MotionStore::Entry* arm_a : a.arms) {
@@ -129,6 +136,14 @@ void PairRegionSearch::compare(const Side& a, const Side& b, std::vector<PairReg
   }
   std::vector<BlockedRegion> regions = blocked(a, b);
   if (refine_close_passes(regions, cells_for(a, b))) regions = blocked(a, b);
+  if (!layers_.empty()) {  // else they are out of reach
+    std::vector<ProgressBox> boxes;
+    for (const BlockedRegion& region : regions) {
+      boxes.insert(boxes.end(), region.boxes.begin(), region.boxes.end());
+    }
+    certificates_.emplace_back(
+        pair_certificate(*store_.scene(), a.certify(), b.certify(), std::move(boxes)));
+  }
   if (regions.empty()) return;
   exhausted_ = exhausted_ || std::ranges::any_of(regions, [this](const BlockedRegion& region) {
                  return blocked_[region.evidence].evidence != BlockedCell::Evidence::proven;

@@ -32,6 +32,8 @@ class PairRegionSearch {
   // By candidate; for each, others, candidates named behind it, arms at rest. Pairs that are free
   // everywhere are left out.
   [[nodiscard]] std::vector<PairRegions> find();
+  // Of all pairs that can reach each other, also those that are free everywhere.
+  [[nodiscard]] std::vector<Certificate> take_certificates() { return std::move(certificates_); }
   // What pairs that part were held to; +inf: there are none.
   [[nodiscard]] const ClearanceBound& parted() const { return parted_; }
   // Where no conflict is proven, more cells might have found more that is free.
@@ -61,15 +63,17 @@ class PairRegionSearch {
     std::variant<JobId, ArmId> who;
     const Motion* motion;  // null: at rest
     std::vector<MotionStore::Entry*> arms;
+    std::optional<CertifiedSide> certified = {};  // once it was asked for
 
     [[nodiscard]] Duration now() const;
+    [[nodiscard]] const CertifiedSide& certify();
     [[nodiscard]] Duration end() const { return arms.front()->duration(); }
     [[nodiscard]] bool to_come() const { return motion != nullptr && motion->to_come; }
   };
   [[nodiscard]] Side side_of(const Motion& motion);
   [[nodiscard]] Side resting(ArmId arm, const Configuration& rest);
   [[nodiscard]] std::vector<Side> standing_beside(const Motion& candidate);
-  void compare(const Side& a, const Side& b, std::vector<PairRegions>& found);
+  void compare(Side& a, Side& b, std::vector<PairRegions>& found);
   [[nodiscard]] OrientedDiagram outlined(const Side& a, const Side& b, OrientedDiagram layer);
   [[nodiscard]] std::vector<BlockedRegion> blocked(const Side& a, const Side& b);
   bool refine_close_passes(const std::vector<BlockedRegion>& regions, std::uint64_t budget);
@@ -83,6 +87,7 @@ class PairRegionSearch {
   std::uint64_t evaluations_ = 0;
   ClearanceBound parted_;
   bool exhausted_ = false;
+  std::vector<Certificate> certificates_;
   std::vector<const Motion*> in_order_;  // all motions: of each arm, as they follow each other
   // Of the two sides at hand:
   std::vector<OrientedDiagram> layers_;  // one arm of one against one of the other

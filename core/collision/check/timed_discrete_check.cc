@@ -31,8 +31,10 @@ struct Parting {
 
 class Judgement {
  public:
-  Judgement(const Question& question, ClearanceQuery& query)
+  // `stay`: motions that may stay do so.
+  Judgement(const Question& question, ClearanceQuery& query, bool stay)
       : question_(question),
+        stay_(stay),
         step_(std::get<TimedDiscrete>(question.method).step),
         query_(query),
         cell_(query.scene().cell()),
@@ -54,7 +56,9 @@ class Judgement {
 
   Verdict run() {
     Duration end = Duration::zero();
-    for (const Runner& runner : runners_) end = std::max(end, runner.motion->remaining());
+    for (const Runner& runner : runners_) {
+      if (!stays(*runner.motion)) end = std::max(end, runner.motion->remaining());
+    }
     Verdict verdict{Verdict::Kind::free, question_.version, {}, std::nullopt, 0};
     for (Duration t = Duration::zero();; t = std::min(t + step_, end)) {
       const bool first = t == Duration::zero();
@@ -71,6 +75,11 @@ class Judgement {
   }
 
  private:
+  [[nodiscard]] bool stays(const Motion& motion) const {
+    return motion.stands == Motion::Stands::stays ||
+           (stay_ && motion.stands == Motion::Stands::may_stay);
+  }
+
   void add(const Motion& motion, bool candidate) {
     runners_.push_back({&motion, candidate, Duration::zero()});
     for (const ArmId arm : motion.trajectory->arms()) {
@@ -87,7 +96,8 @@ class Judgement {
   bool advance(Duration t, bool first) {
     bool any = false;
     for (Runner& runner : runners_) {
-      const Duration progress = std::clamp(runner.motion->progress + t, Duration::zero(),
+      const Duration ahead = stays(*runner.motion) ? Duration::zero() : t;
+      const Duration progress = std::clamp(runner.motion->progress + ahead, Duration::zero(),
                                            runner.motion->trajectory->duration());
       runner.moved = first || progress != runner.progress;
       runner.progress = progress;
@@ -176,6 +186,7 @@ class Judgement {
   }
 
   const Question& question_;
+  const bool stay_;
   const Duration step_;
   ClearanceQuery& query_;
   const Cell& cell_;
@@ -192,7 +203,14 @@ class Judgement {
 }  // namespace
 
 Verdict timed_discrete_check(const Question& question, ClearanceQuery& query) {
-  return Judgement(question, query).run();
+  Verdict goes_on = Judgement(question, query, false).run();
+  const bool may_stay = std::ranges::any_of(question.others, [](const Motion& motion) {
+    return motion.stands == Motion::Stands::may_stay;
+  });
+  if (goes_on.kind != Verdict::Kind::free || !may_stay) return goes_on;
+  Verdict stays = Judgement(question, query, true).run();
+  stays.evaluations += goes_on.evaluations;
+  return stays;
 }
 
 }  // namespace armloom

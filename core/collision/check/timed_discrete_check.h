@@ -25,6 +25,9 @@ namespace armloom {
 // closest pair; two candidates that conflict are reported once, the one that is named first as the
 // candidate.
 //
+// A motion that stays (Motion::Stands) is at rest at its progress; one that may stay is compared
+// both ways, and both must be free.
+//
 // Pairs of which neither side has moved since the last instant are not looked at again;
 // `evaluations` counts the instants that were looked at. Deterministic.
 // Preconditions (throws std::invalid_argument): the method is TimedDiscrete (throws

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/collision/scene/scene_bodies.h"
+#include "core/collision/scene/scene_fingerprint.h"
 #include "core/collision/scene/scene_problems.h"
 
 namespace armloom {
@@ -181,6 +182,7 @@ PlanningScene::PlanningScene() : bodies_(std::make_unique<Bodies>()) {}
 PlanningScene::~PlanningScene() = default;
 const Cell& PlanningScene::cell() const { return *bodies_->cell; }
 const PlanningScene::Bodies& PlanningScene::bodies() const { return *bodies_; }
+const SceneFingerprint& PlanningScene::fingerprint() const { return bodies_->fingerprint; }
 
 const std::vector<CollisionObject>& PlanningScene::objects() const { return bodies_->objects; }
 const std::vector<Attachment>& PlanningScene::attachments() const { return *bodies_->attachments; }
@@ -202,6 +204,7 @@ Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
   bodies.cell = cell;
   bodies.attachments = std::make_shared<const std::vector<Attachment>>();
   bodies.bodies_of_arm.resize(cell->arms.size());
+  bodies.links_fingerprint = bodies.fingerprint = fingerprint_of_links(*cell);
   for (std::uint32_t i = 0; i < cell->links.size(); ++i) add_link(bodies, LinkId{i});
   bodies.links_end = bodies.held_end = bodies.bodies.size();
   return links.with_objects(cell->objects);
@@ -217,6 +220,7 @@ Result<PlanningScenePtr> PlanningScene::with_objects(std::vector<CollisionObject
   bodies = *bodies_;
   cut(bodies, bodies.held_end);
   bodies.objects = std::move(objects);
+  bodies.fingerprint.objects = fingerprint_of_objects(bodies.objects);
   add_objects(bodies);
   return PlanningScenePtr(scene);
 }
@@ -232,6 +236,8 @@ Result<PlanningScenePtr> PlanningScene::with_attachments(
   bodies = *bodies_;
   cut(bodies, bodies.links_end);
   bodies.attachments = std::make_shared<const std::vector<Attachment>>(std::move(attachments));
+  bodies.fingerprint.arms =
+      fingerprint_of_arms(cell(), bodies.links_fingerprint, *bodies.attachments);
   add_held(bodies);
   add_objects(bodies);
   return PlanningScenePtr(scene);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/problem.h"
+#include "core/coordination/certificate.h"
 #include "core/coordination/verdict.h"
 #include "core/model/attachment.h"
 #include "core/model/cell.h"
@@ -46,6 +47,8 @@ class PlanningScene {
   [[nodiscard]] bool holds_as(const PlanningScene& other) const;
 
   [[nodiscard]] const Cell& cell() const;
+  // The content of the scene, for certificates.
+  [[nodiscard]] const SceneFingerprint& fingerprint() const;
 
   struct Bodies;  // FCL inside; only core/collision looks at it
   [[nodiscard]] const Bodies& bodies() const;

@@ -103,6 +103,8 @@ struct PlanningScene::Bodies {
   std::vector<BodyPair> pairs;
   std::vector<PairGroup> groups;
   std::vector<std::vector<std::size_t>> bodies_of_arm;  // by ArmId
+  SceneFingerprint links_fingerprint;                   // of the links alone
+  SceneFingerprint fingerprint;
 
   [[nodiscard]] const PairGroup& group_of(PairId pair) const {
     return *std::ranges::upper_bound(groups, pair.index(), {}, &PairGroup::pairs_end);

@@ -1,0 +1,35 @@
+#include "core/collision/check/certificates.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace armloom {
+
+CertifiedSide certified_side(std::span<MotionStore::Entry* const> arms, const Motion* motion) {
+  CertifiedSide side;
+  side.error = arms.front()->tracking_error;
+  if (motion != nullptr) {
+    side.motion = motion->trajectory;
+    side.from = std::clamp(motion->progress, Duration{}, motion->trajectory->duration());
+  }
+  for (const MotionStore::Entry* entry : arms) {
+    side.arms.push_back(entry->arm);
+    const auto& joints = entry->tube->kinematics().joints();
+    for (std::size_t row = 0; row < joints.size(); ++row) {
+      const bool moves = side.motion && std::ranges::find(side.motion->joints(), joints[row]) !=
+                                            side.motion->joints().end();
+      if (!moves) side.still.emplace_back(joints[row], entry->rest[row]);
+    }
+  }
+  std::ranges::sort(side.arms);
+  return side;
+}
+
+PairCertificate pair_certificate(const PlanningScene& scene, CertifiedSide a, CertifiedSide b,
+                                 std::vector<ProgressBox> blocked) {
+  std::vector<ArmId> arms;
+  std::ranges::merge(a.arms, b.arms, std::back_inserter(arms));
+  return {std::move(a), std::move(b), std::move(blocked), scene.fingerprint().of(arms)};
+}
+
+}  // namespace armloom

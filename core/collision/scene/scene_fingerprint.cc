@@ -1,0 +1,112 @@
+#include "core/collision/scene/scene_fingerprint.h"
+
+#include <algorithm>
+
+#include "core/base/content_hash.h"
+#include "core/geometry/mesh/mesh.h"
+
+namespace armloom {
+namespace {
+
+template <class Derived>
+void add(ContentHash& hash, const Eigen::DenseBase<Derived>& matrix) {
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column) {
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) hash.add(matrix(row, column));
+  }
+}
+
+void add(ContentHash& hash, const Eigen::Isometry3d& pose) {
+  add(hash, pose.matrix().topRows<3>());
+}
+
+void add(ContentHash& hash, const Box& box) { add(hash, box.size_m); }
+void add(ContentHash& hash, const Cylinder& cylinder) {
+  hash.add(cylinder.radius_m);
+  hash.add(cylinder.length_m);
+}
+void add(ContentHash& hash, const Sphere& sphere) { hash.add(sphere.radius_m); }
+void add(ContentHash& hash, const Mesh& mesh) {
+  if (!mesh.data) return;
+  for (const Eigen::Vector3d& vertex : mesh.data->vertices) add(hash, vertex);
+  for (const Triangle& triangle : mesh.data->triangles) {
+    for (const auto corner : triangle) hash.add(static_cast<std::uint64_t>(corner));
+  }
+}
+
+void add(ContentHash& hash, const Shape& shape) {
+  hash.add(shape.index());
+  std::visit([&](const auto& kind) { add(hash, kind); }, shape);
+}
+
+void add(ContentHash& hash, const Link& link) {
+  hash.add(link.name);
+  hash.add(link.parent ? link.parent->index() + 1 : std::size_t{0});
+  add(hash, link.X_PJ);
+  hash.add(link.driver ? link.driver->index() + 1 : std::size_t{0});
+  hash.add(static_cast<std::uint64_t>(link.motion));
+  add(hash, link.axis);
+  hash.add(link.multiplier);
+  hash.add(link.offset);
+  for (const PlacedShape& placed : link.shapes) {
+    add(hash, placed.shape);
+    add(hash, placed.X_LS);
+  }
+}
+
+void add(ContentHash& hash, const AllowedCollisions& allowed) {
+  for (const auto& [a, b] : allowed.link_pairs) {
+    hash.add(a.index());
+    hash.add(b.index());
+  }
+  for (const auto& [link, object] : allowed.link_objects) {
+    hash.add(link.index());
+    hash.add(object);
+  }
+}
+
+}  // namespace
+
+SceneFingerprint fingerprint_of_links(const Cell& cell) {
+  ContentHash common;
+  common.add(cell.clearances.clearance_m);
+  common.add(cell.clearances.self_clearance_m);
+  common.add(cell.clearances.mount_limit_m());
+  add(common, cell.allowed);
+  std::vector<ContentHash> arms(cell.arms.size());
+  for (const Link& link : cell.links) add(link.arm ? arms[link.arm->index()] : common, link);
+  SceneFingerprint links{.common = common.value(), .arms = {}, .objects = {}};
+  for (const ContentHash& arm : arms) links.arms.push_back(arm.value());
+  return links;
+}
+
+std::vector<Fingerprint> fingerprint_of_arms(const Cell& cell, const SceneFingerprint& links,
+                                             const std::vector<Attachment>& attachments) {
+  std::vector<Fingerprint> arms = links.arms;
+  for (const Attachment& attachment : attachments) {
+    Fingerprint& arm = arms[cell.link(attachment.link).arm->index()];
+    ContentHash hash;
+    hash.add(arm);
+    hash.add(attachment.object.name);
+    add(hash, attachment.object.shape);
+    hash.add(attachment.link.index());
+    add(hash, attachment.X_LO);
+    for (const LinkId touch : attachment.touch) hash.add(touch.index());
+    arm = hash.value();
+  }
+  return arms;
+}
+
+std::vector<Fingerprint> fingerprint_of_objects(const std::vector<CollisionObject>& objects) {
+  std::vector<Fingerprint> all;
+  for (const CollisionObject& object : objects) {
+    ContentHash hash;
+    hash.add(object.name);
+    add(hash, object.shape);
+    add(hash, object.X_WO);
+    all.push_back(hash.value());
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+}  // namespace armloom

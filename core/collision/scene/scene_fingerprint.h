@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/coordination/certificate.h"
+#include "core/model/attachment.h"
+#include "core/model/cell.h"
+
+namespace armloom {
+
+// The content that certificates rely on, as hashes: poses and shapes (the triangles of meshes), the
+// distances that are kept, and the pairs that are not looked at.
+
+// Returns the cell's links without objects; the arms hold nothing.
+[[nodiscard]] SceneFingerprint fingerprint_of_links(const Cell& cell);
+// Returns `links` with what arms hold.
+[[nodiscard]] std::vector<Fingerprint> fingerprint_of_arms(
+    const Cell& cell, const SceneFingerprint& links, const std::vector<Attachment>& attachments);
+// Ascending.
+[[nodiscard]] std::vector<Fingerprint> fingerprint_of_objects(
+    const std::vector<CollisionObject>& objects);
+
+}  // namespace armloom
