@@ -42,6 +42,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
      {"core/base", "core/model", "core/trajectory", "core/coordination", "core/precedence",
       "core/sequence", "core/deadlock", "core/jobs", "core/policies"}},
     {"core/monitor", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
+    {"core/guard", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
     {"core/arm", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
     // Shares nothing with admission but the model and what a mesh's file says.
     {"core/audit",
@@ -50,7 +51,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"core/executive",
      {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
       "core/collision", "core/planning", "core/precedence", "core/sequence", "core/jobs",
-      "core/policies/policy_names.h", "core/scheduler", "core/monitor", "core/arm"}},
+      "core/policies/policy_names.h", "core/scheduler", "core/monitor", "core/guard", "core/arm"}},
     {"server",
      {"core/base", "core/geometry", "core/model", "core/trajectory", "core/coordination",
       "core/planning", "core/executive", "core/audit"}},
@@ -82,6 +83,7 @@ const std::map<std::string, std::vector<std::string>> kMustNotSay = {
      {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
     {"core/monitor",
      {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
+    {"core/guard", {"::now()", "<thread>", "<mutex>", "<atomic>", "<condition_variable>", "asio"}},
     {"core/base", {"::now()"}},
 };
 

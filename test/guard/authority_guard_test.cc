@@ -1,0 +1,341 @@
+// The rules of the last gate, one by one, on certificates made by hand.
+#include "core/guard/authority_guard.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+namespace armloom {
+namespace {
+
+using namespace std::chrono_literals;
+using Why = GuardRefusal::Why;
+
+const ArmId kLeft{0}, kRight{1}, kThird{2};
+constexpr double kError = 0.001;
+
+// Arms of one joint each; joint and arm have the same number.
+JointId joint(ArmId arm) { return JointId{arm.value()}; }
+
+TrajectoryPtr line(const std::vector<ArmId>& arms, double from, double to, Duration takes = 10s) {
+  std::vector<JointId> joints;
+  for (const ArmId arm : arms) joints.push_back(joint(arm));
+  Segment segment{Duration{}, takes, {}};
+  segment.coefficients.setZero(static_cast<Eigen::Index>(arms.size()), 6);
+  segment.coefficients.col(0).setConstant(from);
+  segment.coefficients.col(1).setConstant((to - from) / to_seconds(takes));
+  return std::make_shared<const Trajectory>(joints, arms, std::vector<Segment>{segment});
+}
+
+CertifiedSide on(const TrajectoryPtr& motion, Duration from = {}) {
+  return {motion->arms(), motion, from, kError, {}};
+}
+CertifiedSide resting(ArmId arm, double at) {
+  return {{arm}, nullptr, {}, kError, {{joint(arm), at}}};
+}
+
+class Guarded : public ::testing::Test {
+ protected:
+  Guarded() {
+    content.common = 1;
+    content.arms = {11, 12, 13};
+    content.objects = {21, 22};
+    guard.emplace(
+        std::vector<std::vector<JointId>>{{joint(kLeft)}, {joint(kRight)}, {joint(kThird)}},
+        Configuration::Zero(3), content);
+    guard->take(std::vector<Certificate>{apart(kLeft, kThird), apart(kRight, kThird)});
+  }
+
+  Certificate apart(ArmId a, ArmId b) const { return ApartCertificate{a, b, content.of({a, b})}; }
+  Certificate scene(const TrajectoryPtr& motion, Duration from = {}) const {
+    return SceneCertificate{on(motion, from), content.objects, content.of(motion->arms())};
+  }
+  Certificate pair(CertifiedSide a, CertifiedSide b, std::vector<ProgressBox> blocked = {}) const {
+    std::vector<ArmId> arms = a.arms;
+    arms.insert(arms.end(), b.arms.begin(), b.arms.end());
+    std::ranges::sort(arms);
+    return PairCertificate{std::move(a), std::move(b), std::move(blocked), content.of(arms)};
+  }
+  void take(std::vector<Certificate> certificates) { guard->take(certificates); }
+  std::optional<Why> why(const TrajectoryPtr& motion, Duration authority,
+                         Duration from = {}) const {
+    const auto refusal = guard->refuses(motion, from, authority);
+    return refusal ? std::optional(refusal->why) : std::nullopt;
+  }
+  void rest(ArmId arm, Duration progress, double at) {
+    Configuration q = guard->rest();
+    q[arm.value()] = at;
+    guard->rests(arm, progress, q);
+  }
+
+  SceneFingerprint content;
+  std::optional<AuthorityGuard> guard;
+  TrajectoryPtr left = line({kLeft}, 0.0, 1.0);
+  TrajectoryPtr right = line({kRight}, 0.0, 1.0);
+};
+
+TEST_F(Guarded, RefusesWithoutCertificates) {
+  EXPECT_EQ(why(left, 1s), Why::uncertified);
+  take({scene(left)});
+  const auto refusal = guard->refuses(left, {}, 1s);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->why, Why::uncertified);
+  EXPECT_EQ(refusal->other, kRight);
+}
+
+TEST_F(Guarded, AllowsWhatCertificatesCover) {
+  take({scene(left), pair(on(left), resting(kRight, 0.0))});
+  EXPECT_EQ(guard->grant(left, {}, 4s), std::nullopt);
+  EXPECT_EQ(guard->position(kLeft).authority, 4s);
+  EXPECT_FALSE(guard->position(kLeft).at_rest);
+}
+
+TEST_F(Guarded, NeedsACertificateForTheScene) {
+  take({pair(on(left), resting(kRight, 0.0))});
+  const auto refusal = guard->refuses(left, {}, 1s);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->why, Why::uncertified);
+  EXPECT_EQ(refusal->other, std::nullopt);
+}
+
+TEST_F(Guarded, NeedsAValidCertificateForEveryOtherArm) {
+  content.arms[2] = 99;  // the third arm holds something now
+  guard->look_at(content);
+  take({scene(left), pair(on(left), resting(kRight, 0.0))});
+  const auto refusal = guard->refuses(left, {}, 1s);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->other, kThird);
+}
+
+TEST_F(Guarded, RefusesWhereTheProductMeetsARegion) {
+  take({scene(left), scene(right), pair(on(left), resting(kRight, 0.0)),
+        pair(on(right), resting(kLeft, 0.0)), pair(on(left), on(right), {{4s, 6s, 2s, 3s}})});
+  ASSERT_EQ(guard->grant(left, {}, 5s), std::nullopt);
+  EXPECT_EQ(why(right, 1s), std::nullopt);
+  EXPECT_EQ(why(right, 2500ms), Why::region);
+  EXPECT_EQ(why(right, 2s), std::nullopt) << "up to its edge";
+  const auto refusal = guard->refuses(right, {}, 3s);
+  ASSERT_TRUE(refusal && refusal->region);
+  EXPECT_EQ(refusal->region->from_a, 2s) << "told as the arm's own motion first";
+  guard->moves(kLeft, 6s);
+  EXPECT_EQ(why(right, 3s), Why::region) << "it may rest on the edge";
+  guard->moves(kLeft, 6s + 1ns);
+  EXPECT_EQ(why(right, 10s), std::nullopt) << "it has left the region";
+}
+
+TEST_F(Guarded, CountsTheAuthorityOfOthersNotOnlyWhereTheyAre) {
+  take({scene(left), scene(right), pair(on(left), resting(kRight, 0.0)),
+        pair(on(left), on(right), {{4s, 6s, 2s, 3s}})});
+  ASSERT_EQ(guard->grant(left, {}, 4s), std::nullopt);
+  EXPECT_EQ(why(right, 5s), std::nullopt);
+  ASSERT_EQ(guard->grant(left, {}, 4s + 1ns), std::nullopt);
+  EXPECT_EQ(why(right, 5s), Why::region);
+}
+
+TEST_F(Guarded, AStopEndsAuthorityWhereTheArmRests) {
+  take({scene(left), scene(right), pair(on(left), resting(kRight, 0.0)),
+        pair(on(left), on(right), {{4s, 6s, 2s, 3s}})});
+  ASSERT_EQ(guard->grant(left, {}, 5s), std::nullopt);
+  guard->moves(kLeft, 1s);
+  EXPECT_EQ(why(right, 5s), Why::region);
+  rest(kLeft, 2s, 0.2);
+  EXPECT_EQ(why(right, 5s), std::nullopt);
+  ASSERT_EQ(guard->grant(right, {}, 5s), std::nullopt);
+  EXPECT_EQ(why(left, 5s, 2s), Why::region) << "a resume goes through the same gate";
+  EXPECT_EQ(why(left, 3s, 2s), std::nullopt);
+}
+
+TEST_F(Guarded, ProgressNeverGoesBack) {
+  take({scene(left), pair(on(left), resting(kRight, 0.0))});
+  ASSERT_EQ(guard->grant(left, {}, 5s), std::nullopt);
+  guard->moves(kLeft, 3s);
+  guard->moves(kLeft, 1s);
+  EXPECT_EQ(guard->position(kLeft).measured, 3s);
+  ASSERT_EQ(guard->grant(left, {}, 4s), std::nullopt);
+  EXPECT_EQ(guard->position(kLeft).authority, 5s) << "authority is never taken back";
+}
+
+TEST_F(Guarded, ARestCountsOnlyWithinItsError) {
+  take({scene(left), pair(on(left), resting(kRight, 0.0))});
+  rest(kRight, {}, 0.9 * kError);
+  EXPECT_EQ(why(left, 1s), std::nullopt);
+  rest(kRight, {}, 1.1 * kError);
+  EXPECT_EQ(why(left, 1s), Why::uncertified);
+}
+
+TEST_F(Guarded, ARestWhereAMotionBeginsOrEndsIsCoveredByThatMotion) {
+  take({scene(left), pair(on(left), on(right), {{4s, 6s, 0s, 3s}})});
+  EXPECT_EQ(why(left, 3s), std::nullopt) << "right rests where its next motion begins";
+  EXPECT_EQ(why(left, 5s), Why::region);
+  rest(kRight, {}, 1.0);
+  EXPECT_EQ(why(left, 5s), std::nullopt) << "right rests where that motion ends";
+  rest(kRight, {}, 0.5);
+  EXPECT_EQ(why(left, 5s), Why::uncertified) << "right rests nowhere that is certified";
+}
+
+TEST_F(Guarded, ARestOnTheEdgeBetweenTwoRectanglesIsInBoth) {
+  take({scene(left), scene(right), pair(on(left), resting(kRight, 0.0)),
+        pair(on(left), on(right), {{2s, 4s, 0s, 9s}, {4s, 6s, 0s, 9s}})});
+  ASSERT_EQ(guard->grant(left, {}, 1s), std::nullopt);
+  rest(kLeft, 4s, 0.4);
+  EXPECT_EQ(why(right, 1s), Why::region);
+}
+
+TEST_F(Guarded, AnArmInMotionIsNotAtRest) {
+  take({scene(left), scene(right), pair(on(left), resting(kRight, 0.0)),
+        pair(on(right), resting(kLeft, 0.0))});
+  ASSERT_EQ(guard->grant(right, {}, 5s), std::nullopt);
+  EXPECT_EQ(why(left, 1s), Why::uncertified);
+}
+
+TEST_F(Guarded, AStartOffThePathNeedsACertificateWithThatError) {
+  const TrajectoryPtr off = line({kLeft}, 0.005, 1.0);
+  take({scene(off), pair(on(off), resting(kRight, 0.0))});
+  EXPECT_EQ(why(off, 1s), Why::uncertified);
+  EXPECT_NEAR(guard->off_path(off, {}), 0.005, 1e-12);
+  CertifiedSide wide = on(off);
+  wide.error = 0.006;
+  take({SceneCertificate{wide, content.objects, content.of({kLeft})},
+        pair(wide, resting(kRight, 0.0))});
+  ASSERT_EQ(guard->grant(off, {}, 1s), std::nullopt);
+  guard->moves(kLeft, 1s);
+  take({scene(right), pair(on(right), on(off))});
+  EXPECT_EQ(why(right, 1s), Why::uncertified) << "left is still off its path";
+}
+
+TEST_F(Guarded, ACertificateHoldsFromItsProgressOn) {
+  take({scene(left, 2s), pair(on(left, 2s), resting(kRight, 0.0))});
+  EXPECT_EQ(why(left, 5s), Why::uncertified);
+  take({scene(left), pair(on(left), resting(kRight, 0.0))});
+  ASSERT_EQ(guard->grant(left, {}, 5s), std::nullopt);
+  take({scene(right), pair(on(right), on(left, 2s))});
+  EXPECT_EQ(why(right, 1s), Why::uncertified);
+  guard->moves(kLeft, 2s);
+  EXPECT_EQ(why(right, 1s), std::nullopt);
+}
+
+TEST_F(Guarded, JointsThatDoNotMoveMustBeWhereTheCertificateSays) {
+  CertifiedSide side = on(left);
+  side.still = {{joint(kLeft), 0.5}};
+  take({scene(left), pair(side, resting(kRight, 0.0))});
+  EXPECT_EQ(why(left, 1s), Why::uncertified);
+}
+
+TEST_F(Guarded, AChangedObjectInvalidatesOnlyWhatHasNotSeenIt) {
+  take(
+      {scene(left), pair(on(left), resting(kRight, 0.0)), scene(right), pair(on(right), on(left))});
+  const TrajectoryPtr other = right;
+  content.objects = {22, 31};  // 21 is another one now
+  guard->look_at(content);
+  EXPECT_EQ(why(left, 1s), Why::uncertified);
+  take({scene(left)});
+  EXPECT_EQ(why(left, 1s), std::nullopt) << "the pair's certificate names no object";
+  content.objects = {22};
+  guard->look_at(content);
+  EXPECT_EQ(why(left, 1s), std::nullopt) << "an object less endangers nobody";
+}
+
+TEST_F(Guarded, AnAnswerAboutAnOlderSceneTakesNothingAway) {
+  const SceneFingerprint before = content;
+  content.objects = {21, 22, 31};
+  guard->look_at(content);
+  take({scene(left), pair(on(left), resting(kRight, 0.0))});
+  take({SceneCertificate{on(left), before.objects, before.of({kLeft})}});
+  EXPECT_EQ(why(left, 1s), std::nullopt);
+}
+
+TEST_F(Guarded, WhatAnArmHoldsInvalidatesOnlyItsCertificates) {
+  const TrajectoryPtr third = line({kThird}, 0.0, 1.0);
+  take({scene(left), pair(on(left), resting(kRight, 0.0)), scene(third)});
+  content.arms[kRight.index()] = 99;
+  guard->look_at(content);
+  EXPECT_EQ(why(left, 1s), Why::uncertified);
+  take({apart(kRight, kThird)});
+  EXPECT_EQ(why(third, 1s), std::nullopt);
+}
+
+TEST_F(Guarded, OtherDistancesInvalidateAll) {
+  take({scene(left), pair(on(left), resting(kRight, 0.0))});
+  content.common = 2;
+  guard->look_at(content);
+  EXPECT_EQ(why(left, 1s), Why::uncertified);
+}
+
+TEST_F(Guarded, OneProofIsEnough) {
+  take({scene(left), pair(on(left), resting(kRight, 0.0), {{4s, 6s, 0s, 0s}})});
+  EXPECT_EQ(why(left, 5s), Why::region);
+  take({pair(on(left), resting(kRight, 0.0), {{7s, 8s, 0s, 0s}})});
+  EXPECT_EQ(why(left, 5s), std::nullopt);
+  EXPECT_EQ(why(left, 7500ms), Why::region) << "neither proves all of it";
+}
+
+TEST_F(Guarded, AnArmOnAnotherMotionIsBusy) {
+  const TrajectoryPtr second = line({kLeft}, 0.0, -1.0);
+  take({scene(left), pair(on(left), resting(kRight, 0.0)), scene(second),
+        pair(on(second), resting(kRight, 0.0))});
+  ASSERT_EQ(guard->grant(left, {}, 1s), std::nullopt);
+  EXPECT_EQ(why(second, 1s), Why::busy);
+}
+
+TEST_F(Guarded, ForgetsAMotionWhenNoArmIsOnIt) {
+  take({scene(left), pair(on(left), resting(kRight, 0.0))});
+  ASSERT_EQ(guard->grant(left, {}, 10s), std::nullopt);
+  take({scene(right), pair(on(right), on(left))});
+  rest(kLeft, 10s, 1.0);
+  guard->forget(left);
+  EXPECT_EQ(why(right, 1s), std::nullopt) << "left still rests on it";
+  const TrajectoryPtr back = line({kLeft}, 1.0, 0.0);
+  take({scene(back), pair(on(back), on(right))});
+  ASSERT_EQ(guard->grant(back, {}, 1s), std::nullopt);
+  EXPECT_EQ(left.use_count(), 1);
+}
+
+TEST_F(Guarded, KeepsNoMoreMotionsThanItsBound) {
+  for (int i = 0; i < 200; ++i) take({scene(line({kLeft}, 0.0, 1.0 + i))});
+  take({scene(left), pair(on(left), resting(kRight, 0.0))});
+  EXPECT_EQ(why(left, 1s), std::nullopt);
+}
+
+TEST_F(Guarded, KeepsNoMoreRestsOfAnArmThanItsBound) {
+  take({scene(left)});
+  for (int i = 0; i < 200; ++i) take({pair(on(left), resting(kRight, 1.0 + i))});
+  take({pair(on(left), resting(kRight, 0.0))});
+  EXPECT_EQ(why(left, 1s), std::nullopt);
+}
+
+class GuardedTogether : public Guarded {
+ protected:
+  GuardedTogether() {
+    take({scene(both), TogetherCertificate{on(both), 100ms, content.of(both->arms())}});
+  }
+  TrajectoryPtr both = line({kLeft, kRight}, 0.0, 1.0);
+};
+
+TEST_F(GuardedTogether, ArmsOfOneMotionKeepTogether) {
+  ASSERT_EQ(guard->grant(both, {}, 5s), std::nullopt);
+  guard->moves(kLeft, 1100ms);
+  guard->moves(kRight, 1s);
+  EXPECT_EQ(why(both, 6s), std::nullopt);
+  guard->moves(kLeft, 1101ms);
+  EXPECT_EQ(why(both, 6s), Why::out_of_step);
+}
+
+TEST_F(GuardedTogether, NeedACertificateForThat) {
+  const TrajectoryPtr other = line({kLeft, kRight}, 0.0, -1.0);
+  take({scene(other)});
+  EXPECT_EQ(why(other, 1s), Why::uncertified);
+}
+
+TEST_F(GuardedTogether, EachOfItsArmsCounts) {
+  content.arms[2] = 99;
+  guard->look_at(content);
+  take({apart(kLeft, kThird), scene(both),
+        TogetherCertificate{on(both), 100ms, content.of(both->arms())}});
+  const auto refusal = guard->refuses(both, {}, 1s);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->arm, kRight);
+  EXPECT_EQ(refusal->other, kThird);
+}
+
+}  // namespace
+}  // namespace armloom

@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""faults.py [--tree DIR] [--only NAME] [--patterns] [--seeds N]: puts faults into a copy of the sources, all in one build, and
+switches them on one at a time (ARMLOOM_FAULT). Faults in the scheduler must be harmless and be reported by the guard; faults
+in the guard must be found by its tests. Prints a table; exit 1 if one is not. With --patterns only looks whether each
+fault has something to change."""
+import argparse, os, re, subprocess, sys, tempfile
+from pathlib import Path
+
+TOP = Path(__file__).resolve().parents[2]
+ADMISSION, PHASES = 'core/scheduler/admission.cc', 'core/jobs/phases.cc'
+GRAPH, OPEN = 'core/precedence/precedence_graph.cc', 'core/precedence/open_orders.cc'
+QUESTIONS, GUARD = 'core/scheduler/motion_questions.cc', 'core/guard/authority_guard.cc'
+
+# With a fault the scheduler's own checks do not end the process: the guard alone stands in its way.
+QUIET = [
+    ('core/jobs/invariants.cc', 'std::optional<std::string> broken_invariant(const State& state) {',
+     'std::optional<std::string> broken_invariant(const State& state) {\n  if (armloom_fault(-1)) return std::nullopt;'),
+    (GRAPH, '  if (authority > limit(job)) {', '  if (!armloom_fault(-1) && authority > limit(job)) {'),
+]
+
+# (name, file, what stands there, what stands there with the fault): N is replaced by the fault's number.
+SCHEDULER = [
+    ('an order is ignored', GRAPH, 'if (held) limit = std::min(limit, *held);', 'if (held && !FAULT) limit = std::min(limit, *held);'),
+    ('an order is lost at admission', GRAPH, '  precedences_ = orders.precedences;', '  precedences_ = orders.precedences;\n  if (FAULT && !precedences_.empty()) precedences_.pop_back();'),
+    ('an order is turned round', 'core/precedence/precedence.cc', '    : first_(a_first ? a : b),', '    : first_((a_first != FAULT) ? a : b),'),
+    ('a goal that nobody leaves blocks nobody', OPEN, 'if (!chains_.moves_on(motion)) return true;', 'if (!chains_.moves_on(motion)) return !FAULT;'),
+    ('a start where the arm stands blocks nobody', OPEN, '  if (!at_start) return false;', '  if (!at_start || FAULT) return false;'),
+    ('an order is reversed although authority was given', OPEN, '  if (from < motions_[motion].authority) return true;', '  if (!FAULT && from < motions_[motion].authority) return true;'),
+    ('a rest on a path is forgotten', GRAPH, 'if (blockade) blockades_.push_back(std::move(*blockade));', 'if (blockade && !FAULT) blockades_.push_back(std::move(*blockade));'),
+    ('a rest is forgotten when its arm is given another job', GRAPH, 'if (!share_an_arm(*find(blockade.job), candidate)) blockade.leave(candidate.arms);', 'if (FAULT || !share_an_arm(*find(blockade.job), candidate)) blockade.leave(candidate.arms);'),
+    ('a cancel keeps its end', PHASES, '  } else {\n    leave_graph(state, record);\n  }\n  const JobId ended', '  } else if (FAULT) {\n    state.graph.finish(record.job.id);\n  } else {\n    leave_graph(state, record);\n  }\n  const JobId ended'),
+    ('an arm that came to rest is taken to be where it set out', PHASES, '  state.arms.come_to_rest(*state.cell, job.trajectory, report.rest_position);', '  if (!FAULT) state.arms.come_to_rest(*state.cell, job.trajectory, report.rest_position);'),
+    ('a stop raises no version', PHASES, '  ++state.version;  // an answer that is under way shall start nothing on these arms', '  if (!FAULT) ++state.version;'),
+    ('a rest raises no version', PHASES, '  ++state.version;\n  const bool moved', '  if (!FAULT) ++state.version;\n  const bool moved'),
+    ('a stale answer is believed', ADMISSION, '  if (question.version != state.version) return;  // stale', '  if (question.version != state.version && !FAULT) return;  // stale'),
+    ('a new scene does not check motions again', 'core/scheduler/scheduler.cc', 'void take(State& state, const SceneChanged&) {\n  state.recheck_epoch = ++state.version;', 'void take(State& state, const SceneChanged&) {\n  ++state.version;\n  if (!FAULT) state.recheck_epoch = state.version;'),
+    ('a check of a motion under way is not acted on', ADMISSION, 'if (input.verdict.kind != Verdict::Kind::free) hold_back(', 'if (input.verdict.kind != Verdict::Kind::free && !FAULT) hold_back('),
+    ('motions that do not follow each other are admitted', ADMISSION, '  if (!follow_each_other(', '  if (!FAULT && !follow_each_other('),
+    ('an admitted motion is left out of the question', QUESTIONS, '    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;', '    if (FAULT && !question.others.empty()) continue;\n    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;'),
+    ('the question is asked as if all stood at home', QUESTIONS, '                    .rest = state.arms.rest(),', '                    .rest = FAULT ? state.cell->home() : state.arms.rest(),'),
+    ('progress is counted too far', 'core/scheduler/scheduler.cc', '  state_.graph.progress(record->job.id, input.progress);', '  state_.graph.progress(record->job.id, FAULT ? std::min(input.progress + Duration(600\'000\'000), record->job.trajectory->duration()) : input.progress);'),
+    ('authority is given to the end', 'core/scheduler/authority.cc', '  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.id));\n  const Duration granted', '  const Duration authority = FAULT ? job.trajectory->duration() : std::min(limit, job.progress + state.graph.horizon(job.id));\n  const Duration granted'),
+    ('what waits stays inside of the region', 'core/precedence/precedence.cc', 'const Duration limit = std::max(Duration{}, box.from_b - kShortOf);', 'const Duration limit = std::max(Duration{}, FAULT ? box.from_b + Duration(200\'000\'000) : box.from_b - kShortOf);'),
+    ('a resumed motion goes on whatever has come to rest ahead', ADMISSION, '  if (!waits.empty()) return put_off(state, record, std::move(waits));', '  if (!waits.empty() && !FAULT) return put_off(state, record, std::move(waits));'),
+    ('a job starts while another one is on its arm', 'core/jobs/job_book.cc', '         book.queues().is_first(record.job);', '         (FAULT || book.queues().is_first(record.job));'),
+    ('a motion that ended is believed to be gone', GRAPH, '  if (!moves_on) block_others(*found, {found->arms, found->duration, found->duration});', '  if (!moves_on && !FAULT) block_others(*found, {found->arms, found->duration, found->duration});'),
+    ('arms that rest in the way are not looked at', OPEN, '    for (const ConflictRegion& region : pair.regions) {\n      answer_.blockers.push_back(', '    for (const ConflictRegion& region : pair.regions) {\n      if (FAULT) break;\n      answer_.blockers.push_back('),
+]
+
+FAULTS_IN_GUARD = [
+    ('other arms are not looked at', 'if (contains(arms, other)) continue;', 'if (FAULT || contains(arms, other)) continue;'),
+    ('only where the other arm is counts', '? std::optional(Interval{position.measured, position.authority})', '? std::optional(Interval{position.measured, FAULT ? position.measured : position.authority})'),
+    ('only where the arm is to go counts', 'return box_from < to && from < box_to;', 'return box_from < (FAULT ? from : to) && from < box_to;'),
+    ('a rest anywhere is covered', '<= side.error;\n  });', '<= (FAULT ? 1e9 : side.error);\n  });'),
+    ('an arm in motion is taken to be at rest', 'if (!side.motion) return position.at_rest ?', 'if (!side.motion) return position.at_rest || FAULT ?'),
+    ('a start off the path is covered', 'const bool holds = side.from <= position.measured && position.off_path <= side.error;', 'const bool holds = side.from <= position.measured && (FAULT || position.off_path <= side.error);'),
+    ('a certificate holds from the start on', 'const bool holds = side.from <= position.measured &&', 'const bool holds = (FAULT || side.from <= position.measured) &&'),
+    ('certificates of other content count', '  return present_.of(arms) == geometry;', '  return FAULT || present_.of(arms) == geometry;'),
+    ('objects that nobody has seen do not matter', 'std::ranges::includes(scene.objects, present_.objects);', '(FAULT || std::ranges::includes(scene.objects, present_.objects));'),
+    ('the scene does not matter', 'if (of == motions_.end() || !sees_scene(of->second, arm, own))', 'if (of == motions_.end() || (!FAULT && !sees_scene(of->second, arm, own)))'),
+    ('an arm may change its motion on the way', 'if (now.motion != motion && !now.at_rest) return', 'if (!FAULT && now.motion != motion && !now.at_rest) return'),
+    ('arms of one motion may get apart', 'return holds && first - last <= together->apart ?', 'return holds && (FAULT || first - last <= together->apart) ?'),
+    ('a stop leaves authority as it was', '    position.authority = position.measured;\n  }', '    if (!FAULT) position.authority = position.measured;\n  }'),
+    ('authority that was granted is not held', '    positions_[arm.index()] = as_granted(motion, arm, from, authority);', '    positions_[arm.index()] = as_granted(motion, arm, from, FAULT ? from : authority);'),
+    ('arms that were apart are apart whatever they hold', 'if (apart != apart_.end() &&', 'if (FAULT && apart != apart_.end()) continue;\n      if (apart != apart_.end() &&'),
+    ('a region that is met does not matter', '    if (!met) return {.covered = true', '    if (!met || FAULT) return {.covered = true'),
+]
+
+SWITCH = '''#pragma once
+#include <cstdlib>
+// The fault that is on; -1: any is.
+inline bool armloom_fault(int number) {
+  static const int on = std::getenv("ARMLOOM_FAULT") ? std::atoi(std::getenv("ARMLOOM_FAULT")) : 0;
+  return number == -1 ? on != 0 : on == number;
+}
+'''
+
+
+def all_faults():
+    faults = [(name, file, old, new, 'scheduler') for name, file, old, new in SCHEDULER]
+    return faults + [(name, GUARD, old, new, 'guard') for name, old, new in FAULTS_IN_GUARD]
+
+
+def put_in(tree):
+    """Returns the names of faults that have nothing to change."""
+    missing = []
+    for file, old, new in QUIET:
+        text = (tree / file).read_text()
+        if text.count(old) != 1: missing.append(f'{file}: {old}')
+        (tree / file).write_text(text.replace(old, new))
+    for number, (name, file, old, new, _) in enumerate(all_faults(), 1):
+        text = (tree / file).read_text()
+        if text.count(old) != 1:
+            missing.append(f'{name}: found {text.count(old)} times in {file}')
+            continue
+        (tree / file).write_text(text.replace(old, new.replace('FAULT', f'armloom_fault({number})')))
+    return missing
+
+
+def copy(tree):
+    tree.mkdir(parents=True, exist_ok=True)
+    files = subprocess.run(['git', '-C', TOP, 'ls-files', '-co', '--exclude-standard', '-z'], capture_output=True, check=True).stdout
+    subprocess.run(f'tar -C {TOP} --null -T - -cf - | tar -C {tree} -xf -', shell=True, input=files, check=True)
+
+
+def build(tree):
+    (tree / 'core/base/fault_switch.h').write_text(SWITCH)
+    flags = f'-include {tree}/core/base/fault_switch.h'
+    subprocess.run(['cmake', '-S', tree, '-B', tree / 'build', '-G', 'Ninja', '-DCMAKE_BUILD_TYPE=Release', f'-DCMAKE_CXX_FLAGS={flags}'], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(['cmake', '--build', tree / 'build', '--target', 'soak_test', 'guard_test'], check=True, stdout=subprocess.DEVNULL)
+
+
+def run(tree, program, number, *args, seeds=None):
+    env = dict(os.environ, ARMLOOM_FAULT=str(number))
+    if seeds: env['ARMLOOM_SEEDS'] = str(seeds)
+    done = subprocess.run([tree / 'build' / program, '--gtest_brief=1', *args], env=env, capture_output=True, text=True, timeout=900)
+    return done.returncode, done.stdout + done.stderr
+
+
+def soak(tree, number, seeds):
+    """Runs until the guard has refused something, at most all policies: refusals, closest in mm, monitor findings."""
+    refusals, closest, findings = 0, 1e9, 0
+    for policy in (0, 1, 2):  # coordinated, earliest_start, certified
+        code, out = run(tree, 'soak_test', number, f'--gtest_filter=*SoakOfCommands.Sliders/{policy}', seeds=seeds)
+        for line in re.findall(r'closest (\S+) mm, (\d+) monitor findings; (\d+) guard refusals', out):
+            closest, findings, refusals = min(closest, float(line[0])), findings + int(line[1]), refusals + int(line[2])
+        if 'simulated hours' not in out: return None, closest, findings
+        if refusals: break
+    return refusals, closest, findings
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('--tree'), parser.add_argument('--only', default='.'), parser.add_argument('--patterns', action='store_true')
+    parser.add_argument('--seeds', type=int, default=40)
+    asked = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        tree = Path(asked.tree or folder) / 'tree'
+        if not (tree / 'build').exists():
+            copy(tree)
+            missing = put_in(tree)
+            for one in missing: print('NOTHING TO CHANGE:', one)
+            if missing: return 1
+        if asked.patterns: return 0
+        build(tree)
+        print('| fault | in | guard refusals | closest (20 mm asked) | found by |\n|---|---|--:|--:|---|', flush=True)
+        failed = 0
+        for number, (name, _, _, _, where) in enumerate(all_faults(), 1):
+            if not re.search(asked.only, name): continue
+            if where == 'guard':
+                code, out = run(tree, 'guard_test', number, seeds=900)
+                found = sorted(set(re.findall(r'FAILED  \] (\S+)', out)))
+                failed += not found
+                print(f'| {name} | guard | | | {", ".join(found[:3]) or "NOBODY"} |', flush=True)
+                continue
+            refusals, closest, findings = soak(tree, number, asked.seeds)
+            harmless = refusals is not None and closest >= 19.8 and findings == 0
+            failed += not (harmless and refusals)
+            what = 'the guard' if refusals else 'THE PROCESS ENDED' if refusals is None else 'NOBODY'
+            print(f'| {name} | scheduler | {refusals} | {closest:.1f} mm{"" if harmless else " HARM"} | {what} |', flush=True)
+    return 1 if failed else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
