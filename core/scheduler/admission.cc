@@ -221,6 +221,13 @@ void Admission::answer_start(State& state, const Verdict& verdict, const std::ve
 
 void Admission::decide(State& state, const Verdict& verdict, const std::vector<JobId>& jobs) {
   Record& first = state.jobs.at(jobs.front());
+  if (!follow_each_other(state, jobs)) {
+    // Another arm was chosen for a job before one of these, or its plan is old.
+    if (jobs.size() > 1 && !tries_together(state, jobs, false)) {
+      put_off(state, first, first.job.judgement().found);
+    }
+    return;
+  }
   prepare_choice(state, jobs);
   std::vector<CoordinatedMotion> candidates;
   for (JobId id : jobs) candidates.push_back(as_candidate(state.jobs.at(id).job));

@@ -43,11 +43,39 @@ std::vector<JobId> with_all_that_wait(const State& state, const std::vector<JobI
     const Record& record = state.jobs.at(id);
     const auto& arms = record.job.trajectory->arms();
     const bool room = std::ranges::all_of(arms, [&](ArmId arm) { return left[arm.index()] > 0; });
-    const bool goes = room && may_follow(state, record);
-    if (goes) all.push_back(id);
+    bool goes = room && may_follow(state, record);
+    if (goes) {
+      all.push_back(id);
+      goes = follow_each_other(state, all);
+      if (!goes) all.pop_back();
+    }
     for (ArmId arm : arms) left[arm.index()] = goes ? left[arm.index()] - 1 : 0;
   }
   return all;
+}
+
+bool follow_each_other(const State& state, const std::vector<JobId>& jobs) {
+  std::vector<PlacePtr> stands = state.arms.places();
+  const auto comes = [&](const WaitingLeg& leg) {
+    for (std::size_t i = 0; i < leg.arms.size(); ++i) stands[leg.arms[i].index()] = leg.to[i];
+  };
+  for (const CoordinatedMotion& motion : state.graph.motions()) {
+    if (!contains(jobs, motion.job)) comes(state.jobs.at(motion.job).leg);
+  }
+  const double tolerance = state.cell->execution.start_tolerance_rad;
+  const auto is_near = [&](const PlacePtr& begins, const PlacePtr& at) {
+    return begins == at || (begins->q - at->q).cwiseAbs().maxCoeff() <= tolerance;
+  };
+  return std::ranges::all_of(jobs, [&](JobId id) {
+    const Record& record = state.jobs.at(id);
+    const WaitingLeg& leg = record.leg;
+    bool follows = true;
+    for (std::size_t i = 0; i < leg.arms.size() && !record.job.has_started(); ++i) {
+      follows = follows && is_near(leg.from[i], stands[leg.arms[i].index()]);
+    }
+    comes(leg);
+    return follows;
+  });
 }
 
 std::vector<JobId> with_next_jobs(const State& state, std::vector<JobId> group,

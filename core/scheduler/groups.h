@@ -21,4 +21,9 @@ inline constexpr std::size_t kTogetherMax = 16;
 [[nodiscard]] std::vector<JobId> with_next_jobs(const State& state, std::vector<JobId> group,
                                                 const std::vector<ArmId>& in_the_way);
 
+// Returns true if each of these begins where its arms will stand: at the end of what is admitted
+// before it, of one of them that is named before it, or where they rest now. What is admitted
+// otherwise has no regions for the rest between two motions.
+[[nodiscard]] bool follow_each_other(const State& state, const std::vector<JobId>& jobs);
+
 }  // namespace armloom
