@@ -64,6 +64,7 @@ struct Record {
   Errand errand = {};
   std::optional<TimePoint> ages_from = {};  // first in conflict, or first without a place
   Duration farthest{};                      // MotionReport::farthest of the last rest
+  double off_path = 0.0;                    // Motion::off_path, as it set out last
   Asking asking = {};
   std::map<ArmId, YieldsTried> yields = {};  // of arms that could make way for it
   Approaches approaches = {};

@@ -6,6 +6,7 @@
 #include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
 #include "core/jobs/waits.h"
+#include "core/scheduler/motion_questions.h"
 
 namespace armloom {
 namespace {
@@ -50,6 +51,7 @@ void dispatch_if_ready(State& state, Record& record) {
   }
   const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.id));
   state.graph.granted(job.id, authority);
+  if (!job.has_started()) record.off_path = off_path_of(state, record);
   enter(state, record,
         Moving{.overrun_at = overrun_after(state, job),
                .moved_at = state.now,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/jobs/pace.h"
 #include "core/policies/policy.h"
 #include "core/trajectory/joint_line.h"
 #include "core/trajectory/set_joints.h"
@@ -9,11 +10,33 @@
 namespace armloom {
 namespace {
 
-Motion motion_now(const State& state, const Job& job) {
+// Where the job leaves this arm of its own.
+const PlacePtr& end_on(const Record& record, ArmId arm) {
+  const auto own = std::ranges::find(record.leg.arms, arm) - record.leg.arms.begin();
+  return record.leg.to[static_cast<std::size_t>(own)];
+}
+
+// A start within execution.start_tolerance is no path that is kept within the tracking error: the
+// motion is certified with what it is off. What was measured may differ by so much.
+constexpr double kMeasured = 1e-4;
+
+// Under policies without orders nothing else tells those who are about to pass.
+Motion::Stands stands_now(const State& state, const Job& job) {
+  const auto* moving = job.in<Moving>();
+  if (job.in<Held>() != nullptr) return Motion::Stands::stays;
+  if (job.in<Braking>() != nullptr) return Motion::Stands::may_stay;
+  if (moving != nullptr && is_standing(*moving, state.now)) return Motion::Stands::may_stay;
+  return Motion::Stands::goes_on;
+}
+
+Motion motion_now(const State& state, const Record& record) {
+  const Job& job = record.job;
   return Motion{.job = job.id,
                 .trajectory = job.trajectory,
                 .progress = job.progress,
-                .to_come = !state.jobs.queues().is_first(job)};
+                .to_come = !state.jobs.queues().is_first(job),
+                .off_path = off_path_of(state, record),
+                .stands = stands_now(state, job)};
 }
 
 // Its own motion, or the straight way by which its arm is brought to where that begins.
@@ -29,6 +52,20 @@ TrajectoryPtr motion_of(const Passage& passage, const Cell& cell, const Record& 
 
 }  // namespace
 
+double off_path_of(const State& state, const Record& record) {
+  if (record.job.has_started() || record.job.in<Moving>() != nullptr) return record.off_path;
+  double off = 0.0;
+  for (std::size_t i = 0; i < record.leg.arms.size(); ++i) {
+    const ArmId arm = record.leg.arms[i];
+    const auto before = state.jobs.queues().before(record.job, arm);
+    const PlacePtr& stands = before ? end_on(state.jobs.at(*before), arm) : state.arms.place(arm);
+    off = std::max(off, (record.leg.from[i]->q - stands->q).cwiseAbs().maxCoeff());
+  }
+  const bool follows = off <= state.cell->checking.tracking_error_rad ||
+                       off > state.cell->execution.start_tolerance_rad;  // it does not begin so
+  return follows ? 0.0 : off + kMeasured;
+}
+
 Question question_now(const State& state, const std::vector<JobId>& candidates) {
   Question question{.version = state.version,
                     .start_at = state.now,
@@ -37,11 +74,12 @@ Question question_now(const State& state, const std::vector<JobId>& candidates) 
                     .rest = state.arms.rest(),
                     .method = state.policy->method()};
   for (JobId id : candidates) {
-    question.candidates.push_back(motion_now(state, state.jobs.at(id).job));
+    Motion& candidate = question.candidates.emplace_back(motion_now(state, state.jobs.at(id)));
+    if (state.jobs.at(id).job.is_waiting()) candidate.stands = Motion::Stands::goes_on;
   }
   for (const CoordinatedMotion& motion : state.graph.motions()) {
     if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;
-    question.others.push_back(motion_now(state, state.jobs.at(motion.job).job));
+    question.others.push_back(motion_now(state, state.jobs.at(motion.job)));
   }
   return question;
 }

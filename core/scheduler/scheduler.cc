@@ -18,6 +18,7 @@
 #include "core/scheduler/ways/planned_aside.h"
 #include "core/scheduler/ways/replanning.h"
 #include "core/scheduler/weighing.h"
+#include "core/scheduler/without_orders.h"
 #include "core/scheduler/yielding/errands.h"
 #include "core/trajectory/set_joints.h"
 
@@ -49,7 +50,10 @@ void note_progress(State& state, Record& record) {
 
 void take(State& state, const Amend& input) { amend(state, input); }
 
-void take(State& state, const Stop& input) { stop_arms(state, input); }
+void take(State& state, const Stop& input) {
+  stop_arms(state, input);
+  compare_again(state);
+}
 
 void take(State& state, const Resume& input) {
   for (ArmId arm : input.arms) state.arms.resume(arm);
@@ -201,6 +205,7 @@ void Scheduler::on(const Cancel& input) {
     give_up(state_, state_.jobs.at(approach), {.then = AfterStop::Then::cancel});
   }
   give_up(state_, *record, {.then = AfterStop::Then::cancel});
+  compare_again(state_);
 }
 
 void Scheduler::on(const MotionReport& input) {
@@ -216,6 +221,7 @@ void Scheduler::on(const MotionReport& input) {
     note_progress(state_, *record);
   } else {
     come_to_rest(state_, *record, input);
+    if (input.kind != MotionReport::Kind::finished) compare_again(state_);
   }
 }
 

@@ -113,5 +113,73 @@ TEST(Cancel, OfAnEndedOrUnknownJobIsAProblem) {
             ProblemKind::not_found);
 }
 
+// The paper's policy has no orders that would keep others away from an arm that stops in their way.
+class TimedDiscreteStop : public ::testing::Test {
+ protected:
+  static constexpr ArmId kX{0};
+  // x is stopped, or stalls, in the middle.
+  void expect_nobody_drives_into_it(const std::string& first) {
+    std::optional<CheckView> view;
+    cell.simulation->executive().check(slide("y", -1, 1, 4),
+                                       [&](const Result<CheckView>& made) { view = *made; });
+    cell.run_until(cell.simulation->now() + 100ms);
+    ASSERT_TRUE(view);
+    EXPECT_EQ(view->kind, Verdict::Kind::conflict);
+    cell.submit(slide("y", -1, 1, 4, "other"));
+    cell.run_until(cell.simulation->now() + 6s);
+    EXPECT_EQ(cell.job("other").state, JobState::backlogged);
+    EXPECT_GT(cell.log.closest_m, 0.0);
+    resume_all(cell.simulation->executive());
+    cell.run_to_the_end();
+    for (const std::string& key : {first, std::string("other")}) {
+      EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key;
+    }
+    EXPECT_GT(cell.log.closest_m, 0.0);
+  }
+  Crossing cell;
+};
+
+TEST_F(TimedDiscreteStop, AStoppedArmIsAtRestWhereItIsForWhatComesThen) {
+  cell.submit(slide("x", -1, 1, 4, "stopped"));
+  cell.run_until(at(2s));
+  cell.simulation->executive().stop({kX}, "operator");
+  cell.run_until(at(4s));
+  expect_nobody_drives_into_it("stopped");
+}
+
+TEST_F(TimedDiscreteStop, SoIsOneThatStalls) {
+  ASSERT_TRUE(cell.simulation->executive().faults().inject(
+      {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(2s), .lasting = 8s}));
+  cell.submit(slide("x", -1, 1, 4, "stalls"));
+  cell.run_until(at(3s));
+  expect_nobody_drives_into_it("stalls");
+}
+
+TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatStopsInItsWay) {
+  cell.submit(slide("x", -1, 1, 3, "ahead"));
+  cell.submit(slide("y", -1, 1, 6, "behind"));
+  cell.run_until(at(1500ms));
+  ASSERT_EQ(cell.job("behind").state, JobState::running)
+      << "by the clock it passes behind the other";
+  cell.simulation->executive().stop({kX}, "operator");
+  cell.run_until(at(8s));
+  EXPECT_EQ(cell.job("behind").state, JobState::holding);
+  EXPECT_GT(cell.log.closest_m, 0.0);
+  resume_all(cell.simulation->executive());
+  cell.run_to_the_end();
+  EXPECT_EQ(cell.job("behind").state, JobState::succeeded);
+  EXPECT_GT(cell.log.closest_m, 0.0);
+}
+
+TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatWasCanceledInItsWay) {
+  cell.submit(slide("x", -1, 1, 3, "ahead"));
+  cell.submit(slide("y", -1, 1, 6, "behind"));
+  cell.run_until(at(1500ms));
+  ASSERT_TRUE(cell.simulation->executive().cancel("ahead"));
+  cell.run_until(at(8s));
+  EXPECT_EQ(cell.job("behind").state, JobState::holding);
+  EXPECT_GT(cell.log.closest_m, 0.0);
+}
+
 }  // namespace
 }  // namespace armloom

@@ -58,7 +58,7 @@ ConflictRegion region(const Boxes&... boxes) {
 class Bench {
  public:
   virtual ~Bench() = default;
-  explicit Bench(std::size_t arms, const char* policy = "timed_discrete")
+  explicit Bench(std::size_t arms, const char* policy = "certified")
       : Bench(one_joint_arms(arms), policy) {}
   Bench(const CellPtr& description, const char* policy)
       : Bench(description, std::move(*make_policy(policy, *description))) {}

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "core/jobs/state.h"
+
+namespace armloom {
+
+// Policies without passing orders (timed_discrete): nothing holds a motion back where another one
+// has stopped in its way, so both are compared again.
+
+// An arm begins to brake, or has come to rest elsewhere than at its goal. Motions that are under
+// way are compared again; those that a stop has kept at their starts wait in the queue again.
+void compare_again(State& state);
+
+}  // namespace armloom
