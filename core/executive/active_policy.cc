@@ -30,6 +30,7 @@ Result<void> Executive::ActivePolicy::change(const std::string& name) {
                 "the policy changes only while no job is admitted; now there are: " + admitted});
   }
   executive_.step(ChangePolicy{std::move(*policy)});
+  executive_.follow_policy();
   return {};
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/ids.h"
 #include "core/base/time.h"
 #include "core/coordination/verdict.h"
+#include "core/guard/authority_guard.h"
 #include "core/jobs/job.h"
 #include "core/model/cell.h"
 #include "core/monitor/monitor.h"
@@ -158,6 +159,14 @@ struct MonitorEvent {
   std::vector<std::string> arms;     // of the pair
   std::vector<std::string> stopped;  // names of the arms that were told to stop
 };
+// The guard kept an arm from what the scheduler had granted: a defect, which moved nothing.
+struct GuardEvent {
+  GuardRefusal refusal;
+  std::string arm;
+  std::string job;        // key
+  std::string other_arm;  // empty: the scene, or the arms of the same motion
+  std::string other_job;  // that the other arm is on, or was last; empty: none
+};
 struct Alert {
   enum class Level { info, warning, error };
   Level level;
@@ -179,7 +188,7 @@ struct Alert {
 struct Event {
   std::uint64_t seq;
   TimePoint time;
-  std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, Alert> body;
+  std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, GuardEvent, Alert> body;
 };
 
 // A motion that an arm has been told of. Trajectory time.

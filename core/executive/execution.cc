@@ -13,29 +13,35 @@ std::vector<std::unique_ptr<ArmController>> controllers(
 
 }  // namespace
 
-Execution::Execution(const CellPtr& cell, std::vector<std::unique_ptr<FaultyArm>> arms,
-                     StartLog* log, ArmFaults::Asked asked)
-    : faults_(cell, arms, std::move(asked)),
-      motions_(cell, controllers(std::move(arms)), cell->home()),
+Execution::Execution(const CellPtr& cell, Made made, StartLog* log, ArmFaults::Asked asked,
+                     AuthorityGate::Calls calls)
+    : faults_(cell, made.arms, std::move(asked)),
+      motions_(cell, controllers(std::move(made.arms)), cell->home()),
+      gate_(cell, motions_, std::move(made.scene), std::move(calls)),
       starts_(log) {}
 
 void Execution::carry_out(const Dispatch& dispatch, const Job& job,
                           std::function<bool(JobId)> written) {
-  if (job.system_job) return motions_.dispatch(dispatch, job.trajectory);
+  if (job.system_job) return gate_.dispatch(dispatch, job.trajectory);
   const auto open = [this, id = job.id, written = std::move(written)] {
     const bool moves = written(id);
     const auto withheld = starts_.open(id);
-    if (withheld && moves) motions_.grant({id, *withheld});
+    if (withheld && moves) gate_.grant({id, *withheld});
   };
-  motions_.dispatch(starts_.pass(dispatch, open), job.trajectory);
+  gate_.dispatch(starts_.pass(dispatch, open), job.trajectory);
 }
 
 void Execution::carry_out(const Grant& grant) {
-  if (!starts_.keeps(grant)) motions_.grant(grant);
+  if (!starts_.keeps(grant)) gate_.grant(grant);
 }
 
 bool Execution::keeps_back(const MotionReport& report) const {
   return report.kind == MotionReport::Kind::progressed && starts_.withholds(report.job);
+}
+
+void Execution::forget(const Job& ended) {
+  starts_.forget(ended.id);
+  gate_.forget(ended.trajectory);
 }
 
 }  // namespace armloom

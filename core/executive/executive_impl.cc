@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/executive/arms_of.h"
+#include "core/executive/guard_words.h"
 
 namespace armloom {
 namespace {
@@ -32,17 +33,23 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
              [this]() -> const Configuration& { return execution_.motions().measured(); },
              {.asked = [this](const ExecutiveInput& input) { note(input); },
               .changed = [this](ClearanceQuery query) { scene_has_changed(std::move(query)); }}),
-      execution_(cell_, std::move(checked.arms), options.starts,
+      execution_(cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
                  [this](const ExecutiveInput& input) {
                    note(input);
                    return clock_.now;
-                 }),
+                 },
+                 {.certify = [this](const Question& question) { certify(question); },
+                  .refused = [this](JobId job, const GuardRefusal& r) { refused(job, r); }}),
       questions_(scheduler_, jobs_, judges),
       count_(cell_->arms.size()),
       clock_{.dies_at = options.dies_at, .inputs = options.inputs},
-      publisher_({*cell_, scheduler_, execution_.motions(), jobs_, execution_.starts()}, observer),
+      publisher_(
+          {*cell_, scheduler_, execution_.motions(), execution_.gate(), jobs_, execution_.starts()},
+          observer),
       intake_(cell_, scheduler_, jobs_, options.waiting_max),
-      watch_(scene_.scene()) {}
+      watch_(scene_.scene()) {
+  follow_policy();
+}
 
 void Executive::Impl::note(ExecutiveInput input) const {
   if (clock_.inputs != nullptr) clock_.inputs->came(clock_.ticks, input);
@@ -74,6 +81,7 @@ void Executive::Impl::carry_out(const Effect& effect) {
     questions_.judge(judge->question, scene_.scene(), [this](const Judged& made) {
       publisher_.tell_judged(made.verdict.evaluations);
       note({ExecutiveInput::Judged{made.verdict.evaluations}});
+      execution_.gate().take(made.verdict.certificates);
       step(made);
     });
   } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
@@ -123,7 +131,7 @@ void Executive::Impl::job_changed(JobId id) {
   if (is_terminal(view.state)) {
     count_.end_of_a_job(*view.times.ended_at);
     questions_.plans().give_up(id);
-    execution_.forget(id);
+    execution_.forget(*scheduler_.find(id));
     for (JobId oldest : jobs_.end(id)) scheduler_.forget(oldest);
   }
   publisher_.tell_job(std::move(view), clock_.now);
@@ -215,7 +223,48 @@ void Executive::Impl::end(const std::string& cause, bool keeps_waiting,
   stop(all_arms(*cell_), cause, Alert::Level::info);
 }
 
+// ---- The guard ----
+
+void Executive::Impl::follow_policy() {
+  const CheckMethod method = scheduler_.policy().method();
+  const bool certified = !std::holds_alternative<TimedDiscrete>(method);
+  execution_.gate().set_certified(certified);
+  if (certified) return;
+  publisher_.tell(Alert{Alert::Level::info,
+                        "policy " + std::string(scheduler_.policy().name()) +
+                            ": no certificates; the authority guard is off"},
+                  clock_.now);
+}
+
+void Executive::Impl::certify(const Question& question) {
+  questions_.service().certify(question, scene_.scene(), [this](const Verdict& verdict) {
+    note({ExecutiveInput::Certified{verdict.evaluations}});
+    execution_.gate().certified(verdict.certificates);
+  });
+}
+
+void Executive::Impl::refused(JobId job, const GuardRefusal& refusal) {
+  GuardEvent event{.refusal = refusal,
+                   .arm = cell_->arm(refusal.arm).name,
+                   .job = jobs_.key(job),
+                   .other_arm = {},
+                   .other_job = {}};
+  if (refusal.other) {
+    event.other_arm = cell_->arm(*refusal.other).name;
+    const auto on = execution_.gate().job_of(*refusal.other);
+    if (on) event.other_job = jobs_.key(*on);
+  }
+  count_.guard_refusal();
+  publisher_.tell(std::move(event), clock_.now);
+  publisher_.tell(
+      Alert{Alert::Level::error, "job " + jobs_.key(job) + ": " + sentence(refusal, *cell_) +
+                                     "; the arm stays where it is"},
+      clock_.now);
+  publisher_.tell_job(publisher_.view(job), clock_.now);
+}
+
 void Executive::Impl::scene_has_changed(ClearanceQuery query) {
+  execution_.gate().look_at(scene_.scene()->fingerprint());
   watch_.follow(std::move(query));
   publisher_.tell(SceneView{scene_.version(), scene_.objects()}, clock_.now);
   step(SceneChanged{});

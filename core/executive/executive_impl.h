@@ -62,6 +62,7 @@ class Executive::Impl {
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
   [[nodiscard]] Snapshot snapshot(std::size_t ended_max) const;
   [[nodiscard]] TimePoint settled_until() const;
+  void follow_policy();  // whether that has certificates
 
   struct Clock {
     TimePoint now{};
@@ -95,6 +96,8 @@ class Executive::Impl {
   void carry_out(const Effect& effect);
   void note_aside(const YieldMove& aside);
   void job_changed(JobId job);
+  void certify(const Question& question);
+  void refused(JobId job, const GuardRefusal& refusal);
   void forget_withdrawn();
   void watch();
   void scene_has_changed(ClearanceQuery query);

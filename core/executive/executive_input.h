@@ -94,6 +94,10 @@ struct ExecutiveInput {
   struct Judged {
     std::uint64_t evaluations;
   };
+  // The answer to the guard's open question for certificates.
+  struct Certified {
+    std::uint64_t evaluations;
+  };
   // The answer to the open question about this job's way.
   struct Planned {
     JobId job{0};
@@ -105,8 +109,8 @@ struct ExecutiveInput {
   };
   std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, Withdrawn,
                Held, Amended, Replanned, Stopped, Resumed, PolicyChanged, WoundDown, ObjectAdded,
-               ObjectReplaced, ObjectRemoved, Injected, FaultRemoved, Alerted, Judged, Planned,
-               StartWritten>
+               ObjectReplaced, ObjectRemoved, Injected, FaultRemoved, Alerted, Judged, Certified,
+               Planned, StartWritten>
       what;
 };
 

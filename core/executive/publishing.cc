@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/executive/arms_of.h"
+#include "core/executive/guard_words.h"
 
 namespace armloom {
 
@@ -103,6 +104,11 @@ JobView Publisher::view(JobId id) const {
   JobView view = view_of(*shown_.scheduler.find(id), shown_.cell, shown_.jobs);
   const JobLabel* label = shown_.jobs.label(id);
   if (label != nullptr && label->submitted_at) view.times.submitted_at = *label->submitted_at;
+  if (const auto refusal = shown_.gate.refusal(id)) {
+    WaitView& wait = view.waits_on.emplace_back(WaitView{.kind = Wait::Kind::guard});
+    if (refusal->other) wait.arm = shown_.cell.arm(*refusal->other).name;
+    wait.detail = sentence(*refusal, shown_.cell);
+  }
   return view;
 }
 

@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/executive/authority_gate.h"
 #include "core/executive/executive.h"
 #include "core/executive/job_register.h"
 #include "core/executive/motions.h"
@@ -21,12 +22,14 @@ class Publisher {
     const Cell& cell;
     const Scheduler& scheduler;
     const Motions& motions;
+    const AuthorityGate& gate;
     const JobRegister& jobs;
     const StartGate& starts;
   };
   Publisher(const Shown& shown, Observer& observer);
 
-  using Body = std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, Alert>;
+  using Body =
+      std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, GuardEvent, Alert>;
   void tell(Body body, TimePoint now);
   // With an alert where it failed.
   void tell_job(JobView view, TimePoint now);

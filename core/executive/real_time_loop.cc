@@ -81,7 +81,7 @@ class RealTimeLoop::Impl final : public JudgementService {
   ~Impl() override {
     // The workers first: they post into the loop's inbox.
     ending_.request_stop();
-    for (Looker* looker : {&judge_, &considerer_, &artist_}) looker->worker.end();
+    for (Looker* looker : {&judge_, &certifier_, &considerer_, &artist_}) looker->worker.end();
     for (Worker* worker : {&planner_, &drafter_}) worker->end();
     if (!loop_.joinable()) return;
     loop_.request_stop();
@@ -96,6 +96,12 @@ class RealTimeLoop::Impl final : public JudgementService {
   // The scheduler has at most one question open.
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
     judge(judge_, std::move(question), std::move(scene), std::move(done));
+  }
+
+  // Nor does the guard's wait for those of jobs.
+  void certify(Question question, PlanningScenePtr scene,
+               std::function<void(Verdict)> done) override {
+    judge(certifier_, std::move(question), std::move(scene), std::move(done));
   }
 
   // On a thread and with a checker of its own, as all that clients ask: however long it takes, no
@@ -221,6 +227,7 @@ class RealTimeLoop::Impl final : public JudgementService {
   std::atomic<double> speed_;
   std::stop_source ending_;
   Looker judge_;
+  Looker certifier_;
   Looker considerer_;
   Looker artist_;
   Worker planner_;

@@ -18,6 +18,7 @@ class RunCount {
   // Each look of the monitor at another state.
   void look(const std::vector<Proximity>& near);
   void monitor_stop() { ++figures_.monitor_stops; }
+  void guard_refusal() { ++figures_.guard_refusals; }
 
   [[nodiscard]] const RunFigures& figures() const { return figures_; }
 

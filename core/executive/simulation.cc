@@ -24,6 +24,14 @@ class Simulation::Judge final : public JudgementService {
     answer([verdict = std::move(verdict), done = std::move(done)] { done(verdict); });
   }
 
+  // By a checker of its own, as drawings are.
+  void certify(Question question, PlanningScenePtr scene,
+               std::function<void(Verdict)> done) override {
+    answer([verdict = certifier_.in(scene).judge(question), done = std::move(done)] {
+      done(verdict);
+    });
+  }
+
   // By a checker of its own: what has been drawn must not change the evaluations of a verdict.
   bool draw(Drawing drawing, PlanningScenePtr scene, std::function<void(Diagram)> done) override {
     answer([diagram = artist_.in(scene).draw(drawing), done = std::move(done)] { done(diagram); });
@@ -69,6 +77,7 @@ class Simulation::Judge final : public JudgementService {
   }
 
   OwnChecker checker_;
+  OwnChecker certifier_;
   OwnChecker artist_;
   TimePoint now_{};
   std::deque<Answer> pending_;

@@ -14,6 +14,10 @@ class SteppedLoop::Service final : public JudgementService, public StartLog {
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
     asked_ = {std::move(question), std::move(scene), std::move(done)};
   }
+  void certify(Question question, PlanningScenePtr scene,
+               std::function<void(Verdict)> done) override {
+    certified_ = {std::move(question), std::move(scene), std::move(done)};
+  }
   bool draw(Drawing, PlanningScenePtr, std::function<void(Diagram)>) override { return false; }
   void plan(PlanTask task) override { plans_.push_back(std::move(task)); }
   bool draft(PlanTask) override { return false; }
@@ -21,11 +25,8 @@ class SteppedLoop::Service final : public JudgementService, public StartLog {
     starts_[job] = std::move(written);
   }
 
-  void answer_question() {
-    if (!asked_) return;
-    const Asked asked = *std::exchange(asked_, std::nullopt);
-    asked.done(checker_.in(asked.scene).judge(asked.question));
-  }
+  void answer_question() { answer(asked_, checker_); }
+  void answer_certify() { answer(certified_, certifier_); }
   void answer_plan() {
     if (plans_.empty()) return;
     const PlanTask task = std::move(plans_.front());
@@ -43,8 +44,13 @@ class SteppedLoop::Service final : public JudgementService, public StartLog {
     PlanningScenePtr scene;
     std::function<void(Verdict)> done;
   };
-  std::optional<Asked> asked_;
-  OwnChecker checker_;
+  static void answer(std::optional<Asked>& open, OwnChecker& checker) {
+    if (!open) return;
+    const Asked asked = *std::exchange(open, std::nullopt);
+    asked.done(checker.in(asked.scene).judge(asked.question));
+  }
+  std::optional<Asked> asked_, certified_;
+  OwnChecker checker_, certifier_;
   std::deque<PlanTask> plans_;
   std::map<JobId, std::function<void()>> starts_;
 };
@@ -74,6 +80,7 @@ void SteppedLoop::tick() {
 std::uint64_t SteppedLoop::ticks() const { return ticks_; }
 TimePoint SteppedLoop::next() const { return next_; }
 void SteppedLoop::answer_question() { service_->answer_question(); }
+void SteppedLoop::answer_certify() { service_->answer_certify(); }
 void SteppedLoop::answer_plan() { service_->answer_plan(); }
 void SteppedLoop::write_start(JobId job) { service_->write_start(job); }
 

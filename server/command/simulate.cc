@@ -58,6 +58,7 @@ std::string summary_json(const std::string& policy, std::size_t backlogged,
   out.field("max", summary.wait_max).end_object();
   out.field("min_clearance_m", result.figures.min_clearance_m);
   out.field("monitor_stops", result.figures.monitor_stops);
+  out.field("guard_refusals", result.figures.guard_refusals);
   out.field("wall_s", result.wall).end_object();
   return out.take();
 }

@@ -42,6 +42,41 @@ FormatPtr<MonitorEvent> monitor_event_format() {
       }));
 }
 
+FormatPtr<ProgressBox> progress_box_format() {
+  using Box = ProgressBox;
+  return named("ProgressBox", "Two stretches of two motions. Trajectory time.",
+               object<Box>({
+                   told("from_s", &Box::from_a, seconds(kAnyNumber), "Of the arm's own motion"),
+                   told("to_s", &Box::to_a, seconds(kAnyNumber)),
+                   told("other_from_s", &Box::from_b, seconds(kAnyNumber), "Of the other motion"),
+                   told("other_to_s", &Box::to_b, seconds(kAnyNumber)),
+               }));
+}
+
+FormatPtr<GuardEvent> guard_event_format() {
+  using Told = GuardEvent;
+  const auto asked = [](const Told& event) { return &event.refusal.asked; };
+  const auto region = [](const Told& event) { return event.refusal.region; };
+  return named(
+      "GuardFinding",
+      "The authority guard kept an arm from what the scheduler had granted. This is a defect of "
+      "the "
+      "scheduler; nothing has moved",
+      object<Told>({
+          told(
+              "kind", [](const Told& event) { return event.refusal.why; },
+              choice<GuardRefusal::Why>(),
+              "Why: no certificate covers it, it meets a conflict region, the arm is on another "
+              "motion, or the arms of one motion are too far apart on it"),
+          told("arm", &Told::arm, text()),
+          told("job", &Told::job, text()),
+          told("other_arm", &Told::other_arm, text(), "Empty: the scene, or the motion's own arms"),
+          told("other_job", &Told::other_job, text(), "That the other arm was on last; or empty"),
+          told("asked", asked, progress_box_format(), "From where the arms are to their authority"),
+          told_if("region", region, progress_box_format(), "The first rectangle that is met"),
+      }));
+}
+
 FormatPtr<Alert> alert_format() {
   using Level = Alert::Level;
   return named("Alert", "",
@@ -138,17 +173,20 @@ struct Kinds {
   EventKind<QueueView> queue = event_kind("queue", "QueueEvent", queue_ids_format());
   EventKind<SceneView> scene = event_kind("scene", "SceneEvent", scene_format());
   EventKind<MonitorEvent> monitor = event_kind("monitor", "MonitorEvent", monitor_event_format());
+  EventKind<GuardEvent> guard = event_kind("guard", "GuardEvent", guard_event_format());
   EventKind<Alert> alert = event_kind("alert", "AlertEvent", alert_format());
 
   template <class Each>
   void each(Each each) const {
-    each(snapshot), each(job), each(arm), each(queue), each(scene), each(monitor), each(alert);
+    each(snapshot), each(job), each(arm), each(queue), each(scene), each(monitor), each(guard),
+        each(alert);
   }
   const auto& of(const JobView&) const { return job; }
   const auto& of(const ArmView&) const { return arm; }
   const auto& of(const QueueView&) const { return queue; }
   const auto& of(const SceneView&) const { return scene; }
   const auto& of(const MonitorEvent&) const { return monitor; }
+  const auto& of(const GuardEvent&) const { return guard; }
   const auto& of(const Alert&) const { return alert; }
 };
 const Kinds& kinds() {

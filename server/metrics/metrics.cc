@@ -47,7 +47,7 @@ class Metrics::Impl {
     }
     for (const Wait::Kind kind :
          {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object, Wait::Kind::order,
-          Wait::Kind::capacity, Wait::Kind::stop, Wait::Kind::plan}) {
+          Wait::Kind::capacity, Wait::Kind::stop, Wait::Kind::plan, Wait::Kind::guard}) {
       waits_.Add({{"reason", to_string(kind)}});
     }
     for (const char* what : {"requests", "jobs", "connections"}) limited_.Add({{"what", what}});
@@ -77,6 +77,7 @@ class Metrics::Impl {
   void happened(const Event& event) {
     if (const auto* job = std::get_if<JobView>(&event.body)) follow(*job);
     if (std::holds_alternative<MonitorEvent>(event.body)) monitor_stops_.Increment();
+    if (std::holds_alternative<GuardEvent>(event.body)) guard_refusals_.Increment();
     if (const auto* queue = std::get_if<QueueView>(&event.body)) {
       const auto size = [](const std::vector<std::string>& keys) {
         return static_cast<double>(keys.size());
@@ -199,6 +200,11 @@ class Metrics::Impl {
   std::map<std::pair<std::string, std::string>, Nearest> nearest_;
   Counter& monitor_stops_ =
       counters("armloom_monitor_findings_total", "What the monitor found wrong").Add({});
+  Counter& guard_refusals_ =
+      counters(
+          "armloom_guard_refusals_total",
+          "Grants of authority that the scheduler should not have made; the guard kept them back")
+          .Add({});
   Family<Histogram>& periods_ =
       histograms("armloom_period_seconds", "Between two rounds of a loop");
   Family<Counter>& overruns_ =

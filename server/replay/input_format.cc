@@ -176,6 +176,7 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"remove_fault", {always("fault", &In::FaultRemoved::fault, whole())}},
       {"alert", {inlined(&In::Alerted::alert, alert_part())}},
       {"judged", {always("evaluations", &In::Judged::evaluations, whole())}},
+      {"certified", {always("evaluations", &In::Certified::evaluations, whole())}},
       {"planned",
        {number_part("job", &In::Planned::job),
         always("question", &In::Planned::question, whole())}},

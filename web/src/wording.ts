@@ -67,6 +67,7 @@ export function wait_in_words(w: WaitsOn): string {
     case 'capacity': return w.id ? `waits until ${who} has ended: one at a time` : 'waits for a free place';
     case 'plan': return 'waits until the way to its goal is planned';
     case 'stop': return `waits for resume: ${w.arm ?? 'the cell'} is stopped${w.detail ? ` (${w.detail})` : ''}`;
+    case 'guard': return `kept back by the ${w.detail}`;
   }
 }
 
@@ -133,6 +134,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'plan': return 'waits for its plan';
     case 'capacity': return 'waits for a free place';
     case 'order': return 'waits its turn';
+    case 'guard': return 'kept back by the authority guard';
   }
 }
 

@@ -28,6 +28,7 @@ export function Header({ app }: { app: App }) {
         <InControl app={app} />
         {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
         <span class="fact policy"><i>policy</i> <Link app={app} to={{ page: 'policies' }} test="go-policies" title="Policies, and what the others would have done">{store.policy || '–'}</Link></span>
+        {store.policy === 'timed_discrete' && <span class="fact" data-test="no-certificate" title="This policy compares motions at time steps and certifies nothing between them. The authority guard is off.">no certificate</span>}
         <CellTime app={app} />
       </div>
       <button class="resume" disabled={!store.stopped && waiting_arms(store).length === 0} title="Leads to what is to be looked at before the arms move again" data-test="to-resume"

@@ -1,0 +1,213 @@
+#include "core/executive/authority_gate.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/trajectory/set_joints.h"
+
+namespace armloom {
+namespace {
+
+using Why = GuardRefusal::Why;
+
+std::vector<std::vector<JointId>> joints_by_arm(const Cell& cell) {
+  std::vector<std::vector<JointId>> joints;
+  for (const Arm& arm : cell.arms) {
+    joints.push_back(arm.joints);
+    joints.back().insert(joints.back().end(), arm.gripper_joints.begin(), arm.gripper_joints.end());
+  }
+  return joints;
+}
+
+bool is_at_rest(ArmFeedback::Phase phase) {
+  using Phase = ArmFeedback::Phase;
+  return phase != Phase::waiting && phase != Phase::moving && phase != Phase::braking;
+}
+
+}  // namespace
+
+AuthorityGate::AuthorityGate(CellPtr cell, Motions& motions, SceneFingerprint present, Calls calls)
+    : cell_(std::move(cell)),
+      motions_(motions),
+      guard_(joints_by_arm(*cell_), motions.measured(), std::move(present)),
+      calls_(std::move(calls)),
+      jobs_(cell_->arms.size()) {}
+
+void AuthorityGate::certified(const std::vector<Certificate>& certificates) {
+  is_asked_ = false;
+  take(certificates);
+}
+
+std::optional<GuardRefusal> AuthorityGate::passes(const TrajectoryPtr& motion, Duration from,
+                                                  Duration authority) {
+  if (is_certified_) return guard_.grant(motion, from, authority);
+  guard_.hold(motion, from, authority);
+  return std::nullopt;
+}
+
+void AuthorityGate::dispatch(const Dispatch& dispatch, const TrajectoryPtr& motion) {
+  told_[dispatch.job] = motion;
+  for (const ArmId arm : motion->arms()) jobs_[arm.index()] = dispatch.job;
+  const auto refusal = passes(motion, dispatch.from_progress, dispatch.authority);
+  if (refusal) return keep(dispatch.job, {motion, dispatch.authority, *refusal, now_, dispatch});
+  motions_.dispatch(dispatch, motion);
+}
+
+void AuthorityGate::grant(const Grant& grant) {
+  const auto before = kept_.find(grant.job);
+  if (before != kept_.end()) {
+    before->second.authority = std::max(before->second.authority, grant.authority);
+    return;
+  }
+  const TrajectoryPtr& motion = told_.at(grant.job);
+  const auto refusal = passes(motion, Duration{}, grant.authority);
+  if (refusal) return keep(grant.job, {motion, grant.authority, *refusal, now_});
+  motions_.grant(grant);
+}
+
+void AuthorityGate::brake(JobId job) {
+  const auto kept = kept_.find(job);
+  if (kept != kept_.end() && kept->second.start) {
+    kept->second.is_braked = true;
+    return;
+  }
+  if (kept != kept_.end()) kept_.erase(kept);
+  motions_.brake(job);
+}
+
+void AuthorityGate::release(JobId job) {
+  kept_.erase(job);
+  told_.erase(job);
+  motions_.release(job);
+}
+
+void AuthorityGate::keep(JobId job, Kept kept) {
+  Kept& now = kept_.insert_or_assign(job, std::move(kept)).first->second;
+  if (now.refusal.why != Why::uncertified) report(job, now);
+}
+
+void AuthorityGate::report(JobId job, Kept& kept) {
+  if (std::exchange(kept.is_reported, true)) return;
+  calls_.refused(job, kept.refusal);
+}
+
+// ---- Each control cycle ----
+
+const std::vector<MotionReport>& AuthorityGate::tick(TimePoint now) {
+  now_ = now;
+  reports_ = motions_.tick(now);
+  see_positions();
+  if (kept_.empty()) return reports_;
+  try_again();
+  ask();
+  const auto braked = [](const auto& kept) { return kept.second.is_braked; };
+  for (const auto& [job, kept] : kept_) {
+    if (kept.is_braked) reports_.push_back(stopped(job, kept));
+  }
+  std::erase_if(kept_, braked);
+  std::ranges::stable_sort(reports_, {}, &MotionReport::job);
+  return reports_;
+}
+
+void AuthorityGate::see_positions() {
+  for (std::uint32_t a = 0; a < jobs_.size(); ++a) {
+    const ArmId arm{a};
+    const ArmPosition& position = guard_.position(arm);
+    if (position.at_rest) continue;
+    const ArmFeedback& feedback = motions_.feedback(arm);
+    if (is_at_rest(feedback.phase)) {
+      guard_.rests(arm, feedback.measured_progress, motions_.measured());
+    } else {
+      guard_.moves(arm, feedback.measured_progress);
+    }
+  }
+}
+
+void AuthorityGate::try_again() {
+  for (auto kept = kept_.begin(); kept != kept_.end();) {
+    auto& [job, what] = *kept;
+    if (what.is_braked) {
+      ++kept;
+      continue;
+    }
+    const Duration from = what.start ? what.start->from_progress : Duration{};
+    const auto refusal = passes(what.motion, from, what.authority);
+    if (refusal) {
+      what.refusal = *refusal;
+      const bool is_missing = refusal->why == Why::uncertified;
+      if (!is_missing || now_ - what.since >= kMissing) report(job, what);
+      ++kept;
+      continue;
+    }
+    if (what.start) {
+      what.start->authority = what.authority;
+      motions_.dispatch(*what.start, what.motion);
+    } else {
+      motions_.grant({job, what.authority});
+    }
+    kept = kept_.erase(kept);
+  }
+}
+
+// About the first one that misses certificates, beside all others where they are.
+void AuthorityGate::ask() {
+  if (is_asked_ || now_ < asks_from_) return;
+  const auto missing = std::ranges::find_if(kept_, [](const auto& kept) {
+    return kept.second.refusal.why == Why::uncertified && !kept.second.is_braked;
+  });
+  if (missing == kept_.end()) return;
+  asks_from_ = now_ + kAskAgain;
+  is_asked_ = true;
+  calls_.certify(question_about(missing->first, missing->second));
+}
+
+Question AuthorityGate::question_about(JobId job, const Kept& kept) const {
+  const Duration from = kept.start ? kept.start->from_progress : Duration{};
+  Question question{.version = 0,
+                    .start_at = now_,
+                    .candidates = {},
+                    .others = {},
+                    .rest = guard_.rest(),
+                    .method = Coordinated{cell_->checking.tracking_error_rad}};
+  std::map<JobId, Motion> others;
+  for (std::uint32_t a = 0; a < jobs_.size(); ++a) {
+    const ArmPosition& position = guard_.position(ArmId{a});
+    const bool is_own =
+        std::ranges::find(kept.motion->arms(), ArmId{a}) != kept.motion->arms().end();
+    if (is_own || position.at_rest || !jobs_[a]) continue;
+    Motion& other =
+        others.try_emplace(*jobs_[a], Motion{*jobs_[a], position.motion, position.measured})
+            .first->second;
+    other.progress = std::min(other.progress, position.measured);
+    other.off_path = std::max(other.off_path, position.off_path);
+  }
+  for (const auto& [id, other] : others) question.others.push_back(other);
+  question.candidates = {Motion{.job = job,
+                                .trajectory = kept.motion,
+                                .progress = stopped(job, kept).progress,
+                                .off_path = guard_.off_path(kept.motion, from)}};
+  return question;
+}
+
+// A motion that was braked before its arms were told of it.
+MotionReport AuthorityGate::stopped(JobId job, const Kept& kept) const {
+  Duration last = kept.motion->duration(), farthest{};
+  for (const ArmId arm : kept.motion->arms()) {
+    const ArmPosition& position = guard_.position(arm);
+    const Duration at = position.motion == kept.motion || !kept.start ? position.measured
+                                                                      : kept.start->from_progress;
+    last = std::min(last, at);
+    farthest = std::max(farthest, at);
+  }
+  return {job,  MotionReport::Kind::stopped,
+          last, joints_of(motions_.measured(), kept.motion->joints()),
+          "",   farthest};
+}
+
+std::optional<GuardRefusal> AuthorityGate::refusal(JobId job) const {
+  const auto kept = kept_.find(job);
+  const bool is_reported = kept != kept_.end() && kept->second.is_reported;
+  return is_reported ? std::optional(kept->second.refusal) : std::nullopt;
+}
+
+}  // namespace armloom
