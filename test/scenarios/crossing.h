@@ -56,7 +56,16 @@ inline JobRequest slide(const std::string& arm, double from_m, double to_m, doub
 
 // Keeps everything that is told.
 struct Log final : Observer {
-  void on_event(const Event& event) override { events.push_back(event); }
+  void on_event(const Event& event) override {
+    events.push_back(event);
+    const auto* guard = std::get_if<GuardEvent>(&event.body);
+    if (guard == nullptr || may_refuse) return;
+    ADD_FAILURE() << "the guard refused (" << to_string(guard->refusal.why) << ") " << guard->job
+                  << " on " << guard->arm << ", beside " << guard->other_arm << " on "
+                  << guard->other_job << ": " << to_seconds(guard->refusal.asked.to_a)
+                  << " s beside " << to_seconds(guard->refusal.asked.from_b) << " to "
+                  << to_seconds(guard->refusal.asked.to_b) << " s";
+  }
   void on_tick(TimePoint, const Configuration& measured) override {
     if (first.size() == 0) first = measured;
     last = measured;
@@ -69,6 +78,7 @@ struct Log final : Observer {
   std::vector<Event> events;
   Configuration first, last;
   double closest_m = 1e9;
+  bool may_refuse = false;  // the guard
 };
 
 // The crossing cell on hand-driven time.

@@ -60,6 +60,7 @@ WatchedTeam::WatchedTeam(const CellDescription& cell) {
 
 void WatchedTeam::on_event(const Event& event) {
   events.push_back(event);
+  if (std::holds_alternative<GuardEvent>(event.body)) ADD_FAILURE() << "the guard had to refuse";
   const auto* job = std::get_if<JobView>(&event.body);
   if (job == nullptr || job->state != JobState::running) return;
   const auto takes_part = [&](std::size_t arm) {

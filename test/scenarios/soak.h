@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/executive/active_policy.h"
+#include "core/executive/simulation.h"
+#include "core/model/cell_description.h"
+#include "test/scenarios/random_faults.h"
+
+namespace armloom {
+
+// What came of a soak, summed over its runs.
+struct SoakTally {
+  std::size_t runs = 0, jobs = 0, succeeded = 0, own = 0, commands = 0, restarts = 0;
+  std::uint64_t monitor_findings = 0;  // without a fault or an object
+  std::uint64_t guard_refusals = 0;
+  std::uint64_t too_close = 0;  // runs without a fault or an object in which arms kept too little
+  std::uint64_t hung = 0;       // runs that came to a state in which nothing will ever happen
+  double closest_m = 1e9;       // of two arms, where there was no fault and no object
+  double hours = 0.0;           // simulated
+};
+
+// Ordinary commands of every kind in random order, told by a seed: jobs with trajectories, goals,
+// alternatives and approaches, for one arm or several, batches, cancel, stop, resume, replan,
+// PATCH, another policy, objects, faults and restarts. Two to four sliders, or two Pandas.
+class Soak {
+ public:
+  enum class World { sliders, pandas };
+  Soak(std::uint64_t seed, World world, const std::string& policy);
+  ~Soak();
+
+  // Adds what came of it. With `expects`, a claim that is broken fails the test.
+  void run(SoakTally& tally, bool expects = true);
+
+ private:
+  struct Watch;
+  struct Arm {
+    std::string name;
+    std::vector<std::string> joints;
+    std::vector<double> home;
+    double spread;  // of a random place about home (rad, m), each joint
+  };
+
+  void start(std::uint64_t first_job, std::vector<RestoredJob> left);
+  Executive& executive() { return simulation_->executive(); }
+  [[nodiscard]] std::vector<double> anywhere(const Arm& arm);
+  [[nodiscard]] std::vector<double> predicted(std::size_t arm);
+  [[nodiscard]] std::string any_job();
+  [[nodiscard]] std::vector<std::size_t> some_arms(std::size_t most);
+  [[nodiscard]] JobRequest motion(const std::vector<std::size_t>& arms);
+  [[nodiscard]] JobRequest loop();
+  [[nodiscard]] JobRequest goal();
+  [[nodiscard]] JobRequest any_request();
+  void submit(JobRequest request);
+  void note(const Result<JobView>& accepted, const JobRequest& request);
+  void command();
+  void change_scene();
+  void inject();
+  void restart();
+  void settle();
+
+  Random random_;
+  std::string policy_;
+  CellPtr cell_;
+  std::vector<Arm> arms_;
+  std::unique_ptr<Watch> watch_;
+  std::unique_ptr<Simulation> simulation_;
+  std::map<std::string, JobRequest> requests_;  // by key
+  std::map<std::string, std::vector<std::vector<double>>>
+      ends_;  // by key and arm; empty: not moved
+  std::uint64_t next_ = 1;
+  bool may_fault_ = false, may_see_objects_ = false, disturbed_ = false;
+  SoakTally* tally_ = nullptr;
+};
+
+}  // namespace armloom

@@ -1,0 +1,50 @@
+// A soak of ordinary commands of every kind: whatever is asked in whatever order, no arm comes too
+// close to another one, the guard has nothing to refuse, and every wait ends.
+// ARMLOOM_SEEDS=10000 runs so many of each; ARMLOOM_FIRST_SEED=77 begins there.
+#include "test/scenarios/soak.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "test/scenarios/seeds.h"
+
+namespace armloom {
+namespace {
+
+constexpr std::uint64_t kSliders = 15;
+constexpr std::uint64_t kPandas = 1;
+
+void soak(Soak::World world, const std::string& policy, std::uint64_t seeds) {
+  const char* from = std::getenv("ARMLOOM_FIRST_SEED");
+  const std::uint64_t first = from != nullptr ? std::stoull(from) : 1;
+  const bool expects = std::getenv("ARMLOOM_FAULT") == nullptr;  // test/guard/faults.py counts
+  SoakTally tally;
+  for (std::uint64_t seed = first; seed < first + seeds; ++seed) {
+    SCOPED_TRACE(policy + ", seed " + std::to_string(seed));
+    Soak(seed, world, policy).run(tally, expects);
+    if (::testing::Test::HasFailure()) std::cout << policy << ", seed " << seed << " failed\n";
+    if (::testing::Test::HasFailure() && from == nullptr) break;
+  }
+  std::cout << policy << ": " << tally.runs << " runs, " << tally.hours << " simulated hours, "
+            << tally.commands << " commands, " << tally.jobs << " jobs, " << tally.succeeded
+            << " succeeded, " << tally.own << " of the server's own, " << tally.restarts
+            << " restarts; without a fault or an object: closest " << 1000 * tally.closest_m
+            << " mm, " << tally.monitor_findings << " monitor findings; " << tally.guard_refusals
+            << " guard refusals, " << tally.hung << " hung\n";
+  if (!expects) return;
+  EXPECT_GE(tally.jobs, 10 * tally.runs);
+  EXPECT_GE(2 * tally.succeeded, tally.runs);
+}
+
+class SoakOfCommands : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, SoakOfCommands,
+                         ::testing::Values("coordinated", "earliest_start", "certified",
+                                           "reservation", "lockstep", "sequential"));
+
+TEST_P(SoakOfCommands, Sliders) { soak(Soak::World::sliders, GetParam(), seed_count(kSliders)); }
+TEST_P(SoakOfCommands, Pandas) { soak(Soak::World::pandas, GetParam(), seed_count(kPandas, 10)); }
+
+}  // namespace
+}  // namespace armloom
