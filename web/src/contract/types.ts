@@ -4,7 +4,7 @@ export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
         /** @description What WebSocket and SSE carry. */
-        Message: components["schemas"]["SnapshotEvent"] | components["schemas"]["JobEvent"] | components["schemas"]["ArmEvent"] | components["schemas"]["QueueEvent"] | components["schemas"]["SceneEvent"] | components["schemas"]["MonitorEvent"] | components["schemas"]["AlertEvent"] | components["schemas"]["StateFrame"];
+        Message: components["schemas"]["SnapshotEvent"] | components["schemas"]["JobEvent"] | components["schemas"]["ArmEvent"] | components["schemas"]["QueueEvent"] | components["schemas"]["SceneEvent"] | components["schemas"]["MonitorEvent"] | components["schemas"]["GuardEvent"] | components["schemas"]["AlertEvent"] | components["schemas"]["StateFrame"];
         Cell: {
             name: string;
             /** @description In force */
@@ -516,6 +516,28 @@ export interface components {
             at: string;
             data: components["schemas"]["MonitorFinding"];
         };
+        GuardEvent: {
+            /**
+             * Format: uuid
+             * @description Of this run of the server
+             */
+            stream: string;
+            /** @description Without holes within a stream */
+            seq: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "guard";
+            /** @description Cell time */
+            t_s: number;
+            /**
+             * Format: date-time
+             * @description Wall time
+             */
+            at: string;
+            data: components["schemas"]["GuardFinding"];
+        };
         AlertEvent: {
             /**
              * Format: uuid
@@ -656,7 +678,7 @@ export interface components {
         /** @description What a job waits for, with the evidence. */
         Wait: {
             /** @enum {string} */
-            kind: "job" | "arm" | "object" | "order" | "capacity" | "stop" | "plan";
+            kind: "job" | "arm" | "object" | "order" | "capacity" | "stop" | "plan" | "guard";
             /** @description The other job */
             id: string | null;
             /** @description The other arm */
@@ -855,6 +877,24 @@ export interface components {
             /** @description Arms that were told to stop */
             stopped: string[];
         };
+        /** @description The authority guard kept an arm from what the scheduler had granted. This is a defect of the scheduler; nothing has moved */
+        GuardFinding: {
+            /**
+             * @description Why: no certificate covers it, it meets a conflict region, the arm is on another motion, or the arms of one motion are too far apart on it
+             * @enum {string}
+             */
+            kind: "uncertified" | "region" | "busy" | "out_of_step";
+            arm: string;
+            job: string;
+            /** @description Empty: the scene, or the motion's own arms */
+            other_arm: string;
+            /** @description That the other arm was on last; or empty */
+            other_job: string;
+            /** @description From where the arms are to their authority */
+            asked: components["schemas"]["ProgressBox"];
+            /** @description The first rectangle that is met */
+            region?: components["schemas"]["ProgressBox"];
+        };
         Alert: {
             /** @enum {string} */
             level: "info" | "warning" | "error";
@@ -924,6 +964,15 @@ export interface components {
         };
         /** @enum {string} */
         ArmState: "idle" | "moving" | "holding" | "stopped" | "fault";
+        /** @description Two stretches of two motions. Trajectory time. */
+        ProgressBox: {
+            /** @description Of the arm's own motion */
+            from_s: number;
+            to_s: number;
+            /** @description Of the other motion */
+            other_from_s: number;
+            other_to_s: number;
+        };
         /** @description A leg stands, at its start or on its way. */
         TimelinePause: {
             from_s: number;
