@@ -28,7 +28,8 @@ bool lacks_mesh(const std::vector<PlacedShape>& shapes) {
 bool may_touch(const Cell& cell, const AuditedSolid& a, const AuditedSolid& b) {
   if (!a.arm && !b.arm) return true;  // nothing there can change
   if (!b.link) return cell.allowed.link_objects.count({*a.link, b.name}) > 0;
-  return cell.allowed.link_pairs.count({*a.link, *b.link}) > 0;
+  // What an SRDF only claims (claimed_pairs) is looked at, out of reach or not.
+  return cell.allowed.allows(*a.link, *b.link);
 }
 
 bool one_arm_only(const Cell& cell, const AuditedSolid& a, const AuditedSolid& b) {

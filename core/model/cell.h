@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -108,12 +109,28 @@ struct CollisionObject {
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
 };
 
-// What may touch.
+// A pair of links, the smaller id first.
+using LinkPair = std::pair<LinkId, LinkId>;
+
+// Pairs that need no check, and pairs of which an SRDF only claims it.
 struct AllowedCollisions {
-  // Pairs of links that need no check (SRDF, same rigid body), smaller id first.
-  std::set<std::pair<LinkId, LinkId>> link_pairs;
-  // Pairs (link, object name), from the cell file.
-  std::set<std::pair<LinkId, std::string>> link_objects;
+  // Named by the robot's files: links of one rigid body, and pairs of the SRDF within one arm or of
+  // an arm and its mount.
+  std::set<LinkPair> link_pairs;
+  // Named by the cell file.
+  std::set<LinkPair> cell_file_pairs;
+  std::set<std::pair<LinkId, std::string>> link_objects;  // link, object name
+  // Disabled by an SRDF, and links of different arms, or of an arm and what stands beside its
+  // mount; with the place there ("arm.srdf:17"). MoveIt's Setup Assistant disables what did not
+  // meet in random samples, which proves nothing: such a pair is checked unless it is proven to be
+  // out of reach (core/collision/scene/out_of_reach.h) or in cell_file_pairs.
+  std::map<LinkPair, std::string> claimed_pairs;
+
+  // Returns true if the pair, in either order, may touch. Claims do not count.
+  [[nodiscard]] bool allows(LinkId a, LinkId b) const {
+    const LinkPair pair = std::minmax(a, b);
+    return link_pairs.contains(pair) || cell_file_pairs.contains(pair);
+  }
 };
 // What is kept from what may not be touched.
 struct Clearances {

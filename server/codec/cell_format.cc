@@ -156,7 +156,8 @@ const Format<CellDescription>& cell_format() {
       field("objects", &Description::objects, list(scene_object_format()),
             "The scene at start: tables, fixtures, fences."),
       field("allowed_collisions", &Description::allowed_collisions, list(pair_of(name())),
-            "Pairs that may touch: two links, or a link and an object; links with their prefix."),
+            "Pairs that may touch: two links, or a link and an object; links with their prefix. "
+            "Nothing checks them."),
       settings_part(),
   });
   return *format;

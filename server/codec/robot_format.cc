@@ -147,8 +147,11 @@ FormatPtr<RobotDescription> robot_format() {
   return object<Robot>({
       required("name", &Robot::name, name(), "The robot's name; unique in the cell."),
       required("urdf", &Robot::urdf, path(), "The robot's URDF."),
-      required("srdf", &Robot::srdf, path(),
-               "The robot's SRDF: groups, named states, pairs of links that need no check."),
+      required(
+          "srdf", &Robot::srdf, path(),
+          "The robot's SRDF: groups, named states, pairs of links that need no check. Pairs of "
+          "different arms, or of an arm and what stands beside its mount, are checked all the "
+          "same unless they are proven out of reach."),
       field("joint_limits", &Robot::joint_limits, path(),
             "MoveIt's joint_limits.yaml: velocities and accelerations of joints."),
       field("prefix", &Robot::prefix, text(),

@@ -175,8 +175,8 @@ struct LoadedCell {
 // The same of a text that stands in `cell_file`, or is going to.
 [[nodiscard]] std::optional<LoadedCell> load_cell_text(std::string text,
                                                        const std::string& cell_file);
-// Whether a server would run the cell: homes free, policy and controllers known. Warnings and what
-// is wrong on stderr.
+// Returns true if a server would run the cell: homes free, policy and controllers known. Says on
+// stderr the warnings, what became of pairs that an SRDF disables without proof, and what is wrong.
 [[nodiscard]] bool is_fit_to_run(const LoadedCell& loaded);
 
 // "armloom: config/x.json:/robots/0/urdf: ..." on stderr, one line for each problem.

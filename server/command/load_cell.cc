@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "core/executive/claimed_pairs.h"
 #include "core/executive/executive.h"
 #include "core/model/cell/build_cell.h"
 #include "server/codec/cell_codec.h"
@@ -99,6 +100,11 @@ std::optional<LoadedCell> load_cell_text(std::string text, const std::string& ce
 
 bool is_fit_to_run(const LoadedCell& loaded) {
   warn(loaded.file.string(), loaded.warnings);
+  if (const auto claimed = report_claimed_pairs(loaded.cell)) {
+    const std::string text = to_text(*claimed);
+    if (!text.empty())
+      std::cerr << "armloom: note: " << loaded.file.string() << ": " << text << '\n';
+  }
   NoJudgements judges;
   NoObserver observer;
   const auto executive = Executive::create(loaded.cell, {}, judges, observer);

@@ -128,8 +128,7 @@ struct MoveItWay::Scene {
     for (std::size_t i = 0; i < count; ++i) {
       const bool still = !cell->link(links[i]).arm;
       for (std::size_t j = 0; j < count; ++j) {
-        if (cell->allowed.link_pairs.contains(std::minmax(links[i], links[j])) ||
-            (still && !cell->link(links[j]).arm)) {
+        if (cell->allowed.allows(links[i], links[j]) || (still && !cell->link(links[j]).arm)) {
           set(i, j);
         }
       }

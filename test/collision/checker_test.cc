@@ -65,7 +65,7 @@ std::map<NamePair, reference::Bracket> brute_force(const Cell& cell, const Confi
       const LinkId id_a{static_cast<std::uint32_t>(a.index)};
       const LinkId id_b{static_cast<std::uint32_t>(b.index)};
       if (b.object ? cell.allowed.link_objects.contains({id_a, b.name})
-                   : cell.allowed.link_pairs.contains({id_a, id_b})) {
+                   : cell.allowed.allows(id_a, id_b)) {
         continue;
       }
       reference::Bracket smallest{1e9, 1e9};

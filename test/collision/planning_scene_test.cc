@@ -50,5 +50,20 @@ TEST(CheckHome, IsQuietWhenHomesAreFreeAndNamesEveryPairThatIsNot) {
   EXPECT_THAT(problems[2].detail, ::testing::StartsWith("right_link1 and shelf: 0.0200 m"));
 }
 
+TEST(CheckHome, SaysThatAPairIsCheckedAlthoughTheSrdfDisablesIt) {
+  Cell cell;
+  small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ}, {0.3, 0.05});
+  small::add_robot(cell, "right", small::at_xyz(0, 0.11, 0), {kZ}, {0.3, 0.05});
+  cell.allowed.claimed_pairs[{*cell.find_link("left_link1"), *cell.find_link("right_link1")}] =
+      "dual.srdf:17";
+  const Problems problems = check_home(scene_of(small::shared(cell)));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_THAT(
+      problems[0].detail,
+      ::testing::EndsWith(
+          "; where these two may touch, add [\"left_link1\", \"right_link1\"] to the cell's "
+          "\"allowed_collisions\"; dual.srdf:17 disables the pair, which proves nothing)"));
+}
+
 }  // namespace
 }  // namespace armloom

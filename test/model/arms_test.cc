@@ -22,7 +22,7 @@ std::vector<std::string> names_of(const Cell& cell, const std::vector<LinkId>& l
 }
 
 bool allows(const Cell& cell, const std::string& a, const std::string& b) {
-  return cell.allowed.link_pairs.contains(std::minmax(*cell.find_link(a), *cell.find_link(b)));
+  return cell.allowed.allows(*cell.find_link(a), *cell.find_link(b));
 }
 
 TEST(Arms, HoldTheirGroupsIndependentJointsFromBaseToTip) {
@@ -107,10 +107,33 @@ TEST(AllowedPairs, AreThoseOfTheSrdfAndOfOneRigidBody) {
   EXPECT_TRUE(allows(*cell, "t_base", "t_post"));      // rigid
   EXPECT_TRUE(allows(*cell, "t_l_hand", "t_l2"));      // rigid
   EXPECT_TRUE(allows(*cell, "t_r1", "t_r2"));          // SRDF
-  EXPECT_TRUE(allows(*cell, "t_l_hand", "t_r1"));      // disabled by default
+  EXPECT_TRUE(allows(*cell, "t_l_hand", "t_l1"));      // disabled by default
   EXPECT_FALSE(allows(*cell, "t_l_hand", "t_r_tip"));  // and enabled again
   EXPECT_FALSE(allows(*cell, "t_post", "t_l1"));       // adjacent, but the SRDF does not say so
   EXPECT_FALSE(allows(*cell, "t_r3", "t_r_tip"));
+}
+
+TEST(AllowedPairs, BetweenArmsAndWithWhatStandsBesideAMountAreOnlyClaimed) {
+  const ScratchFolder folder;
+  CellDescription description = two_arms_description();
+  const std::string pair = "<disable_collisions link1=\"r2\" link2=\"r1\" reason=\"Adjacent\"/>";
+  const auto disable = [](const std::string& a, const std::string& b) {
+    return "\n<disable_collisions link1=\"" + a + "\" link2=\"" + b + "\"/>";
+  };
+  description.robots[0].srdf =
+      folder.write("twin.srdf", file_with(data_file("two_arms.srdf"), pair,
+                                          pair + disable("r3", "l2") + disable("l2", "base") +
+                                              disable("l2", "post") + disable("l2", "r1")));
+  description.allowed_collisions = {{"t_base", "t_l2"}};
+  const CellPtr cell = build_or_fail(description);
+  const auto link = [&](const char* name) { return *cell->find_link(name); };
+  EXPECT_THAT(cell->allowed.claimed_pairs,
+              ElementsAre(testing::Pair(LinkPair{link("t_base"), link("t_l2")}, "twin.srdf:18"),
+                          testing::Pair(LinkPair{link("t_l2"), link("t_r3")}, "twin.srdf:17")))
+      << "r1 has no shape";
+  EXPECT_FALSE(allows(*cell, "t_l2", "t_r3"));
+  EXPECT_TRUE(allows(*cell, "t_l2", "t_base")) << "by the cell file";
+  EXPECT_TRUE(allows(*cell, "t_l2", "t_post")) << "its mount";
 }
 
 TEST(AllowedPairs, HoldNeighboursWhereThereIsNoSrdf) {

@@ -150,37 +150,6 @@ TEST(Axes, OfAnotherLengthThanOneAreDirectionsAndToldOf) {
   EXPECT_EQ(warnings_of(rounded), "");
 }
 
-TEST(DisabledPairs, OfTwoArmsAreToldOf) {
-  const ScratchFolder folder;
-  CellDescription cell = two_arms_description();
-  const std::string pair = "<disable_collisions link1=\"r2\" link2=\"r1\" reason=\"Adjacent\"/>";
-  cell.robots[0].srdf = folder.write(
-      "twin.srdf", file_with(data_file("two_arms.srdf"), pair,
-                             pair + "\n<disable_collisions link1=\"l2\" link2=\"r3\"/>\n"));
-  EXPECT_THAT(warnings_of(cell),
-              HasSubstr("twin.srdf: disable_collisions: 1 pair of links of different arms (l2 and "
-                        "r3 at line 17): they are not checked, so these arms may meet there"));
-}
-
-TEST(DisabledPairs, OfAnArmAndWhatStandsBesideItsMountAreToldOf) {
-  const ScratchFolder folder;
-  CellDescription cell = two_arms_description();
-  const std::string pair = "<disable_collisions link1=\"r2\" link2=\"r1\" reason=\"Adjacent\"/>";
-  const std::string of_mount = "\n<disable_collisions link1=\"post\" link2=\"l2\"/>";
-  cell.robots[0].srdf =
-      folder.write("twin.srdf", file_with(data_file("two_arms.srdf"), pair, pair + of_mount));
-  EXPECT_THAT(warnings_of(cell), Not(HasSubstr("disable_collisions")));
-  cell.robots[0].srdf = folder.write(
-      "twin.srdf",
-      file_with(data_file("two_arms.srdf"), pair,
-                pair + of_mount + "\n<disable_collisions link1=\"base\" link2=\"l2\"/>"));
-  EXPECT_THAT(
-      warnings_of(cell),
-      HasSubstr("twin.srdf: disable_collisions: 1 pair of an arm's link and one that stands "
-                "still (base and l2 at line 18): they are not checked, so the arm may meet "
-                "it there"));
-}
-
 TEST(Meshes, ThatAreAsGoodAsNothingAreToldOf) {
   const ScratchFolder folder;
   EXPECT_THAT(

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/collision/scene/out_of_reach.h"
 #include "core/collision/scene/scene_bodies.h"
 #include "core/collision/scene/scene_fingerprint.h"
 #include "core/collision/scene/scene_problems.h"
@@ -88,7 +89,8 @@ bool allowed(const PlanningScene::Bodies& scene, std::size_t index_a, std::size_
   if (a.held()) return held_allowed(scene, index_a, b);
   if (b.held()) return held_allowed(scene, index_b, a);
   if (!b.link) return scene.cell->allowed.link_objects.contains({*a.link, b.name});
-  return scene.cell->allowed.link_pairs.contains(std::minmax(*a.link, *b.link));
+  return scene.cell->allowed.allows(*a.link, *b.link) ||
+         scene.out_of_reach->contains(std::minmax(*a.link, *b.link));
 }
 
 // Adds the pairs of the arm's bodies with all bodies that `wanted` names, as one group.
@@ -207,6 +209,7 @@ Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
   bodies.links_fingerprint = bodies.fingerprint = fingerprint_of_links(*cell);
   for (std::uint32_t i = 0; i < cell->links.size(); ++i) add_link(bodies, LinkId{i});
   bodies.links_end = bodies.held_end = bodies.bodies.size();
+  bodies.out_of_reach = std::make_shared<const std::set<LinkPair>>(pairs_out_of_reach(bodies));
   return links.with_objects(cell->objects);
 }
 

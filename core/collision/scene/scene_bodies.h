@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -98,7 +99,10 @@ struct PlanningScene::Bodies {
   // Links in the order of their ids, then held objects, then objects.
   std::vector<CollisionBody> bodies;
   std::size_t links_end = 0;  // bodies before it are links
-  std::size_t held_end = 0;   // bodies from links_end to it are held
+  // Claimed pairs (AllowedCollisions) that are proven out of reach; the same in all scenes of a
+  // cell.
+  std::shared_ptr<const std::set<LinkPair>> out_of_reach;
+  std::size_t held_end = 0;  // bodies from links_end to it are held
   std::vector<ConvexShape> shapes;
   std::vector<BodyPair> pairs;
   std::vector<PairGroup> groups;

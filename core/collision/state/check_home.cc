@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/diagnostics.h"
+#include "core/collision/scene/scene_bodies.h"
 #include "core/collision/state/clearance_query.h"
 
 namespace armloom {
@@ -17,6 +19,17 @@ std::string home_pointer(const Cell& cell, ArmId arm) {
   const std::vector<ArmId>& arms = cell.robots[robot.index()].arms;
   const auto place = std::find(arms.begin(), arms.end(), arm) - arms.begin();
   return "/robots/" + std::to_string(robot.index()) + "/arms/" + std::to_string(place) + "/home";
+}
+
+// Returns where an SRDF disables the pair without proof; nullopt if none does.
+std::optional<std::string> claim_of(const PlanningScene& scene, PairId pair) {
+  const BodyPair& bodies = scene.bodies().pairs[pair.index()];
+  const auto& a = scene.bodies().bodies[bodies.a].link;
+  const auto& b = scene.bodies().bodies[bodies.b].link;
+  if (!a || !b) return std::nullopt;
+  const auto& claimed = scene.cell().allowed.claimed_pairs;
+  const auto found = claimed.find(std::minmax(*a, *b));
+  return found == claimed.end() ? std::nullopt : std::optional(found->second);
 }
 
 }  // namespace
@@ -38,12 +51,15 @@ Problems check_home(const PlanningScenePtr& scene) {
                   proximity.limit_m);
     const std::string allow = "add [\"" + proximity.body_a + "\", \"" + proximity.body_b +
                               "\"] to the cell's \"allowed_collisions\"";
+    const auto claim = claim_of(*scene, pair.pair);
+    const std::string may_touch = "; where these two may touch, " + allow;
     std::string remedy =
         self ? " (where these always are so close add to the SRDF <disable_collisions link1=\"" +
                    proximity.body_a + "\" link2=\"" + proximity.body_b +
                    "\" reason=\"Adjacent\"/>, with the names there; else give another \"home\")"
              : " (give another \"home\", or place one of them elsewhere" +
-                   (proximity.arm_b ? "" : "; where these two may touch, " + allow) + ")";
+                   (proximity.arm_b && !claim ? "" : may_touch) +
+                   (claim ? "; " + *claim + " disables the pair, which proves nothing" : "") + ")";
     if (query.is_mount(pair.pair) && proximity.clearance_m > 0.0) {
       remedy = " (" + proximity.body_b + " carries the arm: where only this link stands so close " +
                "to it, " + allow +

@@ -216,7 +216,7 @@ void add_robot(RobotBuild robot, Cell& cell, Diagnostics& diagnostics) {
   }
   settle_limits(robot, cell, diagnostics);
   if (groups_known) settle_homes(robot, cell, diagnostics);
-  allow_pairs_of_robot(robot, cell, diagnostics);
+  allow_pairs_of_robot(robot, cell);
 }
 
 void copy_settings(const CellDescription& description, Cell& cell) {

@@ -7,56 +7,19 @@ namespace armloom {
 
 namespace {
 
-bool of_two_arms(const Cell& cell, LinkId a, LinkId b) {
+// Returns true for links of different arms, and for an arm's link and one that stands still and
+// carries no part of that arm.
+bool is_only_claimed(const Cell& cell, LinkId a, LinkId b) {
   const auto& arm_a = cell.link(a).arm;
   const auto& arm_b = cell.link(b).arm;
-  return arm_a && arm_b && arm_a != arm_b;
-}
-
-// An arm with a table, say: no part of what the arm is mounted on.
-bool of_arm_and_scene(const Cell& cell, LinkId a, LinkId b) {
-  if (cell.link(b).arm) std::swap(a, b);
-  const auto& arm = cell.link(a).arm;
-  return arm && !cell.link(b).arm && !cell.is_mount(b, *arm);
-}
-
-// The Setup Assistant disables what did not meet in its random samples: between two arms, or an arm
-// and what stands beside it, that is no proof.
-struct DoubtfulPairs {
-  bool (*concerned)(const Cell& cell, LinkId a, LinkId b);
-  const char* whose;
-  const char* consequence;
-};
-void warn_of_pairs(const RobotBuild& robot, const Cell& cell, const DoubtfulPairs& doubtful,
-                   Diagnostics& diagnostics) {
-  constexpr std::size_t kTold = 3;
-  std::string pairs;
-  std::size_t count = 0;
-  for (const auto& [pair, line] : robot.semantics->allowed_pairs) {
-    const LinkId a = robot.links[pair.first];
-    const LinkId b = robot.links[pair.second];
-    if (!doubtful.concerned(cell, a, b) || cell.link(a).shapes.empty() ||
-        cell.link(b).shapes.empty()) {
-      continue;
-    }
-    if (++count > kTold) continue;
-    pairs += (pairs.empty() ? "" : ", ") + robot.tree.links[pair.first].name + " and " +
-             robot.tree.links[pair.second].name + " at line " + std::to_string(line);
-  }
-  if (count == 0) return;
-  if (count > kTold) pairs += ", ...";
-  const std::string place = robot.semantics->file + ": disable_collisions";
-  diagnostics.warn({ProblemKind::invalid, "unchecked-pairs", place,
-                    place + ": " + std::to_string(count) + (count == 1 ? " pair" : " pairs") +
-                        doubtful.whose + " (" + pairs + "): they are not checked, so " +
-                        doubtful.consequence +
-                        " there; delete what is not known to be out of reach",
-                    static_cast<double>(count)});
+  if (arm_a && arm_b) return arm_a != arm_b;
+  if (arm_a) return !cell.is_mount(b, *arm_a);
+  return arm_b && !cell.is_mount(a, *arm_b);
 }
 
 }  // namespace
 
-void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
+void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell) {
   const auto allow = [&](std::size_t a, std::size_t b) {
     cell.allowed.link_pairs.insert(std::minmax(robot.links[a], robot.links[b]));
   };
@@ -72,14 +35,14 @@ void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell, Diagnostics& diag
     if (!robot.semantics && link.parent) allow(*link.parent, i);
   }
   if (!robot.semantics) return;
-  for (const auto& [pair, line] : robot.semantics->allowed_pairs) allow(pair.first, pair.second);
-  if (robot.tree.patched) return;
-  warn_of_pairs(robot, cell, {of_two_arms, " of links of different arms", "these arms may meet"},
-                diagnostics);
-  warn_of_pairs(
-      robot, cell,
-      {of_arm_and_scene, " of an arm's link and one that stands still", "the arm may meet it"},
-      diagnostics);
+  for (const auto& [pair, line] : robot.semantics->allowed_pairs) {
+    const LinkPair links = std::minmax(robot.links[pair.first], robot.links[pair.second]);
+    if (!is_only_claimed(cell, links.first, links.second)) {
+      cell.allowed.link_pairs.insert(links);
+    } else if (!cell.link(links.first).shapes.empty() && !cell.link(links.second).shapes.empty()) {
+      cell.allowed.claimed_pairs.emplace(links, robot.semantics->file + ":" + std::to_string(line));
+    }
+  }
 }
 
 void allow_pairs_of_cell(const CellDescription& description, Cell& cell, Diagnostics& diagnostics) {
@@ -111,7 +74,7 @@ void allow_pairs_of_cell(const CellDescription& description, Cell& cell, Diagnos
       diagnostics.in_cell("same-link", pointer, "allowed collision: " + first + " is named twice",
                           first);
     } else if (a && b) {
-      cell.allowed.link_pairs.insert(std::minmax(*a, *b));
+      cell.allowed.cell_file_pairs.insert(std::minmax(*a, *b));
     } else if (a && b_object) {
       cell.allowed.link_objects.emplace(*a, second);
     } else if (b && a_object) {

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/collision/scene/scene_bodies.h"
+#include "core/geometry/ball.h"
+#include "core/geometry/capsule/segment_distance.h"
+
+namespace armloom {
+
+// Every place that a link can be at while the joints that move it go through all their values,
+// covered by capsules: a tree of parts, each for a box of joint values, halved where it is asked
+// for. Joints of no arm stand still at home. Not shared by threads.
+class SweptLink {
+ public:
+  // A joint's values: center - half to center + half.
+  struct Interval {
+    double center = 0.0;
+    double half = 0.0;
+  };
+  // The link's capsules with all joints at the center of their intervals; how far any point of them
+  // moves within the intervals at most; and a ball that holds the link at all these values.
+  struct Part {
+    std::vector<Interval> intervals;
+    struct Segment {
+      CenteredSegment line;
+      double radius_m;
+    };
+    std::vector<Segment> capsules;
+    double motion_m = 0.0;
+    Ball ball;
+    std::size_t widest = 0;  // the interval that moves the link most
+    std::size_t halves = 0;  // its first half, the second is next to it; 0: not halved
+  };
+  static constexpr std::size_t kPartsMax = 4096;
+  static constexpr double kFinest_m = 1e-3;  // parts that move less are not halved
+
+  // `beyond`: how far each joint may be outside its limits (rad or m).
+  SweptLink(const PlanningScene::Bodies& bodies, LinkId link, double beyond);
+
+  // Number 0 is the whole.
+  [[nodiscard]] const Part& part(std::size_t number) const { return parts_[number]; }
+  // Returns the number of the part's first half; nullopt if it cannot be halved.
+  [[nodiscard]] std::optional<std::size_t> halve(std::size_t number);
+
+ private:
+  // A joint on the way from the root to the link. Its frame lies at X_PJ in that of the one before,
+  // or in the world.
+  struct Step {
+    Eigen::Isometry3d X_PJ;
+    Eigen::Vector3d axis;
+    bool prismatic;
+    double multiplier;
+    double offset;
+    std::size_t interval;
+    double reach_m = 0.0;  // no point of the link is ever farther from the frame's origin
+  };
+  struct PlacedStep {
+    Eigen::Vector3d p;     // the frame's origin, before its joint moves
+    Eigen::Vector3d axis;  // in the world
+    double far(const Eigen::Vector3d& point) const { return axis.cross(point - p).norm(); }
+  };
+  void add_steps(const Cell& cell, LinkId link, std::vector<JointId>& drivers);
+  void add_intervals(const Cell& cell, const std::vector<JointId>& drivers, double beyond);
+  void bound_reach();
+  [[nodiscard]] double shift(const Step& step, const Part& part, double far_m) const;
+  void place(Part& part) const;
+  void enclose(Part& part, const std::vector<PlacedStep>& placed) const;
+
+  std::vector<Step> steps_;
+  Eigen::Isometry3d X_FL_ = Eigen::Isometry3d::Identity();  // in the last step's frame
+  std::vector<LinkCapsule> capsules_;                       // in the link
+  std::vector<Part> parts_;
+};
+
+// How far apart two parts are: at least, at all their joint values; and with the joints at the
+// centers, where capsules stand for shapes.
+struct PartGap {
+  double least_m;
+  double at_centers_m;
+};
+[[nodiscard]] PartGap gap_between(const SweptLink::Part& a, const SweptLink::Part& b);
+
+}  // namespace armloom

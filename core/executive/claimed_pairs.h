@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/base/problem.h"
+#include "core/model/cell.h"
+
+namespace armloom {
+
+// What became of the pairs of links that an SRDF disables without proof
+// (AllowedCollisions::claimed_pairs).
+struct ClaimedPairsReport {
+  struct Pair {
+    std::string link_a;
+    std::string link_b;
+    std::string place;  // "arm.srdf:17"
+  };
+  std::size_t out_of_reach = 0;  // proven: not checked
+  std::size_t cell_file = 0;     // the cell file allows them: not checked
+  std::vector<Pair> checked;     // although the SRDF disables them
+};
+
+// Problems: as PlanningScene::build.
+[[nodiscard]] Result<ClaimedPairsReport> report_claimed_pairs(CellPtr cell);
+
+// Returns one sentence with the numbers and up to three of the checked pairs; empty if there are no
+// claimed pairs.
+[[nodiscard]] std::string to_text(const ClaimedPairsReport& report);
+
+}  // namespace armloom
