@@ -206,10 +206,10 @@ Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
   bodies.cell = cell;
   bodies.attachments = std::make_shared<const std::vector<Attachment>>();
   bodies.bodies_of_arm.resize(cell->arms.size());
-  bodies.links_fingerprint = bodies.fingerprint = fingerprint_of_links(*cell);
   for (std::uint32_t i = 0; i < cell->links.size(); ++i) add_link(bodies, LinkId{i});
   bodies.links_end = bodies.held_end = bodies.bodies.size();
   bodies.out_of_reach = std::make_shared<const std::set<LinkPair>>(pairs_out_of_reach(bodies));
+  bodies.links_fingerprint = bodies.fingerprint = fingerprint_of_links(*cell, *bodies.out_of_reach);
   return links.with_objects(cell->objects);
 }
 

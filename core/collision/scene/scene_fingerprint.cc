@@ -53,11 +53,17 @@ void add(ContentHash& hash, const Link& link) {
   }
 }
 
-void add(ContentHash& hash, const AllowedCollisions& allowed) {
-  for (const auto& [a, b] : allowed.link_pairs) {
+void add(ContentHash& hash, const std::set<LinkPair>& pairs) {
+  hash.add(pairs.size());
+  for (const auto& [a, b] : pairs) {
     hash.add(a.index());
     hash.add(b.index());
   }
+}
+
+void add(ContentHash& hash, const AllowedCollisions& allowed) {
+  add(hash, allowed.link_pairs);
+  add(hash, allowed.cell_file_pairs);
   for (const auto& [link, object] : allowed.link_objects) {
     hash.add(link.index());
     hash.add(object);
@@ -66,12 +72,13 @@ void add(ContentHash& hash, const AllowedCollisions& allowed) {
 
 }  // namespace
 
-SceneFingerprint fingerprint_of_links(const Cell& cell) {
+SceneFingerprint fingerprint_of_links(const Cell& cell, const std::set<LinkPair>& out_of_reach) {
   ContentHash common;
   common.add(cell.clearances.clearance_m);
   common.add(cell.clearances.self_clearance_m);
   common.add(cell.clearances.mount_limit_m());
   add(common, cell.allowed);
+  add(common, out_of_reach);
   std::vector<ContentHash> arms(cell.arms.size());
   for (const Link& link : cell.links) add(link.arm ? arms[link.arm->index()] : common, link);
   SceneFingerprint links{.common = common.value(), .arms = {}, .objects = {}};
