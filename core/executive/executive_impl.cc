@@ -40,7 +40,8 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       questions_(scheduler_, jobs_, judges),
       count_(cell_->arms.size()),
       clock_{.dies_at = options.dies_at, .inputs = options.inputs},
-      publisher_({*cell_, scheduler_, execution_.motions(), jobs_, execution_.starts()}, observer),
+      publisher_({*cell_, scheduler_, execution_.motions(), jobs_, execution_.starts(), scene_},
+                 observer),
       intake_(cell_, scheduler_, jobs_, options.waiting_max),
       watch_(scene_.scene()) {}
 
@@ -56,6 +57,7 @@ void Executive::Impl::step(const Input& input) {
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
   if (!wind_down_) publisher_.tell_stops();  // nobody resumes what only the end has stopped
   publisher_.queue_may_have_changed(clock_.now);
+  publisher_.publish_step(clock_.now);
 }
 
 // What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
@@ -124,7 +126,10 @@ void Executive::Impl::job_changed(JobId id) {
     count_.end_of_a_job(*view.times.ended_at);
     questions_.plans().give_up(id);
     execution_.forget(id);
-    for (JobId oldest : jobs_.end(id)) scheduler_.forget(oldest);
+    for (const auto& [oldest, key] : jobs_.end(id)) {
+      publisher_.forget(oldest, key);
+      scheduler_.forget(oldest);
+    }
   }
   publisher_.tell_job(std::move(view), clock_.now);
 }
@@ -217,7 +222,7 @@ void Executive::Impl::end(const std::string& cause, bool keeps_waiting,
 
 void Executive::Impl::scene_has_changed(ClearanceQuery query) {
   watch_.follow(std::move(query));
-  publisher_.tell(SceneView{scene_.version(), scene_.objects()}, clock_.now);
+  publisher_.tell_scene(clock_.now);
   step(SceneChanged{});
 }
 
@@ -226,21 +231,6 @@ void Executive::Impl::scene_has_changed(ClearanceQuery query) {
 std::optional<JobView> Executive::Impl::job(const std::string& key) const {
   const auto id = jobs_.find(key);
   return id ? std::optional(publisher_.view(*id)) : std::nullopt;
-}
-
-Snapshot Executive::Impl::snapshot(std::size_t ended_max) const {
-  Snapshot snapshot{.seq = publisher_.seq(),
-                    .time = clock_.now,
-                    .queue = publisher_.queue(),
-                    .arms = publisher_.arms()};
-  snapshot.scene = SceneView{scene_.version(), scene_.objects()};
-  const auto& ended = jobs_.ended();
-  for (std::size_t i = ended.size() - std::min(ended_max, ended.size()); i < ended.size(); ++i) {
-    snapshot.jobs.push_back(publisher_.view(ended[i]));
-  }
-  for (JobId id : scheduler_.active()) snapshot.jobs.push_back(publisher_.view(id));
-  std::ranges::sort(snapshot.jobs, {}, &JobView::id);
-  return snapshot;
 }
 
 }  // namespace armloom
