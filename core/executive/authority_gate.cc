@@ -145,7 +145,10 @@ void AuthorityGate::try_again() {
     } else {
       motions_.grant({job, what.authority});
     }
+    const JobId passed = job;
+    const bool was_reported = what.is_reported;
     kept = kept_.erase(kept);
+    if (was_reported) calls_.allowed(passed);
   }
 }
 

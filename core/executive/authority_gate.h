@@ -21,6 +21,8 @@ class AuthorityGate {
     std::function<void(const Question&)> certify;
     // The scheduler granted what it should not have: told once for each job.
     std::function<void(JobId, const GuardRefusal&)> refused;
+    // What was told so is allowed now.
+    std::function<void(JobId)> allowed;
   };
   // Both outlive it. All arms are at rest.
   AuthorityGate(CellPtr cell, Motions& motions, SceneFingerprint present, Calls calls);

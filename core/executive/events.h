@@ -8,8 +8,8 @@
 
 #include "core/base/ids.h"
 #include "core/base/time.h"
+#include "core/coordination/guard_refusal.h"
 #include "core/coordination/verdict.h"
-#include "core/guard/authority_guard.h"
 #include "core/jobs/job.h"
 #include "core/model/cell.h"
 #include "core/monitor/monitor.h"

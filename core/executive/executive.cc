@@ -8,6 +8,7 @@
 #include "core/executive/arms_of.h"
 #include "core/executive/batch.h"
 #include "core/executive/executive_impl.h"
+#include "core/executive/status_board.h"
 #include "core/executive/timeline.h"
 
 namespace armloom {
@@ -96,14 +97,19 @@ std::vector<Result<JobView>> Executive::restore(std::vector<RestoredJob> jobs) {
 LiveScene& Executive::scene() { return impl_->scene_; }
 ArmFaults& Executive::faults() { return impl_->execution_.faults(); }
 std::optional<JobView> Executive::job(const std::string& key) const { return impl_->job(key); }
-Snapshot Executive::snapshot(std::size_t ended_max) const { return impl_->snapshot(ended_max); }
+std::shared_ptr<const StatusBoard> Executive::board() const { return impl_->publisher_.board(); }
+Snapshot Executive::snapshot(std::size_t ended_max) const {
+  return snapshot_of(impl_->publisher_.board()->read(), *impl_->cell_, ended_max);
+}
 TrajectoryPtr Executive::trajectory(const std::string& key) const {
   const auto id = impl_->jobs_.find(key);
   return id ? impl_->scheduler_.find(*id)->trajectory : nullptr;
 }
 std::vector<ArmView> Executive::arms() const { return impl_->publisher_.arms(); }
 TimelineView Executive::timeline() const {
-  return timeline_of(impl_->scheduler_, impl_->clock_.now, *impl_->cell_, impl_->jobs_);
+  const Scheduler& scheduler = impl_->scheduler_;
+  return {scheduler.timeline(impl_->clock_.now), scheduler.policy().horizon(),
+          impl_->publisher_.board()->read()};
 }
 TimePoint Executive::now() const { return impl_->clock_.now; }
 bool Executive::all_ended() const { return impl_->jobs_.active() == 0; }

@@ -23,6 +23,7 @@
 
 namespace armloom {
 
+class StatusBoard;
 struct TimelineView;
 
 // Where judgements are computed. Called on the strand; `done` must be called exactly once, on the
@@ -233,7 +234,9 @@ class Executive {
   // The motion of a job while it is known; of a goal that is not planned yet, and of alternatives,
   // the likeliest. Null: no such job.
   [[nodiscard]] TrajectoryPtr trajectory(const std::string& key) const;
-  // With the `ended_max` jobs that ended last, at most.
+  // What clients see, for every thread (status_board.h).
+  [[nodiscard]] std::shared_ptr<const StatusBoard> board() const;
+  // As the board has it. With the `ended_max` jobs that ended last, at most.
   [[nodiscard]] Snapshot snapshot(std::size_t ended_max = ~std::size_t{0}) const;
   [[nodiscard]] std::vector<ArmView> arms() const;
   // When each arm is expected to do what is admitted (timeline.h).

@@ -33,19 +33,22 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
              [this]() -> const Configuration& { return execution_.motions().measured(); },
              {.asked = [this](const ExecutiveInput& input) { note(input); },
               .changed = [this](ClearanceQuery query) { scene_has_changed(std::move(query)); }}),
-      execution_(cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
-                 [this](const ExecutiveInput& input) {
-                   note(input);
-                   return clock_.now;
-                 },
-                 {.certify = [this](const Question& question) { certify(question); },
-                  .refused = [this](JobId job, const GuardRefusal& r) { refused(job, r); }}),
+      execution_(
+          cell_, {std::move(checked.arms), scene_.scene()->fingerprint()}, options.starts,
+          [this](const ExecutiveInput& input) {
+            note(input);
+            return clock_.now;
+          },
+          {.certify = [this](const Question& question) { certify(question); },
+           .refused = [this](JobId job, const GuardRefusal& r) { refused(job, r); },
+           .allowed =
+               [this](JobId job) { publisher_.tell_job(publisher_.view(job), clock_.now); }}),
       questions_(scheduler_, jobs_, judges),
       count_(cell_->arms.size()),
       clock_{.dies_at = options.dies_at, .inputs = options.inputs},
-      publisher_(
-          {*cell_, scheduler_, execution_.motions(), execution_.gate(), jobs_, execution_.starts()},
-          observer),
+      publisher_({*cell_, scheduler_, execution_.motions(), execution_.gate(), jobs_,
+                  execution_.starts(), scene_},
+                 observer),
       intake_(cell_, scheduler_, jobs_, options.waiting_max),
       watch_(scene_.scene()) {
   follow_policy();
@@ -63,6 +66,7 @@ void Executive::Impl::step(const Input& input) {
   if (std::holds_alternative<MotionReport>(input) && effects.empty()) return;
   if (!wind_down_) publisher_.tell_stops();  // nobody resumes what only the end has stopped
   publisher_.queue_may_have_changed(clock_.now);
+  publisher_.publish_step(clock_.now);
 }
 
 // What a scheduler says whose invariant is broken is not to be relied on: the arms come to rest on
@@ -132,7 +136,10 @@ void Executive::Impl::job_changed(JobId id) {
     count_.end_of_a_job(*view.times.ended_at);
     questions_.plans().give_up(id);
     execution_.forget(*scheduler_.find(id));
-    for (JobId oldest : jobs_.end(id)) scheduler_.forget(oldest);
+    for (const auto& [oldest, key] : jobs_.end(id)) {
+      publisher_.forget(oldest, key);
+      scheduler_.forget(oldest);
+    }
   }
   publisher_.tell_job(std::move(view), clock_.now);
 }
@@ -230,9 +237,8 @@ void Executive::Impl::follow_policy() {
   const bool certified = !std::holds_alternative<TimedDiscrete>(method);
   execution_.gate().set_certified(certified);
   if (certified) return;
-  publisher_.tell(Alert{Alert::Level::info,
-                        "policy " + std::string(scheduler_.policy().name()) +
-                            ": no certificates; the authority guard is off"},
+  publisher_.tell(Alert{Alert::Level::info, "policy " + std::string(scheduler_.policy().name()) +
+                                                ": no certificates; the authority guard is off"},
                   clock_.now);
 }
 
@@ -266,7 +272,7 @@ void Executive::Impl::refused(JobId job, const GuardRefusal& refusal) {
 void Executive::Impl::scene_has_changed(ClearanceQuery query) {
   execution_.gate().look_at(scene_.scene()->fingerprint());
   watch_.follow(std::move(query));
-  publisher_.tell(SceneView{scene_.version(), scene_.objects()}, clock_.now);
+  publisher_.tell_scene(clock_.now);
   step(SceneChanged{});
 }
 
@@ -275,21 +281,6 @@ void Executive::Impl::scene_has_changed(ClearanceQuery query) {
 std::optional<JobView> Executive::Impl::job(const std::string& key) const {
   const auto id = jobs_.find(key);
   return id ? std::optional(publisher_.view(*id)) : std::nullopt;
-}
-
-Snapshot Executive::Impl::snapshot(std::size_t ended_max) const {
-  Snapshot snapshot{.seq = publisher_.seq(),
-                    .time = clock_.now,
-                    .queue = publisher_.queue(),
-                    .arms = publisher_.arms()};
-  snapshot.scene = SceneView{scene_.version(), scene_.objects()};
-  const auto& ended = jobs_.ended();
-  for (std::size_t i = ended.size() - std::min(ended_max, ended.size()); i < ended.size(); ++i) {
-    snapshot.jobs.push_back(publisher_.view(ended[i]));
-  }
-  for (JobId id : scheduler_.active()) snapshot.jobs.push_back(publisher_.view(id));
-  std::ranges::sort(snapshot.jobs, {}, &JobView::id);
-  return snapshot;
 }
 
 }  // namespace armloom

@@ -60,7 +60,6 @@ class Executive::Impl {
             Alert::Level level = Alert::Level::warning);
   void resume(const std::vector<ArmId>& arms);
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
-  [[nodiscard]] Snapshot snapshot(std::size_t ended_max) const;
   [[nodiscard]] TimePoint settled_until() const;
   void follow_policy();  // whether that has certificates
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/guard/authority_guard.h"
+#include "core/coordination/guard_refusal.h"
 #include "core/model/cell.h"
 
 namespace armloom {

@@ -31,6 +31,7 @@ void Executive::Impl::forget_withdrawn() {
   std::erase_if(withdrawn_, [this](JobId id) {
     const Job* job = scheduler_.find(id);
     if (job != nullptr && !job->has_ended()) return false;
+    publisher_.forget(id, jobs_.key(id));
     jobs_.forget(id);
     scheduler_.forget(id);
     return true;

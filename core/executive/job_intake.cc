@@ -59,15 +59,14 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
     return failure(Problem{ProblemKind::unavailable, "server-ends", "",
                            "the server is ending and accepts no job"});
   }
-  if (jobs_.active() + ahead.keys.size() >= waiting_max_) {
+  if (jobs_.active() + ahead.jobs >= waiting_max_) {
     return failure(
         Problem{ProblemKind::unavailable, "queue-full", "",
                 "the queue is full: " + std::to_string(waiting_max_) + " jobs have not ended"});
   }
   Problems problems;
   std::vector<TrajectoryPtr> returns;
-  const bool taken =
-      jobs_.is_taken(request.key) || std::ranges::find(ahead.keys, request.key) != ahead.keys.end();
+  const bool taken = jobs_.is_taken(request.key) || ahead.keys.contains(request.key);
   if (!request.key.empty() && taken) problems.push_back(key_in_use(request.key));
   find_bad_after(request, ahead, problems);
   std::vector<MotionGoal> goals;
@@ -94,7 +93,8 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
   if (!problems.empty()) return failure(std::move(problems));
 
   set_joints(ahead.rest, *motions.front(), motions.front()->goal());
-  ahead.keys.push_back(request.key);
+  ahead.keys.insert(request.key);
+  ++ahead.jobs;
   return PreparedJob{.key = std::move(request.key),
                      .name = std::move(request.name),
                      .alternatives = std::move(motions),
@@ -148,7 +148,7 @@ void JobIntake::find_bad_after(const JobRequest& request, const Ahead& ahead,
   for (std::size_t i = 0; i < request.after.size(); ++i) {
     const std::string& key = request.after[i];
     const std::string pointer = "/after/" + std::to_string(i);
-    if (!key.empty() && std::ranges::find(ahead.keys, key) != ahead.keys.end()) continue;
+    if (!key.empty() && ahead.keys.contains(key)) continue;
     if (std::ranges::find(request.known.succeeded, key) != request.known.succeeded.end()) continue;
     if (key == request.key) {
       problems.push_back({ProblemKind::invalid, "after-itself", pointer,

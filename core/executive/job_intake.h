@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "core/executive/executive.h"
@@ -35,10 +36,11 @@ class JobIntake {
   // Where joints will stand, and which keys are taken, when the jobs before it are accepted.
   struct Ahead {
     Configuration rest;
-    std::vector<std::string> keys;
+    std::unordered_set<std::string> keys;
     std::map<ArmId, TrajectoryPtr> ways_back;  // of arms that were sent aside
     std::vector<ArmId> open = {};              // whose end of `rest` is not known yet
     bool begins_anywhere = false;              // jobs need not begin at `rest`
+    std::size_t jobs = 0;                      // accepted with it
   };
   [[nodiscard]] Ahead ahead() const;
   // Everything that can be said against a request, before anything is stored. `ahead` then holds

@@ -12,14 +12,14 @@ void JobRegister::add(JobId id, JobLabel label) {
 
 void JobRegister::rename(JobId id, std::string name) { labels_.at(id).name = std::move(name); }
 
-std::vector<JobId> JobRegister::end(JobId id) {
+std::vector<JobRegister::Forgotten> JobRegister::end(JobId id) {
   ended_.push_back(id);
-  std::vector<JobId> forgotten;
+  std::vector<Forgotten> forgotten;
   while (ended_.size() > ended_kept_) {
     const JobId oldest = ended_.front();
     ended_.pop_front();
+    forgotten.push_back({oldest, key(oldest)});
     take_out(oldest);
-    forgotten.push_back(oldest);
   }
   return forgotten;
 }
@@ -70,12 +70,7 @@ std::string JobRegister::name(JobId job) const {
   return known == nullptr ? std::string() : known->name;
 }
 
-bool JobRegister::has_job(ArmId arm) const {
-  return std::ranges::any_of(scheduler_.active(), [&](JobId job) {
-    const auto& arms = scheduler_.find(job)->trajectory->arms();
-    return std::ranges::find(arms, arm) != arms.end();
-  });
-}
+bool JobRegister::has_job(ArmId arm) const { return scheduler_.has_job(arm); }
 
 Result<JobId> JobRegister::not_ended(const std::string& key) const {
   const auto id = find(key);

@@ -37,8 +37,12 @@ class JobRegister final : public JobNames {
   void add(JobId id, JobLabel label);
   void rename(JobId id, std::string name);  // precondition: it is known
   // The job has ended. Those that ended longest ago, as far as they are too many, are taken out:
-  // returned, for whoever else knows them.
-  std::vector<JobId> end(JobId id);
+  // returned with their keys, for whoever else knows them.
+  struct Forgotten {
+    JobId id;
+    std::string key;
+  };
+  std::vector<Forgotten> end(JobId id);
   // One that has ended, if it is known still.
   void forget(JobId id);
 

@@ -11,12 +11,22 @@ namespace armloom {
 Publisher::Publisher(const Shown& shown, Observer& observer)
     : shown_(shown),
       observer_(observer),
-      told_arms_(shown.cell.arms.size(), ArmState::idle),
-      told_arm_jobs_(shown.cell.arms.size()),
-      told_queue_(queue()) {}
+      arms_(shown.cell.arms.size()),
+      told_arms_(shown.cell.arms.size()),
+      told_queue_(queue()) {
+  publish_scene();
+  look_at_arms();
+  publish({});
+}
 
 void Publisher::tell(Body body, TimePoint now) {
+  publish(now);
   observer_.on_event(Event{++seq_, now, std::move(body)});
+}
+
+void Publisher::tell_scene(TimePoint now) {
+  publish_scene();
+  tell(SceneView{shown_.scene.version(), shown_.scene.objects()}, now);
 }
 
 void Publisher::tell_job(JobView view, TimePoint now) {
@@ -26,6 +36,7 @@ void Publisher::tell_job(JobView view, TimePoint now) {
                   "job " + view.key + " " + to_string(view.state) + ": " +
                       (view.detail().empty() ? to_string(*view.reason()) : view.detail())};
   }
+  note(view);
   tell(std::move(view), now);
   if (alert) tell(std::move(*alert), now);
 }
@@ -35,18 +46,18 @@ void Publisher::tell_tick(TimePoint now) {
     told_rest_ = at_rest;
     observer_.on_rest(at_rest);
   }
+  publish(now);
   observer_.on_tick(now, shown_.motions.measured());
 }
 
 void Publisher::tell_arms(TimePoint now) {
+  look_at_arms();
   for (ArmId arm : all_arms(shown_.cell)) {
-    const ArmState state = state_of(arm);
-    const auto occupant = shown_.scheduler.occupant(arm);
-    const std::string job = occupant ? shown_.jobs.key(*occupant) : std::string();
-    if (state == told_arms_[arm.index()] && job == told_arm_jobs_[arm.index()]) continue;
-    told_arms_[arm.index()] = state;
-    told_arm_jobs_[arm.index()] = job;
-    tell(view_of_arm(arm), now);
+    const ArmStatus& status = arms_[arm.index()];
+    ArmStatus& told = told_arms_[arm.index()];
+    if (status.state == told.state && status.job == told.job) continue;
+    told = status;
+    tell(view_of_arm(arm, status), now);
   }
 }
 
@@ -67,19 +78,28 @@ void Publisher::tell_queue(TimePoint now) {
   if (!queue_is_old_) return;
   if (now < next_queue_) return tell_stopped(now);
   queue_is_old_ = false;
-  QueueView present = queue();
+  const QueueView& present = queue();
   const std::size_t jobs = shown_.jobs.active();
   next_queue_ = jobs < kShortQueue ? now : now + static_cast<Duration::rep>(jobs) * kForEachJob;
   if (present == told_queue_) return;
-  told_queue_ = present;
-  tell(std::move(present), now);
+  tell_queue(present, now);
 }
 
 // With the lists as they were told: to make those of thousands takes longer than all else of a
 // stop.
 void Publisher::tell_stopped(TimePoint now) {
   const bool stopped = all_stopped();
-  if (std::exchange(told_queue_.stopped, stopped) != stopped) tell(told_queue_, now);
+  if (std::exchange(told_queue_.stopped, stopped) != stopped) {
+    tell_queue(std::move(told_queue_), now);
+  }
+}
+
+// The lists of thousands are moved through the event, not copied once more.
+void Publisher::tell_queue(QueueView queue, TimePoint now) {
+  publish(now);
+  Event event{++seq_, now, std::move(queue)};
+  observer_.on_event(event);
+  told_queue_ = std::get<QueueView>(std::move(event.body));
 }
 
 bool Publisher::all_stopped() const {
@@ -112,27 +132,57 @@ JobView Publisher::view(JobId id) const {
   return view;
 }
 
-QueueView Publisher::queue() const {
-  QueueView view{.policy = std::string(shown_.scheduler.policy().name())};
+// ---- What is published ----
+
+void Publisher::note(JobView view) {
+  lists_.put(view);
+  board_->add_key(view.key, view.id);
+  const bool is_explained =
+      view.state != JobState::queued && !is_terminal(view.state) && !view.waits_on.empty();
+  is_explained ? (void)explained_.insert(view.id) : (void)explained_.erase(view.id);
+  jobs_.put(std::make_shared<const JobView>(std::move(view)));
+}
+
+void Publisher::publish_step(TimePoint now) {
+  const std::vector<JobId> explained(explained_.begin(), explained_.end());
+  for (JobId job : explained) note(view(job));
+  look_at_arms();
+  publish(now);
+}
+
+void Publisher::look_at_arms() {
+  for (ArmId arm : all_arms(shown_.cell)) arms_[arm.index()] = status_of(arm);
+}
+
+void Publisher::publish(TimePoint now) {
+  board_->publish({.seq = seq_,
+                   .time = now,
+                   .policy = shown_.scheduler.policy().name(),
+                   .stopped = all_stopped(),
+                   .jobs = jobs_.share(),
+                   .q = shown_.motions.measured(),
+                   .arms = arms_});
+}
+
+void Publisher::publish_scene() {
+  board_->publish_scene(
+      std::make_shared<const SceneView>(SceneView{shown_.scene.version(), shown_.scene.objects()}));
+}
+
+void Publisher::forget(JobId job, const std::string& key) {
+  board_->remove_key(key, job);
+  explained_.erase(job);
+  jobs_.erase(job);
+}
+
+const QueueView& Publisher::queue() {
+  QueueView& view = lists_.view();
+  view.policy = shown_.scheduler.policy().name();
   view.stopped = all_stopped();
-  for (JobId id : shown_.scheduler.active()) {
-    switch (shown_.scheduler.find(id)->state()) {
-      case JobState::queued:
-        view.queued.push_back(shown_.jobs.key(id));
-        break;
-      case JobState::backlogged:
-        view.backlog.push_back(shown_.jobs.key(id));
-        break;
-      case JobState::scheduled:
-        view.scheduled.push_back(shown_.jobs.key(id));
-        break;
-      default:
-        view.running.push_back(shown_.jobs.key(id));
-        break;
-    }
-  }
   return view;
 }
+
+// ---- Arms ----
 
 // Of a job that has not begun: it may not leave where it stands before that is on disk.
 bool Publisher::is_told_of_a_start(ArmId arm) const {
@@ -152,28 +202,26 @@ ArmState Publisher::state_of(ArmId arm) const {
   return job && phase == Phase::stopped ? ArmState::holding : ArmState::idle;
 }
 
-ArmView Publisher::view_of_arm(ArmId id) const {
-  const Arm& arm = shown_.cell.arm(id);
-  ArmView view{.name = arm.name,
-               .robot = shown_.cell.robots[arm.robot.index()].name,
-               .state = state_of(id),
-               .home = {arm.home.begin(), arm.home.end()},
-               .deviation_rad = shown_.motions.deviation(id)};
-  if (const auto job = shown_.scheduler.occupant(id)) {
-    view.job = shown_.jobs.key(*job);
-    const Job& j = *shown_.scheduler.find(*job);
-    view.progress = to_seconds(j.progress) / to_seconds(j.trajectory->duration());
+ArmStatus Publisher::status_of(ArmId arm) const {
+  ArmStatus status{.state = state_of(arm),
+                   .stopped = shown_.scheduler.stopped(arm),
+                   .deviation_rad = shown_.motions.deviation(arm)};
+  status.job = shown_.scheduler.occupant(arm);
+  if (status.job) {
+    const Job& job = *shown_.scheduler.find(*status.job);
+    status.progress = to_seconds(job.progress) / to_seconds(job.trajectory->duration());
   }
-  for (JointId joint : arm.joints) {
-    view.joints.push_back(shown_.cell.joint(joint).name);
-    view.q.push_back(shown_.motions.measured()[static_cast<Eigen::Index>(joint.index())]);
-  }
-  return view;
+  return status;
+}
+
+ArmView Publisher::view_of_arm(ArmId arm, const ArmStatus& status) const {
+  return view_of(status, arm, shown_.cell, shown_.motions.measured(),
+                 status.job ? shown_.jobs.key(*status.job) : std::string());
 }
 
 std::vector<ArmView> Publisher::arms() const {
   std::vector<ArmView> arms;
-  for (ArmId arm : all_arms(shown_.cell)) arms.push_back(view_of_arm(arm));
+  for (ArmId arm : all_arms(shown_.cell)) arms.push_back(view_of_arm(arm, status_of(arm)));
   return arms;
 }
 

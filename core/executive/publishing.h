@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -8,13 +10,17 @@
 #include "core/executive/authority_gate.h"
 #include "core/executive/executive.h"
 #include "core/executive/job_register.h"
+#include "core/executive/live_scene.h"
 #include "core/executive/motions.h"
+#include "core/executive/queue_lists.h"
 #include "core/executive/start_gate.h"
+#include "core/executive/status_board.h"
 #include "core/scheduler/scheduler.h"
 
 namespace armloom {
 
-// What clients are told as it changes, and what they see when they ask.
+// Tells clients what changes, and publishes what they see when they ask: on a board that other
+// threads read. The board holds what an event says before the event is told.
 class Publisher {
  public:
   // Whatever is shown; it outlives the publisher.
@@ -25,12 +31,15 @@ class Publisher {
     const AuthorityGate& gate;
     const JobRegister& jobs;
     const StartGate& starts;
+    const LiveScene& scene;
   };
   Publisher(const Shown& shown, Observer& observer);
 
   using Body =
       std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, GuardEvent, Alert>;
   void tell(Body body, TimePoint now);
+  // The scene has changed.
+  void tell_scene(TimePoint now);
   // With an alert where it failed.
   void tell_job(JobView view, TimePoint now);
   // What is otherwise than it was when told last:
@@ -47,27 +56,42 @@ class Publisher {
   // Each period of the monitor.
   void tell_state(const std::vector<Proximity>& near, TimePoint now);
 
+  // After each step of the scheduler: publishes what changed without an event, too.
+  void publish_step(TimePoint now);
+  // The job is not known any more: `key` was its key.
+  void forget(JobId job, const std::string& key);
+  [[nodiscard]] std::shared_ptr<const StatusBoard> board() const { return board_; }
+
   // Times of a former run are shown as they were.
   [[nodiscard]] JobView view(JobId job) const;
   [[nodiscard]] std::vector<ArmView> arms() const;
-  [[nodiscard]] QueueView queue() const;
-  // Of the last event.
-  [[nodiscard]] std::uint64_t seq() const { return seq_; }
 
  private:
+  void note(JobView view);
+  void look_at_arms();
+  void publish(TimePoint now);
+  void publish_scene();
+  [[nodiscard]] const QueueView& queue();
   void tell_stopped(TimePoint now);
+  void tell_queue(QueueView queue, TimePoint now);
   [[nodiscard]] bool all_stopped() const;
   [[nodiscard]] bool is_told_of_a_start(ArmId arm) const;
   [[nodiscard]] ArmState state_of(ArmId arm) const;
-  [[nodiscard]] ArmView view_of_arm(ArmId arm) const;
+  [[nodiscard]] ArmStatus status_of(ArmId arm) const;
+  [[nodiscard]] ArmView view_of_arm(ArmId arm, const ArmStatus& status) const;
   [[nodiscard]] std::vector<ArmAuthority> authorities() const;
 
   Shown shown_;
   Observer& observer_;
   std::uint64_t seq_ = 0;
   bool told_rest_ = false;
-  std::vector<ArmState> told_arms_;         // ArmId
-  std::vector<std::string> told_arm_jobs_;  // ArmId
+  std::shared_ptr<StatusBoard> board_ = std::make_shared<StatusBoard>();
+  JobLedger jobs_;
+  QueueLists lists_;
+  std::set<JobId> explained_;         // past the queue, and waiting: what they wait for may get
+                                      // other words though the job does not change
+  std::vector<ArmStatus> arms_;       // ArmId; as published
+  std::vector<ArmStatus> told_arms_;  // ArmId
   std::vector<ArmId> told_stops_;
   QueueView told_queue_;
   bool queue_is_old_ = false;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/executive/own_checker.h"
+#include "core/executive/status_board.h"
 #include "core/executive/worker.h"
 
 namespace armloom {
@@ -90,6 +91,7 @@ class RealTimeLoop::Impl final : public JudgementService {
 
   void run(std::unique_ptr<Executive> executive) {
     executive_ = std::move(executive);
+    board_ = executive_->board();
     loop_ = std::jthread([this](std::stop_token stop) { cycle(stop); });
   }
 
@@ -141,6 +143,7 @@ class RealTimeLoop::Impl final : public JudgementService {
                            return true;
                          }});
   }
+  const StatusBoard& board() const { return *board_; }
   double speed() const { return speed_; }
   void set_speed(double speed) { speed_ = speed; }
 
@@ -245,6 +248,7 @@ class RealTimeLoop::Impl final : public JudgementService {
   Commands commands_;
   Wall::time_point tells_late_from_{};
   std::unique_ptr<Executive> executive_;  // the loop thread's
+  std::shared_ptr<const StatusBoard> board_;
   std::jthread loop_;
 };
 
@@ -269,6 +273,7 @@ void RealTimeLoop::post_in_parts(Task task) { impl_->post(std::move(task)); }
 void RealTimeLoop::post_urgent(std::function<void(Executive&)> command) {
   impl_->post_urgent(std::move(command));
 }
+const StatusBoard& RealTimeLoop::board() const { return impl_->board(); }
 double RealTimeLoop::speed() const { return impl_->speed(); }
 void RealTimeLoop::set_speed(double speed) { impl_->set_speed(speed); }
 

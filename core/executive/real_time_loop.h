@@ -29,6 +29,8 @@ class RealTimeLoop {
   void post_in_parts(Task task);
   // Before all that waits, in the order posted: stops and what lets arms go on; what jobs wait for.
   void post_urgent(std::function<void(Executive&)> command);
+  // What clients see, without a word to the strand.
+  [[nodiscard]] const StatusBoard& board() const;
   [[nodiscard]] double speed() const;
   void set_speed(double speed);  // > 0; from the next control cycle on
 

@@ -6,14 +6,21 @@
 #include <vector>
 
 #include "core/executive/events.h"
-#include "core/executive/views.h"
-#include "core/scheduler/scheduler.h"
+#include "core/executive/status_board.h"
+#include "core/jobs/timeline.h"
 
 namespace armloom {
 
-// What clients see of a PredictedTimeline, lane by lane. A motion of several arms stands in the
-// lane of each. Times are cell time.
+// What is expected of the arms, as the strand knows it at one instant.
 struct TimelineView {
+  PredictedTimeline predicted;
+  std::uint64_t horizon_legs = 0;
+  Status status;  // of the same instant
+};
+
+// What clients see of it, lane by lane. A motion of several arms stands in the lane of each. Every
+// job that has not ended is a leg or waits, in the lanes of its `arms`. Times are cell time.
+struct TimelineLanes {
   struct Pause {
     TimePoint from;
     std::optional<TimePoint> to;
@@ -29,14 +36,14 @@ struct TimelineView {
   struct Lane {
     std::string arm;
     std::vector<Leg> legs;      // in the order in which they go
-    std::uint64_t waiting = 0;  // jobs of the arm that are not admitted
+    std::uint64_t waiting = 0;  // jobs of the arm that are no leg
   };
   TimePoint now;
   std::uint64_t horizon_legs = 0;
   std::vector<Lane> lanes;  // by ArmId
 };
 
-[[nodiscard]] TimelineView timeline_of(const Scheduler& scheduler, TimePoint now, const Cell& cell,
-                                       const JobNames& names);
+// On any thread.
+[[nodiscard]] TimelineLanes lanes_of(const TimelineView& timeline, const Cell& cell);
 
 }  // namespace armloom

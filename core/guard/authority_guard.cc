@@ -7,9 +7,7 @@
 namespace armloom {
 namespace {
 
-bool contains(const std::vector<ArmId>& arms, ArmId arm) {
-  return std::ranges::find(arms, arm) != arms.end();
-}
+using Why = GuardRefusal::Why;
 
 // A state on the edge of a rectangle is certified by the free state beside it; of two rectangles
 // side by side a stretch meets one of them inside. So only where an arm rests, or a rectangle has
@@ -19,24 +17,19 @@ bool overlap(Duration from, Duration to, Duration box_from, Duration box_to) {
   return box_from <= to && from <= box_to;
 }
 
-// The first rectangle that the product meets.
-template <class Interval>
-std::optional<ProgressBox> first_met(const std::vector<ProgressBox>& boxes, const Interval& a,
-                                     const Interval& b) {
-  const auto met = std::ranges::find_if(boxes, [&](const ProgressBox& box) {
-    return overlap(a.from, a.to, box.from_a, box.to_a) &&
-           overlap(b.from, b.to, box.from_b, box.to_b);
-  });
-  return met == boxes.end() ? std::nullopt : std::optional(*met);
-}
-
 template <class T>
-void keep_latest(std::vector<T>& all, T one, std::size_t most) {
+void keep_latest(std::vector<T>& all, const T& one, std::size_t most) {
   if (all.size() >= most) all.erase(all.begin());
-  all.push_back(std::move(one));
+  all.push_back(one);
 }
 
-ProgressBox turned(const ProgressBox& box) { return {box.from_b, box.to_b, box.from_a, box.to_a}; }
+PairCertificate turned(const PairCertificate& pair) {
+  PairCertificate result{pair.b, pair.a, {}, pair.geometry};
+  for (const ProgressBox& box : pair.blocked) {
+    result.blocked.push_back({box.from_b, box.to_b, box.from_a, box.to_a});
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -58,7 +51,8 @@ void AuthorityGuard::take(std::span<const Certificate> certificates) {
   ++taken_;
   for (const Certificate& certificate : certificates) {
     if (const auto* pair = std::get_if<PairCertificate>(&certificate)) {
-      take(*pair);
+      if (pair->a.motion) take(*pair);
+      if (pair->b.motion) take(turned(*pair));
     } else if (const auto* apart = std::get_if<ApartCertificate>(&certificate)) {
       apart_[std::minmax(apart->a, apart->b)] = apart->geometry;
     } else if (const auto* scene = std::get_if<SceneCertificate>(&certificate)) {
@@ -70,25 +64,18 @@ void AuthorityGuard::take(std::span<const Certificate> certificates) {
   drop_old();
 }
 
-// For each side that moves. Of the same two sides the first one stays, which orders were made by,
-// and the latest.
+// Of the same two sides the first one stays, which orders were made by, and the latest.
 void AuthorityGuard::take(const PairCertificate& pair) {
-  const auto taken = std::make_shared<const PairCertificate>(pair);
-  for (const auto& [own, other] : {std::pair(&pair.a, &pair.b), std::pair(&pair.b, &pair.a)}) {
-    if (!own->motion) continue;
-    for (const ArmId arm : other->arms) {
-      auto& all = known(own->motion).pairs[arm];
-      std::erase_if(all,
-                    [&](const PairPtr& old) { return !is_valid(old->a, &old->b, old->geometry); });
-      const auto is_same = [&](const PairPtr& old) {
-        const CertifiedSide& side = old->a.motion == own->motion ? old->b : old->a;
-        return side.motion == other->motion && side.still == other->still;
-      };
-      const auto first = std::ranges::find_if(all, is_same);
-      const auto second = first == all.end() ? first : std::find_if(first + 1, all.end(), is_same);
-      if (second != all.end()) all.erase(second);
-      keep_latest(all, taken, kPairsKept);
-    }
+  for (const ArmId arm : pair.b.arms) {
+    auto& all = known(pair.a.motion).pairs[arm];
+    std::erase_if(all, [&](const PairCertificate& old) { return !is_valid(old); });
+    const auto is_same = [&](const PairCertificate& old) {
+      return old.b.motion == pair.b.motion && old.b.still == pair.b.still;
+    };
+    const auto first = std::ranges::find_if(all, is_same);
+    const auto second = first == all.end() ? first : std::find_if(first + 1, all.end(), is_same);
+    if (second != all.end()) all.erase(second);
+    keep_latest(all, pair, kPairsKept);
   }
 }
 
@@ -103,21 +90,7 @@ void AuthorityGuard::forget(const TrajectoryPtr& motion) {
   const auto of = motions_.find(motion.get());
   if (of == motions_.end()) return;
   of->second.is_forgotten = true;
-  if (!is_on(motion.get())) drop(of);
-}
-
-void AuthorityGuard::drop(std::unordered_map<const Trajectory*, Known>::iterator known) {
-  const TrajectoryPtr motion = known->second.motion;
-  const auto pairs = std::move(known->second.pairs);
-  motions_.erase(known);
-  for (const auto& [arm, all] : pairs) {
-    for (const PairPtr& pair : all) {
-      const TrajectoryPtr& other = pair->a.motion == motion ? pair->b.motion : pair->a.motion;
-      const auto of = motions_.find(other.get());
-      if (of == motions_.end()) continue;
-      for (const ArmId own : motion->arms()) std::erase(of->second.pairs[own], pair);
-    }
-  }
+  if (!is_on(motion.get())) motions_.erase(of);
 }
 
 // Motions that were asked about and never started, as ways aside that were not taken.
@@ -129,7 +102,7 @@ void AuthorityGuard::drop_old() {
       if (oldest == motions_.end() || of->second.taken_at < oldest->second.taken_at) oldest = of;
     }
     if (oldest == motions_.end()) return;
-    drop(oldest);
+    motions_.erase(oldest);
   }
 }
 
@@ -153,20 +126,21 @@ void AuthorityGuard::rests(ArmId arm, Duration progress, const Configuration& me
     position.authority = position.measured;
   }
   position.at_rest = true;
-  for (const JointId joint : joints_[arm.index()]) {
-    const auto j = static_cast<Eigen::Index>(joint.index());
-    q_[j] = measured[j];
-  }
+  for (const JointId joint : joints_[arm.index()]) q_[joint.value()] = measured[joint.value()];
 }
 
 // ---- The gate ----
 
-bool AuthorityGuard::is_valid(const CertifiedSide& a, const CertifiedSide* b,
-                              Fingerprint geometry) const {
-  std::vector<ArmId> arms = a.arms;
-  if (b != nullptr) arms.insert(arms.end(), b->arms.begin(), b->arms.end());
-  std::ranges::sort(arms);
-  return present_.of(arms) == geometry;
+bool AuthorityGuard::is_valid(const PairCertificate& pair) const {
+  std::vector<ArmId> arms;
+  std::ranges::merge(pair.a.arms, pair.b.arms, std::back_inserter(arms));
+  return present_.of(arms) == pair.geometry;
+}
+
+bool AuthorityGuard::are_apart(ArmId a, ArmId b) const {
+  const std::pair pair = std::minmax(a, b);
+  const auto apart = apart_.find(pair);
+  return apart != apart_.end() && apart->second == present_.of({pair.first, pair.second});
 }
 
 // How far the arm's joints, as last seen at rest, are from the motion there. rad, m.
@@ -177,8 +151,7 @@ double AuthorityGuard::off(const Trajectory& motion, ArmId arm, Duration progres
   for (std::size_t row = 0; row < motion.joints().size(); ++row) {
     const JointId joint = motion.joints()[row];
     if (arm_of_[joint.index()] != arm) continue;
-    largest = std::max(largest, std::abs(q_[static_cast<Eigen::Index>(joint.index())] -
-                                         at[static_cast<Eigen::Index>(row)]));
+    largest = std::max(largest, std::abs(q_[joint.value()] - at[static_cast<Eigen::Index>(row)]));
   }
   return largest;
 }
@@ -199,7 +172,7 @@ std::optional<AuthorityGuard::Interval> AuthorityGuard::covers(const CertifiedSi
   const bool is_still = std::ranges::all_of(side.still, [&](const auto& joint) {
     const auto& [id, at] = joint;
     if (arm_of_[id.index()] && arm_of_[id.index()] != arm) return true;  // of a sibling
-    return std::abs(q_[static_cast<Eigen::Index>(id.index())] - at) <= side.error;
+    return std::abs(q_[id.value()] - at) <= side.error;
   });
   if (!is_still) return std::nullopt;
   if (!side.motion) return position.at_rest ? std::optional(Interval{}) : std::nullopt;
@@ -216,78 +189,71 @@ std::optional<AuthorityGuard::Interval> AuthorityGuard::covers(const CertifiedSi
 
 bool AuthorityGuard::sees_scene(const Known& known, ArmId arm, const ArmPosition& own) const {
   return std::ranges::any_of(known.scene, [&](const SceneCertificate& scene) {
-    return is_valid(scene.side, nullptr, scene.geometry) && covers(scene.side, arm, own) &&
+    return present_.of(scene.side.arms) == scene.geometry && covers(scene.side, arm, own) &&
            std::ranges::includes(scene.objects, present_.objects);
   });
 }
 
-AuthorityGuard::Answer AuthorityGuard::between(const Known& known, ArmId arm,
-                                               const ArmPosition& own, ArmId other) const {
-  Answer answer;
+// The refusal of the last certificate that covers both, if none of them says that they are free.
+std::optional<GuardRefusal> AuthorityGuard::between(const Known& known, ArmId arm,
+                                                    const ArmPosition& own, ArmId other) const {
+  GuardRefusal refusal{Why::uncertified, arm, other, {own.measured, own.authority}};
   const auto all = known.pairs.find(other);
-  if (all == known.pairs.end()) return answer;
-  for (const PairPtr& pair : all->second) {
-    const bool is_a = pair->a.motion == known.motion;
-    const CertifiedSide& side = is_a ? pair->a : pair->b;
-    const CertifiedSide& other_side = is_a ? pair->b : pair->a;
-    if (!is_valid(pair->a, &pair->b, pair->geometry)) continue;
-    const auto at = covers(side, arm, own);
-    const auto other_at = covers(other_side, other, positions_[other.index()]);
+  if (all == known.pairs.end()) return refusal;
+  for (const PairCertificate& pair : all->second) {
+    if (!is_valid(pair)) continue;
+    const auto at = covers(pair.a, arm, own);
+    const auto other_at = covers(pair.b, other, positions_[other.index()]);
     if (!at || !other_at) continue;
-    const auto met =
-        is_a ? first_met(pair->blocked, *at, *other_at) : first_met(pair->blocked, *other_at, *at);
-    answer.covered = true;
-    answer.other = *other_at;
-    if (!met) return {.covered = true, .free = true, .other = *other_at};
-    answer.met = is_a ? *met : turned(*met);
+    const auto met = std::ranges::find_if(pair.blocked, [&](const ProgressBox& box) {
+      return overlap(at->from, at->to, box.from_a, box.to_a) &&
+             overlap(other_at->from, other_at->to, box.from_b, box.to_b);
+    });
+    if (met == pair.blocked.end()) return std::nullopt;
+    refusal = {Why::region, arm, other, {at->from, at->to, other_at->from, other_at->to}, *met};
   }
-  return answer;
+  return refusal;
+}
+
+// Whether the arms of one motion may be as far apart on it as they are.
+std::optional<GuardRefusal> AuthorityGuard::together(const Known& known, Duration last,
+                                                     Duration first) const {
+  const auto& proof = known.together;
+  const bool holds =
+      proof && proof->side.from <= last && present_.of(proof->side.arms) == proof->geometry;
+  if (holds && first - last <= proof->apart) return std::nullopt;
+  return GuardRefusal{holds ? Why::out_of_step : Why::uncertified,
+                      known.motion->arms().front(),
+                      {},
+                      {last, first, last, first},
+                      {}};
 }
 
 std::optional<GuardRefusal> AuthorityGuard::refuses(const TrajectoryPtr& motion, Duration from,
                                                     Duration authority) const {
-  using Why = GuardRefusal::Why;
   const auto& arms = motion->arms();
   const auto of = motions_.find(motion.get());
   Duration last = motion->duration(), first{};
   for (const ArmId arm : arms) {
     const ArmPosition own = as_granted(motion, arm, from, authority);
-    const auto refusal = [&](Why why, std::optional<ArmId> other = {}, const Answer& answer = {}) {
-      return GuardRefusal{why,
-                          arm,
-                          other,
-                          {own.measured, own.authority, answer.other.from, answer.other.to},
-                          answer.met};
-    };
     const ArmPosition& now = positions_[arm.index()];
-    if (now.motion != motion && !now.at_rest) return refusal(Why::busy);
-    if (of == motions_.end() || !sees_scene(of->second, arm, own)) return refusal(Why::uncertified);
+    const bool is_busy = now.motion != motion && !now.at_rest;
+    if (is_busy || of == motions_.end() || !sees_scene(of->second, arm, own)) {
+      return GuardRefusal{is_busy ? Why::busy : Why::uncertified,
+                          arm,
+                          {},
+                          {own.measured, own.authority, {}, {}},
+                          {}};
+    }
     for (std::uint32_t a = 0; a < positions_.size(); ++a) {
       const ArmId other{a};
-      if (contains(arms, other)) continue;
-      const auto apart = apart_.find(std::minmax(arm, other));
-      if (apart != apart_.end() &&
-          apart->second == present_.of({std::min(arm, other), std::max(arm, other)})) {
-        continue;
-      }
-      const Answer answer = between(of->second, arm, own, other);
-      if (!answer.free) {
-        return refusal(answer.covered ? Why::region : Why::uncertified, other, answer);
-      }
+      if (std::ranges::count(arms, other) > 0 || are_apart(arm, other)) continue;
+      if (auto refusal = between(of->second, arm, own, other)) return refusal;
     }
     last = std::min(last, own.measured);
     first = std::max(first, own.measured);
   }
-  if (arms.size() == 1) return std::nullopt;
-  const auto& together = of->second.together;
-  const bool holds = together && together->side.from <= last &&
-                     is_valid(together->side, nullptr, together->geometry);
-  const GuardRefusal apart{holds ? Why::out_of_step : Why::uncertified,
-                           arms.front(),
-                           std::nullopt,
-                           {last, authority, first, authority},
-                           std::nullopt};
-  return holds && first - last <= together->apart ? std::nullopt : std::optional(apart);
+  return arms.size() > 1 ? together(of->second, last, first) : std::nullopt;
 }
 
 std::optional<GuardRefusal> AuthorityGuard::grant(const TrajectoryPtr& motion, Duration from,
@@ -302,8 +268,8 @@ void AuthorityGuard::hold(const TrajectoryPtr& motion, Duration from, Duration a
     const TrajectoryPtr before = positions_[arm.index()].motion;
     positions_[arm.index()] = as_granted(motion, arm, from, authority);
     const auto of = motions_.find(before.get());
-    const bool is_left = of != motions_.end() && of->second.is_forgotten && !is_on(before.get());
-    if (is_left) drop(of);
+    const bool is_known = of != motions_.end();
+    if (is_known && of->second.is_forgotten && !is_on(before.get())) motions_.erase(of);
   }
 }
 

@@ -131,10 +131,12 @@ PredictedTimeline predicted_timeline(const State& state, TimePoint now) {
   for (std::size_t m = 0; m < state.graph.motions().size(); ++m) {
     timeline.legs.push_back(timetable.leg(m));
   }
-  for (const auto& queue : state.jobs.queues()) {
-    const auto waits =
-        std::ranges::count_if(queue, [&](JobId job) { return !state.graph.holds(job); });
-    timeline.waiting.push_back(static_cast<std::size_t>(waits));
+  // Whatever is admitted stands in the queues of its arms.
+  for (const auto& queue : state.jobs.queues()) timeline.waiting.push_back(queue.size());
+  for (const CoordinatedMotion& motion : state.graph.motions()) {
+    for (ArmId arm : state.jobs.at(motion.job).job.trajectory->arms()) {
+      --timeline.waiting[arm.index()];
+    }
   }
   return timeline;
 }

@@ -75,6 +75,8 @@ class Scheduler {
 
   [[nodiscard]] const Job* find(JobId job) const;   // null: unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
+  // Returns true if a job that has not ended moves the arm, or will.
+  [[nodiscard]] bool has_job(ArmId arm) const { return !state_.jobs.queues()[arm].empty(); }
   [[nodiscard]] bool stopped(ArmId arm) const { return state_.arms.is_stopped(arm); }
   // Nothing: it is not stopped.
   [[nodiscard]] const std::optional<std::string>& stop_cause(ArmId arm) const {

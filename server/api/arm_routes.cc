@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/executive/status_board.h"
 #include "server/api/route.h"
 #include "server/messages/arm.h"
 
@@ -10,11 +11,8 @@ namespace {
 using Arms = std::vector<ArmId>;
 
 void list_arms(Call call) {
-  ask(
-      call.parts, [](Executive& executive) { return executive.arms(); },
-      [respond = call.respond](const std::vector<ArmView>& arms) {
-        respond(answer(200, arm_list_format(), arms));
-      });
+  const auto arms = arms_of(call.parts.loop.board().read(), *call.parts.cell);
+  call.respond(answer(200, arm_list_format(), arms));
 }
 
 // The arm that the path names; nothing: it is answered that there is none.
@@ -41,9 +39,8 @@ void with_arm(Call& call, Change change) {
 void get_arm(Call call) {
   const auto arm = named_arm(call);
   if (!arm) return;
-  ask(
-      call.parts, [arm = *arm](Executive& executive) { return executive.arms()[arm.index()]; },
-      [respond = call.respond](const ArmView& view) { respond(answer(200, arm_format(), view)); });
+  const auto arms = arms_of(call.parts.loop.board().read(), *call.parts.cell);
+  call.respond(answer(200, arm_format(), arms[arm->index()]));
 }
 void stop_arm(Call call) {
   with_arm(call, [](Executive& executive, const Arms& arms) { executive.stop(arms, "operator"); });

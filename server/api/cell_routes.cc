@@ -1,4 +1,5 @@
 #include "core/executive/active_policy.h"
+#include "core/executive/status_board.h"
 #include "server/api/route.h"
 #include "server/messages/cell.h"
 #include "server/messages/mesh_address.h"
@@ -7,12 +8,9 @@ namespace armloom {
 namespace {
 
 void get_cell(Call call) {
-  ask(
-      call.parts, [](Executive& executive) { return executive.policy().name(); },
-      [&parts = call.parts, respond = call.respond](const std::string& policy) {
-        const CellView cell = view_of(*parts.cell, policy, parts.loop.speed());
-        respond(answer(200, cell_view_format(), cell));
-      });
+  const ApiParts& parts = call.parts;
+  const CellView cell = view_of(*parts.cell, parts.loop.board().read().policy, parts.loop.speed());
+  call.respond(answer(200, cell_view_format(), cell));
 }
 
 void put_policy(Call call) {

@@ -1,8 +1,9 @@
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <utility>
 
+#include "core/executive/status_board.h"
+#include "server/api/listings.h"
 #include "server/api/query_format.h"
 #include "server/api/route.h"
 #include "server/messages/events.h"
@@ -55,19 +56,52 @@ StreamQuery place_of(const Request& request, StreamQuery asked) {
   return asked;
 }
 
-// All who wait begin with this snapshot, which is written once.
-void welcome(const ApiParts& parts, const Snapshot& snapshot) {
-  std::array<Hub::Text, 2> texts;  // without and with a gap
-  for (const ApiParts::Newcomer& newcomer : std::exchange(*parts.newcomers, {})) {
-    Hub::Text& text = texts[newcomer.gap ? 1 : 0];
-    if (!text) {
-      text = std::make_shared<const std::string>(
-          snapshot_json({&snapshot, parts.cell.get(), parts.loop.speed(), newcomer.gap},
-                        parts.stream, parts.clock));
-    }
-    if (SubscriptionPtr subscription = parts.hub.resume(snapshot.seq, text))
+std::string snapshot_text(const ApiParts& parts, const Status& status, const WallClock& clock,
+                          bool gap, JobTexts& texts) {
+  const std::vector<ListedJob> jobs = texts.of(status.jobs_with_ended(kSnapshotEnded), clock);
+  const Snapshot snapshot{.seq = status.seq,
+                          .time = status.time,
+                          .queue = queue_of(status),
+                          .scene = *status.scene,
+                          .arms = arms_of(status, *parts.cell)};
+  return snapshot_json({&snapshot, &jobs, parts.cell.get(), parts.loop.speed(), gap}, parts.stream,
+                       clock);
+}
+
+void write_snapshot(const ApiParts& parts);
+
+// Every event up to `seq` was posted to this thread before the text: what follows `seq` in the hub
+// is what the snapshot lacks. Readers for whom the hub does not reach back so far wait again.
+void welcome(const ApiParts& parts, const std::vector<ApiParts::Newcomer>& newcomers,
+             std::uint64_t seq, const Hub::Text& text) {
+  for (const ApiParts::Newcomer& newcomer : newcomers) {
+    if (SubscriptionPtr subscription = parts.hub.resume(seq, text)) {
       newcomer.then(std::move(subscription));
+    } else {
+      parts.newcomers->waiting.push_back(newcomer);
+    }
   }
+  parts.newcomers->is_one_written = false;
+  if (!parts.newcomers->waiting.empty()) write_snapshot(parts);
+}
+
+// One snapshot for all that wait as the first does: with a gap, or without.
+void write_snapshot(const ApiParts& parts) {
+  parts.newcomers->is_one_written = true;
+  std::vector<ApiParts::Newcomer>& waiting = parts.newcomers->waiting;
+  const bool gap = waiting.front().gap;
+  const auto others = std::stable_partition(waiting.begin(), waiting.end(),
+                                            [gap](const auto& one) { return one.gap == gap; });
+  std::vector<ApiParts::Newcomer> newcomers(waiting.begin(), others);
+  waiting.erase(waiting.begin(), others);
+  const auto status = std::make_shared<const Status>(parts.loop.board().read());
+  parts.listings.write(
+      [&parts, status, gap, clock = parts.clock](JobTexts& texts) {
+        return snapshot_text(parts, *status, clock, gap, texts);
+      },
+      [&parts, newcomers = std::move(newcomers), seq = status->seq](std::string text) {
+        welcome(parts, newcomers, seq, std::make_shared<const std::string>(std::move(text)));
+      });
 }
 
 // Calls then(subscription). It resumes where the reader was; otherwise, and when those events are
@@ -85,13 +119,8 @@ void subscribe(const ApiParts& parts, const StreamQuery& place,
         return then(std::move(subscription));
     }
   }
-  parts.newcomers->push_back({place.since.has_value(), std::move(then)});
-  if (parts.newcomers->size() > 1) return;
-  // Every event up to the snapshot's seq was posted to this thread before the snapshot, and every
-  // later one comes after it: what follows seq in the hub is exactly what the snapshot lacks.
-  ask(
-      parts, [](Executive& executive) { return executive.snapshot(kSnapshotEnded); },
-      [&parts](const Snapshot& snapshot) { welcome(parts, snapshot); });
+  parts.newcomers->waiting.push_back({place.since.has_value(), std::move(then)});
+  if (!parts.newcomers->is_one_written) write_snapshot(parts);
 }
 
 void stream(Call& call, int status, bool frames, StreamQuery asked) {

@@ -28,16 +28,21 @@ Result<JobFilter> read_job_filter(const Target& target, const Cell& cell) {
                          "the cell has no arm \"" + filter->arm + "\"", filter->arm});
 }
 
-JobPage select(std::vector<JobView> jobs, std::vector<StoredJob> stored, const JobFilter& filter) {
+JobPage select(const Status& status, std::vector<StoredJob> stored, const JobFilter& filter,
+               const WallClock& clock, JobTexts& texts) {
+  const auto is_wanted = [&](const JobView& job) {
+    if (filter.before && job.id.value() >= *filter.before) return false;
+    if (filter.state && *filter.state != job.state) return false;
+    return filter.arm.empty() || std::ranges::find(job.arms, filter.arm) != job.arms.end();
+  };
   std::map<std::uint64_t, ListedJob, std::greater<>> found;
-  for (JobView& job : jobs) {
-    const std::uint64_t number = job.id.value();
-    if (filter.before && number >= *filter.before) continue;
-    if (filter.state && *filter.state != job.state) continue;
-    if (!filter.arm.empty() && std::ranges::find(job.arms, filter.arm) == job.arms.end()) continue;
-    found.emplace(number, std::move(job));
+  status.jobs.newest_first([&](const JobSheet::JobPtr& job) {
+    if (is_wanted(*job)) found.emplace(job->id.value(), texts.of(status.with_progress(job), clock));
+    return found.size() <= filter.limit;
+  });
+  for (StoredJob& job : stored) {
+    found.emplace(job.number, std::make_shared<const std::string>(std::move(job.view)));
   }
-  for (StoredJob& job : stored) found.emplace(job.number, std::move(job.view));
   JobPage page;
   for (auto& [number, job] : found) {
     if (page.jobs.size() == filter.limit) {

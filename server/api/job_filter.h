@@ -7,7 +7,9 @@
 
 #include "core/base/problem.h"
 #include "core/executive/events.h"
+#include "core/executive/status_board.h"
 #include "core/model/cell.h"
+#include "server/api/listings.h"
 #include "server/api/query_format.h"
 #include "server/messages/job.h"
 #include "server/store/stored_job.h"
@@ -26,9 +28,9 @@ struct JobFilter {
 // Problems (invalid), besides those of the query itself: an arm that the cell has not.
 [[nodiscard]] Result<JobFilter> read_job_filter(const Target& target, const Cell& cell);
 
-// Of jobs as the executive has them, and older ones as they are stored: the latter newest first,
-// within the filter, and none of the former.
-[[nodiscard]] JobPage select(std::vector<JobView> jobs, std::vector<StoredJob> stored,
-                             const JobFilter& filter);
+// Returns a page of the jobs that the executive knows and of older ones as they are stored: the
+// latter newest first, within the filter, and none of the former.
+[[nodiscard]] JobPage select(const Status& status, std::vector<StoredJob> stored,
+                             const JobFilter& filter, const WallClock& clock, JobTexts& texts);
 
 }  // namespace armloom

@@ -1,11 +1,12 @@
-#include <algorithm>
 #include <memory>
-#include <set>
-#include <unordered_map>
 #include <utility>
 
+#include "core/executive/queue_lists.h"
+#include "core/executive/status_board.h"
+#include "core/executive/timeline.h"
 #include "server/api/job_answers.h"
 #include "server/api/job_filter.h"
+#include "server/api/listings.h"
 #include "server/api/query_format.h"
 #include "server/api/route.h"
 #include "server/codec/scalar_formats.h"
@@ -16,17 +17,15 @@
 namespace armloom {
 namespace {
 
-// Of those that only the store has, one more than a page holds.
+// Returns the jobs that only the store has, one more than a page holds.
 Result<std::vector<StoredJob>> stored_jobs(const JobHistory& history, const JobFilter& filter,
-                                           const std::vector<JobView>& known) {
-  std::set<std::uint64_t> numbers;
-  for (const JobView& job : known) numbers.insert(job.id.value());
+                                           const JobSheet& known) {
   std::vector<StoredJob> jobs;
   const HistoryFilter wanted{.state = filter.state ? to_string(*filter.state) : "",
                              .arm = filter.arm,
                              .before = filter.before};
   const auto read = history.newest_first(wanted, [&](StoredJob job) {
-    if (!numbers.contains(job.number)) jobs.push_back(std::move(job));
+    if (known.find(JobId{job.number}) == nullptr) jobs.push_back(std::move(job));
     return jobs.size() <= filter.limit;
   });
   if (!read) return failure(read.error());
@@ -37,36 +36,34 @@ void list_jobs(Call call) {
   const ApiParts& parts = call.parts;
   const auto filter = read_job_filter(call.request.target, *parts.cell);
   if (!filter) return call.respond(problem_response(filter.error()));
-  const auto tell = [&parts, respond = call.respond, filter = *filter](
-                        std::vector<JobView> jobs, Result<std::vector<StoredJob>> stored) {
+  const auto status = std::make_shared<const Status>(parts.loop.board().read());
+  const auto tell = [&parts, status, respond = call.respond,
+                     filter = *filter](Result<std::vector<StoredJob>> stored) {
     if (!stored) return respond(problem_response(stored.error()));
-    const JobPage page = select(std::move(jobs), std::move(*stored), filter);
-    respond(answer(200, job_page_format(), page, &parts.clock));
+    const auto write = [status, filter, clock = parts.clock,
+                        stored = std::move(*stored)](JobTexts& texts) {
+      return text_of(*job_page_format(), select(*status, stored, filter, clock, texts), &clock);
+    };
+    parts.listings.write(
+        write, [respond](std::string text) { respond(json_response(200, std::move(text))); });
   };
-  ask(
-      parts, [](Executive& executive) { return executive.snapshot(); },
-      [&parts, tell, filter = *filter](Snapshot& snapshot) {
-        if (parts.keeper == nullptr) return tell(std::move(snapshot.jobs), {});
-        const auto jobs = std::make_shared<std::vector<JobView>>(std::move(snapshot.jobs));
-        parts.aside([&parts, tell, filter, jobs] {
-          const auto stored = std::make_shared<Result<std::vector<StoredJob>>>(
-              stored_jobs(parts.keeper->lists(), filter, *jobs));
-          parts.post([tell, jobs, stored] { tell(std::move(*jobs), std::move(*stored)); });
-        });
-      });
+  if (parts.keeper == nullptr) return tell({});
+  parts.aside([&parts, tell, status, filter = *filter] {
+    const auto stored = std::make_shared<Result<std::vector<StoredJob>>>(
+        stored_jobs(parts.keeper->lists(), filter, status->jobs));
+    parts.post([tell, stored] { tell(std::move(*stored)); });
+  });
 }
 
 void get_job(Call call) {
   const ApiParts& parts = call.parts;
   const std::string& key = call.arguments.front();
-  ask(
-      parts, [key](Executive& executive) { return executive.job(key); },
-      [&parts, respond = call.respond, key](const std::optional<JobView>& job) {
-        if (job) return respond(job_answer(200, *job, parts.clock));
-        const auto stored = stored_job(parts, key);
-        if (!stored) return respond(problem_response(stored.error()));
-        respond(*stored ? job_answer(**stored) : no_such("job", key));
-      });
+  if (const auto job = parts.loop.board().job(key)) {
+    return call.respond(job_answer(200, *job, parts.clock));
+  }
+  const auto stored = stored_job(parts, key);
+  if (!stored) return call.respond(problem_response(stored.error()));
+  call.respond(*stored ? job_answer(**stored) : no_such("job", key));
 }
 
 // What becomes of a command to one job that has not ended: `command(executive, key)`.
@@ -135,40 +132,44 @@ void get_diagram(Call call) {
   });
 }
 
-using ByKey = std::unordered_map<std::string, const JobView*>;
-
-std::vector<JobView> with_keys(const ByKey& jobs, const std::vector<std::string>& keys) {
-  std::vector<JobView> found;
-  for (const std::string& key : keys) {
-    if (const auto job = jobs.find(key); job != jobs.end()) found.push_back(*job->second);
-  }
-  return found;
+std::string queue_text(const Status& status, const WallClock& clock, JobTexts& texts) {
+  QueueJobs queue{status.policy, status.stopped, {}, {}, {}, {}};
+  const auto list_of = [&](JobState state) -> std::vector<ListedJob>* {
+    const auto list = queue_list_of(state);
+    if (list == &QueueView::queued) return &queue.queued;
+    if (list == &QueueView::backlog) return &queue.backlog;
+    if (list == &QueueView::scheduled) return &queue.scheduled;
+    return list == nullptr ? nullptr : &queue.running;
+  };
+  status.jobs.each([&](const JobSheet::JobPtr& job) {
+    if (auto* list = list_of(job->state)) {
+      list->push_back(texts.of(status.with_progress(job), clock));
+    }
+  });
+  return text_of(*queue_format(), queue, &clock);
 }
 
 void get_queue(Call call) {
   const ApiParts& parts = call.parts;
-  ask(
-      parts, [](Executive& executive) { return executive.snapshot(0); },
-      [&parts, respond = call.respond](const Snapshot& snapshot) {
-        const QueueView& ids = snapshot.queue;
-        ByKey jobs;
-        for (const JobView& job : snapshot.jobs) jobs.emplace(job.key, &job);
-        const QueueJobs queue{ids.policy,
-                              ids.stopped,
-                              with_keys(jobs, ids.queued),
-                              with_keys(jobs, ids.backlog),
-                              with_keys(jobs, ids.scheduled),
-                              with_keys(jobs, ids.running)};
-        respond(answer(200, queue_format(), queue, &parts.clock));
-      });
+  parts.listings.write(
+      [status = parts.loop.board().read(), clock = parts.clock](JobTexts& texts) {
+        return queue_text(status, clock, texts);
+      },
+      [respond = call.respond](std::string text) { respond(json_response(200, std::move(text))); });
 }
 
 void get_timeline(Call call) {
+  const ApiParts& parts = call.parts;
+  // Of the strand only what is admitted is asked, which are few jobs.
+  const auto write = [&parts, respond = call.respond](const TimelineView& timeline) {
+    parts.listings.write(
+        [cell = parts.cell, timeline](JobTexts&) {
+          return text_of(*timeline_format(), lanes_of(timeline, *cell));
+        },
+        [respond](std::string text) { respond(json_response(200, std::move(text))); });
+  };
   ask(
-      call.parts, [](Executive& executive) { return executive.timeline(); },
-      [respond = call.respond](const TimelineView& timeline) {
-        respond(answer(200, timeline_format(), timeline));
-      });
+      parts, [](Executive& executive) { return executive.timeline(); }, write);
 }
 
 Route of_one(const char* method, const char* path, const char* id, const char* summary) {

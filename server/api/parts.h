@@ -29,10 +29,11 @@ namespace armloom {
 
 class Comparison;
 class Control;
+class Listings;
 
 // What the verbs of one run of the server work with; everything in it outlives them. The verbs run
-// on the server's thread; what concerns the executive is posted to its strand and answered when it
-// has come back, so that nothing there waits.
+// on the server's thread. A command to the executive is posted to its strand and answered when it
+// has come back, so that nothing there waits. What clients read comes from the loop's board.
 struct ApiParts {
   CellPtr cell;
   std::string stream;
@@ -48,20 +49,25 @@ struct ApiParts {
   Guard& guard;
   // To a thread for what takes long and needs nothing of this.
   std::function<void(std::function<void()>)> aside;
+  Listings& listings;
   Metrics& metrics;
   ClientLimits& limits;
   Comparison& comparison;
   Control& control;
   std::optional<std::filesystem::path> data;  // where recordings lie; absent: nowhere
   std::chrono::milliseconds hold_lease;       // a move by hand goes on for so long without word
-  // Readers of events that wait for a snapshot: who comes while one is on its way shares it.
+  // Readers of events that wait for a snapshot: all that wait when it is begun share it.
   struct Newcomer {
     bool gap;
     std::function<void(SubscriptionPtr)> then;
   };
   std::shared_ptr<AcceptedRequests> accepted = std::make_shared<AcceptedRequests>();
   std::shared_ptr<JobsAtHand> at_hand = std::make_shared<JobsAtHand>();
-  std::shared_ptr<std::vector<Newcomer>> newcomers = std::make_shared<std::vector<Newcomer>>();
+  struct Newcomers {
+    std::vector<Newcomer> waiting = {};
+    bool is_one_written = false;  // a snapshot for those that came before
+  };
+  std::shared_ptr<Newcomers> newcomers = std::make_shared<Newcomers>();
 };
 
 // Runs ask(executive) on the strand, then then(its answer) on the server's thread.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/executive/status_board.h"
+
 namespace armloom {
 namespace {
 
@@ -82,7 +84,7 @@ Result<ListedJob> stored_or_forgotten(const ApiParts& parts, const std::string& 
   auto stored = parts.keeper->history().find(id);
   if (!stored) return failure(stored.error());
   if (!*stored) return failure(forgotten(id));
-  return ListedJob(std::move((*stored)->view));
+  return ListedJob(std::make_shared<const std::string>(std::move((*stored)->view)));
 }
 
 }  // namespace
@@ -185,21 +187,13 @@ void look_at(const ApiParts& parts, const KnownJobs& ids,
   KnownJobs asked = ids;
   std::erase(asked, "");
   if (asked.empty()) return then({});
-  ask(
-      parts,
-      [asked](Executive& executive) {
-        std::vector<std::optional<JobView>> jobs;
-        for (const std::string& id : asked) jobs.push_back(executive.job(id));
-        return jobs;
-      },
-      [&parts, asked, then = std::move(then)](std::vector<std::optional<JobView>>& jobs) {
-        std::vector<Result<ListedJob>> found;
-        for (std::size_t i = 0; i < jobs.size(); ++i) {
-          found.push_back(jobs[i] ? Result<ListedJob>(ListedJob(std::move(*jobs[i])))
-                                  : stored_or_forgotten(parts, asked[i]));
-        }
-        then(std::move(found));
-      });
+  const auto jobs = parts.loop.board().jobs(asked);
+  std::vector<Result<ListedJob>> found;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    found.push_back(jobs[i] ? Result<ListedJob>(ListedJob(*jobs[i]))
+                            : stored_or_forgotten(parts, asked[i]));
+  }
+  then(std::move(found));
 }
 
 }  // namespace armloom

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/executive/status_board.h"
 #include "server/api/route.h"
 #include "server/messages/scene.h"
 
@@ -35,14 +36,7 @@ Result<Changed> put(Executive& executive, const CollisionObject& object) {
 }
 
 void get_scene(Call call) {
-  ask(
-      call.parts,
-      [](Executive& executive) {
-        return SceneView{executive.scene().version(), executive.scene().objects()};
-      },
-      [respond = call.respond](const SceneView& scene) {
-        respond(answer(200, scene_format(), scene));
-      });
+  call.respond(answer(200, scene_format(), *call.parts.loop.board().read().scene));
 }
 
 // Who commands may rely on it, whatever happens to the server. `text`: as it was asked for; none:

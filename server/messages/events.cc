@@ -102,7 +102,7 @@ FormatPtr<SnapshotView> snapshot_format() {
           told(
               "arms", [](const View& view) { return &view.snapshot->arms; }, list(arm_format())),
           told(
-              "jobs", [](const View& view) { return &view.snapshot->jobs; }, list(job_format()),
+              "jobs", [](const View& view) { return view.jobs; }, list(listed_job_format()),
               "All that have not ended, and the 200 that ended last"),
           told(
               "queue", [](const View& view) { return &view.snapshot->queue; }, queue_ids_format()),

@@ -10,6 +10,7 @@
 #include "core/model/cell.h"
 #include "server/codec/format.h"
 #include "server/codec/wall_clock.h"
+#include "server/messages/job.h"
 
 namespace armloom {
 
@@ -22,7 +23,8 @@ namespace armloom {
 
 // The envelope that a new subscriber gets first.
 struct SnapshotView {
-  const Snapshot* snapshot;
+  const Snapshot* snapshot;  // but for its jobs
+  const std::vector<ListedJob>* jobs;
   const Cell* cell;
   double speed;
   bool gap;  // events were lost since the subscriber was here last

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -20,8 +21,10 @@ namespace armloom {
 // Which jobs are in which list, by their ids.
 [[nodiscard]] FormatPtr<QueueView> queue_ids_format();
 
-// As the executive has it; or as it was told last, JSON already, where only the store has it.
-using ListedJob = std::variant<JobView, std::string>;
+// As the executive has it, or JSON already: as it was written for another list before, or as it was
+// told last if only the store has it.
+using JobText = std::shared_ptr<const std::string>;
+using ListedJob = std::variant<JobView, JobText>;
 [[nodiscard]] FormatPtr<ListedJob> listed_job_format();
 // The answer to GET /jobs.
 struct JobPage {
@@ -34,7 +37,7 @@ struct JobPage {
 struct QueueJobs {
   std::string policy;
   bool stopped;
-  std::vector<JobView> queued, backlog, scheduled, running;
+  std::vector<ListedJob> queued, backlog, scheduled, running;
 };
 [[nodiscard]] FormatPtr<QueueJobs> queue_format();
 

@@ -18,8 +18,8 @@ class ListedJobFormat final : public Format<ListedJob> {
  public:
   void read(const JsonNode&, ListedJob&) const override {}
   void write(JsonWriter& out, const ListedJob& job) const override {
-    if (const auto* text = std::get_if<std::string>(&job)) {
-      out.raw(*text);
+    if (const auto* text = std::get_if<JobText>(&job)) {
+      out.raw(**text);
     } else {
       job_format()->write(out, std::get<JobView>(job));
     }
@@ -69,9 +69,9 @@ FormatPtr<std::vector<T>> listed(const char* name, const char* key, FormatPtr<T>
 PartPtr<QueueView> ids(const char* key, std::vector<std::string> QueueView::*where) {
   return told(key, where, list(text()));
 }
-PartPtr<QueueJobs> jobs(const char* key, std::vector<JobView> QueueJobs::*where,
+PartPtr<QueueJobs> jobs(const char* key, std::vector<ListedJob> QueueJobs::*where,
                         const char* text = "") {
-  return told(key, where, list(job_format()), text);
+  return told(key, where, list(listed_job_format()), text);
 }
 
 }  // namespace

@@ -16,13 +16,13 @@ namespace {
 // A member of the job as GET /jobs/{id} tells it.
 template <class M>
 auto of_job(M JobView::*member) {
-  return [member](const TimelineView::Leg& leg) { return leg.job.*member; };
+  return [member](const TimelineLanes::Leg& leg) { return leg.job.*member; };
 }
 
-double progress_of(const TimelineView::Leg& leg) { return leg.job.motion.progress; }
+double progress_of(const TimelineLanes::Leg& leg) { return leg.job.motion.progress; }
 
-FormatPtr<TimelineView::Pause> pause_format() {
-  using Pause = TimelineView::Pause;
+FormatPtr<TimelineLanes::Pause> pause_format() {
+  using Pause = TimelineLanes::Pause;
   return named("TimelinePause", "A leg stands, at its start or on its way.",
                object<Pause>({
                    told("from_s", &Pause::from, cell_time()),
@@ -35,8 +35,8 @@ FormatPtr<TimelineView::Pause> pause_format() {
                }));
 }
 
-FormatPtr<TimelineView::Leg> leg_format() {
-  using Leg = TimelineView::Leg;
+FormatPtr<TimelineLanes::Leg> leg_format() {
+  using Leg = TimelineLanes::Leg;
   return named(
       "TimelineLeg",
       "A motion that is admitted. It follows the one before it on its arms; that wait is no pause.",
@@ -56,22 +56,23 @@ FormatPtr<TimelineView::Leg> leg_format() {
       }));
 }
 
-FormatPtr<TimelineView::Lane> lane_format() {
-  using Lane = TimelineView::Lane;
-  return named("TimelineLane", "",
-               object<Lane>({
-                   told("name", &Lane::arm, text(), "The arm"),
-                   told("legs", &Lane::legs, list(leg_format()), "In the order in which they go"),
-                   told("waiting", &Lane::waiting, count(),
-                        "Jobs of the arm that are not admitted, behind the horizon or for other "
-                        "reasons: these have no times yet"),
-               }));
+FormatPtr<TimelineLanes::Lane> lane_format() {
+  using Lane = TimelineLanes::Lane;
+  return named(
+      "TimelineLane", "",
+      object<Lane>({
+          told("name", &Lane::arm, text(), "The arm"),
+          told("legs", &Lane::legs, list(leg_format()), "In the order in which they go"),
+          told("waiting", &Lane::waiting, count(),
+               "Jobs of the arm (of their `arms`) that have not ended and are no leg: not "
+               "admitted, behind the horizon or for other reasons. They have no times yet"),
+      }));
 }
 
 }  // namespace
 
-FormatPtr<TimelineView> timeline_format() {
-  using View = TimelineView;
+FormatPtr<TimelineLanes> timeline_format() {
+  using View = TimelineLanes;
   static const auto format =
       named("Timeline", "Times are cell time, if not said otherwise.",
             object<View>({

@@ -6,6 +6,6 @@
 namespace armloom {
 
 // The answer to GET /timeline.
-[[nodiscard]] FormatPtr<TimelineView> timeline_format();
+[[nodiscard]] FormatPtr<TimelineLanes> timeline_format();
 
 }  // namespace armloom

@@ -7,6 +7,7 @@
 #include "core/executive/real_time_loop.h"
 #include "core/executive/worker.h"
 #include "server/api/api.h"
+#include "server/api/listings.h"
 #include "server/codec/stream_id.h"
 #include "server/comparison/comparison.h"
 #include "server/control/control.h"
@@ -83,11 +84,13 @@ class Service::Impl {
     if (restart) go_on(std::move(*restart), cell);
     keep_recordings(source.file.parent_path());
     comparison_ = std::make_unique<Comparison>(cell, post);
+    listings_ = std::make_unique<Listings>(post);
+    const auto aside = [this](std::function<void()> task) { worker_.post(std::move(task)); };
     api_ = std::make_unique<Api>(
-        ApiParts{cell, stream_, *clock_, *loop_, hub_, states_, recording_.get(), keeper_.get(),
-                 *alerts_, post, post_urgent, guard_,
-                 [this](std::function<void()> task) { worker_.post(std::move(task)); }, *metrics_,
-                 limits_, *comparison_, control_, options_.data, options_.hold_lease});
+        ApiParts{cell,        stream_,          *clock_,       *loop_,        hub_,
+                 states_,     recording_.get(), keeper_.get(), *alerts_,      post,
+                 post_urgent, guard_,           aside,         *listings_,    *metrics_,
+                 limits_,     *comparison_,     control_,      options_.data, options_.hold_lease});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;
@@ -268,6 +271,7 @@ class Service::Impl {
   std::unique_ptr<Comparison> comparison_;
   std::unique_ptr<Api> api_;
   std::unique_ptr<RealTimeLoop> loop_;
+  std::unique_ptr<Listings> listings_;
   Worker worker_;
 };
 

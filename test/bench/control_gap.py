@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """How long the control loop is held up, and how long POST /stop takes, while batches come in.
 
-    test/bench/control_gap.py ARMLOOM [--waiting 9000] [--batches 3]
+    test/bench/control_gap.py ARMLOOM [--waiting 9000] [--batches 3] [--readers 0]
 
 Fills the queue of two Pandas by batches of 1,000 jobs; then more of them come in and are canceled one
-by one, while another client stops and resumes all arms without a pause. Gaps are the server's own
+by one, while another client stops and resumes all arms without a pause, and readers ask for every list
+without a pause. Gaps are the server's own
 figures of its control period (/metrics); beside them the longest gap of an empty loop.
 """
 import argparse
+import http.client
 import multiprocessing
 import time
 
@@ -18,6 +20,10 @@ BATCH = 1000
 
 def worst_ms(server):
     return 1e3 * server.metrics()['armloom_period_worst_seconds{loop="control"}']
+
+
+def overruns(server):
+    return server.metrics()['armloom_overruns_total{loop="control"}']
 
 
 def stop_and_resume(server, done, answer):
@@ -36,12 +42,31 @@ def stop_and_resume(server, done, answer):
     answer.put(took_s)
 
 
-def measure(server, waiting, batches):
+def read_lists(port, job, done):
+    """Every list, one after the other; of the events only the snapshot."""
+    paths = ["/queue", "/jobs", "/timeline", "/arms", f"/jobs/{job}", "/events"]
+    while not done.is_set():
+        for path in paths:
+            connection = http.client.HTTPConnection("127.0.0.1", port, timeout=60)
+            connection.request("GET", API + path)
+            answer = connection.getresponse()
+            if path == "/events":
+                while answer.readline() not in (b"\n", b"\r\n", b""):
+                    pass
+            else:
+                answer.read()
+            connection.close()
+
+
+def measure(server, waiting, batches, readers):
     begun = time.time()
     server.submit(waiting)
     print(f"{waiting} jobs in {time.time() - begun:.2f} s, worst control period {worst_ms(server):.1f} ms")
     done, answer, empty = multiprocessing.Event(), multiprocessing.Queue(), EmptyLoop()
+    before = overruns(server)
     multiprocessing.Process(target=stop_and_resume, args=(server, done, answer), daemon=True).start()
+    for _ in range(readers):
+        multiprocessing.Process(target=read_lists, args=(server.port, "j0", done), daemon=True).start()
     for n in range(batches):
         begun = time.time()
         ids = server.submit(BATCH, f"more{n}-")
@@ -50,7 +75,8 @@ def measure(server, waiting, batches):
             server.call("DELETE", f"{API}/jobs/{job}")
     done.set()
     print(f"stops: {quantiles(answer.get())}; worst control period {worst_ms(server):.1f} ms, "
-          f"of an empty loop {empty.end()[1]:.1f} ms")
+          f"of an empty loop {empty.end()[1]:.1f} ms; "
+          f"{overruns(server) - before:.0f} control overruns")
 
 
 def main():
@@ -58,9 +84,10 @@ def main():
     parser.add_argument("armloom")
     parser.add_argument("--waiting", type=int, default=9000)
     parser.add_argument("--batches", type=int, default=3)
+    parser.add_argument("--readers", type=int, default=0)
     asked = parser.parse_args()
     with LoadedServer(asked.armloom, "--jobs-per-second", 100000) as server:
-        measure(server, asked.waiting, asked.batches)
+        measure(server, asked.waiting, asked.batches, asked.readers)
 
 
 if __name__ == "__main__":

@@ -287,6 +287,7 @@ TEST_F(Guarded, ForgetsAMotionWhenNoArmIsOnIt) {
   const TrajectoryPtr back = line({kLeft}, 1.0, 0.0);
   take({scene(back), pair(on(back), on(right))});
   ASSERT_EQ(guard->grant(back, {}, 1s), std::nullopt);
+  guard->forget(right);
   EXPECT_EQ(left.use_count(), 1);
 }
 

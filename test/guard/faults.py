@@ -48,22 +48,22 @@ SCHEDULER = [
 ]
 
 FAULTS_IN_GUARD = [
-    ('other arms are not looked at', 'if (contains(arms, other)) continue;', 'if (FAULT || contains(arms, other)) continue;'),
+    ('other arms are not looked at', 'if (std::ranges::count(arms, other) > 0 || are_apart(arm, other)) continue;', 'if (FAULT || std::ranges::count(arms, other) > 0 || are_apart(arm, other)) continue;'),
     ('only where the other arm is counts', '? std::optional(Interval{position.measured, position.authority})', '? std::optional(Interval{position.measured, FAULT ? position.measured : position.authority})'),
     ('only where the arm is to go counts', 'return box_from < to && from < box_to;', 'return box_from < (FAULT ? from : to) && from < box_to;'),
     ('a rest anywhere is covered', '<= side.error;\n  });', '<= (FAULT ? 1e9 : side.error);\n  });'),
     ('an arm in motion is taken to be at rest', 'if (!side.motion) return position.at_rest ?', 'if (!side.motion) return position.at_rest || FAULT ?'),
     ('a start off the path is covered', 'const bool holds = side.from <= position.measured && position.off_path <= side.error;', 'const bool holds = side.from <= position.measured && (FAULT || position.off_path <= side.error);'),
     ('a certificate holds from the start on', 'const bool holds = side.from <= position.measured &&', 'const bool holds = (FAULT || side.from <= position.measured) &&'),
-    ('certificates of other content count', '  return present_.of(arms) == geometry;', '  return FAULT || present_.of(arms) == geometry;'),
+    ('certificates of other content count', '  return present_.of(arms) == pair.geometry;', '  return FAULT || present_.of(arms) == pair.geometry;'),
     ('objects that nobody has seen do not matter', 'std::ranges::includes(scene.objects, present_.objects);', '(FAULT || std::ranges::includes(scene.objects, present_.objects));'),
-    ('the scene does not matter', 'if (of == motions_.end() || !sees_scene(of->second, arm, own))', 'if (of == motions_.end() || (!FAULT && !sees_scene(of->second, arm, own)))'),
-    ('an arm may change its motion on the way', 'if (now.motion != motion && !now.at_rest) return', 'if (!FAULT && now.motion != motion && !now.at_rest) return'),
-    ('arms of one motion may get apart', 'return holds && first - last <= together->apart ?', 'return holds && (FAULT || first - last <= together->apart) ?'),
+    ('the scene does not matter', 'if (is_busy || of == motions_.end() || !sees_scene(of->second, arm, own)) {', 'if (is_busy || of == motions_.end() || (!FAULT && !sees_scene(of->second, arm, own))) {'),
+    ('an arm may change its motion on the way', 'const bool is_busy = now.motion != motion && !now.at_rest;', 'const bool is_busy = !FAULT && now.motion != motion && !now.at_rest;'),
+    ('arms of one motion may get apart', 'if (holds && first - last <= proof->apart)', 'if (holds && (FAULT || first - last <= proof->apart))'),
     ('a stop leaves authority as it was', '    position.authority = position.measured;\n  }', '    if (!FAULT) position.authority = position.measured;\n  }'),
     ('authority that was granted is not held', '    positions_[arm.index()] = as_granted(motion, arm, from, authority);', '    positions_[arm.index()] = as_granted(motion, arm, from, FAULT ? from : authority);'),
-    ('arms that were apart are apart whatever they hold', 'if (apart != apart_.end() &&', 'if (FAULT && apart != apart_.end()) continue;\n      if (apart != apart_.end() &&'),
-    ('a region that is met does not matter', '    if (!met) return {.covered = true', '    if (!met || FAULT) return {.covered = true'),
+    ('arms that were apart are apart whatever they hold', '  return apart != apart_.end() && apart->second ==', '  return apart != apart_.end() && FAULT || apart != apart_.end() && apart->second =='),
+    ('a region that is met does not matter', '    if (met == pair.blocked.end()) return std::nullopt;', '    if (met == pair.blocked.end() || FAULT) return std::nullopt;'),
 ]
 
 SWITCH = '''#pragma once
