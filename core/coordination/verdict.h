@@ -71,6 +71,8 @@ struct Verdict {
   // Not all was decided, as the budget of evaluations ended: a larger Question::effort may find
   // more free.
   bool exhausted = false;
+  // The check was ended early: everything else here is void.
+  bool interrupted = false;
 };
 [[nodiscard]] constexpr const char* to_string(Verdict::Kind kind) {
   switch (kind) {

@@ -73,7 +73,7 @@ void Executive::Impl::carry_out(const Effect& effect) {
   if (const auto* judge = std::get_if<Judge>(&effect)) {
     questions_.judge(judge->question, scene_.scene(), [this](const Judged& made) {
       publisher_.tell_judged(made.verdict.evaluations);
-      note({ExecutiveInput::Judged{made.verdict.evaluations}});
+      note({ExecutiveInput::Judged{made.verdict.evaluations, made.verdict.interrupted}});
       step(made);
     });
   } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
@@ -123,6 +123,7 @@ void Executive::Impl::job_changed(JobId id) {
   if (is_terminal(view.state)) {
     count_.end_of_a_job(*view.times.ended_at);
     questions_.plans().give_up(id);
+    questions_.give_up(id);
     execution_.forget(id);
     for (JobId oldest : jobs_.end(id)) scheduler_.forget(oldest);
   }
@@ -225,7 +226,10 @@ void Executive::Impl::scene_has_changed(ClearanceQuery query) {
 
 std::optional<JobView> Executive::Impl::job(const std::string& key) const {
   const auto id = jobs_.find(key);
-  return id ? std::optional(publisher_.view(*id)) : std::nullopt;
+  if (!id) return std::nullopt;
+  JobView view = publisher_.view(*id);
+  questions_.tell_check(view);
+  return view;
 }
 
 Snapshot Executive::Impl::snapshot(std::size_t ended_max) const {
@@ -238,7 +242,9 @@ Snapshot Executive::Impl::snapshot(std::size_t ended_max) const {
   for (std::size_t i = ended.size() - std::min(ended_max, ended.size()); i < ended.size(); ++i) {
     snapshot.jobs.push_back(publisher_.view(ended[i]));
   }
-  for (JobId id : scheduler_.active()) snapshot.jobs.push_back(publisher_.view(id));
+  for (JobId id : scheduler_.active()) {
+    questions_.tell_check(snapshot.jobs.emplace_back(publisher_.view(id)));
+  }
   std::ranges::sort(snapshot.jobs, {}, &JobView::id);
   return snapshot;
 }

@@ -21,10 +21,11 @@ class SteppedLoop::Service final : public JudgementService, public StartLog {
     starts_[job] = std::move(written);
   }
 
-  void answer_question() {
+  void answer_question(bool interrupted) {
     if (!asked_) return;
     const Asked asked = *std::exchange(asked_, std::nullopt);
-    asked.done(checker_.in(asked.scene).judge(asked.question));
+    MotionChecker& checker = checker_.in(asked.scene);
+    asked.done(interrupted ? checker.interrupted(asked.question) : checker.judge(asked.question));
   }
   void answer_plan() {
     if (plans_.empty()) return;
@@ -73,7 +74,7 @@ void SteppedLoop::tick() {
 
 std::uint64_t SteppedLoop::ticks() const { return ticks_; }
 TimePoint SteppedLoop::next() const { return next_; }
-void SteppedLoop::answer_question() { service_->answer_question(); }
+void SteppedLoop::answer_question(bool interrupted) { service_->answer_question(interrupted); }
 void SteppedLoop::answer_plan() { service_->answer_plan(); }
 void SteppedLoop::write_start(JobId job) { service_->write_start(job); }
 

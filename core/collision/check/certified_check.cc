@@ -103,6 +103,7 @@ Verdict CertifiedCheck::swept() {
 // Each candidate by itself, as its plan has it; only then the regions of the pairs.
 Verdict CertifiedCheck::coordinated() {
   for (const Motion& motion : question_.candidates) {
+    if (store_.is_interrupted()) break;
     const std::vector<ArmMotion> arms = arms_of(motion);
     for (auto own = arms.begin(); own != arms.end(); ++own) {
       check_alone(*own);
