@@ -72,6 +72,8 @@ struct Verdict {
   // Not all was decided, as the budget of evaluations ended: a larger Question::effort may find
   // more free.
   bool exhausted = false;
+  // The check was ended early: everything else here is void.
+  bool interrupted = false;
   // Free, and by a certified method: everything about the candidates that the answer proves.
   std::vector<Certificate> certificates = {};
 };

@@ -27,6 +27,7 @@ struct WaitView {
   std::optional<double> other_time_s;
   std::optional<double> clearance_m;
   std::string detail;
+  std::optional<double> progress = {};  // check: 0 to 1
 };
 
 // That it was taken before others, or by one of several arms (scheduler/job.h, Choice).

@@ -33,6 +33,10 @@ class JudgementService {
   virtual ~JudgementService() = default;
   virtual void ask(Question question, PlanningScenePtr scene,
                    std::function<void(Verdict)> done) = 0;
+  // The open question of ask() has become void: its answer may be one that is interrupted.
+  virtual void interrupt() {}
+  // How far it is, 0 to 1; nullopt: not known.
+  [[nodiscard]] virtual std::optional<double> progress() const { return std::nullopt; }
   // For people who ask what would be: changes no verdict of ask() and delays none. False: too many
   // are being considered, and `done` is not called.
   [[nodiscard]] virtual bool consider(Question question, PlanningScenePtr scene,

@@ -84,8 +84,9 @@ void Executive::Impl::carry_out(const Effect& effect) {
   if (const auto* judge = std::get_if<Judge>(&effect)) {
     questions_.judge(judge->question, scene_.scene(), [this](const Judged& made) {
       publisher_.tell_judged(made.verdict.evaluations);
-      note({ExecutiveInput::Judged{made.verdict.evaluations}});
+      note({ExecutiveInput::Judged{made.verdict.evaluations, made.verdict.interrupted}});
       execution_.gate().take(made.verdict.certificates);
+      hide_checks();
       step(made);
     });
   } else if (const auto* plan = std::get_if<PlanMotion>(&effect)) {
@@ -135,6 +136,7 @@ void Executive::Impl::job_changed(JobId id) {
   if (is_terminal(view.state)) {
     count_.end_of_a_job(*view.times.ended_at);
     questions_.plans().give_up(id);
+    questions_.give_up(id);
     execution_.forget(*scheduler_.find(id));
     for (const auto& [oldest, key] : jobs_.end(id)) {
       publisher_.forget(oldest, key);
@@ -142,6 +144,26 @@ void Executive::Impl::job_changed(JobId id) {
     }
   }
   publisher_.tell_job(std::move(view), clock_.now);
+}
+
+// Readers see how far a check has come that takes long. No event tells it: it is of this machine.
+void Executive::Impl::show_check() {
+  constexpr Duration kShownAgain = std::chrono::milliseconds(250);
+  clock_.shows_check_at = clock_.now + kShownAgain;
+  if (!questions_.asked()) return;
+  for (const Motion& motion : questions_.asked()->candidates) {
+    if (scheduler_.find(motion.job) == nullptr) continue;
+    JobView view = publisher_.view(motion.job);
+    if (!questions_.tell_check(view)) return;
+    checks_shown_.insert(motion.job);
+    publisher_.show(std::move(view), clock_.now);
+  }
+}
+
+void Executive::Impl::hide_checks() {
+  for (JobId job : std::exchange(checks_shown_, {})) {
+    if (scheduler_.find(job) != nullptr) publisher_.show(publisher_.view(job), clock_.now);
+  }
 }
 
 // ---- Time ----
@@ -169,6 +191,7 @@ void Executive::Impl::tick(TimePoint now) {
     clock_.quiet = false;
     if (!execution_.keeps_back(report)) step(report);
   }
+  if (now >= clock_.shows_check_at) show_check();
   forget_withdrawn();
   count_.motion(motions);
   if (watch_.is_due(now)) watch();
@@ -280,7 +303,10 @@ void Executive::Impl::scene_has_changed(ClearanceQuery query) {
 
 std::optional<JobView> Executive::Impl::job(const std::string& key) const {
   const auto id = jobs_.find(key);
-  return id ? std::optional(publisher_.view(*id)) : std::nullopt;
+  if (!id) return std::nullopt;
+  JobView view = publisher_.view(*id);
+  (void)questions_.tell_check(view);
+  return view;
 }
 
 }  // namespace armloom

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,7 @@ class Executive::Impl {
     std::optional<TimePoint> dies_at = {};  // ExecutiveOptions
     std::uint64_t ticks = 0;                // so many cycles have begun
     InputLog* inputs = nullptr;             // is told what comes between them
+    TimePoint shows_check_at{};             // the progress of an open check
   };
 
   CellPtr cell_;
@@ -95,6 +97,8 @@ class Executive::Impl {
   void carry_out(const Effect& effect);
   void note_aside(const YieldMove& aside);
   void job_changed(JobId job);
+  void show_check();
+  void hide_checks();
   void certify(const Question& question);
   void refused(JobId job, const GuardRefusal& refusal);
   void forget_withdrawn();
@@ -107,6 +111,7 @@ class Executive::Impl {
     bool keeps_waiting;
   };
 
+  std::set<JobId> checks_shown_;  // jobs that readers see as being checked
   std::vector<JobId> withdrawn_;  // and not ended, or still known
   JobIntake intake_;
   StateWatch watch_;

@@ -93,6 +93,7 @@ struct ExecutiveInput {
   // replay comes to the same one.
   struct Judged {
     std::uint64_t evaluations;
+    bool interrupted = false;  // Verdict::interrupted
   };
   // The answer to the guard's open question for certificates.
   struct Certified {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -27,12 +28,30 @@ class OpenQuestions {
   // That one.
   [[nodiscard]] const std::optional<Question>& asked() const { return asked_; }
 
+  // A job has ended: a question about it is void.
+  void give_up(JobId job) {
+    if (asks_about(job)) service_.interrupt();
+  }
+  // Adds to what the job waits for that it is being checked; false if it is not.
+  [[nodiscard]] bool tell_check(JobView& job) const {
+    const auto progress = asks_about(job.id) ? service_.progress() : std::nullopt;
+    if (!progress) return false;
+    WaitView& wait = job.waits_on.emplace_back(WaitView{.kind = Wait::Kind::check});
+    wait.progress = *progress;
+    return true;
+  }
+
   [[nodiscard]] OpenPlans& plans() { return plans_; }
   [[nodiscard]] Drawings& drawings() { return drawings_; }
   // For what clients ask.
   [[nodiscard]] JudgementService& service() { return service_; }
 
  private:
+  [[nodiscard]] bool asks_about(JobId job) const {
+    return asked_ &&
+           std::ranges::find(asked_->candidates, job, &Motion::job) != asked_->candidates.end();
+  }
+
   JudgementService& service_;
   std::optional<Question> asked_;
   OpenPlans plans_;

@@ -150,6 +150,11 @@ void Publisher::publish_step(TimePoint now) {
   publish(now);
 }
 
+void Publisher::show(JobView view, TimePoint now) {
+  note(std::move(view));
+  publish(now);
+}
+
 void Publisher::look_at_arms() {
   for (ArmId arm : all_arms(shown_.cell)) arms_[arm.index()] = status_of(arm);
 }

@@ -58,6 +58,8 @@ class Publisher {
 
   // After each step of the scheduler: publishes what changed without an event, too.
   void publish_step(TimePoint now);
+  // What readers see of a job, though no event tells it.
+  void show(JobView view, TimePoint now);
   // The job is not known any more: `key` was its key.
   void forget(JobId job, const std::string& key);
   [[nodiscard]] std::shared_ptr<const StatusBoard> board() const { return board_; }

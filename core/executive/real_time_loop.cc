@@ -97,7 +97,13 @@ class RealTimeLoop::Impl final : public JudgementService {
 
   // The scheduler has at most one question open.
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
-    judge(judge_, std::move(question), std::move(scene), std::move(done));
+    asked_ = judge(judge_, std::move(question), std::move(scene), std::move(done));
+  }
+  void interrupt() override {
+    if (asked_) asked_->interrupt();
+  }
+  std::optional<double> progress() const override {
+    return asked_ ? std::optional(asked_->share()) : std::nullopt;
   }
 
   // Nor does the guard's wait for those of jobs.
@@ -120,9 +126,10 @@ class RealTimeLoop::Impl final : public JudgementService {
     if (open_.drawings >= kDrawingsMax) return false;
     const auto drawn = counted(open_.drawings, std::move(done));
     artist_.worker.post([this, drawn, drawing = std::move(drawing), scene = std::move(scene)] {
-      post_urgent([drawn, diagram = artist_.checker.in(scene).draw(drawing)](Executive&) {
-        drawn(diagram);
-      });
+      CheckProgress progress;
+      const std::stop_callback at_end(ending_.get_token(), [&progress] { progress.interrupt(); });
+      post_urgent([drawn, diagram = artist_.checker.in(scene).draw(drawing, &progress)](
+                      Executive&) { drawn(diagram); });
     });
     return true;
   }
@@ -153,14 +160,16 @@ class RealTimeLoop::Impl final : public JudgementService {
     Task run;
   };
 
-  void judge(Looker& looker, Question question, PlanningScenePtr scene,
-             std::function<void(Verdict)> done) {
+  std::shared_ptr<CheckProgress> judge(Looker& looker, Question question, PlanningScenePtr scene,
+                                       std::function<void(Verdict)> done) {
+    auto progress = std::make_shared<CheckProgress>();
     looker.worker.post([this, &looker, question = std::move(question), scene = std::move(scene),
-                        done = std::move(done)] {
-      post_urgent([verdict = looker.checker.in(scene).judge(question), done](Executive&) {
-        done(verdict);
-      });
+                        done = std::move(done), progress] {
+      const std::stop_callback at_end(ending_.get_token(), [&] { progress->interrupt(); });
+      Verdict verdict = looker.checker.in(scene).judge(question, progress.get());
+      post_urgent([verdict = std::move(verdict), done](Executive&) { done(verdict); });
     });
+    return progress;
   }
 
   void plan(Worker& worker, PlanTask task) {
@@ -241,6 +250,7 @@ class RealTimeLoop::Impl final : public JudgementService {
     int drafts = 0;
   };
   Open open_;
+  std::shared_ptr<CheckProgress> asked_;  // of ask(); the loop thread's
   struct Commands {
     Inbox<Command> came;
     std::deque<Task> waiting;  // of them, in their order; the loop thread's

@@ -25,8 +25,8 @@ class SteppedLoop::Service final : public JudgementService, public StartLog {
     starts_[job] = std::move(written);
   }
 
-  void answer_question() { answer(asked_, checker_); }
-  void answer_certify() { answer(certified_, certifier_); }
+  void answer_question(bool interrupted) { answer(asked_, checker_, interrupted); }
+  void answer_certify() { answer(certified_, certifier_, false); }
   void answer_plan() {
     if (plans_.empty()) return;
     const PlanTask task = std::move(plans_.front());
@@ -44,10 +44,11 @@ class SteppedLoop::Service final : public JudgementService, public StartLog {
     PlanningScenePtr scene;
     std::function<void(Verdict)> done;
   };
-  static void answer(std::optional<Asked>& open, OwnChecker& checker) {
+  static void answer(std::optional<Asked>& open, OwnChecker& own, bool interrupted) {
     if (!open) return;
     const Asked asked = *std::exchange(open, std::nullopt);
-    asked.done(checker.in(asked.scene).judge(asked.question));
+    MotionChecker& checker = own.in(asked.scene);
+    asked.done(interrupted ? checker.interrupted(asked.question) : checker.judge(asked.question));
   }
   std::optional<Asked> asked_, certified_;
   OwnChecker checker_, certifier_;
@@ -79,7 +80,7 @@ void SteppedLoop::tick() {
 
 std::uint64_t SteppedLoop::ticks() const { return ticks_; }
 TimePoint SteppedLoop::next() const { return next_; }
-void SteppedLoop::answer_question() { service_->answer_question(); }
+void SteppedLoop::answer_question(bool interrupted) { service_->answer_question(interrupted); }
 void SteppedLoop::answer_certify() { service_->answer_certify(); }
 void SteppedLoop::answer_plan() { service_->answer_plan(); }
 void SteppedLoop::write_start(JobId job) { service_->write_start(job); }

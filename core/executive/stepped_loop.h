@@ -23,7 +23,7 @@ class SteppedLoop {
   [[nodiscard]] std::uint64_t ticks() const;  // so many
   [[nodiscard]] TimePoint next() const;       // the time of the next one
   // Nothing happens where nothing is open.
-  void answer_question();
+  void answer_question(bool interrupted = false);
   void answer_certify();
   void answer_plan();           // the one that has been open for longest
   void write_start(JobId job);  // StartLog

@@ -58,7 +58,7 @@ static_assert(is_terminal(kJobEnds.front()) && !is_terminal(*(kJobEnds.begin() -
 
 // Why a job does not move.
 struct Wait {
-  enum class Kind { job, arm, object, order, capacity, stop, plan, guard };
+  enum class Kind { job, arm, object, order, capacity, stop, plan, check, guard };
   Kind kind;
   std::optional<JobId> job;            // job, order, capacity
   std::optional<ArmId> arm;            // arm, stop; job: the other's arm that comes too close
@@ -91,6 +91,8 @@ struct Wait {
       return "stop";
     case Wait::Kind::plan:
       return "plan";
+    case Wait::Kind::check:
+      return "check";
     case Wait::Kind::guard:
       return "guard";
   }

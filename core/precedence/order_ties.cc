@@ -31,8 +31,13 @@ bool meet_at_rest(const ConflictRegion& d, bool d_side, const ConflictRegion& e,
 OrderTies::OrderTies(const std::vector<OpenOrder>& orders,
                      const std::vector<CoordinatedMotion>& motions, const MotionChains& chains)
     : of_(orders.size()) {
+  std::vector<std::size_t> following;  // orders of a motion that follows another one
+  for (std::size_t e = 0; e < orders.size(); ++e) {
+    const bool follows = !chains.before(orders[e].a).empty() || !chains.before(orders[e].b).empty();
+    if (follows) following.push_back(e);
+  }
   for (std::size_t d = 0; d < orders.size(); ++d) {
-    for (std::size_t e = 0; e < orders.size(); ++e) {
+    for (const std::size_t e : following) {
       if (d != e) tie(d, e, orders, motions, chains);
     }
   }

@@ -8,41 +8,34 @@ namespace armloom {
 namespace {
 
 // By its line a motion passes second if it comes to each box after the other one has left it, first
-// if it has left each before the other one goes into it.
+// if it has left each before the other one goes into it. So each order has a latest start for the
+// one and an earliest start for the other: they are read from the boxes once.
 class Line {
  public:
-  Line(const OpenOrders& open, Prediction before) : open_(open), before_(std::move(before)) {}
+  Line(const OpenOrders& open, const Prediction& before) : open_(open) {
+    for (std::size_t d = 0; d < open_.orders().size(); ++d) {
+      windows_.push_back(d < open_.decided() ? Window{} : window_of(d, before));
+    }
+    join_closed();
+    std::ranges::sort(starts_);
+    starts_.erase(std::ranges::unique(starts_).begin(), starts_.end());
+  }
 
   // The starts that could be the first one that is possible: now, and as the other one leaves a box
   // of some region. Ascending.
-  [[nodiscard]] std::vector<Duration> starts() const {
-    std::vector<Duration> starts{Duration{}};
-    for (std::size_t d = open_.decided(); d < open_.orders().size(); ++d) {
-      const View view = seen_from_candidate(d);
-      for (const ProgressBox& box : view.order->region.boxes) {
-        const auto leaves = before_.comes_to(view.other, view.other_to(box));
-        if (!leaves) continue;
-        const Duration start = *leaves - view.own_from(box);
-        if (start > Duration{}) starts.push_back(start);
-      }
-    }
-    std::ranges::sort(starts);
-    starts.erase(std::ranges::unique(starts).begin(), starts.end());
-    return starts;
+  [[nodiscard]] const std::vector<Duration>& starts() const { return starts_; }
+
+  // Returns false if no side is free in some region when the candidate begins then.
+  [[nodiscard]] bool may_start(Duration start) const {
+    const auto behind = std::ranges::lower_bound(closed_, start, {}, &Closed::after);
+    return behind == closed_.begin() || (behind - 1)->before <= start;
   }
 
   // Whether the candidate passes first there when it begins then; nothing: it is neither.
   [[nodiscard]] std::optional<bool> passes_first(std::size_t order, Duration start) const {
-    const View view = seen_from_candidate(order);
-    bool first = true, second = true;
-    for (const ProgressBox& box : view.order->region.boxes) {
-      const auto comes = before_.goes_beyond(view.other, view.other_from(box));
-      const auto leaves = before_.comes_to(view.other, view.other_to(box));
-      if (comes && start + view.own_to(box) > *comes) first = false;
-      if (!leaves || start + view.own_from(box) < *leaves) second = false;
-    }
-    if (first) return true;
-    return second ? std::optional(false) : std::nullopt;
+    const Window& window = windows_[order];
+    if (start <= window.first_until) return true;
+    return start >= window.second_from ? std::optional(false) : std::nullopt;
   }
 
   [[nodiscard]] bool candidate_is_a(std::size_t order) const {
@@ -50,29 +43,55 @@ class Line {
   }
 
  private:
-  struct View {
-    const OpenOrder* order;
-    bool own_is_a;
-    std::size_t other;
-    [[nodiscard]] Duration own_from(const ProgressBox& b) const {
-      return own_is_a ? b.from_a : b.from_b;
-    }
-    [[nodiscard]] Duration own_to(const ProgressBox& b) const { return own_is_a ? b.to_a : b.to_b; }
-    [[nodiscard]] Duration other_from(const ProgressBox& b) const {
-      return own_is_a ? b.from_b : b.from_a;
-    }
-    [[nodiscard]] Duration other_to(const ProgressBox& b) const {
-      return own_is_a ? b.to_b : b.to_a;
-    }
+  struct Window {
+    Duration first_until = Duration::max();
+    Duration second_from = Duration::min();
   };
-  [[nodiscard]] View seen_from_candidate(std::size_t order) const {
+
+  Window window_of(std::size_t order, const Prediction& before) {
     const OpenOrder& seen = open_.orders()[order];
     const bool own_is_a = candidate_is_a(order);
-    return {&seen, own_is_a, own_is_a ? seen.b : seen.a};
+    const std::size_t other = own_is_a ? seen.b : seen.a;
+    Window window;
+    for (const ProgressBox& box : seen.region.boxes) {
+      const Duration own_from = own_is_a ? box.from_a : box.from_b;
+      const auto comes = before.goes_beyond(other, own_is_a ? box.from_b : box.from_a);
+      const auto leaves = before.comes_to(other, own_is_a ? box.to_b : box.to_a);
+      if (comes) {
+        window.first_until =
+            std::min(window.first_until, *comes - (own_is_a ? box.to_a : box.to_b));
+      }
+      window.second_from =
+          leaves ? std::max(window.second_from, *leaves - own_from) : Duration::max();
+      if (leaves && *leaves > own_from) starts_.push_back(*leaves - own_from);
+    }
+    return window;
+  }
+
+  struct Closed {  // both ends are open
+    Duration after, before;
+  };
+  void join_closed() {
+    std::vector<Closed> all;
+    for (const Window& window : windows_) {
+      if (window.first_until < window.second_from) {
+        all.push_back({window.first_until, window.second_from});
+      }
+    }
+    std::ranges::sort(all, {}, &Closed::after);
+    for (const Closed& next : all) {
+      if (!closed_.empty() && next.after < closed_.back().before) {
+        closed_.back().before = std::max(closed_.back().before, next.before);
+      } else {
+        closed_.push_back(next);
+      }
+    }
   }
 
   const OpenOrders& open_;
-  Prediction before_;
+  std::vector<Window> windows_;  // by order
+  std::vector<Closed> closed_;   // ascending
+  std::vector<Duration> starts_{Duration{}};
 };
 
 // Sets the candidate's orders as its line passes, and leaves those of before. Returns those that it
@@ -108,6 +127,7 @@ PassingOrders orders_in_time(const OrderQuestion& question, std::optional<Durati
   std::vector<std::size_t> in_the_way;
   for (const Duration start : line.starts()) {
     if (latest && start > *latest) break;
+    if (!in_the_way.empty() && !line.may_start(start)) continue;
     auto against = set_by_line(open, line, start);
     if (against.empty()) {
       Prediction prediction = open.predicted();

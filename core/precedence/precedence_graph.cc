@@ -214,15 +214,18 @@ void PrecedenceGraph::block_others(const CoordinatedMotion& motion, const Rest& 
     if (brought_by != nullptr && !share_an_arm(*brought_by, *find(other))) continue;
     const ConflictRegion& region = precedence.region();
     const Duration passed = find(other)->progress;
+    std::vector<ProgressBox> last;  // boxes that end where it rests farthest
+    std::ranges::copy_if(region.boxes, std::back_inserter(last), [&](const ProgressBox& box) {
+      return (first ? box.to_a : box.to_b) == farthest;
+    });
     std::optional<Blockade> blockade;
     for (const ProgressBox& box : region.boxes) {
       const Duration from = first ? box.from_a : box.from_b, to = first ? box.to_a : box.to_b;
       const Duration own_from = first ? box.from_b : box.from_a;
       const Duration own_to = first ? box.to_b : box.to_a;
       // Where another box ends that it is in the way of too, the edge is none of the outline.
-      const bool seam = std::ranges::any_of(region.boxes, [&](const ProgressBox& other_box) {
-        return (first ? other_box.to_a : other_box.to_b) == farthest &&
-               (first ? other_box.from_b : other_box.from_a) <= own_to &&
+      const bool seam = std::ranges::any_of(last, [&](const ProgressBox& other_box) {
+        return (first ? other_box.from_b : other_box.from_a) <= own_to &&
                own_from <= (first ? other_box.to_b : other_box.to_a);
       });
       if (own_to <= passed || !rests_in({at, farthest}, {from, to}, motion.duration, seam))

@@ -153,6 +153,7 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
   if (!open_ || open_->version != input.verdict.version) return;
   OpenQuestion question = std::move(*open_);
   open_.reset();
+  if (input.verdict.interrupted) return;  // void: it is asked again if anyone still wants to know
   state.lanes.learn(question.passages, input.verdict, state.jobs);
   if (question.version != state.version) return;  // stale: it is asked again
   switch (question.purpose) {

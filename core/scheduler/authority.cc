@@ -96,7 +96,9 @@ void extend_authority(State& state, JobId moved) {
   extend_own_authority(state, state.jobs.at(moved));
   std::vector<JobId> behind;
   for (const Precedence& precedence : state.graph.precedences()) {
-    if (precedence.first() == moved) behind.push_back(precedence.second());
+    if (precedence.first() == moved &&
+        std::ranges::find(behind, precedence.second()) == behind.end())
+      behind.push_back(precedence.second());
   }
   for (JobId id : behind) go_on(state, state.jobs.at(id));
 }

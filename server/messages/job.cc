@@ -161,6 +161,8 @@ FormatPtr<WaitView> wait_format() {
                 told("clearance_m", &WaitView::clearance_m, nullable(number(kAnyNumber)),
                      "Distance found; zero or less in contact"),
                 told_if("detail", detail_of, text(), "Of a stop: its cause"),
+                told_if("progress", &WaitView::progress, number(kShare),
+                        "Of a check: the share of its budget that it has used; most end early"),
             }));
   return format;
 }

@@ -146,7 +146,7 @@ class Replay::Impl final : public InputLog {
   void comes(const In::Injected& in) { (void)executive().faults().inject(in.fault); }
   void comes(const In::FaultRemoved& in) { (void)executive().faults().remove(in.fault); }
   void comes(const In::Alerted& in) { executive().alert(in.alert); }
-  void comes(const In::Judged&) { loop_->answer_question(); }
+  void comes(const In::Judged& in) { loop_->answer_question(in.interrupted); }
   void comes(const In::Certified&) { loop_->answer_certify(); }
   void comes(const In::Planned&) { loop_->answer_plan(); }
   void comes(const In::StartWritten& in) { loop_->write_start(in.job); }

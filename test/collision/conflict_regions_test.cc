@@ -139,6 +139,16 @@ TEST(BlockedRegions, ToldByTheClosestProvenStateElseTheSmallestDistanceElseTheLa
   EXPECT_EQ(blocked_regions(cells, kAll)[0].evidence, 0U);
 }
 
+// A grid of all cuts would have 1.6e9 fields.
+TEST(BlockedRegions, TakeMemoryInProportionToTheCells) {
+  constexpr int kCells = 20'000;
+  std::vector<BlockedCell> cells;
+  for (int i = 0; i < kCells; ++i) {
+    cells.push_back(cell(i * 30ms, i * 30ms + 20ms, i * 30ms, i * 30ms + 20ms));
+  }
+  EXPECT_EQ(blocked_regions(cells, {0s, 600s, 0s, 600s}).size(), cells.size());
+}
+
 // Random cells of a quartered square, some overlapping: the boxes hold all of them, and nothing
 // that is open to the outside. The same connections as by brute force.
 TEST(BlockedRegions, HoldAllCellsAndOnlyWhatTheyCloseIn) {

@@ -252,5 +252,44 @@ TEST(Coordinated, SeesTheOtherArmsOfAMotionThatSharesOne) {
   EXPECT_EQ(around(verdict.regions[0].regions[0]).from_b, 0s);
 }
 
+// Two that cross each other again and again for 20 minutes each, in hundreds of thousands of
+// places.
+void cross_for_long(Rails& rails) {
+  rails.question.candidates = {rails.shuttle(1, kX, -0.3, 0.3, 1000)};
+  rails.question.others = {rails.shuttle(2, kY, -0.31, 0.3, 1000)};
+}
+
+TEST(Coordinated, OfLongMotionsLooksAtNoMoreCellsThanTheBound) {
+  Rails rails;
+  cross_for_long(rails);
+  for (const std::uint64_t effort : {1U, 4U}) {
+    rails.question.effort = effort;
+    const Verdict verdict = rails.judge();
+    EXPECT_EQ(verdict.kind, Verdict::Kind::free);
+    EXPECT_FALSE(verdict.regions.empty());
+    EXPECT_FALSE(verdict.exhausted) << "a larger effort would find no more";
+    // The outline and close passes; besides, what is alone, in proportion to the length.
+    EXPECT_LT(verdict.evaluations, 2 * PairRegionSearch::kCellsMax + 50'000);
+  }
+}
+
+TEST(Coordinated, ACheckThatIsInterruptedSaysSoAndLeavesNothingBehind) {
+  Rails rails;
+  rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
+  rails.question.others = {rails.motion(2, {kY}, -1.2, 1.2)};
+  const std::uint64_t evaluations = rails.judge().evaluations;
+  cross_for_long(rails);
+  CheckProgress progress;
+  progress.interrupt();
+  const Verdict verdict = rails.checker->judge(rails.question, &progress);
+  EXPECT_TRUE(verdict.interrupted);
+  EXPECT_EQ(verdict.kind, Verdict::Kind::undecided);
+  EXPECT_GT(progress.share(), 0.0);
+  EXPECT_LT(progress.share(), 0.01);
+  rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
+  rails.question.others = {rails.motion(2, {kY}, -1.2, 1.2)};
+  EXPECT_EQ(rails.judge().evaluations, evaluations);
+}
+
 }  // namespace
 }  // namespace armloom

@@ -67,6 +67,22 @@ struct Rails {
             std::make_shared<const Trajectory>(joints, arms, std::vector<Segment>{segment}),
             {}};
   }
+  // To and fro at constant speed, so many ways.
+  [[nodiscard]] Motion shuttle(std::uint64_t job, ArmId arm, double from, double to,
+                               int ways) const {
+    const Duration takes = from_seconds(std::abs(to - from) / kSpeed_m_s);
+    std::vector<Segment> segments;
+    for (int way = 0; way < ways; ++way) {
+      Segment& segment = segments.emplace_back(Segment{way * takes, takes, {}});
+      segment.coefficients.setZero(1, 6);
+      segment.coefficients(0, 0) = way % 2 == 0 ? from : to;
+      segment.coefficients(0, 1) = (way % 2 == 0 ? 1.0 : -1.0) * (to - from) / to_seconds(takes);
+    }
+    return {JobId{job},
+            std::make_shared<const Trajectory>(std::vector{cell->arm(arm).joints[0]},
+                                               std::vector{arm}, std::move(segments)),
+            {}};
+  }
   [[nodiscard]] Motion to_come(Motion motion) const {
     motion.to_come = true;
     return motion;

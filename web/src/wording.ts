@@ -66,6 +66,7 @@ export function wait_in_words(w: WaitsOn): string {
     case 'order': return w.id ? `waits its turn: ${short_id(w.id)}${w.arm ? ` of ${w.arm}` : ''} comes first` : `waits its turn${w.arm ? ` on ${w.arm}` : ''}`;
     case 'capacity': return w.id ? `waits until ${who} has ended: one at a time` : 'waits for a free place';
     case 'plan': return 'waits until the way to its goal is planned';
+    case 'check': return `is being checked: ${Math.round(100 * (w.progress ?? 0))} %`;
     case 'stop': return `waits for resume: ${w.arm ?? 'the cell'} is stopped${w.detail ? ` (${w.detail})` : ''}`;
     case 'guard': return `kept back by the ${w.detail}`;
   }
@@ -132,6 +133,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'job': case 'arm': case 'object': return `waits for ${subject(first)}`;
     case 'stop': return 'waits for resume';
     case 'plan': return 'waits for its plan';
+    case 'check': return 'is being checked';
     case 'capacity': return 'waits for a free place';
     case 'order': return 'waits its turn';
     case 'guard': return 'kept back by the authority guard';

@@ -163,6 +163,7 @@ void CertifiedCheck::certify_swept(const std::vector<ArmMotion>& all, std::size_
 // Each candidate by itself, as its plan has it; only then the regions of the pairs.
 Verdict CertifiedCheck::coordinated() {
   for (const Motion& motion : question_.candidates) {
+    if (store_.is_interrupted()) break;
     const std::vector<ArmMotion> arms = arms_of(motion);
     for (auto own = arms.begin(); own != arms.end(); ++own) {
       check_alone(*own);

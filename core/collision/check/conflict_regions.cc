@@ -1,12 +1,10 @@
 #include "core/collision/check/conflict_regions.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <iterator>
 #include <tuple>
 #include <utility>
 
-#include "core/base/disjoint_sets.h"
+#include "core/collision/check/field_runs.h"
 
 namespace armloom {
 namespace {
@@ -43,82 +41,15 @@ class Axis {
   std::vector<Duration> first_, last_;
 };
 
-struct Span {
-  int from_a, to_a, from_b, to_b;  // columns, the last one not included
-};
+Span span_of(const Axis& axis_a, const Axis& axis_b, const ProgressBox& box) {
+  const int from_a = std::min(axis_a.place(box.from_a), axis_a.columns() - 1);
+  const int from_b = std::min(axis_b.place(box.from_b), axis_b.columns() - 1);
+  return {from_a, std::max(from_a + 1, axis_a.place(box.to_a)), from_b,
+          std::max(from_b + 1, axis_b.place(box.to_b))};
+}
 
-// Columns of both axes with a mark in each field.
-class Grid {
- public:
-  enum : int { kFree = -1, kSolid = -2 };  // else: a component
-
-  Grid(Axis a, Axis b)
-      : a_(std::move(a)),
-        b_(std::move(b)),
-        marks_(static_cast<std::size_t>(a_.columns()) * static_cast<std::size_t>(b_.columns()),
-               kFree) {}
-
-  [[nodiscard]] int& at(int a, int b) {
-    return marks_[static_cast<std::size_t>(a) * static_cast<std::size_t>(b_.columns()) +
-                  static_cast<std::size_t>(b)];
-  }
-  [[nodiscard]] const Axis& a() const { return a_; }
-  [[nodiscard]] const Axis& b() const { return b_; }
-
-  [[nodiscard]] Span span_of(const ProgressBox& box) const {
-    const int from_a = std::min(a_.place(box.from_a), a_.columns() - 1);
-    const int from_b = std::min(b_.place(box.from_b), b_.columns() - 1);
-    return {from_a, std::max(from_a + 1, a_.place(box.to_a)), from_b,
-            std::max(from_b + 1, b_.place(box.to_b))};
-  }
-  void fill(const Span& span, int mark) {
-    for (int i = span.from_a; i < span.to_a; ++i) {
-      std::fill(&at(i, span.from_b), &at(i, span.to_b - 1) + 1, mark);
-    }
-  }
-
- private:
-  Axis a_, b_;
-  std::vector<int> marks_;
-};
-
-// The fields of one mark, column of A by column, as runs along B; runs that hang together are one
-// set, named by its first run.
-class Runs {
- public:
-  Runs(Grid& grid, int mark, bool corners) {
-    const int reach = corners ? 1 : 0;
-    std::size_t before = 0;  // first run of the column before
-    for (int i = 0; i < grid.a().columns(); ++i) {
-      const std::size_t begin = spans_.size();
-      for (int j = 0; j < grid.b().columns();) {
-        int end = j + 1;
-        const bool wanted = grid.at(i, j) == mark;
-        while (end < grid.b().columns() && (grid.at(i, end) == mark) == wanted) ++end;
-        if (wanted) spans_.push_back({i, i + 1, j, end});
-        j = end;
-      }
-      for (std::size_t r = begin; r < spans_.size(); ++r) sets_.add();
-      for (std::size_t x = before, y = begin; x < begin && y < spans_.size();) {
-        const bool touch =
-            spans_[x].from_b < spans_[y].to_b + reach && spans_[y].from_b < spans_[x].to_b + reach;
-        if (touch) sets_.join(x, y);
-        spans_[x].to_b < spans_[y].to_b ? ++x : ++y;
-      }
-      before = begin;
-    }
-  }
-
-  [[nodiscard]] const std::vector<Span>& spans() const { return spans_; }
-  [[nodiscard]] std::size_t root(std::size_t run) { return sets_.root(run); }
-
- private:
-  std::vector<Span> spans_;
-  DisjointSets sets_;
-};
-
-Grid grid_of(const std::vector<BlockedCell>& cells, const std::vector<std::size_t>& ahead,
-             const ProgressBox& remaining) {
+std::pair<Axis, Axis> axes_of(const std::vector<BlockedCell>& cells,
+                              const std::vector<std::size_t>& ahead, const ProgressBox& remaining) {
   std::vector<Duration> a, b;
   for (const std::size_t i : ahead) {
     const ProgressBox& box = cells[i].box;
@@ -134,72 +65,90 @@ Grid grid_of(const std::vector<BlockedCell>& cells, const std::vector<std::size_
   return {Axis(std::move(a)), Axis(std::move(b))};
 }
 
-// What is free and closed in on all sides becomes solid.
-void fill_holes(Grid& grid, const ProgressBox& remaining) {
-  Runs free(grid, Grid::kFree, false);
-  std::vector<bool> outside(free.spans().size(), false);
-  for (std::size_t r = 0; r < outside.size(); ++r) {
-    const Span& s = free.spans()[r];
-    const bool rim = s.from_a == 0 || s.to_a == grid.a().columns() || s.from_b == 0 ||
-                     s.to_b == grid.b().columns();
-    const bool reached =
-        grid.a().from(s.from_a) <= remaining.from_a && grid.b().from(s.from_b) <= remaining.from_b;
-    if (rim || reached) outside[free.root(r)] = true;
-  }
-  for (std::size_t r = 0; r < outside.size(); ++r) {
-    if (!outside[free.root(r)]) grid.fill(free.spans()[r], Grid::kSolid);
-  }
-}
-
-// Marks the solid fields with their components; returns how many there are.
-std::size_t mark_components(Grid& grid) {
-  Runs solid(grid, Grid::kSolid, true);
-  std::vector<int> component(solid.spans().size(), -1);
-  int count = 0;
-  for (std::size_t r = 0; r < component.size(); ++r) {
-    const std::size_t root = solid.root(r);  // not behind r
-    if (root == r) component[r] = count++;
-    grid.fill(solid.spans()[r], component[root]);
-  }
-  return static_cast<std::size_t>(count);
-}
-
-// The rectangles of every component. `along_a`: first joined along A, then along B.
-std::vector<std::vector<Span>> spans_of(Grid& grid, std::size_t components, bool along_a) {
-  const int lines = along_a ? grid.b().columns() : grid.a().columns();
-  const int places = along_a ? grid.a().columns() : grid.b().columns();
-  const auto mark = [&](int line, int place) {
-    return along_a ? grid.at(place, line) : grid.at(line, place);
-  };
-  std::vector<std::vector<Span>> spans(components);
-  struct Run {  // open: reaches to the line at hand
-    int from, to, component, since;
-  };
-  std::vector<Run> open, now;
-  for (int line = 0; line <= lines; ++line) {
-    now.clear();
-    for (int p = 0; line < lines && p < places;) {
-      const int component = mark(line, p);
-      int end = p + 1;
-      while (end < places && mark(line, end) == component) ++end;
-      if (component >= 0) now.push_back({p, end, component, line});
-      p = end;
-    }
-    for (const Run& run : open) {
-      const auto same = std::ranges::find_if(
-          now, [&](const Run& other) { return other.from == run.from && other.to == run.to; });
-      if (same != now.end()) {
-        same->since = run.since;
-        continue;
+// What is free and closed in on all sides, as rectangles.
+std::vector<Span> holes_of(const Lines& solid, const Axis& axis_a, const Axis& axis_b,
+                           const ProgressBox& remaining) {
+  const Lines free = solid.gaps();
+  ConnectedRuns runs(free, false);
+  std::vector<bool> outside(runs.size(), false);
+  const auto each_run = [&](const auto& take) {
+    for (int line = 0; line < free.count(); ++line) {
+      for (std::size_t r = 0; r < free.at(line).size(); ++r) {
+        take(line, free.at(line)[r], runs.root(runs.first(line) + r));
       }
-      spans[static_cast<std::size_t>(run.component)].push_back(
-          along_a ? Span{run.from, run.to, run.since, line}
-                  : Span{run.since, line, run.from, run.to});
     }
-    std::swap(open, now);
-  }
-  return spans;
+  };
+  each_run([&](int line, const Run& run, std::size_t root) {
+    const bool rim =
+        line == 0 || line + 1 == free.count() || run.from == 0 || run.to == free.places();
+    const bool reached =
+        axis_a.from(line) <= remaining.from_a && axis_b.from(run.from) <= remaining.from_b;
+    if (rim || reached) outside[root] = true;
+  });
+  Lines closed_in(free.count(), free.places());
+  each_run([&](int line, const Run& run, std::size_t root) {
+    if (!outside[root]) closed_in.at(line).push_back(run);
+  });
+  std::vector<Span> holes;
+  each_rectangle(closed_in, [&](const Span& hole) { holes.push_back(hole); });
+  return holes;
 }
+
+// The solid fields of a diagram: cells that are blocked, and the holes in them.
+class SolidFields {
+ public:
+  SolidFields(const std::vector<Span>& cells, const Axis& axis_a, const Axis& axis_b,
+              const ProgressBox& remaining)
+      : along_b_(axis_a.columns(), axis_b.columns()), along_a_(axis_b.columns(), axis_a.columns()) {
+    for (const Span& cell : cells) along_b_.add(cell);
+    along_b_.join();
+    const std::vector<Span> holes = holes_of(along_b_, axis_a, axis_b, remaining);
+    for (const Span& hole : holes) along_b_.add(hole);
+    along_b_.join();
+    for (const auto* spans : {&cells, &holes}) {
+      for (const Span& span : *spans) along_a_.add(turned(span));
+    }
+    along_a_.join();
+    mark_components();
+  }
+
+  [[nodiscard]] std::size_t components() const { return components_; }
+  [[nodiscard]] std::size_t component_at(int a, int b) const {
+    const std::vector<Run>& runs = along_b_.at(a);
+    const auto behind = std::ranges::upper_bound(runs, b, {}, &Run::from);
+    return component_of(a, static_cast<std::size_t>(behind - runs.begin()) - 1);
+  }
+  // The rectangles of every component. `along_a`: first joined along A, then along B.
+  [[nodiscard]] std::vector<std::vector<Span>> rectangles(bool along_a) const {
+    std::vector<std::vector<Span>> spans(components_);
+    const auto take = [&](const Span& span) {
+      const Span found = along_a ? turned(span) : span;
+      spans[component_at(found.from_a, found.from_b)].push_back(found);
+    };
+    each_rectangle(along_a ? along_a_ : along_b_, take);
+    return spans;
+  }
+
+ private:
+  [[nodiscard]] std::size_t component_of(int line, std::size_t run) const {
+    return component_[first_[static_cast<std::size_t>(line)] + run];
+  }
+  void mark_components() {
+    ConnectedRuns runs(along_b_, true);
+    for (int line = 0; line < along_b_.count(); ++line) first_.push_back(runs.first(line));
+    component_.resize(runs.size());
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      const std::size_t root = runs.root(r);  // not behind r
+      component_[r] = root == r ? components_++ : component_[root];
+    }
+  }
+
+  Lines along_b_;                       // a line for each column of A
+  Lines along_a_;                       // a line for each column of B
+  std::vector<std::size_t> first_;      // by line of along_b_: its first run
+  std::vector<std::size_t> component_;  // by run of along_b_
+  std::size_t components_ = 0;
+};
 
 Duration::rep area_of(const ProgressBox& box) {
   // In microseconds: the square of nanoseconds would run over after some seconds.
@@ -230,27 +179,23 @@ std::vector<BlockedRegion> blocked_regions(const std::vector<BlockedCell>& cells
     if (!behind(box.to_b, remaining.from_b, remaining.to_b)) ahead.push_back(i);
   }
   if (ahead.empty()) return {};
-  Grid grid = grid_of(cells, ahead, remaining);
+  const auto [axis_a, axis_b] = axes_of(cells, ahead, remaining);
   std::vector<Span> spans;
-  for (const std::size_t i : ahead) {
-    spans.push_back(grid.span_of(cells[i].box));
-    grid.fill(spans.back(), Grid::kSolid);
-  }
-  fill_holes(grid, remaining);
-  std::vector<BlockedRegion> regions(mark_components(grid), {{}, cells.size()});
-  const auto along_a = spans_of(grid, regions.size(), true);
-  const auto along_b = spans_of(grid, regions.size(), false);
+  for (const std::size_t i : ahead) spans.push_back(span_of(axis_a, axis_b, cells[i].box));
+  const SolidFields solid(spans, axis_a, axis_b, remaining);
+  std::vector<BlockedRegion> regions(solid.components(), {{}, cells.size()});
+  const auto along_a = solid.rectangles(true);
+  const auto along_b = solid.rectangles(false);
   for (std::size_t r = 0; r < regions.size(); ++r) {
     for (const Span& s : along_a[r].size() < along_b[r].size() ? along_a[r] : along_b[r]) {
-      regions[r].boxes.push_back({grid.a().from(s.from_a), grid.a().to(s.to_a - 1),
-                                  grid.b().from(s.from_b), grid.b().to(s.to_b - 1)});
+      regions[r].boxes.push_back({axis_a.from(s.from_a), axis_a.to(s.to_a - 1),
+                                  axis_b.from(s.from_b), axis_b.to(s.to_b - 1)});
     }
     std::ranges::sort(regions[r].boxes, {}, place_of);
   }
   for (std::size_t k = 0; k < ahead.size(); ++k) {
     const std::size_t i = ahead[k];
-    const int component = grid.at(spans[k].from_a, spans[k].from_b);
-    BlockedRegion& region = regions[static_cast<std::size_t>(component)];
+    BlockedRegion& region = regions[solid.component_at(spans[k].from_a, spans[k].from_b)];
     const bool first = region.evidence == cells.size();
     if (first || tells_more(cells[i], cells[region.evidence])) region.evidence = i;
   }

@@ -26,13 +26,13 @@ void MotionChecker::look_at(PlanningScenePtr scene) {
   query_ = ClearanceQuery(store_.scene());
 }
 
-Verdict MotionChecker::judge(const Question& question) {
+Verdict MotionChecker::judge(const Question& question, CheckProgress* progress) {
   Verdict verdict;
   if (std::holds_alternative<TimedDiscrete>(question.method)) {
     verdict = timed_discrete_check(question, query_);
-    if (!question.passages.empty()) store_.begin_question();
+    if (!question.passages.empty()) store_.begin_question(progress);
   } else {
-    store_.begin_question();
+    store_.begin_question(progress);
     CertifiedCheck check(store_, question);
     verdict = std::holds_alternative<Swept>(question.method) ? check.swept() : check.coordinated();
   }
@@ -40,11 +40,19 @@ Verdict MotionChecker::judge(const Question& question) {
     verdict.passages.push_back(check_passage(
         store_, passage, question.rest, tracking_error_of(question.method), verdict.evaluations));
   }
+  if (progress != nullptr && progress->is_interrupted()) return interrupted(question);
   return verdict;
 }
 
-Diagram MotionChecker::draw(const Drawing& drawing) {
-  store_.begin_question();
+Verdict MotionChecker::interrupted(const Question& question) {
+  store_ = MotionStore(store_.scene());
+  Verdict verdict{.kind = Verdict::Kind::undecided, .version = question.version, .conflicts = {}};
+  verdict.interrupted = true;
+  return verdict;
+}
+
+Diagram MotionChecker::draw(const Drawing& drawing, CheckProgress* progress) {
+  store_.begin_question(progress);
   Diagram diagram{drawing.a->duration(), drawing.b->duration(), {}, 0};
   const auto entry = [&](const TrajectoryPtr& motion, ArmId arm) -> MotionStore::Entry& {
     return store_.motion(motion, arm, drawing.rest, drawing.tracking_error);

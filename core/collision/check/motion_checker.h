@@ -43,11 +43,16 @@ class MotionChecker {
   [[nodiscard]] const PlanningScenePtr& scene() const { return store_.scene(); }
 
   // Preconditions as timed_discrete_check() has them.
-  [[nodiscard]] Verdict judge(const Question& question);
+  // `progress`: another thread may watch it and end the check early. Then the verdict is void
+  // (Verdict::interrupted) and everything learnt is forgotten, so that later answers do not depend
+  // on how far the check came.
+  [[nodiscard]] Verdict judge(const Question& question, CheckProgress* progress = nullptr);
+  // The verdict of a check that was interrupted; forgets as that does.
+  [[nodiscard]] Verdict interrupted(const Question& question);
 
   // The whole coordination diagram of two motions of different arms, neighbours of one state
   // joined.
-  [[nodiscard]] Diagram draw(const Drawing& drawing);
+  [[nodiscard]] Diagram draw(const Drawing& drawing, CheckProgress* progress = nullptr);
 
   // A pair of motions needs no more cells than this, for each 10 s of the longer one; else its
   // question is undecided.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "core/collision/check/certificates.h"
 #include "core/trajectory/set_joints.h"
@@ -42,8 +43,8 @@ const CertifiedSide& PairRegionSearch::Side::certify() {
 }
 
 std::uint64_t PairRegionSearch::cells_for(const Side& a, const Side& b) const {
-  return question_.effort *
-         static_cast<std::uint64_t>(std::ceil(kCells * to_seconds(a.end() + b.end())));
+  const auto usual = static_cast<std::uint64_t>(std::ceil(kCells * to_seconds(a.end() + b.end())));
+  return std::min(question_.effort * usual, kCellsMax);
 }
 
 Duration PairRegionSearch::closest() const {
@@ -116,12 +117,21 @@ std::vector<PairRegions> PairRegionSearch::find() {
   std::vector<Side> candidates, others;
   for (const Motion& motion : question_.candidates) candidates.push_back(side_of(motion));
   for (const Motion& motion : question_.others) others.push_back(side_of(motion));
-  std::vector<PairRegions> found;
+  std::deque<Side> rests;
+  std::vector<std::pair<Side*, Side*>> pairs;
   for (auto own = candidates.begin(); own != candidates.end(); ++own) {
-    for (Side& other : others) compare(*own, other, found);
-    for (auto other = own + 1; other != candidates.end(); ++other) compare(*own, *other, found);
-    for (Side& rest : standing_beside(*own->motion)) compare(*own, rest, found);
+    for (Side& other : others) pairs.emplace_back(&*own, &other);
+    for (auto other = own + 1; other != candidates.end(); ++other)
+      pairs.emplace_back(&*own, &*other);
+    for (Side& rest : standing_beside(*own->motion)) {
+      pairs.emplace_back(&*own, &rests.emplace_back(std::move(rest)));
+    }
   }
+  std::uint64_t cells = 0;  // of the outlines and of close passes
+  for (const auto& [a, b] : pairs) cells += 2 * cells_for(*a, *b) * a->arms.size() * b->arms.size();
+  store_.expect(cells);
+  std::vector<PairRegions> found;
+  for (const auto& [a, b] : pairs) compare(*a, *b, found);
   return found;
 }
 
@@ -134,6 +144,7 @@ void PairRegionSearch::compare(Side& a, Side& b, std::vector<PairRegions>& found
       if (layer) layers_.push_back(outlined(a, b, layer));
     }
   }
+  if (store_.is_interrupted()) return;
   std::vector<BlockedRegion> regions = blocked(a, b);
   if (refine_close_passes(regions, cells_for(a, b))) regions = blocked(a, b);
   if (!layers_.empty()) {  // else they are out of reach
@@ -145,9 +156,11 @@ void PairRegionSearch::compare(Side& a, Side& b, std::vector<PairRegions>& found
         pair_certificate(*store_.scene(), a.certify(), b.certify(), std::move(boxes)));
   }
   if (regions.empty()) return;
-  exhausted_ = exhausted_ || std::ranges::any_of(regions, [this](const BlockedRegion& region) {
-                 return blocked_[region.evidence].evidence != BlockedCell::Evidence::proven;
-               });
+  const bool may_get_more = cells_for(a, b) < kCellsMax;
+  exhausted_ = exhausted_ ||
+               (may_get_more && std::ranges::any_of(regions, [this](const BlockedRegion& region) {
+                  return blocked_[region.evidence].evidence != BlockedCell::Evidence::proven;
+                }));
   PairRegions& pair = found.emplace_back(PairRegions{a.motion->job, b.who, {}});
   for (BlockedRegion& region : regions) pair.regions.push_back(region_of(std::move(region)));
 }

@@ -36,7 +36,7 @@ class PairRegionSearch {
   [[nodiscard]] std::vector<Certificate> take_certificates() { return std::move(certificates_); }
   // What pairs that part were held to; +inf: there are none.
   [[nodiscard]] const ClearanceBound& parted() const { return parted_; }
-  // Where no conflict is proven, more cells might have found more that is free.
+  // Where no conflict is proven, a larger effort might have found more that is free.
   [[nodiscard]] bool exhausted() const { return exhausted_; }
   // Cells looked at.
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
@@ -54,6 +54,9 @@ class PairRegionSearch {
   [[nodiscard]] static CoordinationDiagram::Resolution resolution_of(Duration shorter);
   // Of two arms, for each second of both motions together.
   inline static constexpr double kCells = 500.0;
+  // More than this no pair of arms gets, whatever the effort: the cost of a check does not grow
+  // with the square of a motion's length. What is not decided by then counts as not free.
+  inline static constexpr std::uint64_t kCellsMax = 400'000;
   // Where no conflict is proven it may be a close pass: there, down to here, at as many cells more;
   // with more than the usual effort as far as cells go.
   inline static constexpr Duration kClosest = std::chrono::milliseconds(2);

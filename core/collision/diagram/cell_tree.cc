@@ -43,11 +43,11 @@ void CellTree::split(int index, int levels) {
   }
 }
 
-void CellTree::split_if_wide(int index) {
+void CellTree::split_if_wide(int index, Duration wide) {
   Node& cell = at(index);
-  if (cell.state != CellState::unknown || !wider(cell, kWide)) return;
-  cell.split_a = a_->width(cell.a) > kWide;
-  cell.split_b = b_->width(cell.b) > kWide;
+  if (cell.state != CellState::unknown || !wider(cell, wide)) return;
+  cell.split_a = a_->width(cell.a) > wide;
+  cell.split_b = b_->width(cell.b) > wide;
   split(index, 1);
 }
 

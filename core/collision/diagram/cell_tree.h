@@ -56,8 +56,9 @@ class CellTree {
 
   // As its split_a, split_b say; children of further levels likewise.
   void split(int cell, int levels);
-  // An unknown one that is hardly free in one is split before it is looked at.
-  void split_if_wide(int cell);
+  // An unknown one that is hardly free in one is split before it is looked at: down to `wide`, at
+  // least kWide.
+  void split_if_wide(int cell, Duration wide = kWide);
   // A mixed one. Where the side that moves more is fine already, the other one is halved.
   void split_if_coarse(int cell, Duration resolution);
 

@@ -102,7 +102,7 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const ProgressBand& band,
     for (std::size_t done = 0; done < now.size() && !answer.exhausted; done += batch.size()) {
       const std::size_t left =
           std::min<std::size_t>(now.size() - done, budget - answer.evaluations);
-      answer.exhausted = left == 0;
+      answer.exhausted = left == 0 || !pair_.goes_on(left);
       for (std::size_t i = done; answer.exhausted && i < now.size(); ++i) search.leave_open(now[i]);
       batch.clear();
       while (batch.size() < std::min<std::size_t>(filter::kLanes, left)) {

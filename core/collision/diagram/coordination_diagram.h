@@ -30,6 +30,8 @@ class CoordinationDiagram {
  public:
   explicit CoordinationDiagram(TubePair pair);
   [[nodiscard]] TubePair& pair() { return pair_; }
+  // So many cells it holds.
+  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(tree_.size()); }
 
   // Two bodies too close to each other.
   struct Witness {
@@ -64,6 +66,10 @@ class CoordinationDiagram {
     Duration fine;
     PassingResolution passing;
   };
+  //
+  // Of long motions the first cells are as much wider as it takes for few of them to cover all, so
+  // that the budget goes to where motions are near each other. A diagram that is full (kFull) is
+  // refined no further, but begun anew when less than half of it remains.
   std::uint64_t refine_outline(Duration now_a, Duration now_b, const Resolution& resolution,
                                std::uint64_t budget);
 
@@ -89,6 +95,10 @@ class CoordinationDiagram {
   };
   // The leaves, in a fixed order; unknown ones are those that no question needed.
   [[nodiscard]] std::vector<CellView> cells() const;
+
+  // First cells are no more than this share of the budget.
+  inline static constexpr double kFirstShare = 0.125;
+  inline static constexpr int kFull = 1'000'000;
 
   // How far the time of a first conflict may be off.
   inline static constexpr double kFirst_s = 0.01;
@@ -121,6 +131,9 @@ class CoordinationDiagram {
                             const Follow& follow);
   std::uint64_t refine_passing_edges(Duration now_a, Duration now_b,
                                      const PassingResolution& resolution, std::uint64_t budget);
+  [[nodiscard]] double area_s2(Duration now_a, Duration now_b) const;
+  [[nodiscard]] Duration first_width(Duration now_a, Duration now_b, std::uint64_t budget) const;
+  void begin_anew_if_passed(Duration now_a, Duration now_b);
   void split_passing_edge(const CoarseLeaf& leaf, std::vector<int>& unknown);
   [[nodiscard]] bool is_open(const Node& cell, Duration now_a, Duration now_b) const;
   [[nodiscard]] OpenLeaf open_leaf(int cell) const;
@@ -143,6 +156,7 @@ class CoordinationDiagram {
     Resolution resolution;
   };
   std::optional<Outlined> outlined_;  // as refine_outline() has completed it
+  double begun_with_s2_ = 0.0;        // what remained when the first outline was asked for
 };
 
 }  // namespace armloom

@@ -35,6 +35,7 @@ std::uint64_t CoordinationDiagram::refine_from(std::vector<int> leaves, std::uin
       const auto batch = left.first(std::min<std::size_t>(filter::kLanes, left.size()));
       evaluate(batch);
       looked_at += batch.size();
+      if (!pair_.goes_on(batch.size())) return std::max(looked_at, budget);
       left = left.subspan(batch.size());
     }
     if (looked_at >= budget) return looked_at;
@@ -49,7 +50,7 @@ std::uint64_t CoordinationDiagram::refine(Duration now_a, Duration now_b, Durati
     for (std::size_t i = 0; i < open.size(); ++i) {  // grows
       const int index = open[i];
       if (!tree_.remains(tree_.at(index), now_a, now_b)) continue;
-      tree_.split_if_wide(index);
+      tree_.split_if_wide(index, std::max(CellTree::kWide, resolution));
       if (tree_.at(index).state == CellState::unknown) unknown.push_back(index);
       tree_.split_if_coarse(index, resolution);
       const Node now = tree_.at(index);
@@ -64,7 +65,13 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
                                                   const Resolution& resolution,
                                                   std::uint64_t budget) {
   if (is_outlined(now_a, now_b, resolution)) return 0;
-  std::uint64_t looked_at = refine(now_a, now_b, CellTree::kWide, budget);
+  begin_anew_if_passed(now_a, now_b);
+  if (tree_.size() >= kFull) return 0;
+  std::uint64_t looked_at = 0;
+  Duration width = first_width(now_a, now_b, budget);
+  for (; width >= CellTree::kWide && looked_at < budget; width /= 2) {
+    looked_at += refine(now_a, now_b, width, budget - looked_at);
+  }
   // A motion that is still to come finds the other one anywhere on its way: hence the edges.
   const auto may_be_entered = [&](const Node& cell) {
     return tree_.a().from(cell.a) <= now_a || tree_.b().from(cell.b) <= now_b ||
@@ -113,6 +120,31 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
   }
   if (looked_at < budget) outlined_ = {now_a, now_b, resolution};
   return looked_at;
+}
+
+double CoordinationDiagram::area_s2(Duration now_a, Duration now_b) const {
+  return to_seconds(tree_.a().duration() - now_a) * to_seconds(tree_.b().duration() - now_b);
+}
+
+// kWide, doubled until the first cells are few enough.
+Duration CoordinationDiagram::first_width(Duration now_a, Duration now_b,
+                                          std::uint64_t budget) const {
+  const double cells_max = kFirstShare * static_cast<double>(budget);
+  const double area = area_s2(now_a, now_b);
+  Duration width = CellTree::kWide;
+  // Cells are halves of halves: up to twice as fine as they may be.
+  while (4.0 * area > cells_max * to_seconds(width) * to_seconds(width)) width *= 2;
+  return width;
+}
+
+void CoordinationDiagram::begin_anew_if_passed(Duration now_a, Duration now_b) {
+  const double area = area_s2(now_a, now_b);
+  if (tree_.size() >= kFull && area < 0.5 * begun_with_s2_) {
+    tree_ = CellTree(pair_.a(), pair_.is_self() ? std::make_shared<TimeTree>() : pair_.b());
+    found_.clear();
+    outlined_.reset();
+  }
+  if (tree_.size() == 1) begun_with_s2_ = area;
 }
 
 // Whether a refinement of before holds, where both stand now too.
@@ -202,6 +234,7 @@ std::vector<CoordinationDiagram::Blocked> CoordinationDiagram::blocked(Duration 
 
 std::uint64_t CoordinationDiagram::refine_close_passes(const std::vector<ProgressBox>& areas,
                                                        Duration finest, std::uint64_t budget) {
+  if (tree_.size() >= kFull) return 0;
   const auto meant = [&](const Node& cell) {
     const Duration a = tree_.a().middle(cell.a);
     const Duration b = tree_.b().middle(cell.b);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/collision/diagram/tube_scratch.h"
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
@@ -34,8 +35,8 @@ void MotionStore::look_at_still() {
       scene_->cell().home(), 0.0);
 }
 
-void MotionStore::begin_question() {
-  ++question_;
+void MotionStore::begin_question(CheckProgress* progress) {
+  scratch_.pair->progress = progress;
   for (auto& entries : entries_) {
     if (entries.size() <= kKept) continue;
     std::ranges::nth_element(entries, entries.begin() + kKept, std::ranges::greater{},
@@ -43,6 +44,40 @@ void MotionStore::begin_question() {
     for (std::size_t i = kKept; i < entries.size(); ++i) drop(*entries[i]);
     entries.resize(kKept);
   }
+  while (cells() > kCellsKept) drop_oldest();
+  ++question_;
+}
+
+std::size_t MotionStore::cells() const {
+  std::size_t cells = 0;
+  for (const auto* kept : {&diagrams_.between, &diagrams_.with_itself, &diagrams_.with_still}) {
+    for (const auto& [key, diagram] : *kept) cells += diagram->size();
+  }
+  return cells;
+}
+
+// Of those that were asked about at one time the first arm's first.
+void MotionStore::drop_oldest() {
+  const auto asked_at = [](const std::unique_ptr<Entry>& entry) { return entry->asked_at; };
+  std::vector<std::unique_ptr<Entry>>* of_arm = nullptr;
+  std::size_t oldest = 0;
+  for (auto& entries : entries_) {
+    if (entries.empty()) continue;
+    const auto found = std::ranges::min_element(entries, {}, asked_at);
+    if (of_arm != nullptr && (*found)->asked_at >= (*of_arm)[oldest]->asked_at) continue;
+    of_arm = &entries;
+    oldest = static_cast<std::size_t>(found - entries.begin());
+  }
+  drop(*(*of_arm)[oldest]);
+  of_arm->erase(of_arm->begin() + static_cast<std::ptrdiff_t>(oldest));
+}
+
+void MotionStore::expect(std::uint64_t cells) {
+  if (scratch_.pair->progress != nullptr) scratch_.pair->progress->expect(cells);
+}
+
+bool MotionStore::is_interrupted() const {
+  return scratch_.pair->progress != nullptr && scratch_.pair->progress->is_interrupted();
 }
 
 void MotionStore::drop(const Entry& entry) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/collision/diagram/check_progress.h"
 #include "core/collision/diagram/oriented_diagram.h"
 #include "core/collision/scene/planning_scene.h"
 
@@ -40,7 +41,14 @@ class MotionStore {
   // Of each arm kKept entries are kept, those that questions named last. References hold until the
   // next begin_question().
   inline static constexpr std::size_t kKept = 64;
-  void begin_question();
+  // Diagrams hold no more cells than this in all when a question begins: entries that were asked
+  // about longest ago go first.
+  inline static constexpr std::size_t kCellsKept = 3'000'000;
+  // `progress`: null, or outlives the question.
+  void begin_question(CheckProgress* progress = nullptr);
+  // The check at hand: it may use so many cells; whether it is to end early.
+  void expect(std::uint64_t cells);
+  [[nodiscard]] bool is_interrupted() const;
   [[nodiscard]] Entry& motion(const TrajectoryPtr& trajectory, ArmId arm, const Configuration& rest,
                               double tracking_error);
 
@@ -67,6 +75,8 @@ class MotionStore {
   [[nodiscard]] OrientedDiagram diagram(Diagrams& of, const Key& key, const Comparison& made);
   void look_at_still();
   void drop(const Entry& entry);
+  void drop_oldest();
+  [[nodiscard]] std::size_t cells() const;
 
   PlanningScenePtr scene_;
   PlanningScenePtr links_;  // the scene that cross and self pairs were read from

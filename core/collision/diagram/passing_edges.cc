@@ -2,26 +2,72 @@
 
 #include <algorithm>
 #include <functional>
+#include <queue>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "core/base/disjoint_sets.h"
 
 namespace armloom {
 namespace {
 
-// Leaves that touch are one component, named by its first leaf. Given by from_a.
-std::vector<std::size_t> components_of(const std::vector<OpenLeaf>& leaves) {
-  DisjointSets components;
-  for (std::size_t i = 0; i < leaves.size(); ++i) components.add();
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    const ProgressBox& box = leaves[i].box;
-    for (std::size_t j = i + 1; j < leaves.size() && leaves[j].box.from_a <= box.to_a; ++j) {
-      const ProgressBox& other = leaves[j].box;
-      if (other.from_b <= box.to_b && box.from_b <= other.to_b) components.join(i, j);
+// Joins leaves that touch, in a sweep along A: leaves do not overlap, so those that a line across A
+// cuts are in order along B, and a leaf that begins there finds its neighbors by binary search.
+class TouchingLeaves {
+ public:
+  // Given by from_a, then from_b.
+  explicit TouchingLeaves(const std::vector<OpenLeaf>& leaves) : leaves_(leaves) {
+    for (std::size_t i = 0; i < leaves.size(); ++i) sets_.add();
+    for (std::size_t begin = 0; begin < leaves.size();) {
+      const Duration from = box(begin).from_a;
+      std::size_t end = begin;
+      while (end < leaves.size() && box(end).from_a == from) ++end;
+      drop_those_before(from);
+      for (std::size_t i = begin; i < end; ++i) {
+        join_with_cut(i);
+        if (i > begin && box(i).from_b <= box(i - 1).to_b) sets_.join(i - 1, i);
+      }
+      for (std::size_t i = begin; i < end; ++i) {
+        cut_.emplace(box(i).from_b, i);
+        ending_.emplace(box(i).to_a, i);
+      }
+      begin = end;
     }
   }
+
+  [[nodiscard]] std::size_t root(std::size_t leaf) { return sets_.root(leaf); }
+
+ private:
+  using Place = std::pair<Duration, std::size_t>;
+
+  [[nodiscard]] const ProgressBox& box(std::size_t leaf) const { return leaves_[leaf].box; }
+  void drop_those_before(Duration from) {
+    for (; !ending_.empty() && ending_.top().first < from; ending_.pop()) {
+      const std::size_t leaf = ending_.top().second;
+      cut_.erase({box(leaf).from_b, leaf});
+    }
+  }
+  void join_with_cut(std::size_t leaf) {
+    auto other = cut_.upper_bound({box(leaf).to_b, leaves_.size()});
+    while (other != cut_.begin()) {
+      --other;
+      if (box(other->second).to_b < box(leaf).from_b) return;
+      sets_.join(other->second, leaf);
+    }
+  }
+
+  const std::vector<OpenLeaf>& leaves_;
+  DisjointSets sets_;
+  std::set<Place> cut_;                                                    // by from_b
+  std::priority_queue<Place, std::vector<Place>, std::greater<>> ending_;  // by to_a
+};
+
+// Leaves that touch are one component, named by its first leaf. Given by from_a.
+std::vector<std::size_t> components_of(const std::vector<OpenLeaf>& leaves) {
+  TouchingLeaves touching(leaves);
   std::vector<std::size_t> component(leaves.size());
-  for (std::size_t i = 0; i < leaves.size(); ++i) component[i] = components.root(i);
+  for (std::size_t i = 0; i < leaves.size(); ++i) component[i] = touching.root(i);
   return component;
 }
 

@@ -35,8 +35,8 @@ struct CoarseLeaf {
 };
 
 // The leaves that are wider than they may be; what hangs together (corners included) is one region.
-// `remaining`: what of both motions is to come. In a fixed order; n log n and more where many
-// leaves share a column. Pure.
+// `remaining`: what of both motions is to come. Leaves do not overlap. In a fixed order; takes
+// n log n. Pure.
 [[nodiscard]] std::vector<CoarseLeaf> coarse_leaves(std::vector<OpenLeaf> leaves,
                                                     const ProgressBox& remaining,
                                                     const PassingResolution& resolution);

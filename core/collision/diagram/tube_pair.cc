@@ -15,6 +15,13 @@ using filter::kLanes;
 
 }  // namespace
 
+bool TubePair::goes_on(std::uint64_t cells) const {
+  CheckProgress* progress = setting_.scratch->progress;
+  if (progress == nullptr) return true;
+  progress->add(cells);
+  return !progress->is_interrupted();
+}
+
 std::shared_ptr<TubePair::Scratch> TubePair::make_scratch() { return std::make_shared<Scratch>(); }
 
 TubePair::TubePair(Setting setting, std::shared_ptr<MotionTube> a, std::shared_ptr<MotionTube> b)

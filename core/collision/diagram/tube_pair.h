@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -29,6 +30,8 @@ class TubePair {
   [[nodiscard]] const std::shared_ptr<MotionTube>& a() const { return a_; }
   [[nodiscard]] const std::shared_ptr<MotionTube>& b() const { return b_; }
   [[nodiscard]] bool is_self() const { return a_ == b_; }
+  // Counts cells of the check at hand; returns false if it is to end early.
+  [[nodiscard]] bool goes_on(std::uint64_t cells) const;
 
   // One node of each; of an arm and itself twice the same.
   struct Nodes {

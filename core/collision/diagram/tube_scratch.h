@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "core/collision/diagram/check_progress.h"
 #include "core/collision/diagram/tube_pair.h"
 
 namespace armloom {
@@ -14,6 +15,7 @@ struct TubePair::Gathered {
 
 // What is at hand: nodes to be filtered, what is open of one of them, one state.
 struct TubePair::Scratch {
+  CheckProgress* progress = nullptr;  // of the check at hand; null: nobody watches it
   Gathered a, b;
   struct Hits {
     std::vector<filter::Hit> of;

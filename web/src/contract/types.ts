@@ -678,7 +678,7 @@ export interface components {
         /** @description What a job waits for, with the evidence. */
         Wait: {
             /** @enum {string} */
-            kind: "job" | "arm" | "object" | "order" | "capacity" | "stop" | "plan" | "guard";
+            kind: "job" | "arm" | "object" | "order" | "capacity" | "stop" | "plan" | "check" | "guard";
             /** @description The other job */
             id: string | null;
             /** @description The other arm */
@@ -693,6 +693,8 @@ export interface components {
             clearance_m: number | null;
             /** @description Of a stop: its cause */
             detail?: string;
+            /** @description Of a check: the share of its budget that it has used; most end early */
+            progress?: number;
         };
         /**
          * @description A closed list; core/scheduler/README.md explains each.
