@@ -737,7 +737,7 @@ export interface components {
             name: string;
             /** @description In the order in which they go */
             legs: components["schemas"]["TimelineLeg"][];
-            /** @description Jobs of the arm that are not admitted, behind the horizon or for other reasons: these have no times yet */
+            /** @description Jobs of the arm (of their `arms`) that have not ended and are no leg: not admitted, behind the horizon or for other reasons. They have no times yet */
             waiting: number;
         };
         /** @description The shape of trajectory_msgs/JointTrajectory. */
