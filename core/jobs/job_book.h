@@ -51,6 +51,11 @@ struct Approaches {
   Feasibility feasibility = Feasibility::unknown;
   int tries = 0;
   std::optional<std::string> refusal = {};
+  // Earlier jobs with an open arm (may_go_first()) that wait for this one: it goes before them.
+  std::set<JobId> ahead_of = {};
+  // The job before it failed with Reason::deadlock: its arms are brought to its start, though its
+  // client did not ask for that.
+  bool after_deadlock = false;
 
   [[nodiscard]] bool are_in_question() const { return feasibility == Feasibility::in_question; }
 };
@@ -68,6 +73,11 @@ struct Record {
   Asking asking = {};
   std::map<ArmId, YieldsTried> yields = {};  // of arms that could make way for it
   Approaches approaches = {};
+
+  // Its arms are brought to where it begins, if they stand elsewhere at its turn.
+  [[nodiscard]] bool is_brought_to_start() const {
+    return job.terms.approach == Approach::plan || approaches.after_deadlock;
+  }
 };
 
 // Which ids jobs may come with: they grow, from `first` on; the ones below are those of former

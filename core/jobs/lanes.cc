@@ -14,7 +14,7 @@ WaitingLeg waiting_leg(const Record& record) {
   WaitingLeg leg = record.leg;
   leg.after = record.job.after;
   leg.is_estimate = is_way_open(record.job);
-  leg.is_approached = record.job.terms.approach == Approach::plan;
+  leg.is_approached = record.is_brought_to_start();
   return leg;
 }
 

@@ -31,6 +31,23 @@ bool stands(const State& state, const Record& record) {
   return record.job.is_waiting() || behind || held_where_it_stands(state, record).has_value();
 }
 
+std::optional<JobId> may_go_first(const State& state, const Record& record) {
+  const Job& job = record.job;
+  if (job.goal || job.in<Queued>() == nullptr) return std::nullopt;
+  if (state.jobs.undecided().empty()) return std::nullopt;
+  const auto& arms = job.trajectory->arms();
+  for (JobId id : state.jobs.undecided()) {
+    const Record& open = state.jobs.at(id);
+    if (!open.job.has_open_arm() || open.turn > record.turn) continue;
+    if (record.approaches.ahead_of.contains(id)) continue;
+    const bool shares = std::ranges::any_of(open.job.goal->ways, [&](const GoalWay& way) {
+      return std::ranges::find(arms, way.goal.arm) != arms.end();
+    });
+    if (shares && state.arms.begins_elsewhere(*state.cell, *job.trajectory)) return id;
+  }
+  return std::nullopt;
+}
+
 const std::vector<Wait>* known_waits(const State& state, const Job& job) {
   if (job.pausing()) return &job.waits_on;
   const bool is_put_off = job.is_waiting() && state.is_judged(job);

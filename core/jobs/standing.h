@@ -16,6 +16,10 @@ inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 // It moves only after others have moved.
 [[nodiscard]] bool stands(const State& state, const Record& record);
 
+// The earlier job with an open arm that may yet move an arm of this job: the job does not begin
+// where its arms stand, but may where that one would leave them. Returns nullopt if there is none.
+[[nodiscard]] std::optional<JobId> may_go_first(const State& state, const Record& record);
+
 // As it was found when it was judged last, or where it pauses; null: it is not known.
 [[nodiscard]] const std::vector<Wait>* known_waits(const State& state, const Job& job);
 // It waits for an arm that no job will move.

@@ -9,10 +9,11 @@
 namespace armloom {
 namespace {
 
-// Waits for something else of the round, or for an arm that has no job in it.
+// Waits for something else of the round, or for an arm that has no job in it, or for an open arm.
 bool stands_in_vain(const State& state, const Record& record) {
   const bool tried =
-      record.job.is_waiting() && (state.is_judged(record.job) || !is_at_head(state.jobs, record));
+      record.job.is_waiting() && (state.is_judged(record.job) || !is_at_head(state.jobs, record) ||
+                                  may_go_first(state, record).has_value());
   return tried || held_where_it_stands(state, record).has_value();
 }
 
@@ -44,7 +45,8 @@ class LockstepPolicy final : public Policy {
       if (queue.empty()) continue;
       const Record& record = book.at(queue.front());
       const bool goes = record.job.is_waiting() && !record.job.is_unplanned() &&
-                        is_at_head(book, record) && !state.arms.stop_of(record.job);
+                        is_at_head(book, record) && !state.arms.stop_of(record.job) &&
+                        !may_go_first(state, record);
       if (goes) round.jobs.insert(queue.front());
     }
     return round;
@@ -54,6 +56,7 @@ class LockstepPolicy final : public Policy {
     if (jobs.contains(record.job.id) || jobs.empty()) return std::nullopt;
     return *jobs.begin();
   }
+  bool opens_places() const override { return true; }
   bool lets_jobs_age() const override { return false; }  // rounds are fair by themselves
   CheckMethod method() const override { return Coordinated{tracking_error_}; }
   PassingOrders decide(const OrderQuestion& question) const override {

@@ -33,6 +33,8 @@ class Policy {
                                                             const Record& /*job*/) const {
     return std::nullopt;
   }
+  // True if a place opens as soon as those that have one only wait for those that have none.
+  [[nodiscard]] virtual bool opens_places() const { return false; }
   // Whether a job that has waited for long holds others back.
   [[nodiscard]] virtual bool lets_jobs_age() const { return true; }
   // Of each lane so many legs are admitted at most, the one under way included.

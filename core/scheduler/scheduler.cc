@@ -55,9 +55,20 @@ void take(State& state, const Stop& input) {
   compare_again(state);
 }
 
+// A job that was told to wait for the stop is told anew what it waits for.
 void take(State& state, const Resume& input) {
   for (ArmId arm : input.arms) state.arms.resume(arm);
   ++state.version;
+  for (ArmId arm : input.arms) {
+    for (JobId id : state.jobs.queues()[arm]) {
+      Record& record = state.jobs.at(id);
+      const auto is_stop = [](const Wait& wait) { return wait.kind == Wait::Kind::stop; };
+      if (std::ranges::none_of(record.job.waits_on, is_stop)) continue;
+      const auto stop = state.arms.stop_of(record.job);
+      stop ? state.jobs.set_wait(record, *stop) : state.jobs.set_waits(record, {});
+      state.jobs.explain(record);
+    }
+  }
 }
 
 void take(State& state, const SceneChanged&) {

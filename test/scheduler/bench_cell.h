@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/scheduler/scheduler.h"
@@ -70,6 +71,7 @@ class Bench {
       heard(effect);
       if (auto* judge = std::get_if<Judge>(&effect)) question = std::move(judge->question);
       if (auto* wake = std::get_if<WakeAt>(&effect)) wake_at = wake->when;
+      if (auto* p = std::get_if<PlanMotion>(&effect)) plans.push_back(std::move(*p));
       if (auto* d = std::get_if<Dispatch>(&effect)) dispatched.push_back(*d);
       if (auto* g = std::get_if<Grant>(&effect)) granted.push_back(*g);
       if (auto* b = std::get_if<Brake>(&effect)) braked.push_back(b->job);
@@ -114,6 +116,13 @@ class Bench {
                         {},
                         1}},
          now);
+  }
+
+  // No way is found to any of the goals that were asked about.
+  void answer_plans_without_way(TimePoint now) {
+    for (const PlanMotion& plan : std::exchange(plans, {})) {
+      step(PlanMade{plan.job, plan.number, nullptr, "no way"}, now);
+    }
   }
 
   // Free, but for these regions.
@@ -174,6 +183,7 @@ class Bench {
   std::vector<Dispatch> dispatched;
   std::vector<Grant> granted;
   std::vector<YieldMove> asides;
+  std::vector<PlanMotion> plans;
   std::vector<JobId> braked, released;
   std::map<JobId, int> terminal_events;
 

@@ -1,11 +1,13 @@
 #include "test/scheduler/ideal_arms.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace armloom {
 namespace {
 
 constexpr Duration kTick = std::chrono::milliseconds(2);
+constexpr double kGone = 100.0;  // rad: no crossing is there
 
 Duration scaled(Duration duration, double by) { return from_seconds(to_seconds(duration) * by); }
 
@@ -64,6 +66,7 @@ bool IdealArms::go_on(TimePoint until) {
   }
   TimePoint next = std::min(answer_at_, wake_at.value_or(kNever));
   for (const Moving& arm : moving_) next = std::min(next, arm.report_at);
+  for (const OpenPlan& plan : plans_) next = std::min(next, plan.answer_at);
   const bool comes = next <= until && next != kNever;
   if (!comes) next = until;
   if (next == kNever) return false;
@@ -72,6 +75,7 @@ bool IdealArms::go_on(TimePoint until) {
   now_ = next;
   if (!comes) return false;
   if (now_ >= answer_at_) return answer_now();
+  if (answer_plan_now()) return true;
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     if (moving_[i].report_at > now_) continue;
     report(i);
@@ -88,6 +92,44 @@ bool IdealArms::answer_now() {
   const Question asked = *std::exchange(question, std::nullopt);
   take(Judged{crossings.answer(asked)});
   return true;
+}
+
+// The first one that is due; false: none is.
+bool IdealArms::answer_plan_now() {
+  const auto due =
+      std::ranges::find_if(plans_, [&](const OpenPlan& plan) { return plan.answer_at <= now_; });
+  if (due == plans_.end()) return false;
+  const PlanMotion asked = due->asked;
+  plans_.erase(due);
+  take(answer_to(asked));
+  return true;
+}
+
+// Past all that stand there, else past those that stay there.
+PlanMade IdealArms::answer_to(const PlanMotion& asked) const {
+  const MotionGoal& goal = asked.question.goal;
+  const auto arm = static_cast<std::uint32_t>(goal.arm.index());
+  Configuration beside = asked.question.at;
+  const double from = beside[arm];
+  const auto* joints = std::get_if<Eigen::VectorXd>(&goal.to);
+  const auto* link = std::get_if<LinkTarget>(&goal.to);
+  PlanMade made{.job = asked.job, .question = asked.number, .trajectory = nullptr};
+  if (joints == nullptr && link == nullptr) {
+    made.why = "no place clear of it is known";
+    return made;
+  }
+  const double to = joints != nullptr ? (*joints)[0] : link->X_WL.translation().x();
+  const TrajectoryPtr way =
+      move({arm}, from, to, 200ms + from_seconds(2.0 * std::abs(to - from) / goal.speed));
+  if (crossings.free_beside(*way, beside)) {
+    made.trajectory = way;
+    return made;
+  }
+  for (const ArmId other : asked.question.may_move) beside[other.index()] = kGone;
+  made.goes_through = crossings.free_beside(*way, beside);
+  if (made.goes_through) made.trajectory = way;
+  if (!made.goes_through) made.why = "others stand there";
+  return made;
 }
 
 void IdealArms::run(std::size_t events_max) {
@@ -182,6 +224,7 @@ void IdealArms::heard(const Effect& effect) {
   if (const auto* dispatch = std::get_if<Dispatch>(&effect)) on(*dispatch);
   if (const auto* grant = std::get_if<Grant>(&effect)) on(*grant);
   if (const auto* brake = std::get_if<Brake>(&effect)) on(*brake);
+  if (const auto* plan = std::get_if<PlanMotion>(&effect)) on(*plan);
   if (const auto* release = std::get_if<Release>(&effect)) {
     ++times_released_[release->job];
     EXPECT_FALSE(moves(release->job)) << "released in motion";
@@ -247,6 +290,10 @@ void IdealArms::on(const Brake& brake) {
   if (begins > Duration{} && arm->s == Duration{}) arm->rests_at = Duration{};  // not at all
   arm->moves_from = now_;
   arm->report_at = now_ + arm->habits.brakes_for + Duration(1);
+}
+
+void IdealArms::on(const PlanMotion& plan) {
+  plans_.push_back({plan, now_ + std::chrono::microseconds(500 + random_() % 40'000)});
 }
 
 }  // namespace armloom

@@ -22,7 +22,8 @@ struct Habits {
 };
 
 // A Scheduler with arms that do what it tells them, and answers from a table of crossings: from one
-// event to the next, by a clock of its own. After every step it claims what has to hold then:
+// event to the next, by a clock of its own. A plan is the straight way to its goal (a link target's
+// x is the joint's place), or none. After every step it claims what has to hold then:
 //
 //   Every arm may be anywhere from where it was measured to its authority, at the same time as
 //   every other, and no two meet (but under timed_discrete, which promises nothing).
@@ -62,6 +63,10 @@ class IdealArms : public Bench {
   Crossings crossings;
 
  private:
+  struct OpenPlan {
+    PlanMotion asked;
+    TimePoint answer_at;
+  };
   struct Moving {
     JobId job;
     TrajectoryPtr motion;
@@ -81,6 +86,9 @@ class IdealArms : public Bench {
   void on(const Dispatch& dispatch);
   void on(const Grant& grant);
   void on(const Brake& brake);
+  void on(const PlanMotion& plan);
+  [[nodiscard]] PlanMade answer_to(const PlanMotion& asked) const;
+  bool answer_plan_now();
   void take(const Input& input);
   void advance(Moving& arm, TimePoint to) const;
   void plan_report(Moving& arm);
@@ -101,6 +109,7 @@ class IdealArms : public Bench {
   std::vector<double> q_;  // per arm: where it rests, or did before its motion
   std::vector<Moving> moving_;
   TimePoint answer_at_ = kNever;
+  std::vector<OpenPlan> plans_;
   std::map<JobId, std::vector<JobId>> after_;
   std::map<ArmId, std::vector<JobId>> of_arm_;  // of clients, in an order that has to be kept
   std::map<JobId, std::size_t> times_dispatched_, times_released_;

@@ -100,6 +100,12 @@ void IdealArms::check_authority() const {
 }
 
 void IdealArms::check_explained() const {
+  for (const JobId id : scheduler.active()) {
+    for (const Wait& wait : job(id).waits_on) {
+      EXPECT_TRUE(wait.kind != Wait::Kind::stop || scheduler.stopped(*wait.arm))
+          << "job " << id.value() << " waits for a stop, and the arm is not stopped";
+    }
+  }
   if (question) return;  // it may be about to go
   for (const JobId id : scheduler.active()) {
     const Job& job = this->job(id);

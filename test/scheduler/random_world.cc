@@ -14,7 +14,7 @@ void World::run(const std::function<void()>& look) {
   const auto count = 4 + random_() % 12;
   const bool at_once = random_() % 2 == 0;
   for (std::size_t i = 0; i < count; ++i) {
-    if (auto job = draw()) submit(std::move(*job));
+    if (auto job = draw(disturbances_.crowds)) submit(std::move(*job));
     disturb();
     if (!at_once) bench_.run_until(bench_.now() + up_to(3s));
     look();
@@ -79,6 +79,7 @@ std::optional<Submit> World::draw(bool any) {
       if (auto job = draw_visit(rest, any)) return job;
       continue;
     }
+    if (disturbances_.goals && random_() % 2 == 0) return draw_goal(rest);
     std::vector<std::uint32_t> arms{static_cast<std::uint32_t>(random_() % arms_)};
     const auto second = static_cast<std::uint32_t>(random_() % arms_);
     if (random_() % 6 == 0 && second > arms[0]) arms.push_back(second);
@@ -88,10 +89,13 @@ std::optional<Submit> World::draw(bool any) {
       to.push_back(random_() % 4 == 0 ? 0.0 : place());
     }
     if (from == to) continue;
+    const bool is_brought = disturbances_.goals && random_() % 3 == 0;
+    if (is_brought) from.front() = place();
     const auto motion = move(arms, from, to, 500ms + up_to(4s));
     if (!any && !bench_.crossings.free_beside(*motion, rest)) continue;
     Submit job{JobId{0}, motion, {static_cast<int>(random_() % 3), 1'000'000s}};
     if (disturbances_.cancels) job.terms.backlog_timeout = 20s + up_to(100s);
+    if (is_brought) job.terms.approach = Approach::plan;
     const auto active = bench_.scheduler.active();
     if (!active.empty() && random_() % 5 == 0) {
       job.after.push_back(active[random_() % active.size()]);
@@ -115,6 +119,28 @@ std::optional<Submit> World::draw_visit(const Configuration& rest, bool any) {
   job.trajectory = job.alternatives.front();
   if (job.alternatives.size() == 1) job.alternatives.clear();
   job.terms.order = JobOrder::any;
+  return job;
+}
+
+// To joints or to where a link is to be, by one arm or by any.
+std::optional<Submit> World::draw_goal(const Configuration& rest) {
+  Submit job{JobId{0}, nullptr, {static_cast<int>(random_() % 3), 1'000'000s}};
+  if (disturbances_.cancels) job.terms.backlog_timeout = 20s + up_to(100s);
+  const bool by_any = random_() % 2 == 0, is_pose = random_() % 2 == 0;
+  const auto one = static_cast<std::uint32_t>(random_() % arms_);
+  for (std::uint32_t arm = by_any ? 0 : one; arm < (by_any ? arms_ : one + 1); ++arm) {
+    const double to = place();
+    MotionGoal goal{.arm = ArmId{arm}, .to = Eigen::VectorXd::Constant(1, to)};
+    if (is_pose) {
+      LinkTarget target{.link = LinkId{arm}, .X_WL = Eigen::Isometry3d::Identity()};
+      target.X_WL.translation().x() = to;
+      goal.to = target;
+    }
+    job.goals.push_back(std::move(goal));
+    job.alternatives.push_back(move({arm}, rest[arm], to, 1s));
+  }
+  job.trajectory = job.alternatives.front();
+  if (job.alternatives.size() == 1) job.alternatives.clear();
   return job;
 }
 

@@ -20,6 +20,8 @@ struct Disturbances {
   bool parks = false;
   bool amends = false;   // other priorities, other timeouts
   bool choices = false;  // some jobs may be done in any order, or by any of several arms
+  bool goals = false;    // some say where to go, by one or any arm, or are brought to their start
+  bool crowds = false;   // jobs go wherever they like: nothing says that all can be done
 };
 
 // A random workload of two to four arms of one joint that share places by a table, alone and in
@@ -43,6 +45,7 @@ class World {
  private:
   CellPtr cell();
   [[nodiscard]] std::optional<Submit> draw_visit(const Configuration& rest, bool any);
+  [[nodiscard]] std::optional<Submit> draw_goal(const Configuration& rest);
   double place() { return 0.01 * static_cast<double>(random_() % 101); }
   Duration up_to(Duration most);
   std::vector<Crossing> table();

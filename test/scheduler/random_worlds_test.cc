@@ -124,5 +124,33 @@ TEST_P(Worlds, WhateverIsCanceledOfWhatMayBeChosenEveryJobEndsOnce) {
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
+// Jobs that nobody says can be done, to places, by any arm, brought to their starts: when nothing
+// happens any more, nobody waits.
+TEST_P(Worlds, EveryWaitEnds) {
+  auto ended = run(220, {.delays = true, .cancels = true, .goals = true, .crowds = true}, false);
+  EXPECT_GT(ended[JobState::succeeded], 500);
+}
+
+TEST_P(Worlds, EveryWaitEndsWhereArmsGoAside) {
+  auto ended = run(
+      220, {.delays = true, .cancels = true, .parks = true, .goals = true, .crowds = true}, false);
+  EXPECT_GT(ended[JobState::succeeded], 500);
+}
+
+TEST_P(Worlds, EveryWaitEndsWhateverIsStoppedAndAmended) {
+  auto ended = run(220,
+                   {.delays = true,
+                    .stops = true,
+                    .cancels = true,
+                    .scenes = true,
+                    .parks = true,
+                    .amends = true,
+                    .choices = true,
+                    .goals = true,
+                    .crowds = true},
+                   false);
+  EXPECT_GT(ended[JobState::succeeded], 500);
+}
+
 }  // namespace
 }  // namespace armloom

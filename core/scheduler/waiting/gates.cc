@@ -1,6 +1,8 @@
 #include "core/scheduler/waiting/gates.h"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
 #include <utility>
 
 #include "core/jobs/standing.h"
@@ -52,12 +54,27 @@ void add_behind(const State& state, Edges& edges) {
   }
 }
 
+// The same for this job and those before it on its arms that `told` does not have yet.
+void add_behind(const State& state, const Record& record, Edges& edges,
+                std::set<std::pair<ArmId, JobId>>& told) {
+  for (ArmId arm : record.job.trajectory->arms()) {
+    const auto& queue = state.jobs.queues()[arm];
+    if (told.contains({arm, record.job.id})) continue;
+    for (auto job = std::ranges::find(queue, record.job.id); job != queue.begin(); --job) {
+      const JobId before = *std::prev(job);
+      if (!told.emplace(arm, *job).second || !stands(state, state.jobs.at(before))) break;
+      edges.push_back({*job, before});
+    }
+  }
+}
+
 Closed open_arm(const Turns& turns, const Record& record) {
   const auto first = may_go_first(turns.state(), record);
   return first ? order(*first) : std::nullopt;
 }
 
 void add_open_arm(const State& state, const Record& record, Edges& edges) {
+  if (!state.jobs.queues().is_first(record.job)) return;  // its arms will stand elsewhere by then
   if (const auto first = may_go_first(state, record)) edges.push_back({record.job.id, *first});
 }
 
@@ -101,6 +118,15 @@ Closed place(const Turns& turns, const Record& record) {
   const auto taken_by = turns.state().policy->place_taken_by(turns.state(), record);
   if (!taken_by) return std::nullopt;
   return FoundWaits(Wait{.kind = Wait::Kind::capacity, .job = *taken_by});
+}
+
+// A round lets others in by itself while all of it stands: there a place is never part of a cycle.
+void add_place(const State& state, const Record& record, Edges& edges) {
+  if (!record.job.is_waiting() || state.policy->opens_places()) return;
+  const auto taken_by = state.policy->place_taken_by(state, record);
+  if (taken_by && stands(state, state.jobs.at(*taken_by))) {
+    edges.push_back({record.job.id, *taken_by});
+  }
 }
 
 Closed conflict(const Turns& turns, const Record& record) {
@@ -148,14 +174,20 @@ void add_conflict(const State& state, const Record& record, Edges& edges) {
 Closed aging(const Turns& turns, const Record& record) {
   const auto old = turns.held_back_by(record);
   if (!old) return std::nullopt;
-  const bool is_judged = turns.state().is_judged(turns.state().jobs.at(*old).job);
-  return is_judged ? order(*old) : FoundWaits();  // else it may be about to go
+  const bool may_go = !turns.state().is_judged(turns.state().jobs.at(*old).job);
+  if (!may_go || !record.job.is_waiting() || record.job.judgement().found.empty()) {
+    return order(*old);
+  }
+  return FoundWaits(record.job.judgement().found);  // the older one may be about to go
 }
 
 struct Gate {
   GateKind kind;
   Closed (*closed)(const Turns&, const Record&);
-  // For each job that stands: whom this makes it wait for. Null: it opens by itself.
+  // Adds whom this makes a job that stands wait for. Null if the gate opens without another job:
+  //   plan   the planner answers
+  //   stop   an operator resumes the arm
+  //   aging  the older job, and all that goes first for it, is held back by nobody younger
   void (*edges)(const State&, const Record&, Edges&) = nullptr;
   // Is passed by a job that has its turn on another arm (Submit::alternatives).
   bool of_its_arm = false;
@@ -168,10 +200,16 @@ constexpr Gate kGates[] = {
     {GateKind::plan, plan},
     {GateKind::lets_pass, lets_pass, add_lets_pass},
     {GateKind::stop, stop, nullptr, true},
-    {GateKind::place, place},
+    {GateKind::place, place, add_place},
     {GateKind::conflict, conflict, add_conflict},
     {GateKind::aging, aging},
 };
+
+void add_gates(const State& state, const Record& record, Edges& edges) {
+  for (const Gate& gate : kGates) {
+    if (gate.edges != nullptr) gate.edges(state, record, edges);
+  }
+}
 
 }  // namespace
 
@@ -189,12 +227,35 @@ WaitsFor waits_for(const State& state) {
   add_behind(state, edges);
   for (JobId id : state.jobs.active()) {
     const Record& record = state.jobs.at(id);
+    if (stands(state, record)) add_gates(state, record, edges);
+  }
+  return WaitsFor(std::move(edges));
+}
+
+WaitsFor waits_for(const State& state, std::vector<JobId> jobs) {
+  Edges edges;
+  std::set<JobId> seen(jobs.begin(), jobs.end());
+  std::set<std::pair<ArmId, JobId>> behind;
+  while (!jobs.empty()) {
+    const Record& record = state.jobs.at(jobs.back());
+    jobs.pop_back();
     if (!stands(state, record)) continue;
-    for (const Gate& gate : kGates) {
-      if (gate.edges != nullptr) gate.edges(state, record, edges);
+    const std::size_t known = edges.size();
+    add_behind(state, record, edges, behind);
+    add_gates(state, record, edges);
+    for (std::size_t i = known; i < edges.size(); ++i) {
+      const auto* first = std::get_if<JobId>(&edges[i].first);
+      if (first != nullptr && seen.insert(*first).second) jobs.push_back(*first);
     }
   }
   return WaitsFor(std::move(edges));
+}
+
+bool is_found_in_the_way(const State& state, const Record& record, JobId first) {
+  const FoundWaits found = found_in_the_way(state, record);
+  return std::ranges::any_of(found.all(), [&](const Wait& wait) {
+    return wait.kind != Wait::Kind::order && has_to_move_first(state, wait) == first;
+  });
 }
 
 FoundWaits found_in_the_way(const State& state, const Record& record) {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "core/deadlock/waits_for.h"
 #include "core/scheduler/waiting/turns.h"
@@ -40,16 +41,21 @@ class FoundWaits {
 
 struct ClosedGate {
   GateKind kind;
-  FoundWaits waits;  // none: as it was told before
+  FoundWaits waits;  // never empty, but of a conflict that named nothing
 };
 // The first that is closed for this job; nothing: it may be judged.
 [[nodiscard]] std::optional<ClosedGate> closed_gate(const Turns& turns, const Record& record);
 
 // Who cannot move before whom, of all that stands.
 [[nodiscard]] WaitsFor waits_for(const State& state);
+// The part of that graph which these jobs wait for, directly or through others. Costs what it
+// reaches, not what waits.
+[[nodiscard]] WaitsFor waits_for(const State& state, std::vector<JobId> jobs);
 
 // What was found when it was judged last, if that still counts; of what is admitted, what holds it.
 [[nodiscard]] FoundWaits found_in_the_way(const State& state, const Record& record);
+// Returns true if the job was found in conflict with what only `first` will move.
+[[nodiscard]] bool is_found_in_the_way(const State& state, const Record& record, JobId first);
 // The job that has to move before what is waited for changes; nothing: it moves, or never will.
 [[nodiscard]] std::optional<JobId> has_to_move_first(const State& state, const Wait& wait);
 

@@ -94,15 +94,21 @@ bool is_shut(State& state, const Record& record) {
          !state.lanes.has_place(record.job.id, state.jobs, state.arms);
 }
 
-// One by which it is not shut; false: there is none, and it keeps what it has.
+// Takes one by which it is not shut. Returns false if there is none: it keeps what it had, and what
+// is known of that, which would else be asked again, for ever.
 bool take_open_alternative(State& state, Record& record) {
   const std::size_t had = alternative_now(record.job);
+  const std::uint64_t motion = record.leg.motion;
+  Lanes lanes = state.lanes;
   for (const Option& option : on_several_arms(state, record)) {
     if (option.alternative == had) continue;
     take_alternative(state, record, option.alternative);
     if (!is_shut(state, record)) return true;
   }
   take_alternative(state, record, had);
+  record.leg.motion = motion;
+  state.lanes = std::move(lanes);
+  state.lanes.renew_later();
   return false;
 }
 

@@ -20,8 +20,9 @@ bool is_aged(const State& state, const Record& record) {
 }
 
 // Nothing that other jobs do or leave would let it go: an arm that no job will move, an object, a
-// stop.
+// stop, a ring.
 bool waits_beyond_turns(const State& state, const Record& record) {
+  if (!record.job.ring.empty()) return true;
   if (!is_at_head(state.jobs, record)) return false;
   if (state.arms.stop_of(record.job)) return true;
   if (!record.job.is_waiting() || !state.is_judged(record.job)) return false;
@@ -176,11 +177,8 @@ Turns explain_waits(State& state) {
     if (closed && closed->kind == GateKind::place && !record.ages_from) {
       record.ages_from = state.now;
     }
-    if (closed && !closed->waits.all().empty()) {
-      state.jobs.set_waits(record, closed->waits.all());
-    } else if (!closed && record.job.judgement().at == 0) {
-      state.jobs.set_waits(record, {});  // nothing stands against it but that it is not judged yet
-    }
+    // An open job is about to be judged: until then it waits for what was found the last time.
+    state.jobs.set_waits(record, closed ? closed->waits.all() : record.job.judgement().found);
   }
   return turns;
 }

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
 #include "core/jobs/phases.h"
 #include "core/jobs/standing.h"
+#include "core/scheduler/deadlines.h"
 #include "core/scheduler/waiting/gates.h"
 #include "core/scheduler/waiting/options.h"
+#include "core/scheduler/ways/approach.h"
 #include "core/scheduler/ways/replanning.h"
 
 namespace armloom {
@@ -16,23 +19,25 @@ namespace {
 
 bool is_on(const WaitCycle& ring, JobId job) { return std::ranges::find(ring, job) != ring.end(); }
 
-// Orders alone make no ring: all follow one sequence. And only the first job of an arm is judged.
-bool one_is_in_the_way(const State& state) {
-  return std::ranges::any_of(state.jobs.queues(), [&](const auto& queue) {
-    if (queue.empty()) return false;
-    const FoundWaits waits = found_in_the_way(state, state.jobs.at(queue.front()));
-    return std::ranges::any_of(waits.all(), [&](const Wait& wait) {
-      return wait.kind != Wait::Kind::order && has_to_move_first(state, wait).has_value();
-    });
-  });
+JobId next_on(const WaitCycle& ring, std::size_t i) { return ring[(i + 1) % ring.size()]; }
+
+// Those whose waits may close a ring: every other job waits behind these.
+std::vector<JobId> first_jobs(const State& state) {
+  std::vector<JobId> first = first_undecided(state);
+  for (const auto& queue : state.jobs.queues()) {
+    if (!queue.empty()) first.push_back(queue.front());
+  }
+  return first;
 }
 
-// No arm of a ring moves while its jobs wait. So a ring that was found stands until one of these
-// goes, or the scene is another one.
-bool ring_stands(const State& state, const WaitCycle& ring, Version epoch) {
-  return epoch == state.recheck_epoch && std::ranges::all_of(ring, [&](JobId id) {
-           return state.jobs.is_active(id) && stands(state, state.jobs.at(id));
-         });
+bool waits_directly(const WaitsFor& graph, JobId job, JobId first) {
+  const std::size_t node = graph.index_of(job), last = graph.index_of(first);
+  if (node == graph.nodes().size()) return false;
+  return std::ranges::any_of(graph.first_of(node), [&](std::size_t next) {
+    if (next == last) return true;
+    const bool is_arm = std::holds_alternative<ArmId>(graph.nodes()[next]);
+    return is_arm && std::ranges::binary_search(graph.first_of(next), last);
+  });
 }
 
 void untell(State& state, const WaitCycle& ring) {
@@ -48,25 +53,34 @@ void untell(State& state, const WaitCycle& ring) {
   }
 }
 
-// An arm that is aside for the sake of another one of the ring comes back first. Else a move aside
-// gives way, or the last job that a client sent: the others were there before it closed the ring.
-// Not a return, or a move aside on which a client's job counts by now.
-void resolve(State& state, const WaitCycle& ring) {
+// An arm that is aside for the sake of another one of the ring comes back first.
+bool comes_back(State& state, const WaitCycle& ring) {
   for (JobId id : ring) {
     Record& record = state.jobs.at(id);
-    if (lets_another_pass(state.jobs, record) && is_on(ring, *record.errand.lets_pass)) {
-      record.errand.lets_pass.reset();
-      state.lanes.renew_later();
-      return;
-    }
+    if (!lets_another_pass(state.jobs, record) || !is_on(ring, *record.errand.lets_pass)) continue;
+    record.errand.lets_pass.reset();
+    state.lanes.renew_later();
+    return true;
   }
-  const auto dispensable = [&](JobId id) {
-    const Record& record = state.jobs.at(id);
-    return std::tuple(!record.job.system_job || !is_counted_on(state, record),
-                      record.job.system_job, id);
-  };
-  Record& last = state.jobs.at(*std::ranges::max_element(ring, {}, dispensable));
-  give_up(state, last, {AfterStop::Then::fail, Reason::deadlock});
+  return false;
+}
+
+// One that is brought to where it begins needs no other job to bring its arm there.
+bool goes_before_open_arm(State& state, const WaitCycle& ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    Record& record = state.jobs.at(ring[i]);
+    const auto open = may_go_first(state, record);
+    if (!record.is_brought_to_start() || open != next_on(ring, i)) continue;
+    record.approaches.ahead_of.insert(*open);
+    state.jobs.explain(record);
+    return true;
+  }
+  return false;
+}
+
+bool one_expires(const State& state, const WaitCycle& ring) {
+  return std::ranges::any_of(
+      ring, [&](JobId id) { return expiry_of(state.jobs.at(id).job).has_value(); });
 }
 
 bool is_asked(const State& state, const WaitCycle& ring) {
@@ -92,37 +106,93 @@ bool goes_around(State& state, const WaitCycle& ring) {
 }  // namespace
 
 void WaitCycles::name(State& state) {
-  if (!one_is_in_the_way(state)) return;
-  for (WaitCycle& ring : find_wait_cycles(waits_for(state))) {
+  for (WaitCycle& ring : find_wait_cycles(waits_for(state, first_jobs(state)))) {
     const bool told = std::ranges::any_of(named_, [&](const Named& named) {
       return std::ranges::find_first_of(named.ring, ring) != named.ring.end();
     });
     if (told) continue;
-    for (JobId id : ring) {
-      Record& record = state.jobs.at(id);
-      record.job.ring = beginning_with(id, ring);
+    Named named{.ring = ring, .epoch = state.recheck_epoch, .in_turn = {}};
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      Record& record = state.jobs.at(ring[i]);
+      if (!is_found_in_the_way(state, record, next_on(ring, i))) named.in_turn.push_back(ring[i]);
+      record.job.ring = beginning_with(ring[i], ring);
       state.jobs.changed(record);
     }
-    named_.push_back({std::move(ring), state.recheck_epoch});
+    named_.push_back(std::move(named));
   }
+}
+
+// No arm of a ring moves while its jobs wait: what was found in the way stays there until one of
+// them goes, or the scene is another one. Other waits may have opened.
+bool WaitCycles::stands_still(const State& state, const Named& named) const {
+  const WaitCycle& ring = named.ring;
+  const bool all_stand =
+      named.epoch == state.recheck_epoch && std::ranges::all_of(ring, [&](JobId id) {
+        return state.jobs.is_active(id) && stands(state, state.jobs.at(id));
+      });
+  if (!all_stand || named.in_turn.empty()) return all_stand;
+  const WaitsFor graph = waits_for(state, ring);
+  return std::ranges::all_of(named.in_turn, [&](JobId id) {
+    const auto place = std::ranges::find(ring, id) - ring.begin();
+    return waits_directly(graph, id, next_on(ring, static_cast<std::size_t>(place)));
+  });
 }
 
 void WaitCycles::settle(State& state) {
   for (Named& named : std::exchange(named_, {})) {
-    const bool stood = ring_stands(state, named.ring, named.epoch);
-    if (stood && leaves_by_other_arm(state, named.ring)) {
+    const bool stood = stands_still(state, named);
+    if (stood &&
+        (goes_before_open_arm(state, named.ring) || leaves_by_other_arm(state, named.ring))) {
       untell(state, named.ring);
       continue;
     }
     named.way_out =
-        stood && (goes_around(state, named.ring) || yield_in(state, named.ring).has_value());
+        stood && (goes_around(state, named.ring) || yield_in(state, named.ring).has_value() ||
+                  !resolve(state, named.ring));
     if (named.way_out) {
       named_.push_back(std::move(named));
-      continue;
+    } else {
+      untell(state, named.ring);
     }
-    if (stood) resolve(state, named.ring);
-    untell(state, named.ring);
   }
+}
+
+bool WaitCycles::has_lost_one(const State& state, const Record& record) const {
+  return std::ranges::any_of(record.job.trajectory->arms(), [&](ArmId arm) {
+    const auto lost = lost_.find(arm);
+    return lost != lost_.end() && lost->second.epoch == state.recheck_epoch &&
+           lost->second.came_by == state.arms.came_by(arm);
+  });
+}
+
+// A move aside gives way, or the last job that a client sent: the others were there before it
+// closed the ring. Not a return, or a move aside on which a client's job counts by now. Returns
+// nullopt if all arms of the ring have lost a job here, and one of it expires in time.
+std::optional<JobId> WaitCycles::gives_way(const State& state, const WaitCycle& ring) const {
+  const auto dispensable = [&](JobId id) {
+    const Record& record = state.jobs.at(id);
+    return std::tuple(!record.job.system_job || !is_counted_on(state, record),
+                      record.job.system_job, id);
+  };
+  WaitCycle last = ring;
+  std::erase_if(last, [&](JobId id) { return has_lost_one(state, state.jobs.at(id)); });
+  if (last.empty() && one_expires(state, ring)) return std::nullopt;
+  return *std::ranges::max_element(last.empty() ? ring : last, {}, dispensable);
+}
+
+// Returns false if the ring is left to its timeouts.
+bool WaitCycles::resolve(State& state, const WaitCycle& ring) {
+  if (comes_back(state, ring)) return true;
+  const auto id = gives_way(state, ring);
+  if (!id) return false;
+  Record& last = state.jobs.at(*id);
+  keep_those_behind(state, last);
+  for (ArmId arm : last.job.trajectory->arms()) {
+    if (last.job.system_job) break;
+    lost_.insert_or_assign(arm, Lost{state.arms.came_by(arm), state.recheck_epoch});
+  }
+  give_up(state, last, {AfterStop::Then::fail, Reason::deadlock});
+  return true;
 }
 
 bool WaitCycles::is_one_to_settle() const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "core/deadlock/waits_for.h"
@@ -12,8 +14,13 @@ namespace armloom {
 inline constexpr Duration kAfterRingWasTold(1);
 
 // Jobs that wait for each other in a ring can never move: each is told its ring in the step that
-// finds it. Then an arm of the ring goes aside and comes back when the other has passed, if the
-// cell says so and there is such a way; else the job that was submitted last fails.
+// finds it. Then, in a later step, the first of these that is possible:
+//   - a job that is brought to its start goes before one with an open arm that waits for it
+//   - a job goes by another arm or another way, or an arm goes aside and comes back
+//   - the job that was submitted last fails, of those whose arms have lost none since they moved
+//   - nothing, if a job of the ring expires in time
+//   - the job that was submitted last fails
+// So a blockage costs each arm one job, and those behind it are kept (ways/approach.h).
 class WaitCycles {
  public:
   // Every job of a ring is told of it now; what becomes of the ring is decided in a later step, so
@@ -31,10 +38,22 @@ class WaitCycles {
  private:
   struct Named {
     WaitCycle ring;
-    Version epoch;         // State::recheck_epoch when it was found
-    bool way_out = false;  // an arm of it may go aside
+    Version epoch;               // State::recheck_epoch when it was found
+    std::vector<JobId> in_turn;  // wait for the next one, though that was not found in their way
+    bool way_out = false;        // an arm of it may go aside, or one of it expires
   };
+  // An arm whose job has failed for a ring, until it has moved or the scene is another one.
+  struct Lost {
+    TrajectoryPtr came_by;
+    Version epoch;
+  };
+  [[nodiscard]] bool stands_still(const State& state, const Named& named) const;
+  [[nodiscard]] bool has_lost_one(const State& state, const Record& record) const;
+  [[nodiscard]] std::optional<JobId> gives_way(const State& state, const WaitCycle& ring) const;
+  bool resolve(State& state, const WaitCycle& ring);
+
   std::vector<Named> named_;  // told in an earlier step
+  std::map<ArmId, Lost> lost_;
 };
 
 }  // namespace armloom

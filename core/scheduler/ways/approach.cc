@@ -40,7 +40,7 @@ bool send_to_start(State& state, Record& head, ArmId arm) {
 // Whether its arms are, or may be. It is the first of these, waits, and does not begin where they
 // stand.
 bool goes_to_start(State& state, Record& head) {
-  if (head.job.terms.approach != Approach::plan || head.approaches.refusal ||
+  if (!head.is_brought_to_start() || head.approaches.refusal ||
       head.approaches.tries >= kApproachesMax)
     return false;
   if (head.approaches.feasibility == Approaches::Feasibility::unknown) {
@@ -82,6 +82,14 @@ std::vector<JobId> approaches_of(const State& state, const Record& record) {
   return approaches;
 }
 
+void keep_those_behind(State& state, const Record& record) {
+  for (ArmId arm : record.job.trajectory->arms()) {
+    const auto next = state.jobs.queues().behind(record.job, arm);
+    if (next) state.jobs.at(*next).approaches.after_deadlock = true;
+  }
+  state.lanes.renew_later();
+}
+
 // The end of a job of several arms gives each of them a new head: hence until there are none.
 void fail_impossible_starts(State& state) {
   const auto arms = static_cast<std::uint32_t>(state.cell->arms.size());
@@ -102,6 +110,7 @@ void fail_impossible_starts(State& state) {
     if (head.approaches.refusal) {
       *mismatch += "; no way to where it begins: " + *head.approaches.refusal;
     }
+    if (head.approaches.after_deadlock) keep_those_behind(state, head);
     end(state, head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));
   }
 }

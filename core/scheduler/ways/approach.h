@@ -19,6 +19,9 @@ inline constexpr double kApproachSpeed = 0.25;
 // A job at the head of its arms that cannot begin where they stand, and where they are not brought,
 // will never be able to: ends those that wait there.
 void fail_impossible_starts(State& state);
+// This job fails with Reason::deadlock, or for such a one: the next jobs of its arms do not fail
+// for that, but are brought to where they begin as with Approach::plan.
+void keep_those_behind(State& state, const Record& record);
 // The first of its arms of which that is to be asked.
 [[nodiscard]] std::optional<JobId> next_in_question(const State& state);
 // Those that have not ended.

@@ -227,21 +227,6 @@ bool plan_goals(State& state) {
   return any_failed;
 }
 
-std::optional<JobId> undecided_before(const State& state, const Record& record) {
-  const Job& job = record.job;
-  if (job.goal || job.in<Queued>() == nullptr) return std::nullopt;
-  const auto& arms = job.trajectory->arms();
-  for (JobId id : state.jobs.undecided()) {
-    const Record& open = state.jobs.at(id);
-    if (!open.job.has_open_arm() || open.turn > record.turn) continue;
-    const bool shares = std::ranges::any_of(open.job.goal->ways, [&](const GoalWay& way) {
-      return std::ranges::find(arms, way.goal.arm) != arms.end();
-    });
-    if (shares && state.arms.begins_elsewhere(*state.cell, *job.trajectory)) return id;
-  }
-  return std::nullopt;
-}
-
 void forget_plan(State& state, Record& record) {
   GoalWay& way = record.job.goal->way();
   way.is_planned = false;

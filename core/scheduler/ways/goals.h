@@ -24,13 +24,6 @@ inline constexpr int kPlansMax = 5;
 // Of each arm's jobs the first ones are planned.
 inline constexpr std::size_t kPlannedAhead = 16;
 
-// Whose arm is open, and may yet be that of this job, before it: the job does not begin where its
-// arms stand, but may where that one would leave them.
-[[nodiscard]] std::optional<JobId> undecided_before(const State& state, const Record& record);
-[[nodiscard]] inline std::optional<JobId> may_go_first(const State& state, const Record& record) {
-  return state.jobs.undecided().empty() ? std::nullopt : undecided_before(state, record);
-}
-
 // It is to be planned anew, though what was planned would do.
 void forget_plan(State& state, Record& record);
 
