@@ -90,7 +90,7 @@ class RandomCommands {
     for (const JobView& job : now.jobs) {
       const bool of_this = std::ranges::find(job.arms, arms_[arm]) != job.arms.end();
       if (!of_this || is_terminal(job.state)) continue;
-      q = own_.contains(job.key) ? left_[arm] : goals_.at({job.key, arms_[arm]});
+      q = job.system_job ? left_[arm] : goals_.at({job.key, arms_[arm]});
     }
     for (const JobView& job : now.jobs) {
       const auto goal = goals_.find({job.key, arms_[arm]});
