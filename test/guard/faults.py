@@ -62,7 +62,7 @@ FAULTS_IN_GUARD = [
     ('arms of one motion may get apart', 'if (holds && first - last <= proof->apart)', 'if (holds && (FAULT || first - last <= proof->apart))'),
     ('a stop leaves authority as it was', '    position.authority = position.measured;\n  }', '    if (!FAULT) position.authority = position.measured;\n  }'),
     ('authority that was granted is not held', '    positions_[arm.index()] = as_granted(motion, arm, from, authority);', '    positions_[arm.index()] = as_granted(motion, arm, from, FAULT ? from : authority);'),
-    ('arms that were apart are apart whatever they hold', '  return apart != apart_.end() && apart->second ==', '  return apart != apart_.end() && FAULT || apart != apart_.end() && apart->second =='),
+    ('arms that were apart are apart whatever they hold', '  return apart != apart_.end() && apart->second ==', '  if (FAULT) return apart != apart_.end();\n  return apart != apart_.end() && apart->second =='),
     ('a region that is met does not matter', '    if (met == pair.blocked.end()) return std::nullopt;', '    if (met == pair.blocked.end() || FAULT) return std::nullopt;'),
 ]
 
