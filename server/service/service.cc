@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <utility>
 
 #include "core/executive/real_time_loop.h"
@@ -189,9 +190,13 @@ class Service::Impl {
     keeper_->runs_on(*loop_);
     loop_is_there_ = true;
     look_for_damage();
-    // Before whatever comes from outside, stops and resumes too.
-    loop_->post_urgent([this, cell, restart = std::make_shared<Restart>(std::move(restart))](
-                           Executive& executive) { restart->go_on(executive, *cell, *keeper_); });
+    // Before whatever comes from outside: nobody reads of a cell whose former run is not restored.
+    std::promise<void> restored;
+    loop_->post_urgent([&](Executive& executive) {
+      restart.go_on(executive, *cell, *keeper_);
+      restored.set_value();
+    });
+    restored.get_future().wait();
   }
 
   // To everybody who is told of the executive's.
