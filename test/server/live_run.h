@@ -79,6 +79,10 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
     answer(checker_, question, std::move(scene), std::move(done));
   }
+  void certify(Question question, PlanningScenePtr scene,
+               std::function<void(Verdict)> done) override {
+    answer(certifier_, question, std::move(scene), std::move(done));
+  }
   bool consider(Question question, PlanningScenePtr scene,
                 std::function<void(Verdict)> done) override {
     answer(clients_checker_, question, std::move(scene), std::move(done));
@@ -238,7 +242,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
 
   std::mt19937_64 random_;
   std::unique_ptr<Executive> executive_;
-  std::optional<MotionChecker> checker_, clients_checker_;
+  std::optional<MotionChecker> checker_, certifier_, clients_checker_;
   std::multimap<TimePoint, std::function<void()>> pending_;
   TimePoint planned_by_{};
   std::shared_ptr<Executive::Batch> batch_;
