@@ -138,8 +138,10 @@ std::vector<PairRegions> PairRegionSearch::find() {
 void PairRegionSearch::compare(Side& a, Side& b, std::vector<PairRegions>& found) {
   if (b.motion != nullptr && share_an_arm(*a.motion, *b.motion)) return;
   layers_.clear();
+  bool apart = true;  // all arms: an ApartCertificate says so
   for (MotionStore::Entry* arm_a : a.arms) {
     for (MotionStore::Entry* arm_b : b.arms) {
+      apart = apart && store_.out_of_reach(arm_a->arm, arm_b->arm);
       const OrientedDiagram layer = store_.between(*arm_a, *arm_b);
       if (layer) layers_.push_back(outlined(a, b, layer));
     }
@@ -147,7 +149,7 @@ void PairRegionSearch::compare(Side& a, Side& b, std::vector<PairRegions>& found
   if (store_.is_interrupted()) return;
   std::vector<BlockedRegion> regions = blocked(a, b);
   if (refine_close_passes(regions, cells_for(a, b))) regions = blocked(a, b);
-  if (!layers_.empty()) {  // else they are out of reach
+  if (!apart) {
     std::vector<ProgressBox> boxes;
     for (const BlockedRegion& region : regions) {
       boxes.insert(boxes.end(), region.boxes.begin(), region.boxes.end());
