@@ -40,8 +40,8 @@ struct CertifiedSide {
 };
 
 // Wherever both are on their ways, they keep their clearance, but for these rectangles: progress of
-// `a`, progress of `b` (zero at rest). An edge is free unless another rectangle, or the motion's own
-// end, lies behind it.
+// `a`, progress of `b` (zero at rest). An edge is free unless another rectangle, or the motion's
+// own end, lies behind it.
 struct PairCertificate {
   CertifiedSide a;
   CertifiedSide b;
