@@ -70,9 +70,10 @@ void settle_limits(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics);
 // Named states and homes of the robot's arms. Precondition: its limits are settled.
 void settle_homes(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics);
 
-// Adds the pairs of the robot's links that need no check: those within one rigid body and those that
-// the SRDF disables within one arm or between an arm and its mount. Without an SRDF also links on
-// both sides of one movable joint. Other pairs of the SRDF become AllowedCollisions::claimed_pairs.
+// Adds the pairs of the robot's links that need no check: those within one rigid body and those
+// that the SRDF disables within one arm or between an arm and its mount. Without an SRDF also links
+// on both sides of one movable joint. Other pairs of the SRDF become
+// AllowedCollisions::claimed_pairs.
 void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell);
 
 }  // namespace armloom
