@@ -134,7 +134,9 @@ void PairRegionSearch::compare(const Side& a, const Side& b, std::vector<PairReg
   }
   if (store_.is_interrupted()) return;
   std::vector<BlockedRegion> regions = blocked(a, b);
+  if (store_.is_interrupted()) return;
   if (refine_close_passes(regions, cells_for(a, b))) regions = blocked(a, b);
+  if (store_.is_interrupted()) return;
   if (regions.empty()) return;
   const bool may_get_more = cells_for(a, b) < kCellsMax;
   exhausted_ = exhausted_ ||
