@@ -27,7 +27,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
                       Observer& observer)
     : cell_(checked.cell),
       scheduler_(cell_, std::move(checked.policy), cell_->home(), options.first_job),
-      jobs_(scheduler_, options.ended_kept),
+      jobs_(scheduler_, {options.ended_kept, options.ended_bytes_max}),
       scene_(std::move(checked.scene),
              [this]() -> const Configuration& { return execution_.motions().measured(); },
              {.asked = [this](const ExecutiveInput& input) { note(input); },
@@ -41,7 +41,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       count_(cell_->arms.size()),
       clock_{.dies_at = options.dies_at, .inputs = options.inputs},
       publisher_({*cell_, scheduler_, execution_.motions(), jobs_, execution_.starts()}, observer),
-      intake_(cell_, scheduler_, jobs_, options.waiting_max),
+      intake_(cell_, scheduler_, jobs_, {options.waiting_max, options.active_bytes_max}),
       watch_(scene_.scene()) {}
 
 void Executive::Impl::note(ExecutiveInput input) const {
