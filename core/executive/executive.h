@@ -113,6 +113,10 @@ struct ExecutiveOptions {
   std::uint64_t seed = 1;                         // of the simulated arms' noise
   std::size_t ended_kept = 1000;                  // ended jobs that stay readable
   std::size_t waiting_max = 10'000;               // jobs that may be active at once
+  // What the trajectories of active jobs may hold together; a job beyond it is refused.
+  std::size_t active_bytes_max = std::size_t{256} << 20;
+  // And those of ended jobs: those that ended longest ago are forgotten first, but never the last.
+  std::size_t ended_bytes_max = std::size_t{32} << 20;
   JobId first_job{1};          // of those that clients submit; former runs had the ones before
   StartLog* starts = nullptr;  // outlives the executive; null: nobody asks
   InputLog* inputs = nullptr;  // likewise

@@ -28,7 +28,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
                       Observer& observer)
     : cell_(checked.cell),
       scheduler_(cell_, std::move(checked.policy), cell_->home(), options.first_job),
-      jobs_(scheduler_, options.ended_kept),
+      jobs_(scheduler_, {options.ended_kept, options.ended_bytes_max}),
       scene_(std::move(checked.scene),
              [this]() -> const Configuration& { return execution_.motions().measured(); },
              {.asked = [this](const ExecutiveInput& input) { note(input); },
@@ -49,7 +49,7 @@ Executive::Impl::Impl(Checked checked, ExecutiveOptions options, JudgementServic
       publisher_({*cell_, scheduler_, execution_.motions(), execution_.gate(), jobs_,
                   execution_.starts(), scene_},
                  observer),
-      intake_(cell_, scheduler_, jobs_, options.waiting_max),
+      intake_(cell_, scheduler_, jobs_, {options.waiting_max, options.active_bytes_max}),
       watch_(scene_.scene()) {
   follow_policy();
 }

@@ -33,7 +33,7 @@ void find_bad_alternatives(const Cell& cell, const std::vector<TrajectoryPtr>& m
       const double off = motion.goal()[index] - motion.start()[index];
       if (std::abs(off) <= Places::kRounding) continue;
       problems.push_back({ProblemKind::invalid, "alternative-ends-elsewhere",
-                          place + "/points/" + std::to_string(motion.segments().size()) +
+                          place + "/points/" + std::to_string(motion.segment_count()) +
                               "/positions/" + std::to_string(j),
                           cell.joint(motion.joints()[j]).name +
                               ": an alternative has to end where it begins, as the next job of " +
@@ -50,6 +50,12 @@ Problem key_in_use(const std::string& key) {
 
 }  // namespace
 
+std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories) {
+  std::size_t bytes = 0;
+  for (const TrajectoryPtr& trajectory : trajectories) bytes += trajectory->bytes();
+  return bytes;
+}
+
 JobIntake::Ahead JobIntake::ahead() const {
   return {scheduler_.predicted_rest(), {}, ways_back_, scheduler_.open_ends()};
 }
@@ -59,10 +65,10 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
     return failure(Problem{ProblemKind::unavailable, "server-ends", "",
                            "the server is ending and accepts no job"});
   }
-  if (jobs_.active() + ahead.jobs >= waiting_max_) {
+  if (jobs_.active() + ahead.jobs >= active_max_.jobs) {
     return failure(
         Problem{ProblemKind::unavailable, "queue-full", "",
-                "the queue is full: " + std::to_string(waiting_max_) + " jobs have not ended"});
+                "the queue is full: " + std::to_string(active_max_.jobs) + " jobs have not ended"});
   }
   Problems problems;
   std::vector<TrajectoryPtr> returns;
@@ -91,7 +97,10 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
     motions = read_motions(request, ahead, returns, problems);
   }
   if (!problems.empty()) return failure(std::move(problems));
+  const std::size_t bytes = ahead.bytes + bytes_of(motions);
+  if (auto problem = too_large(bytes)) return failure(*std::move(problem));
 
+  ahead.bytes = bytes;
   set_joints(ahead.rest, *motions.front(), motions.front()->goal());
   ahead.keys.insert(request.key);
   ++ahead.jobs;
@@ -102,6 +111,15 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                      .terms = request.terms,
                      .after = std::move(request.after),
                      .returns = std::move(returns)};
+}
+
+std::optional<Problem> JobIntake::too_large(std::size_t bytes) const {
+  if (jobs_.active_bytes() + bytes <= active_max_.bytes) return std::nullopt;
+  const auto kib = [](std::size_t n) { return std::to_string(n >> 10) + " KiB"; };
+  return Problem{ProblemKind::unavailable, "trajectories-full", "",
+                 "the trajectories of jobs that have not ended hold " + kib(jobs_.active_bytes()) +
+                     ", and " + kib(bytes) + " more exceed " + kib(active_max_.bytes) +
+                     ": send the job when others have ended, cancel some, or use fewer waypoints"};
 }
 
 // Its trajectory, or its alternatives; and what has to move first so that they can begin.

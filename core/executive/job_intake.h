@@ -24,14 +24,21 @@ struct PreparedJob {
   std::vector<TrajectoryPtr> returns;  // of its arms, to where their clients left them
 };
 
+// Memory that these hold.
+[[nodiscard]] std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories);
+
 // Reads what clients ask for, against the cell and what has been accepted before. Changes nothing
 // but what it knows of ways back.
 class JobIntake {
  public:
-  // Both outlive it. `waiting_max`: as of ExecutiveOptions.
-  JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs,
-            std::size_t waiting_max)
-      : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), waiting_max_(waiting_max) {}
+  // What active jobs may take (ExecutiveOptions).
+  struct ActiveMax {
+    std::size_t jobs;
+    std::size_t bytes;
+  };
+  // Both outlive it.
+  JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs, ActiveMax active_max)
+      : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), active_max_(active_max) {}
 
   // Where joints will stand, and which keys are taken, when the jobs before it are accepted.
   struct Ahead {
@@ -41,6 +48,7 @@ class JobIntake {
     std::vector<ArmId> open = {};              // whose end of `rest` is not known yet
     bool begins_anywhere = false;              // jobs need not begin at `rest`
     std::size_t jobs = 0;                      // accepted with it
+    std::size_t bytes = 0;                     // of their trajectories
   };
   [[nodiscard]] Ahead ahead() const;
   // Everything that can be said against a request, before anything is stored. `ahead` then holds
@@ -68,6 +76,7 @@ class JobIntake {
                                                    Problems& problems) const;
   [[nodiscard]] std::vector<TrajectoryPtr> estimates_for(const std::vector<MotionGoal>& goals,
                                                          Ahead& ahead) const;
+  [[nodiscard]] std::optional<Problem> too_large(std::size_t bytes) const;
   void begin_where_open(const Trajectory& motion, Ahead& ahead) const;
   void find_bad_after(const JobRequest& request, const Ahead& ahead, Problems& problems) const;
   [[nodiscard]] std::vector<TrajectoryPtr> returns_for(const Trajectory& motion,
@@ -76,7 +85,7 @@ class JobIntake {
   CellPtr cell_;
   const Scheduler& scheduler_;
   const JobRegister& jobs_;
-  std::size_t waiting_max_;
+  ActiveMax active_max_;
   std::map<ArmId, TrajectoryPtr> ways_back_;
   bool is_closed_ = false;
 };

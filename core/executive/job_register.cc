@@ -7,6 +7,7 @@ namespace armloom {
 
 void JobRegister::add(JobId id, JobLabel label) {
   ids_.emplace(label.key, id);
+  active_bytes_ += label.bytes;
   labels_.emplace(id, std::move(label));
 }
 
@@ -14,8 +15,11 @@ void JobRegister::rename(JobId id, std::string name) { labels_.at(id).name = std
 
 std::vector<JobRegister::Forgotten> JobRegister::end(JobId id) {
   ended_.push_back(id);
+  active_bytes_ -= labels_.at(id).bytes;
+  ended_bytes_ += labels_.at(id).bytes;
   std::vector<Forgotten> forgotten;
-  while (ended_.size() > ended_kept_) {
+  while (ended_.size() > ended_max_.jobs ||
+         (ended_.size() > 1 && ended_bytes_ > ended_max_.bytes)) {
     const JobId oldest = ended_.front();
     ended_.pop_front();
     forgotten.push_back({oldest, key(oldest)});
@@ -28,7 +32,9 @@ void JobRegister::forget(JobId id) {
   if (std::erase(ended_, id) > 0) take_out(id);
 }
 
+// One that has ended.
 void JobRegister::take_out(JobId id) {
+  ended_bytes_ -= labels_.at(id).bytes;
   ids_.erase(labels_.at(id).key);
   labels_.erase(id);
 }

@@ -24,14 +24,20 @@ struct JobLabel {
   std::string key;
   std::string name;
   std::optional<TimePoint> submitted_at = {};  // in a former run
+  std::size_t bytes = 0;                       // of its trajectories
 };
 
 // The jobs under the names that clients have for them, and which of them have ended.
 class JobRegister final : public JobNames {
  public:
-  // `scheduler` outlives it. So many jobs that have ended stay known.
-  JobRegister(const Scheduler& scheduler, std::size_t ended_kept)
-      : scheduler_(scheduler), ended_kept_(ended_kept) {}
+  // What jobs that have ended may take; beyond it those that ended longest ago are forgotten.
+  struct EndedMax {
+    std::size_t jobs;
+    std::size_t bytes;  // of trajectories; the job that ended last stays all the same
+  };
+  // `scheduler` outlives it.
+  JobRegister(const Scheduler& scheduler, EndedMax ended_max)
+      : scheduler_(scheduler), ended_max_(ended_max) {}
 
   // Precondition: the key is not taken.
   void add(JobId id, JobLabel label);
@@ -53,6 +59,8 @@ class JobRegister final : public JobNames {
   // Null for what was forgotten.
   [[nodiscard]] const JobLabel* label(JobId id) const;
   [[nodiscard]] std::size_t active() const { return labels_.size() - ended_.size(); }
+  // Memory that trajectories of active jobs hold.
+  [[nodiscard]] std::size_t active_bytes() const { return active_bytes_; }
   [[nodiscard]] const std::deque<JobId>& ended() const { return ended_; }  // oldest first
 
   // A key for a job whose client gave none: "job-17", or "job-17.2" where that is taken.
@@ -69,7 +77,9 @@ class JobRegister final : public JobNames {
  private:
   void take_out(JobId id);
   const Scheduler& scheduler_;
-  std::size_t ended_kept_;
+  EndedMax ended_max_;
+  std::size_t active_bytes_ = 0;
+  std::size_t ended_bytes_ = 0;
   std::unordered_map<std::string, JobId> ids_;
   std::unordered_map<JobId, JobLabel> labels_;
   std::deque<JobId> ended_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -129,6 +130,8 @@ Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options, Scenar
   std::vector<TimedJob>& jobs = scenario.jobs;
   const TimePoint time_limit = scenario.time_limit;
   options.ended_kept = std::max(options.ended_kept, jobs.size());
+  // A scenario is in memory already, and its result tells of every job.
+  options.active_bytes_max = options.ended_bytes_max = std::numeric_limits<std::size_t>::max();
   auto simulation = Simulation::create(std::move(cell), std::move(options), observer);
   if (!simulation) return failure(std::move(simulation.error()));
   Executive& executive = (*simulation)->executive();

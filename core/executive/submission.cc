@@ -66,6 +66,9 @@ JobView Executive::Impl::accept(PreparedJob prepared) {
 }
 
 void Executive::Impl::enter(Submit submitted, JobLabel label) {
+  // Alternatives are all of its trajectories where there are any.
+  label.bytes = submitted.alternatives.empty() ? submitted.trajectory->bytes()
+                                               : bytes_of(submitted.alternatives);
   jobs_.add(submitted.job, std::move(label));
   step(submitted);
 }

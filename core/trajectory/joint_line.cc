@@ -67,7 +67,8 @@ TrajectoryPtr line_or_stay(const Cell& cell, const std::vector<JointId>& joints,
 }
 
 TrajectoryPtr retraced(const Trajectory& trajectory) {
-  std::vector<Segment> segments(trajectory.segments().rbegin(), trajectory.segments().rend());
+  std::vector<Segment> segments = trajectory.segments();
+  std::ranges::reverse(segments);
   for (Segment& segment : segments) {
     segment.start = trajectory.duration() - (segment.start + segment.duration);
     reverse(segment.coefficients, to_seconds(segment.duration));

@@ -36,7 +36,8 @@ double deceleration_on(const Cell& cell, const Trajectory& trajectory,
 
 std::vector<Stretch> stretches_of(const Cell& cell, const Trajectory& trajectory) {
   std::vector<Stretch> stretches;
-  for (const Segment& segment : trajectory.segments()) {
+  for (std::size_t s = 0; s < trajectory.segment_count(); ++s) {
+    const Segment segment = trajectory.segment(s);
     const double begin_s = to_seconds(segment.start);
     const double long_s = to_seconds(segment.duration);
     const double count = std::clamp(std::ceil(long_s / kStretch_s), 1.0, kStretchesMax);

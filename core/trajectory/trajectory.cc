@@ -10,7 +10,7 @@
 namespace armloom {
 namespace {
 
-using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+using Coefficients = Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, 6>>;
 
 // Horner for all joints in one pass; `out` has the right size or is resized by Eigen.
 void positions_at(const Coefficients& c, double t, Eigen::VectorXd& out) {
@@ -70,28 +70,61 @@ SegmentBounds bounds_of(const Segment& segment, double from_s, double to_s) {
 
 Trajectory::Trajectory(std::vector<JointId> joints, std::vector<ArmId> arms,
                        std::vector<Segment> segments)
-    : joints_(std::move(joints)),
-      arms_(std::move(arms)),
-      segments_(std::move(segments)),
-      duration_(Duration::zero()) {
+    : joints_(std::move(joints)), arms_(std::move(arms)), duration_(Duration::zero()) {
   require(!joints_.empty(), "Trajectory: no joints");
   require(!arms_.empty(), "Trajectory: no arms");
   require(std::adjacent_find(arms_.begin(), arms_.end(), std::greater_equal<>{}) == arms_.end(),
           "Trajectory: arms must ascend, each once");
-  require(!segments_.empty(), "Trajectory: no segments");
-  starts_.reserve(segments_.size());
-  for (const Segment& segment : segments_) {
+  require(!segments.empty(), "Trajectory: no segments");
+  starts_.reserve(segments.size());
+  coefficients_.reserve(segments.size() * joints_.size() * 6);
+  for (const Segment& segment : segments) {
     require(segment.start == duration_, "Trajectory: segments must be contiguous from zero");
     require(segment.duration > Duration::zero(), "Trajectory: a segment must take time");
     require(segment.coefficients.rows() == static_cast<Eigen::Index>(joints_.size()),
             "Trajectory: a segment needs one row for each joint");
     require(segment.coefficients.allFinite(), "Trajectory: a coefficient is not finite");
     starts_.push_back(segment.start);
-    bounds_.push_back(bounds_of(segment, 0.0, to_seconds(segment.duration)));
+    coefficients_.insert(coefficients_.end(), segment.coefficients.data(),
+                         segment.coefficients.data() + segment.coefficients.size());
     duration_ += segment.duration;
   }
-  start_ = segments_.front().coefficients.col(0);
-  positions_at(segments_.back().coefficients, to_seconds(segments_.back().duration), goal_);
+  start_ = segments.front().coefficients.col(0);
+  positions_at(segments.back().coefficients, to_seconds(segments.back().duration), goal_);
+}
+
+Trajectory::Piece Trajectory::piece(std::size_t segment) const {
+  const std::size_t rows = joints_.size();
+  return {coefficients_.data() + segment * rows * 6, static_cast<Eigen::Index>(rows), 6};
+}
+
+Duration Trajectory::end_of(std::size_t segment) const {
+  return segment + 1 < starts_.size() ? starts_[segment + 1] : duration_;
+}
+
+Segment Trajectory::segment(std::size_t index) const {
+  return {starts_[index], end_of(index) - starts_[index], piece(index)};
+}
+
+std::vector<Segment> Trajectory::segments() const {
+  std::vector<Segment> segments;
+  segments.reserve(segment_count());
+  for (std::size_t i = 0; i < segment_count(); ++i) segments.push_back(segment(i));
+  return segments;
+}
+
+std::vector<SegmentBounds> Trajectory::bounds() const {
+  std::vector<SegmentBounds> bounds;
+  bounds.reserve(segment_count());
+  for (std::size_t i = 0; i < segment_count(); ++i) {
+    bounds.push_back(bounds_of(segment(i), 0.0, to_seconds(end_of(i) - starts_[i])));
+  }
+  return bounds;
+}
+
+std::size_t Trajectory::bytes() const {
+  return sizeof *this + coefficients_.capacity() * sizeof(double) +
+         starts_.capacity() * sizeof(Duration);
 }
 
 std::size_t Trajectory::segment_at(Duration progress) const {
@@ -113,11 +146,12 @@ void Trajectory::sample(Duration progress, JointState& state) const {
     state.acceleration.setZero(state.position.size());
     return;
   }
-  const Segment& segment = segments_[segment_at(progress)];
-  const double t = to_seconds(progress - segment.start);
-  positions_at(segment.coefficients, t, state.position);
-  velocities_at(segment.coefficients, t, state.velocity);
-  accelerations_at(segment.coefficients, t, state.acceleration);
+  const std::size_t at = segment_at(progress);
+  const Piece segment = piece(at);
+  const double t = to_seconds(progress - starts_[at]);
+  positions_at(segment, t, state.position);
+  velocities_at(segment, t, state.velocity);
+  accelerations_at(segment, t, state.acceleration);
 }
 
 void Trajectory::sample_positions(Duration progress, Eigen::VectorXd& position) const {
@@ -126,8 +160,8 @@ void Trajectory::sample_positions(Duration progress, Eigen::VectorXd& position) 
   } else if (progress >= duration_) {
     position = goal_;
   } else {
-    const Segment& segment = segments_[segment_at(progress)];
-    positions_at(segment.coefficients, to_seconds(progress - segment.start), position);
+    const std::size_t at = segment_at(progress);
+    positions_at(piece(at), to_seconds(progress - starts_[at]), position);
   }
 }
 
@@ -137,18 +171,18 @@ void Trajectory::enclose_about_line(Duration from, Duration to, AboutLine& line)
   line.velocity.setZero(line.position.size());
   line.off.setZero(line.position.size());
   if (from == to) return;
-  const Segment& passed = segments_[segment_at(std::min(middle, duration_ - Duration(1)))];
-  velocities_at(passed.coefficients, to_seconds(middle - passed.start), line.velocity);
+  const std::size_t passed = segment_at(std::min(middle, duration_ - Duration(1)));
+  velocities_at(piece(passed), to_seconds(middle - starts_[passed]), line.velocity);
   for (std::size_t i = segment_at(std::min(from, duration_ - Duration(1)));
-       i < segments_.size() && segments_[i].start < to; ++i) {
-    const Segment& segment = segments_[i];
-    const Duration first = std::max(from - segment.start, Duration::zero());
-    const Duration last = std::min(to - segment.start, segment.duration);
+       i < starts_.size() && starts_[i] < to; ++i) {
+    const Piece segment = piece(i);
+    const Duration first = std::max(from - starts_[i], Duration::zero());
+    const Duration last = std::min(to, end_of(i)) - starts_[i];
     const double h = 0.5 * to_seconds(last - first);
     const double at = to_seconds(first) + h;  // of the segment
-    const double ahead = to_seconds(segment.start - middle) + at;
+    const double ahead = to_seconds(starts_[i] - middle) + at;
     for (Eigen::Index j = 0; j < line.off.size(); ++j) {
-      auto p = shifted(segment.coefficients, j, at);
+      auto p = shifted(segment, j, at);
       const double there = std::abs(p[0] - line.position[j] - line.velocity[j] * ahead);
       p[1] -= line.velocity[j];
       line.off[j] = std::max(line.off[j], there + swing(p, h));

@@ -47,7 +47,12 @@ class Trajectory {
   // In the order of the request: rows of every vector that is sampled here.
   [[nodiscard]] const std::vector<JointId>& joints() const { return joints_; }
   [[nodiscard]] const std::vector<ArmId>& arms() const { return arms_; }
-  [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
+  [[nodiscard]] std::size_t segment_count() const { return starts_.size(); }
+  // Copies, of one and of all.
+  [[nodiscard]] Segment segment(std::size_t index) const;
+  [[nodiscard]] std::vector<Segment> segments() const;
+  // Memory that it holds.
+  [[nodiscard]] std::size_t bytes() const;
   [[nodiscard]] Duration duration() const { return duration_; }
   [[nodiscard]] const Eigen::VectorXd& start() const { return start_; }
   [[nodiscard]] const Eigen::VectorXd& goal() const { return goal_; }
@@ -58,8 +63,9 @@ class Trajectory {
   void sample(Duration progress, JointState& state) const;
   void sample_positions(Duration progress, Eigen::VectorXd& position) const;
 
-  // Of each segment, from its Taylor polynomial at the middle: sound but for rounding (1e-12).
-  [[nodiscard]] const std::vector<SegmentBounds>& bounds() const { return bounds_; }
+  // Computes, for each segment, from its Taylor polynomial at the middle: sound but for rounding
+  // (1e-12).
+  [[nodiscard]] std::vector<SegmentBounds> bounds() const;
   // How far any position between two instants is at most from the line through the middle of these
   // with the velocity there: |q(t) - position - velocity (t - middle)| <= off, t from `from` to
   // `to`. Sized as it must be; sound but for rounding (1e-12).
@@ -70,14 +76,18 @@ class Trajectory {
   void enclose_about_line(Duration from, Duration to, AboutLine& line) const;
 
  private:
+  // A segment's coefficients where they lie.
+  using Piece = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6>>;
+  [[nodiscard]] Piece piece(std::size_t segment) const;
+  [[nodiscard]] Duration end_of(std::size_t segment) const;
   // Precondition: 0 <= progress < duration.
   [[nodiscard]] std::size_t segment_at(Duration progress) const;
 
   std::vector<JointId> joints_;
   std::vector<ArmId> arms_;
-  std::vector<Segment> segments_;
-  std::vector<SegmentBounds> bounds_;  // of the segments
-  std::vector<Duration> starts_;       // of the segments, close together for the search
+  // A job may have 10,000 segments: one array for all of them, and nothing that can be computed.
+  std::vector<double> coefficients_;
+  std::vector<Duration> starts_;  // of the segments, close together for the search
   Duration duration_;
   Eigen::VectorXd start_;
   Eigen::VectorXd goal_;

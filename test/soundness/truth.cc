@@ -13,18 +13,19 @@ constexpr double kRounding_m = 1e-6;
 // Bounds how far any point of a motion's arm travels from the question's instant on.
 class Odometer {
  public:
-  Odometer(const Motion& motion, const std::vector<double>& levers) : motion_(motion) {
+  Odometer(const Motion& motion, const std::vector<double>& levers)
+      : motion_(motion), segments_(motion.trajectory->segments()) {
     const Trajectory& trajectory = *motion.trajectory;
+    const std::vector<SegmentBounds> bounds = trajectory.bounds();
     travelled_m_.push_back(0.0);
-    for (std::size_t s = 0; s < trajectory.segments().size(); ++s) {
+    for (std::size_t s = 0; s < segments_.size(); ++s) {
       double speed = 0.0;
       for (std::size_t j = 0; j < trajectory.joints().size(); ++j) {
-        speed += trajectory.bounds()[s].speed[static_cast<Eigen::Index>(j)] *
-                 levers[trajectory.joints()[j].index()];
+        speed +=
+            bounds[s].speed[static_cast<Eigen::Index>(j)] * levers[trajectory.joints()[j].index()];
       }
       speeds_m_s_.push_back(speed);
-      travelled_m_.push_back(travelled_m_.back() +
-                             speed * to_seconds(trajectory.segments()[s].duration));
+      travelled_m_.push_back(travelled_m_.back() + speed * to_seconds(segments_[s].duration));
     }
   }
 
@@ -32,16 +33,16 @@ class Odometer {
     const double progress_s = to_seconds(motion_.progress) + t_s;
     if (progress_s <= 0.0) return 0.0;
     if (progress_s >= to_seconds(motion_.trajectory->duration())) return travelled_m_.back();
-    const auto& segments = motion_.trajectory->segments();
     const auto after = std::upper_bound(
-        segments.begin(), segments.end(), progress_s,
+        segments_.begin(), segments_.end(), progress_s,
         [](double s, const Segment& segment) { return s < to_seconds(segment.start); });
-    const auto i = static_cast<std::size_t>(after - segments.begin()) - 1;
-    return travelled_m_[i] + speeds_m_s_[i] * (progress_s - to_seconds(segments[i].start));
+    const auto i = static_cast<std::size_t>(after - segments_.begin()) - 1;
+    return travelled_m_[i] + speeds_m_s_[i] * (progress_s - to_seconds(segments_[i].start));
   }
 
  private:
   const Motion& motion_;
+  std::vector<Segment> segments_;
   std::vector<double> speeds_m_s_;
   std::vector<double> travelled_m_;  // at the beginning of each segment
 };

@@ -223,6 +223,19 @@ Segment segment(Duration start, Duration duration, Eigen::Index rows) {
   return result;
 }
 
+TEST(Trajectory, HoldsCoefficientsAndStartsOnly) {
+  constexpr std::size_t kSegments = 10'000;
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < kSegments; ++i) segments.push_back(segment(i * 1ms, 1ms, 2));
+  const Trajectory trajectory({JointId(0), JointId(1)}, {ArmId(0)}, std::move(segments));
+  const std::size_t numbers = kSegments * (2 * 6 + 1);
+  EXPECT_GE(trajectory.bytes(), numbers * sizeof(double));
+  EXPECT_LE(trajectory.bytes(), numbers * sizeof(double) + 1024);
+  EXPECT_EQ(trajectory.segments().size(), kSegments);
+  EXPECT_EQ(trajectory.segment(7).start, 7ms);
+  EXPECT_EQ(trajectory.segment(kSegments - 1).duration, 1ms);
+}
+
 TEST(Trajectory, RefusesToBeMadeOfPartsThatDoNotFit) {
   const std::vector<JointId> joints = {JointId(0), JointId(1)};
   const std::vector<ArmId> arms = {ArmId(0), ArmId(1)};

@@ -148,7 +148,9 @@ void PairRegionSearch::compare(Side& a, Side& b, std::vector<PairRegions>& found
   }
   if (store_.is_interrupted()) return;
   std::vector<BlockedRegion> regions = blocked(a, b);
+  if (store_.is_interrupted()) return;
   if (refine_close_passes(regions, cells_for(a, b))) regions = blocked(a, b);
+  if (store_.is_interrupted()) return;
   if (!apart) {
     std::vector<ProgressBox> boxes;
     for (const BlockedRegion& region : regions) {

@@ -84,6 +84,24 @@ class CellTree {
     return false;
   }
 
+  // Calls visit(leaf) for each leaf below cells for which descend(box) holds.
+  template <class Descend, class Visit>
+  void leaves_where(const Descend& descend, const Visit& visit) const {
+    std::vector<int>& open = walk_;
+    open.assign(1, 0);
+    while (!open.empty()) {
+      const int index = open.back();
+      open.pop_back();
+      const Node& cell = at(index);
+      if (!descend(box_of(cell))) continue;
+      if (cell.state != CellState::inner) {
+        visit(index);
+        continue;
+      }
+      for (int i = 0; i < cell.child_count(); ++i) open.push_back(cell.children + i);
+    }
+  }
+
  private:
   std::shared_ptr<TimeTree> a_;
   std::shared_ptr<TimeTree> b_;

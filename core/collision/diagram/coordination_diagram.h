@@ -30,8 +30,11 @@ class CoordinationDiagram {
  public:
   explicit CoordinationDiagram(TubePair pair);
   [[nodiscard]] TubePair& pair() { return pair_; }
-  // So many cells it holds.
-  [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(tree_.size()); }
+  // Memory that it holds, but for its tubes.
+  [[nodiscard]] std::size_t bytes() const {
+    return static_cast<std::size_t>(tree_.size()) * sizeof(Node) +
+           found_.size() * sizeof(NarrowWitness);
+  }
 
   // Two bodies too close to each other.
   struct Witness {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/collision/diagram/box_areas.h"
 #include "core/collision/diagram/coordination_diagram.h"
 #include "core/collision/diagram/passing_edges.h"
 
@@ -234,22 +235,20 @@ std::vector<CoordinationDiagram::Blocked> CoordinationDiagram::blocked(Duration 
 
 std::uint64_t CoordinationDiagram::refine_close_passes(const std::vector<ProgressBox>& areas,
                                                        Duration finest, std::uint64_t budget) {
-  if (tree_.size() >= kFull) return 0;
-  const auto meant = [&](const Node& cell) {
-    const Duration a = tree_.a().middle(cell.a);
-    const Duration b = tree_.b().middle(cell.b);
-    return std::ranges::any_of(areas, [&](const ProgressBox& area) {
-      return area.from_a <= a && a <= area.to_a && area.from_b <= b && b <= area.to_b;
-    });
-  };
+  if (tree_.size() >= kFull || areas.empty()) return 0;
+  const BoxAreas held(areas);
   const auto open = [&](const Node& cell) {
     return cell.state == CellState::mixed && tree_.wider(cell, finest);
   };
   std::vector<int> leaves;
-  for (int i = 0; i < tree_.size(); ++i) {
-    if ((tree_.at(i).state == CellState::unknown || open(tree_.at(i))) && meant(tree_.at(i)))
-      leaves.push_back(i);
-  }
+  tree_.leaves_where([&](const ProgressBox& box) { return held.may_hold(box); },
+                     [&](int leaf) {
+                       const Node& cell = tree_.at(leaf);
+                       if (cell.state != CellState::unknown && !open(cell)) return;
+                       if (held.hold(tree_.a().middle(cell.a), tree_.b().middle(cell.b)))
+                         leaves.push_back(leaf);
+                     });
+  std::ranges::sort(leaves);
   const auto expand = [&](std::vector<int>& wide, std::vector<int>& unknown) {
     for (const int index : wide) {
       if (tree_.at(index).state == CellState::unknown) unknown.push_back(index);

@@ -44,16 +44,19 @@ void MotionStore::begin_question(CheckProgress* progress) {
     for (std::size_t i = kKept; i < entries.size(); ++i) drop(*entries[i]);
     entries.resize(kKept);
   }
-  while (cells() > kCellsKept) drop_oldest();
+  while (bytes() > kBytesKept) drop_oldest();
   ++question_;
 }
 
-std::size_t MotionStore::cells() const {
-  std::size_t cells = 0;
-  for (const auto* kept : {&diagrams_.between, &diagrams_.with_itself, &diagrams_.with_still}) {
-    for (const auto& [key, diagram] : *kept) cells += diagram->size();
+std::size_t MotionStore::bytes() const {
+  std::size_t bytes = 0;
+  for (const auto& entries : entries_) {
+    for (const auto& entry : entries) bytes += entry->tube->bytes();
   }
-  return cells;
+  for (const auto* kept : {&diagrams_.between, &diagrams_.with_itself, &diagrams_.with_still}) {
+    for (const auto& [key, diagram] : *kept) bytes += diagram->bytes();
+  }
+  return bytes;
 }
 
 // Of those that were asked about at one time the first arm's first.

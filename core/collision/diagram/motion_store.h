@@ -41,9 +41,9 @@ class MotionStore {
   // Of each arm kKept entries are kept, those that questions named last. References hold until the
   // next begin_question().
   inline static constexpr std::size_t kKept = 64;
-  // Diagrams hold no more cells than this in all when a question begins: entries that were asked
-  // about longest ago go first.
-  inline static constexpr std::size_t kCellsKept = 3'000'000;
+  // Entries and diagrams hold no more memory than this when a question begins: entries that were
+  // asked about longest ago go first.
+  inline static constexpr std::size_t kBytesKept = std::size_t{192} << 20;
   // `progress`: null, or outlives the question.
   void begin_question(CheckProgress* progress = nullptr);
   // The check at hand: it may use so many cells; whether it is to end early.
@@ -76,7 +76,7 @@ class MotionStore {
   void look_at_still();
   void drop(const Entry& entry);
   void drop_oldest();
-  [[nodiscard]] std::size_t cells() const;
+  [[nodiscard]] std::size_t bytes() const;
 
   PlanningScenePtr scene_;
   PlanningScenePtr links_;  // the scene that cross and self pairs were read from

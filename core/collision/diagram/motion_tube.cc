@@ -70,6 +70,20 @@ MotionTube::MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPt
   }
 }
 
+std::size_t MotionTube::bytes() const {
+  std::size_t bytes =
+      size() * (sizeof(Placement) + sizeof(Duration) * 3) + self_hits_.capacity() * sizeof(SelfHit);
+  if (trajectory_) bytes += trajectory_->bytes();
+  if (blocks_.empty()) return bytes;
+  const Block& block = *blocks_.front();  // all are alike
+  std::size_t numbers = block.frames.size() * 2;
+  for (const auto* row : {&block.capsules, &block.motion_bound, &block.ball, &block.drifts,
+                          &block.looses, &block.sweeps}) {
+    numbers += row->size();
+  }
+  return bytes + blocks_.size() * (sizeof(Block) + numbers * sizeof(float));
+}
+
 void MotionTube::configuration(Duration time, double* q) {
   if (trajectory_) trajectory_->sample_positions(time, scratch_->position);
   for (std::size_t row = 0; row < rest_.size(); ++row) {

@@ -42,6 +42,8 @@ class MotionTube : public TimeTree {
 
   // Computes nodes that are not yet (eight at once). Before it the functions below are undefined.
   void place(std::span<const int> nodes);
+  // Memory that it holds, its trajectory and the tree of times included.
+  [[nodiscard]] std::size_t bytes() const;
   // A node is this wide, or made up of stretches that are.
   inline static constexpr Duration kStretch = std::chrono::microseconds(87'500);
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "core/coordination/conflict_region.h"
+
+namespace armloom {
+
+// Boxes that hardly overlap, for questions about points: a search over one axis.
+class BoxAreas {
+ public:
+  // Precondition: not empty.
+  explicit BoxAreas(std::vector<ProgressBox> boxes) : boxes_(std::move(boxes)) {
+    std::ranges::sort(boxes_, {}, &ProgressBox::from_a);
+    hull_ = boxes_.front();
+    for (const ProgressBox& box : boxes_) {
+      hull_ = {std::min(hull_.from_a, box.from_a), std::max(hull_.to_a, box.to_a),
+               std::min(hull_.from_b, box.from_b), std::max(hull_.to_b, box.to_b)};
+      to_a_.push_back(hull_.to_a);
+    }
+  }
+
+  // Returns false only if no point of the box is in an area.
+  [[nodiscard]] bool may_hold(const ProgressBox& box) const {
+    return box.from_a <= hull_.to_a && hull_.from_a <= box.to_a && box.from_b <= hull_.to_b &&
+           hull_.from_b <= box.to_b;
+  }
+  [[nodiscard]] bool hold(Duration a, Duration b) const {
+    const auto behind = std::ranges::upper_bound(boxes_, a, {}, &ProgressBox::from_a);
+    for (auto i = static_cast<std::size_t>(behind - boxes_.begin()); i-- > 0 && to_a_[i] >= a;) {
+      const ProgressBox& box = boxes_[i];
+      if (a <= box.to_a && box.from_b <= b && b <= box.to_b) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<ProgressBox> boxes_;  // by from_a
+  std::vector<Duration> to_a_;      // the largest so far
+  ProgressBox hull_;
+};
+
+}  // namespace armloom
