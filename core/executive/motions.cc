@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/trajectory/set_joints.h"
+#include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
 namespace {
@@ -30,6 +31,11 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
   motion.trajectory = trajectory;
   motion.authority = dispatch.authority;
   motion.resting = motion.braking = false;
+  motion.handed_on = dispatch.authority;
+  if (trajectory->arms().size() > 1) {
+    motion.ahead_max = kOutOfStep + from_seconds(stopping_reach_s(*cell_, *trajectory));
+    motion.handed_on = std::min(dispatch.authority, dispatch.from_progress + motion.ahead_max);
+  }
   for (ArmId arm : trajectory->arms()) {
     // An arm that stands ahead of its siblings lets them catch up.
     const auto stands_at = motion.stands_at.find(arm);
@@ -37,7 +43,7 @@ void Motions::dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory
         stands_at == motion.stands_at.end() ? dispatch.from_progress : stands_at->second;
     feedback_[arm.index()].settled = false;  // until its next tick
     controllers_[arm.index()]->start(
-        trajectory, dispatch.start_at + (from - dispatch.from_progress), from, dispatch.authority);
+        trajectory, dispatch.start_at + (from - dispatch.from_progress), from, motion.handed_on);
   }
 }
 
@@ -92,14 +98,19 @@ const std::vector<MotionReport>& Motions::tick(TimePoint now) {
   return reports_;
 }
 
-void Motions::keep_together(const Motion& motion) {
+void Motions::keep_together(Motion& motion) {
   Duration last = motion.trajectory->duration();
   for (ArmId arm : motion.trajectory->arms()) {
     last = std::min(last, feedback_[arm.index()].commanded_progress);
   }
+  // In steps, as an arm plans its brake anew for each one.
+  const Duration reach = last + motion.ahead_max;
+  if (reach >= motion.authority || reach - motion.handed_on >= kOutOfStep / 2) {
+    motion.handed_on = std::min(reach, motion.authority);
+  }
   for (ArmId arm : motion.trajectory->arms()) {
     const bool ahead = feedback_[arm.index()].commanded_progress - last > kOutOfStep;
-    controllers_[arm.index()]->grant(ahead ? std::min(last, motion.authority) : motion.authority);
+    controllers_[arm.index()]->grant(ahead ? std::min(last, motion.handed_on) : motion.handed_on);
   }
 }
 

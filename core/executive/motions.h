@@ -14,7 +14,9 @@ namespace armloom {
 // The arms and the motions on them: hands a job's trajectory to the controllers of its arms
 // and joins what they say into one report for the job (one progress, that of the last; one end).
 // Siblings of an arm that faults are braked; siblings that get ahead of it by more than kOutOfStep
-// wait on the path.
+// wait on the path. No arm is given authority farther ahead of the last position that is known of
+// its siblings than kOutOfStep and the motion's stopping reach: so they keep together also while
+// the feedback of one of them does not come.
 class Motions {
  public:
   Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
@@ -59,11 +61,13 @@ class Motions {
     std::map<ArmId, Duration>
         stands_at{};  // measured, where an arm rests on the path after a brake
     Duration authority{};
+    Duration ahead_max{};  // of a sibling; motions of several arms
+    Duration handed_on{};  // of the authority, to the controllers
     bool resting = false;  // its end has been reported
     bool braking = false;
   };
   void report(JobId job, Motion& motion);
-  void keep_together(const Motion& motion);
+  void keep_together(Motion& motion);
 
   CellPtr cell_;
   std::vector<std::unique_ptr<ArmController>> controllers_;  // ArmId
