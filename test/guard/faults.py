@@ -114,7 +114,10 @@ def build(tree):
 def run(tree, program, number, *args, seeds=None):
     env = dict(os.environ, ARMLOOM_FAULT=str(number))
     if seeds: env['ARMLOOM_SEEDS'] = str(seeds)
-    done = subprocess.run([tree / 'build' / program, '--gtest_brief=1', *args], env=env, capture_output=True, text=True, timeout=900)
+    try:
+        done = subprocess.run([tree / 'build' / program, '--gtest_brief=1', *args], env=env, capture_output=True, text=True, timeout=150)
+    except subprocess.TimeoutExpired:
+        return None, ''
     return done.returncode, done.stdout + done.stderr
 
 
@@ -125,7 +128,7 @@ def soak(tree, number, seeds):
         code, out = run(tree, 'soak_test', number, f'--gtest_filter=*SoakOfCommands.Sliders/{policy}', seeds=seeds)
         for line in re.findall(r'closest (\S+) mm, (\d+) monitor findings; (\d+) guard refusals', out):
             closest, findings, refusals = min(closest, float(line[0])), findings + int(line[1]), refusals + int(line[2])
-        if 'simulated hours' not in out: return None, closest, findings
+        if 'simulated hours' not in out: return None if code is None else -1, closest, findings
         if refusals: break
     return refusals, closest, findings
 
@@ -155,10 +158,12 @@ def main():
                 print(f'| {name} | guard | | | {", ".join(found[:3]) or "NOBODY"} |', flush=True)
                 continue
             refusals, closest, findings = soak(tree, number, asked.seeds)
-            harmless = refusals is not None and closest >= 19.8 and findings == 0
+            harmless = closest >= 19.8 and findings == 0
             failed += not (harmless and refusals)
-            what = 'the guard' if refusals else 'THE PROCESS ENDED' if refusals is None else 'NOBODY'
-            print(f'| {name} | scheduler | {refusals} | {closest:.1f} mm{"" if harmless else " HARM"} | {what} |', flush=True)
+            what = {None: 'it does not go on', -1: 'the process ends', 0: 'NOBODY'}.get(refusals, 'the guard')
+            near = f'{closest:.1f} mm' if closest < 1e6 else ''
+            count = refusals if refusals and refusals > 0 else ''
+            print(f'| {name} | scheduler | {count} | {near}{"" if harmless else " HARM"} | {what} |', flush=True)
     return 1 if failed else 0
 
 

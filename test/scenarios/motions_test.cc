@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/trajectory/stopping_reach.h"
 #include "test/collision/small_cell.h"
 #include "test/scheduler/one_joint_arms.h"
 
@@ -82,7 +83,24 @@ TEST_F(ToldArms, WhoGetsAheadOfItsTeamWaitsForIt) {
   say(1, 2s - 2 * kOutOfStep, 2s - 2 * kOutOfStep);
   (void)motions->tick(TimePoint{} + 1ms);
   EXPECT_EQ(arms[0]->granted, 2s - 2 * kOutOfStep);
-  EXPECT_EQ(arms[1]->granted, 4s);
+  EXPECT_GT(arms[1]->granted, 2s - 2 * kOutOfStep);
+}
+
+// Its feedback does not come: where it is on the path nobody knows, but how far it may be.
+TEST_F(ToldArms, NoArmOfATeamIsGivenAuthorityFarAheadOfTheLastKnownPosition) {
+  dispatch({ArmId{0}, ArmId{1}});
+  const Duration reach = from_seconds(stopping_reach_s(
+      *cell, *small::sweep(*cell, {ArmId{0}, ArmId{1}}, {-1.0, -1.0}, {1.0, 1.0}, 4s)));
+  ASSERT_LT(1s + kOutOfStep + reach, 4s);
+  for (int tick = 1; tick <= 1000; ++tick) {
+    const Duration first = std::min<Duration>(tick * 1ms, 1s);
+    const Duration known = std::min<Duration>(tick * 1ms, 500ms);
+    say(0, first, first);
+    say(1, known, known);
+    (void)motions->tick(TimePoint{} + tick * 1ms);
+    EXPECT_LE(arms[1]->granted, known + kOutOfStep + reach);
+  }
+  EXPECT_GT(arms[1]->granted, 500ms + reach);
 }
 
 TEST_F(ToldArms, AllBrakeAtOnce) {
