@@ -139,11 +139,17 @@ std::size_t place_on(const State& state, const Record& record, ArmId arm) {
 
 void take_alternative(State& state, Record& record, std::size_t which) {
   const TrajectoryPtr trajectory = record.job.alternatives[which];
-  if (record.job.trajectory == trajectory) return;
+  const auto& queue = state.jobs.queues()[arm_of(*trajectory)];
+  const auto now = std::ranges::find(queue, record.job.id) - queue.begin();
+  auto place = static_cast<std::ptrdiff_t>(place_on(state, record, arm_of(*trajectory)));
+  if (record.job.trajectory == trajectory) {
+    // Jobs that were admitted before it may wait again: it goes before those that came later.
+    if (now < place) --place;
+    if (now == place || record.job.in<Queued>() == nullptr) return;
+  }
   if (record.job.goal) record.job.goal->taken = which;
   WaitingLeg leg = state.arms.leg_of(*state.cell, record.job.id, *trajectory);
-  const std::size_t place = place_on(state, record, arm_of(*trajectory));
-  state.jobs.take(record, trajectory, std::move(leg), place);
+  state.jobs.take(record, trajectory, std::move(leg), static_cast<std::size_t>(place));
   state.lanes.renew_later();
 }
 
