@@ -1,17 +1,39 @@
 #include "core/coordination/certificate.h"
 
+#include <algorithm>
+
 #include "core/base/content_hash.h"
 
 namespace armloom {
 
-Fingerprint SceneFingerprint::of(const std::vector<ArmId>& which) const {
+Fingerprint SceneFingerprint::of(std::span<const ArmId> one, std::span<const ArmId> other) const {
   ContentHash hash;
   hash.add(common);
-  for (const ArmId arm : which) {
+  for (auto a = one.begin(), b = other.begin(); a != one.end() || b != other.end();) {
+    const bool from_one = b == other.end() || (a != one.end() && *a < *b);
+    const ArmId arm = from_one ? *a++ : *b++;
     hash.add(arm.index());
     hash.add(arms[arm.index()]);
   }
   return hash.value();
+}
+
+std::vector<ArmId> arms_in_question(const SceneFingerprint& before, const SceneFingerprint& now) {
+  const bool all = before.common != now.common || before.arms != now.arms;  // what arms hold
+  std::vector<ArmId> arms;
+  for (std::uint32_t a = 0; a < now.arms.size(); ++a) {
+    const bool stands = std::ranges::includes(before.objects[a], now.objects[a]);
+    if (all || !stands) arms.emplace_back(a);
+  }
+  return arms;
+}
+
+PairCertificate turned(const PairCertificate& pair) {
+  PairCertificate result{pair.b, pair.a, {}, pair.geometry};
+  for (const ProgressBox& box : pair.blocked) {
+    result.blocked.push_back({box.from_b, box.to_b, box.from_a, box.to_a});
+  }
+  return result;
 }
 
 }  // namespace armloom

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -21,13 +22,19 @@ using Fingerprint = std::uint64_t;
 
 // The content of a planning scene.
 struct SceneFingerprint {
-  Fingerprint common = 0;            // limits, pairs that may touch, links that no arm moves
-  std::vector<Fingerprint> arms;     // by ArmId: links, joints, and what the arm holds
-  std::vector<Fingerprint> objects;  // ascending
+  Fingerprint common = 0;         // limits, pairs that may touch, links that no arm moves
+  std::vector<Fingerprint> arms;  // by ArmId: links, joints, and what the arm holds
+  // By ArmId: those that the arm may come near to, wherever its joints are. Ascending.
+  std::vector<std::vector<Fingerprint>> objects;
 
-  // The content that a proof about these arms relies on. Precondition: ascending.
-  [[nodiscard]] Fingerprint of(const std::vector<ArmId>& which) const;
+  // The content that a proof about these arms relies on, of both lists. Precondition: each list is
+  // ascending, and they have no arm in common.
+  [[nodiscard]] Fingerprint of(std::span<const ArmId> one, std::span<const ArmId> other = {}) const;
+  bool operator==(const SceneFingerprint&) const = default;
 };
+// Returns the arms of which proofs about the scene `before` do not hold in the scene `now`.
+[[nodiscard]] std::vector<ArmId> arms_in_question(const SceneFingerprint& before,
+                                                  const SceneFingerprint& now);
 
 // The arms of one motion, or one arm at rest, as a proof sees them. Each joint is at most `error`
 // (rad, m) from where it is said to be.
@@ -48,6 +55,7 @@ struct PairCertificate {
   std::vector<ProgressBox> blocked;
   Fingerprint geometry;
 };
+[[nodiscard]] PairCertificate turned(const PairCertificate& pair);
 // These two arms keep their clearance wherever they are.
 struct ApartCertificate {
   ArmId a;
@@ -55,10 +63,10 @@ struct ApartCertificate {
   Fingerprint geometry;
 };
 // On all of its remaining way the motion keeps its clearance from itself, links that stand still,
-// and these objects (SceneFingerprint::objects).
+// and these objects.
 struct SceneCertificate {
   CertifiedSide side;
-  std::vector<Fingerprint> objects;  // ascending
+  std::vector<std::vector<Fingerprint>> objects;  // of each arm of the side, ascending
   Fingerprint geometry;
 };
 // The arms of one motion keep their clearance from each other while none of them is ahead of

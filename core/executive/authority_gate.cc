@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/coordination/effort.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -34,12 +35,19 @@ AuthorityGate::AuthorityGate(CellPtr cell, Motions& motions, SceneFingerprint pr
       jobs_(cell_->arms.size()) {}
 
 void AuthorityGate::certified(const std::vector<Certificate>& certificates) {
-  is_asked_ = false;
+  const auto asked = kept_.find(*std::exchange(asked_, std::nullopt));
+  if (asked != kept_.end()) ++asked->second.answers;
   take(certificates);
 }
 
-std::optional<GuardRefusal> AuthorityGate::passes(const TrajectoryPtr& motion, Duration from,
-                                                  Duration authority) {
+// An answer that is under way is about another scene.
+void AuthorityGate::look_at(const SceneFingerprint& present) {
+  guard_.look_at(present);
+  for (auto& [job, kept] : kept_) kept.answers = asked_ == job ? -1 : 0;
+}
+
+std::optional<GuardRefusal> AuthorityGate::passes(const TrajectoryPtr& motion,
+                                                  AuthorityGuard::From from, Duration authority) {
   if (is_certified_) return guard_.grant(motion, from, authority);
   guard_.hold(motion, from, authority);
   return std::nullopt;
@@ -60,7 +68,7 @@ void AuthorityGate::grant(const Grant& grant) {
     return;
   }
   const TrajectoryPtr& motion = told_.at(grant.job);
-  const auto refusal = passes(motion, Duration{}, grant.authority);
+  const auto refusal = passes(motion, std::nullopt, grant.authority);
   if (refusal) return keep(grant.job, {motion, grant.authority, *refusal, now_});
   motions_.grant(grant);
 }
@@ -109,11 +117,12 @@ const std::vector<MotionReport>& AuthorityGate::tick(TimePoint now) {
   return reports_;
 }
 
+// Of arms that were at rest already, one in each cycle.
 void AuthorityGate::see_positions() {
+  looked_at_ = (looked_at_ + 1) % static_cast<std::uint32_t>(jobs_.size());
   for (std::uint32_t a = 0; a < jobs_.size(); ++a) {
     const ArmId arm{a};
-    const ArmPosition& position = guard_.position(arm);
-    if (position.at_rest) continue;
+    if (guard_.position(arm).at_rest && a != looked_at_) continue;
     const ArmFeedback& feedback = motions_.feedback(arm);
     if (is_at_rest(feedback.phase)) {
       guard_.rests(arm, feedback.measured_progress, motions_.measured());
@@ -130,12 +139,11 @@ void AuthorityGate::try_again() {
       ++kept;
       continue;
     }
-    const Duration from = what.start ? what.start->from_progress : Duration{};
-    const auto refusal = passes(what.motion, from, what.authority);
+    const auto refusal = passes(what.motion, what.from(), what.authority);
     if (refusal) {
       what.refusal = *refusal;
-      const bool is_missing = refusal->why == Why::uncertified;
-      if (!is_missing || now_ - what.since >= kMissing) report(job, what);
+      const bool may_come = now_ - what.since < kMissing || what.answers < kAnswers;
+      if (refusal->why != Why::uncertified || !may_come) report(job, what);
       ++kept;
       continue;
     }
@@ -152,20 +160,22 @@ void AuthorityGate::try_again() {
   }
 }
 
-// About the first one that misses certificates, beside all others where they are.
+// About what misses certificates, one after the other, beside all others where they are.
 void AuthorityGate::ask() {
-  if (is_asked_ || now_ < asks_from_) return;
-  const auto missing = std::ranges::find_if(kept_, [](const auto& kept) {
-    return kept.second.refusal.why == Why::uncertified && !kept.second.is_braked;
-  });
-  if (missing == kept_.end()) return;
-  asks_from_ = now_ + kAskAgain;
-  is_asked_ = true;
-  calls_.certify(question_about(missing->first, missing->second));
+  if (asked_) return;
+  auto next = kept_.end();
+  for (auto kept = kept_.begin(); kept != kept_.end(); ++kept) {
+    const Kept& what = kept->second;
+    if (what.refusal.why != Why::uncertified || what.is_braked || now_ < what.asks_from) continue;
+    if (next == kept_.end() || what.asks_from < next->second.asks_from) next = kept;
+  }
+  if (next == kept_.end()) return;
+  next->second.asks_from = now_ + kAskAgain;
+  asked_ = next->first;
+  calls_.certify(question_about(next->first, next->second));
 }
 
 Question AuthorityGate::question_about(JobId job, const Kept& kept) const {
-  const Duration from = kept.start ? kept.start->from_progress : Duration{};
   Question question{.version = 0,
                     .start_at = now_,
                     .candidates = {},
@@ -188,7 +198,8 @@ Question AuthorityGate::question_about(JobId job, const Kept& kept) const {
   question.candidates = {Motion{.job = job,
                                 .trajectory = kept.motion,
                                 .progress = stopped(job, kept).progress,
-                                .off_path = guard_.off_path(kept.motion, from)}};
+                                .off_path = guard_.off_path(kept.motion, kept.from())}};
+  if (kept.answers > 0) question.effort = kEffortGrowth;
   return question;
 }
 

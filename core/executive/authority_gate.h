@@ -29,13 +29,13 @@ class AuthorityGate {
 
   // Without certificates (timed_discrete) everything passes. Precondition: no arm is on a motion.
   void set_certified(bool certified) { is_certified_ = certified; }
-  [[nodiscard]] bool is_certified() const { return is_certified_; }
 
   // From answers of the checker, whatever they were asked for.
   void take(const std::vector<Certificate>& certificates) { guard_.take(certificates); }
   // The answer to Calls::certify.
   void certified(const std::vector<Certificate>& certificates);
-  void look_at(const SceneFingerprint& present) { guard_.look_at(present); }
+  void look_at(const SceneFingerprint& present);
+  [[nodiscard]] const SceneFingerprint& scene() const { return guard_.scene(); }
   void forget(const TrajectoryPtr& motion) { guard_.forget(motion); }
 
   void dispatch(const Dispatch& dispatch, const TrajectoryPtr& motion);
@@ -49,13 +49,17 @@ class AuthorityGate {
   // Returns the refusal that the scheduler did not expect and that keeps the job back now; nullopt
   // if there is none.
   [[nodiscard]] std::optional<GuardRefusal> refusal(JobId job) const;
+  // Nothing is kept: the arms were told all that was granted.
+  [[nodiscard]] bool is_idle() const { return kept_.empty(); }
   // The job whose motion the arm was told of last.
   [[nodiscard]] std::optional<JobId> job_of(ArmId arm) const { return jobs_[arm.index()]; }
 
-  // Missing certificates are asked for once in this time.
+  // Certificates that one job misses are asked for once in this time.
   inline static constexpr Duration kAskAgain = std::chrono::milliseconds(100);
-  // A certificate that is missing for longer is none that the scheduler has reason to wait for.
+  // The scheduler has no reason to wait for a certificate that is missing for so long, and after so
+  // many answers on the present scene.
   inline static constexpr Duration kMissing = std::chrono::seconds(1);
+  inline static constexpr int kAnswers = 2;
 
  private:
   struct Kept {
@@ -66,9 +70,15 @@ class AuthorityGate {
     std::optional<Dispatch> start = {};  // the arms are not told yet
     bool is_braked = false;              // before they were
     bool is_reported = false;
+    TimePoint asks_from = {};  // its certificates are asked for from then on
+    int answers = 0;           // that were of no help
+
+    [[nodiscard]] AuthorityGuard::From from() const {
+      return start ? std::optional(start->from_progress) : std::nullopt;
+    }
   };
-  [[nodiscard]] std::optional<GuardRefusal> passes(const TrajectoryPtr& motion, Duration from,
-                                                   Duration authority);
+  [[nodiscard]] std::optional<GuardRefusal> passes(const TrajectoryPtr& motion,
+                                                   AuthorityGuard::From from, Duration authority);
   void keep(JobId job, Kept kept);
   void see_positions();
   void try_again();
@@ -85,9 +95,9 @@ class AuthorityGate {
   std::map<JobId, Kept> kept_;
   std::map<JobId, TrajectoryPtr> told_;     // motions that arms were told of
   std::vector<std::optional<JobId>> jobs_;  // by ArmId
-  bool is_asked_ = false;
+  std::optional<JobId> asked_;              // the answer about it is under way
   TimePoint now_{};
-  TimePoint asks_from_{};
+  std::uint32_t looked_at_ = 0;  // of the arms at rest, the last
   std::vector<MotionReport> reports_;
 };
 

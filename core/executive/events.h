@@ -160,7 +160,7 @@ struct MonitorEvent {
   std::vector<std::string> arms;     // of the pair
   std::vector<std::string> stopped;  // names of the arms that were told to stop
 };
-// The guard kept an arm from what the scheduler had granted: a defect, which moved nothing.
+// The guard kept an arm from what the scheduler had granted: a defect, which moved no arm.
 struct GuardEvent {
   GuardRefusal refusal;
   std::string arm;

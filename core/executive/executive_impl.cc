@@ -206,8 +206,8 @@ void Executive::Impl::tick(TimePoint now) {
 }
 
 TimePoint Executive::Impl::settled_until() const {
-  const bool settled =
-      clock_.quiet && execution_.motions().all_settled() && !publisher_.is_behind();
+  const bool settled = clock_.quiet && execution_.motions().all_settled() &&
+                       execution_.gate().is_idle() && !publisher_.is_behind();
   if (!settled) return clock_.now;
   return std::min(clock_.wake_at.value_or(TimePoint::max()), clock_.held.next());
 }
@@ -287,16 +287,19 @@ void Executive::Impl::refused(JobId job, const GuardRefusal& refusal) {
   publisher_.tell(std::move(event), clock_.now);
   publisher_.tell(
       Alert{Alert::Level::error, "job " + jobs_.key(job) + ": " + sentence(refusal, *cell_) +
-                                     "; the arm stays where it is"},
+                                     "; it goes no farther than before"},
       clock_.now);
   publisher_.tell_job(publisher_.view(job), clock_.now);
 }
 
 void Executive::Impl::scene_has_changed(ClearanceQuery query) {
-  execution_.gate().look_at(scene_.scene()->fingerprint());
+  const SceneFingerprint& now = scene_.scene()->fingerprint();
+  const bool is_within_reach = now != execution_.gate().scene();
+  const std::vector<ArmId> arms = arms_in_question(execution_.gate().scene(), now);
+  execution_.gate().look_at(now);
   watch_.follow(std::move(query));
   publisher_.tell_scene(clock_.now);
-  step(SceneChanged{});
+  if (is_within_reach) step(SceneChanged{arms});
 }
 
 // ---- What is to be seen ----

@@ -23,14 +23,6 @@ void keep_latest(std::vector<T>& all, const T& one, std::size_t most) {
   all.push_back(one);
 }
 
-PairCertificate turned(const PairCertificate& pair) {
-  PairCertificate result{pair.b, pair.a, {}, pair.geometry};
-  for (const ProgressBox& box : pair.blocked) {
-    result.blocked.push_back({box.from_b, box.to_b, box.from_a, box.to_a});
-  }
-  return result;
-}
-
 }  // namespace
 
 AuthorityGuard::AuthorityGuard(std::vector<std::vector<JointId>> joints, Configuration rest,
@@ -48,7 +40,6 @@ AuthorityGuard::AuthorityGuard(std::vector<std::vector<JointId>> joints, Configu
 // ---- Certificates ----
 
 void AuthorityGuard::take(std::span<const Certificate> certificates) {
-  ++taken_;
   for (const Certificate& certificate : certificates) {
     if (const auto* pair = std::get_if<PairCertificate>(&certificate)) {
       if (pair->a.motion) take(*pair);
@@ -68,7 +59,7 @@ void AuthorityGuard::take(std::span<const Certificate> certificates) {
 void AuthorityGuard::take(const PairCertificate& pair) {
   for (const ArmId arm : pair.b.arms) {
     auto& all = known(pair.a.motion).pairs[arm];
-    std::erase_if(all, [&](const PairCertificate& old) { return !is_valid(old); });
+    std::erase_if(all, [&](const PairCertificate& old) { return !is_of_use(old, arm); });
     const auto is_same = [&](const PairCertificate& old) {
       return old.b.motion == pair.b.motion && old.b.still == pair.b.still;
     };
@@ -82,27 +73,42 @@ void AuthorityGuard::take(const PairCertificate& pair) {
 AuthorityGuard::Known& AuthorityGuard::known(const TrajectoryPtr& motion) {
   Known& of = motions_[motion.get()];
   of.motion = motion;
-  of.taken_at = taken_;
+  of.taken_at = ++taken_;
   return of;
 }
 
 void AuthorityGuard::forget(const TrajectoryPtr& motion) {
   const auto of = motions_.find(motion.get());
-  if (of == motions_.end()) return;
-  of->second.is_forgotten = true;
-  if (!is_on(motion.get())) motions_.erase(of);
+  if (of != motions_.end()) of->second.is_forgotten = true;
+  drop_left(motion.get());
+}
+
+// What is forgotten and no arm is on any more.
+void AuthorityGuard::drop_left(const Trajectory* motion) {
+  const auto left = motions_.find(motion);
+  if (left == motions_.end() || !left->second.is_forgotten || is_on(motion)) return;
+  motions_.erase(left);
+  for (auto& [key, of] : motions_) {
+    for (auto& [arm, all] : of.pairs) {
+      std::erase_if(all, [&](const PairCertificate& pair) { return !is_of_use(pair, arm); });
+    }
+  }
+}
+
+// With a motion that is not known any more: while the other arm rests where that begins or ends.
+bool AuthorityGuard::is_of_use(const PairCertificate& pair, ArmId other) const {
+  if (!is_valid(pair)) return false;
+  return !pair.b.motion || motions_.contains(pair.b.motion.get()) ||
+         covers(pair.b, other, positions_[other.index()]);
 }
 
 // Motions that were asked about and never started, as ways aside that were not taken.
 void AuthorityGuard::drop_old() {
   while (motions_.size() > kMotionsKept * positions_.size()) {
-    auto oldest = motions_.end();
-    for (auto of = motions_.begin(); of != motions_.end(); ++of) {
-      if (is_on(of->first)) continue;
-      if (oldest == motions_.end() || of->second.taken_at < oldest->second.taken_at) oldest = of;
-    }
-    if (oldest == motions_.end()) return;
-    motions_.erase(oldest);
+    const auto age = [&](const Motions::value_type& of) {
+      return std::pair(is_on(of.first), of.second.taken_at);
+    };
+    forget(std::ranges::min_element(motions_, {}, age)->second.motion);
   }
 }
 
@@ -127,20 +133,18 @@ void AuthorityGuard::rests(ArmId arm, Duration progress, const Configuration& me
   }
   position.at_rest = true;
   for (const JointId joint : joints_[arm.index()]) q_[joint.value()] = measured[joint.value()];
+  if (position.motion) position.off_path = off(*position.motion, arm, position.measured);
 }
 
 // ---- The gate ----
 
 bool AuthorityGuard::is_valid(const PairCertificate& pair) const {
-  std::vector<ArmId> arms;
-  std::ranges::merge(pair.a.arms, pair.b.arms, std::back_inserter(arms));
-  return present_.of(arms) == pair.geometry;
+  return present_.of(pair.a.arms, pair.b.arms) == pair.geometry;
 }
 
 bool AuthorityGuard::are_apart(ArmId a, ArmId b) const {
-  const std::pair pair = std::minmax(a, b);
-  const auto apart = apart_.find(pair);
-  return apart != apart_.end() && apart->second == present_.of({pair.first, pair.second});
+  const auto apart = apart_.find(std::minmax(a, b));
+  return apart != apart_.end() && apart->second == present_.of({&a, 1}, {&b, 1});
 }
 
 // How far the arm's joints, as last seen at rest, are from the motion there. rad, m.
@@ -156,10 +160,15 @@ double AuthorityGuard::off(const Trajectory& motion, ArmId arm, Duration progres
   return largest;
 }
 
-ArmPosition AuthorityGuard::as_granted(const TrajectoryPtr& motion, ArmId arm, Duration from,
+// A motion by itself may be made again, from an earlier place; arms of one motion rest apart on it.
+ArmPosition AuthorityGuard::as_granted(const TrajectoryPtr& motion, ArmId arm, From from,
                                        Duration authority) const {
   ArmPosition position = positions_[arm.index()];
-  if (position.motion != motion) position = {.motion = motion, .measured = from, .authority = from};
+  const Duration set_out = from.value_or(Duration{});
+  constexpr Duration kReported = std::chrono::milliseconds(100);  // progress may be so old
+  const bool again = from && position.at_rest && motion->arms().size() == 1 &&
+                     set_out < position.measured - kReported;
+  if (position.motion != motion || again) position = {motion, set_out, set_out};
   if (position.at_rest) position.off_path = off(*motion, arm, position.measured);
   position.at_rest = false;
   position.authority = std::max(position.authority, authority);
@@ -180,17 +189,18 @@ std::optional<AuthorityGuard::Interval> AuthorityGuard::covers(const CertifiedSi
     const bool holds = side.from <= position.measured && position.off_path <= side.error;
     return holds ? std::optional(Interval{position.measured, position.authority}) : std::nullopt;
   }
-  if (!position.at_rest) return std::nullopt;
   for (const Duration end : {Duration{}, side.motion->duration()}) {
-    if (side.from <= end && off(*side.motion, arm, end) <= side.error) return Interval{end, end};
+    if (position.at_rest && side.from <= end && off(*side.motion, arm, end) <= side.error)
+      return Interval{end, end};
   }
   return std::nullopt;
 }
 
 bool AuthorityGuard::sees_scene(const Known& known, ArmId arm, const ArmPosition& own) const {
   return std::ranges::any_of(known.scene, [&](const SceneCertificate& scene) {
+    const auto at = std::ranges::find(scene.side.arms, arm) - scene.side.arms.begin();
     return present_.of(scene.side.arms) == scene.geometry && covers(scene.side, arm, own) &&
-           std::ranges::includes(scene.objects, present_.objects);
+           std::ranges::includes(scene.objects[at], present_.objects[arm.index()]);
   });
 }
 
@@ -218,18 +228,14 @@ std::optional<GuardRefusal> AuthorityGuard::between(const Known& known, ArmId ar
 // Whether the arms of one motion may be as far apart on it as they are.
 std::optional<GuardRefusal> AuthorityGuard::together(const Known& known, Duration last,
                                                      Duration first) const {
-  const auto& proof = known.together;
-  const bool holds =
-      proof && proof->side.from <= last && present_.of(proof->side.arms) == proof->geometry;
-  if (holds && first - last <= proof->apart) return std::nullopt;
-  return GuardRefusal{holds ? Why::out_of_step : Why::uncertified,
-                      known.motion->arms().front(),
-                      {},
-                      {last, first, last, first},
-                      {}};
+  const auto& of = known.together;
+  const bool holds = of && of->side.from <= last && present_.of(of->side.arms) == of->geometry;
+  if (holds && first - last <= of->apart) return std::nullopt;
+  const Why why = holds ? Why::out_of_step : Why::uncertified;
+  return GuardRefusal{why, known.motion->arms().front(), {}, {last, first, last, first}};
 }
 
-std::optional<GuardRefusal> AuthorityGuard::refuses(const TrajectoryPtr& motion, Duration from,
+std::optional<GuardRefusal> AuthorityGuard::refuses(const TrajectoryPtr& motion, From from,
                                                     Duration authority) const {
   const auto& arms = motion->arms();
   const auto of = motions_.find(motion.get());
@@ -239,11 +245,8 @@ std::optional<GuardRefusal> AuthorityGuard::refuses(const TrajectoryPtr& motion,
     const ArmPosition& now = positions_[arm.index()];
     const bool is_busy = now.motion != motion && !now.at_rest;
     if (is_busy || of == motions_.end() || !sees_scene(of->second, arm, own)) {
-      return GuardRefusal{is_busy ? Why::busy : Why::uncertified,
-                          arm,
-                          {},
-                          {own.measured, own.authority, {}, {}},
-                          {}};
+      const Why why = is_busy ? Why::busy : Why::uncertified;
+      return GuardRefusal{why, arm, {}, {own.measured, own.authority}};
     }
     for (std::uint32_t a = 0; a < positions_.size(); ++a) {
       const ArmId other{a};
@@ -256,27 +259,25 @@ std::optional<GuardRefusal> AuthorityGuard::refuses(const TrajectoryPtr& motion,
   return arms.size() > 1 ? together(of->second, last, first) : std::nullopt;
 }
 
-std::optional<GuardRefusal> AuthorityGuard::grant(const TrajectoryPtr& motion, Duration from,
+std::optional<GuardRefusal> AuthorityGuard::grant(const TrajectoryPtr& motion, From from,
                                                   Duration authority) {
   if (auto refusal = refuses(motion, from, authority)) return refusal;
   hold(motion, from, authority);
   return std::nullopt;
 }
 
-void AuthorityGuard::hold(const TrajectoryPtr& motion, Duration from, Duration authority) {
+void AuthorityGuard::hold(const TrajectoryPtr& motion, From from, Duration authority) {
   for (const ArmId arm : motion->arms()) {
     const TrajectoryPtr before = positions_[arm.index()].motion;
     positions_[arm.index()] = as_granted(motion, arm, from, authority);
-    const auto of = motions_.find(before.get());
-    const bool is_known = of != motions_.end();
-    if (is_known && of->second.is_forgotten && !is_on(before.get())) motions_.erase(of);
+    drop_left(before.get());
   }
 }
 
-double AuthorityGuard::off_path(const TrajectoryPtr& motion, Duration from) const {
+double AuthorityGuard::off_path(const TrajectoryPtr& motion, From from) const {
   double largest = 0.0;
   for (const ArmId arm : motion->arms()) {
-    largest = std::max(largest, as_granted(motion, arm, from, from).off_path);
+    largest = std::max(largest, as_granted(motion, arm, from, Duration{}).off_path);
   }
   return largest;
 }

@@ -20,7 +20,7 @@ struct ArmPosition {
   Duration measured{};        // progress that feedback proves
   Duration authority{};       // it may go so far; `measured` at rest
   bool at_rest = true;
-  double off_path = 0.0;  // of its joints, where it set out (rad, m)
+  double off_path = 0.0;  // of its joints, where it set out or rests (rad, m)
 };
 
 // The last gate before every start, resume and grant of authority (README.md). It keeps this: for
@@ -29,8 +29,7 @@ struct ArmPosition {
 //
 // A certificate covers an arm that is on its motion, that rests where it says, or that rests where
 // its motion begins or ends. Each one is a proof by itself, if its content is the present one's.
-// Assumes that joints stay within CertifiedSide::error of their paths, that arms brake by
-// themselves at their authority, and that feedback is true. Pure; not thread-safe.
+// What it assumes: README.md. Pure; not thread-safe.
 class AuthorityGuard {
  public:
   // By ArmId, the joints of each arm and of its gripper; where all joints of the cell are.
@@ -41,6 +40,7 @@ class AuthorityGuard {
   void take(std::span<const Certificate> certificates);
   // The scene, or what arms hold, is another one: certificates that name what changed do not count.
   void look_at(SceneFingerprint present) { present_ = std::move(present); }
+  [[nodiscard]] const SceneFingerprint& scene() const { return present_; }
   // The motion will not be started any more: its certificates go when no arm is on it.
   void forget(const TrajectoryPtr& motion);
 
@@ -51,25 +51,25 @@ class AuthorityGuard {
   void rests(ArmId arm, Duration progress, const Configuration& measured);
 
   // ---- The gate ----
-  // Returns why the motion's arms may not go from where they are (at the start: `from`) up to
-  // `authority`; nullopt if they may. Trajectory time.
-  [[nodiscard]] std::optional<GuardRefusal> refuses(const TrajectoryPtr& motion, Duration from,
+  // A start or resume says from where; an arm that is under way goes on from where it is.
+  using From = std::optional<Duration>;
+  // Returns why the motion's arms may not go up to `authority`; nullopt if they may.
+  [[nodiscard]] std::optional<GuardRefusal> refuses(const TrajectoryPtr& motion, From from,
                                                     Duration authority) const;
   // The same, and holds their positions if they may. The caller then tells the arms.
-  [[nodiscard]] std::optional<GuardRefusal> grant(const TrajectoryPtr& motion, Duration from,
+  [[nodiscard]] std::optional<GuardRefusal> grant(const TrajectoryPtr& motion, From from,
                                                   Duration authority);
   // Holds their positions without certificates, for policies that have none.
-  void hold(const TrajectoryPtr& motion, Duration from, Duration authority);
+  void hold(const TrajectoryPtr& motion, From from, Duration authority);
   [[nodiscard]] const ArmPosition& position(ArmId arm) const { return positions_[arm.index()]; }
   // The joints of the whole cell, as last seen at rest.
   [[nodiscard]] const Configuration& rest() const { return q_; }
-  // How far the arms of the motion are from it where they are, at the start `from` (rad, m).
-  [[nodiscard]] double off_path(const TrajectoryPtr& motion, Duration from) const;
+  // How far the arms of the motion are from it where they are (rad, m).
+  [[nodiscard]] double off_path(const TrajectoryPtr& motion, From from) const;
 
-  // So many motions for each arm keep their certificates while no arm is on them, the latest.
-  inline static constexpr std::size_t kMotionsKept = 16;
-  // So many certificates of each motion are kept with one other arm, and with the scene.
-  inline static constexpr std::size_t kPairsKept = 16, kScenesKept = 2;
+  // So many motions for each arm keep their certificates while no arm is on them; and so many of
+  // each motion are kept with one other arm, and with the scene. The latest.
+  inline static constexpr std::size_t kMotionsKept = 16, kPairsKept = 16, kScenesKept = 2;
 
  private:
   struct Known {  // of one motion
@@ -88,12 +88,14 @@ class AuthorityGuard {
 
   void take(const PairCertificate& pair);
   Known& known(const TrajectoryPtr& motion);
+  void drop_left(const Trajectory* motion);
   void drop_old();
   [[nodiscard]] bool is_on(const Trajectory* motion) const;
   [[nodiscard]] bool is_valid(const PairCertificate& pair) const;
+  [[nodiscard]] bool is_of_use(const PairCertificate& pair, ArmId other) const;
   [[nodiscard]] bool are_apart(ArmId a, ArmId b) const;
   [[nodiscard]] double off(const Trajectory& motion, ArmId arm, Duration progress) const;
-  [[nodiscard]] ArmPosition as_granted(const TrajectoryPtr& motion, ArmId arm, Duration from,
+  [[nodiscard]] ArmPosition as_granted(const TrajectoryPtr& motion, ArmId arm, From from,
                                        Duration authority) const;
   [[nodiscard]] std::optional<Interval> covers(const CertifiedSide& side, ArmId arm,
                                                const ArmPosition& position) const;

@@ -95,8 +95,11 @@ struct Stop {
 struct Resume {
   std::vector<ArmId> arms;
 };
-// The planning scene is another one: what was judged on the old one is judged again.
-struct SceneChanged {};
+// The planning scene is another one: what waits is judged again, and motions of these arms that are
+// under way (arms_in_question).
+struct SceneChanged {
+  std::vector<ArmId> arms;
+};
 // From now on this policy decides; it is not null. Ignored while a motion is admitted: its orders
 // are those of the policy that chose them.
 struct ChangePolicy {

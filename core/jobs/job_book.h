@@ -38,10 +38,13 @@ struct Errand {
 
 // The questions that are asked about a job.
 struct Asking {
-  Version found_free_at = 0;  // admitted: the version on which it was last found free
-  std::uint64_t effort = 1;   // Question::effort of the next time that it is judged
-  int raised = 0;             // how often that was raised
-  std::uint64_t plans = 0;    // so many have been asked for it
+  // Admitted: the version on which it was last found free; whether something has changed since that
+  // it may not be free of.
+  Version found_free_at = 0;
+  bool is_in_question = false;
+  std::uint64_t effort = 1;  // Question::effort of the next time that it is judged
+  int raised = 0;            // how often that was raised
+  std::uint64_t plans = 0;   // so many have been asked for it
 };
 
 // How often arms were sent to where a job begins (approach.h), and why there is no way there.

@@ -3,8 +3,6 @@
 namespace armloom {
 namespace {
 
-// An arm that sets out or brakes may be seen so long in one place.
-constexpr Duration kStandsFrom = std::chrono::milliseconds(250);
 // The pace of a motion is told from so much of its way, and counts from there on.
 constexpr Duration kPaceFrom = std::chrono::milliseconds(100);
 constexpr double kHardlySlow = 1.1;

@@ -8,6 +8,9 @@ namespace armloom {
 
 // How fast motions go, seen from outside.
 
+// An arm that sets out or brakes may be seen so long in one place.
+inline constexpr Duration kStandsFrom = std::chrono::milliseconds(250);
+
 // It has not been seen to move for longer than an arm that sets out or brakes.
 [[nodiscard]] bool is_standing(const Moving& moving, TimePoint now);
 

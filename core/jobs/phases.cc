@@ -53,7 +53,6 @@ void rest_at_start(State& state, Record& record) {
   release(state, record.job.id);
   state.jobs.changed(record);
   enter(state, record, Admitted{});
-  record.asking.found_free_at = 0;
 }
 
 // By any way that it has had.
@@ -223,7 +222,6 @@ void set_out_anew(State& state, Record& record, TrajectoryPtr way) {
   job.times.motion_started_at.reset();
   job.progress = Duration{};
   record.farthest = Duration{};
-  record.asking.found_free_at = 0;
   go_by(state, record, std::move(way));
 }
 

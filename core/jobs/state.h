@@ -38,10 +38,10 @@ struct State {
   PrecedenceGraph graph;      // all that is admitted
   Expectation expected = {};  // of what is admitted
   Round round = {};
-  Version version = 1;        // of what is admitted, and of where arms rest
-  Version recheck_epoch = 0;  // the last version that began with another scene
-  TimePoint now{};            // of the present step
-  Decided decided = {};       // in the present step
+  Version version = 1;      // of what is admitted, and of where arms rest
+  Version scene_epoch = 0;  // the last version that began with another scene
+  TimePoint now{};          // of the present step
+  Decided decided = {};     // in the present step
 
   State(CellPtr description, std::shared_ptr<const Policy> chosen, Configuration rest, JobId first)
       : cell(std::move(description)),

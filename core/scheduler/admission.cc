@@ -26,12 +26,22 @@ namespace {
 // a word from here, and so far others cannot be let pass before it.
 constexpr Duration kHorizon = std::chrono::milliseconds(250);
 
+// The one whose last answer is the oldest.
 std::optional<JobId> next_recheck(const State& state) {
+  std::optional<JobId> next;
   for (JobId id : state.jobs.past_queue()) {
     const Record& record = state.jobs.at(id);
-    if (record.job.has_authority() && record.asking.found_free_at < state.recheck_epoch) return id;
+    if (!record.job.has_authority() || !record.asking.is_in_question) continue;
+    const bool is_older =
+        !next || record.asking.found_free_at < state.jobs.at(*next).asking.found_free_at;
+    if (is_older) next = id;
   }
-  return std::nullopt;
+  return next;
+}
+
+void note_free(State& state, Record& record) {
+  record.asking.found_free_at = state.version;
+  record.asking.is_in_question = false;
 }
 
 // Of what waits, if these go.
@@ -52,7 +62,8 @@ void go_on(State& state, Record& record, const Verdict& verdict) {
   if (!waits.empty()) return put_off(state, record, std::move(waits));
   enter(state, record, Admitted{});
   record.job.times.scheduled_at = state.now;
-  record.asking.found_free_at = ++state.version;
+  ++state.version;
+  note_free(state, record);
   state.jobs.changed(record);
 }
 
@@ -73,7 +84,7 @@ void admit(State& state, const std::vector<JobId>& jobs, std::vector<Coordinated
     enter(state, record, Admitted{});
     record.job.times.scheduled_at = state.now + orders.prediction.begins[before + i];
     record.job.waits_on.clear();
-    record.asking.found_free_at = state.version;
+    note_free(state, record);
     record.asking.effort = 1;
     state.jobs.changed(record);
   }
@@ -169,7 +180,7 @@ void Admission::on(const Judged& input, State& state, WaitCycles& cycles) {
     }
     case Purpose::recheck: {
       Record& record = state.jobs.at(question.jobs.front());
-      record.asking.found_free_at = state.version;
+      note_free(state, record);
       if (input.verdict.kind != Verdict::Kind::free) hold_back(state, record, input.verdict);
       return;
     }

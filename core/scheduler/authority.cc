@@ -40,7 +40,7 @@ void dispatch_if_ready(State& state, Record& record) {
     return withdraw(state, record, {});
   }
   if (auto stop = state.arms.stop_of(job)) return state.jobs.set_wait(record, *stop);
-  if (record.asking.found_free_at < state.recheck_epoch) return;
+  if (record.asking.is_in_question) return;
   const Duration limit = state.graph.limit(job.id);
   if (limit <= job.progress && job.progress < job.trajectory->duration()) {
     const auto held = state.graph.held_back(job.id);

@@ -31,6 +31,7 @@ void note_moved(Moving& moving, Duration progress, TimePoint now) {
     moving.goes_from = progress;
   }
   moving.moved_at = now;
+  moving.was_compared = false;
 }
 
 // The first one of a job: it has started.
@@ -71,8 +72,14 @@ void take(State& state, const Resume& input) {
   }
 }
 
-void take(State& state, const SceneChanged&) {
-  state.recheck_epoch = ++state.version;
+void take(State& state, const SceneChanged& input) {
+  state.scene_epoch = ++state.version;
+  const std::vector<JobId> ids = state.jobs.past_queue();
+  for (JobId id : ids) {
+    Record& record = state.jobs.at(id);
+    const auto is_named = [&](ArmId arm) { return std::ranges::count(input.arms, arm) > 0; };
+    if (std::ranges::any_of(record.leg.arms, is_named)) record.asking.is_in_question = true;
+  }
   state.lanes.forget_passages();
 }
 
@@ -148,6 +155,7 @@ std::vector<Effect> Scheduler::step(const Input& input, TimePoint now) {
 
 void Scheduler::settle() {
   expire_and_overrun(state_);
+  see_standing(state_);
   pass_errands_on(state_);
   cycles_.settle(state_);
   plan_other_ways(state_);
@@ -183,6 +191,9 @@ void Scheduler::look_ahead() {
     const TimePoint soon = state_.now + kAfterRingWasTold;
     deadline_ = deadline_ ? std::min(*deadline_, soon) : soon;
   }
+  if (const auto stands = stands_next(state_)) {
+    deadline_ = deadline_ ? std::min(*deadline_, *stands) : stands;
+  }
   weighs_at_ = weighs_next(state_);
   ask_for_wake();
 }
@@ -212,11 +223,13 @@ void Scheduler::on(const PlanMade& input) {
 void Scheduler::on(const Cancel& input) {
   Record* record = state_.jobs.find(input.job);
   if (record == nullptr || record->job.has_ended()) return;
+  bool brakes = record->job.has_authority();
   for (JobId approach : approaches_of(state_, *record)) {
+    brakes = brakes || state_.jobs.at(approach).job.has_authority();
     give_up(state_, state_.jobs.at(approach), {.then = AfterStop::Then::cancel});
   }
   give_up(state_, *record, {.then = AfterStop::Then::cancel});
-  compare_again(state_);
+  if (brakes) compare_again(state_);
 }
 
 void Scheduler::on(const MotionReport& input) {

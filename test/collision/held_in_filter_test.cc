@@ -56,6 +56,13 @@ TEST(HeldObjects, LieInTheirCapsulesInTheFilter) {
       const ArmKinematics& kinematics = arm.kinematics;
       for (const KinematicBody& placed : kinematics.bodies()) {
         const CollisionBody& part = bodies.bodies[placed.body];
+        const Ball& reach = bodies.reach[id.index()];
+        for (const LinkCapsule& capsule : capsules_of(arm, placed)) {
+          for (const Eigen::Vector3d& end : {capsule.p_PA, capsule.p_PB}) {
+            EXPECT_LT((end - reach.center).norm() + capsule.radius_m, reach.radius_m + kRounding_m)
+                << part.name;
+          }
+        }
         if (!part.held()) continue;
         const Attachment& held = h.scene->attachments()[placed.body - bodies.links_end];
         const Eigen::Isometry3d X_WO = X_WL[held.link.index()] * held.X_LO;
@@ -70,7 +77,7 @@ TEST(HeldObjects, LieInTheirCapsulesInTheFilter) {
             }
             EXPECT_LT(outside_m, kRounding_m) << part.name;
             EXPECT_LT(p_W.cwiseAbs().maxCoeff(), kinematics.extent_m());
-            EXPECT_LT((p_W - kinematics.root()).norm(), kinematics.reach_m());
+            EXPECT_LT((p_W - reach.center).norm() + ball.radius_m, reach.radius_m + kRounding_m);
             ++looked_at;
           }
         }

@@ -39,22 +39,28 @@ class Guarded : public ::testing::Test {
   Guarded() {
     content.common = 1;
     content.arms = {11, 12, 13};
-    content.objects = {21, 22};
+    near_all({21, 22});
     guard.emplace(
         std::vector<std::vector<JointId>>{{joint(kLeft)}, {joint(kRight)}, {joint(kThird)}},
         Configuration::Zero(3), content);
     guard->take(std::vector<Certificate>{apart(kLeft, kThird), apart(kRight, kThird)});
   }
 
-  Certificate apart(ArmId a, ArmId b) const { return ApartCertificate{a, b, content.of({a, b})}; }
-  Certificate scene(const TrajectoryPtr& motion, Duration from = {}) const {
-    return SceneCertificate{on(motion, from), content.objects, content.of(motion->arms())};
+  Certificate apart(ArmId a, ArmId b) const {
+    return ApartCertificate{a, b, content.of({&a, 1}, {&b, 1})};
   }
+  Certificate scene(const TrajectoryPtr& motion, Duration from = {}) const {
+    return scene(on(motion, from));
+  }
+  Certificate scene(const CertifiedSide& side) const {
+    SceneCertificate proof{side, {}, content.of(side.arms)};
+    for (const ArmId arm : side.arms) proof.objects.push_back(content.objects[arm.index()]);
+    return proof;
+  }
+  void near_all(const std::vector<Fingerprint>& objects) { content.objects.assign(3, objects); }
   Certificate pair(CertifiedSide a, CertifiedSide b, std::vector<ProgressBox> blocked = {}) const {
-    std::vector<ArmId> arms = a.arms;
-    arms.insert(arms.end(), b.arms.begin(), b.arms.end());
-    std::ranges::sort(arms);
-    return PairCertificate{std::move(a), std::move(b), std::move(blocked), content.of(arms)};
+    const Fingerprint geometry = content.of(a.arms, b.arms);
+    return PairCertificate{std::move(a), std::move(b), std::move(blocked), geometry};
   }
   void take(std::vector<Certificate> certificates) { guard->take(certificates); }
   std::optional<Why> why(const TrajectoryPtr& motion, Duration authority,
@@ -145,6 +151,25 @@ TEST_F(Guarded, AStopEndsAuthorityWhereTheArmRests) {
   EXPECT_EQ(why(left, 3s, 2s), std::nullopt);
 }
 
+TEST_F(Guarded, AMotionThatIsMadeOnceMoreIsCoveredFromItsStartOn) {
+  const TrajectoryPtr loop = line({kLeft}, 0.0, 0.0);
+  take({scene(loop), pair(on(loop), resting(kRight, 0.0), {{2s, 4s, 0s, 0s}})});
+  guard->hold(loop, {}, 10s);
+  rest(kLeft, 10s, 0.0);
+  EXPECT_EQ(why(loop, 1s, 0s), std::nullopt);
+  EXPECT_EQ(why(loop, 3s, 0s), Why::region);
+}
+
+TEST_F(Guarded, AnArmThatRestsBesideItsPathIsNotOnIt) {
+  take(
+      {scene(left), scene(right), pair(on(left), resting(kRight, 0.0)), pair(on(right), on(left))});
+  ASSERT_EQ(guard->grant(left, {}, 5s), std::nullopt);
+  rest(kLeft, 5s, 0.5);
+  EXPECT_EQ(why(right, 1s), std::nullopt);
+  rest(kLeft, 5s, 0.5 + 2 * kError);
+  EXPECT_EQ(why(right, 1s), Why::uncertified);
+}
+
 TEST_F(Guarded, ProgressNeverGoesBack) {
   take({scene(left), pair(on(left), resting(kRight, 0.0))});
   ASSERT_EQ(guard->grant(left, {}, 5s), std::nullopt);
@@ -195,8 +220,7 @@ TEST_F(Guarded, AStartOffThePathNeedsACertificateWithThatError) {
   EXPECT_NEAR(guard->off_path(off, {}), 0.005, 1e-12);
   CertifiedSide wide = on(off);
   wide.error = 0.006;
-  take({SceneCertificate{wide, content.objects, content.of({kLeft})},
-        pair(wide, resting(kRight, 0.0))});
+  take({scene(wide), pair(wide, resting(kRight, 0.0))});
   ASSERT_EQ(guard->grant(off, {}, 1s), std::nullopt);
   guard->moves(kLeft, 1s);
   take({scene(right), pair(on(right), on(off))});
@@ -225,22 +249,33 @@ TEST_F(Guarded, AChangedObjectInvalidatesOnlyWhatHasNotSeenIt) {
   take(
       {scene(left), pair(on(left), resting(kRight, 0.0)), scene(right), pair(on(right), on(left))});
   const TrajectoryPtr other = right;
-  content.objects = {22, 31};  // 21 is another one now
+  near_all({22, 31});  // 21 is another one now
   guard->look_at(content);
   EXPECT_EQ(why(left, 1s), Why::uncertified);
   take({scene(left)});
   EXPECT_EQ(why(left, 1s), std::nullopt) << "the pair's certificate names no object";
-  content.objects = {22};
+  near_all({22});
   guard->look_at(content);
   EXPECT_EQ(why(left, 1s), std::nullopt) << "an object less endangers nobody";
 }
 
-TEST_F(Guarded, AnAnswerAboutAnOlderSceneTakesNothingAway) {
+TEST_F(Guarded, AnObjectThatTheArmCannotReachInvalidatesNothing) {
+  take({scene(left), pair(on(left), resting(kRight, 0.0))});
   const SceneFingerprint before = content;
-  content.objects = {21, 22, 31};
+  content.objects[kRight.index()] = {22, 31};
+  guard->look_at(content);
+  EXPECT_EQ(why(left, 1s), std::nullopt);
+  EXPECT_EQ(arms_in_question(before, content), std::vector{kRight});
+  content.arms[kThird.index()] = 99;
+  EXPECT_EQ(arms_in_question(before, content), (std::vector{kLeft, kRight, kThird}));
+}
+
+TEST_F(Guarded, AnAnswerAboutAnOlderSceneTakesNothingAway) {
+  const Certificate older = scene(left);
+  near_all({21, 22, 31});
   guard->look_at(content);
   take({scene(left), pair(on(left), resting(kRight, 0.0))});
-  take({SceneCertificate{on(left), before.objects, before.of({kLeft})}});
+  take({older});
   EXPECT_EQ(why(left, 1s), std::nullopt);
 }
 

@@ -9,6 +9,7 @@ from pathlib import Path
 TOP = Path(__file__).resolve().parents[2]
 ADMISSION, PHASES = 'core/scheduler/admission.cc', 'core/jobs/phases.cc'
 GRAPH, OPEN = 'core/precedence/precedence_graph.cc', 'core/precedence/open_orders.cc'
+PRECEDENCE = 'core/precedence/precedence.cc'
 QUESTIONS, GUARD = 'core/scheduler/motion_questions.cc', 'core/guard/authority_guard.cc'
 
 # With a fault the scheduler's own checks do not end the process: the guard alone stands in its way.
@@ -22,29 +23,33 @@ QUIET = [
 SCHEDULER = [
     ('an order is ignored', GRAPH, 'if (held) limit = std::min(limit, *held);', 'if (held && !FAULT) limit = std::min(limit, *held);'),
     ('an order is lost at admission', GRAPH, '  precedences_ = orders.precedences;', '  precedences_ = orders.precedences;\n  if (FAULT && !precedences_.empty()) precedences_.pop_back();'),
-    ('an order is turned round', 'core/precedence/precedence.cc', '    : first_(a_first ? a : b),', '    : first_((a_first != FAULT) ? a : b),'),
     ('a goal that nobody leaves blocks nobody', OPEN, 'if (!chains_.moves_on(motion)) return true;', 'if (!chains_.moves_on(motion)) return !FAULT;'),
     ('a start where the arm stands blocks nobody', OPEN, '  if (!at_start) return false;', '  if (!at_start || FAULT) return false;'),
     ('an order is reversed although authority was given', OPEN, '  if (from < motions_[motion].authority) return true;', '  if (!FAULT && from < motions_[motion].authority) return true;'),
     ('a rest on a path is forgotten', GRAPH, 'if (blockade) blockades_.push_back(std::move(*blockade));', 'if (blockade && !FAULT) blockades_.push_back(std::move(*blockade));'),
-    ('a rest is forgotten when its arm is given another job', GRAPH, 'if (!share_an_arm(*find(blockade.job), candidate)) blockade.leave(candidate.arms);', 'if (FAULT || !share_an_arm(*find(blockade.job), candidate)) blockade.leave(candidate.arms);'),
     ('a cancel keeps its end', PHASES, '  } else {\n    leave_graph(state, record);\n  }\n  const JobId ended', '  } else if (FAULT) {\n    state.graph.finish(record.job.id);\n  } else {\n    leave_graph(state, record);\n  }\n  const JobId ended'),
-    ('an arm that came to rest is taken to be where it set out', PHASES, '  state.arms.come_to_rest(*state.cell, job.trajectory, report.rest_position);', '  if (!FAULT) state.arms.come_to_rest(*state.cell, job.trajectory, report.rest_position);'),
-    ('a stop raises no version', PHASES, '  ++state.version;  // an answer that is under way shall start nothing on these arms', '  if (!FAULT) ++state.version;'),
-    ('a rest raises no version', PHASES, '  ++state.version;\n  const bool moved', '  if (!FAULT) ++state.version;\n  const bool moved'),
-    ('a stale answer is believed', ADMISSION, '  if (question.version != state.version) return;  // stale', '  if (question.version != state.version && !FAULT) return;  // stale'),
-    ('a new scene does not check motions again', 'core/scheduler/scheduler.cc', 'void take(State& state, const SceneChanged&) {\n  state.recheck_epoch = ++state.version;', 'void take(State& state, const SceneChanged&) {\n  ++state.version;\n  if (!FAULT) state.recheck_epoch = state.version;'),
+    ('a new scene does not check motions again', 'core/scheduler/scheduler.cc', 'if (std::ranges::any_of(record.leg.arms, is_named)) record.asking', 'if (!FAULT && std::ranges::any_of(record.leg.arms, is_named)) record.asking'),
     ('a check of a motion under way is not acted on', ADMISSION, 'if (input.verdict.kind != Verdict::Kind::free) hold_back(', 'if (input.verdict.kind != Verdict::Kind::free && !FAULT) hold_back('),
-    ('motions that do not follow each other are admitted', ADMISSION, '  if (!follow_each_other(', '  if (!FAULT && !follow_each_other('),
     ('an admitted motion is left out of the question', QUESTIONS, '    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;', '    if (FAULT && !question.others.empty()) continue;\n    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;'),
     ('the question is asked as if all stood at home', QUESTIONS, '                    .rest = state.arms.rest(),', '                    .rest = FAULT ? state.cell->home() : state.arms.rest(),'),
     ('progress is counted too far', 'core/scheduler/scheduler.cc', '  state_.graph.progress(record->job.id, input.progress);', '  state_.graph.progress(record->job.id, FAULT ? std::min(input.progress + Duration(600\'000\'000), record->job.trajectory->duration()) : input.progress);'),
     ('authority is given to the end', 'core/scheduler/authority.cc', '  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.id));\n  const Duration granted', '  const Duration authority = FAULT ? job.trajectory->duration() : std::min(limit, job.progress + state.graph.horizon(job.id));\n  const Duration granted'),
-    ('what waits stays inside of the region', 'core/precedence/precedence.cc', 'const Duration limit = std::max(Duration{}, box.from_b - kShortOf);', 'const Duration limit = std::max(Duration{}, FAULT ? box.from_b + Duration(200\'000\'000) : box.from_b - kShortOf);'),
-    ('a resumed motion goes on whatever has come to rest ahead', ADMISSION, '  if (!waits.empty()) return put_off(state, record, std::move(waits));', '  if (!waits.empty() && !FAULT) return put_off(state, record, std::move(waits));'),
-    ('a job starts while another one is on its arm', 'core/jobs/job_book.cc', '         book.queues().is_first(record.job);', '         (FAULT || book.queues().is_first(record.job));'),
-    ('a motion that ended is believed to be gone', GRAPH, '  if (!moves_on) block_others(*found, {found->arms, found->duration, found->duration});', '  if (!moves_on && !FAULT) block_others(*found, {found->arms, found->duration, found->duration});'),
+    ('what waits stays inside of the region', PRECEDENCE, 'const Duration limit = std::max(Duration{}, box.from_b - kShortOf);', 'const Duration limit = std::max(Duration{}, FAULT ? box.from_b + Duration(200\'000\'000) : box.from_b - kShortOf);'),
     ('arms that rest in the way are not looked at', OPEN, '    for (const ConflictRegion& region : pair.regions) {\n      answer_.blockers.push_back(', '    for (const ConflictRegion& region : pair.regions) {\n      if (FAULT) break;\n      answer_.blockers.push_back('),
+    ('only the first order of a motion counts', GRAPH, '    if (precedence.second() != job) continue;\n    const auto held', '    if (precedence.second() != job || (FAULT && limit < found->duration)) continue;\n    const auto held'),
+    ('an order is over once authority for it is granted', GRAPH, 'precedence.limit(find(precedence.first())->progress);\n    if (held', 'precedence.limit(FAULT ? find(precedence.first())->authority : find(precedence.first())->progress);\n    if (held'),
+    ('an order is over once its first box is passed', PRECEDENCE, '  return step == steps_.end() ?', '  return step == steps_.end() || (FAULT && step != steps_.begin()) ?'),
+    ('an order is over halfway through the region', PRECEDENCE, '  std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);', '  if (FAULT) for (ProgressBox& box : boxes) box.to_a -= (box.to_a - box.from_a) / 2;\n  std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);'),
+    ('who waits goes on to the far side of the region', PRECEDENCE, 'std::vector<ProgressBox> boxes = region_.boxes;', 'std::vector<ProgressBox> boxes = region_.boxes;\n  if (FAULT) for (ProgressBox& box : boxes) box.from_b = box.to_b;'),
+    ('a region loses its first box', PRECEDENCE, '  Duration begins{};  //', '  if (FAULT && boxes.size() > 1) boxes.pop_back();\n  Duration begins{};  //'),
+    ('a motion that was stopped goes on without orders', 'core/scheduler/authority.cc', '  const Duration limit = state.graph.limit(job.id);\n  if (limit <= job.progress', '  const Duration limit = FAULT && job.has_started() ? job.trajectory->duration() : state.graph.limit(job.id);\n  if (limit <= job.progress'),
+    ('a canceled motion is taken to rest where it began', GRAPH, 'block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});', 'block_others(*found, {stand, FAULT ? Duration{} : rests_at, FAULT ? Duration{} : std::max(rests_at, farthest)});'),
+    ('the regions of the last pair are lost', OPEN, '  for (const PairRegions& pair : question.regions) add(pair);', '  for (const PairRegions& pair : question.regions) {\n    if (FAULT && &pair == &question.regions.back()) break;\n    add(pair);\n  }'),
+    ('of several regions of a pair one counts', OPEN, '  for (const ConflictRegion& region : pair.regions) add(a, *b, region);', '  for (const ConflictRegion& region : pair.regions) {\n    add(a, *b, region);\n    if (FAULT) break;\n  }'),
+    ('a region that was entered is taken to be passed', OPEN, 'return motions_[a].is_beyond(box.to_a) ||', 'return motions_[a].is_beyond(FAULT ? box.from_a : box.to_a) ||'),
+    ('motions under way are taken to be at their ends', QUESTIONS, '                .progress = job.progress,\n                .to_come', '                .progress = FAULT && job.progress > Duration{} ? job.trajectory->duration() : job.progress,\n                .to_come'),
+    ('a start off the path is not told', QUESTIONS, '  return follows ?', '  return follows || FAULT ?'),
+    ('what the checker refuses is admitted', ADMISSION, '  if (verdict.kind == Verdict::Kind::free) {\n    if (state.graph', '  if (verdict.kind == Verdict::Kind::free || FAULT) {\n    if (state.graph'),
 ]
 
 FAULTS_IN_GUARD = [
@@ -55,11 +60,11 @@ FAULTS_IN_GUARD = [
     ('an arm in motion is taken to be at rest', 'if (!side.motion) return position.at_rest ?', 'if (!side.motion) return position.at_rest || FAULT ?'),
     ('a start off the path is covered', 'const bool holds = side.from <= position.measured && position.off_path <= side.error;', 'const bool holds = side.from <= position.measured && (FAULT || position.off_path <= side.error);'),
     ('a certificate holds from the start on', 'const bool holds = side.from <= position.measured &&', 'const bool holds = (FAULT || side.from <= position.measured) &&'),
-    ('certificates of other content count', '  return present_.of(arms) == pair.geometry;', '  return FAULT || present_.of(arms) == pair.geometry;'),
-    ('objects that nobody has seen do not matter', 'std::ranges::includes(scene.objects, present_.objects);', '(FAULT || std::ranges::includes(scene.objects, present_.objects));'),
+    ('certificates of other content count', '  return present_.of(pair.a.arms, pair.b.arms) == pair.geometry;', '  return FAULT || present_.of(pair.a.arms, pair.b.arms) == pair.geometry;'),
+    ('objects that nobody has seen do not matter', 'std::ranges::includes(scene.objects[at], present_.objects[arm.index()]);', '(FAULT || std::ranges::includes(scene.objects[at], present_.objects[arm.index()]));'),
     ('the scene does not matter', 'if (is_busy || of == motions_.end() || !sees_scene(of->second, arm, own)) {', 'if (is_busy || of == motions_.end() || (!FAULT && !sees_scene(of->second, arm, own))) {'),
     ('an arm may change its motion on the way', 'const bool is_busy = now.motion != motion && !now.at_rest;', 'const bool is_busy = !FAULT && now.motion != motion && !now.at_rest;'),
-    ('arms of one motion may get apart', 'if (holds && first - last <= proof->apart)', 'if (holds && (FAULT || first - last <= proof->apart))'),
+    ('arms of one motion may get apart', 'if (holds && first - last <= of->apart)', 'if (holds && (FAULT || first - last <= of->apart))'),
     ('a stop leaves authority as it was', '    position.authority = position.measured;\n  }', '    if (!FAULT) position.authority = position.measured;\n  }'),
     ('authority that was granted is not held', '    positions_[arm.index()] = as_granted(motion, arm, from, authority);', '    positions_[arm.index()] = as_granted(motion, arm, from, FAULT ? from : authority);'),
     ('arms that were apart are apart whatever they hold', '  return apart != apart_.end() && apart->second ==', '  if (FAULT) return apart != apart_.end();\n  return apart != apart_.end() && apart->second =='),

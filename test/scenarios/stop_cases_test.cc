@@ -171,6 +171,18 @@ TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatStopsInItsWay) 
   EXPECT_GT(cell.log.closest_m, 0.0);
 }
 
+TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatStallsInItsWay) {
+  ASSERT_TRUE(cell.simulation->executive().faults().inject(
+      {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1500ms), .lasting = 20s}));
+  cell.submit(slide("x", -1, 1, 3, "ahead"));
+  cell.submit(slide("y", -1, 1, 6, "behind"));
+  cell.run_until(at(1500ms));
+  ASSERT_EQ(cell.job("behind").state, JobState::running);
+  cell.run_until(at(8s));
+  EXPECT_EQ(cell.job("behind").state, JobState::holding);
+  EXPECT_GT(cell.log.closest_m, 0.0);
+}
+
 TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatWasCanceledInItsWay) {
   cell.submit(slide("x", -1, 1, 3, "ahead"));
   cell.submit(slide("y", -1, 1, 6, "behind"));

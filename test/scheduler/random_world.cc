@@ -188,7 +188,9 @@ void World::resume() {
 
 void World::change_scene(std::vector<Object> objects) {
   bench_.crossings.put(std::move(objects));
-  bench_.input(SceneChanged{});
+  SceneChanged changed;
+  for (std::uint32_t arm = 0; arm < cell_->arms.size(); ++arm) changed.arms.emplace_back(arm);
+  bench_.input(changed);
 }
 
 }  // namespace armloom

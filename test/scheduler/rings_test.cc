@@ -103,7 +103,7 @@ TEST(Deadlock, ACanceledJobOpensTheRing) {
 
 TEST(Deadlock, OnAnotherSceneIsJudgedAgainBeforeAnyoneFails) {
   Swap bench;
-  bench.step(SceneChanged{}, at(3ms));
+  bench.step(SceneChanged{{ArmId{0}, ArmId{1}}}, at(3ms));
   EXPECT_THAT(bench.job(bench.b).ring, IsEmpty());
   bench.answer_free(at(4ms));
   EXPECT_EQ(bench.state(bench.a), JobState::scheduled);

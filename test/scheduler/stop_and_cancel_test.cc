@@ -203,7 +203,7 @@ TEST(Stop, ACancelDuringTheBrakeWins) {
 TEST(Stop, ACancelOutlivesAConflictWithANewSceneDuringTheBrake) {
   Running bench(1);
   bench.step(Cancel{bench.jobs[0]}, at(500ms));
-  bench.step(SceneChanged{}, at(510ms));
+  bench.step(SceneChanged{{ArmId{0}}}, at(510ms));
   if (bench.question) bench.answer_conflict(at(511ms), Conflict::With::scene);
   bench.stopped(bench.jobs[0], 600ms, at(700ms));
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);

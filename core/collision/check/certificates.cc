@@ -27,9 +27,8 @@ CertifiedSide certified_side(std::span<MotionStore::Entry* const> arms, const Mo
 
 PairCertificate pair_certificate(const PlanningScene& scene, CertifiedSide a, CertifiedSide b,
                                  std::vector<ProgressBox> blocked) {
-  std::vector<ArmId> arms;
-  std::ranges::merge(a.arms, b.arms, std::back_inserter(arms));
-  return {std::move(a), std::move(b), std::move(blocked), scene.fingerprint().of(arms)};
+  const Fingerprint content = scene.fingerprint().of(a.arms, b.arms);
+  return {std::move(a), std::move(b), std::move(blocked), content};
 }
 
 }  // namespace armloom

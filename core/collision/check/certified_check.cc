@@ -114,8 +114,9 @@ void CertifiedCheck::certify_alone() {
     std::vector<MotionStore::Entry*> entries;
     for (const ArmMotion& arm : arms_of(motion)) entries.push_back(arm.entry);
     const CertifiedSide side = certified_side(entries, &motion);
-    verdict_.certificates.emplace_back(
-        SceneCertificate{side, content.objects, content.of(side.arms)});
+    SceneCertificate& alone = std::get<SceneCertificate>(
+        verdict_.certificates.emplace_back(SceneCertificate{side, {}, content.of(side.arms)}));
+    for (const ArmId arm : side.arms) alone.objects.push_back(content.objects[arm.index()]);
     if (entries.size() > 1) {
       Duration reach = motion.trajectory->duration();
       for (MotionStore::Entry* arm : entries) {
@@ -129,7 +130,7 @@ void CertifiedCheck::certify_alone() {
         const ArmId other{a}, first = std::min(own, other), second = std::max(own, other);
         if (first == second || !store_.out_of_reach(first, second)) continue;
         verdict_.certificates.emplace_back(
-            ApartCertificate{first, second, content.of({first, second})});
+            ApartCertificate{first, second, content.of({&first, 1}, {&second, 1})});
       }
     }
   }

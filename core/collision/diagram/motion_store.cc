@@ -1,8 +1,10 @@
 #include "core/collision/diagram/motion_store.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/collision/diagram/tube_scratch.h"
+#include "core/collision/scene/arm_reach.h"
 #include "core/trajectory/stopping_reach.h"
 
 namespace armloom {
@@ -28,6 +30,8 @@ void MotionStore::look_at(PlanningScenePtr scene) {
 }
 
 void MotionStore::look_at_still() {
+  count();
+  for (const auto& [key, diagram] : diagrams_.with_still) bytes_ -= diagram.bytes;
   diagrams_.with_still.clear();
   pairs_.still.clear();
   still_ = std::make_shared<MotionTube>(
@@ -37,6 +41,7 @@ void MotionStore::look_at_still() {
 
 void MotionStore::begin_question(CheckProgress* progress) {
   scratch_.pair->progress = progress;
+  count();
   for (auto& entries : entries_) {
     if (entries.size() <= kKept) continue;
     std::ranges::nth_element(entries, entries.begin() + kKept, std::ranges::greater{},
@@ -44,19 +49,18 @@ void MotionStore::begin_question(CheckProgress* progress) {
     for (std::size_t i = kKept; i < entries.size(); ++i) drop(*entries[i]);
     entries.resize(kKept);
   }
-  while (bytes() > kBytesKept) drop_oldest();
+  while (bytes_ > kBytesKept) drop_oldest();
   ++question_;
 }
 
-std::size_t MotionStore::bytes() const {
-  std::size_t bytes = 0;
-  for (const auto& entries : entries_) {
-    for (const auto& entry : entries) bytes += entry->tube->bytes();
-  }
-  for (const auto* kept : {&diagrams_.between, &diagrams_.with_itself, &diagrams_.with_still}) {
-    for (const auto& [key, diagram] : *kept) bytes += diagram->bytes();
-  }
-  return bytes;
+void MotionStore::count() {
+  const auto renew = [this](std::size_t& counted, std::size_t now) {
+    bytes_ += now - counted;
+    counted = now;
+  };
+  for (Entry* entry : named_.entries) renew(entry->bytes, entry->tube->bytes());
+  for (Diagram* diagram : named_.diagrams) renew(diagram->bytes, diagram->cells->bytes());
+  named_ = {};
 }
 
 // Of those that were asked about at one time the first arm's first.
@@ -84,12 +88,20 @@ bool MotionStore::is_interrupted() const {
 }
 
 void MotionStore::drop(const Entry& entry) {
-  diagrams_.with_itself.erase({&entry, &entry});
-  diagrams_.with_still.erase({&entry, &entry});
+  drop(diagrams_.with_itself, {&entry, &entry});
+  drop(diagrams_.with_still, {&entry, &entry});
   for (Entry* other : entry.compared) {
-    diagrams_.between.erase(entry.arm < other->arm ? Key{&entry, other} : Key{other, &entry});
+    drop(diagrams_.between, entry.arm < other->arm ? Key{&entry, other} : Key{other, &entry});
     std::erase(other->compared, &entry);
   }
+  bytes_ -= entry.bytes;
+}
+
+void MotionStore::drop(Diagrams& of, const Key& key) {
+  const auto found = of.find(key);
+  if (found == of.end()) return;
+  bytes_ -= found->second.bytes;
+  of.erase(found);
 }
 
 MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId arm,
@@ -109,7 +121,9 @@ MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId a
   for (const auto& entry : entries) {
     if (entry->trajectory == trajectory && entry->tracking_error == tracking_error &&
         stands_as(*entry)) {
-      entry->asked_at = question_;
+      if (std::exchange(entry->asked_at, question_) != question_) {
+        named_.entries.push_back(entry.get());
+      }
       return *entry;
     }
   }
@@ -124,6 +138,7 @@ MotionStore::Entry& MotionStore::motion(const TrajectoryPtr& trajectory, ArmId a
   for (const JointId joint : geometry->kinematics.joints()) {
     entry->rest.push_back(rest[static_cast<Eigen::Index>(joint.index())]);
   }
+  named_.entries.push_back(entry.get());
   entries.push_back(std::move(entry));
   return *entries.back();
 }
@@ -138,11 +153,13 @@ double MotionStore::stopping_reach_s(Entry& entry) const {
 
 OrientedDiagram MotionStore::diagram(Diagrams& of, const Key& key, const Comparison& made) {
   const TubePair::Setting setting{&made.scene.bodies(), &made.pairs, scratch_.pair};
-  auto& cells = of[key];
-  if (!cells) {
-    cells = std::make_unique<CoordinationDiagram>(TubePair(setting, key.first->tube, made.second));
+  Diagram& diagram = of[key];
+  if (!diagram.cells) {
+    diagram.cells =
+        std::make_unique<CoordinationDiagram>(TubePair(setting, key.first->tube, made.second));
   }
-  return {*cells, setting, made.turned};
+  named_.diagrams.push_back(&diagram);
+  return {*diagram.cells, setting, made.turned};
 }
 
 OrientedDiagram MotionStore::between(Entry& own, Entry& other) {
@@ -184,12 +201,9 @@ OrientedDiagram MotionStore::with_itself(const Entry& own) {
 }
 
 bool MotionStore::out_of_reach(ArmId a, ArmId b) const {
-  const ArmKinematics& one = arms_[a.index()]->kinematics;
-  const ArmKinematics& other = arms_[b.index()]->kinematics;
-  // Tracking errors and rounding are far below this.
-  constexpr double kSlack_m = 0.05;
-  return (one.root() - other.root()).norm() >
-         one.reach_m() + other.reach_m() + scene_->cell().clearances.clearance_m + kSlack_m;
+  const std::vector<Ball>& reach = scene_->bodies().reach;
+  return armloom::out_of_reach(reach[a.index()], reach[b.index()],
+                               scene_->cell().clearances.clearance_m);
 }
 
 }  // namespace armloom

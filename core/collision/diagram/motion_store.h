@@ -35,6 +35,7 @@ class MotionStore {
     std::uint64_t asked_at;
     std::vector<Entry*> compared = {};            // those that it has a diagram with
     std::optional<double> stopping_reach_s = {};  // once it was asked for
+    std::size_t bytes = 0;                        // of the tube, as last counted
 
     [[nodiscard]] Duration duration() const { return tube->duration(); }
   };
@@ -65,7 +66,11 @@ class MotionStore {
 
  private:
   using Key = std::pair<const Entry*, const Entry*>;  // of two arms; of one: twice the same
-  using Diagrams = std::map<Key, std::unique_ptr<CoordinationDiagram>>;
+  struct Diagram {
+    std::unique_ptr<CoordinationDiagram> cells;
+    std::size_t bytes = 0;  // as last counted
+  };
+  using Diagrams = std::map<Key, Diagram>;
   struct Comparison {
     const PlanningScene& scene;
     const PairSet& pairs;
@@ -75,8 +80,9 @@ class MotionStore {
   [[nodiscard]] OrientedDiagram diagram(Diagrams& of, const Key& key, const Comparison& made);
   void look_at_still();
   void drop(const Entry& entry);
+  void drop(Diagrams& of, const Key& key);
   void drop_oldest();
-  [[nodiscard]] std::size_t bytes() const;
+  void count();
 
   PlanningScenePtr scene_;
   PlanningScenePtr links_;  // the scene that cross and self pairs were read from
@@ -98,6 +104,13 @@ class MotionStore {
   };
   Kept diagrams_;
   std::uint64_t question_ = 0;
+  // Only what a question names grows: it is counted when the next one begins.
+  struct Named {
+    std::vector<Entry*> entries;
+    std::vector<Diagram*> diagrams;
+  };
+  Named named_;
+  std::size_t bytes_ = 0;  // of all entries and diagrams, as last counted
 };
 
 }  // namespace armloom

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/collision/scene/arm_reach.h"
 #include "core/collision/scene/scene_bodies.h"
 #include "core/model/kinematics.h"
 
@@ -20,14 +21,6 @@ Eigen::Matrix3d z_to(const Eigen::Vector3d& axis) {
 double without_dust(double x) {
   const double whole = std::round(x);
   return std::abs(x - whole) < 1e-14 ? whole : x;
-}
-
-// How far a prismatic joint can push what it carries.
-double travel(const Cell& cell, const Link& link) {
-  if (link.motion != JointKind::prismatic) return 0.0;
-  const Joint& joint = cell.joint(*link.driver);
-  const double farthest = std::max(std::abs(joint.lower), std::abs(joint.upper));
-  return std::abs(link.multiplier) * farthest + std::abs(link.offset);
 }
 
 }  // namespace
@@ -70,8 +63,7 @@ ArmKinematics::Carried ArmKinematics::carry(const Cell& cell, LinkId id, std::ve
   const Carried parent = link.parent ? carry(cell, *link.parent, seen, carried) : Carried{};
   const Eigen::Isometry3d X_FJ = parent.X_FL * link.X_PJ;
   Carried here{parent.frame, X_FJ,
-               parent.reach_m + link.X_PJ.translation().norm() + travel(cell, link),
-               parent.from_root_m + link.X_PJ.translation().norm() + travel(cell, link)};
+               parent.reach_m + link.X_PJ.translation().norm() + travel_m(cell, link)};
   if (link.driver) {
     const Eigen::Matrix3d R = z_to(link.axis);
     auto row = std::find(joints_.begin(), joints_.end(), *link.driver);
@@ -88,10 +80,6 @@ ArmKinematics::Carried ArmKinematics::carry(const Cell& cell, LinkId id, std::ve
     C.col(3) = X_FJ.translation();
     C = C.unaryExpr([](double x) { return without_dust(x); });
     frame.about_x = C.col(0) == Eigen::Vector3d::UnitX();
-    if (parent.frame < 0) {
-      if (frames_.empty()) root_ = X_FJ.translation();
-      here.from_root_m = (X_FJ.translation() - root_).norm() + travel(cell, link);
-    }
     here.frame = static_cast<int>(frames_.size());
     here.X_FL = Eigen::Isometry3d::Identity();
     here.X_FL.linear() = R.transpose();
@@ -132,7 +120,6 @@ void ArmKinematics::add_body(const PlanningScene::Bodies& bodies, std::size_t in
     const double far =
         std::max(from_link(capsule.p_PA), from_link(capsule.p_PB)) + capsule.radius_m;
     extent_m_ = std::max(extent_m_, carried.reach_m + far);
-    reach_m_ = std::max(reach_m_, carried.from_root_m + far);
   }
   added.capsules_end = static_cast<int>(capsules_.size());
   bodies_.push_back(added);

@@ -40,9 +40,6 @@ class ArmKinematics {
   [[nodiscard]] filter::ArmKinematics view() const;
   // No point of a body, nor any joint, ever has a larger coordinate in the world (m).
   [[nodiscard]] double extent_m() const { return extent_m_; }
-  // No point of the arm is ever farther than reach_m from here (in the world).
-  [[nodiscard]] const Eigen::Vector3d& root() const { return root_; }
-  [[nodiscard]] double reach_m() const { return reach_m_; }
   // The frames that carry one, itself the last; none of the world (-1).
   [[nodiscard]] std::span<const int> ancestors(int frame) const;
   // How many ancestors two capsules share.
@@ -52,8 +49,7 @@ class ArmKinematics {
   struct Carried {  // a link: the frame that carries it, and where in it
     int frame = -1;
     Eigen::Isometry3d X_FL = Eigen::Isometry3d::Identity();
-    double reach_m = 0.0;      // of the link's origin from the world's, at most
-    double from_root_m = 0.0;  // the same, from root_
+    double reach_m = 0.0;  // of the link's origin from the world's, at most
   };
   Carried carry(const Cell& cell, LinkId link, std::vector<int>& seen,
                 std::vector<Carried>& carried);
@@ -69,8 +65,6 @@ class ArmKinematics {
   std::vector<KinematicBody> bodies_;
   int motion_bound_rows_ = 0;
   double extent_m_ = 0.0;
-  Eigen::Vector3d root_ = Eigen::Vector3d::Zero();
-  double reach_m_ = 0.0;
 };
 
 // The pose of each frame of one configuration, in double: [frame][12] as filter::Frame::C.

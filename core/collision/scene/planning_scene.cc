@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/collision/scene/arm_reach.h"
 #include "core/collision/scene/out_of_reach.h"
 #include "core/collision/scene/scene_bodies.h"
 #include "core/collision/scene/scene_fingerprint.h"
@@ -165,6 +166,13 @@ void add_held(PlanningScene::Bodies& scene) {
   scene.held_end = scene.bodies.size();
 }
 
+void set_reach(PlanningScene::Bodies& scene) {
+  scene.reach.clear();
+  for (std::uint32_t a = 0; a < scene.cell->arms.size(); ++a) {
+    scene.reach.push_back(reach_of(scene, ArmId{a}));
+  }
+}
+
 // Precondition: the bodies end with what is held.
 void add_objects(PlanningScene::Bodies& scene) {
   for (const CollisionObject& object : scene.objects) {
@@ -173,6 +181,7 @@ void add_objects(PlanningScene::Bodies& scene) {
     body.X_CP = object.X_WO;
     add_body(scene, std::move(body), {{object.shape, Eigen::Isometry3d::Identity()}});
   }
+  scene.fingerprint.objects = fingerprint_of_objects(scene);
   scene.pairs.clear();
   scene.groups.clear();
   add_pairs(scene);
@@ -208,6 +217,7 @@ Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
   bodies.bodies_of_arm.resize(cell->arms.size());
   for (std::uint32_t i = 0; i < cell->links.size(); ++i) add_link(bodies, LinkId{i});
   bodies.links_end = bodies.held_end = bodies.bodies.size();
+  set_reach(bodies);
   bodies.out_of_reach = std::make_shared<const std::set<LinkPair>>(pairs_out_of_reach(bodies));
   bodies.links_fingerprint = bodies.fingerprint = fingerprint_of_links(*cell, *bodies.out_of_reach);
   return links.with_objects(cell->objects);
@@ -223,7 +233,6 @@ Result<PlanningScenePtr> PlanningScene::with_objects(std::vector<CollisionObject
   bodies = *bodies_;
   cut(bodies, bodies.held_end);
   bodies.objects = std::move(objects);
-  bodies.fingerprint.objects = fingerprint_of_objects(bodies.objects);
   add_objects(bodies);
   return PlanningScenePtr(scene);
 }
@@ -242,6 +251,7 @@ Result<PlanningScenePtr> PlanningScene::with_attachments(
   bodies.fingerprint.arms =
       fingerprint_of_arms(cell(), bodies.links_fingerprint, *bodies.attachments);
   add_held(bodies);
+  set_reach(bodies);
   add_objects(bodies);
   return PlanningScenePtr(scene);
 }

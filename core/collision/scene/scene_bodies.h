@@ -16,6 +16,7 @@
 #include "core/collision/scene/planning_scene.h"
 #include "core/coordination/proximity.h"
 #include "core/coordination/verdict.h"
+#include "core/geometry/ball.h"
 #include "core/geometry/convex/convex_shape.h"
 #include "core/model/attachment.h"
 #include "core/model/cell.h"
@@ -107,6 +108,7 @@ struct PlanningScene::Bodies {
   std::vector<BodyPair> pairs;
   std::vector<PairGroup> groups;
   std::vector<std::vector<std::size_t>> bodies_of_arm;  // by ArmId
+  std::vector<Ball> reach;                              // by ArmId (reach_of)
   SceneFingerprint links_fingerprint;                   // of the links alone
   SceneFingerprint fingerprint;
 

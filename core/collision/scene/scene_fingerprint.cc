@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/content_hash.h"
+#include "core/collision/scene/arm_reach.h"
 #include "core/geometry/mesh/mesh.h"
 
 namespace armloom {
@@ -103,17 +104,23 @@ std::vector<Fingerprint> fingerprint_of_arms(const Cell& cell, const SceneFinger
   return arms;
 }
 
-std::vector<Fingerprint> fingerprint_of_objects(const std::vector<CollisionObject>& objects) {
-  std::vector<Fingerprint> all;
-  for (const CollisionObject& object : objects) {
+std::vector<std::vector<Fingerprint>> fingerprint_of_objects(const PlanningScene::Bodies& bodies) {
+  std::vector<std::vector<Fingerprint>> by_arm(bodies.reach.size());
+  std::size_t body = bodies.held_end;
+  for (const CollisionObject& object : bodies.objects) {
     ContentHash hash;
     hash.add(object.name);
     add(hash, object.shape);
     add(hash, object.X_WO);
-    all.push_back(hash.value());
+    const CollisionBody::BoundingSphere& sphere = bodies.bodies[body++].sphere;
+    const Ball ball{object.X_WO * sphere.p_PC, sphere.radius_m};
+    for (std::size_t arm = 0; arm < by_arm.size(); ++arm) {
+      if (out_of_reach(bodies.reach[arm], ball, bodies.cell->clearances.clearance_m)) continue;
+      by_arm[arm].push_back(hash.value());
+    }
   }
-  std::ranges::sort(all);
-  return all;
+  for (std::vector<Fingerprint>& objects : by_arm) std::ranges::sort(objects);
+  return by_arm;
 }
 
 }  // namespace armloom

@@ -3,6 +3,7 @@
 #include <set>
 #include <vector>
 
+#include "core/collision/scene/scene_bodies.h"
 #include "core/coordination/certificate.h"
 #include "core/model/attachment.h"
 #include "core/model/cell.h"
@@ -19,8 +20,8 @@ namespace armloom {
 // Returns `links` with what arms hold.
 [[nodiscard]] std::vector<Fingerprint> fingerprint_of_arms(
     const Cell& cell, const SceneFingerprint& links, const std::vector<Attachment>& attachments);
-// Ascending.
-[[nodiscard]] std::vector<Fingerprint> fingerprint_of_objects(
-    const std::vector<CollisionObject>& objects);
+// As SceneFingerprint::objects. Precondition: all bodies are there, and how far arms reach.
+[[nodiscard]] std::vector<std::vector<Fingerprint>> fingerprint_of_objects(
+    const PlanningScene::Bodies& bodies);
 
 }  // namespace armloom

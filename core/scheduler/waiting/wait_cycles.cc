@@ -111,7 +111,7 @@ void WaitCycles::name(State& state) {
       return std::ranges::find_first_of(named.ring, ring) != named.ring.end();
     });
     if (told) continue;
-    Named named{.ring = ring, .epoch = state.recheck_epoch, .in_turn = {}};
+    Named named{.ring = ring, .epoch = state.scene_epoch, .in_turn = {}};
     for (std::size_t i = 0; i < ring.size(); ++i) {
       Record& record = state.jobs.at(ring[i]);
       if (!is_found_in_the_way(state, record, next_on(ring, i))) named.in_turn.push_back(ring[i]);
@@ -127,7 +127,7 @@ void WaitCycles::name(State& state) {
 bool WaitCycles::stands_still(const State& state, const Named& named) const {
   const WaitCycle& ring = named.ring;
   const bool all_stand =
-      named.epoch == state.recheck_epoch && std::ranges::all_of(ring, [&](JobId id) {
+      named.epoch == state.scene_epoch && std::ranges::all_of(ring, [&](JobId id) {
         return state.jobs.is_active(id) && stands(state, state.jobs.at(id));
       });
   if (!all_stand || named.in_turn.empty()) return all_stand;
@@ -160,7 +160,7 @@ void WaitCycles::settle(State& state) {
 bool WaitCycles::has_lost_one(const State& state, const Record& record) const {
   return std::ranges::any_of(record.job.trajectory->arms(), [&](ArmId arm) {
     const auto lost = lost_.find(arm);
-    return lost != lost_.end() && lost->second.epoch == state.recheck_epoch &&
+    return lost != lost_.end() && lost->second.epoch == state.scene_epoch &&
            lost->second.came_by == state.arms.came_by(arm);
   });
 }
@@ -189,7 +189,7 @@ bool WaitCycles::resolve(State& state, const WaitCycle& ring) {
   keep_those_behind(state, last);
   for (ArmId arm : last.job.trajectory->arms()) {
     if (last.job.system_job) break;
-    lost_.insert_or_assign(arm, Lost{state.arms.came_by(arm), state.recheck_epoch});
+    lost_.insert_or_assign(arm, Lost{state.arms.came_by(arm), state.scene_epoch});
   }
   give_up(state, last, {AfterStop::Then::fail, Reason::deadlock});
   return true;

@@ -38,7 +38,7 @@ class WaitCycles {
  private:
   struct Named {
     WaitCycle ring;
-    Version epoch;               // State::recheck_epoch when it was found
+    Version epoch;               // State::scene_epoch when it was found
     std::vector<JobId> in_turn;  // wait for the next one, though that was not found in their way
     bool way_out = false;        // an arm of it may go aside, or one of it expires
   };

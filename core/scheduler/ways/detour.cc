@@ -132,7 +132,7 @@ bool weighs_detour(State& state, Record& record, const std::vector<PairRegions>&
   if (arrives <= soon_enough || (detour && detour->tries >= kDetoursMax)) return false;
   Configuration beside = places_held(state, record, regions);
   const bool is_as_tried =
-      detour && detour->asked_at >= state.recheck_epoch && detour->beside == beside;
+      detour && detour->asked_at >= state.scene_epoch && detour->beside == beside;
   if (is_as_tried) return false;
   if (!detour) detour.emplace();
   detour->beside = std::move(beside);
@@ -162,7 +162,7 @@ void take_detour(State& state, const PlanMade& answer) {
   detour.question.reset();
   state.jobs.explain(*record);
   if (!may_go_round(*record)) return;
-  const bool fits = answer.trajectory && detour.best && detour.asked_at >= state.recheck_epoch &&
+  const bool fits = answer.trajectory && detour.best && detour.asked_at >= state.scene_epoch &&
                     answer.trajectory->start().isApprox(detour.best->start());
   const bool is_sooner = fits && state.now + answer.trajectory->duration() < detour.arrives;
   // One that takes longer than the best says nothing of the next one; that there is none does.

@@ -20,7 +20,7 @@ bool is_as_asked(const State& state, const GoalWay& way, const Configuration& at
 
 // It was asked for, or made, for where the arm will be and for the scene as it is.
 bool fits(const State& state, const GoalWay& way, const Configuration& at) {
-  const bool is_asked = way.beside.size() != 0 && way.asked_at >= state.recheck_epoch;
+  const bool is_asked = way.beside.size() != 0 && way.asked_at >= state.scene_epoch;
   return is_asked && is_as_asked(state, way, at, way.goal.arm);
 }
 

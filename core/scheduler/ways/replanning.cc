@@ -68,7 +68,7 @@ bool fits(const State& state, const Record& record) {
   const auto& joints = state.cell->arm(arm_of(record.job)).joints;
   const Eigen::VectorXd from = joints_of(other.beside, joints);
   const Eigen::VectorXd stands = joints_of(rest_after_admitted(state, &record.job), joints);
-  return other.asked_at >= state.recheck_epoch && is_same_place(state, from, stands);
+  return other.asked_at >= state.scene_epoch && is_same_place(state, from, stands);
 }
 
 void ask_at_rest(State& state, Record& record) {
@@ -171,7 +171,7 @@ bool may_go_around(const State& state, const Record& record) {
   if (!job.is_waiting() && !job.pausing()) return false;
   if (!job.another_way) return true;
   const bool is_as_tried =
-      job.another_way->asked_at >= state.recheck_epoch &&
+      job.another_way->asked_at >= state.scene_epoch &&
       is_same_place(state, job.another_way->beside, rest_after_admitted(state, &job));
   return job.another_way->tries < kReplansMax && !is_as_tried;
 }
