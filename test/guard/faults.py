@@ -66,7 +66,7 @@ FAULTS_IN_GUARD = [
     ('an arm may change its motion on the way', 'const bool is_busy = now.motion != motion && !now.at_rest;', 'const bool is_busy = !FAULT && now.motion != motion && !now.at_rest;'),
     ('arms of one motion may get apart', 'if (holds && first - last <= of->apart)', 'if (holds && (FAULT || first - last <= of->apart))'),
     ('a stop leaves authority as it was', '    position.authority = position.measured;\n  }', '    if (!FAULT) position.authority = position.measured;\n  }'),
-    ('authority that was granted is not held', '    positions_[arm.index()] = as_granted(motion, arm, from, authority);', '    positions_[arm.index()] = as_granted(motion, arm, from, FAULT ? from : authority);'),
+    ('authority that was granted is not held', '    positions_[arm.index()] = as_granted(motion, arm, from, authority);', '    positions_[arm.index()] = as_granted(motion, arm, from, FAULT ? from.value_or(Duration{}) : authority);'),
     ('arms that were apart are apart whatever they hold', '  return apart != apart_.end() && apart->second ==', '  if (FAULT) return apart != apart_.end();\n  return apart != apart_.end() && apart->second =='),
     ('a region that is met does not matter', '    if (met == pair.blocked.end()) return std::nullopt;', '    if (met == pair.blocked.end() || FAULT) return std::nullopt;'),
 ]

@@ -70,6 +70,31 @@ TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
   cell->expect_at("a", {-1, 0});
 }
 
+TEST_P(Approaches, TwoThatAreToStandWhereTheOtherStandsCostEachArmOneJob) {
+  stop_all(cell->executive(), "test");
+  for (int i = 0; i < 4; ++i) {
+    const double y = 0.1 * i, on = y + 0.1;
+    cell->submit(approached(go("a", {1, y}, {1, on}, 3, "a" + std::to_string(i))));
+    cell->submit(approached(go("b", {-1, y}, {-1, on}, 3, "b" + std::to_string(i))));
+  }
+  resume_all(cell->executive());
+  cell->run_until(at(20s));
+  int lost = 0;
+  for (const std::string arm : {"a", "b"}) {
+    int of_arm = 0;
+    for (int i = 0; i < 4; ++i) {
+      const JobView job = cell->job(arm + std::to_string(i));
+      if (job.state != JobState::failed) continue;
+      EXPECT_EQ(job.reason(), Reason::deadlock) << job.key;
+      EXPECT_FALSE(job.ring.empty()) << job.key;
+      ++of_arm;
+    }
+    EXPECT_LE(of_arm, 1) << arm;
+    lost += of_arm;
+  }
+  EXPECT_GE(lost, 1);
+}
+
 TEST_P(Approaches, OneThatWaitsInVainIsNotTriedAgain) {
   JobRequest job = approached(go("a", {1, 0}, {1, 2}, 6, "where b stands"));
   job.terms.backlog_timeout = 5s;

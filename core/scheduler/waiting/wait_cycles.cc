@@ -180,18 +180,24 @@ std::optional<JobId> WaitCycles::gives_way(const State& state, const WaitCycle& 
   return *std::ranges::max_element(last.empty() ? ring : last, {}, dispensable);
 }
 
-// Returns false if the ring is left to its timeouts.
+// Returns false if the ring is left to its timeouts. What brings a job's arms to its start gives
+// way with that job: another try would meet the same ring.
 bool WaitCycles::resolve(State& state, const WaitCycle& ring) {
   if (comes_back(state, ring)) return true;
   const auto id = gives_way(state, ring);
   if (!id) return false;
-  Record& last = state.jobs.at(*id);
+  Record& last = state.jobs.at(approached_job(state, *id).value_or(*id));
+  last.job.ring = state.jobs.at(*id).job.ring;
   keep_those_behind(state, last);
   for (ArmId arm : last.job.trajectory->arms()) {
     if (last.job.system_job) break;
     lost_.insert_or_assign(arm, Lost{state.arms.came_by(arm), state.scene_epoch});
   }
-  give_up(state, last, {AfterStop::Then::fail, Reason::deadlock});
+  const AfterStop fails{AfterStop::Then::fail, Reason::deadlock};
+  for (JobId approach : approaches_of(state, last)) {
+    give_up(state, state.jobs.at(approach), fails);
+  }
+  give_up(state, last, fails);
   return true;
 }
 

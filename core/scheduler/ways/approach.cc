@@ -82,6 +82,13 @@ std::vector<JobId> approaches_of(const State& state, const Record& record) {
   return approaches;
 }
 
+std::optional<JobId> approached_job(const State& state, JobId approach) {
+  const Record& own = state.jobs.at(approach);
+  if (!own.errand.before || !state.jobs.is_active(*own.errand.before)) return std::nullopt;
+  const std::vector<JobId> all = approaches_of(state, state.jobs.at(*own.errand.before));
+  return std::ranges::find(all, approach) != all.end() ? own.errand.before : std::nullopt;
+}
+
 void keep_those_behind(State& state, const Record& record) {
   for (ArmId arm : record.job.trajectory->arms()) {
     const auto next = state.jobs.queues().behind(record.job, arm);
