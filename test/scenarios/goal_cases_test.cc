@@ -158,7 +158,7 @@ TEST_P(Goals, ASceneThatNeverStaysEndsTheTries) {
   cell->submit(move_to("x", 0.5, "restless"));
   for (int i = 0; i < 20 && !cell->simulation->executive().all_ended(); ++i) {
     const std::string name = "fly " + std::to_string(i);
-    ASSERT_TRUE(cell->simulation->executive().scene().add(box_at(name, 3.0, 3.0 + i)));
+    ASSERT_TRUE(cell->simulation->executive().scene().add(box_at(name, 0.9, 0.9 + 0.01 * i)));
     cell->run_until(cell->simulation->now() + kSimulatedPlanning);
   }
   EXPECT_EQ(cell->job("restless").reason(), Reason::no_plan);

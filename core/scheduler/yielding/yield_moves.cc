@@ -6,6 +6,7 @@
 
 #include "core/jobs/standing.h"
 #include "core/scheduler/motion_questions.h"
+#include "core/scheduler/ways/approach.h"
 #include "core/scheduler/yielding/ways_aside.h"
 #include "core/trajectory/set_joints.h"
 
@@ -117,7 +118,8 @@ std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring) {
   for (std::size_t i = 0; i < from_last.size(); ++i) {
     const Job& next = state.jobs.at(from_last[i]).job;
     const Record& waits = state.jobs.at(from_last[(i + from_last.size() - 1) % from_last.size()]);
-    if (!next.is_waiting() || next.has_started() || next.system_job) continue;
+    const bool may_go_later = !next.system_job || approached_job(state, next.id);
+    if (!next.is_waiting() || next.has_started() || !may_go_later) continue;
     for (const Wait& wait : waits_of(waits.job)) {
       const bool near = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::job;
       if (!near || !wait.arm) continue;
