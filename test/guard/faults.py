@@ -46,7 +46,6 @@ SCHEDULER = [
     ('a canceled motion is taken to rest where it began', GRAPH, 'block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});', 'block_others(*found, {stand, FAULT ? Duration{} : rests_at, FAULT ? Duration{} : std::max(rests_at, farthest)});'),
     ('the regions of the last pair are lost', OPEN, '  for (const PairRegions& pair : question.regions) add(pair);', '  for (const PairRegions& pair : question.regions) {\n    if (FAULT && &pair == &question.regions.back()) break;\n    add(pair);\n  }'),
     ('of several regions of a pair one counts', OPEN, '  for (const ConflictRegion& region : pair.regions) add(a, *b, region);', '  for (const ConflictRegion& region : pair.regions) {\n    add(a, *b, region);\n    if (FAULT) break;\n  }'),
-    ('a region that was entered is taken to be passed', OPEN, 'return motions_[a].is_beyond(box.to_a) ||', 'return motions_[a].is_beyond(FAULT ? box.from_a : box.to_a) ||'),
     ('motions under way are taken to be at their ends', QUESTIONS, '                .progress = job.progress,\n                .to_come', '                .progress = FAULT && job.progress > Duration{} ? job.trajectory->duration() : job.progress,\n                .to_come'),
     ('a start off the path is not told', QUESTIONS, '  return follows ?', '  return follows || FAULT ?'),
     ('what the checker refuses is admitted', ADMISSION, '  if (verdict.kind == Verdict::Kind::free) {\n    if (state.graph', '  if (verdict.kind == Verdict::Kind::free || FAULT) {\n    if (state.graph'),
