@@ -59,7 +59,12 @@ void AuthorityGuard::take(std::span<const Certificate> certificates) {
 void AuthorityGuard::take(const PairCertificate& pair) {
   for (const ArmId arm : pair.b.arms) {
     auto& all = known(pair.a.motion).pairs[arm];
-    std::erase_if(all, [&](const PairCertificate& old) { return !is_of_use(old, arm); });
+    std::erase_if(all, [&](const PairCertificate& old) {
+      // Of a motion that is not known any more one counts where the arm rests at an end of it.
+      const bool is_left = old.b.motion && !motions_.contains(old.b.motion.get()) &&
+                           !covers(old.b, arm, positions_[arm.index()]);
+      return is_left || !is_valid(old);
+    });
     const auto is_same = [&](const PairCertificate& old) {
       return old.b.motion == pair.b.motion && old.b.still == pair.b.still;
     };
@@ -86,20 +91,7 @@ void AuthorityGuard::forget(const TrajectoryPtr& motion) {
 // What is forgotten and no arm is on any more.
 void AuthorityGuard::drop_left(const Trajectory* motion) {
   const auto left = motions_.find(motion);
-  if (left == motions_.end() || !left->second.is_forgotten || is_on(motion)) return;
-  motions_.erase(left);
-  for (auto& [key, of] : motions_) {
-    for (auto& [arm, all] : of.pairs) {
-      std::erase_if(all, [&](const PairCertificate& pair) { return !is_of_use(pair, arm); });
-    }
-  }
-}
-
-// With a motion that is not known any more: while the other arm rests where that begins or ends.
-bool AuthorityGuard::is_of_use(const PairCertificate& pair, ArmId other) const {
-  if (!is_valid(pair)) return false;
-  return !pair.b.motion || motions_.contains(pair.b.motion.get()) ||
-         covers(pair.b, other, positions_[other.index()]);
+  if (left != motions_.end() && left->second.is_forgotten && !is_on(motion)) motions_.erase(left);
 }
 
 // Motions that were asked about and never started, as ways aside that were not taken.

@@ -92,7 +92,6 @@ class AuthorityGuard {
   void drop_old();
   [[nodiscard]] bool is_on(const Trajectory* motion) const;
   [[nodiscard]] bool is_valid(const PairCertificate& pair) const;
-  [[nodiscard]] bool is_of_use(const PairCertificate& pair, ArmId other) const;
   [[nodiscard]] bool are_apart(ArmId a, ArmId b) const;
   [[nodiscard]] double off(const Trajectory& motion, ArmId arm, Duration progress) const;
   [[nodiscard]] ArmPosition as_granted(const TrajectoryPtr& motion, ArmId arm, From from,
