@@ -19,7 +19,8 @@ Fingerprint SceneFingerprint::of(std::span<const ArmId> one, std::span<const Arm
 }
 
 std::vector<ArmId> arms_in_question(const SceneFingerprint& before, const SceneFingerprint& now) {
-  const bool all = before.common != now.common || before.arms != now.arms;  // what arms hold
+  // A changed arm invalidates its pairs with every other arm.
+  const bool all = before.common != now.common || before.arms != now.arms;
   std::vector<ArmId> arms;
   for (std::uint32_t a = 0; a < now.arms.size(); ++a) {
     const bool stands = std::ranges::includes(before.objects[a], now.objects[a]);

@@ -24,15 +24,16 @@ using Fingerprint = std::uint64_t;
 struct SceneFingerprint {
   Fingerprint common = 0;         // limits, pairs that may touch, links that no arm moves
   std::vector<Fingerprint> arms;  // by ArmId: links, joints, and what the arm holds
-  // By ArmId: those that the arm may come near to, wherever its joints are. Ascending.
+  // By ArmId: the objects within the arm's reach, ascending.
   std::vector<std::vector<Fingerprint>> objects;
 
-  // The content that a proof about these arms relies on, of both lists. Precondition: each list is
-  // ascending, and they have no arm in common.
+  // Returns the content that a proof about the arms of both lists relies on. Precondition: each
+  // list is ascending, and no arm is in both.
   [[nodiscard]] Fingerprint of(std::span<const ArmId> one, std::span<const ArmId> other = {}) const;
   bool operator==(const SceneFingerprint&) const = default;
 };
-// Returns the arms of which proofs about the scene `before` do not hold in the scene `now`.
+// Returns the arms whose motions have to be checked again: an object appeared or changed within
+// their reach, or any arm, or what all proofs rely on, is different.
 [[nodiscard]] std::vector<ArmId> arms_in_question(const SceneFingerprint& before,
                                                   const SceneFingerprint& now);
 

@@ -40,7 +40,7 @@ void AuthorityGate::certified(const std::vector<Certificate>& certificates) {
   take(certificates);
 }
 
-// An answer that is under way is about another scene.
+// The certifier's open answer is about the scene before: it does not count.
 void AuthorityGate::look_at(const SceneFingerprint& present) {
   guard_.look_at(present);
   for (auto& [job, kept] : kept_) kept.answers = asked_ == job ? -1 : 0;
@@ -117,7 +117,7 @@ const std::vector<MotionReport>& AuthorityGate::tick(TimePoint now) {
   return reports_;
 }
 
-// Of arms that were at rest already, one in each cycle.
+// Tells the guard where moving arms are, and in each cycle where one of the arms at rest is.
 void AuthorityGate::see_positions() {
   looked_at_ = (looked_at_ + 1) % static_cast<std::uint32_t>(jobs_.size());
   for (std::uint32_t a = 0; a < jobs_.size(); ++a) {
@@ -160,7 +160,7 @@ void AuthorityGate::try_again() {
   }
 }
 
-// About what misses certificates, one after the other, beside all others where they are.
+// Asks for missing certificates, one job after the other, with all other arms where they are.
 void AuthorityGate::ask() {
   if (asked_) return;
   auto next = kept_.end();

@@ -49,15 +49,15 @@ class AuthorityGate {
   // Returns the refusal that the scheduler did not expect and that keeps the job back now; nullopt
   // if there is none.
   [[nodiscard]] std::optional<GuardRefusal> refusal(JobId job) const;
-  // Nothing is kept: the arms were told all that was granted.
+  // Returns true if the arms were told all that was granted.
   [[nodiscard]] bool is_idle() const { return kept_.empty(); }
   // The job whose motion the arm was told of last.
   [[nodiscard]] std::optional<JobId> job_of(ArmId arm) const { return jobs_[arm.index()]; }
 
-  // Certificates that one job misses are asked for once in this time.
+  // The gate asks for the missing certificates of one job at most once in this time.
   inline static constexpr Duration kAskAgain = std::chrono::milliseconds(100);
-  // The scheduler has no reason to wait for a certificate that is missing for so long, and after so
-  // many answers on the present scene.
+  // A certificate that is missing longer than this, and after so many answers about the present
+  // scene, is a defect of the scheduler.
   inline static constexpr Duration kMissing = std::chrono::seconds(1);
   inline static constexpr int kAnswers = 2;
 
@@ -70,8 +70,8 @@ class AuthorityGate {
     std::optional<Dispatch> start = {};  // the arms are not told yet
     bool is_braked = false;              // before they were
     bool is_reported = false;
-    TimePoint asks_from = {};  // its certificates are asked for from then on
-    int answers = 0;           // that were of no help
+    TimePoint asks_from = {};  // the gate asks for its certificates from then on
+    int answers = 0;           // about the present scene, without the missing certificate
 
     [[nodiscard]] AuthorityGuard::From from() const {
       return start ? std::optional(start->from_progress) : std::nullopt;
@@ -95,9 +95,9 @@ class AuthorityGate {
   std::map<JobId, Kept> kept_;
   std::map<JobId, TrajectoryPtr> told_;     // motions that arms were told of
   std::vector<std::optional<JobId>> jobs_;  // by ArmId
-  std::optional<JobId> asked_;              // the answer about it is under way
+  std::optional<JobId> asked_;              // the job of the open question
   TimePoint now_{};
-  std::uint32_t looked_at_ = 0;  // of the arms at rest, the last
+  std::uint32_t looked_at_ = 0;  // ArmId of the arm at rest that was read last
   std::vector<MotionReport> reports_;
 };
 

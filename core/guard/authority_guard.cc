@@ -60,7 +60,7 @@ void AuthorityGuard::take(const PairCertificate& pair) {
   for (const ArmId arm : pair.b.arms) {
     auto& all = known(pair.a.motion).pairs[arm];
     std::erase_if(all, [&](const PairCertificate& old) {
-      // Of a motion that is not known any more one counts where the arm rests at an end of it.
+      // A forgotten motion's certificate still covers an arm that rests at an end of the motion.
       const bool is_left = old.b.motion && !motions_.contains(old.b.motion.get()) &&
                            !covers(old.b, arm, positions_[arm.index()]);
       return is_left || !is_valid(old);
@@ -88,7 +88,7 @@ void AuthorityGuard::forget(const TrajectoryPtr& motion) {
   drop_left(motion.get());
 }
 
-// What is forgotten and no arm is on any more.
+// Erases the motion's certificates if it is forgotten and no arm is on it.
 void AuthorityGuard::drop_left(const Trajectory* motion) {
   const auto left = motions_.find(motion);
   if (left != motions_.end() && left->second.is_forgotten && !is_on(motion)) motions_.erase(left);
@@ -152,12 +152,13 @@ double AuthorityGuard::off(const Trajectory& motion, ArmId arm, Duration progres
   return largest;
 }
 
-// A motion by itself may be made again, from an earlier place; arms of one motion rest apart on it.
+// A motion of one arm may be restarted from an earlier place. Arms of a synchronous motion may rest
+// at different places on it, so that an earlier `from` is no restart.
 ArmPosition AuthorityGuard::as_granted(const TrajectoryPtr& motion, ArmId arm, From from,
                                        Duration authority) const {
   ArmPosition position = positions_[arm.index()];
   const Duration set_out = from.value_or(Duration{});
-  constexpr Duration kReported = std::chrono::milliseconds(100);  // progress may be so old
+  constexpr Duration kReported = std::chrono::milliseconds(100);  // age of a report
   const bool again = from && position.at_rest && motion->arms().size() == 1 &&
                      set_out < position.measured - kReported;
   if (position.motion != motion || again) position = {motion, set_out, set_out};

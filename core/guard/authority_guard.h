@@ -29,7 +29,7 @@ struct ArmPosition {
 //
 // A certificate covers an arm that is on its motion, that rests where it says, or that rests where
 // its motion begins or ends. Each one is a proof by itself, if its content is the present one's.
-// What it assumes: README.md. Pure; not thread-safe.
+// README.md lists the assumptions. Pure; not thread-safe.
 class AuthorityGuard {
  public:
   // By ArmId, the joints of each arm and of its gripper; where all joints of the cell are.
@@ -51,7 +51,7 @@ class AuthorityGuard {
   void rests(ArmId arm, Duration progress, const Configuration& measured);
 
   // ---- The gate ----
-  // A start or resume says from where; an arm that is under way goes on from where it is.
+  // Trajectory time where a start or resume begins; nullopt for a grant to arms under way.
   using From = std::optional<Duration>;
   // Returns why the motion's arms may not go up to `authority`; nullopt if they may.
   [[nodiscard]] std::optional<GuardRefusal> refuses(const TrajectoryPtr& motion, From from,
@@ -64,11 +64,11 @@ class AuthorityGuard {
   [[nodiscard]] const ArmPosition& position(ArmId arm) const { return positions_[arm.index()]; }
   // The joints of the whole cell, as last seen at rest.
   [[nodiscard]] const Configuration& rest() const { return q_; }
-  // How far the arms of the motion are from it where they are (rad, m).
+  // Returns the largest distance between a joint of the motion's arms and the motion (rad, m).
   [[nodiscard]] double off_path(const TrajectoryPtr& motion, From from) const;
 
-  // So many motions for each arm keep their certificates while no arm is on them; and so many of
-  // each motion are kept with one other arm, and with the scene. The latest.
+  // The latest certificates are kept: of so many motions for each arm while no arm is on them; and
+  // of each motion so many with one other arm, and with the scene.
   inline static constexpr std::size_t kMotionsKept = 16, kPairsKept = 16, kScenesKept = 2;
 
  private:

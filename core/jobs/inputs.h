@@ -95,8 +95,8 @@ struct Stop {
 struct Resume {
   std::vector<ArmId> arms;
 };
-// The planning scene is another one: what waits is judged again, and motions of these arms that are
-// under way (arms_in_question).
+// The planning scene changed: waiting jobs are judged again, and the motions under way of these
+// arms (arms_in_question) are checked again.
 struct SceneChanged {
   std::vector<ArmId> arms;
 };

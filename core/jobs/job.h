@@ -55,7 +55,7 @@ struct Moving {
   TimePoint goes_since = {};
   Duration goes_from = {};
   bool is_under_way = false;  // it has been seen to move; until then it is `scheduled`
-  bool was_compared = false;  // as it stands now (without_orders.h)
+  bool was_compared = false;  // with the others, since it stands (without_orders.h)
   std::optional<Pause> pause = {};
 };
 struct Braking {

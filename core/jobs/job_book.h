@@ -38,8 +38,8 @@ struct Errand {
 
 // The questions that are asked about a job.
 struct Asking {
-  // Admitted: the version on which it was last found free; whether something has changed since that
-  // it may not be free of.
+  // For admitted jobs: the version of the last check that found the motion free; and true if the
+  // motion has to be checked again before it starts.
   Version found_free_at = 0;
   bool is_in_question = false;
   std::uint64_t effort = 1;  // Question::effort of the next time that it is judged

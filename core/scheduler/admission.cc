@@ -26,7 +26,8 @@ namespace {
 // a word from here, and so far others cannot be let pass before it.
 constexpr Duration kHorizon = std::chrono::milliseconds(250);
 
-// The one whose last answer is the oldest.
+// Returns the motion that has to be checked again and whose last check is the oldest; nullopt if
+// none has.
 std::optional<JobId> next_recheck(const State& state) {
   std::optional<JobId> next;
   for (JobId id : state.jobs.past_queue()) {

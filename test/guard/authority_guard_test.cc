@@ -151,7 +151,7 @@ TEST_F(Guarded, AStopEndsAuthorityWhereTheArmRests) {
   EXPECT_EQ(why(left, 3s, 2s), std::nullopt);
 }
 
-TEST_F(Guarded, AMotionThatIsMadeOnceMoreIsCoveredFromItsStartOn) {
+TEST_F(Guarded, ARestartedMotionIsCoveredFromItsStart) {
   const TrajectoryPtr loop = line({kLeft}, 0.0, 0.0);
   take({scene(loop), pair(on(loop), resting(kRight, 0.0), {{2s, 4s, 0s, 0s}})});
   guard->hold(loop, {}, 10s);

@@ -70,7 +70,7 @@ TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
   cell->expect_at("a", {-1, 0});
 }
 
-TEST_P(Approaches, TwoThatAreToStandWhereTheOtherStandsCostEachArmOneJob) {
+TEST_P(Approaches, ThatBlockEachOtherCostEachArmOneJob) {
   stop_all(cell->executive(), "test");
   for (int i = 0; i < 4; ++i) {
     const double y = 0.1 * i, on = y + 0.1;

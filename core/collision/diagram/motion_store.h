@@ -104,7 +104,8 @@ class MotionStore {
   };
   Kept diagrams_;
   std::uint64_t question_ = 0;
-  // Only what a question names grows: it is counted when the next one begins.
+  // The entries and diagrams of the present question. Only they grow: begin_question() and
+  // look_at() renew their counts.
   struct Named {
     std::vector<Entry*> entries;
     std::vector<Diagram*> diagrams;

@@ -6,28 +6,28 @@
 namespace armloom {
 namespace {
 
-// Tracking errors and rounding move a link less far than this.
+// More than tracking errors and rounding move a link.
 constexpr double kSlack_m = 0.05;
 
 class Chain {
  public:
   explicit Chain(const Cell& cell) : cell_(cell) {}
 
-  // Returns where the first joint of the link's chain lies.
+  // Returns the position of the first joint of the link's chain (world).
   [[nodiscard]] Eigen::Vector3d root(LinkId id) const {
-    Eigen::Isometry3d X_LW = Eigen::Isometry3d::Identity();  // what is fixed before it
+    Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
     std::vector<LinkId> from_root;
     for (auto next = std::optional(id); next; next = cell_.link(*next).parent) {
       from_root.push_back(*next);
     }
     for (auto next = from_root.rbegin(); next != from_root.rend(); ++next) {
-      X_LW = X_LW * cell_.link(*next).X_PJ;
+      X_WL = X_WL * cell_.link(*next).X_PJ;
       if (cell_.link(*next).driver) break;
     }
-    return X_LW.translation();
+    return X_WL.translation();
   }
 
-  // Returns how far the link's origin is from the center, at most.
+  // Returns an upper bound of the distance between the link's origin and the center.
   [[nodiscard]] double farthest_m(LinkId id, const Eigen::Vector3d& center) const {
     double way_m = 0.0;
     for (auto next = std::optional(id); next; next = cell_.link(*next).parent) {

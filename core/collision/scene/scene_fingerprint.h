@@ -20,7 +20,7 @@ namespace armloom {
 // Returns `links` with what arms hold.
 [[nodiscard]] std::vector<Fingerprint> fingerprint_of_arms(
     const Cell& cell, const SceneFingerprint& links, const std::vector<Attachment>& attachments);
-// As SceneFingerprint::objects. Precondition: all bodies are there, and how far arms reach.
+// Returns SceneFingerprint::objects. Precondition: `bodies` is complete but for pairs and groups.
 [[nodiscard]] std::vector<std::vector<Fingerprint>> fingerprint_of_objects(
     const PlanningScene::Bodies& bodies);
 

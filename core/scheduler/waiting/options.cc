@@ -143,7 +143,7 @@ void take_alternative(State& state, Record& record, std::size_t which) {
   const auto now = std::ranges::find(queue, record.job.id) - queue.begin();
   auto place = static_cast<std::ptrdiff_t>(place_on(state, record, arm_of(*trajectory)));
   if (record.job.trajectory == trajectory) {
-    // Jobs that were admitted before it may wait again: it goes before those that came later.
+    // Jobs that were admitted ahead of it may be waiting again: the older turn goes first.
     if (now < place) --place;
     if (now == place || record.job.in<Queued>() == nullptr) return;
   }

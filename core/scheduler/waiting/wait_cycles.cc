@@ -180,8 +180,8 @@ std::optional<JobId> WaitCycles::gives_way(const State& state, const WaitCycle& 
   return *std::ranges::max_element(last.empty() ? ring : last, {}, dispensable);
 }
 
-// Returns false if the ring is left to its timeouts. What brings a job's arms to its start gives
-// way with that job: another try would meet the same ring.
+// Returns false if the ring is left to its timeouts. An approach fails together with its job,
+// because another approach would close the same ring.
 bool WaitCycles::resolve(State& state, const WaitCycle& ring) {
   if (comes_back(state, ring)) return true;
   const auto id = gives_way(state, ring);

@@ -26,7 +26,7 @@ void keep_those_behind(State& state, const Record& record);
 [[nodiscard]] std::optional<JobId> next_in_question(const State& state);
 // Those that have not ended.
 [[nodiscard]] std::vector<JobId> approaches_of(const State& state, const Record& record);
-// The job whose arms it brings to their start; nullopt if it is no such job.
+// Returns the job whose arms this one brings to their start; nullopt if it is no approach.
 [[nodiscard]] std::optional<JobId> approached_job(const State& state, JobId approach);
 
 }  // namespace armloom
