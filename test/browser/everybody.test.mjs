@@ -4,7 +4,7 @@
 
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
-import { address_like, ask, Browser, eventually, go_to, looks_different, path_for, reads, resume, send_through, view_picture, with_dashboard } from './harness.mjs';
+import { address_like, ask, Browser, eventually, go_to, label_of, looks_different, path_for, reads, resume, send_through, view_picture, with_dashboard } from './harness.mjs';
 import { difference, pixels_like } from './pictures.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -199,7 +199,7 @@ test('on a tablet all is done by finger', { timeout: 500_000 }, async () => {
   await finger.waitForFunction(() => /camera=/.test(location.hash));
   await finger.locator('[data-test=camera-whole]').tap();
   await finger.evaluate(() => window.armloom.drawn());
-  const label = await finger.locator('.arm-label', { hasText: 'left' }).boundingBox();
+  const label = await label_of(finger, 'left').boundingBox();
   await finger.touchscreen.tap(label.x + label.width / 2, label.y - 30);
   await finger.locator('[data-test=page-arm]').waitFor();
   await finger.setViewportSize({ width: 820, height: 1180 });

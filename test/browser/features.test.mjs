@@ -8,7 +8,7 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { address_like, ask, counts, eventually, finished, go_to, kRoot, looks_different, path_for, reads, send_through, view_picture, with_dashboard } from './harness.mjs';
+import { address_like, ask, counts, eventually, finished, go_to, kRoot, label_of, looks_different, path_for, reads, send_through, view_picture, with_dashboard } from './harness.mjs';
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 const kLeastWay_px = 60;
@@ -120,7 +120,7 @@ test('after a stop the recovery page says why, and leads back', { timeout: 400_0
   await page.keyboard.press('F8');
   // It is told as stopped, everywhere, and nobody knows when it ends.
   await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'stopped' }).waitFor();
-  await page.locator('.arm-label', { hasText: /left.*stopped/s }).waitFor();
+  await label_of(page, 'left').filter({ hasText: 'stopped' }).waitFor();
   await page.locator('[data-test="job-interrupted"] [data-test=figure]', { hasText: 'stopped' }).waitFor();
   await page.waitForFunction(() => /waits for resume: left is stopped \(operator\), until it is resumed/.test(document.querySelector('[data-test=told-left]').textContent));
   await eventually(async () => assert.ok((await page.evaluate(() => window.armloom.lanes())).every(({ marks }) => marks.every(({ expected, to_s }) => !expected || to_s === null || to_s === Infinity))));

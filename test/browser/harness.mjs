@@ -150,6 +150,11 @@ export function reads(locator, pattern) {
   return eventually(async () => assert.match(await locator.innerText(), pattern));
 }
 
+/** The label of an arm in the view. (Its words can hold the name of another arm.) */
+export function label_of(page, arm) {
+  return page.locator('.arm-label').filter({ has: page.locator('b').getByText(arm, { exact: true }) });
+}
+
 /** Kept once there are so many. */
 export function counts(locator, count, words) {
   return eventually(async () => assert.equal(await locator.count(), count, words));

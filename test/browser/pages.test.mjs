@@ -6,7 +6,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { address_like, arm_now, ask, counts, eventually, go_to, job_through, path_for, reads, resume, send_through, web_require, with_dashboard } from './harness.mjs';
+import { address_like, arm_now, ask, counts, eventually, go_to, job_through, label_of, path_for, reads, resume, send_through, web_require, with_dashboard } from './harness.mjs';
 
 const kStop = 'Stop all: controlled, drives stay powered';
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
@@ -127,11 +127,11 @@ test('a click on an arm or an object leads to it, and lights it up in every view
   await go('#/');
   await page.evaluate(() => window.armloom.drawn());
   // Above the middle of its label an arm has its foot.
-  const label = await page.locator('.arm-label', { hasText: 'left' }).boundingBox();
+  const label = await label_of(page, 'left').boundingBox();
   await page.mouse.click(label.x + label.width / 2, label.y - 34);
   await page.locator('[data-test=page-arm]').waitFor();
   await address_like(page, /#\/arm\/left/);
-  await page.locator('.arm-label.lit', { hasText: 'left' }).waitFor();
+  await label_of(page, 'left').and(page.locator('.lit')).waitFor();
   await page.locator('[data-test=arm-left].lit').waitFor();
   await page.evaluate(() => window.armloom.drawn());
   const view = await page.locator('.view canvas').boundingBox();

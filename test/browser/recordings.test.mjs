@@ -11,7 +11,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, beforeEach, test } from 'node:test';
 import {
-  address_like, arm_now, ask, counts, drop_files, eventually, finished, go_to, job_through, kBinary, kRoot, looks_different, path_for, reads, send_through, view_picture, web_require, with_dashboard,
+  address_like, arm_now, ask, counts, drop_files, eventually, finished, go_to, job_through, kBinary, kRoot, label_of, looks_different, path_for, reads, send_through, view_picture, web_require, with_dashboard,
 } from './harness.mjs';
 
 const kLeastMoved_px = 800;
@@ -65,7 +65,7 @@ test('a recording is opened from its files and scrubbed through, and the present
   // All views show that instant: the card, the label, and the lists.
   await page.locator('[data-test=list-running] [data-test="job-recorded-1"]').waitFor();
   await page.locator('[data-test=arm-right] [data-test=arm-state]', { hasText: 'moving' }).waitFor();
-  await reads(page.locator('.arm-label', { hasText: 'right' }), /moving/);
+  await reads(label_of(page, 'right'), /moving/);
   await reads(page.locator('[data-test=looked-at]'), /0:00:02/);
   await page.screenshot(path_for('recording-dark'));
   await page.locator('[data-test=play]').click();
