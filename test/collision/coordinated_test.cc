@@ -252,6 +252,19 @@ TEST(Coordinated, SeesTheOtherArmsOfAMotionThatSharesOne) {
   EXPECT_EQ(around(verdict.regions[0].regions[0]).from_b, 0s);
 }
 
+// x passes y, then both move on together. Until then y stands 7 mm off where that begins.
+TEST(Coordinated, SeesAnArmWhereItStandsNotWhereItsMotionBegins) {
+  Rails rails;
+  rails.question.candidates = {rails.motion(1, {kX}, -1, 0.125),
+                               rails.to_come(rails.motion(2, {kX, kY}, 0.125, 1.5))};
+  rails.question.rest[1] = 0.118;
+  const Verdict verdict = rails.judge();
+  ASSERT_EQ(verdict.regions.size(), 1U);
+  EXPECT_EQ(std::get<ArmId>(verdict.regions[0].b), kY);
+  rails.question.rest[1] = 0.125;
+  EXPECT_TRUE(rails.judge().regions.empty());
+}
+
 // Two that cross each other again and again for 20 minutes each, in hundreds of thousands of
 // places.
 void cross_for_long(Rails& rails) {

@@ -102,12 +102,8 @@ std::vector<PairRegionSearch::Side> PairRegionSearch::standing_beside(const Moti
       return motion != nullptr && !share_an_arm(candidate, *motion);
     };
     if (compared(before) || compared(behind)) continue;
-    Configuration rest = question_.rest;
-    if (before != nullptr) {
-      put(*before->trajectory, before->trajectory->duration(), rest);
-    } else if (behind != nullptr) {
-      put(*behind->trajectory, Duration{}, rest);
-    }
+    Configuration rest = question_.rest;  // a motion behind begins nearly there
+    if (before != nullptr) put(*before->trajectory, before->trajectory->duration(), rest);
     sides.push_back(resting(arm, rest));
   }
   return sides;
