@@ -20,6 +20,8 @@ using Reason = PlanRefusal::Reason;
 
 // The longest edge of a tree: Euclidean, in joint space (rad, m).
 constexpr double kStep = 1.2;
+// So many comparisons of two nodes take as long as one evaluation.
+constexpr std::uint64_t kCompared = 250;
 
 std::string mm(double metres) {
   char text[32];
@@ -88,7 +90,7 @@ class Search {
                       {},
                       kStep,
                       request_.seed,
-                      [this](const auto& a, const auto& b) { return is_free(a, b); },
+                      [this](const auto& a, const auto& b) { return joins(a, b); },
                       [this] { return stop(); }};
     for (const std::size_t goal : goals_) search.goals.push_back(request_.goals[goal]);
     auto points = grow_trees(search);
@@ -98,7 +100,8 @@ class Search {
                                             std::to_string(request_.budget) +
                                             " evaluations; there may be one"});
     }
-    shorten(*points, {search.is_free, search.stop, request_.seed});
+    shorten(*points, {[this](const auto& a, const auto& b) { return is_free(a, b); }, search.stop,
+                      request_.seed});
     return way(*std::move(points));
   }
 
@@ -106,7 +109,17 @@ class Search {
   [[nodiscard]] bool cancelled() const {
     return request_.cancelled != nullptr && request_.cancelled->load(std::memory_order_relaxed);
   }
-  [[nodiscard]] bool stop() const { return lines_.evaluations() >= request_.budget || cancelled(); }
+  [[nodiscard]] bool stop() const {
+    return lines_.evaluations() + compared_ / kCompared >= request_.budget || cancelled();
+  }
+  // For each edge the search has compared a place with nodes of a tree, one by one: with few joints
+  // that takes longer than the edges.
+  [[nodiscard]] bool joins(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
+    compared_ += nodes_;
+    const bool free = is_free(from, to);
+    nodes_ += free ? 1 : 0;
+    return free;
+  }
   [[nodiscard]] bool is_free(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
     return lines_.is_free(from, to);
   }
@@ -152,6 +165,7 @@ class Search {
   Eigen::VectorXd start_;
   LineChecker lines_;
   std::vector<std::size_t> goals_;
+  std::uint64_t nodes_ = 0, compared_ = 0;  // of the trees
 };
 
 }  // namespace

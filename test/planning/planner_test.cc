@@ -7,6 +7,7 @@
 #include "core/audit/audit.h"
 #include "core/collision/check/line_checker.h"
 #include "core/planning/plan_motion.h"
+#include "test/collision/rails.h"
 #include "test/planning/wall_cell.h"
 
 namespace armloom {
@@ -108,6 +109,18 @@ TEST(Planner, SaysWhyThereIsNoPlan) {
   request = around_the_board(wall);
   request.cancelled = &cancelled;
   EXPECT_EQ(planner.plan(request).error().reason, Reason::cancelled);
+}
+
+// With one joint an edge costs one evaluation, and trees get so many nodes that to compare with all
+// of them takes longer: that is part of the budget.
+TEST(Planner, OfOneJointGivesUpSoonToo) {
+  rails::Rails rails;
+  rails.question.rest[1] = 0.0;  // y, on x's rail
+  const auto at = [](double x) { return Eigen::VectorXd::Constant(1, x); };
+  PlanRequest request{.arm = rails::kX, .at = rails.question.rest, .goals = {at(-1.0)}};
+  const PlanRefusal refusal = Planner(*PlanningScene::build(rails.cell)).plan(request).error();
+  EXPECT_EQ(refusal.reason, Reason::not_found) << refusal.detail;
+  EXPECT_LT(refusal.evaluations, 200'000U);
 }
 
 TEST(Planner, ThrowsWhereSizesDoNotFit) {
