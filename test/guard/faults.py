@@ -3,10 +3,12 @@
 switches them on one at a time (ARMLOOM_FAULT). Faults in the scheduler must be harmless and be reported by the guard; faults
 in the guard must be found by its tests. Prints a table; exit 1 if one is not. With --patterns only looks whether each
 fault has something to change."""
-import argparse, os, re, subprocess, sys, tempfile
+import argparse, re, sys, tempfile
 from pathlib import Path
 
-TOP = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from fault_tree import build, copy, failed_in, put_in, run
+
 ADMISSION, PHASES = 'core/scheduler/admission.cc', 'core/jobs/phases.cc'
 GRAPH, OPEN = 'core/precedence/precedence_graph.cc', 'core/precedence/open_orders.cc'
 PRECEDENCE = 'core/precedence/precedence.cc'
@@ -19,7 +21,6 @@ QUIET = [
     (GRAPH, '  if (authority > limit(job)) {', '  if (!armloom_fault(-1) && authority > limit(job)) {'),
 ]
 
-# (name, file, what stands there, what stands there with the fault): N is replaced by the fault's number.
 SCHEDULER = [
     ('an order is ignored', GRAPH, 'if (held) limit = std::min(limit, *held);', 'if (held && !FAULT) limit = std::min(limit, *held);'),
     ('an order is lost at admission', GRAPH, '  precedences_ = orders.precedences;', '  precedences_ = orders.precedences;\n  if (FAULT && !precedences_.empty()) precedences_.pop_back();'),
@@ -70,59 +71,18 @@ FAULTS_IN_GUARD = [
     ('a region that is met does not matter', '    if (met == pair.blocked.end()) return std::nullopt;', '    if (met == pair.blocked.end() || FAULT) return std::nullopt;'),
 ]
 
-SWITCH = '''#pragma once
-#include <cstdlib>
-// The fault that is on; -1: any is.
-inline bool armloom_fault(int number) {
-  static const int on = std::getenv("ARMLOOM_FAULT") ? std::atoi(std::getenv("ARMLOOM_FAULT")) : 0;
-  return number == -1 ? on != 0 : on == number;
-}
-'''
+# The scheduler first: their numbers begin at 1.
+FAULTS = SCHEDULER + [(name, GUARD, old, new) for name, old, new in FAULTS_IN_GUARD]
 
 
-def all_faults():
-    faults = [(name, file, old, new, 'scheduler') for name, file, old, new in SCHEDULER]
-    return faults + [(name, GUARD, old, new, 'guard') for name, old, new in FAULTS_IN_GUARD]
-
-
-def put_in(tree):
-    """Returns the names of faults that have nothing to change."""
+def quiet(tree):
+    """Returns what is missing."""
     missing = []
     for file, old, new in QUIET:
         text = (tree / file).read_text()
         if text.count(old) != 1: missing.append(f'{file}: {old}')
         (tree / file).write_text(text.replace(old, new))
-    for number, (name, file, old, new, _) in enumerate(all_faults(), 1):
-        text = (tree / file).read_text()
-        if text.count(old) != 1:
-            missing.append(f'{name}: found {text.count(old)} times in {file}')
-            continue
-        (tree / file).write_text(text.replace(old, new.replace('FAULT', f'armloom_fault({number})')))
     return missing
-
-
-def copy(tree):
-    tree.mkdir(parents=True, exist_ok=True)
-    files = subprocess.run(['git', '-C', TOP, 'ls-files', '-co', '--exclude-standard', '-z'], capture_output=True, check=True).stdout
-    subprocess.run(f'tar -C {TOP} --null -T - -cf - | tar -C {tree} -xf -', shell=True, input=files, check=True)
-
-
-def build(tree):
-    (tree / 'core/base/fault_switch.h').write_text(SWITCH)
-    flags = f'-include {tree}/core/base/fault_switch.h'
-    subprocess.run(['cmake', '-S', tree, '-B', tree / 'build', '-G', 'Ninja', '-DCMAKE_BUILD_TYPE=Release', '-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON',
-                    f'-DCMAKE_CXX_FLAGS={flags}'], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(['cmake', '--build', tree / 'build', '--target', 'soak_test', 'guard_test'], check=True, stdout=subprocess.DEVNULL)
-
-
-def run(tree, program, number, *args, seeds=None):
-    env = dict(os.environ, ARMLOOM_FAULT=str(number))
-    if seeds: env['ARMLOOM_SEEDS'] = str(seeds)
-    try:
-        done = subprocess.run([tree / 'build' / program, '--gtest_brief=1', *args], env=env, capture_output=True, text=True, timeout=150)
-    except subprocess.TimeoutExpired:
-        return None, ''
-    return done.returncode, done.stdout + done.stderr
 
 
 def soak(tree, number, seeds):
@@ -146,18 +106,17 @@ def main():
         tree = Path(asked.tree or folder) / 'tree'
         if not (tree / 'build').exists():
             copy(tree)
-            missing = put_in(tree)
+            missing = quiet(tree) + put_in(tree, FAULTS)
             for one in missing: print('NOTHING TO CHANGE:', one)
             if missing: return 1
         if asked.patterns: return 0
-        build(tree)
+        build(tree, 'soak_test', 'guard_test')
         print('| fault | in | guard refusals | closest (20 mm asked) | found by |\n|---|---|--:|--:|---|', flush=True)
         failed = 0
-        for number, (name, _, _, _, where) in enumerate(all_faults(), 1):
+        for number, (name, *_) in enumerate(FAULTS, 1):
             if not re.search(asked.only, name): continue
-            if where == 'guard':
-                code, out = run(tree, 'guard_test', number, seeds=900)
-                found = sorted(set(re.findall(r'FAILED  \] (\S+)', out)))
+            if number > len(SCHEDULER):
+                found = failed_in(run(tree, 'guard_test', number, seeds=900)[1])
                 failed += not found
                 print(f'| {name} | guard | | | {", ".join(found[:3]) or "NOBODY"} |', flush=True)
                 continue

@@ -1,0 +1,58 @@
+"""A copy of the sources with faults in it, all in one build; ARMLOOM_FAULT=N switches fault N on. Used by guard/faults.py
+and server/faults.py. A fault is (name, file, old text, new text): FAULT in the new text is true while the fault is on."""
+import os, re, subprocess
+from pathlib import Path
+
+TOP = Path(__file__).resolve().parents[1]
+
+SWITCH = '''#pragma once
+#include <cstdlib>
+// The fault that is on; -1: any is.
+inline bool armloom_fault(int number) {
+  static const int on = std::getenv("ARMLOOM_FAULT") ? std::atoi(std::getenv("ARMLOOM_FAULT")) : 0;
+  return number == -1 ? on != 0 : on == number;
+}
+'''
+
+
+def copy(tree):
+    tree.mkdir(parents=True, exist_ok=True)
+    files = subprocess.run(['git', '-C', TOP, 'ls-files', '-co', '--exclude-standard', '-z'], capture_output=True, check=True).stdout
+    subprocess.run(f'tar -C {TOP} --null -T - -cf - | tar -C {tree} -xf -', shell=True, input=files, check=True)
+
+
+def put_in(tree, faults):
+    """Returns what is missing: faults whose old text does not stand exactly once in their file."""
+    missing = []
+    for number, (name, file, old, new) in enumerate(faults, 1):
+        on = f'(globalThis.process?.env?.ARMLOOM_FAULT === "{number}")' if file.startswith('web/') else f'armloom_fault({number})'
+        path = tree / file
+        text = path.read_text() if path.exists() else ''
+        if text.count(old) != 1:
+            missing.append(f'{name}: found {text.count(old)} times in {file}')
+            continue
+        path.write_text(text.replace(old, new.replace('FAULT', on)))
+    return missing
+
+
+def build(tree, *targets):
+    (tree / 'core/base/fault_switch.h').write_text(SWITCH)
+    flags = f'-include {tree}/core/base/fault_switch.h'
+    subprocess.run(['cmake', '-S', tree, '-B', tree / 'build', '-G', 'Ninja', '-DCMAKE_BUILD_TYPE=Release', '-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON',
+                    f'-DCMAKE_CXX_FLAGS={flags}'], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(['cmake', '--build', tree / 'build', '--target', *targets], check=True, stdout=subprocess.DEVNULL)
+
+
+def run(tree, program, number, *args, seeds=None, timeout=150):
+    """Returns exit code and output of a test program with the fault on; None if it did not end in time."""
+    env = dict(os.environ, ARMLOOM_FAULT=str(number))
+    if seeds: env['ARMLOOM_SEEDS'] = str(seeds)
+    try:
+        done = subprocess.run([tree / 'build' / program, '--gtest_brief=1', *args], cwd=tree / 'build', env=env, capture_output=True, text=True, timeout=timeout)
+    except subprocess.TimeoutExpired:
+        return None, ''
+    return done.returncode, done.stdout + done.stderr
+
+
+def failed_in(out):
+    return sorted(set(re.findall(r'FAILED  \] (\w[^\s,(]*)', out)))

@@ -1,0 +1,156 @@
+#!/usr/bin/env python3
+"""faults.py [--tree DIR] [--only NAME] [--patterns]: puts faults into a copy of the server, the monitor, the arms and the
+dashboard, all in one build, and switches them on one at a time. Prints which test finds each fault first, and after how many
+seconds; exit 1 if a fault is not found. With --patterns only looks whether each fault has something to change."""
+import argparse, os, re, subprocess, sys, tempfile, time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from fault_tree import TOP, build, copy, failed_in, put_in, run
+
+STORE, TABLES, MARK = 'server/store/job_store.cc', 'server/store/job_tables.cc', 'server/store/store_mark.cc'
+RESTART, ACCEPTED = 'server/durable/restart.cc', 'server/durable/accepted_requests.cc'
+HEAD, FRAMING, ROUTER = 'server/http/request_head.cc', 'server/http/framing.cc', 'server/http/router.cc'
+LIMITS, STATES = 'server/http/client_limits.cc', 'server/recording/states_csv.cc'
+MONITOR, HUB, FAULTY = 'core/monitor/monitor.cc', 'server/hub/hub.cc', 'core/arm/faulty_arm.cc'
+PROGRESS, RATES = 'core/arm/commanded_progress.cc', 'core/arm/rate_law.cc'
+
+# By the program that is asked first; the others follow.
+FAULTS = {'server_store_test': [
+    ('a write that failed is acknowledged', STORE, 'one.done(false);', 'one.done(FAULT);'),
+    ('changes that could not be written are dropped', STORE, '      pending_ = std::move(batch);', '      if (!FAULT) pending_ = std::move(batch);'),
+    ('a disk fault never ends', STORE, 'was_faulty = std::exchange(fault_, std::nullopt).has_value();', 'was_faulty = !FAULT && std::exchange(fault_, std::nullopt).has_value();'),
+    ('the store does not wait for the disk', TABLES, 'database.run("PRAGMA synchronous = FULL; PRAGMA', 'database.run(std::string("PRAGMA synchronous = ") + (FAULT ? "OFF" : "FULL") + "; PRAGMA'),
+    ('a job that may have moved is stored as unmoved', TABLES, 'if (change.may_have_moved) move_', 'if (change.may_have_moved && !FAULT) move_'),
+    ('an amendment is not stored', TABLES, '  if (change.amended) amend_', '  if (change.amended && !FAULT) amend_'),
+    ('a damaged job counts as sound', TABLES, 'found.is_damaged = jobs.number(9) != 0;', 'found.is_damaged = !FAULT && jobs.number(9) != 0;'),
+    ('old stops remain stored', TABLES, '    forget_stops_.run();', '    if (!FAULT) forget_stops_.run();'),
+    ('a damaged stop is skipped', TABLES, 'left.stops_are_damaged = true;', 'left.stops_are_damaged = !FAULT;'),
+    ('a removed object comes back', TABLES, 'if (!object.text && !object.is_of_cell) return', 'if (FAULT && !object.text) return;\n  if (!object.text && !object.is_of_cell) return'),
+    ('cleaning deletes the newest jobs', TABLES, 'remove("SELECT number FROM job WHERE has_ended = 1 ORDER BY ended_ms LIMIT min(?1, ?2)", over);', 'remove(FAULT ? "SELECT number FROM job WHERE has_ended = 1 ORDER BY ended_ms DESC LIMIT min(?1, ?2)" : "SELECT number FROM job WHERE has_ended = 1 ORDER BY ended_ms LIMIT min(?1, ?2)", over);'),
+    ('job numbers are used twice', TABLES, '") AND number < (SELECT max(number) FROM job)");', '(FAULT ? ")" : ") AND number < (SELECT max(number) FROM job)"));'),
+    ('an idempotency key is bound again', TABLES, '"INSERT OR IGNORE INTO request(key', 'std::string(FAULT ? "INSERT OR REPLACE" : "INSERT OR IGNORE") + " INTO request(key'),
+    ('a stop ahead of the disk is not marked', MARK, 'const bool are_ahead = stops_told_ > stops_written_ ||', 'const bool are_ahead = (!FAULT && stops_told_ > stops_written_) ||'),
+    ('an older copy of the store is not noticed', MARK, 'left->commits > commits_, left', '!FAULT && left->commits > commits_, left'),
+    ('of two changes of a job the first is written', 'server/store/pending.cc', 'if (change.seen) mine', 'if (change.seen && !(FAULT && mine.seen)) mine'),
+], 'server_http_test': [
+    ('a page of the audit has no end', 'server/store/job_history.cc', 'while (found.entries.size() < most && row.step())', 'while ((FAULT || found.entries.size() < most) && row.step())'),
+    ('a job that was moving runs again after a restart', RESTART, '  if (left.may_have_moved) {', '  if (left.may_have_moved && !FAULT) {'),
+    ('a restart starts jobs whose predecessor failed', RESTART, '  if (failed_before(request)) {', '  if (failed_before(request) && !FAULT) {'),
+    ('a restart does not wait for resume', RESTART, 'const bool asks = cell', 'const bool asks = !FAULT && cell'),
+    ('a restart forgets stopped arms', RESTART, 'if (!arms.empty()) executive', 'if (!arms.empty() && !FAULT) executive'),
+    ('unknown stops count as none', RESTART, '} else if (!knows_stops_) {', '} else if (!knows_stops_ && !FAULT) {'),
+    ('two requests with one key run side by side', ACCEPTED, 'if (taken == under_way_.end()) continue;', 'if (FAULT || taken == under_way_.end()) continue;'),
+    ('an object that the operator removed comes back after a restart', 'server/durable/left_objects.cc', 'if (!stored.text) return is_there ?', 'if (!stored.text) return is_there && !FAULT ?'),
+    ('pages of other sites may command', HEAD, 'request.foreign = request.stranger ?', 'request.foreign = request.stranger || FAULT ?'),
+    ('a rebound host name is served', HEAD, 'if (authority.empty() || may_command', 'if (FAULT || authority.empty() || may_command'),
+    ('a handshake without a sound key is accepted', HEAD, 'if (keys.size() == 1 && is_websocket_key', 'if (FAULT || keys.size() == 1 && is_websocket_key'),
+    ('Content-Length may stand twice', FRAMING, '  if (lengths.size() > 1) {', '  if (lengths.size() > 1 && !FAULT) {'),
+    ('Content-Length may stand beside Transfer-Encoding', FRAMING, '  if (!lengths.empty()) {', '  if (!lengths.empty() && !FAULT) {'),
+    ('roles are not asked for', ROUTER, 'if (role && guard_) {', 'if (role && guard_ && !FAULT) {'),
+    ('unknown query parameters are ignored', ROUTER, 'return unknown ? std::optional(', 'return unknown && !FAULT ? std::optional('),
+    ('a client may send any number of requests', LIMITS, '  one.requests.take(1);', '  if (!FAULT) one.requests.take(1);'),
+    ('a batch counts as one job', LIMITS, '  one.jobs.take(asked);', '  one.jobs.take(FAULT ? 1.0 : asked);'),
+    ('every entity tag fits', 'server/http/entity_tag.cc', 'if (fits(one)) return true;', 'if (FAULT || fits(one)) return true;'),
+    ('answers of any size are held in memory', 'server/http/session.cc', 'if (response.shared || charge', 'if (FAULT || response.shared || charge'),
+    ('a removed token still works', 'server/access/token_book.cc', '  if (is_gone) tokens_.clear();', '  if (is_gone && !FAULT) tokens_.clear();'),
+    ('a page of jobs has one too many', 'server/api/job_filter.cc', 'if (page.jobs.size() == filter.limit) {', 'if (page.jobs.size() == filter.limit + (FAULT ? 1 : 0)) {'),
+    ('the next page begins with the last job again', 'server/api/job_filter.cc', 'job.id.value() >= *filter.before', 'job.id.value() >= *filter.before + (FAULT ? 1 : 0)'),
+    ('an atomic batch is accepted in part', 'server/api/batch_route.cc', '  if (problems.empty()) return std::nullopt;', '  if (FAULT || problems.empty()) return std::nullopt;'),
+    ('a batch answers its jobs in the wrong places', 'server/api/batch_route.cc', '      all.ids[i] = job->key;', '      all.ids[FAULT ? 0 : i] = job->key;'),
+    ('a late reader misses events and is not told', HUB, 'if (behind() > hub_.ring_.size()) return std::nullopt;', 'if (behind() > hub_.ring_.size()) {\n      if (!FAULT) return std::nullopt;\n      read_ = hub_.last_seq_ - hub_.ring_.size();\n    }'),
+    ('a slow reader holds all frames', HUB, '  while (ring_.size() > capacity_ ||', '  while ((!FAULT && ring_.size() > capacity_) ||'),
+    ('a resumed stream repeats its last event', HUB, 'std::make_shared<Reader>(*this, since, std::move(first));', 'std::make_shared<Reader>(*this, FAULT && since > 0 ? since - 1 : since, std::move(first));'),
+    ('states of the last minutes are kept for ever', 'server/hub/recent_states.cc', 'if (frames_.size() > kFramesMax)', 'if (frames_.size() > kFramesMax && !FAULT)'),
+], 'server_operator_test': [
+    ('any key gives control', 'server/control/control.cc', 'if (holder_ && equal_in', 'if (holder_ && FAULT) return {};\n  if (holder_ && equal_in'),
+    ('a lease never ends', 'server/control/control.cc', 'if (now - move.held_at > lease) return false;', 'if (now - move.held_at > lease && !FAULT) return false;'),
+    ('control is taken from its holder without asking', 'server/control/control.cc', 'if (holder_ && !from_another) {', 'if (holder_ && !from_another && !FAULT) {'),
+], 'server_codec_test': [
+    ('rows of a rest are left out without saying so', STATES, '    idle_.write({*rest_from_, held_at_});', '    if (!FAULT) idle_.write({*rest_from_, held_at_});'),
+    ('the last row of a rest is lost', STATES, '  if (rows_held_ > 0) append', '  if (rows_held_ > 0 && !FAULT) append'),
+    ('times of a recording may go back', STATES, 'if (!states.empty() && state.time <= states', 'if (!FAULT && !states.empty() && state.time <= states'),
+    ('a gap in a recording is not reported', STATES, '} else if (state.time - before.time > kGapMax) {', '} else if (state.time - before.time > kGapMax && !FAULT) {'),
+], 'monitor_test': [
+    ('a pair that comes closer is not reported again', MONITOR, 'if (found_before && !closer) {', 'if (found_before && (FAULT || !closer)) {'),
+    ('arms at rest are stopped', MONITOR, 'if (!arm || !moving.at(arm->index())) continue;', 'if (!arm || (!FAULT && !moving.at(arm->index()))) continue;'),
+    ('a contact is reported as a lost clearance', MONITOR, '.kind = proximity.clearance_m <= 0.0 ?', '.kind = proximity.clearance_m <= (FAULT ? -1e9 : 0.0) ?'),
+    ('a pair that parted stays known', MONITOR, '  known_ = std::move(still_known);', '  if (FAULT) known_.merge(still_known);\n  else known_ = std::move(still_known);'),
+], 'arm_test': [
+    ('an arm does not brake for the end of its authority', PROGRESS, 'if (!above(fastest.rate, fastest.progress_s)) return fastest;', 'if (FAULT || !above(fastest.rate, fastest.progress_s)) return fastest;'),
+    ('authority may be taken back under a moving arm', PROGRESS, 'authority_ = std::max(authority, std::min(stop, authority_));', 'authority_ = FAULT ? authority : std::max(authority, std::min(stop, authority_));'),
+    ('an arm brakes harder than its limits', RATES, 'const Interval a = within(at_first, first.rate, brake_, share);', 'const Interval a = within(at_first, first.rate, brake_, FAULT ? 2.0 * share : share);'),
+    ('an arm speeds up harder than its limits', RATES, 'const double begin = std::clamp(a.highest,', 'const double begin = std::clamp(FAULT ? 2.0 * a.highest : a.highest,'),
+    ('dropped feedback goes on', FAULTY, 'if (!drops) return feedback;', 'if (FAULT || !drops) return feedback;'),
+    ('a stalled arm takes authority', FAULTY, 'if (active(ArmFault::Kind::stall)) allowed', 'if (!FAULT && active(ArmFault::Kind::stall)) allowed'),
+], 'dashboard': [
+    ('an event that was heard is taken again', 'web/src/server/connection.ts', 'message.seq <= this.since_;', 'message.seq <= (FAULT ? -1 : this.since_);'),
+    ('a lost connection is opened from the start', 'web/src/server/connection.ts', "const resume = this.stream_ === null ?", "const resume = FAULT || this.stream_ === null ?"),
+    ('ticks outlive another stop', 'web/src/recovery/checklist.ts', 'if (this.ticked_.peek().size > 0) this', 'if (this.ticked_.peek().size > 0 && !FAULT) this'),
+    ('a button that was let go moves the arm on', 'web/src/control/hand.ts', 'if (!is_held) return void', 'if (!is_held && !FAULT) return void'),
+    ('a hold is not renewed', 'web/src/control/hand.ts', '      this.beat(asked, lease_s);\n    }, every_ms);', '      if (!FAULT) this.beat(asked, lease_s);\n    }, every_ms);'),
+    ('control that was lost is shown as kept', 'web/src/control/hand.ts', "    this.key.value = null;\n    this.held.value = null;\n    ++this.asked_;", "    if (!FAULT) this.key.value = null;\n    this.held.value = null;\n    ++this.asked_;"),
+    ('a number with a comma is read', 'web/src/frame/number_text.ts', "NaN : Number(text);", "NaN : Number(FAULT ? text.replace(',', '') : text);"),
+    ('acknowledged alerts stay open', 'web/src/alerts/alert_list.ts', 'acknowledged === null);', 'FAULT || acknowledged === null);'),
+    ('a recording of another cell is shown', 'web/src/recordings/player.ts', "    if (strange !== null) return", "    if (strange !== null && !FAULT) return"),
+    ('a past instant shows what came later', 'web/src/state/log.ts', '?.t_s ?? Infinity) <= t_s)', '?.t_s ?? Infinity) <= (FAULT ? t_s + 2 : t_s))'),
+    ('another run of the server continues the log', 'web/src/state/log.ts', 'if (this.entries_.length > 0 && this', 'if (!FAULT && this.entries_.length > 0 && this'),
+    ('a search finds jobs with any of its words', 'web/src/jobs/filter.ts', 'wanted.every((word)', '(FAULT ? wanted.some.bind(wanted) : wanted.every.bind(wanted))((word)'),
+    ('an arm at fault is not listed for recovery', 'web/src/recovery/needs.ts', "filter((arm) => arm.state === 'fault' ||", "filter((arm) => (arm.state === 'fault' && !FAULT) ||"),
+    ('the row under the pointer moves', 'web/src/jobs/held.ts', '  if (held === null || at < 0) return now;', '  if (FAULT || held === null || at < 0) return now;'),
+]}
+PROGRAMS = [name for name in FAULTS if name != 'dashboard'] + ['server_command_test', 'server_replay_test', 'audit_test', 'scenarios_test']
+
+
+def in_dashboard(tree, number):
+    """The dashboard's units; then, if they find nothing, its browser suites one by one."""
+    env = dict(os.environ, ARMLOOM_FAULT=str(number), ARMLOOM_BINARY=str(tree / 'build/armloom'))
+    done = subprocess.run(['npx', 'vitest', 'run', '--bail=1', '--reporter=verbose'], cwd=tree / 'web', env=env, capture_output=True, text=True)
+    found = re.findall(r'(?:FAIL|×)\s+(test/\S+)', done.stdout + done.stderr)
+    if done.returncode and found: return found[0]
+    for suite in sorted((tree / 'test/browser').glob('*.test.mjs')):
+        done = subprocess.run(['node', '--test', suite], cwd=tree, env=env, capture_output=True, text=True)
+        if done.returncode: return suite.name
+    return None
+
+
+def find(tree, number, first):
+    """Returns the first test that finds the fault, and the seconds of its program until then."""
+    if first == 'dashboard':
+        begun = time.monotonic()
+        return in_dashboard(tree, number), time.monotonic() - begun
+    for program in [first] + [other for other in PROGRAMS if other != first]:
+        begun = time.monotonic()
+        code, out = run(tree, program, number, '--gtest_fail_fast', timeout=300)
+        if code != 0: return f'{program}: {(failed_in(out) or ["it does not end" if code is None else "it crashes"])[0]}', time.monotonic() - begun
+    return None, 0.0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('--tree'), parser.add_argument('--only', default='.'), parser.add_argument('--patterns', action='store_true')
+    asked = parser.parse_args()
+    faults = [(first, fault) for first, some in FAULTS.items() for fault in some]
+    with tempfile.TemporaryDirectory() as folder:
+        tree = Path(asked.tree or folder) / 'tree'
+        if not (tree / 'build').exists():
+            copy(tree)
+            missing = put_in(tree, [fault for _, fault in faults])
+            for one in missing: print('NOTHING TO CHANGE:', one)
+            if missing: return 1
+        if asked.patterns: return 0
+        build(tree, 'armloom', *PROGRAMS)
+        if not (tree / 'web/node_modules').exists(): (tree / 'web/node_modules').symlink_to(TOP / 'web/node_modules')
+        subprocess.run(['npm', 'run', '--silent', 'build'], cwd=tree / 'web', check=True)
+        print('| fault | found by | after |\n|---|---|--:|', flush=True)
+        missed = 0
+        for number, (first, (name, *_)) in enumerate(faults, 1):
+            if not re.search(asked.only, name): continue
+            by, seconds = find(tree, number, first)
+            missed += by is None
+            print(f'| {name} | {by or "NOBODY"} | {seconds:.0f} s |', flush=True)
+    return 1 if missed else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
