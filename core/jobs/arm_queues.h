@@ -16,6 +16,7 @@ class ArmQueues {
   explicit ArmQueues(std::size_t arms) : queues_(arms), work_(arms) {}
 
   [[nodiscard]] const Queue& operator[](ArmId arm) const { return queues_[arm.index()]; }
+  [[nodiscard]] std::size_t size() const { return queues_.size(); }
   [[nodiscard]] auto begin() const { return queues_.begin(); }  // by ArmId
   [[nodiscard]] auto end() const { return queues_.end(); }
 

@@ -200,24 +200,42 @@ bool lets_another_pass(const JobBook& book, const Record& record) {
          book.at(*record.errand.lets_pass).job.is_waiting();
 }
 
-// By turn, but for those that took their places before others: these stand first of their arms, in
-// the order in which they came.
+// By turn, but no job before another one that stands ahead of it on an arm. A job that took its
+// place before another one (Errand::before) has the turn of that one.
 std::vector<JobId> in_turn(const JobBook& book, const std::set<JobId>& jobs) {
-  std::map<JobId, JobId> behind;  // the first job of the arm that did not
+  std::map<JobId, JobId> behind;  // the job whose turn it has
   for (const auto& queue : book.queues()) {
-    const auto first = std::ranges::find_if_not(
-        queue, [&](JobId id) { return book.at(id).errand.before.has_value(); });
-    if (first == queue.end()) continue;
-    for (auto id = queue.begin(); id != first; ++id) behind.emplace(*id, *first);
+    std::optional<JobId> first;
+    for (auto id = queue.rbegin(); id != queue.rend(); ++id) {
+      if (!book.at(*id).errand.before) {
+        first = *id;
+      } else if (first) {
+        behind.emplace(*id, *first);
+      }
+    }
   }
-  std::vector<JobId> sorted(jobs.begin(), jobs.end());
+  std::vector<JobId> by_turn(jobs.begin(), jobs.end());
   const auto turn = [&](JobId id) { return book.at(id).turn; };
-  if (behind.empty() && std::ranges::is_sorted(sorted, {}, turn)) return sorted;
-  std::ranges::sort(sorted, {}, [&](JobId id) {
-    const auto first = behind.find(id);
-    const bool placed = first != behind.end();
-    return std::tuple(placed ? turn(first->second) : turn(id), !placed, turn(id));
-  });
+  if (!behind.empty() || !std::ranges::is_sorted(by_turn, {}, turn)) {
+    std::ranges::sort(by_turn, {}, [&](JobId id) {
+      const auto first = behind.find(id);
+      const bool placed = first != behind.end();
+      return std::tuple(placed ? turn(first->second) : turn(id), !placed, turn(id));
+    });
+  }
+  std::vector<JobId> sorted;
+  std::set<JobId> left = jobs;
+  std::vector<std::size_t> passed(book.queues().size());  // by ArmId: so many jobs of its queue
+  const auto take = [&](JobId job, const auto& again) -> void {
+    if (left.erase(job) == 0) return;
+    for (const ArmId arm : book.at(job).leg.arms) {
+      const auto& queue = book.queues()[arm];
+      std::size_t& next = passed[arm.index()];
+      for (; next < queue.size() && queue[next] != job; ++next) again(queue[next], again);
+    }
+    sorted.push_back(job);
+  };
+  for (const JobId job : by_turn) take(job, take);
   return sorted;
 }
 

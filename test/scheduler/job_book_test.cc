@@ -1,0 +1,32 @@
+#include "core/jobs/job_book.h"
+
+#include <gtest/gtest.h>
+
+#include "core/jobs/phases.h"
+#include "core/jobs/state.h"
+#include "core/policies/policy_names.h"
+#include "test/scheduler/bench_cell.h"
+
+namespace armloom {
+namespace {
+
+// A job waits again ahead of an errand: the errand still comes before the job that it is for. The
+// two in the wrong order made the scheduler ask about them for ever (soak, certified, seed
+// 21000112).
+TEST(JobBook, KeepsTheOrderOfEachQueueInTurn) {
+  const CellPtr cell = one_joint_arms(1);
+  State state(cell, std::move(*make_policy("certified", *cell)), cell->home(), JobId{1});
+  const auto add_job = [&](std::optional<JobId> before) {
+    Record record = record_of(state, {state.jobs.next_id(), move({0}, 0.0, 0.0, 1s)});
+    record.errand.before = before;
+    const JobId id = record.job.id;
+    add(state, std::move(record));
+    return id;
+  };
+  const JobId ahead = add_job({}), last = add_job({}), errand = add_job(last);
+  EXPECT_EQ(in_turn(state.jobs, {ahead, last, errand}), (std::vector{ahead, errand, last}));
+  EXPECT_EQ(in_turn(state.jobs, {last, errand}), (std::vector{errand, last}));
+}
+
+}  // namespace
+}  // namespace armloom
