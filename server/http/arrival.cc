@@ -38,9 +38,8 @@ bool is_all_here(const Connection& connection, const RequestParser& parser) {
 
 }  // namespace
 
-asio::awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection,
-                                                                const Site& site,
-                                                                const Terms& terms) {
+Awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection, const Site& site,
+                                                          const Terms& terms) {
   const auto none_for = [&site](const NoRequest& none) {
     return tl::unexpected<NotArrived>(none.refusal ? std::optional(site.refuse(*none.refusal))
                                                    : std::nullopt);

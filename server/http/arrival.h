@@ -28,8 +28,7 @@ struct Terms {
 
 // The next request of the connection. What was read of one that is refused is forgotten before the
 // refusal can be said: that takes time.
-asio::awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection,
-                                                                const Site& site,
-                                                                const Terms& terms);
+Awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection, const Site& site,
+                                                          const Terms& terms);
 
 }  // namespace armloom

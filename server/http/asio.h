@@ -6,25 +6,35 @@
 // clang-format on
 
 #include <boost/asio/awaitable.hpp>
-#include <boost/asio/co_spawn.hpp>
-#include <boost/asio/detached.hpp>
+#include <boost/asio/basic_stream_socket.hpp>
+#include <boost/asio/basic_waitable_timer.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/post.hpp>
 #include <boost/asio/redirect_error.hpp>
-#include <boost/asio/signal_set.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/this_coro.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <chrono>
 
 #include "server/http/error_code.h"
 
 namespace armloom {
 
 namespace asio = boost::asio;
-using tcp = asio::ip::tcp;
+
+// The types of asio for the one io_context. Those with any_io_executor take longer to compile.
+using Executor = asio::io_context::executor_type;
+using Timer = asio::basic_waitable_timer<std::chrono::steady_clock,
+                                         asio::wait_traits<std::chrono::steady_clock>, Executor>;
+using Socket = asio::basic_stream_socket<asio::ip::tcp, Executor>;
+template <class Value>
+using Awaitable = asio::awaitable<Value, Executor>;
 
 // Completion token: the operation's error goes into `ec` instead of being thrown.
-inline auto into(ErrorCode& ec) { return asio::redirect_error(asio::use_awaitable, ec); }
+inline auto into(ErrorCode& ec) {
+  return asio::redirect_error(asio::use_awaitable_t<Executor>(), ec);
+}
+
+// Starts `task` on the executor's thread, later. An exception that leaves it is dropped.
+void spawn(const Executor& executor, Awaitable<void> task);
 
 }  // namespace armloom

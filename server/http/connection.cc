@@ -1,8 +1,8 @@
 #include "server/http/connection.h"
 
 #include <algorithm>
-#include <boost/beast/core/span.hpp>
-#include <boost/beast/http.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/message.hpp>
 #include <chrono>
 #include <ctime>
 
@@ -28,11 +28,9 @@ std::string http_date() {
 
 beast::string_view view(std::string_view text) { return {text.data(), text.size()}; }
 
-}  // namespace
-
-asio::awaitable<void> send(Connection& connection, Response response, Delivery delivery,
-                           ErrorCode& ec) {
-  http::response<http::span_body<const char>> message;
+std::string head_of(const Connection& connection, const Response& response, Delivery delivery,
+                    std::uintmax_t body_size) {
+  http::response<http::empty_body> message;
   message.version(delivery.version);
   message.result(static_cast<unsigned>(response.status));
   message.set(http::field::server, "armloom");
@@ -43,30 +41,48 @@ asio::awaitable<void> send(Connection& connection, Response response, Delivery d
   for (const auto& [name, value] : response.headers) message.set(name, value);
   if (!response.content_type.empty()) message.set(http::field::content_type, response.content_type);
   message.keep_alive(delivery.keep_alive);
+  if (response.status != 204 && response.status != 304) message.content_length(body_size);
+  std::string text = delivery.version == 10 ? "HTTP/1.0 " : "HTTP/1.1 ";
+  const auto add = [&text](beast::string_view part) { text.append(part.data(), part.size()); };
+  add(std::to_string(response.status));
+  add(" ");
+  add(message.reason());
+  add("\r\n");
+  for (const auto& field : message) {
+    add(field.name_string());
+    add(": ");
+    add(field.value());
+    add("\r\n");
+  }
+  return text + "\r\n";
+}
+
+}  // namespace
+
+Awaitable<void> send(Connection& connection, Response response, Delivery delivery, ErrorCode& ec) {
   const std::string& body = response.shared ? *response.shared : response.body;
   const std::uintmax_t size = response.pieces ? response.pieces->size : body.size();
-  if (response.status != 204 && response.status != 304) message.content_length(size);
-  if (!delivery.without_body) message.body() = {body.data(), body.size()};
+  const std::string head = head_of(connection, response, delivery, size);
   connection.stream.expires_after(kWriteTime);
-  co_await http::async_write(connection.stream, message, into(ec));
+  co_await connection.stream.write(
+      asio::buffer(head), delivery.without_body ? asio::const_buffer() : asio::buffer(body), ec);
   if (ec || !response.pieces || delivery.without_body) co_return;
   co_await send_pieces(connection.stream, *response.pieces, kWriteTime, ec);
 }
 
 // Closing a socket with unread input would reset it.
-asio::awaitable<void> linger(Connection& connection) {
+Awaitable<void> linger(Connection& connection) {
   static constexpr std::size_t kDrainMax = 2 * kBodyMax;
   ErrorCode ec;
-  connection.stream.socket().shutdown(tcp::socket::shutdown_send, ec);
+  connection.stream.socket().shutdown(Socket::shutdown_send, ec);
   connection.stream.expires_after(std::chrono::seconds(2));
   connection.buffer.clear();
   for (std::size_t drained = 0; !ec && drained < kDrainMax;) {
-    drained +=
-        co_await connection.stream.async_read_some(connection.buffer.prepare(kBufferMax), into(ec));
+    drained += co_await connection.stream.read_some(connection.buffer.prepare(kBufferMax), ec);
   }
 }
 
-asio::awaitable<void> refuse(Connection& connection, Response why) {
+Awaitable<void> refuse(Connection& connection, Response why) {
   ErrorCode ec;
   co_await send(connection, std::move(why), {}, ec);
   if (!ec) co_await linger(connection);

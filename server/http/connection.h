@@ -32,13 +32,12 @@ struct Delivery {
 };
 
 // Sends a whole answer, with the headers that every answer has; a time limit is on it.
-asio::awaitable<void> send(Connection& connection, Response response, Delivery delivery,
-                           ErrorCode& ec);
+Awaitable<void> send(Connection& connection, Response response, Delivery delivery, ErrorCode& ec);
 
 // Ends a connection so that the peer can still read the answer.
-asio::awaitable<void> linger(Connection& connection);
+Awaitable<void> linger(Connection& connection);
 
 // Says why, and ends the connection.
-asio::awaitable<void> refuse(Connection& connection, Response why);
+Awaitable<void> refuse(Connection& connection, Response why);
 
 }  // namespace armloom

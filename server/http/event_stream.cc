@@ -1,7 +1,6 @@
 #include "server/http/event_stream.h"
 
 #include <array>
-#include <boost/asio/write.hpp>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,8 +11,6 @@
 
 namespace armloom {
 namespace {
-
-namespace beast = boost::beast;
 
 constexpr std::string_view kHead =
     "HTTP/1.1 200 OK\r\nServer: armloom\r\nContent-Type: text/event-stream\r\n"
@@ -42,17 +39,17 @@ class SentEvents final : public StreamCarrier {
     stream_.expires_never();
   }
 
-  asio::any_io_executor executor() override { return stream_.get_executor(); }
+  Executor executor() override { return stream_.get_executor(); }
   // A client has nothing to say here; that it has gone is what is waited for.
-  asio::awaitable<void> read_until_closed() override {
+  Awaitable<void> read_until_closed() override {
     std::array<char, 1024> sink;
     ErrorCode ec;
-    while (!ec) co_await stream_.async_read_some(asio::buffer(sink), into(ec));
+    while (!ec) co_await stream_.read_some(asio::buffer(sink), ec);
   }
-  asio::awaitable<void> write(std::string_view text, ErrorCode& ec) {
-    co_await asio::async_write(stream_, asio::buffer(text), into(ec));
+  Awaitable<void> write(std::string_view text, ErrorCode& ec) {
+    co_await stream_.write(asio::buffer(text), {}, ec);
   }
-  asio::awaitable<void> send(const Subscription::Message& message, ErrorCode& ec) override {
+  Awaitable<void> send(const Subscription::Message& message, ErrorCode& ec) override {
     std::string text;
     text.reserve(message.text->size() + 80);
     if (message.seq) text += "id: " + id_ + ":" + std::to_string(*message.seq) + "\n";
@@ -61,10 +58,8 @@ class SentEvents final : public StreamCarrier {
     text += "\n\n";
     co_await write(text, ec);
   }
-  asio::awaitable<void> keep_alive(ErrorCode& ec) override {
-    co_await write(": keep-alive\n\n", ec);
-  }
-  asio::awaitable<void> say_why(const CloseReason& reason, ErrorCode& ec) override {
+  Awaitable<void> keep_alive(ErrorCode& ec) override { co_await write(": keep-alive\n\n", ec); }
+  Awaitable<void> say_why(const CloseReason& reason, ErrorCode& ec) override {
     const std::string text = ": " + reason.text + "\n\n";
     co_await write(text, ec);
   }
@@ -78,8 +73,8 @@ class SentEvents final : public StreamCarrier {
 
 }  // namespace
 
-asio::awaitable<void> serve_event_stream(Transport stream, const Request& request,
-                                         EventStream events, const Site& site, bool only_head) {
+Awaitable<void> serve_event_stream(Transport stream, const Request& request, EventStream events,
+                                   const Site& site, bool only_head) {
   const auto carrier = std::make_shared<SentEvents>(std::move(stream), events.id, site.send_buffer);
   ErrorCode ec;
   const std::string first = head(request);

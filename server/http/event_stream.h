@@ -9,7 +9,7 @@ namespace armloom {
 // Answers with the subscription as Server-Sent Events ("id: <id>:<seq>", "data: <envelope>") until
 // either side ends it. When nothing was sent for site.keep_alive, a comment line keeps the proxies
 // between from closing the connection. `only_head`: of a HEAD.
-asio::awaitable<void> serve_event_stream(Transport stream, const Request& request,
-                                         EventStream events, const Site& site, bool only_head);
+Awaitable<void> serve_event_stream(Transport stream, const Request& request, EventStream events,
+                                   const Site& site, bool only_head);
 
 }  // namespace armloom

@@ -1,6 +1,9 @@
 #include "server/http/http_server.h"
 
 #include <algorithm>
+#include <boost/asio/basic_signal_set.hpp>
+#include <boost/asio/basic_socket_acceptor.hpp>
+#include <boost/asio/post.hpp>
 #include <csignal>
 #include <memory>
 #include <string>
@@ -16,6 +19,8 @@
 namespace armloom {
 namespace {
 
+using Acceptor = asio::basic_socket_acceptor<asio::ip::tcp, Executor>;
+
 constexpr std::chrono::milliseconds kReadToTheEnd{500};  // for readers to read to the end
 constexpr std::size_t kReservedMax = 64;                 // connections beyond those that are served
 // Of those who come at once so many are taken before others have a turn.
@@ -30,7 +35,7 @@ Problem cannot_listen(const std::string& address, std::uint16_t port, const std:
 }
 
 // Its address; empty: it is gone already.
-std::string client_of(const tcp::socket& socket) {
+std::string client_of(const Socket& socket) {
   ErrorCode ec;
   const auto peer = socket.remote_endpoint(ec);
   return ec ? std::string() : peer.address().to_string();
@@ -57,7 +62,7 @@ class HttpServer::Impl {
     if (ec)
       return cannot_listen(address, port,
                            "not an IP address; names are not looked up, localhost is 127.0.0.1");
-    const tcp::endpoint endpoint(ip, port);
+    const asio::ip::tcp::endpoint endpoint(ip, port);
     acceptor_.open(endpoint.protocol(), ec);
     if (!ec) acceptor_.set_option(asio::socket_base::reuse_address(true), ec);
     if (!ec) acceptor_.bind(endpoint, ec);
@@ -90,7 +95,7 @@ class HttpServer::Impl {
       });
     }
     reserve_.fill();
-    asio::co_spawn(io_, accept(), asio::detached);
+    spawn(io_.get_executor(), accept());
     io_.run();
   }
 
@@ -123,7 +128,7 @@ class HttpServer::Impl {
     if (connections_.open == 0) io_.stop();
   }
 
-  asio::awaitable<void> serve(tcp::socket socket, std::string client) {
+  Awaitable<void> serve(Socket socket, std::string client) {
     co_await serve_connection(Transport(std::move(socket), tls_), site_, *memory_);
     if (--connections_.of_client[client] == 0) connections_.of_client.erase(client);
     if (--connections_.open == 0 && told_readers_) io_.stop();
@@ -146,28 +151,26 @@ class HttpServer::Impl {
             {{"Retry-After", "1"}}};
   }
 
-  asio::awaitable<void> serve_reserved(Transport transport, std::unique_ptr<Reserve::Place> place,
-                                       Refusal why) {
+  Awaitable<void> serve_reserved(Transport transport, std::unique_ptr<Reserve::Place> place,
+                                 Refusal why) {
     co_await serve_in_reserve(std::move(transport), *place, std::move(why), site_, *memory_);
     place.reset();
     reserve_.fill();
   }
 
   // Precondition: there is room.
-  void reserve(tcp::socket socket, const Refusal& why) {
+  void reserve(Socket socket, const Refusal& why) {
     std::string client = client_of(socket);
     Transport transport(std::move(socket), tls_);
-    auto place =
-        std::make_unique<Reserve::Place>(reserve_, transport.next_layer(), std::move(client));
-    asio::co_spawn(io_, serve_reserved(std::move(transport), std::move(place), why),
-                   asio::detached);
+    auto place = std::make_unique<Reserve::Place>(reserve_, transport.socket(), std::move(client));
+    spawn(io_.get_executor(), serve_reserved(std::move(transport), std::move(place), why));
   }
 
-  void refuse(tcp::socket socket, const Refusal& why) {
+  void refuse(Socket socket, const Refusal& why) {
     if (reserve_.make_room()) reserve(std::move(socket), why);
   }
 
-  void take(tcp::socket socket) {
+  void take(Socket socket) {
     if (connections_.open >= connections_.max) return refuse(std::move(socket), too_many());
     const std::string client = client_of(socket);
     const auto known = connections_.of_client.find(client);
@@ -178,14 +181,14 @@ class HttpServer::Impl {
     }
     ++connections_.open;
     ++connections_.of_client[client];
-    asio::co_spawn(io_, serve(std::move(socket), client), asio::detached);
+    spawn(io_.get_executor(), serve(std::move(socket), client));
   }
 
   // The system gives no descriptor for whoever comes, but by the reserve.
   ErrorCode take_in_reserve() {
     ErrorCode ec = asio::error::no_descriptors;
     if (!reserve_.make_room()) return ec;
-    tcp::socket socket(io_);
+    Socket socket(io_);
     acceptor_.accept(socket, ec);
     if (ec) {
       reserve_.fill();
@@ -199,7 +202,7 @@ class HttpServer::Impl {
   ErrorCode take_some() {
     ErrorCode ec;
     for (int taken = 0; !ec && taken < kTakenAtOnce; ++taken) {
-      tcp::socket socket(io_);
+      Socket socket(io_);
       acceptor_.accept(socket, ec);
       if (!ec) {
         take(std::move(socket));
@@ -210,11 +213,11 @@ class HttpServer::Impl {
     return ec;
   }
 
-  asio::awaitable<void> accept() {
-    asio::steady_timer pause(io_);
+  Awaitable<void> accept() {
+    Timer pause(io_);
     for (;;) {
       ErrorCode ec;
-      co_await acceptor_.async_wait(tcp::acceptor::wait_read, into(ec));
+      co_await acceptor_.async_wait(Acceptor::wait_read, into(ec));
       if (!ec) ec = take_some();
       if (ending_) co_return;
       if (!ec || ec == asio::error::would_block) continue;
@@ -229,9 +232,9 @@ class HttpServer::Impl {
   Reserve reserve_;
   asio::io_context io_{1};
   PostedTasks posted_{io_};
-  tcp::acceptor acceptor_{io_};
-  asio::signal_set signals_{io_};
-  asio::steady_timer winding_down_{io_};
+  Acceptor acceptor_{io_};
+  asio::basic_signal_set<Executor> signals_{io_};
+  Timer winding_down_{io_};
   struct Connections {
     const std::size_t max;
     std::size_t open = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/asio/error.hpp>
-#include <boost/asio/write.hpp>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,12 +10,12 @@
 namespace armloom {
 namespace {
 
-asio::awaitable<std::optional<std::string>> read_piece(const PiecedBody& body, std::uintmax_t from,
-                                                       std::size_t count) {
+Awaitable<std::optional<std::string>> read_piece(const PiecedBody& body, std::uintmax_t from,
+                                                 std::size_t count) {
   struct Pending {
-    explicit Pending(const asio::any_io_executor& executor)
+    explicit Pending(const Executor& executor)
         : arrived(executor, std::chrono::steady_clock::time_point::max()) {}
-    asio::steady_timer arrived;
+    Timer arrived;
     bool has_arrived = false;
     std::optional<std::string> bytes = {};
   };
@@ -33,8 +32,8 @@ asio::awaitable<std::optional<std::string>> read_piece(const PiecedBody& body, s
 
 }  // namespace
 
-asio::awaitable<void> send_pieces(Transport& stream, const PiecedBody& body,
-                                  std::chrono::milliseconds time, ErrorCode& ec) {
+Awaitable<void> send_pieces(Transport& stream, const PiecedBody& body,
+                            std::chrono::milliseconds time, ErrorCode& ec) {
   for (std::uintmax_t sent = 0; !ec && sent < body.size;) {
     const auto count =
         static_cast<std::size_t>(std::min<std::uintmax_t>(kPieceSize, body.size - sent));
@@ -44,7 +43,7 @@ asio::awaitable<void> send_pieces(Transport& stream, const PiecedBody& body,
       break;
     }
     stream.expires_after(time);
-    co_await asio::async_write(stream, asio::buffer(*piece), into(ec));
+    co_await stream.write(asio::buffer(*piece), {}, ec);
     sent += piece->size();
   }
 }

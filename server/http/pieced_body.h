@@ -13,7 +13,7 @@ inline constexpr std::size_t kPieceSize = 64 * 1024;  // what is held of a Piece
 
 // Sends it to its end, after the header; each piece may take so long. An error, too: a piece cannot
 // be read, so that the length that was said is not reached and the connection is of no more use.
-asio::awaitable<void> send_pieces(Transport& stream, const PiecedBody& body,
-                                  std::chrono::milliseconds time, ErrorCode& ec);
+Awaitable<void> send_pieces(Transport& stream, const PiecedBody& body,
+                            std::chrono::milliseconds time, ErrorCode& ec);
 
 }  // namespace armloom

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/asio/post.hpp>
 #include <chrono>
 #include <deque>
 #include <functional>

@@ -12,7 +12,7 @@ constexpr std::chrono::milliseconds kAgain{50};
 }  // namespace
 
 ReadDeadline::ReadDeadline(Transport& stream, std::chrono::milliseconds time)
-    : watch_(std::make_shared<Watch>(Watch{asio::steady_timer(stream.get_executor()), &stream})) {
+    : watch_(std::make_shared<Watch>(Watch{Timer(stream.get_executor()), &stream})) {
   stream.expires_never();
   wait(watch_, time);
 }

@@ -23,7 +23,7 @@ class ReadDeadline {
 
  private:
   struct Watch {
-    asio::steady_timer timer;
+    Timer timer;
     Transport* stream;  // null: nobody reads any more
     bool is_over = false;
   };

@@ -1,6 +1,6 @@
 #include "server/http/request_reader.h"
 
-#include <boost/beast/http.hpp>
+#include <boost/beast/core/read_size.hpp>
 
 #include "server/http/read_deadline.h"
 #include "server/http/request_head.h"
@@ -58,14 +58,30 @@ NoRequest stopped_by(ErrorCode ec, std::string_view buffered) {
   return {bad_request("this is not HTTP/1.1: " + ec.message())};
 }
 
-asio::awaitable<void> read_some(Connection& connection, ErrorCode& ec) {
-  const std::size_t size =
-      co_await connection.stream.async_read_some(connection.buffer.prepare(4096), into(ec));
+Awaitable<void> read_some(Connection& connection, std::size_t max, ErrorCode& ec) {
+  const std::size_t size = co_await connection.stream.read_some(connection.buffer.prepare(max), ec);
   connection.buffer.commit(size);
 }
 
+// Reads on until the parser has the header, or the whole request.
+Awaitable<void> parse(Connection& connection, RequestParser& parser,
+                      bool (RequestParser::*is_read)() const, ErrorCode& ec) {
+  while (!ec && !(parser.*is_read)()) {
+    if (connection.buffer.size() > 0) {
+      connection.buffer.consume(parser.put(connection.buffer.data(), ec));
+      if (ec != http::error::need_more) continue;
+    }
+    const std::size_t max = beast::read_size(connection.buffer, 64 * 1024);
+    if (max == 0) {
+      ec = http::error::buffer_overflow;
+      co_return;
+    }
+    co_await read_some(connection, max, ec);
+  }
+}
+
 // Until a whole first line is there, or more than a header may have.
-asio::awaitable<std::optional<NoRequest>> read_first_line(Connection& connection) {
+Awaitable<std::optional<NoRequest>> read_first_line(Connection& connection) {
   ErrorCode ec;
   for (std::size_t empty = 0;;) {
     while (held(connection).starts_with("\r\n")) {
@@ -84,41 +100,41 @@ asio::awaitable<std::optional<NoRequest>> read_first_line(Connection& connection
           Refusal{414, "target-too-long", "a request line may have at most 16 KiB"}};
     }
     // The parser may say early what is no HTTP; but what was not sent cannot be judged.
-    co_await read_some(connection, ec);
+    co_await read_some(connection, 4096, ec);
     if (ec) co_return NoRequest{};
   }
 }
 
 }  // namespace
 
-asio::awaitable<std::optional<NoRequest>> read_header(Connection& connection, RequestParser& parser,
-                                                      ReadTimes times) {
+Awaitable<std::optional<NoRequest>> read_header(Connection& connection, RequestParser& parser,
+                                                ReadTimes times) {
   parser.body_limit(kBodyMax);
   parser.header_limit(static_cast<std::uint32_t>(kHeaderMax));
   ErrorCode ec;
   if (connection.buffer.size() == 0) {
     const ReadDeadline deadline(connection.stream, times.idle);
-    co_await read_some(connection, ec);
+    co_await read_some(connection, 4096, ec);
     if (ec) co_return NoRequest{};
   }
   const ReadDeadline deadline(connection.stream, times.read);
   auto none = co_await read_first_line(connection);
   if (!none) {
-    co_await http::async_read_header(connection.stream, connection.buffer, parser, into(ec));
+    co_await parse(connection, parser, &RequestParser::is_header_done, ec);
     if (ec) none = stopped_by(ec, "");
   }
   co_return deadline.is_over() ? std::optional(too_late("header")) : none;
 }
 
-asio::awaitable<std::optional<NoRequest>> read_body(Connection& connection, RequestParser& parser,
-                                                    std::chrono::milliseconds read_time,
-                                                    bool ask_for_it) {
+Awaitable<std::optional<NoRequest>> read_body(Connection& connection, RequestParser& parser,
+                                              std::chrono::milliseconds read_time,
+                                              bool ask_for_it) {
   if (parser.is_done()) co_return std::nullopt;
   const ReadDeadline deadline(connection.stream, read_time);
   ErrorCode ec;
   if (ask_for_it) {
-    http::response<http::empty_body> go_on(http::status::continue_, 11);
-    co_await http::async_write(connection.stream, go_on, into(ec));
+    static constexpr std::string_view kGoOn = "HTTP/1.1 100 Continue\r\n\r\n";
+    co_await connection.stream.write(asio::buffer(kGoOn), {}, ec);
     if (ec) co_return NoRequest{};
   }
   std::size_t extensions = 0;
@@ -128,7 +144,7 @@ asio::awaitable<std::optional<NoRequest>> read_body(Connection& connection, Requ
   };
   parser.on_chunk_header(count);
   parser.get().body().charge = MemoryBudget::Charge(connection.memory);
-  co_await http::async_read(connection.stream, connection.buffer, parser, into(ec));
+  co_await parse(connection, parser, &RequestParser::is_done, ec);
   if (deadline.is_over()) co_return too_late("body");
   co_return ec ? std::optional(stopped_by(ec, held(connection))) : std::nullopt;
 }

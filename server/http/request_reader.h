@@ -20,13 +20,12 @@ struct ReadTimes {
 
 // Waits for the next request's first bytes, then reads its header. An empty line before it is read
 // over.
-asio::awaitable<std::optional<NoRequest>> read_header(Connection& connection, RequestParser& parser,
-                                                      ReadTimes times);
+Awaitable<std::optional<NoRequest>> read_header(Connection& connection, RequestParser& parser,
+                                                ReadTimes times);
 
 // Reads the body, at most kBodyMax of it, and of what stands around its chunks no more than of a
 // header. `ask_for_it`: 100 Continue goes before.
-asio::awaitable<std::optional<NoRequest>> read_body(Connection& connection, RequestParser& parser,
-                                                    std::chrono::milliseconds read_time,
-                                                    bool ask_for_it);
+Awaitable<std::optional<NoRequest>> read_body(Connection& connection, RequestParser& parser,
+                                              std::chrono::milliseconds read_time, bool ask_for_it);
 
 }  // namespace armloom

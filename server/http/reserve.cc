@@ -45,7 +45,8 @@ bool Reserve::let_one_go() {
     if (has_more) goes = one;
   }
   if (goes == inside_.end()) return false;
-  goes->second.stream->close();
+  ErrorCode ignored;
+  goes->second.socket->close(ignored);
   inside_.erase(goes);
   return true;
 }

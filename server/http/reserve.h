@@ -1,6 +1,5 @@
 #pragma once
 
-#include <boost/beast/core/tcp_stream.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -31,12 +30,12 @@ class Reserve {
   bool make_room();
 
   // That a connection is in it, for which make_room() was called. The reserve outlives it, and so
-  // does `stream`, which is closed when the connection has to go.
+  // does `socket`, which is closed when the connection has to go.
   class Place {
    public:
-    Place(Reserve& reserve, boost::beast::tcp_stream& stream, std::string client)
+    Place(Reserve& reserve, Socket& socket, std::string client)
         : reserve_(reserve), number_(reserve.next_number_++) {
-      reserve.inside_.emplace(number_, Inside{&stream, std::move(client)});
+      reserve.inside_.emplace(number_, Inside{&socket, std::move(client)});
     }
     ~Place() { reserve_.inside_.erase(number_); }
     Place(const Place&) = delete;
@@ -52,7 +51,7 @@ class Reserve {
 
  private:
   struct Inside {
-    boost::beast::tcp_stream* stream;
+    Socket* socket;
     std::string client;
     bool is_kept = false;
   };

@@ -13,22 +13,22 @@ namespace armloom {
 namespace {
 
 // What arrives while an answer is made is the next request, or that the peer has gone.
-void watch_peer(tcp::socket& socket, std::shared_ptr<std::atomic<bool>> gone) {
-  socket.async_wait(tcp::socket::wait_read, [&socket, gone = std::move(gone)](ErrorCode over) {
+void watch_peer(Socket& socket, std::shared_ptr<std::atomic<bool>> gone) {
+  socket.async_wait(Socket::wait_read, [&socket, gone = std::move(gone)](ErrorCode over) {
     if (over) return;
     char next = 0;
     ErrorCode end;
-    socket.receive(asio::buffer(&next, 1), tcp::socket::message_peek, end);
+    socket.receive(asio::buffer(&next, 1), Socket::message_peek, end);
     if (end) *gone = true;
   });
 }
 
 // Hands the request to the site and waits for its answer.
-asio::awaitable<Response> answer(const Site& site, const Request& request, tcp::socket& socket) {
+Awaitable<Response> answer(const Site& site, const Request& request, Socket& socket) {
   struct Pending {
-    explicit Pending(const asio::any_io_executor& executor)
+    explicit Pending(const Executor& executor)
         : arrived(executor, std::chrono::steady_clock::now() + kWriteTime) {}
-    asio::steady_timer arrived;
+    Timer arrived;
     std::optional<Response> response;
   };
   const auto pending = std::make_shared<Pending>(co_await asio::this_coro::executor);
@@ -59,8 +59,8 @@ Response within_memory(Response response, MemoryBudget::Charge& charge, const Si
                       {{"Retry-After", "1"}}});
 }
 
-asio::awaitable<bool> deliver(Connection& connection, Response response, Delivery delivery,
-                              const Site& site) {
+Awaitable<bool> deliver(Connection& connection, Response response, Delivery delivery,
+                        const Site& site) {
   ErrorCode ec;
   MemoryBudget::Charge charge(connection.memory);
   co_await send(connection, within_memory(std::move(response), charge, site), delivery, ec);
@@ -69,7 +69,7 @@ asio::awaitable<bool> deliver(Connection& connection, Response response, Deliver
 }
 
 // One request and its answer. Whether another may follow on the connection.
-asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
+Awaitable<bool> serve_request(Connection& connection, const Site& site) {
   const Terms terms{{kIdleTime, site.read_time}};
   auto arrived = co_await read_request(connection, site, terms);
   if (!arrived) {
@@ -95,10 +95,9 @@ asio::awaitable<bool> serve_request(Connection& connection, const Site& site) {
 
 }  // namespace
 
-asio::awaitable<void> serve_connection(Transport transport, const Site& site,
-                                       MemoryBudget& memory) {
+Awaitable<void> serve_connection(Transport transport, const Site& site, MemoryBudget& memory) {
   ErrorCode ignored;
-  transport.socket().set_option(tcp::no_delay(true), ignored);
+  transport.socket().set_option(asio::ip::tcp::no_delay(true), ignored);
   Connection connection(std::move(transport), memory);
   try {
     if (!co_await connection.stream.shake_hands(site.read_time)) co_return;
@@ -109,8 +108,8 @@ asio::awaitable<void> serve_connection(Transport transport, const Site& site,
   }
 }
 
-asio::awaitable<void> serve_in_reserve(Transport transport, Reserve::Place& place, Refusal why,
-                                       const Site& site, MemoryBudget& memory) {
+Awaitable<void> serve_in_reserve(Transport transport, Reserve::Place& place, Refusal why,
+                                 const Site& site, MemoryBudget& memory) {
   Connection connection(std::move(transport), memory);
   if (!co_await connection.stream.shake_hands(kReserveTime)) co_return;
   const Terms terms{{kReserveTime, kReserveTime}, [&](const Request& request) {

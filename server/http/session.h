@@ -18,11 +18,11 @@ inline constexpr std::chrono::seconds kReserveTime{1};
 // Serves one connection until it ends: requests one after the other, or one upgrade to a WebSocket.
 // Runs on the server's thread; `site` and
 // `memory` outlive it.
-asio::awaitable<void> serve_connection(Transport transport, const Site& site, MemoryBudget& memory);
+Awaitable<void> serve_connection(Transport transport, const Site& site, MemoryBudget& memory);
 
 // Serves the first request if that is never limited, as a stop is; says `why` to any other, and to
 // who asks nothing soon. Then the connection is closed.
-asio::awaitable<void> serve_in_reserve(Transport transport, Reserve::Place& place, Refusal why,
-                                       const Site& site, MemoryBudget& memory);
+Awaitable<void> serve_in_reserve(Transport transport, Reserve::Place& place, Refusal why,
+                                 const Site& site, MemoryBudget& memory);
 
 }  // namespace armloom

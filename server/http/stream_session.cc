@@ -42,7 +42,7 @@ class Session : public std::enable_shared_from_this<Session> {
 
   std::shared_ptr<StreamCarrier> carrier;
   SubscriptionPtr subscription;
-  asio::steady_timer news;  // cancelled when there is something to do
+  Timer news;  // cancelled when there is something to do
   bool closed = false;
 
  private:
@@ -62,14 +62,14 @@ class Session : public std::enable_shared_from_this<Session> {
     });
   }
 
-  asio::steady_timer deadline_;
+  Timer deadline_;
   Clock::time_point cut_at_{};  // of the message under way
   bool is_watched_ = false;
   bool sending_ = false;
   bool hurried_ = false;
 };
 
-asio::awaitable<void> watch(std::shared_ptr<Session> session) {
+Awaitable<void> watch(std::shared_ptr<Session> session) {
   co_await session->carrier->read_until_closed();
   session->closed = true;
   session->news.cancel();
@@ -82,13 +82,13 @@ Clock::time_point after(std::chrono::milliseconds pause) {
 
 }  // namespace
 
-asio::awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier,
-                            StreamTimes times) {
+Awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier,
+                      StreamTimes times) {
   const auto session = std::make_shared<Session>(carrier, events.subscription);
   events.subscription->on_news([weak = std::weak_ptr(session)] {
     if (const auto still = weak.lock()) still->look_at_news();
   });
-  asio::co_spawn(carrier->executor(), watch(session), asio::detached);
+  spawn(carrier->executor(), watch(session));
   ErrorCode ec;
   const auto is_permitted = [&events] { return !events.permitted || events.permitted(); };
   // Counted from the last byte sent: news that this reader does not get wakes it, too.

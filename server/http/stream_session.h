@@ -13,13 +13,13 @@ namespace armloom {
 class StreamCarrier {
  public:
   virtual ~StreamCarrier() = default;
-  [[nodiscard]] virtual asio::any_io_executor executor() = 0;
+  [[nodiscard]] virtual Executor executor() = 0;
   // Reads over what the reader sends, until it has gone.
-  virtual asio::awaitable<void> read_until_closed() = 0;
-  virtual asio::awaitable<void> send(const Subscription::Message& message, ErrorCode& ec) = 0;
+  virtual Awaitable<void> read_until_closed() = 0;
+  virtual Awaitable<void> send(const Subscription::Message& message, ErrorCode& ec) = 0;
   // Nothing was sent for the time that carry() was given.
-  virtual asio::awaitable<void> keep_alive(ErrorCode& ec) = 0;
-  virtual asio::awaitable<void> say_why(const CloseReason& reason, ErrorCode& ec) = 0;
+  virtual Awaitable<void> keep_alive(ErrorCode& ec) = 0;
+  virtual Awaitable<void> say_why(const CloseReason& reason, ErrorCode& ec) = 0;
   virtual void close() = 0;
   // At once, whatever is under way, which then ends with an error.
   virtual void cut() = 0;
@@ -35,7 +35,7 @@ struct StreamTimes {
 // Sends what the subscription has until either side ends it. A reader that lets a message wait for
 // longer than it may, or falls farther behind than the subscription holds, is cut off, whatever it
 // sends itself.
-asio::awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier,
-                            StreamTimes times);
+Awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier,
+                      StreamTimes times);
 
 }  // namespace armloom

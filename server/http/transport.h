@@ -1,17 +1,20 @@
 #pragma once
 
-#include <boost/asio/ssl/context.hpp>
-#include <boost/asio/ssl/stream.hpp>
+#include <array>
 #include <boost/beast/core/role.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/websocket/teardown.hpp>
 #include <chrono>
+#include <concepts>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "core/base/problem.h"
 #include "server/http/asio.h"
+
+namespace boost::asio::ssl {
+class context;
+}
 
 namespace armloom {
 
@@ -22,55 +25,112 @@ using TlsContextPtr = std::shared_ptr<asio::ssl::context>;
 // fit.
 [[nodiscard]] Result<TlsContextPtr> tls_context(const TlsFiles& files);
 
-// The bytes of a connection, as they are or through TLS; a stream to asio and Beast. Its deadlines
-// are those of the TCP stream below.
+// The handler of an operation. Its type is hidden, so that the operations are compiled once, not
+// once for each handler.
+class Completion {
+ public:
+  template <class Handler>
+  requires(!std::same_as<Handler, Completion>) explicit Completion(Handler handler)
+      : handler_(std::make_unique<Typed<Handler>>(std::move(handler))) {}
+  // Of an operation without a size.
+  template <class Handler>
+  static Completion of_error(Handler handler) {
+    return Completion(
+        [handler = std::move(handler)](ErrorCode ec, std::size_t) mutable { handler(ec); });
+  }
+  void operator()(ErrorCode ec, std::size_t size = 0) {
+    Erased& handler = *handler_;
+    handler.complete(std::move(handler_), ec, size);
+  }
+
+ private:
+  struct Erased {
+    virtual ~Erased() = default;
+    // Frees `self` first: the handler may start the next operation.
+    virtual void complete(std::unique_ptr<Erased> self, ErrorCode ec, std::size_t size) = 0;
+  };
+  template <class Handler>
+  struct Typed final : Erased {
+    explicit Typed(Handler&& from) : handler(std::move(from)) {}
+    void complete(std::unique_ptr<Erased> self, ErrorCode ec, std::size_t size) override {
+      Handler completed = std::move(handler);
+      self.reset();
+      completed(ec, size);
+    }
+    Handler handler;
+  };
+
+  std::unique_ptr<Erased> handler_;
+};
+
+// The bytes of a connection, as they are or through TLS; a stream to asio and Beast. On the
+// server's thread, where handlers run, too. One read and one write may be under way at a time.
 class Transport {
  public:
-  using next_layer_type = boost::beast::tcp_stream;
-  using executor_type = next_layer_type::executor_type;
+  using executor_type = Executor;
 
   // `tls`: null: without.
-  Transport(tcp::socket socket, const TlsContextPtr& tls);
+  Transport(Socket socket, const TlsContextPtr& tls);
+  Transport(Transport&&) noexcept;
+  ~Transport();
 
-  executor_type get_executor() noexcept { return tcp_->get_executor(); }
-  next_layer_type& next_layer() { return *tcp_; }
-  const next_layer_type& next_layer() const { return *tcp_; }
-  tcp::socket& socket() { return tcp_->socket(); }
-  template <class Duration>
-  void expires_after(Duration duration) {
-    tcp_->expires_after(duration);
-  }
-  void expires_never() { tcp_->expires_never(); }
-  void cancel() { tcp_->cancel(); }  // what is under way ends with an error
-  void close() { tcp_->close(); }
+  executor_type get_executor() noexcept { return socket().get_executor(); }
+  Socket& socket();  // stays where it is when this is moved
+  // Deadline of what is read and written from now on: then the connection is closed.
+  void expires_after(std::chrono::milliseconds time);
+  void expires_never();
+  void cancel();  // what is under way ends with an error
+  void close();
   // Where the other end is: an IP address.
   [[nodiscard]] std::string peer() const;
 
   // Before anything else. False: it did not come about in time.
-  asio::awaitable<bool> shake_hands(std::chrono::milliseconds time);
+  Awaitable<bool> shake_hands(std::chrono::milliseconds time);
+  // Waits for bytes, and says how many have come.
+  Awaitable<std::size_t> read_some(asio::mutable_buffer to, ErrorCode& ec);
+  // Writes all of both.
+  Awaitable<void> write(asio::const_buffer first, asio::const_buffer second, ErrorCode& ec);
 
   template <class Buffers, class Token>
   auto async_read_some(const Buffers& buffers, Token&& token) {
-    return tls_ ? tls_->async_read_some(buffers, std::forward<Token>(token))
-                : tcp_->async_read_some(buffers, std::forward<Token>(token));
+    asio::mutable_buffer first;
+    for (auto one = asio::buffer_sequence_begin(buffers);
+         first.size() == 0 && one != asio::buffer_sequence_end(buffers); ++one) {
+      first = *one;
+    }
+    return asio::async_initiate<Token, void(ErrorCode, std::size_t)>(
+        [this, first](auto handler) { start_read(first, Completion(std::move(handler))); }, token);
   }
   template <class Buffers, class Token>
   auto async_write_some(const Buffers& buffers, Token&& token) {
-    return tls_ ? tls_->async_write_some(buffers, std::forward<Token>(token))
-                : tcp_->async_write_some(buffers, std::forward<Token>(token));
+    Written from{};
+    auto next = from.begin();
+    for (auto one = asio::buffer_sequence_begin(buffers);
+         next != from.end() && one != asio::buffer_sequence_end(buffers); ++one) {
+      *next++ = *one;
+    }
+    return asio::async_initiate<Token, void(ErrorCode, std::size_t)>(
+        [this, from](auto handler) { start_write(from, Completion(std::move(handler))); }, token);
   }
 
  private:
-  std::unique_ptr<next_layer_type> tcp_;  // stays where it is when this is moved
-  std::unique_ptr<asio::ssl::stream<next_layer_type&>> tls_;
+  using Written = std::array<asio::const_buffer, 16>;  // as many as asio writes at once
+  friend void async_teardown(boost::beast::role_type role, Transport& transport, Completion then);
+
+  void start_read(asio::mutable_buffer to, Completion then);
+  void start_write(const Written& from, Completion then);
+
+  struct Layers;
+  std::unique_ptr<Layers> layers_;
 };
 
 // How Beast ends a WebSocket: its closing frames have said all.
-void teardown(boost::beast::role_type role, Transport& transport, ErrorCode& ec);
+void async_teardown(boost::beast::role_type role, Transport& transport, Completion then);
 template <class Handler>
 void async_teardown(boost::beast::role_type role, Transport& transport, Handler&& handler) {
-  using boost::beast::websocket::async_teardown;
-  async_teardown(role, transport.next_layer(), std::forward<Handler>(handler));
+  async_teardown(role, transport, Completion::of_error(std::forward<Handler>(handler)));
 }
+// How Beast closes one that has timed out.
+void beast_close_socket(Transport& transport);
 
 }  // namespace armloom

@@ -40,9 +40,9 @@ class WebSocket final : public StreamCarrier, public std::enable_shared_from_thi
   WebSocket(Transport stream, std::string request_id, int send_buffer)
       : socket_(std::move(stream)) {
     ErrorCode ignored;
-    beast::get_lowest_layer(socket_).expires_never();
-    beast::get_lowest_layer(socket_).socket().set_option(
-        asio::socket_base::send_buffer_size(send_buffer), ignored);
+    socket_.next_layer().expires_never();
+    socket_.next_layer().socket().set_option(asio::socket_base::send_buffer_size(send_buffer),
+                                             ignored);
     socket_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), kIdle, true});
     socket_.set_option(websocket::stream_base::decorator(
         [id = std::move(request_id)](websocket::response_type& answer) {
@@ -54,15 +54,25 @@ class WebSocket final : public StreamCarrier, public std::enable_shared_from_thi
   }
 
   template <class Upgrade>
-  asio::awaitable<void> accept(const Upgrade& upgrade, ErrorCode& ec) {
+  Awaitable<void> accept(const Upgrade& upgrade, ErrorCode& ec) {
     socket_.control_callback([this](websocket::frame_type kind, beast::string_view) {
       if (kind == websocket::frame_type::close) answer_close();
     });
     co_await socket_.async_accept(upgrade, into(ec));
   }
 
-  asio::any_io_executor executor() override { return socket_.get_executor(); }
-  asio::awaitable<void> read_until_closed() override {
+  // With one type of handler, so that Beast's operation is compiled once.
+  template <class Token>
+  auto start_close(const websocket::close_reason& reason, Token&& token) {
+    return asio::async_initiate<Token, void(ErrorCode)>(
+        [this, reason](auto handler) {
+          socket_.async_close(reason, Completion::of_error(std::move(handler)));
+        },
+        token);
+  }
+
+  Executor executor() override { return socket_.get_executor(); }
+  Awaitable<void> read_until_closed() override {
     beast::flat_buffer buffer;
     ErrorCode ec;
     while (!ec) {
@@ -70,17 +80,17 @@ class WebSocket final : public StreamCarrier, public std::enable_shared_from_thi
       buffer.clear();
     }
   }
-  asio::awaitable<void> send(const Subscription::Message& message, ErrorCode& ec) override {
+  Awaitable<void> send(const Subscription::Message& message, ErrorCode& ec) override {
     co_await socket_.async_write(asio::buffer(*message.text), into(ec));
   }
-  asio::awaitable<void> keep_alive(ErrorCode&) override { co_return; }  // pings do it
-  asio::awaitable<void> say_why(const CloseReason& reason, ErrorCode& ec) override {
+  Awaitable<void> keep_alive(ErrorCode&) override { co_return; }  // pings do it
+  Awaitable<void> say_why(const CloseReason& reason, ErrorCode& ec) override {
     const auto code = code_of(reason.why);
     const websocket::close_reason said(code, reason.text.substr(0, 120));
-    co_await socket_.async_close(said, into(ec));
+    co_await start_close(said, into(ec));
   }
   void close() override {}  // the closing handshake, or the timeout, has done it
-  void cut() override { beast::get_lowest_layer(socket_).close(); }
+  void cut() override { socket_.next_layer().close(); }
 
  private:
   // Beast answers a close with its own code, knows which are reserved (RFC 6455, 7.4), and takes
@@ -88,18 +98,16 @@ class WebSocket final : public StreamCarrier, public std::enable_shared_from_thi
   // there before.
   void answer_close() {
     if (socket_.reason().code <= kCloseCodeMax) return;
-    socket_.async_close(websocket::close_code::protocol_error,
-                        [self = shared_from_this()](ErrorCode) {});
+    start_close(websocket::close_code::protocol_error, [self = shared_from_this()](ErrorCode) {});
   }
 
-  websocket::stream<Transport> socket_;
+  websocket::stream<Transport, false> socket_;  // false: messages are not compressed
 };
 
 }  // namespace
 
-asio::awaitable<void> serve_websocket(Transport stream, RequestHeader upgrade,
-                                      std::string request_id, EventStream events,
-                                      const Site& site) {
+Awaitable<void> serve_websocket(Transport stream, RequestHeader upgrade, std::string request_id,
+                                EventStream events, const Site& site) {
   const auto carrier =
       std::make_shared<WebSocket>(std::move(stream), std::move(request_id), site.send_buffer);
   const beast::http::request<beast::http::empty_body> request(std::move(upgrade));

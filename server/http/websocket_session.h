@@ -12,7 +12,7 @@ namespace armloom {
 // Accepts the upgrade and sends what the subscription has until either side ends it. What the
 // client sends is read and ignored. A subscription that says why it closes is closed with that
 // reason.
-asio::awaitable<void> serve_websocket(Transport stream, RequestHeader upgrade,
-                                      std::string request_id, EventStream events, const Site& site);
+Awaitable<void> serve_websocket(Transport stream, RequestHeader upgrade, std::string request_id,
+                                EventStream events, const Site& site);
 
 }  // namespace armloom

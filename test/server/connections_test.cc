@@ -113,12 +113,12 @@ TEST_F(Connections, AStopIsTakenHoweverManyConnectionsAnotherOpensMeanwhile) {
 
 TEST(Reserve, LetsNobodyGoWhoseRequestIsBeingAnswered) {
   asio::io_context io;
-  const auto stream = [&] {
-    auto made = std::make_unique<boost::beast::tcp_stream>(io);
-    made->socket().open(asio::ip::tcp::v4());
+  const auto socket = [&] {
+    auto made = std::make_unique<Socket>(io);
+    made->open(asio::ip::tcp::v4());
     return made;
   };
-  const auto first = stream(), second = stream(), other = stream();
+  const auto first = socket(), second = socket(), other = socket();
   Reserve reserve(3);
   reserve.fill();
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(reserve.make_room());
@@ -126,15 +126,15 @@ TEST(Reserve, LetsNobodyGoWhoseRequestIsBeingAnswered) {
       of_second(reserve, *second, "a");
   ASSERT_TRUE(of_first.keep(true));
   EXPECT_TRUE(reserve.make_room());
-  EXPECT_TRUE(first->socket().is_open());
-  EXPECT_FALSE(other->socket().is_open()) << "of two that have as many the older one";
+  EXPECT_TRUE(first->is_open());
+  EXPECT_FALSE(other->is_open()) << "of two that have as many the older one";
   EXPECT_FALSE(of_other.keep(true));
   EXPECT_TRUE(of_first.keep(false));
   EXPECT_TRUE(reserve.make_room());
-  EXPECT_FALSE(first->socket().is_open());
+  EXPECT_FALSE(first->is_open());
   ASSERT_TRUE(of_second.keep(true));
   EXPECT_FALSE(reserve.make_room()) << "nobody may go";
-  EXPECT_TRUE(second->socket().is_open());
+  EXPECT_TRUE(second->is_open());
 }
 
 }  // namespace
