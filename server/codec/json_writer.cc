@@ -1,5 +1,6 @@
 #include "server/codec/json_writer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "server/codec/wall_clock.h"
@@ -34,9 +35,15 @@ std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
+bool is_plain(char c) { return c >= 0x20 && c < 0x7f && c != '"' && c != '\\'; }
+
 void append_escaped(std::string& out, std::string_view text) {
   static constexpr char kHex[] = "0123456789abcdef";
   while (!text.empty()) {
+    const auto special = std::ranges::find_if_not(text, is_plain);
+    out.append(text.begin(), special);
+    if (special == text.end()) return;
+    text.remove_prefix(static_cast<std::size_t>(special - text.begin()));
     const char c = text.front();
     std::size_t length = 1;
     if (c == '"' || c == '\\') {
