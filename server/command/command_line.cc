@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "core/base/enumeration.h"
 #include "core/executive/plan_task.h"
 #include "server/command/command.h"
 

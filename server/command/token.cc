@@ -1,6 +1,7 @@
 // Who may use a server: `armloom token add`, `list` and `withdraw`.
 #include <iostream>
 
+#include "core/base/enumeration.h"
 #include "server/access/token_file.h"
 #include "server/command/command.h"
 

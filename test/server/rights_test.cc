@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "core/base/enumeration.h"
 #include "test/server/token_server.h"
 
 namespace armloom {

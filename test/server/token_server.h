@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "core/base/enumeration.h"
 #include "server/access/token_file.h"
 #include "server/api/route.h"
 #include "test/server/running_server.h"
