@@ -94,7 +94,7 @@ FormatPtr<ExecutionSettings> execution_format() {
 
 PartPtr<CellDescription> make_settings_part() {
   using Description = CellDescription;
-  return make_as_base<Parts<Description>>(std::vector<PartPtr<Description>>{
+  return parts<Description>({
       field("clearance_m", &Description::clearance_m, number(Description::clearance_range),
             "What every admitted motion keeps from other arms and the scene."),
       field("self_clearance_m", &Description::self_clearance_m,
@@ -125,7 +125,7 @@ PartPtr<CellDescription> settings_part() {
 std::string settings_text(const CellDescription& settings) {
   JsonWriter out;
   out.begin_object();
-  settings_part()->write(out, settings);
+  settings_part().write(out, settings);
   out.end_object();
   std::string first, groups;
   const auto add = [](std::string& line, const std::string& key, const Schema& value) {

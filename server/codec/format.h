@@ -21,52 +21,99 @@ enum class Way { in, out };
 // What becomes of each path in a text.
 using PathMap = std::function<std::string(const std::string&)>;
 
-// What of a format does not depend on what it is of.
-class Described {
+// How a value of some type stands in JSON. One description makes its reader, its writer, its
+// schema, and from the schema the reference for people, so that nothing is spelt twice. Formats are
+// values: small ones (scalar_formats.h) are put together to lists, objects (object_format.h) and
+// whole files (cell_format.h). Immutable, and shared by threads.
+//
+// The type is erased: `out` and `value` are the address of a value of the type that the format was
+// made for. FormatPtr<T> below is the typed handle, so that the compiler checks the types where a
+// message is described, and the formats themselves are compiled once, not once for each T.
+class AnyFormat {
  public:
-  virtual ~Described() = default;
+  AnyFormat() = default;
+  AnyFormat(const AnyFormat&) = delete;
+  AnyFormat& operator=(const AnyFormat&) = delete;
+  virtual ~AnyFormat() = default;
+  // Into `out`, which holds the defaults. Faults go to the node's list, with place and value; then
+  // `out` is of no use.
+  virtual void read_any(const JsonNode& node, void* out) const = 0;
+  virtual void write_any(JsonWriter& out, const void* value) const = 0;
   [[nodiscard]] virtual Schema schema(Way way) const = 0;
   // Replaces the paths in a JSON value that is to be read as this format. What does not fit the
   // format stays as it is: the reader will say so.
-  virtual void map_paths(nlohmann::json& value, const PathMap& map) const {
-    static_cast<void>(value);
-    static_cast<void>(map);
+  virtual void map_paths(nlohmann::json& /*value*/, const PathMap& /*map*/) const {}
+};
+
+// A std::shared_ptr that is copied and destroyed by functions in format.cc instead of inline:
+// descriptions of messages make thousands of temporary ones.
+template <class Any>
+class SharedAny {
+ public:
+  explicit SharedAny(const Any* made);  // owns it
+  SharedAny(const SharedAny& other);
+  SharedAny(SharedAny&& other) noexcept;
+  SharedAny& operator=(SharedAny other) noexcept;
+  ~SharedAny();
+  const Any* operator->() const { return any_.get(); }
+  const Any& operator*() const { return *any_; }
+
+ private:
+  std::shared_ptr<const Any> any_;
+};
+using AnyFormatPtr = SharedAny<AnyFormat>;
+
+// An AnyFormat of values of type T. Copy it to keep it: the reference that `*format_pointer` gives
+// is good as long as the FormatPtr.
+template <class T>
+class Format {
+ public:
+  // Precondition: `any` was made for T.
+  explicit Format(AnyFormatPtr any) : any_(std::move(any)) {}
+  void read(const JsonNode& node, T& out) const { any_->read_any(node, &out); }
+  void write(JsonWriter& out, const T& value) const { any_->write_any(out, &value); }
+  [[nodiscard]] Schema schema(Way way) const { return any_->schema(way); }
+  void map_paths(nlohmann::json& value, const PathMap& map) const { any_->map_paths(value, map); }
+  [[nodiscard]] const AnyFormatPtr& any() const { return any_; }
+
+ private:
+  AnyFormatPtr any_;
+};
+
+template <class T>
+class FormatPtr {
+ public:
+  explicit FormatPtr(AnyFormatPtr any) : format_(std::move(any)) {}
+  const Format<T>* operator->() const { return &format_; }
+  const Format<T>& operator*() const { return format_; }
+
+ private:
+  Format<T> format_;
+};
+
+// The base of a format that is written by hand for a T.
+template <class T>
+class CustomFormat : public AnyFormat {
+ public:
+  using Value = T;
+  virtual void read(const JsonNode& node, T& out) const = 0;
+  virtual void write(JsonWriter& out, const T& value) const = 0;
+  void read_any(const JsonNode& node, void* out) const final { read(node, *static_cast<T*>(out)); }
+  void write_any(JsonWriter& out, const void* value) const final {
+    write(out, *static_cast<const T*>(value));
   }
 };
 
-// How a T stands in JSON. One description makes its reader, its writer, its schema, and from the
-// schema the reference for people, so that nothing is spelt twice. Formats are values: small ones
-// (scalar_formats.h) are put together to lists, objects (object_format.h) and whole files
-// (cell_format.h). Immutable, and shared by threads.
-template <class T>
-class Format : public Described {
- public:
-  using Base = Format;
-  // Into `out`, which holds the defaults. Faults go to the node's list, with place and value; then
-  // `out` is of no use.
-  virtual void read(const JsonNode& node, T& out) const = 0;
-  virtual void write(JsonWriter& out, const T& value) const = 0;
-};
-
-template <class T>
-using FormatPtr = std::shared_ptr<const Format<T>>;
-
-// A Kind of format, or of part of one, owned as its Base: what a smart pointer needs is compiled
-// once for each Base, not for each of hundreds of kinds.
+// Kind: a CustomFormat.
 template <class Kind, class... Arguments>
-[[nodiscard]] std::shared_ptr<const typename Kind::Base> make_as_base(Arguments&&... arguments) {
-  const typename Kind::Base* made = new Kind(std::forward<Arguments>(arguments)...);
-  return std::shared_ptr<const typename Kind::Base>(made);
+[[nodiscard]] FormatPtr<typename Kind::Value> make_format(Arguments&&... arguments) {
+  return FormatPtr<typename Kind::Value>(
+      AnyFormatPtr(new Kind(std::forward<Arguments>(arguments)...)));
 }
 
 // A value as a schema shows it: a default, a bound. Whole numbers stand without a point.
 [[nodiscard]] Schema as_json(double number);
 [[nodiscard]] Schema as_json(const JsonWriter& written);
-template <class T>
-[[nodiscard]] Schema as_json(const Format<T>& format, const T& value) {
-  JsonWriter out;
-  format.write(out, value);
-  return as_json(out);
-}
+[[nodiscard]] Schema as_json(const AnyFormat& format, const void* value);
 
 }  // namespace armloom

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "server/codec/format.h"
+#include "server/codec/member_access.h"
 
 namespace armloom::formats {
 
@@ -21,112 +22,68 @@ struct ListSize {
 };
 [[nodiscard]] bool is_readable(const JsonNode& array, const ListSize& size);
 void check_fewest(const JsonNode& array, const ListSize& size);
-// Of arrays and objects, by the schema of what is in them.
-[[nodiscard]] Schema list_schema(Schema element, const ListSize& size);
-[[nodiscard]] Schema dictionary_schema(Schema member);
-[[nodiscard]] Schema pair_schema(Schema element);
+
+// What a list format does with the std::vector<T> at an address.
+struct ListOperations {
+  void (*clear)(void* list, std::size_t to_come);
+  void* (*add)(void* list);
+  const void* (*data)(const void* list);
+  std::size_t (*size)(const void* list);
+  std::size_t element_size;
+};
+template <class T>
+inline constexpr ListOperations kListOperations{
+    [](void* list, std::size_t to_come) {
+      static_cast<std::vector<T>*>(list)->clear();
+      static_cast<std::vector<T>*>(list)->reserve(to_come);
+    },
+    [](void* list) -> void* { return &static_cast<std::vector<T>*>(list)->emplace_back(); },
+    [](const void* list) -> const void* {
+      return static_cast<const std::vector<T>*>(list)->data();
+    },
+    [](const void* list) { return static_cast<const std::vector<T>*>(list)->size(); }, sizeof(T)};
 
 // A JSON array of elements that all have one format.
+[[nodiscard]] AnyFormatPtr list(const AnyFormatPtr& element, ListSize size,
+                                const ListOperations& operations);
 template <class T>
-class ListFormat final : public Format<std::vector<T>> {
- public:
-  ListFormat(FormatPtr<T> element, ListSize size)
-      : element_(std::move(element)), size_(std::move(size)) {}
-
-  void read(const JsonNode& node, std::vector<T>& out) const override {
-    out.clear();
-    if (!node.array() || !is_readable(node, size_)) return;
-    out.reserve(node.raw().size());
-    node.each([&](const JsonNode& element) { element_->read(element, out.emplace_back()); });
-    check_fewest(node, size_);
-  }
-  void write(JsonWriter& out, const std::vector<T>& list) const override {
-    out.begin_array();
-    for (const T& element : list) element_->write(out, element);
-    out.end_array();
-  }
-  Schema schema(Way way) const override { return list_schema(element_->schema(way), size_); }
-  void map_paths(nlohmann::json& value, const PathMap& map) const override {
-    if (!value.is_array()) return;
-    for (auto& element : value) element_->map_paths(element, map);
-  }
-
- private:
-  FormatPtr<T> element_;
-  ListSize size_;
-};
-
-template <class T>
-[[nodiscard]] FormatPtr<std::vector<T>> list(FormatPtr<T> element, ListSize size = {}) {
-  return make_as_base<ListFormat<T>>(std::move(element), std::move(size));
+[[nodiscard]] FormatPtr<std::vector<T>> list(const FormatPtr<T>& element, ListSize size = {}) {
+  return FormatPtr<std::vector<T>>(list(element->any(), std::move(size), kListOperations<T>));
 }
 
-// A JSON object whose keys are names of the user's: {"torso_lift_joint": 0.1}.
-template <class T>
-class DictionaryFormat final : public Format<std::map<std::string, T>> {
- public:
-  explicit DictionaryFormat(FormatPtr<T> member) : member_(std::move(member)) {}
-
-  void read(const JsonNode& node, std::map<std::string, T>& out) const override {
-    node.members(
-        [&](const std::string& key, const JsonNode& member) { member_->read(member, out[key]); });
-  }
-  void write(JsonWriter& out, const std::map<std::string, T>& members) const override {
-    out.begin_object();
-    for (const auto& [key, member] : members) {
-      out.key(key);
-      member_->write(out, member);
-    }
-    out.end_object();
-  }
-  Schema schema(Way way) const override { return dictionary_schema(member_->schema(way)); }
-  void map_paths(nlohmann::json& value, const PathMap& map) const override {
-    if (!value.is_object()) return;
-    for (auto& [key, member] : value.items()) member_->map_paths(member, map);
-  }
-
- private:
-  FormatPtr<T> member_;
+// What a dictionary format does with the std::map<std::string, T> at an address.
+struct DictionaryOperations {
+  void* (*at)(void* map, const std::string& key);
+  void (*write)(JsonWriter& out, const void* map, const AnyFormat& member);
 };
-
 template <class T>
-[[nodiscard]] FormatPtr<std::map<std::string, T>> dictionary(FormatPtr<T> member) {
-  return make_as_base<DictionaryFormat<T>>(std::move(member));
+inline constexpr DictionaryOperations kDictionaryOperations{
+    [](void* map, const std::string& key) -> void* {
+      return &(*static_cast<std::map<std::string, T>*>(map))[key];
+    },
+    [](JsonWriter& out, const void* map, const AnyFormat& format) {
+      for (const auto& [key, member] : *static_cast<const std::map<std::string, T>*>(map)) {
+        out.key(key);
+        format.write_any(out, &member);
+      }
+    }};
+
+// A JSON object whose keys are names of the user's: {"torso_lift_joint": 0.1}.
+[[nodiscard]] AnyFormatPtr dictionary(const AnyFormatPtr& member,
+                                      const DictionaryOperations& operations);
+template <class T>
+[[nodiscard]] FormatPtr<std::map<std::string, T>> dictionary(const FormatPtr<T>& member) {
+  return FormatPtr<std::map<std::string, T>>(dictionary(member->any(), kDictionaryOperations<T>));
 }
 
 // An array of exactly two: ["table", "panda_link0"].
+[[nodiscard]] AnyFormatPtr pair_of(const AnyFormatPtr& element, std::ptrdiff_t first,
+                                   std::ptrdiff_t second);
 template <class T>
-class PairFormat final : public Format<std::pair<T, T>> {
- public:
-  explicit PairFormat(FormatPtr<T> element) : element_(std::move(element)) {}
-
-  void read(const JsonNode& node, std::pair<T, T>& out) const override {
-    if (!node.array()) return;
-    if (node.raw().size() != 2) {
-      return node.invalid("wrong-size",
-                          "expected a pair, found " + std::to_string(node.raw().size()));
-    }
-    T* next = &out.first;
-    node.each([&](const JsonNode& element) {
-      element_->read(element, *next);
-      next = &out.second;
-    });
-  }
-  void write(JsonWriter& out, const std::pair<T, T>& pair) const override {
-    out.begin_array();
-    element_->write(out, pair.first);
-    element_->write(out, pair.second);
-    out.end_array();
-  }
-  Schema schema(Way way) const override { return pair_schema(element_->schema(way)); }
-
- private:
-  FormatPtr<T> element_;
-};
-
-template <class T>
-[[nodiscard]] FormatPtr<std::pair<T, T>> pair_of(FormatPtr<T> element) {
-  return make_as_base<PairFormat<T>>(std::move(element));
+[[nodiscard]] FormatPtr<std::pair<T, T>> pair_of(const FormatPtr<T>& element) {
+  using Pair = std::pair<T, T>;
+  return FormatPtr<Pair>(
+      pair_of(element->any(), offset_of(&Pair::first), offset_of(&Pair::second)));
 }
 
 }  // namespace armloom::formats

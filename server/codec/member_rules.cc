@@ -1,6 +1,9 @@
 #include "server/codec/member_rules.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "server/codec/part_groups.h"
 
 namespace armloom::formats {
 namespace {
@@ -19,43 +22,72 @@ void add_rule(Schema& object, Schema rule) {
 
 Schema has(const std::string& key) { return {{"required", {key}}}; }
 
-}  // namespace
-
-void check_count(const JsonNode& object, HowMany how_many, const std::vector<std::string>& keys) {
-  const auto count =
-      std::ranges::count_if(keys, [&](const std::string& key) { return object.has(key); });
-  if (count == 1 || (count == 0 && how_many == HowMany::at_most_one)) return;
-  const std::string expected = how_many == HowMany::exactly_one ? "exactly" : "at most";
-  object.invalid(
-      how_many == HowMany::exactly_one ? "not-exactly-one" : "more-than-one",
-      expected + " one of " + listed(keys) + " is expected, found " + std::to_string(count));
-}
-
-void describe_count(Schema& object, HowMany how_many, const std::vector<std::string>& keys) {
-  if (how_many == HowMany::exactly_one) {
-    Schema choices = Schema::array();
-    for (const std::string& key : keys) choices.push_back(has(key));
-    add_rule(object, {{"oneOf", std::move(choices)}});
-    return;
+class CountRule final : public AnyPart {
+ public:
+  CountRule(HowMany how_many, std::vector<std::string> keys)
+      : how_many_(how_many), keys_(std::move(keys)) {}
+  void read_any(const JsonNode& object, void*) const override {
+    const auto count =
+        std::ranges::count_if(keys_, [&](const std::string& key) { return object.has(key); });
+    if (count == 1 || (count == 0 && how_many_ == HowMany::at_most_one)) return;
+    const std::string expected = how_many_ == HowMany::exactly_one ? "exactly" : "at most";
+    object.invalid(
+        how_many_ == HowMany::exactly_one ? "not-exactly-one" : "more-than-one",
+        expected + " one of " + listed(keys_) + " is expected, found " + std::to_string(count));
   }
-  for (std::size_t a = 0; a < keys.size(); ++a) {
-    for (std::size_t b = a + 1; b < keys.size(); ++b) {
-      add_rule(object, {{"not", {{"required", {keys[a], keys[b]}}}}});
+  void describe_any(Schema& object, const void*, Way) const override {
+    if (how_many_ == HowMany::exactly_one) {
+      Schema choices = Schema::array();
+      for (const std::string& key : keys_) choices.push_back(has(key));
+      return add_rule(object, {{"oneOf", std::move(choices)}});
+    }
+    for (std::size_t a = 0; a < keys_.size(); ++a) {
+      for (std::size_t b = a + 1; b < keys_.size(); ++b) {
+        add_rule(object, {{"not", {{"required", {keys_[a], keys_[b]}}}}});
+      }
     }
   }
-}
 
-void check_companion(const JsonNode& object, std::string_view key, const std::string& companion) {
-  if (!object.has(key) || object.has(companion)) return;
-  object.optional(key, [&](const JsonNode& node) {
-    node.invalid("without-companion", "only a " + companion + " has a " + std::string(key));
-  });
-}
+ private:
+  HowMany how_many_;
+  std::vector<std::string> keys_;
+};
 
-void describe_companion(Schema& object, std::string_view key, const std::string& companion) {
-  object["dependentRequired"][std::string(key)] = Schema::array({companion});
-}
+class CompanionPart final : public AroundPart {
+ public:
+  CompanionPart(std::string_view companion, const Access& access, const AnyPartPtr& part)
+      : AroundPart(part), companion_(companion), access_(access) {
+    part_->list_keys(keys_);
+  }
+  void read_any(const JsonNode& object, void* out) const override {
+    for (const std::string_view key : keys_) check(object, key);
+    part_->read_any(object, out);
+  }
+  void write_any(JsonWriter& out, const void* value) const override {
+    access_.use_value(value, [&](const void*) { part_->write_any(out, value); });
+  }
+  void describe_any(Schema& object, const void* defaults, Way way) const override {
+    part_->describe_any(object, defaults, way);
+    for (const std::string_view key : keys_) {
+      object["dependentRequired"][std::string(key)] = Schema::array({companion_});
+    }
+  }
 
+ private:
+  void check(const JsonNode& object, std::string_view key) const {
+    if (!object.has(key) || object.has(companion_)) return;
+    object.optional(key, [&](const JsonNode& node) {
+      node.invalid("without-companion", "only a " + companion_ + " has a " + std::string(key));
+    });
+  }
+
+  std::string companion_;
+  Access access_;
+  std::vector<std::string_view> keys_;
+};
+
+// What `object` demands beyond `before`, its description without the part, it demands only without
+// `key`.
 void describe_unless(Schema& object, const std::string& key, const Schema& before) {
   // The entries of a list that `before` does not have; they are taken out.
   const auto take_new = [&](const char* list) {
@@ -79,20 +111,63 @@ void describe_unless(Schema& object, const std::string& key, const Schema& befor
   }
 }
 
-void check_not_served(const JsonNode& object, const NotServed& rule) {
-  object.optional(rule.key, [&](const JsonNode& node) {
-    if (!rule.but_for) return node.invalid(rule.slug, rule.sentence);
-    std::string text;
-    bool flag = false;
-    const bool readable = rule.but_for->is_string() ? node.read(text) : node.read(flag);
-    if (readable && node.raw() != *rule.but_for) node.invalid(rule.slug, rule.sentence);
-  });
+class UnlessPart final : public AroundPart {
+ public:
+  UnlessPart(std::string_view key, const AnyPartPtr& part, bool may_be)
+      : AroundPart(part), key_(key), may_be_(may_be) {}
+  void read_any(const JsonNode& object, void* out) const override {
+    if (!object.has(key_)) part_->read_any(object, out);
+  }
+  void describe_any(Schema& object, const void* defaults, Way way) const override {
+    const Schema before = object;
+    part_->describe_any(object, defaults, way);
+    if (may_be_) describe_unless(object, key_, before);
+  }
+
+ private:
+  std::string key_;
+  bool may_be_;
+};
+
+class NotServedPart final : public AnyPart {
+ public:
+  explicit NotServedPart(NotServed rule) : rule_(std::move(rule)) {}
+  void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back(rule_.key); }
+  void read_any(const JsonNode& object, void*) const override {
+    object.optional(rule_.key, [&](const JsonNode& node) {
+      if (!rule_.but_for) return node.invalid(rule_.slug, rule_.sentence);
+      std::string text;
+      bool flag = false;
+      const bool readable = rule_.but_for->is_string() ? node.read(text) : node.read(flag);
+      if (readable && node.raw() != *rule_.but_for) node.invalid(rule_.slug, rule_.sentence);
+    });
+  }
+  void describe_any(Schema& object, const void*, Way way) const override {
+    if (!rule_.but_for) return;
+    describe_member(object, {rule_.key, rule_.text, Need::optional, {}},
+                    {{"const", *rule_.but_for}}, std::nullopt, way);
+  }
+
+ private:
+  NotServed rule_;
+};
+
+}  // namespace
+
+AnyPartPtr count_rule(HowMany how_many, std::vector<std::string> keys) {
+  return AnyPartPtr(new CountRule(how_many, std::move(keys)));
 }
 
-void describe_not_served(Schema& object, const NotServed& rule, Way way) {
-  if (!rule.but_for) return;
-  describe_member(object, {rule.key, rule.text, Need::optional, {}}, {{"const", *rule.but_for}},
-                  std::nullopt, way);
+AnyPartPtr only_with(std::string_view companion, const Access& access, const AnyPartPtr& part) {
+  return AnyPartPtr(new CompanionPart(companion, access, part));
+}
+
+AnyPartPtr unless(std::string_view key, const AnyPartPtr& part, bool may_be) {
+  return AnyPartPtr(new UnlessPart(key, part, may_be));
+}
+
+AnyPartPtr not_served_part(NotServed rule) {
+  return AnyPartPtr(new NotServedPart(std::move(rule)));
 }
 
 }  // namespace armloom::formats

@@ -1,95 +1,76 @@
 #pragma once
 
-#include <memory>
-#include <string_view>
+#include <cstddef>
 #include <utility>
-#include <vector>
 
-#include "server/codec/member_part.h"
+#include "server/codec/member_access.h"
+#include "server/codec/part.h"
 
 namespace armloom::formats {
 
 // Several parts as one.
+[[nodiscard]] AnyPartPtr parts(AnyParts of_it);
 template <class T>
-class Parts final : public Part<T> {
- public:
-  explicit Parts(std::vector<PartPtr<T>> parts) : parts_(std::move(parts)) {}
-  void list_keys(std::vector<std::string_view>& keys) const override {
-    for (const auto& part : parts_) part->list_keys(keys);
-  }
-  void read(const JsonNode& object, T& out) const override {
-    for (const auto& part : parts_) part->read(object, out);
-  }
-  void write(JsonWriter& out, const T& value) const override {
-    for (const auto& part : parts_) part->write(out, value);
-  }
-  void describe(Schema& object, const T& defaults, Way way) const override {
-    for (const auto& part : parts_) part->describe(object, defaults, way);
-  }
-  void map_paths(nlohmann::json& object, const PathMap& map) const override {
-    for (const auto& part : parts_) part->map_paths(object, map);
-  }
-
- private:
-  std::vector<PartPtr<T>> parts_;
-};
-
-template <class T>
-[[nodiscard]] PartPtr<T> parts(std::vector<PartPtr<T>> of_it) {
-  return make_as_base<Parts<T>>(std::move(of_it));
+[[nodiscard]] PartPtr<T> parts(PartList<T> of_it) {
+  return PartPtr<T>(parts(of_it.any()));
 }
 
-// Members that spell a T in other words: those of a Words, made of the T and back.
-template <class T, class Words>
-class SpeltPart final : public Part<T> {
+// A part that does with its inner one what this says, unless it overrides it.
+class AroundPart : public AnyPart {
  public:
-  SpeltPart(std::vector<PartPtr<Words>> parts, Words (*spell)(const T&), T (*mean)(const Words&))
-      : parts_(std::move(parts)), spell_(spell), mean_(mean) {}
-
-  void list_keys(std::vector<std::string_view>& keys) const override { parts_.list_keys(keys); }
-  void read(const JsonNode& object, T& out) const override {
-    Words words{};
-    parts_.read(object, words);
-    out = mean_(words);
-  }
-  void write(JsonWriter& out, const T& value) const override { parts_.write(out, spell_(value)); }
-  void describe(Schema& object, const T&, Way way) const override {
-    parts_.describe(object, Words{}, way);
-  }
-  void map_paths(nlohmann::json& object, const PathMap& map) const override {
-    parts_.map_paths(object, map);
-  }
-
- private:
-  Parts<Words> parts_;
-  Words (*spell_)(const T&);
-  T (*mean_)(const Words&);
-};
-
-// Members of this object that make up one value of it: xyz and rpy of a pose.
-template <class T, class M>
-class InlinePart final : public Part<T> {
- public:
-  InlinePart(M T::*where, PartPtr<M> part) : where_(where), part_(std::move(part)) {}
-
+  explicit AroundPart(const AnyPartPtr& part) : part_(part) {}
   void list_keys(std::vector<std::string_view>& keys) const override { part_->list_keys(keys); }
-  void read(const JsonNode& object, T& out) const override { part_->read(object, out.*where_); }
-  void write(JsonWriter& out, const T& value) const override { part_->write(out, value.*where_); }
-  void describe(Schema& object, const T& defaults, Way way) const override {
-    part_->describe(object, defaults.*where_, way);
+  void read_any(const JsonNode& object, void* out) const override { part_->read_any(object, out); }
+  void write_any(JsonWriter& out, const void* value) const override {
+    part_->write_any(out, value);
+  }
+  void describe_any(Schema& object, const void* defaults, Way way) const override {
+    part_->describe_any(object, defaults, way);
   }
   void map_paths(nlohmann::json& object, const PathMap& map) const override {
     part_->map_paths(object, map);
   }
 
- private:
-  M T::*where_;
-  PartPtr<M> part_;
+ protected:
+  AnyPartPtr part_;
 };
 
+// Members that spell a T in other words: those of a Words, made of the T and back. Spell gives a
+// Words, or a reference to one.
+template <class T, class Words, class Spell>
+class SpeltPart final : public AroundPart {
+ public:
+  SpeltPart(const AnyPartPtr& words, Spell spell, T (*mean)(const Words&))
+      : AroundPart(words), spell_(spell), mean_(mean) {}
+
+  void read_any(const JsonNode& object, void* out) const override {
+    Words words{};
+    part_->read_any(object, &words);
+    *static_cast<T*>(out) = mean_(words);
+  }
+  void write_any(JsonWriter& out, const void* value) const override {
+    const Words& words = spell_(*static_cast<const T*>(value));
+    part_->write_any(out, &words);
+  }
+  void describe_any(Schema& object, const void*, Way way) const override {
+    const Words words{};
+    part_->describe_any(object, &words, way);
+  }
+
+ private:
+  Spell spell_;
+  T (*mean_)(const Words&);
+};
+template <class T, class Words, class Spell>
+[[nodiscard]] PartPtr<T> spelt(const PartList<Words>& words, Spell spell, T (*mean)(const Words&)) {
+  return PartPtr<T>(AnyPartPtr(new SpeltPart<T, Words, Spell>(parts(words.any()), spell, mean)));
+}
+
+// Members of this object that make up one value of it: xyz and rpy of a pose.
+[[nodiscard]] AnyPartPtr inlined(std::ptrdiff_t offset, const AnyPartPtr& part);
 template <class T, class M>
-[[nodiscard]] PartPtr<T> inlined(M T::*where, PartPtr<M> part) {
-  return make_as_base<InlinePart<T, M>>(where, std::move(part));
+[[nodiscard]] PartPtr<T> inlined(M T::*where, const PartPtr<M>& part) {
+  return PartPtr<T>(inlined(offset_of(where), part.any()));
 }
 
 }  // namespace armloom::formats

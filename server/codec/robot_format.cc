@@ -16,23 +16,22 @@ namespace {
 constexpr Range kHeld{-1000.0, 1000.0};  // rad or m
 
 struct LimitText {
-  std::string name;   // without its unit
-  std::string power;  // of the unit: "_s2"
-  std::string text;
+  const char* angular;  // its two names
+  const char* linear;
+  const char* text;
   std::optional<Schema> stated = {};  // its default
 };
 
 // A limit by its two names: of joints that turn, and of those that slide.
-std::vector<PartPtr<JointLimitsDescription>> limit(
-    const LimitText& said, std::optional<double> JointLimitsDescription::*where, Range range) {
+PartPtr<JointLimitsDescription> limit(const LimitText& said,
+                                      std::optional<double> JointLimitsDescription::*where,
+                                      Range range) {
   using Limits = JointLimitsDescription;
-  const std::string angular = said.name + "_rad" + said.power;
-  const std::string linear = said.name + "_m" + said.power;
   // What was given by neither name is written by the first.
-  const auto part = [&](const std::string& key, bool is_linear, const std::string& words) {
-    return make_as_base<MemberPart<Limits, double>>(
-        MemberText{key, words, Need::optional, said.stated}, number(range),
-        [where, linear, is_linear](const Limits& limits) {
+  const auto part = [&](const char* key, bool is_linear, const char* words) {
+    return member<Limits>(
+        {key, words, Need::optional, said.stated}, number(range),
+        [where, linear = said.linear, is_linear](const Limits& limits) {
           return limits.keys.contains(linear) == is_linear ? limits.*where : std::nullopt;
         },
         [where, key](Limits& limits, double value) {
@@ -40,31 +39,32 @@ std::vector<PartPtr<JointLimitsDescription>> limit(
           limits.keys.insert(key);
         });
   };
-  return {part(angular, false, said.text), part(linear, true, "The same of a joint that slides."),
-          at_most_one<Limits>({angular, linear})};
+  return parts<Limits>({part(said.angular, false, said.text),
+                        part(said.linear, true, "The same of a joint that slides."),
+                        at_most_one<Limits>({said.angular, said.linear})});
 }
 
 FormatPtr<JointLimitsDescription> limits_format() {
-  std::vector<PartPtr<JointLimitsDescription>> parts;
-  const auto add = [&](std::vector<PartPtr<JointLimitsDescription>> more) {
-    parts.insert(parts.end(), more.begin(), more.end());
-  };
   using Limits = JointLimitsDescription;
-  add(limit({"lower", "", "Lowest position: narrows the URDF's limits, or gives what it lacks."},
-            &Limits::lower, kAnyNumber));
-  add(limit({"upper", "", "Highest position, in the same way."}, &Limits::upper, kAnyNumber));
-  add(limit({"velocity", "_s", "Highest velocity: at most the URDF's, or what it lacks."},
-            &Limits::velocity, kPositive));
-  add(limit(
-      {"acceleration", "_s2", "Highest acceleration: before that of joint_limits; URDFs have none.",
-       as_json(kDefaultAcceleration)},
-      &Limits::acceleration, kPositive));
-  add(limit({"jerk", "_s3", "Highest jerk, in the same way.", as_json(kDefaultJerk)}, &Limits::jerk,
-            kPositive));
-  add(limit(
-      {"brake", "_s2", "Deceleration that a stop may use; twice the acceleration unless given."},
-      &Limits::brake, kPositive));
-  return object(std::move(parts));
+  return object<Limits>({
+      limit({"lower_rad", "lower_m",
+             "Lowest position: narrows the URDF's limits, or gives what it lacks."},
+            &Limits::lower, kAnyNumber),
+      limit({"upper_rad", "upper_m", "Highest position, in the same way."}, &Limits::upper,
+            kAnyNumber),
+      limit({"velocity_rad_s", "velocity_m_s",
+             "Highest velocity: at most the URDF's, or what it lacks."},
+            &Limits::velocity, kPositive),
+      limit({"acceleration_rad_s2", "acceleration_m_s2",
+             "Highest acceleration: before that of joint_limits; URDFs have none.",
+             as_json(kDefaultAcceleration)},
+            &Limits::acceleration, kPositive),
+      limit({"jerk_rad_s3", "jerk_m_s3", "Highest jerk, in the same way.", as_json(kDefaultJerk)},
+            &Limits::jerk, kPositive),
+      limit({"brake_rad_s2", "brake_m_s2",
+             "Deceleration that a stop may use; twice the acceleration unless given."},
+            &Limits::brake, kPositive),
+  });
 }
 
 // "home": values, or the name of a state.
@@ -73,7 +73,7 @@ struct Home {
   std::string state;
 };
 
-class HomeFormat final : public Format<Home> {
+class HomeFormat final : public CustomFormat<Home> {
  public:
   void read(const JsonNode& node, Home& out) const override {
     if (node.raw().is_array()) return values_->read(node, out.values);
@@ -96,14 +96,14 @@ class HomeFormat final : public Format<Home> {
 };
 
 PartPtr<ArmDescription> home_part() {
-  return make_as_base<MemberPart<ArmDescription, Home>>(
-      MemberText{"home",
-                 "Where the arm begins and parks: the joints' positions in the group's order (rad, "
-                 "m), or the name of a state of the group in the SRDF. Every joint at zero, or at "
-                 "the limit next to it, unless given.",
-                 Need::optional,
-                 {}},
-      make_as_base<HomeFormat>(),
+  return member<ArmDescription>(
+      {"home",
+       "Where the arm begins and parks: the joints' positions in the group's order (rad, "
+       "m), or the name of a state of the group in the SRDF. Every joint at zero, or at "
+       "the limit next to it, unless given.",
+       Need::optional,
+       {}},
+      make_format<HomeFormat>(),
       [](const ArmDescription& arm) -> std::optional<Home> {
         if (arm.home.empty() && arm.home_state.empty()) return std::nullopt;
         return Home{arm.home, arm.home_state};

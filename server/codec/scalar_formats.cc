@@ -47,7 +47,7 @@ bool read_within(const JsonNode& node, const Range& range, double& out) {
   return true;
 }
 
-class NumberFormat final : public Format<double> {
+class NumberFormat final : public CustomFormat<double> {
  public:
   explicit NumberFormat(Range range) : range_(range) {}
   void read(const JsonNode& node, double& out) const override { read_within(node, range_, out); }
@@ -58,7 +58,7 @@ class NumberFormat final : public Format<double> {
   Range range_;
 };
 
-class SecondsFormat final : public Format<Duration> {
+class SecondsFormat final : public CustomFormat<Duration> {
  public:
   explicit SecondsFormat(Range range) : range_(range) {}
   void read(const JsonNode& node, Duration& out) const override {
@@ -72,7 +72,7 @@ class SecondsFormat final : public Format<Duration> {
   Range range_;
 };
 
-class TextFormat : public Format<std::string> {
+class TextFormat : public CustomFormat<std::string> {
  public:
   void read(const JsonNode& node, std::string& out) const override { node.read(out); }
   void write(JsonWriter& out, const std::string& text) const override { out.value(text); }
@@ -117,7 +117,7 @@ class OneOfFormat final : public TextFormat {
 
 // Numbers in an array of fixed size, whatever holds them.
 template <class Numbers, std::size_t size>
-class NumbersFormat final : public Format<Numbers> {
+class NumbersFormat final : public CustomFormat<Numbers> {
  public:
   explicit NumbersFormat(Range range) : range_(range) {}
   void read(const JsonNode& node, Numbers& out) const override {
@@ -148,20 +148,20 @@ class NumbersFormat final : public Format<Numbers> {
 
 }  // namespace
 
-FormatPtr<double> number(Range range) { return make_as_base<NumberFormat>(range); }
-FormatPtr<Duration> seconds(Range range) { return make_as_base<SecondsFormat>(range); }
-FormatPtr<std::string> text() { return make_as_base<TextFormat>(); }
-FormatPtr<std::string> name() { return make_as_base<NameFormat>("name"); }
-FormatPtr<std::string> path() { return make_as_base<PathFormat>(); }
+FormatPtr<double> number(Range range) { return make_format<NumberFormat>(range); }
+FormatPtr<Duration> seconds(Range range) { return make_format<SecondsFormat>(range); }
+FormatPtr<std::string> text() { return make_format<TextFormat>(); }
+FormatPtr<std::string> name() { return make_format<NameFormat>("name"); }
+FormatPtr<std::string> path() { return make_format<PathFormat>(); }
 FormatPtr<std::string> one_of(std::vector<std::string> names) {
-  return make_as_base<OneOfFormat>(std::move(names));
+  return make_format<OneOfFormat>(std::move(names));
 }
 FormatPtr<Eigen::Vector3d> vector3(Range range) {
-  return make_as_base<NumbersFormat<Eigen::Vector3d, 3>>(range);
+  return make_format<NumbersFormat<Eigen::Vector3d, 3>>(range);
 }
 template <std::size_t size>
 FormatPtr<std::array<double, size>> numbers(Range range) {
-  return make_as_base<NumbersFormat<std::array<double, size>, size>>(range);
+  return make_format<NumbersFormat<std::array<double, size>, size>>(range);
 }
 template FormatPtr<std::array<double, 1>> numbers<1>(Range);
 template FormatPtr<std::array<double, 2>> numbers<2>(Range);

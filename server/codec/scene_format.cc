@@ -45,7 +45,7 @@ Shape shape_of_words(const ShapeWords& words) {
   return Box{words.box.value_or(Eigen::Vector3d::Zero())};
 }
 
-std::vector<PartPtr<ShapeWords>> primitives() {
+PartList<ShapeWords> primitives() {
   return {
       field("box", &ShapeWords::box, vector3(kLength), "A box: its full side lengths, in metres."),
       field("cylinder", &ShapeWords::cylinder, numbers<2>(kLength),
@@ -55,31 +55,28 @@ std::vector<PartPtr<ShapeWords>> primitives() {
 }
 
 PartPtr<Shape> shape_part() {
-  std::vector<PartPtr<ShapeWords>> parts = primitives();
-  parts.insert(
-      parts.end(),
+  PartList<ShapeWords> parts = primitives();
+  parts.add(
       {field("mesh", &ShapeWords::mesh, path(),
              "A mesh (STL, OBJ, DAE): a file. All that it encloses counts as solid, cavities too."),
        only_with("mesh", &ShapeWords::mesh,
                  field("scale", &ShapeWords::scale, vector3(kAnyNumber),
                        "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1})),
        exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"})});
-  return make_as_base<SpeltPart<Shape, ShapeWords>>(std::move(parts), shape_in_words,
-                                                    shape_of_words);
+  return spelt(parts, shape_in_words, shape_of_words);
 }
 
 }  // namespace
 
 PartPtr<Shape> primitive_part() {
-  std::vector<PartPtr<ShapeWords>> parts = primitives();
-  parts.push_back(exactly_one<ShapeWords>({"box", "cylinder", "sphere"}));
-  return make_as_base<SpeltPart<Shape, ShapeWords>>(std::move(parts), shape_in_words,
-                                                    shape_of_words);
+  PartList<ShapeWords> parts = primitives();
+  parts.add({exactly_one<ShapeWords>({"box", "cylinder", "sphere"})});
+  return spelt(parts, shape_in_words, shape_of_words);
 }
 
 PartPtr<Eigen::Isometry3d> pose_part(Need xyz) {
-  return make_as_base<SpeltPart<Eigen::Isometry3d, PoseWords>>(
-      std::vector<PartPtr<PoseWords>>{
+  return spelt(
+      PartList<PoseWords>{
           member({"xyz", "Position in metres.", xyz, std::nullopt}, &PoseWords::xyz_m,
                  vector3(kPosition)),
           field("rpy", &PoseWords::rpy_rad, vector3(kAngle),

@@ -8,14 +8,14 @@
 namespace armloom::formats {
 namespace {
 
-class FlagFormat final : public Format<bool> {
+class FlagFormat final : public CustomFormat<bool> {
  public:
   void read(const JsonNode& node, bool& out) const override { node.read(out); }
   void write(JsonWriter& out, const bool& value) const override { out.value(value); }
   Schema schema(Way) const override { return {{"type", "boolean"}}; }
 };
 
-class IntegerFormat final : public Format<int> {
+class IntegerFormat final : public CustomFormat<int> {
  public:
   IntegerFormat(int lowest, int highest) : lowest_(lowest), highest_(highest) {}
   void read(const JsonNode& node, int& out) const override {
@@ -35,7 +35,7 @@ class IntegerFormat final : public Format<int> {
 // What clients say; up to here every integer is a number of JSON (RFC 8259, 6).
 constexpr std::int64_t kLargestCount = std::int64_t{1} << 53;
 
-class CountFormat final : public Format<std::uint64_t> {
+class CountFormat final : public CustomFormat<std::uint64_t> {
  public:
   void read(const JsonNode& node, std::uint64_t& out) const override {
     std::int64_t number = 0;
@@ -51,7 +51,7 @@ class CountFormat final : public Format<std::uint64_t> {
   }
 };
 
-class NumberListFormat final : public Format<std::vector<double>> {
+class NumberListFormat final : public CustomFormat<std::vector<double>> {
  public:
   void read(const JsonNode& node, std::vector<double>& out) const override { node.read(out); }
   void write(JsonWriter& out, const std::vector<double>& numbers) const override {
@@ -60,7 +60,7 @@ class NumberListFormat final : public Format<std::vector<double>> {
   Schema schema(Way) const override { return {{"type", "array"}, {"items", {{"type", "number"}}}}; }
 };
 
-class CellTimeFormat final : public Format<TimePoint> {
+class CellTimeFormat final : public CustomFormat<TimePoint> {
  public:
   explicit CellTimeFormat(FormatPtr<Duration> seconds) : seconds_(std::move(seconds)) {}
   void read(const JsonNode& node, TimePoint& out) const override {
@@ -75,7 +75,7 @@ class CellTimeFormat final : public Format<TimePoint> {
   FormatPtr<Duration> seconds_;
 };
 
-class TextOrNullFormat final : public Format<std::string> {
+class TextOrNullFormat final : public CustomFormat<std::string> {
  public:
   void read(const JsonNode& node, std::string& out) const override {
     if (node.raw().is_null()) return out.clear();
@@ -88,7 +88,7 @@ class TextOrNullFormat final : public Format<std::string> {
   Schema schema(Way) const override { return {{"type", {"string", "null"}}}; }
 };
 
-class RuledText final : public Format<std::string> {
+class RuledText final : public CustomFormat<std::string> {
  public:
   explicit RuledText(TextRule rule) : rule_(std::move(rule)) {}
   void read(const JsonNode& node, std::string& out) const override {
@@ -105,7 +105,7 @@ class RuledText final : public Format<std::string> {
   TextRule rule_;
 };
 
-class AnythingFormat final : public Format<Anything> {
+class AnythingFormat final : public CustomFormat<Anything> {
  public:
   explicit AnythingFormat(std::string type) : type_(std::move(type)) {}
   void read(const JsonNode& node, Anything&) const override {
@@ -124,38 +124,105 @@ class AnythingFormat final : public Format<Anything> {
   std::string type_;
 };
 
+class NullableFormat final : public AnyFormat {
+ public:
+  NullableFormat(const AnyFormatPtr& format, const OptionalOperations& operations)
+      : format_(format), operations_(operations) {}
+  void read_any(const JsonNode& node, void* out) const override {
+    if (node.raw().is_null()) return operations_.reset(out);
+    format_->read_any(node, operations_.emplace(out));
+  }
+  void write_any(JsonWriter& out, const void* maybe) const override {
+    if (const void* value = operations_.value(maybe)) return format_->write_any(out, value);
+    out.value(nullptr);
+  }
+  Schema schema(Way way) const override { return or_null(format_->schema(way)); }
+
+ private:
+  static Schema or_null(Schema schema) {
+    if (schema.contains("type") && schema["type"].is_string() && !schema.contains("properties") &&
+        !schema.contains("enum")) {
+      schema["type"] = Schema{schema["type"], "null"};
+      return schema;
+    }
+    return {{"oneOf", Schema::array({std::move(schema), {{"type", "null"}}})}};
+  }
+
+  AnyFormatPtr format_;
+  const OptionalOperations& operations_;
+};
+
+class ChoiceFormat final : public AnyFormat {
+ public:
+  explicit ChoiceFormat(const ChoiceOperations& operations) : operations_(operations) {
+    for (std::size_t i = 0; operations.name(i) != nullptr; ++i) {
+      names_.emplace_back(operations.name(i));
+    }
+  }
+  void read_any(const JsonNode& node, void* out) const override {
+    std::string name;
+    if (!node.read(name)) return;
+    const auto known = std::ranges::find(names_, name);
+    if (known == names_.end()) return refuse_choice(node, name, names_);
+    operations_.set(out, static_cast<std::size_t>(known - names_.begin()));
+  }
+  void write_any(JsonWriter& out, const void* choice) const override {
+    out.value(names_[operations_.value(choice)]);
+  }
+  Schema schema(Way) const override { return {{"type", "string"}, {"enum", names_}}; }
+
+ private:
+  std::vector<std::string> names_;
+  const ChoiceOperations& operations_;
+};
+
+class NamedFormat final : public AnyFormat {
+ public:
+  NamedFormat(std::string_view name, std::string_view text, const AnyFormatPtr& format)
+      : name_(name), text_(text), format_(format) {}
+  void read_any(const JsonNode& node, void* out) const override { format_->read_any(node, out); }
+  void write_any(JsonWriter& out, const void* value) const override {
+    format_->write_any(out, value);
+  }
+  Schema schema(Way way) const override { return named_schema(name_, text_, format_->schema(way)); }
+
+ private:
+  std::string name_;
+  std::string text_;
+  AnyFormatPtr format_;
+};
+
 }  // namespace
 
-FormatPtr<bool> flag() { return make_as_base<FlagFormat>(); }
+FormatPtr<bool> flag() { return make_format<FlagFormat>(); }
 FormatPtr<int> integer(int lowest, int highest) {
-  return make_as_base<IntegerFormat>(lowest, highest);
+  return make_format<IntegerFormat>(lowest, highest);
 }
 FormatPtr<int> integer(const NumberRange& range) {
   return integer(static_cast<int>(range.lowest), static_cast<int>(range.highest));
 }
-FormatPtr<std::uint64_t> count() { return make_as_base<CountFormat>(); }
-FormatPtr<std::vector<double>> number_list() { return make_as_base<NumberListFormat>(); }
-FormatPtr<TimePoint> cell_time() { return make_as_base<CellTimeFormat>(seconds(kAnyNumber)); }
+FormatPtr<std::uint64_t> count() { return make_format<CountFormat>(); }
+FormatPtr<std::vector<double>> number_list() { return make_format<NumberListFormat>(); }
+FormatPtr<TimePoint> cell_time() { return make_format<CellTimeFormat>(seconds(kAnyNumber)); }
 FormatPtr<TimePoint> cell_time(double highest_s) {
-  return make_as_base<CellTimeFormat>(seconds({0.0, highest_s}));
+  return make_format<CellTimeFormat>(seconds({0.0, highest_s}));
 }
-FormatPtr<std::string> text_or_null() { return make_as_base<TextOrNullFormat>(); }
-FormatPtr<std::string> text(TextRule rule) { return make_as_base<RuledText>(std::move(rule)); }
+FormatPtr<std::string> text_or_null() { return make_format<TextOrNullFormat>(); }
+FormatPtr<std::string> text(TextRule rule) { return make_format<RuledText>(std::move(rule)); }
 FormatPtr<Anything> anything(std::string type) {
-  return make_as_base<AnythingFormat>(std::move(type));
+  return make_format<AnythingFormat>(std::move(type));
 }
 
-Schema or_null(Schema schema) {
-  if (schema.contains("type") && schema["type"].is_string() && !schema.contains("properties") &&
-      !schema.contains("enum")) {
-    schema["type"] = Schema{schema["type"], "null"};
-    return schema;
-  }
-  return {{"oneOf", Schema::array({std::move(schema), {{"type", "null"}}})}};
+AnyFormatPtr nullable(const AnyFormatPtr& format, const OptionalOperations& operations) {
+  return AnyFormatPtr(new NullableFormat(format, operations));
 }
 
-Schema choice_schema(const std::vector<std::string>& known) {
-  return {{"type", "string"}, {"enum", known}};
+AnyFormatPtr choice(const ChoiceOperations& operations) {
+  return AnyFormatPtr(new ChoiceFormat(operations));
+}
+
+AnyFormatPtr named(std::string_view name, std::string_view text, const AnyFormatPtr& format) {
+  return AnyFormatPtr(new NamedFormat(name, text, format));
 }
 
 void refuse_choice(const JsonNode& node, const std::string& found,
@@ -167,7 +234,7 @@ void refuse_choice(const JsonNode& node, const std::string& found,
   node.invalid("unknown-choice", "it is \"" + found + "\", expected " + names);
 }
 
-Schema named_schema(const std::string& name, const std::string& text, Schema schema) {
+Schema named_schema(std::string_view name, std::string_view text, Schema schema) {
   if (!text.empty()) schema["description"] = text;
   return {{"$name", name}, {"$of", std::move(schema)}};
 }

@@ -1,13 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/base/enumeration.h"
 #include "core/base/number_range.h"
 #include "core/base/time.h"
 #include "server/codec/format.h"
@@ -42,83 +41,60 @@ struct TextRule {
 struct Anything {};
 [[nodiscard]] FormatPtr<Anything> anything(std::string type);
 
-// A value that may be null.
-[[nodiscard]] Schema or_null(Schema schema);
-template <class T>
-class NullableFormat final : public Format<std::optional<T>> {
- public:
-  explicit NullableFormat(FormatPtr<T> format) : format_(std::move(format)) {}
-  void read(const JsonNode& node, std::optional<T>& out) const override {
-    if (node.raw().is_null()) return out.reset();
-    format_->read(node, out.emplace());
-  }
-  void write(JsonWriter& out, const std::optional<T>& value) const override {
-    if (value) return format_->write(out, *value);
-    out.value(nullptr);
-  }
-  Schema schema(Way way) const override { return or_null(format_->schema(way)); }
-
- private:
-  FormatPtr<T> format_;
+// What a format does with the std::optional<T> at an address.
+struct OptionalOperations {
+  const void* (*value)(const void* maybe);  // null: none
+  void* (*emplace)(void* maybe);
+  void (*reset)(void* maybe);
 };
 template <class T>
-[[nodiscard]] FormatPtr<std::optional<T>> nullable(FormatPtr<T> format) {
-  return make_as_base<NullableFormat<T>>(std::move(format));
+inline constexpr OptionalOperations kOptionalOperations{
+    [](const void* maybe) -> const void* {
+      const auto& value = *static_cast<const std::optional<T>*>(maybe);
+      return value ? &*value : nullptr;
+    },
+    [](void* maybe) -> void* { return &static_cast<std::optional<T>*>(maybe)->emplace(); },
+    [](void* maybe) { static_cast<std::optional<T>*>(maybe)->reset(); }};
+
+// A value that may be null.
+[[nodiscard]] AnyFormatPtr nullable(const AnyFormatPtr& format,
+                                    const OptionalOperations& operations);
+template <class T>
+[[nodiscard]] FormatPtr<std::optional<T>> nullable(const FormatPtr<T>& format) {
+  return FormatPtr<std::optional<T>>(nullable(format->any(), kOptionalOperations<T>));
 }
 
-[[nodiscard]] Schema choice_schema(const std::vector<std::string>& known);
 // Says that `found` is none of the names that are known.
 void refuse_choice(const JsonNode& node, const std::string& found,
                    const std::vector<std::string>& known);
 
-// An enumeration that is spelt out (core/base/enumeration.h).
-template <class E>
-class ChoiceFormat final : public Format<E> {
- public:
-  void read(const JsonNode& node, E& out) const override {
-    std::string name;
-    if (!node.read(name)) return;
-    if (const auto value = value_named<E>(name)) {
-      out = *value;
-    } else {
-      refuse_choice(node, name, names());
-    }
-  }
-  void write(JsonWriter& out, const E& value) const override { out.value(to_string(value)); }
-  Schema schema(Way) const override { return choice_schema(names()); }
-
- private:
-  static std::vector<std::string> names() {
-    std::vector<std::string> names;
-    for (const E value : kValues<E>) names.emplace_back(to_string(value));
-    return names;
-  }
+// An enumeration that is spelt out (core/base/enumeration.h): what a format does with the one at an
+// address. Its values count from zero.
+struct ChoiceOperations {
+  const char* (*name)(std::size_t value);  // null: there is no such value
+  std::size_t (*value)(const void* choice);
+  void (*set)(void* choice, std::size_t value);
 };
 template <class E>
+inline constexpr ChoiceOperations kChoiceOperations{
+    [](std::size_t value) { return to_string(static_cast<E>(value)); },
+    [](const void* choice) { return static_cast<std::size_t>(*static_cast<const E*>(choice)); },
+    [](void* choice, std::size_t value) { *static_cast<E*>(choice) = static_cast<E>(value); }};
+[[nodiscard]] AnyFormatPtr choice(const ChoiceOperations& operations);
+template <class E>
 [[nodiscard]] FormatPtr<E> choice() {
-  return make_as_base<ChoiceFormat<E>>();
+  return FormatPtr<E>(choice(kChoiceOperations<E>));
 }
 
 // What other descriptions refer to by name: "Job". In the schema it stands as {"$name", "$of"}
-// until references are made of that (schema_names.h).
-[[nodiscard]] Schema named_schema(const std::string& name, const std::string& text, Schema schema);
+// until references are made of that (schema_names.h). `text` may be empty.
+[[nodiscard]] Schema named_schema(std::string_view name, std::string_view text, Schema schema);
+[[nodiscard]] AnyFormatPtr named(std::string_view name, std::string_view text,
+                                 const AnyFormatPtr& format);
 template <class T>
-class NamedFormat final : public Format<T> {
- public:
-  NamedFormat(std::string name, std::string text, FormatPtr<T> format)
-      : name_(std::move(name)), text_(std::move(text)), format_(std::move(format)) {}
-  void read(const JsonNode& node, T& out) const override { format_->read(node, out); }
-  void write(JsonWriter& out, const T& value) const override { format_->write(out, value); }
-  Schema schema(Way way) const override { return named_schema(name_, text_, format_->schema(way)); }
-
- private:
-  std::string name_;
-  std::string text_;  // may be empty
-  FormatPtr<T> format_;
-};
-template <class T>
-[[nodiscard]] FormatPtr<T> named(std::string name, std::string text, FormatPtr<T> format) {
-  return make_as_base<NamedFormat<T>>(std::move(name), std::move(text), std::move(format));
+[[nodiscard]] FormatPtr<T> named(std::string_view name, std::string_view text,
+                                 const FormatPtr<T>& format) {
+  return FormatPtr<T>(named(name, text, format->any()));
 }
 
 }  // namespace armloom::formats

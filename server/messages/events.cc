@@ -113,24 +113,28 @@ FormatPtr<SnapshotView> snapshot_format() {
       }));
 }
 
-template <class T>
-struct Envelope {
+struct EventHead {
   const std::string* stream;
   std::uint64_t seq;
   TimePoint time;
+};
+template <class T>
+struct Envelope {
+  EventHead head;
   const T* data;
 };
 
 // "at": wall time, where the writer knows it.
-template <class T>
-class AtPart final : public Part<Envelope<T>> {
+class AtPart final : public AnyPart {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("at"); }
-  void read(const JsonNode&, Envelope<T>&) const override {}
-  void write(JsonWriter& out, const Envelope<T>& envelope) const override {
-    if (out.knows_wall_time()) out.key("at").wall_time(envelope.time);
+  void read_any(const JsonNode&, void*) const override {}
+  void write_any(JsonWriter& out, const void* head) const override {
+    if (out.knows_wall_time()) {
+      out.key("at").wall_time(static_cast<const EventHead*>(head)->time);
+    }
   }
-  void describe(Schema& object, const Envelope<T>&, Way way) const override {
+  void describe_any(Schema& object, const void*, Way way) const override {
     describe_member(object, {"at", "Wall time", Need::required, {}},
                     {{"type", "string"}, {"format", "date-time"}}, std::nullopt, way);
   }
@@ -141,6 +145,19 @@ FormatPtr<std::string> stream_format() {
       TextRule{[](std::string_view) { return true; }, "bad-stream", "", {{"format", "uuid"}}});
 }
 
+PartPtr<EventHead> head_part(const char* type) {
+  using Head = EventHead;
+  return parts<Head>({
+      told(
+          "stream", [](const Head& head) { return head.stream; }, stream_format(),
+          "Of this run of the server"),
+      told("seq", &Head::seq, count(), "Without holes within a stream"),
+      constant<Head>("type", type),
+      told("t_s", &Head::time, cell_time(), "Cell time"),
+      PartPtr<Head>(AnyPartPtr(new AtPart)),
+  });
+}
+
 template <class T>
 struct EventKind {
   const char* type;
@@ -148,20 +165,13 @@ struct EventKind {
   FormatPtr<Envelope<T>> format;
 };
 template <class T>
-EventKind<T> event_kind(const char* type, const char* name, FormatPtr<T> data) {
+EventKind<T> event_kind(const char* type, const char* name, const FormatPtr<T>& data) {
   using E = Envelope<T>;
   return {type, name,
           named(name, "",
                 object<E>({
-                    told(
-                        "stream", [](const E& e) { return e.stream; }, stream_format(),
-                        "Of this run of the server"),
-                    told("seq", &E::seq, count(), "Without holes within a stream"),
-                    constant<E>("type", type),
-                    told("t_s", &E::time, cell_time(), "Cell time"),
-                    make_as_base<AtPart<T>>(),
-                    told(
-                        "data", [](const E& e) { return e.data; }, std::move(data)),
+                    inlined(&E::head, head_part(type)),
+                    told("data", &E::data, data),
                 }))};
 }
 
@@ -195,13 +205,13 @@ const Kinds& kinds() {
 }
 
 // Poses are only looked at.
-class Rounded final : public Format<double> {
+class Rounded final : public CustomFormat<double> {
  public:
   void read(const JsonNode&, double&) const override {}
   void write(JsonWriter& out, const double& number) const override { out.rounded(number, 6); }
   Schema schema(Way) const override { return {{"type", "number"}}; }
 };
-FormatPtr<double> rounded() { return make_as_base<Rounded>(); }
+FormatPtr<double> rounded() { return make_format<Rounded>(); }
 
 struct NearView {
   const Proximity* proximity;
@@ -246,7 +256,7 @@ struct FrameView {
   double speed;
 };
 // {"<joint>": rad}, in the order of the cell.
-class PosesFormat final : public Format<FrameView> {
+class PosesFormat final : public CustomFormat<FrameView> {
  public:
   void read(const JsonNode&, FrameView&) const override {}
   void write(JsonWriter& out, const FrameView& view) const override {
@@ -278,8 +288,8 @@ FormatPtr<FrameView> frame_format() {
                 constant<View>("type", "state"),
                 told(
                     "t_s", [](const View& view) { return view.frame->time; }, cell_time()),
-                told<View>(
-                    "q", [](const View& view) { return &view; }, make_as_base<PosesFormat>(),
+                told(
+                    "q", [](const View& view) { return &view; }, make_format<PosesFormat>(),
                     "Every joint of the cell, rad or m"),
                 told("clearance", near, list(near_format())),
                 told(
@@ -295,7 +305,7 @@ FormatPtr<FrameView> frame_format() {
 std::string event_json(const Event& event, const std::string& stream, const WallClock* clock) {
   return std::visit(
       [&](const auto& body) {
-        return text_of(*kinds().of(body).format, {&stream, event.seq, event.time, &body}, clock);
+        return text_of(*kinds().of(body).format, {{&stream, event.seq, event.time}, &body}, clock);
       },
       event.body);
 }
@@ -303,7 +313,7 @@ std::string event_json(const Event& event, const std::string& stream, const Wall
 std::string snapshot_json(const SnapshotView& view, const std::string& stream,
                           const WallClock& clock) {
   const Snapshot& snapshot = *view.snapshot;
-  return text_of(*kinds().snapshot.format, {&stream, snapshot.seq, snapshot.time, &view}, &clock);
+  return text_of(*kinds().snapshot.format, {{&stream, snapshot.seq, snapshot.time}, &view}, &clock);
 }
 
 std::string state_json(const StateFrame& frame, const Cell& cell, double speed) {

@@ -42,7 +42,7 @@ const KindRule& rule_of(FaultKind kind) {
   return *std::ranges::find(kKinds, kind, &KindRule::kind);
 }
 
-class KindFormat final : public Format<FaultKind> {
+class KindFormat final : public CustomFormat<FaultKind> {
  public:
   void read(const JsonNode& node, FaultKind& kind) const override {
     std::string name;
@@ -71,7 +71,7 @@ class KindFormat final : public Format<FaultKind> {
   }
 };
 
-FormatPtr<FaultKind> kind_format() { return make_as_base<KindFormat>(); }
+FormatPtr<FaultKind> kind_format() { return make_format<KindFormat>(); }
 
 bool has_known_kind(const JsonNode& fault) {
   if (!fault.has("kind") || !fault.raw()["kind"].is_string()) return false;
@@ -80,7 +80,7 @@ bool has_known_kind(const JsonNode& fault) {
 }
 
 // "for_s" and "value", which are as the kind has them: read after it, if it is known.
-class KindsOwn final : public Part<FaultRequest> {
+class KindsOwn final : public CustomPart<FaultRequest> {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override {
     keys.insert(keys.end(), {"for_s", "value"});
@@ -130,7 +130,7 @@ class KindsOwn final : public Part<FaultRequest> {
 };
 
 // What is told of a value, or of an end, is as the kind has it.
-class WithinKind final : public Part<FaultRequest> {
+class WithinKind final : public CustomPart<FaultRequest> {
  public:
   void read(const JsonNode& object, FaultRequest& fault) const override {
     const KindRule& rule = rule_of(fault.kind);
@@ -151,7 +151,7 @@ PartPtr<FaultRequest> told_members(FormatPtr<TimePoint> at, FormatPtr<Duration> 
       always("for_s", &Fault::lasting, nullable(std::move(lasting)),
              "null: until removed; of a fault: until it has struck"),
       always("value", &Fault::value, number(kAnyNumber)),
-      make_as_base<WithinKind>(),
+      make_part<WithinKind>(),
   });
 }
 
@@ -162,7 +162,7 @@ FormatPtr<FaultRequest> make_fault_format(Need time_needed) {
       required("kind", &Fault::kind, kind_format(), "What goes wrong"),
       member({"at_s", "Cell time; default: now", time_needed, {}}, &Fault::at,
              cell_time(kFaultTimeMax_s)),
-      make_as_base<KindsOwn>(),
+      make_part<KindsOwn>(),
   });
 }
 

@@ -71,7 +71,7 @@ std::optional<std::string> detail_of(const WaitView& wait) {
 PartPtr<CheckView> make_verdict_part() {
   using View = CheckView;
   using Kind = Verdict::Kind;
-  return make_as_base<Parts<View>>(std::vector<PartPtr<View>>{
+  return parts<View>({
       told("verdict", &View::kind, choice<Kind>()),
       told("earliest_start_s", &View::earliest_start_s, nullable(number({0.0})),
            "From now; 0 where it would start at once, null when not known"),
@@ -189,9 +189,9 @@ FormatPtr<JobView> job_format() {
   return format;
 }
 
-const Part<CheckView>& verdict_part() {
+const PartPtr<CheckView>& verdict_part() {
   static const auto part = make_verdict_part();
-  return *part;
+  return part;
 }
 
 FormatPtr<CheckView> verdict_format() {

@@ -47,7 +47,7 @@ struct QueueJobs {
 
 // The answer to "what if"; its members alone, so that others can stand beside them.
 [[nodiscard]] FormatPtr<CheckView> verdict_format();
-[[nodiscard]] const formats::Part<CheckView>& verdict_part();
+[[nodiscard]] const formats::PartPtr<CheckView>& verdict_part();
 
 [[nodiscard]] FormatPtr<DiagramView> diagram_format();
 

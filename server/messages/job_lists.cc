@@ -14,7 +14,7 @@ using namespace formats;
 
 namespace {
 
-class ListedJobFormat final : public Format<ListedJob> {
+class ListedJobFormat final : public CustomFormat<ListedJob> {
  public:
   void read(const JsonNode&, ListedJob&) const override {}
   void write(JsonWriter& out, const ListedJob& job) const override {
@@ -28,7 +28,7 @@ class ListedJobFormat final : public Format<ListedJob> {
 };
 
 // {"status": 202, "job": {...}} or {"status": 422, "problem": {...}}
-class BatchResultFormat final : public Format<Result<ListedJob>> {
+class BatchResultFormat final : public CustomFormat<Result<ListedJob>> {
  public:
   void read(const JsonNode&, Result<ListedJob>&) const override {}
   void write(JsonWriter& out, const Result<ListedJob>& result) const override {
@@ -77,7 +77,7 @@ PartPtr<QueueJobs> jobs(const char* key, std::vector<ListedJob> QueueJobs::*wher
 }  // namespace
 
 FormatPtr<ListedJob> listed_job_format() {
-  static const FormatPtr<ListedJob> format = make_as_base<ListedJobFormat>();
+  static const FormatPtr<ListedJob> format = make_format<ListedJobFormat>();
   return format;
 }
 
@@ -128,7 +128,7 @@ FormatPtr<std::vector<ListedJob>> batch_accepted_format() {
 
 FormatPtr<std::vector<Result<ListedJob>>> batch_results_format() {
   static const auto format =
-      listed<Result<ListedJob>>("BatchResults", "results", make_as_base<BatchResultFormat>());
+      listed<Result<ListedJob>>("BatchResults", "results", make_format<BatchResultFormat>());
   return format;
 }
 

@@ -45,7 +45,7 @@ void slow_down(TrajectoryRequest& trajectory, double factor) {
 
 // The jobs of a batch, read after "atomic" and "order": alone each has its own answer, with places
 // in its own body.
-class BatchJobs final : public Part<BatchRequest> {
+class BatchJobs final : public CustomPart<BatchRequest> {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("jobs"); }
   void read(const JsonNode& object, BatchRequest& batch) const override {
@@ -98,13 +98,13 @@ FormatPtr<std::vector<TimedJob>> jobs_file_format() {
 
 PartPtr<JobRequest> retime_part() {
   using Request = JobRequest;
-  return make_as_base<MemberPart<Request, bool>>(
-      MemberText{"retime",
-                 "Times, velocities and accelerations are made: the fastest within the "
-                 "joints' limits along the waypoints (corners are cut by 0.01 rad at "
-                 "most), at rest at both ends. What the waypoints have of them is read "
-                 "over. A move_to is timed so with or without it",
-                 Need::optional, Schema(false)},
+  return member<Request>(
+      {"retime",
+       "Times, velocities and accelerations are made: the fastest within the "
+       "joints' limits along the waypoints (corners are cut by 0.01 rad at "
+       "most), at rest at both ends. What the waypoints have of them is read "
+       "over. A move_to is timed so with or without it",
+       Need::optional, Schema(false)},
       flag(), [](const Request&) { return std::optional<bool>(); },
       [](Request& request, bool retime) {
         for (TrajectoryRequest* motion : motions_of(request)) {
@@ -115,14 +115,14 @@ PartPtr<JobRequest> retime_part() {
 
 PartPtr<JobRequest> velocity_scaling_part() {
   using Request = JobRequest;
-  return make_as_base<MemberPart<Request, double>>(
-      MemberText{"velocity_scaling_factor",
-                 "As MoveIt's: the share of its speed at which the trajectory is run. It is "
-                 "stretched in time before anything is checked. Absent: as it is given; of what "
-                 "the server times (move_to, retime) the cell's "
-                 "execution.velocity_scaling_factor",
-                 Need::optional,
-                 {}},
+  return member<Request>(
+      {"velocity_scaling_factor",
+       "As MoveIt's: the share of its speed at which the trajectory is run. It is "
+       "stretched in time before anything is checked. Absent: as it is given; of what "
+       "the server times (move_to, retime) the cell's "
+       "execution.velocity_scaling_factor",
+       Need::optional,
+       {}},
       number({kVelocityScalingMin, 1.0}), [](const Request&) { return std::optional<double>(); },
       [](Request& request, double factor) {
         request.speed = factor;
@@ -203,7 +203,7 @@ FormatPtr<BatchRequest> batch_request_format() {
                 field("atomic", &BatchRequest::atomic, flag(), "All admitted or none"),
                 field("order", &BatchRequest::order, job_order_format(),
                       "Of every job that does not say it itself"),
-                make_as_base<BatchJobs>(),
+                make_part<BatchJobs>(),
             }));
   return format;
 }

@@ -13,7 +13,7 @@ using namespace formats;
 namespace {
 
 // As those of a pose frame: they are only looked at.
-class RoundedPositions final : public Format<Configuration> {
+class RoundedPositions final : public CustomFormat<Configuration> {
  public:
   void read(const JsonNode&, Configuration&) const override {}
   void write(JsonWriter& out, const Configuration& q) const override {
@@ -33,7 +33,7 @@ FormatPtr<MeasuredStates> measured_states_format() {
                 told("stream", &MeasuredStates::stream, text(), "The run, as events name it"),
                 told("joints", &MeasuredStates::joints, list(text()), "Every joint of the cell"),
                 told("t_s", &MeasuredStates::times, list(cell_time()), "Ascending"),
-                told("q", &MeasuredStates::q, list<Configuration>(make_as_base<RoundedPositions>()),
+                told("q", &MeasuredStates::q, list(make_format<RoundedPositions>()),
                      "At each of these times, in the order of the joints: rad or m"),
             }));
   return format;

@@ -18,7 +18,7 @@ namespace {
 using Value = decltype(Problem::value);
 
 // What was found: a text, a number, or null.
-class ValueFormat final : public Format<Value> {
+class ValueFormat final : public CustomFormat<Value> {
  public:
   void read(const JsonNode&, Value&) const override {}
   void write(JsonWriter& out, const Value& value) const override {
@@ -33,7 +33,7 @@ class ValueFormat final : public Format<Value> {
   Schema schema(Way) const override { return {{"type", {"string", "number", "null"}}}; }
 };
 
-FormatPtr<Value> value_format() { return make_as_base<ValueFormat>(); }
+FormatPtr<Value> value_format() { return make_format<ValueFormat>(); }
 
 FormatPtr<ProblemDocument::Error> error_format() {
   using Error = ProblemDocument::Error;

@@ -47,7 +47,7 @@ FormatPtr<ObjectDescription> make_object_format(Need name) {
   });
 }
 
-class CollisionObjectFormat final : public Format<CollisionObject> {
+class CollisionObjectFormat final : public CustomFormat<CollisionObject> {
  public:
   void read(const JsonNode& node, CollisionObject& object) const override {
     ObjectDescription description;
@@ -111,7 +111,7 @@ Result<CollisionObject> read_object_text(std::string_view text,
 FormatPtr<CollisionObject> object_format() {
   static const auto format = named<CollisionObject>(
       "Object", "An object of the scene: exactly one shape. A mesh is told by its address.",
-      make_as_base<CollisionObjectFormat>());
+      make_format<CollisionObjectFormat>());
   return format;
 }
 

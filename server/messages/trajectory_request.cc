@@ -27,7 +27,7 @@ FormatPtr<RosTime> ros_time(const std::string& seconds_key, const std::string& r
   });
 }
 
-class TimeFormat final : public Format<double> {
+class TimeFormat final : public CustomFormat<double> {
  public:
   void read(const JsonNode& node, double& seconds) const override {
     if (node.raw().is_number()) return seconds_->read(node, seconds);
@@ -55,8 +55,8 @@ class TimeFormat final : public Format<double> {
 
 FormatPtr<WaypointRequest> waypoint_format() {
   using Point = WaypointRequest;
-  const auto time = named<double>("Time", "ROS 2's, ROS 1's, or a number of seconds.",
-                                  make_as_base<TimeFormat>());
+  const auto time =
+      named<double>("Time", "ROS 2's, ROS 1's, or a number of seconds.", make_format<TimeFormat>());
   return named("Waypoint", "",
                object<Point>({
                    required("positions", &Point::positions, number_list(),
@@ -89,7 +89,7 @@ constexpr const char* kNested = "joint_trajectory";
 bool is_nested(const JsonNode& node) { return node.raw().is_object() && node.has(kNested); }
 
 // The trajectory inside of a nested one.
-class OnceNested final : public Format<TrajectoryRequest> {
+class OnceNested final : public CustomFormat<TrajectoryRequest> {
  public:
   void read(const JsonNode& node, TrajectoryRequest& out) const override {
     if (!is_nested(node)) return plain_->read(node, out);
@@ -105,7 +105,7 @@ class OnceNested final : public Format<TrajectoryRequest> {
 };
 
 // The trajectory of floating joints, which no cell has, as ROS prints one that is empty.
-class EmptyMultiDof final : public Format<Anything> {
+class EmptyMultiDof final : public CustomFormat<Anything> {
  public:
   void read(const JsonNode& node, Anything&) const override {
     if (!node.is_object()) return;
@@ -126,19 +126,18 @@ class EmptyMultiDof final : public Format<Anything> {
 
 FormatPtr<TrajectoryRequest> nested_format() {
   using Trajectory = TrajectoryRequest;
-  using Whole = MemberPart<Trajectory, Trajectory>;
   return named("RobotTrajectory", "MoveIt's nesting.",
                object<Trajectory>({
-                   make_as_base<Whole>(
-                       MemberText{kNested, "", Need::required, {}}, make_as_base<OnceNested>(),
+                   member<Trajectory>(
+                       {kNested, "", Need::required, {}}, make_format<OnceNested>(),
                        [](const Trajectory& whole) { return std::optional(whole); },
                        [](Trajectory& whole, Trajectory read) { whole = std::move(read); }),
-                   ignored<Trajectory, Anything>("multi_dof_joint_trajectory",
-                                                 make_as_base<EmptyMultiDof>(), "Must be empty"),
+                   ignored<Trajectory>("multi_dof_joint_trajectory", make_format<EmptyMultiDof>(),
+                                       "Must be empty"),
                }));
 }
 
-class PlainOrNested final : public Format<TrajectoryRequest> {
+class PlainOrNested final : public CustomFormat<TrajectoryRequest> {
  public:
   void read(const JsonNode& node, TrajectoryRequest& out) const override {
     (is_nested(node) ? nested_ : plain_)->read(node, out);
@@ -155,7 +154,7 @@ class PlainOrNested final : public Format<TrajectoryRequest> {
   FormatPtr<TrajectoryRequest> nested_ = nested_format();
 };
 
-class ToldTrajectory final : public Format<TrajectoryRequest> {
+class ToldTrajectory final : public CustomFormat<TrajectoryRequest> {
  public:
   void read(const JsonNode&, TrajectoryRequest&) const override {}
   void write(JsonWriter& out, const TrajectoryRequest& trajectory) const override {
@@ -170,12 +169,12 @@ class ToldTrajectory final : public Format<TrajectoryRequest> {
 }  // namespace
 
 FormatPtr<TrajectoryRequest> trajectory_request_format() {
-  static const FormatPtr<TrajectoryRequest> format = make_as_base<PlainOrNested>();
+  static const FormatPtr<TrajectoryRequest> format = make_format<PlainOrNested>();
   return format;
 }
 
 FormatPtr<TrajectoryRequest> told_trajectory_format() {
-  static const FormatPtr<TrajectoryRequest> format = make_as_base<ToldTrajectory>();
+  static const FormatPtr<TrajectoryRequest> format = make_format<ToldTrajectory>();
   return format;
 }
 

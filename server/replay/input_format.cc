@@ -27,7 +27,7 @@ using In = ExecutiveInput;
 
 // All that the type can hold, where count() ends with what clients may say.
 template <class T>
-class WholeFormat final : public Format<T> {
+class WholeFormat final : public CustomFormat<T> {
  public:
   void read(const JsonNode& node, T& out) const override {
     const nlohmann::json& raw = node.raw();
@@ -42,11 +42,11 @@ class WholeFormat final : public Format<T> {
 };
 template <class T = std::uint64_t>
 FormatPtr<T> whole() {
-  return make_as_base<WholeFormat<T>>();
+  return make_format<WholeFormat<T>>();
 }
 
 // In the client's words, as everything is validated anew.
-class BodyFormat final : public Format<std::shared_ptr<const std::string>> {
+class BodyFormat final : public CustomFormat<std::shared_ptr<const std::string>> {
  public:
   using Body = std::shared_ptr<const std::string>;
   void read(const JsonNode& node, Body& out) const override {
@@ -60,7 +60,7 @@ class BodyFormat final : public Format<std::shared_ptr<const std::string>> {
 PartPtr<In::AskedJob> asked_job_part() {
   return parts<In::AskedJob>({
       field("succeeded", &In::AskedJob::succeeded, list(text()), ""),
-      always("body", &In::AskedJob::body, FormatPtr<BodyFormat::Body>(make_as_base<BodyFormat>())),
+      always("body", &In::AskedJob::body, FormatPtr<BodyFormat::Body>(make_format<BodyFormat>())),
   });
 }
 
@@ -132,7 +132,7 @@ PartPtr<Alert> alert_part() {
 template <class Input>
 struct Kind {
   const char* name;
-  std::vector<PartPtr<Input>> fields;
+  PartList<Input> fields;
 };
 template <class>
 struct KindOfEach;
@@ -189,7 +189,7 @@ KindOfEach<decltype(In::what)>::Table kinds() {
 
 constexpr const char* kNameKey = "input";
 
-class LoggedInputFormat final : public Format<LoggedInput> {
+class LoggedInputFormat final : public CustomFormat<LoggedInput> {
  public:
   LoggedInputFormat() {
     std::apply([this](const auto&... kind) { (add(kind), ...); }, kinds());
@@ -220,8 +220,9 @@ class LoggedInputFormat final : public Format<LoggedInput> {
   };
   template <class Input>
   void add(const Kind<Input>& kind) {
-    const auto of_it = make_as_base<SpeltPart<ExecutiveInput, Input>>(
-        kind.fields, [](const ExecutiveInput& input) { return std::get<Input>(input.what); },
+    const auto of_it = spelt<ExecutiveInput, Input>(
+        kind.fields,
+        [](const ExecutiveInput& input) -> const Input& { return std::get<Input>(input.what); },
         [](const Input& input) { return ExecutiveInput{input}; });
     lines_.push_back({kind.name, object<LoggedInput>({
                                      always("ticks", &LoggedInput::ticks, whole()),
@@ -246,7 +247,7 @@ FormatPtr<InputLogHead> input_log_head_format() {
 }
 
 FormatPtr<LoggedInput> logged_input_format() {
-  static const auto format = make_as_base<LoggedInputFormat>();
+  static const auto format = make_format<LoggedInputFormat>();
   return format;
 }
 

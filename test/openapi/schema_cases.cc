@@ -42,7 +42,7 @@ struct Incoming {
 
 template <class T>
 Incoming incoming(std::string name, const Format<T>& format) {
-  return {std::move(name), format.schema(Way::in), [&format](const JsonNode& node, Problems&) {
+  return {std::move(name), format.schema(Way::in), [format](const JsonNode& node, Problems&) {
             T value{};
             format.read(node, value);
           }};

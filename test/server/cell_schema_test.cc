@@ -21,7 +21,11 @@ namespace fs = std::filesystem;
 
 const fs::path kConfig = fs::path(source_dir()) / "config";
 
-Schema written(const CellDescription& cell) { return as_json(cell_format(), cell); }
+Schema written(const CellDescription& cell) {
+  JsonWriter out;
+  cell_format().write(out, cell);
+  return as_json(out);
+}
 
 CellDescription read(const std::string& text) {
   auto cell = read_cell_text(text, kConfig);

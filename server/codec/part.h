@@ -1,0 +1,83 @@
+#pragma once
+
+#include <initializer_list>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "server/codec/format.h"
+
+namespace armloom::formats {
+
+// A part of the description of a JSON object: one member, several members that make up one value,
+// or a rule over members. The type of the object is erased as that of AnyFormat is.
+class AnyPart {
+ public:
+  AnyPart() = default;
+  AnyPart(const AnyPart&) = delete;
+  AnyPart& operator=(const AnyPart&) = delete;
+  virtual ~AnyPart() = default;
+  virtual void list_keys(std::vector<std::string_view>& /*keys*/) const {}
+  virtual void read_any(const JsonNode& object, void* out) const = 0;
+  // Keys with their values.
+  virtual void write_any(JsonWriter& /*out*/, const void* /*value*/) const {}
+  // Adds to the schema of the object: "properties", "required". What `defaults` holds is what an
+  // absent member means.
+  virtual void describe_any(Schema& object, const void* defaults, Way way) const = 0;
+  virtual void map_paths(nlohmann::json& /*object*/, const PathMap& /*map*/) const {}
+};
+using AnyPartPtr = SharedAny<AnyPart>;
+
+// A part of objects that stand for a T.
+template <class T>
+class PartPtr {
+ public:
+  // Precondition: `any` was made for T.
+  explicit PartPtr(AnyPartPtr any) : any_(std::move(any)) {}
+  void write(JsonWriter& out, const T& value) const { any_->write_any(out, &value); }
+  [[nodiscard]] const AnyPartPtr& any() const { return any_; }
+
+ private:
+  AnyPartPtr any_;
+};
+
+// The base of a part that is written by hand for a T.
+template <class T>
+class CustomPart : public AnyPart {
+ public:
+  using Value = T;
+  virtual void read(const JsonNode& object, T& out) const = 0;
+  virtual void describe(Schema& object, const T& defaults, Way way) const = 0;
+  void read_any(const JsonNode& object, void* out) const final {
+    read(object, *static_cast<T*>(out));
+  }
+  void describe_any(Schema& object, const void* defaults, Way way) const final {
+    describe(object, *static_cast<const T*>(defaults), way);
+  }
+};
+
+// Kind: a CustomPart.
+template <class Kind, class... Arguments>
+[[nodiscard]] PartPtr<typename Kind::Value> make_part(Arguments&&... arguments) {
+  return PartPtr<typename Kind::Value>(AnyPartPtr(new Kind(std::forward<Arguments>(arguments)...)));
+}
+
+using AnyParts = std::vector<AnyPartPtr>;
+void add_part(AnyParts& parts, const AnyPartPtr& part);
+
+// Parts of objects that stand for a T.
+template <class T>
+class PartList {
+ public:
+  PartList() = default;
+  PartList(std::initializer_list<PartPtr<T>> parts) { add(parts); }  // NOLINT: meant to be implicit
+  void add(std::initializer_list<PartPtr<T>> parts) {
+    for (const PartPtr<T>& part : parts) add_part(parts_, part.any());
+  }
+  [[nodiscard]] const AnyParts& any() const { return parts_; }
+
+ private:
+  AnyParts parts_;
+};
+
+}  // namespace armloom::formats
