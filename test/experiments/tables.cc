@@ -84,8 +84,7 @@ std::string workload_heading(const WorkloadKind& kind, const Rows& any) {
          limit([](const Limits& l) { return l.bound.excluding_s; }) + ". Optimum between " +
          limit([](const Limits& l) { return l.optimum.least_s; }) + " and " +
          limit([](const Limits& l) { return l.optimum.most_s; }) +
-         (any.front()->busy.size() > 2 ? " (of the pair that needs most: a bound)" : "") +
-         ".\n\n![](makespan_" + kind.name + ".svg)\n\n";
+         (any.front()->busy.size() > 2 ? " (of the pair that needs most: a bound)" : "") + ".\n\n";
 }
 
 }  // namespace
