@@ -12,21 +12,6 @@
 
 namespace armloom {
 
-// A link and another link or object that no check looks at.
-struct SkippedPair {
-  enum class Reason {
-    robot_files,   // one rigid body; or disabled by the SRDF within an arm or with its mount
-    cell_file,     // in the cell file's allowed_collisions
-    out_of_reach,  // disabled by the SRDF, and proven to keep the cell's clearance
-  };
-  std::string body_a;
-  std::string body_b;
-  Reason reason;
-
-  bool operator==(const SkippedPair&) const = default;
-};
-[[nodiscard]] const char* to_string(SkippedPair::Reason reason);
-
 // Everything that a collision query needs and that does not move: the shapes of all links and
 // objects, held ones too (each cylinder with two end spheres of its radius merged into the exact
 // capsule; each mesh its convex pieces or hull as FCL geometry and, where it is closed, its
@@ -64,10 +49,6 @@ class PlanningScene {
   [[nodiscard]] const Cell& cell() const;
   // The content of the scene, for certificates.
   [[nodiscard]] const SceneFingerprint& fingerprint() const;
-
-  // Returns every pair of bodies, one of them an arm's, that is not looked at: links by id, then
-  // links with objects of the scene. What held objects may touch is not among them (Attachment).
-  [[nodiscard]] std::vector<SkippedPair> skipped_pairs() const;
 
   struct Bodies;  // FCL inside; only core/collision looks at it
   [[nodiscard]] const Bodies& bodies() const;
