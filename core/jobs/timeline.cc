@@ -126,17 +126,10 @@ class Timetable {
 }  // namespace
 
 PredictedTimeline predicted_timeline(const State& state, TimePoint now) {
-  PredictedTimeline timeline{.now = now, .legs = {}, .waiting = {}};
+  PredictedTimeline timeline{.now = now, .legs = {}};
   const Timetable timetable(state, now);
   for (std::size_t m = 0; m < state.graph.motions().size(); ++m) {
     timeline.legs.push_back(timetable.leg(m));
-  }
-  // Whatever is admitted stands in the queues of its arms.
-  for (const auto& queue : state.jobs.queues()) timeline.waiting.push_back(queue.size());
-  for (const CoordinatedMotion& motion : state.graph.motions()) {
-    for (ArmId arm : state.jobs.at(motion.job).job.trajectory->arms()) {
-      --timeline.waiting[arm.index()];
-    }
   }
   return timeline;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -26,8 +25,7 @@ struct PredictedLeg {
 
 struct PredictedTimeline {
   TimePoint now;
-  std::vector<PredictedLeg> legs;    // those of one arm in the order in which they go
-  std::vector<std::size_t> waiting;  // by ArmId: jobs that are not admitted
+  std::vector<PredictedLeg> legs;  // those of one arm in the order in which they go
 };
 
 // What follows from the precedence graph, whichever policy chose the orders, if everything goes as
