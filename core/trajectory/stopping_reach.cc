@@ -4,8 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "core/trajectory/stretch_bounds.h"
-
 namespace armloom {
 namespace {
 

@@ -33,6 +33,10 @@ struct SegmentBounds {
   Eigen::VectorXd acceleration;
 };
 
+// Of the part of a segment from `from_s` to `to_s` after it begins: the tighter the shorter that
+// is. Sound but for rounding (1e-12). Precondition: from_s <= to_s.
+[[nodiscard]] SegmentBounds bounds_of(const Segment& segment, double from_s, double to_s);
+
 // A valid timed trajectory of the joints of one or more arms: parsed, within limits, at rest at
 // both ends. Immutable; made only by validate() (core/trajectory/validate.h) and shared freely,
 // between threads too. Interpolation is that of ROS's joint_trajectory_controller: cubic where

@@ -3,18 +3,52 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "core/executive/live_scene.h"
 #include "server/codec/json_text.h"
 #include "server/codec/read_text.h"
 #include "server/durable/damage.h"
-#include "server/durable/left_objects.h"
 #include "server/messages/job.h"
 #include "server/messages/job_amendment.h"
 #include "server/messages/job_request.h"
 #include "server/messages/problem.h"
+#include "server/messages/scene.h"
+#include "server/store/stored_object.h"
 
 namespace armloom {
 namespace {
+
+// What is not as clients of the former run had left it.
+struct ObjectNotPutBack {
+  std::string name;
+  std::string why;  // a sentence
+};
+
+Result<void> put_back(const StoredObject& stored, LiveScene& scene) {
+  const bool is_there = has_object(scene.objects(), stored.name);
+  if (!stored.text) return is_there ? scene.remove(stored.name) : Result<void>();
+  auto object = read_object_text(*stored.text, stored.name);
+  if (!object) return failure(std::move(object.error()));
+  return is_there ? scene.replace(std::move(*object)) : scene.add(std::move(*object));
+}
+
+// Makes the scene what clients of the former run had made of it. On the strand, before anything
+// moves.
+std::vector<ObjectNotPutBack> put_back(const std::vector<LeftObject>& objects, LiveScene& scene) {
+  std::vector<ObjectNotPutBack> not_done;
+  for (const LeftObject& left : objects) {
+    const std::string what = "object \"" + left.object.name + "\" is not as it was: ";
+    if (left.is_damaged) {
+      not_done.push_back({left.object.name, what + "it is damaged in the data folder"});
+    } else if (const auto done = put_back(left.object, scene); !done) {
+      not_done.push_back({left.object.name, what + problem_sentence("", done.error().front())});
+    }
+  }
+  return not_done;
+}
 
 // A view that was damaged may be no JSON any more: then nothing but its id is told of the job.
 nlohmann::ordered_json view_of(const StoredJob& job, const WallClock& clock) {

@@ -4,15 +4,54 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
+#include <string>
 
+#include "core/model/srdf/joint_limits_file.h"
 #include "core/model/srdf/srdf_reader.h"
+#include "core/model/urdf/robot_tree.h"
 #include "core/model/urdf/urdf_reader.h"
 #include "core/model/xml/robot_file.h"
 #include "server/import/homes.h"
-#include "server/import/limit_guesses.h"
 
 namespace armloom {
 namespace {
+
+// Slow and short enough for any robot that is built.
+constexpr double kAngle_rad = 1.0;
+constexpr double kSpeed_rad_s = 0.5;
+constexpr double kLength_m = 0.1;
+constexpr double kSpeed_m_s = 0.05;
+
+// Limits that a cell needs of an arm's joints and that neither the URDF nor joint_limits.yaml
+// (null: there is none) gives, by joint: cautious guesses, for somebody to replace.
+std::map<std::string, JointLimitsDescription> guess_limits(const RobotTree& tree,
+                                                           const RobotSemantics::JointSet& joints,
+                                                           const LimitsFile* file) {
+  std::map<std::string, JointLimitsDescription> guesses;
+  for (const std::size_t index : joints) {
+    const TreeLink& link = tree.links[index];
+    if (!link.joint.is_independent()) continue;
+    JointLimitsDescription filed;
+    if (file != nullptr) {
+      const auto found = file->joints.find(link.joint.name);
+      if (found != file->joints.end()) filed = found->second.limits;
+    }
+    const bool slides = link.joint.motion == JointKind::prismatic;
+    const UrdfLimits& urdf = link.joint.limits;
+    JointLimitsDescription guess;
+    if (!urdf.velocity && !filed.velocity) guess.velocity = slides ? kSpeed_m_s : kSpeed_rad_s;
+    // Of one bound the other follows (URDF: zero).
+    const bool bounded = urdf.lower || urdf.upper || filed.lower || filed.upper;
+    if (link.joint.motion != JointKind::continuous && !bounded) {
+      guess.lower = slides ? 0.0 : -kAngle_rad;
+      guess.upper = slides ? kLength_m : kAngle_rad;
+    }
+    if (slides) guess.keys = {"velocity_m_s", "lower_m", "upper_m"};
+    if (guess.velocity || guess.lower) guesses[link.joint.name] = guess;
+  }
+  return guesses;
+}
 
 std::string name_in(const std::string& urdf_text) {
   tinyxml2::XMLDocument document;

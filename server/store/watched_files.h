@@ -1,13 +1,47 @@
 #pragma once
 
+#include <sys/stat.h>
+
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-
-#include "server/store/placed_file.h"
+#include <utility>
 
 namespace armloom {
+
+// A file as it stood at its path when this was made (precondition: it did): whoever has it open
+// goes on to write where nobody will look when it was removed or replaced since.
+class PlacedFile {
+ public:
+  explicit PlacedFile(std::filesystem::path path) : path_(std::move(path)) {
+    (void)stat(path_.c_str(), &was_);
+  }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] bool is_in_place() const {
+    struct stat now {};
+    return stat(path_.c_str(), &now) == 0 && now.st_dev == was_.st_dev && now.st_ino == was_.st_ino;
+  }
+
+  // From now on it is at least as long as it is now, or as `most` if that is less.
+  void has_grown(std::uintmax_t most) {
+    struct stat now {};
+    if (stat(path_.c_str(), &now) == 0)
+      least_ = std::min(most, static_cast<std::uintmax_t>(now.st_size));
+  }
+  [[nodiscard]] bool is_cut_off() const {
+    struct stat now {};
+    return stat(path_.c_str(), &now) == 0 && static_cast<std::uintmax_t>(now.st_size) < least_;
+  }
+
+ private:
+  std::filesystem::path path_;
+  struct stat was_ {};
+  std::uintmax_t least_ = 0;
+};
 
 // SQLite's log beside the store of a data folder.
 [[nodiscard]] std::filesystem::path log_of(const std::filesystem::path& folder);

@@ -5,7 +5,7 @@
 
 namespace armloom {
 
-// Where none of the straight ways aside is free (ways_aside.h) and the cell wants ways to be
+// Where none of the straight ways aside is free (yield_moves.cc) and the cell wants ways to be
 // planned (on_idle_blocker "replan"): one to wherever the arm stands clear of the blocked job's
 // motion. It is planned once from where the arm came to rest, and is then a trial like any other.
 
