@@ -1,8 +1,6 @@
 #include "test/experiments/charts.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 
 #include "test/experiments/tables.h"
 
@@ -67,8 +65,6 @@ class Scale {
   double longest_s_;
 };
 
-constexpr const char* kColours[] = {"#4878a8", "#c8703a", "#5a9a5a", "#8a62a8", "#a88a30"};
-
 }  // namespace
 
 std::string makespan_svg(const WorkloadKind& kind, const std::vector<RunRow>& rows) {
@@ -86,7 +82,7 @@ std::string makespan_svg(const WorkloadKind& kind, const std::vector<RunRow>& ro
     const auto of_policy = rows_of(rows, kind.name, policy);
     const double mean_s = spread_of(of_policy, &RunRow::makespan_s).mean;
     picture.word(kLeft - 8, y + 15, "end", policy);
-    picture.box({kLeft, y, scale.x(mean_s) - kLeft, 21}, kColours[0], 0.75);
+    picture.box({kLeft, y, scale.x(mean_s) - kLeft, 21}, "#4878a8", 0.75);
     for (std::size_t i = 0; i < of_policy.size(); ++i) {
       const double part = static_cast<double>(i + 1) / static_cast<double>(of_policy.size() + 1);
       picture.dot(scale.x(of_policy[i]->makespan_s), y + 21.0 * part);
@@ -99,57 +95,6 @@ std::string makespan_svg(const WorkloadKind& kind, const std::vector<RunRow>& ro
   picture.word(kLeft, 44, "start", "dashed: lower bound, " + fixed(bound_s, 2) + " s", 12);
   scale.draw(picture, y + 6.0);
   return picture.svg(y + 30.0);
-}
-
-std::string timeline_svg(const std::string& title, const Cell& cell,
-                         const std::vector<const Timeline*>& timelines) {
-  constexpr double kLane = 20.0;
-  double longest_s = 0.0;
-  std::map<std::string, std::size_t> colours;
-  for (const Timeline* timeline : timelines) {
-    for (const Timeline::Bar& bar : timeline->jobs) {
-      longest_s = std::max(longest_s, bar.to_s);
-      colours.try_emplace(bar.kind, colours.size());
-    }
-  }
-  const Scale scale(longest_s);
-  Picture picture;
-  picture.word(16, 24, "start", title, 14);
-  double x = kLeft;
-  for (const auto& [kind, colour] : colours) {
-    picture.box({x, 36, 12, 12}, kColours[colour % std::size(kColours)]);
-    picture.word(x + 18, 46, "start", kind, 12);
-    x += 90.0;
-  }
-  picture.word(x, 46, "start", "pale: under way, standing", 12);
-  double y = 62.0;
-  for (const Timeline* timeline : timelines) {
-    double end_s = 0.0;
-    picture.word(16, y + 12, "start", timeline->policy);
-    y += 18.0;
-    for (std::size_t arm = 0; arm < cell.arms.size(); ++arm) {
-      picture.word(kLeft - 8, y + 13, "end", cell.arms[arm].name, 12);
-      for (const Timeline::Bar& job : timeline->jobs) {
-        if (job.arm != arm) continue;
-        end_s = std::max(end_s, job.to_s);
-        const char* colour = kColours[colours.at(job.kind) % std::size(kColours)];
-        const double gap = 0.5;  // between one job and the next
-        const double width = scale.x(job.to_s) - scale.x(job.from_s) - gap;
-        picture.box({scale.x(job.from_s) + gap, y, width, kLane - 4}, colour, 0.3);
-        for (const Timeline::Bar& span : timeline->moving) {
-          const double from_s = std::max(span.from_s, job.from_s);
-          const double to_s = std::min(span.to_s, job.to_s);
-          if (span.arm != arm || to_s <= from_s) continue;
-          picture.box({scale.x(from_s), y, scale.x(to_s) - scale.x(from_s), kLane - 4}, colour);
-        }
-      }
-      y += kLane;
-    }
-    picture.word(kRight + 14, y - kLane, "start", fixed(end_s, 2) + " s");
-    y += 8.0;
-  }
-  scale.draw(picture, y + 4.0);
-  return picture.svg(y + 28.0);
 }
 
 }  // namespace armloom::experiments

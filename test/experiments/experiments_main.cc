@@ -70,21 +70,6 @@ void write(const fs::path& file, const std::string& text) {
   if (!out) throw std::runtime_error("cannot write " + file.string());
 }
 
-// Of the policies that are worth a look beside each other.
-void write_timelines(const Plan& plan, const Results& results, const fs::path& folder) {
-  for (std::size_t i = 0; i < plan.workloads.size(); ++i) {
-    std::vector<const Timeline*> shown;
-    for (const Timeline& timeline : results.timelines[i].policies) {
-      for (const char* policy : {"lockstep", "certified", "earliest_start", "coordinated"}) {
-        if (timeline.policy == policy) shown.push_back(&timeline);
-      }
-    }
-    if (shown.empty()) continue;
-    write(folder / ("timeline_" + plan.workloads[i].name + ".svg"),
-          timeline_svg(plan.workloads[i].title + ", seed 1", *results.timelines[i].cell, shown));
-  }
-}
-
 int experiments(int argc, char** argv) {
   const auto options = options_of(argc, argv);
   const Plan plan = plan_of(options);
@@ -99,7 +84,6 @@ int experiments(int argc, char** argv) {
   for (const WorkloadKind& kind : plan.workloads) {
     write(folder / ("makespan_" + kind.name + ".svg"), makespan_svg(kind, results.rows));
   }
-  write_timelines(plan, results, folder);
   std::cout << table << '\n';
 
   // Of the most ambitious policy that ran.

@@ -208,9 +208,9 @@ TEST(Claims, CompareSeedBySeedAndWithTheOptimum) {
 TEST(Delays, TakeTheTimeThatTheySay) {
   Workload workload = workload_kind("shuttles").make(1);
   workload.jobs.erase(workload.jobs.begin() + 4, workload.jobs.end());
-  const double before_s = run_policy(workload, "shuttles", "sequential", 1, {}).row.makespan_s;
+  const double before_s = run_policy(workload, "shuttles", "sequential", 1, {}).makespan_s;
   workload.jobs[2].delay = JobDelay{1.0, 0.5};
-  const double after_s = run_policy(workload, "shuttles", "sequential", 1, {}).row.makespan_s;
+  const double after_s = run_policy(workload, "shuttles", "sequential", 1, {}).makespan_s;
   const double twice_s = to_seconds(workload.jobs[2].trajectory->duration());
   EXPECT_NEAR(after_s - before_s, 1.0 + twice_s, 0.1);
 }

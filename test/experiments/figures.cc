@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iostream>
 #include <map>
-#include <optional>
 #include <stdexcept>
 
 #include "test/experiments/fixed_orders.h"
@@ -19,34 +18,22 @@ constexpr double kMoves_rad = 1e-7;  // in one control cycle
 // Sees which arms move, and which jobs are put off.
 class Spectator final : public Observer {
  public:
-  explicit Spectator(const Cell& cell) : cell_(cell), since_(cell.arms.size()) {}
+  explicit Spectator(const Cell& cell) : cell_(cell) {}
 
   void on_event(const Event& event) override {
     const auto* job = std::get_if<JobView>(&event.body);
     if (job != nullptr && job->state == JobState::backlogged) backlogged_[job->key] = true;
   }
-  void on_tick(TimePoint now, const Configuration& measured) override {
+  void on_tick(TimePoint, const Configuration& measured) override {
     std::size_t moving = 0;
-    for (std::size_t i = 0; i < since_.size(); ++i) {
-      if (!moved(i, measured)) {
-        close(i, now);
-        continue;
-      }
-      ++moving;
-      if (!since_[i]) since_[i] = now;
-    }
+    for (std::size_t i = 0; i < cell_.arms.size(); ++i) moving += moved(i, measured) ? 1 : 0;
     if (moving >= 2) together_ += kControlPeriod;
     last_ = measured;
-    now_ = now;
   }
   void on_state(const StateFrame&) override {}
 
   [[nodiscard]] std::size_t backlogged() const { return backlogged_.size(); }
   [[nodiscard]] Duration together() const { return together_; }
-  [[nodiscard]] std::vector<Timeline::Bar> take_spans() {
-    for (std::size_t i = 0; i < since_.size(); ++i) close(i, now_);
-    return std::move(spans_);
-  }
 
  private:
   [[nodiscard]] bool moved(std::size_t arm, const Configuration& measured) const {
@@ -57,16 +44,8 @@ class Spectator final : public Observer {
     });
   }
 
-  void close(std::size_t arm, TimePoint now) {
-    if (since_[arm]) spans_.push_back({arm, to_seconds(*since_[arm]), to_seconds(now), ""});
-    since_[arm].reset();
-  }
-
   const Cell& cell_;
-  TimePoint now_{};
   Configuration last_;
-  std::vector<std::optional<TimePoint>> since_;  // by arm: moves
-  std::vector<Timeline::Bar> spans_;
   std::map<std::string, bool> backlogged_;
   Duration together_{};
 };
@@ -78,16 +57,17 @@ std::map<std::string, const PlannedJob*> index_of(const std::vector<PlannedJob>&
   return index;
 }
 
-// Waits, holds, and the jobs of the timeline.
-void note_jobs(const SimulationResult& result, const std::vector<PlannedJob>& planned, Run& run) {
+// Waits and holds.
+void note_jobs(const SimulationResult& result, const std::vector<PlannedJob>& planned,
+               RunRow& row) {
   const auto index = index_of(planned);
   std::map<std::size_t, TimePoint> free_at;  // by arm: when the job before has ended
   std::size_t started = 0;
   for (const JobView& job : result.jobs) {
     if (job.state != JobState::succeeded) {
-      ++run.row.not_succeeded;
-      std::cerr << run.row.workload << ", seed " << run.row.seed << ", " << run.row.policy << ": "
-                << job.key << " is " << to_string(job.state) << ' ' << job.detail() << '\n';
+      ++row.not_succeeded;
+      std::cerr << row.workload << ", seed " << row.seed << ", " << row.policy << ": " << job.key
+                << " is " << to_string(job.state) << ' ' << job.detail() << '\n';
     }
     const PlannedJob& known = *index.at(job.key);
     if (!job.times.started_at || !job.times.ended_at) continue;
@@ -97,22 +77,20 @@ void note_jobs(const SimulationResult& result, const std::vector<PlannedJob>& pl
                                 : std::max(job.times.submitted_at, before->second);
     free_at[known.arm.index()] = *job.times.ended_at;
     const double wait_s = to_seconds(*job.times.started_at - ready);
-    run.row.wait_mean_s += wait_s;
-    run.row.wait_max_s = std::max(run.row.wait_max_s, wait_s);
-    run.row.held_mean_s +=
+    row.wait_mean_s += wait_s;
+    row.wait_max_s = std::max(row.wait_max_s, wait_s);
+    row.held_mean_s +=
         to_seconds(*job.times.ended_at - *job.times.started_at - job.motion.duration);
-    run.timeline.jobs.push_back({known.arm.index(), to_seconds(*job.times.started_at),
-                                 to_seconds(*job.times.ended_at), known.kind});
     ++started;
   }
-  run.row.wait_mean_s /= static_cast<double>(std::max<std::size_t>(started, 1));
-  run.row.held_mean_s /= static_cast<double>(std::max<std::size_t>(started, 1));
+  row.wait_mean_s /= static_cast<double>(std::max<std::size_t>(started, 1));
+  row.held_mean_s /= static_cast<double>(std::max<std::size_t>(started, 1));
 }
 
 }  // namespace
 
-Run run_policy(const Workload& workload, const std::string& name, const std::string& policy,
-               std::uint64_t seed, const Limits& limits) {
+RunRow run_policy(const Workload& workload, const std::string& name, const std::string& policy,
+                  std::uint64_t seed, const Limits& limits) {
   const bool alone = policy == kOneArm;
   const std::vector<PlannedJob>& planned = alone ? workload.one_arm : workload.jobs;
   std::vector<TimedJob> jobs;
@@ -135,11 +113,9 @@ Run run_policy(const Workload& workload, const std::string& name, const std::str
     throw std::runtime_error(result->refused.front().problems.front().detail);
   }
 
-  Run run{{.workload = name, .policy = policy, .seed = seed, .jobs = planned.size()}, {policy}};
-  RunRow& row = run.row;
+  RunRow row{.workload = name, .policy = policy, .seed = seed, .jobs = planned.size()};
   row.limits = limits;
-  note_jobs(*result, planned, run);
-  run.timeline.moving = spectator.take_spans();
+  note_jobs(*result, planned, row);
   row.makespan_s = to_seconds(result->figures.last_end);
   for (const Duration busy : result->figures.busy) {
     row.busy.push_back(to_seconds(busy) / row.makespan_s);
@@ -151,7 +127,7 @@ Run run_policy(const Workload& workload, const std::string& name, const std::str
   row.judgements = result->judging.judgements;
   row.evaluations = result->judging.evaluations;
   row.judging_s = to_seconds(result->judging.wall);
-  return run;
+  return row;
 }
 
 Spread spread_of(const std::vector<double>& values) {

@@ -41,27 +41,12 @@ struct RunRow {
   double judging_s = 0.0;  // of the machine
 };
 
-// When what was under way, and when it moved.
-struct Timeline {
-  struct Bar {
-    std::size_t arm;
-    double from_s, to_s;
-    std::string kind;  // PlannedJob::kind
-  };
-  std::string policy;
-  std::vector<Bar> jobs;
-  std::vector<Bar> moving;  // kind empty
-};
-
-struct Run {
-  RunRow row;
-  Timeline timeline;
-};
 // Runs the jobs under a policy, on simulated time. `policy` kOneArm: workload.one_arm, one job
 // after the other. Says on stderr which jobs did not succeed. Throws std::runtime_error when the
 // executive cannot be made or a job is refused.
-[[nodiscard]] Run run_policy(const Workload& workload, const std::string& name,
-                             const std::string& policy, std::uint64_t seed, const Limits& limits);
+[[nodiscard]] RunRow run_policy(const Workload& workload, const std::string& name,
+                                const std::string& policy, std::uint64_t seed,
+                                const Limits& limits);
 
 // Of several runs: mean and standard deviation (of the sample).
 struct Spread {

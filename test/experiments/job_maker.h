@@ -21,7 +21,7 @@ struct JobDelay {
 // A job as a client submits it, and what the experiments know of it.
 struct PlannedJob {
   ArmId arm;
-  std::string kind;  // "pick", "place", ...: its colour in a timeline
+  std::string kind;  // "pick", "place", ...
   TimedJob timed;
   TrajectoryPtr trajectory;
   std::optional<JobDelay> delay = {};

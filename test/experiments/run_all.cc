@@ -14,13 +14,8 @@ namespace {
 
 constexpr Duration kMoment = std::chrono::milliseconds(50);  // of the lower bound
 
-struct SeedRuns {
-  CellPtr cell;
-  std::vector<Run> runs;
-};
-
-SeedRuns run_seed(const WorkloadKind& kind, std::uint64_t seed,
-                  const std::vector<std::string>& policies) {
+std::vector<RunRow> run_seed(const WorkloadKind& kind, std::uint64_t seed,
+                             const std::vector<std::string>& policies) {
   const Workload workload = kind.make(seed);
   const Workload given =
       kind.freed_from.empty() ? workload : workload_kind(kind.freed_from).make(seed);
@@ -30,24 +25,24 @@ SeedRuns run_seed(const WorkloadKind& kind, std::uint64_t seed,
                     job.timed.at});
   }
   const Limits limits{lower_bound(workload.cell, work, kMoment), optimum(workload.cell, work)};
-  SeedRuns done{workload.cell, {}};
+  std::vector<RunRow> rows;
   if (!workload.one_arm.empty()) {
-    done.runs.push_back(run_policy(workload, kind.name, kOneArm, seed, limits));
+    rows.push_back(run_policy(workload, kind.name, kOneArm, seed, limits));
   }
   if (kind.delayed) {
-    done.runs.push_back(run_policy(workload, kind.name, kFixedOrders, seed, limits));
+    rows.push_back(run_policy(workload, kind.name, kFixedOrders, seed, limits));
   }
   for (const std::string& policy : policies) {
-    done.runs.push_back(run_policy(workload, kind.name, policy, seed, limits));
+    rows.push_back(run_policy(workload, kind.name, policy, seed, limits));
   }
-  return done;
+  return rows;
 }
 
 }  // namespace
 
 Results run_all(const Plan& plan) {
   const std::size_t count = plan.workloads.size() * plan.seeds;
-  std::vector<SeedRuns> done(count);
+  std::vector<std::vector<RunRow>> done(count);
   std::vector<std::exception_ptr> thrown(count);
   std::atomic<std::size_t> next = 0;
   std::mutex talking;
@@ -71,12 +66,7 @@ Results run_all(const Plan& plan) {
   Results results;
   for (std::size_t i = 0; i < count; ++i) {
     if (thrown[i]) std::rethrow_exception(thrown[i]);
-    const bool first = i % plan.seeds == 0;
-    if (first) results.timelines.push_back({plan.workloads[i / plan.seeds].name, done[i].cell, {}});
-    for (Run& run : done[i].runs) {
-      results.rows.push_back(std::move(run.row));
-      if (first) results.timelines.back().policies.push_back(std::move(run.timeline));
-    }
+    for (RunRow& row : done[i]) results.rows.push_back(std::move(row));
   }
   return results;
 }

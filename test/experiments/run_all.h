@@ -16,12 +16,6 @@ struct Plan {
 
 struct Results {
   std::vector<RunRow> rows;  // by workload, seed and policy, as planned; one arm first
-  struct Timelines {
-    std::string workload;
-    CellPtr cell;
-    std::vector<Timeline> policies;  // of seed 1
-  };
-  std::vector<Timelines> timelines;
 };
 // Every policy on the same jobs. The same rows for any number of threads, but for judging_s. Says
 // on stderr which seed of which workload is done. Throws what a run throws.
