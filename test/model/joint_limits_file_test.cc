@@ -101,6 +101,13 @@ TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
       problems,
       HasSubstr("joint_limits.yaml:12: joint r_spin: has_velocity_limits stands there twice"));
   EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:14: joint r_spin: more than one joint has"));
+  EXPECT_THAT(
+      problems_of(with_limits_file(folder,
+                                   "joint_limits:\n  l_turn: {max_velocity: [1]}\n  r_spin: 3\n"
+                                   "  r_bend: {min_position: 2, max_position: 1}\n")),
+      AllOf(HasSubstr("l_turn: max_velocity is 'no single value', not a finite number"),
+            HasSubstr("joint_limits.yaml:3: joint r_spin: limits are expected, as keys and values"),
+            HasSubstr("r_bend: min_position 2 is above max_position 1")));
 }
 
 // What it would have said is not known: nobody has to give it in the cell instead.

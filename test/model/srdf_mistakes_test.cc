@@ -58,6 +58,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<enable_collisions link1=", "<enable_collision link1=", "twin.srdf: robot",
                 "twin.srdf: robot: <enable_collision> is not known; did you mean "
                 "<enable_collisions>?"},
+        Mistake{"<joint name=\"l_turn\"/>", "<joint/>", "twin.srdf: group left_arm",
+                "twin.srdf: group left_arm: joint name is missing"},
         Mistake{"<joint name=\"l_turn\"/>", "<Joint name=\"l_turn\"/>", "twin.srdf: group left_arm",
                 "twin.srdf: group left_arm: <Joint> is not known; did you mean <joint>?"},
         Mistake{"<?xml version=\"1.0\"?>", "<!DOCTYPE robot>", "twin.srdf:1",
@@ -103,6 +105,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "twin.srdf: group_state out of left_arm", "joint l_turn has no value"},
         Mistake{"<joint name=\"l_turn\" value=\"1.5\"/>", "<joint name=\"r_spin\" value=\"1.5\"/>",
                 "twin.srdf: group_state out of left_arm", "joint r_spin is not in the group"},
+        Mistake{"<joint name=\"l_turn\" value=\"1.5\"/>",
+                "<joint name=\"l_turn\" value=\"1.5\"/><joint name=\"l_turn\" value=\"1\"/>",
+                "twin.srdf: group_state out of left_arm", "joint l_turn has more than one value"},
         Mistake{"value=\"1.5\"", "value=\"2.6\"", "twin.srdf: group_state out of left_arm",
                 "joint l_turn is at 2.6, outside [-2, 2.5]"},
         Mistake{"value=\"1.5\"", "value=\"1.5 1.6\"",

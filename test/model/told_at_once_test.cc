@@ -88,6 +88,23 @@ TEST(ToldAtOnce, AreTheCellsNamesWhereTheSrdfIsNotXml) {
                     HasSubstr("rate_hz is 0")));
 }
 
+TEST(ToldAtOnce, AreSeveralMistakesOfOneFile) {
+  const ScratchFolder folder;
+  CellDescription cell = two_arms_description();
+  std::string urdf = file_with(data_file("two_arms.urdf"), "radius=\"0.08\"", "radius=\"0\"");
+  urdf = folder.write("twin.urdf", urdf);
+  for (const auto& [from, to] : {std::pair{"multiplier=\"2\"", "multiplier=\"two\""},
+                                 {"xyz=\"0 0.6 0.8\"", "xyz=\"0 0 0\""},
+                                 {"scale=\"0.5 0.5 2\"", "scale=\"0.5 0 2\""}}) {
+    urdf = folder.write("twin.urdf", file_with(urdf, from, to));
+  }
+  cell.robots[0].urdf = urdf;
+  EXPECT_THAT(
+      problems_of(cell),
+      AllOf(HasSubstr("cylinder radius is 0 m"), HasSubstr("mimic multiplier is 'two'"),
+            HasSubstr("axis xyz '0 0 0' has no direction"), HasSubstr("mesh scale holds a 0")));
+}
+
 // The joint is meant to be held: that it would move an arm is not what is wrong.
 TEST(ToldAtOnce, AValueThatCannotBeHeldHasNoFollowUp) {
   CellDescription cell = two_arms_description();

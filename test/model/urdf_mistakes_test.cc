@@ -66,7 +66,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"xyz=\"0 0.6 0.8\"", "xyz=\"0 0 0\"", "twin.urdf: joint l_slide",
                 "axis xyz '0 0 0' has no direction"},
         Mistake{"xyz=\"0 0.6 0.8\"", "xyz=\"0 1\"", "twin.urdf: joint l_slide",
-                "axis xyz is '0 1'"}));
+                "axis xyz is '0 1'"},
+        Mistake{"<axis xyz=\"0 0.6 0.8\"/>", "<axis/>", "twin.urdf: joint l_slide",
+                "axis xyz is missing"},
+        Mistake{"<axis xyz=\"0 0.6 0.8\"/>", "<axis xyz=\"0 0.6 0.8\"/><axis xyz=\"1 0 0\"/>",
+                "twin.urdf: joint l_slide", "more than one <axis>"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Shapes, UrdfMistake,
@@ -133,6 +137,11 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<child link=\"r_tip\"/>", "<child link=\"r_top\"/>", "twin.urdf: joint r_last",
                 "child link r_top does not exist; did you mean r_tip?", 63},
         Mistake{"<child link=\"r_tip\"/>", "", "twin.urdf: joint r_last", "<child> is missing", 63},
+        Mistake{"<joint name=\"l_grip_mirror\"", "<joint", "twin.urdf: joint",
+                "joint name is missing"},
+        Mistake{"<parent link=\"post\"/><child link=\"r1\"/>",
+                "<parent link=\"pots\"/><child link=\"r1\"/>", "twin.urdf: joint r_spin",
+                "parent link pots does not exist", 50},
         Mistake{"<child link=\"r_tip\"/>", "<child link=\"r2\"/>", "twin.urdf: joint r_last",
                 "child link r2 already hangs on joint r_bend", 63},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><link name=\"stray\"/>",

@@ -20,7 +20,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 def modules():
     sys.path.insert(0, str(HERE))
     found = [importlib.import_module(path.stem) for path in sorted(HERE.glob("*.py"))
-             if path.stem not in ("make", "run_all", "damage", "damaged")]
+             if path.stem not in ("make", "run_all")]
     return [module for module in found if hasattr(module, "write")]
 
 
