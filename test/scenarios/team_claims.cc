@@ -48,6 +48,25 @@ void TeamsRun::explain_what_waits() {
   }
 }
 
+void TeamsRun::compare() {
+  const Snapshot now = executive().snapshot();
+  std::map<std::string, int> places;  // in the queue
+  for (const auto& keys :
+       {now.queue.queued, now.queue.backlog, now.queue.scheduled, now.queue.running}) {
+    for (const std::string& key : keys) ++places[key];
+  }
+  for (const JobView& job : now.jobs) {
+    ASSERT_TRUE(told_.contains(job.key)) << "no event tells of " << job.key;
+    EXPECT_EQ(told_.at(job.key).state, job.state) << job.key;
+    EXPECT_EQ(told_.at(job.key).motion.stopping, job.motion.stopping) << job.key;
+    EXPECT_EQ(places[job.key], is_terminal(job.state) ? 0 : 1) << job.key;
+  }
+  for (const ArmView& arm : now.arms) {
+    if (arm.job.empty()) continue;
+    EXPECT_FALSE(is_terminal(told_.at(arm.job).state)) << "a reservation outlives " << arm.job;
+  }
+}
+
 void TeamsRun::end_all() {
   for (int turn = 0; turn < 4 && !executive().all_ended(); ++turn) {
     for (const std::string& key : keys_) static_cast<void>(executive().cancel(key));
@@ -59,7 +78,9 @@ void TeamsRun::end_all() {
 
 void TeamsRun::judge(TeamTally& tally) {
   std::map<std::string, int> endings;
+  std::uint64_t seq = 0;
   for (const Event& event : watched_.events) {
+    EXPECT_EQ(event.seq, ++seq) << "the log has a hole";
     const auto* job = std::get_if<JobView>(&event.body);
     if (job == nullptr || !is_terminal(job->state)) continue;
     ++endings[job->key];

@@ -41,6 +41,7 @@ void TeamsRun::run(TeamTally& tally) {
     command();
     simulation_->run_until(simulation_->now() + from_seconds(random_.uniform(0.0, 1.2)));
     note_own_jobs();
+    compare();
   }
   settle();
   if (!executive().all_ended()) explain_what_waits();
@@ -191,7 +192,9 @@ void TeamsRun::inject(const std::string& arm) {
 void TeamsRun::note_own_jobs() {
   for (; read_ < watched_.events.size(); ++read_) {
     const auto* job = std::get_if<JobView>(&watched_.events[read_].body);
-    if (job == nullptr || !job->key.starts_with("aside-")) continue;
+    if (job == nullptr) continue;
+    told_[job->key] = *job;
+    if (!job->key.starts_with("aside-")) continue;
     if (own_.insert(job->key).second) keys_.push_back(job->key);
   }
 }

@@ -47,6 +47,8 @@ class TeamsRun {
   void change_scene();
   void inject(const std::string& arm);
   void note_own_jobs();
+  // Jobs, queue and the last event of each job say the same.
+  void compare();
   // Everything may go on, until nothing has happened for long.
   void settle();
   // By the monitor, or by a controller that gave up.
@@ -66,6 +68,7 @@ class TeamsRun {
   std::vector<double> left_;       // by clients' jobs
   std::vector<std::string> keys_;  // the server's own included
   std::set<std::string> own_;
+  std::map<std::string, JobView> told_;  // as the last event of each job has it
   std::map<std::pair<std::string, std::string>, double> goals_;  // of job and arm
   std::size_t read_ = 0;
   bool delayed_ = false, commanded_ = false, may_fault_ = false, may_see_objects_ = false;
