@@ -3,15 +3,11 @@
 
     python3 test/robots/table_links.py FOLDER
 
-Writes robot.urdf, robot.srdf and cell.json, in which table and shelf are links; bare.urdf,
-bare.srdf and cell_objects.json, in which the same boxes are objects of the cell; and jobs for
-either: jobs.json (twelve that can run), probes.json (out and back, close to table and shelf),
-dips.json (down to 5 mm, which only a check that misses it admits). Metres, radians, seconds.
+Writes robot.urdf, robot.srdf, cell.json, and jobs.json (twelve that can run). Metres, radians, seconds.
 """
 import json
 import math
 import pathlib
-import random
 import sys
 
 UPPER, FORE, HAND, SHOULDER_Z = 0.35, 0.3, 0.2, 0.32  # the hand's length is that to the finger's tip
@@ -69,9 +65,9 @@ def arm(side, y):
             '  </joint>\n' + link("finger", box((0.02, 0.02, 0.08)), 0.04))
 
 
-def urdf(with_scene):
+def urdf():
     parts = ['<?xml version="1.0"?>\n<robot name="table_links">\n  <link name="world"/>\n']
-    for name, boxes in BOXES.items() if with_scene else ():
+    for name, boxes in BOXES.items():
         parts.append(f'  <joint name="{name}_stands" type="fixed">\n'
                      f'    <parent link="world"/><child link="{name}"/>\n  </joint>\n'
                      f'  <link name="{name}">\n'
@@ -100,19 +96,19 @@ def pose(turn, out, up):
     return [turn, lift, bend, math.pi - lift - bend]
 
 
-def job(name, side, places, at=0.0, segment_s=SEGMENT_S):
+def job(name, side, places):
     """From home by way of the places back home, with a rest at each."""
     points = [pose(0, *HOME), *places, pose(0, *HOME)]
     still = [0.0] * len(JOINTS)
-    return {"at": at, "job": {"id": name, "trajectory": {
+    return {"at": 0.0, "job": {"id": name, "trajectory": {
         "joint_names": [f"{side}_{joint}" for joint in JOINTS],
         "points": [{"positions": q, "velocities": still, "accelerations": still,
-                    "time_from_start": i * segment_s} for i, q in enumerate(points)]}}}
+                    "time_from_start": i * SEGMENT_S} for i, q in enumerate(points)]}}}
 
 
-def to_and_fro(name, side, turn, out, up, at=0.0):
+def to_and_fro(name, side, turn, out, up):
     above = pose(turn, out, up + 0.08)
-    return job(name, side, [above, pose(turn, out, up), above], at)
+    return job(name, side, [above, pose(turn, out, up), above])
 
 
 def inwards(side):
@@ -129,49 +125,21 @@ def twelve_jobs():
     return jobs
 
 
-def probes():
-    """One after the other: over the table, over the lower board, and wherever a seed says."""
-    places = [(side, 0, out, board + gap)
-              for side in SIDES for out, board in ((0.42, 0.0), (0.56, 0.13))
-              for gap in (0.0015, 0.0094, 0.015, 0.019, 0.0215, 0.024, 0.04)]
-    chance = random.Random(11)
-    places += [(chance.choice(tuple(SIDES)), chance.uniform(-0.5, 0.5), chance.uniform(0.35, 0.55),
-                chance.uniform(0.002, 0.1)) for _ in range(24)]
-    return [to_and_fro(f"probe-{i}", *place, at=7.0 * i) for i, place in enumerate(places)]
-
-
-def dips():
-    return [job("dip-table", "left", [pose(0, 0.42, 0.005)]),
-            job("dip-shelf", "right", [pose(0, 0.56, 0.1), pose(0, 0.56, 0.135)], at=6.0)]
-
-
-def cell(name, urdf_file, srdf_file, objects):
+def cell():
     arms = [{"name": side, "group": f"{side}_arm", "home": pose(0, *HOME)} for side in SIDES]
-    return {"name": name,
-            "robots": [{"name": "pair", "urdf": urdf_file, "srdf": srdf_file, "prefix": "",
+    return {"name": "table_links",
+            "robots": [{"name": "pair", "urdf": "robot.urdf", "srdf": "robot.srdf", "prefix": "",
                         "base": {"xyz": [0, 0, 0], "rpy": [0, 0, 0]}, "arms": arms}],
-            "objects": objects,
             "clearance_m": 0.02,
             "scheduling": {"policy": "coordinated", "backlog_timeout_s": 60},
             "monitor": {"rate_hz": 100, "reaction_s": 0.02, "stop_clearance_m": 0.01}}
 
 
-def objects():
-    """As the links have them; those of one link are told apart by a number."""
-    return [{"name": name if len(boxes) == 1 else f"{name}_{i}", "box": list(size),
-             "xyz": list(middle), "rpy": [0, 0, 0]}
-            for name, boxes in BOXES.items() for i, (size, middle) in enumerate(boxes)]
-
-
 def write(folder):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    texts = {"robot.urdf": urdf(True), "robot.srdf": srdf(),
-             "bare.urdf": urdf(False), "bare.srdf": srdf()}
-    values = {"cell.json": cell("table_links", "robot.urdf", "robot.srdf", []),
-              "cell_objects.json": cell("table_links", "bare.urdf", "bare.srdf", objects()),
-              "jobs.json": twelve_jobs(), "probes.json": probes(), "dips.json": dips()}
-    texts |= {name: json.dumps(value, indent=1) + "\n" for name, value in values.items()}
+    texts = {"robot.urdf": urdf(), "robot.srdf": srdf(),
+             "cell.json": json.dumps(cell(), indent=1), "jobs.json": json.dumps(twelve_jobs(), indent=1)}
     for name, text in texts.items():
         (folder / name).write_text(text)
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every cell beside the two Pandas, as a user runs it: validate, simulate its jobs, audit.
+"""Every cell, as a user runs it: validate, simulate its jobs, audit.
 
     test/scenarios/every_cell.py ARMLOOM
 
@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 CONFIG = pathlib.Path(__file__).resolve().parents[2] / "config"
-CELLS = ("four_pandas", "panda_and_ur5e", "dual_panda", "two_shuttles")
+CELLS = ("two_pandas", "four_pandas", "panda_and_ur5e", "dual_panda", "two_shuttles")
 POLICIES = ("sequential", "lockstep", "reservation", "certified", "earliest_start", "coordinated")
 EVERY_POLICY = "two_shuttles"
 
