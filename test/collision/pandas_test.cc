@@ -6,7 +6,6 @@
 
 #include "core/audit/audit.h"
 #include "core/audit/audited_cell.h"
-#include "core/collision/check/timed_discrete_check.h"
 #include "core/collision/scene/scene_bodies.h"
 #include "core/collision/state/check_home.h"
 #include "test/collision/scaled_query.h"
@@ -38,14 +37,6 @@ struct Pandas {
     return q;
   }
 };
-
-std::vector<double> of_arm(const Cell& cell, const Configuration& q, ArmId arm) {
-  std::vector<double> values;
-  for (const JointId joint : cell.arm(arm).joints) {
-    values.push_back(q[static_cast<Eigen::Index>(joint.index())]);
-  }
-  return values;
-}
 
 TEST(TwoPandas, AreAllCapsulesOnceMerged) {
   const Pandas pandas;
@@ -112,68 +103,6 @@ TEST(TwoPandas, CheckerAndAuditAgreeOnRandomStates) {
   }
   EXPECT_GT(contacts, 100);
   EXPECT_GT(free, 100);
-}
-
-// What judge calls free keeps the clearance at its instants, as the audit sees them; what it calls
-// a conflict with the other arm or the table does not.
-TEST(TwoPandas, AuditConfirmsWhatIsJudged) {
-  Pandas pandas;
-  const ArmId left{0};
-  const ArmId right{1};
-  int free = 0;
-  int conflicts = 0;
-  for (int i = 0; i < 150; ++i) {
-    const Configuration from = pandas.cell->home();
-    // two of three stay near home: else nearly all hit the table
-    const double share = i % 3 == 0 ? 1.0 : 0.3;
-    const Configuration to = from + share * (pandas.random_configuration() - from);
-    const auto move = [&](ArmId arm, Duration duration) {
-      return small::sweep(*pandas.cell, {arm}, of_arm(*pandas.cell, from, arm),
-                          of_arm(*pandas.cell, to, arm), duration);
-    };
-    const Question question{1,
-                            at(0s),
-                            {{JobId{1}, move(left, 2s), 0s}},
-                            {{JobId{2}, move(right, 3s), 500ms}},
-                            from,
-                            TimedDiscrete{20ms}};
-    const Verdict verdict = timed_discrete_check(question, pandas.checker);
-    std::vector<RecordedState> states;
-    Eigen::VectorXd positions;
-    for (std::uint64_t k = 0; k < verdict.evaluations; ++k) {
-      const Duration t = std::min<Duration>(20ms * k, 2500ms);
-      states.push_back({at(t), from});
-      for (const Motion& motion : {question.candidates[0], question.others[0]}) {
-        motion.trajectory->sample_positions(motion.progress + t, positions);
-        const auto& joints = motion.trajectory->joints();
-        for (std::size_t j = 0; j < joints.size(); ++j) {
-          states.back().q[static_cast<Eigen::Index>(joints[j].index())] =
-              positions[static_cast<Eigen::Index>(j)];
-        }
-      }
-    }
-    if (verdict.kind == Verdict::Kind::conflict) {
-      ++conflicts;
-      const Proximity& seen = verdict.conflicts[0].proximity;
-      EXPECT_LT(seen.clearance_m, pandas.cell->clearances.clearance_m);
-      if (verdict.conflicts[0].with == Conflict::With::self) continue;
-      const auto report = audit(*pandas.cell, {states.back()}, 20ms);
-      EXPECT_LE(report->smallest_clearance->distance_m, std::max(0.0, seen.clearance_m) + 1e-6);
-      continue;
-    }
-    ++free;
-    // The right arm against table and itself is not the question: the left arm's pairs are.
-    const std::vector<bool> of_left{true, false};
-    for (const RecordedState& state : states) {
-      EXPECT_FALSE(pandas.checker.first_closer_than(state.q, 0.02 - 1e-9, of_left).has_value());
-    }
-    const auto report = audit(*pandas.cell, states, 20ms);
-    if (report->smallest_clearance->body_a.starts_with("left")) {
-      EXPECT_GE(report->smallest_clearance->distance_m, 0.02 - 1e-6);
-    }
-  }
-  EXPECT_GT(free, 20);
-  EXPECT_GT(conflicts, 20);
 }
 
 }  // namespace

@@ -38,23 +38,6 @@ TEST(T2, AJobThatMeetsOnlyThePastOfARunningOneStartsAtOnce) {
   EXPECT_GT(cell.log.closest_m, 0.02);
 }
 
-TEST(T2, AJobThatMeetsTheRemainingMotionOfARunningOneWaits) {
-  Crossing cell;
-  cell.submit(slide("x", -1, 1, 8, "first"));  // at the origin after 4 s
-  cell.run_until(at(3s));
-  cell.submit(slide("y", -1, 1, 2, "second"));  // at the origin 1 s later, just then
-  cell.run_until(at(3100ms));
-  const JobView second = cell.job("second");
-  EXPECT_EQ(second.state, JobState::backlogged);
-  ASSERT_EQ(second.waits_on.size(), 1u);
-  // Both are near the origin: evidence in each one's own time.
-  EXPECT_NEAR(*second.waits_on.front().own_time_s, 0.9, 0.2);
-  EXPECT_NEAR(*second.waits_on.front().other_time_s - *second.waits_on.front().own_time_s, 3.0,
-              0.1);
-  cell.run_to_the_end();
-  EXPECT_GT(cell.log.closest_m, 0.02);
-}
-
 TEST(T3, AnArmOccupiesThePlaceWhereItWillComeToRest) {
   Crossing cell;
   cell.submit(slide("y", -1, 0, 2, "short"));  // comes to rest at the origin
@@ -74,29 +57,6 @@ TEST(T3, AnArmOccupiesThePlaceWhereItWillComeToRest) {
   EXPECT_GT(cell.log.closest_m, 0.02);
 }
 
-TEST(T3, TheLongJobFirstMakesTheShortOneWait) {
-  Crossing cell;
-  cell.submit(slide("x", -1, 1, 8, "long"));
-  cell.submit(slide("y", -1, 0, 2, "short"));
-  cell.run_until(at(1s));
-  EXPECT_EQ(cell.job("short").state, JobState::backlogged);
-  EXPECT_EQ(cell.job("short").waits_on.front().job, "long");
-  cell.run_to_the_end();
-  EXPECT_EQ(cell.job("short").state, JobState::succeeded);
-  EXPECT_GT(cell.log.closest_m, 0.02);
-}
-
-TEST(T3, AnArmOccupiesWhereItRestsBeforeItsFirstJob) {
-  CellDescription description = crossing_description();
-  description.robots[1].arms[0].home = {0.0};
-  Crossing cell(description);
-  cell.submit(slide("x", -1, 1, 4, "through"));
-  cell.run_until(at(1s));
-  EXPECT_EQ(cell.job("through").state, JobState::backlogged);
-  EXPECT_EQ(cell.job("through").waits_on.front().kind, Wait::Kind::arm);
-  EXPECT_EQ(cell.log.last, cell.log.first);
-}
-
 TEST(T11, ASecondJobFromTheSameStartIsRefusedWithThePlace) {
   Crossing cell;
   cell.submit(slide("x", -1, 1, 4, "first"));
@@ -107,31 +67,6 @@ TEST(T11, ASecondJobFromTheSameStartIsRefusedWithThePlace) {
             "waypoint 0, x_slide: begins at -1 m, but will stand at 1 m when the jobs accepted for "
             "the arm have run");
   EXPECT_FALSE(cell.simulation->executive().job("again"));
-}
-
-TEST(T11, TheOrderOfAnArmIsKept) {
-  Crossing cell;
-  cell.submit(slide("x", -1, 1, 4, "out"));
-  JobRequest back = slide("x", 1, -1, 4, "back");
-  back.terms.priority = 10;
-  cell.submit(std::move(back));
-  cell.run_to_the_end();
-  EXPECT_EQ(cell.job("out").state, JobState::succeeded);
-  EXPECT_EQ(cell.job("back").state, JobState::succeeded);
-  EXPECT_GE(*cell.job("back").times.started_at, *cell.job("out").times.ended_at);
-}
-
-TEST(T11, WhatFollowsACanceledJobFailsWithTheReasonAndNeverHangs) {
-  Crossing cell;
-  cell.submit(slide("x", -1, 1, 4, "out"));
-  cell.submit(slide("x", 1, -1, 4, "back"));
-  cell.run_until(at(1s));
-  ASSERT_TRUE(cell.simulation->executive().cancel("out"));
-  cell.run_until(at(2s));
-  EXPECT_EQ(cell.job("out").state, JobState::canceled);
-  EXPECT_EQ(cell.job("back").state, JobState::failed);
-  EXPECT_EQ(cell.job("back").reason(), Reason::start_mismatch);
-  EXPECT_TRUE(cell.simulation->executive().all_ended());
 }
 
 // Its client was told that it was not accepted.
@@ -160,30 +95,6 @@ TEST(Withdrawn, AJobEndsAndIsKnownNoMoreAndItsKeyIsFree) {
     ends += job != nullptr && job->key == "waits" && is_terminal(job->state) ? 1 : 0;
   }
   EXPECT_EQ(ends, 2U) << "who reads events is told of the end of each";
-}
-
-TEST(Backlog, ExpiresAndSaysSo) {
-  CellDescription description = crossing_description();
-  description.robots[1].arms[0].home = {0.0};
-  description.scheduling.backlog_timeout = 2s;
-  Crossing cell(description);
-  cell.submit(slide("x", -1, 1, 4, "blocked"));
-  cell.run_to_the_end();
-  EXPECT_EQ(cell.job("blocked").state, JobState::expired);
-  EXPECT_EQ(cell.job("blocked").reason(), Reason::backlog_timeout);
-  EXPECT_NEAR(to_seconds(*cell.job("blocked").times.ended_at), 2.0, 0.01);
-}
-
-TEST(Policies, SequentialTakesAsLongAsAllJobsOneAfterTheOther) {
-  const auto makespan = [](const char* policy) {
-    Crossing cell(crossing_description(), policy);
-    cell.submit(slide("x", -1, -0.5, 2));  // far from each other
-    cell.submit(slide("y", -1, -0.5, 2));
-    cell.run_to_the_end();
-    return to_seconds(cell.simulation->executive().figures().last_end);
-  };
-  EXPECT_GT(makespan("sequential"), 4.0);
-  EXPECT_LT(makespan("timed_discrete"), 2.5);
 }
 
 }  // namespace

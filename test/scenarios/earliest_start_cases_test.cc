@@ -85,31 +85,5 @@ TEST_P(Policies, T5ALateStartAndASlowArmTouchNobodyAndEveryJobSucceeds) {
   }
 }
 
-// x passes the crossing back and forth without end, and goes first where both are new.
-TEST(T9, AnEndlessStreamOfShortJobsDoesNotStarveAnother) {
-  for (const int priority : {0, 10}) {
-    Crossing cell(crossing_description(), "earliest_start");
-    int count = 0;
-    const auto next = [&] {
-      JobRequest job = slide("x", count % 2 == 0 ? -1 : 1, count % 2 == 0 ? 1 : -1, 2);
-      job.terms.priority = priority;
-      cell.submit(std::move(job));
-      ++count;
-    };
-    for (int i = 0; i < 3; ++i) next();
-    cell.run_until(at(200ms));
-    cell.submit(slide("y", -1, 1, 2, "waits"));
-    while (cell.simulation->now() < at(20s)) {
-      cell.simulation->tick();
-      if (cell.simulation->executive().snapshot().queue.queued.size() < 2) next();
-    }
-    EXPECT_EQ(cell.job("waits").state, JobState::succeeded) << "priority " << priority;
-    ASSERT_TRUE(cell.job("waits").times.started_at);
-    EXPECT_LT(seconds(cell.job("waits").times.started_at), 4.5) << "after two others at most";
-    EXPECT_GE(cell.log.closest_m, 0.02);
-    EXPECT_GT(count, 8) << "the stream went on";
-  }
-}
-
 }  // namespace
 }  // namespace armloom

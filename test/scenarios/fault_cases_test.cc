@@ -100,30 +100,6 @@ TEST(T6, AnArmThatMovesNoMoreEndsItsJobAndLeavesTheOthersAlone) {
   EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
 }
 
-TEST(Late, AnArmThatStartsLateTouchesNobody) {
-  Crossing cell(crossing_and_far(), "certified");
-  inject(cell, {.arm = "x", .kind = ArmFault::Kind::late_start, .value = 2.0});
-  cell.submit(slide("x", -1, 1, 4, "late"));
-  cell.run_until(at(1500ms));
-  cell.submit(slide("y", -1, 1, 4, "other"));
-  cell.run_to_the_end();
-  EXPECT_EQ(cell.job("late").state, JobState::succeeded);
-  EXPECT_EQ(cell.job("other").state, JobState::succeeded);
-  EXPECT_GT(cell.log.closest_m, 0.0);
-}
-
-TEST(Late, ASlowArmIsWaitedForAndNobodyIsCanceled) {
-  Crossing cell(crossing_and_far(), "certified");
-  cell.submit(slide("x", -1, 1, 4, "slow"));
-  cell.run_until(at(1s));
-  cell.submit(slide("y", -1, 1, 8, "waits for it"));
-  inject(cell, {.arm = "x", .kind = ArmFault::Kind::slow, .value = 0.3});
-  cell.run_to_the_end();
-  EXPECT_EQ(cell.job("slow").state, JobState::succeeded);
-  EXPECT_EQ(cell.job("waits for it").state, JobState::succeeded);
-  EXPECT_GT(cell.log.closest_m, 0.0);
-}
-
 TEST(T7, ACanceledJobBrakesAndItsReservationShrinksToWhereItStands) {
   Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, 1, 4, "canceled"));
@@ -141,15 +117,6 @@ TEST(T7, ACanceledJobBrakesAndItsReservationShrinksToWhereItStands) {
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("waits").state, JobState::succeeded);
   EXPECT_NEAR(to_seconds(*cell.job("other").times.ended_at), 4.0, 0.3) << "undisturbed";
-}
-
-TEST(Fault, OfAnUnknownArmOrAnUnknownFaultIsAProblem) {
-  Crossing cell;
-  const auto refused =
-      cell.simulation->executive().faults().inject({.arm = "z", .kind = ArmFault::Kind::stall});
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().front().pointer, "/arm");
-  EXPECT_FALSE(cell.simulation->executive().faults().remove(99));
 }
 
 TEST(Fault, CanBeTakenAwayAgain) {

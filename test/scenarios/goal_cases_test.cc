@@ -209,21 +209,6 @@ TEST_P(Goals, APoseIsReachedAndTheNextJobMayBeginThere) {
   expect_at(0.0, -1.0);
 }
 
-TEST_P(Goals, TheSameJobsGoTheSameWayTwice) {
-  const auto run = [&] {
-    Crossing again(crossing_description(), GetParam());
-    again.submit(move_to("x", 1.0, "x"));
-    again.submit(move_to("y", 0.0, "y"));
-    again.submit(move_to("y", 1.0, "y on"));
-    again.run_to_the_end(at(30s));
-    std::vector<std::int64_t> times;
-    for (const Event& event : again.log.events)
-      times.push_back(event.time.time_since_epoch().count());
-    return times;
-  };
-  EXPECT_EQ(run(), run());
-}
-
 TEST_P(Goals, WhatCanNeverBeIsRefusedAtOnce) {
   const auto refused = [&](JobRequest request, const std::string& pointer) {
     const auto answer = cell->simulation->executive().submit(std::move(request));

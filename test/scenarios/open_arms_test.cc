@@ -159,22 +159,6 @@ TEST_P(OpenArms, ATrajectoryBehindOneMayBeginWhereItEnds) {
   }
 }
 
-TEST_P(OpenArms, TheSameJobsGoTheSameWayTwice) {
-  const auto run = [&] {
-    Crossing again(crossing_description(), GetParam());
-    for (int i = 0; i < 6; ++i) again.submit(either(0.3 * i - 0.7, "job" + std::to_string(i)));
-    again.run_to_the_end(at(120s));
-    std::vector<std::pair<std::int64_t, std::string>> told;
-    for (const Event& event : again.log.events) {
-      const auto* job = std::get_if<JobView>(&event.body);
-      if (job == nullptr) continue;
-      told.emplace_back(event.time.time_since_epoch().count(), job->key + job->arms.at(0));
-    }
-    return told;
-  };
-  EXPECT_EQ(run(), run());
-}
-
 TEST_P(OpenArms, WhatCanNeverBeIsRefusedAtOnce) {
   const auto refused = [&](JobRequest request, const std::string& pointer) {
     const auto answer = executive().submit(std::move(request));

@@ -223,20 +223,5 @@ TEST_P(Replans, CancelEndsIt) {
   EXPECT_EQ(cell->job("gone").state, JobState::canceled);
 }
 
-TEST_P(Replans, TheSameJobsGoTheSameWayTwice) {
-  const auto run = [&] {
-    TwoGantries again(gantries(OnIdleBlocker::replan), GetParam());
-    again.submit(go("a", {-1, 0}, {2, 0}, 6, "a"));
-    again.submit(go("b", {1, 0}, {-2, 0}, 6, "b"));
-    again.run_to_the_end();
-    std::vector<std::int64_t> times;
-    for (const Event& event : again.events()) {
-      times.push_back(event.time.time_since_epoch().count());
-    }
-    return times;
-  };
-  EXPECT_EQ(run(), run());
-}
-
 }  // namespace
 }  // namespace armloom

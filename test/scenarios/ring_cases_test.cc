@@ -70,31 +70,6 @@ TEST_P(InARing, EveryJobIsToldBeforeOthersWaitForIt) {
   EXPECT_TRUE(told.contains("aside-2"));
 }
 
-TEST_P(InARing, ClientsMaySendWhatComesNextWhileAnArmIsAside) {
-  Crossing cell(parking_polygon(2), GetParam());
-  cell.submit(slide("a", -1, 1, 4, "one"));
-  cell.submit(slide("b", -1, 1, 4, "two"));
-  cell.run_until(at(2s));
-  ASSERT_TRUE(cell.simulation->executive().job("aside-1"));
-  cell.submit(slide("b", 1, 1.5, 2, "three"));
-  cell.run_to_the_end(at(60s));
-  EXPECT_EQ(cell.job("three").state, JobState::succeeded);
-}
-
-TEST_P(InARing, TheArmReturnsThoughTheOneThatWasToPassIsCanceled) {
-  Crossing cell(parking_polygon(2), GetParam());
-  cell.submit(slide("a", -1, 1, 4, "one"));
-  cell.submit(slide("b", -1, 1, 4, "two"));
-  while (!cell.simulation->executive().job("aside-1")) cell.simulation->tick();
-  while (cell.job("aside-1").state < JobState::scheduled) cell.simulation->tick();
-  ASSERT_TRUE(cell.simulation->executive().cancel("one"));
-  while (!is_terminal(cell.job("one").state)) cell.simulation->tick();
-  cell.submit(slide("a", -1, -2, 3, "leaves"));
-  cell.run_to_the_end(at(60s));
-  EXPECT_EQ(cell.job("aside-2").state, JobState::succeeded);
-  EXPECT_EQ(cell.job("two").state, JobState::succeeded);
-}
-
 TEST_P(InARing, NoArmGoesAsideForOneThatIsCanceledBefore) {
   Crossing cell(parking_polygon(2), GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));

@@ -25,44 +25,6 @@ TEST(Stop, HoldsAllMotionsAndResumeFinishesThem) {
   EXPECT_EQ(cell.job("two").state, JobState::succeeded);
 }
 
-TEST(Cancel, BrakesOnThePathAndOthersGoOn) {
-  Crossing cell;
-  cell.submit(slide("x", -1, -0.4, 4, "canceled"));
-  cell.submit(slide("y", -1, -0.4, 4, "other"));
-  cell.run_until(at(2s));
-  ASSERT_TRUE(cell.simulation->executive().cancel("canceled"));
-  EXPECT_TRUE(cell.job("canceled").motion.stopping);
-  cell.run_to_the_end();
-  EXPECT_EQ(cell.job("canceled").state, JobState::canceled);
-  EXPECT_LT(cell.log.last[0], -0.5) << "it stands where it braked";
-  EXPECT_EQ(cell.job("other").state, JobState::succeeded);
-  EXPECT_NEAR(to_seconds(*cell.job("other").times.ended_at), 4.0, 0.3) << "undisturbed";
-}
-
-// Admitted because "x" would have left; then "x" is canceled and stays in the way.
-TEST(Cancel, HoldsAMotionThatReliedOnTheOtherLeaving) {
-  CellDescription description = crossing_description();
-  description.robots[0].arms[0].home = {0.0};
-  Crossing cell(description, "certified");
-  cell.submit(slide("x", 0, 1, 4, "leaves"));
-  cell.run_until(at(300ms));
-  cell.submit(slide("y", -1, 1, 8, "passes"));
-  cell.run_until(at(800ms));
-  ASSERT_EQ(cell.job("passes").state, JobState::running);
-  ASSERT_TRUE(cell.simulation->executive().cancel("leaves"));
-  cell.run_until(at(10s));
-  EXPECT_EQ(cell.job("leaves").state, JobState::canceled);
-  EXPECT_EQ(cell.job("passes").state, JobState::holding);
-  EXPECT_EQ(cell.job("passes").waits_on.front().arm, "x");
-  EXPECT_GT(cell.log.closest_m, 0.0);
-
-  const double stands = cell.log.last[0];
-  cell.submit(slide("x", stands, 1.5, 4, "goes"));
-  cell.run_to_the_end();
-  EXPECT_EQ(cell.job("passes").state, JobState::succeeded) << "it goes on once the way is free";
-  EXPECT_GT(cell.log.closest_m, 0.0);
-}
-
 // The other arm would come to rest in its way for good: it waits, as it would if nobody was
 // stopped.
 TEST(Stop, OfAnArmLeavesWhatWaitsForItPossible) {
@@ -102,15 +64,6 @@ TEST(WindDown, BringsArmsToRestAndEndsEveryJobOnce) {
   const Configuration stands = cell.log.last;
   cell.run_until(at(5s));
   EXPECT_EQ(cell.log.last, stands);
-}
-
-TEST(Cancel, OfAnEndedOrUnknownJobIsAProblem) {
-  Crossing cell;
-  cell.submit(slide("x", -1, -0.5, 2, "one"));
-  cell.run_to_the_end();
-  EXPECT_EQ(cell.simulation->executive().cancel("one").error().front().kind, ProblemKind::conflict);
-  EXPECT_EQ(cell.simulation->executive().cancel("two").error().front().kind,
-            ProblemKind::not_found);
 }
 
 // The paper's policy has no orders that would keep others away from an arm that stops in their way.

@@ -93,29 +93,6 @@ TEST_F(Amending, WhatHappensToAJobIsNoChangeOfIt) {
   EXPECT_EQ(patch("a", {{"priority", 2}}, read).status, 200);
 }
 
-// Both want the middle, and leave it.
-TEST_F(Amending, TheMoreUrgentOneGoesFirst) {
-  start(5.0);
-  ASSERT_EQ(post("/api/v1/stop", "").status, 202);
-  const auto meet = [&](const std::string& id, const std::string& arm) {
-    json body = job(id, test::kHome, test::kMiddle, arm);
-    const json back = job(id, test::kMiddle, test::kHome, arm);
-    for (json point : back["trajectory"]["points"]) {
-      const double after_s = point["time_from_start"];
-      point["time_from_start"] = 3.0 + after_s;
-      if (after_s > 0) body["trajectory"]["points"].push_back(point);
-    }
-    ASSERT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
-  };
-  meet("earlier", "left");
-  meet("later", "right");
-  ASSERT_EQ(patch("later", {{"priority", 1}}).status, 200);
-  test::Listener listener(port());
-  ASSERT_EQ(post("/api/v1/resume", "").status, 202);
-  until(listener, "later", "running");
-  EXPECT_TRUE(get("/api/v1/jobs/earlier").json()["started_s"].is_null());
-}
-
 TEST_F(Amending, PagesOfAllowedSitesMaySendIfMatch) {
   options_.allowed_origins = {"https://page.example"};
   start(1.0);

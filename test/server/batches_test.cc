@@ -71,22 +71,6 @@ TEST_F(Batches, ABatchIsBoundedAndNotEmpty) {
   expect_refused(post("/api/v1/batches", R"({"jobs": [{}], "atomic": 1})"), 400, "/atomic", 1);
 }
 
-TEST_F(Batches, AfterHasToNameAJobThatCameBefore) {
-  start(1.0);
-  json lonely = job("a", test::kHome, test::kMiddle);
-  lonely["after"] = {"nobody"};
-  expect_refused(post("/api/v1/jobs", lonely.dump()), 422, "/after/0", "nobody");
-  lonely["after"] = {"a"};
-  expect_refused(post("/api/v1/jobs", lonely.dump()), 422, "/after/0", "a");
-  // In a batch: the later one; and so no ring can be made.
-  lonely["after"] = {"b"};
-  json second = job("b", test::kMiddle, test::kHome);
-  second["after"] = {"a"};
-  expect_refused(post("/api/v1/batches", json({{"jobs", {lonely, second}}}).dump()), 422,
-                 "/jobs/0/after/0", "b");
-  EXPECT_EQ(jobs_stored(), 0U);
-}
-
 TEST_F(Batches, ACheckIsAdmissionsOwnAnswerAndChangesNothing) {
   start(20.0);
   test::Listener listener(port());

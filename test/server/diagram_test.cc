@@ -116,24 +116,6 @@ TEST_F(DiagramOverHttp, CoversTheRectangleOnceOver) {
   }
 }
 
-TEST_F(DiagramOverHttp, TurnedRoundIsTheSamePictureMirrored) {
-  start(1.0);
-  submit_two_that_cross();
-  const json one = get("/api/v1/jobs/l/diagram?with=r").json()["layers"][0];
-  const json other = get("/api/v1/jobs/r/diagram?with=l").json()["layers"][0];
-  EXPECT_EQ(other["arms"], json({"right", "left"}));
-  // The second has looked further: what the first left open may be decided, nothing else changes.
-  for (double a = 0.0123457; a < 3.0; a += 0.1414213562) {
-    for (double b = 0.0987653; b < 4.0; b += 0.1732050808) {
-      const std::string before = state_at(one, a, b);
-      if (before == "undecided") continue;
-      EXPECT_EQ(state_at(other, b, a), before) << a << ", " << b;
-    }
-  }
-  EXPECT_EQ(state_at(other, 3.99, 0.01), "free");
-  EXPECT_EQ(state_at(other, 0.01, 2.99), "free");
-}
-
 TEST_F(DiagramOverHttp, KnowsWhereBothAreAndThatOneHasNotBegun) {
   start(1.0);
   test::Listener listener(port());

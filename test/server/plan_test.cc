@@ -59,30 +59,6 @@ TEST_F(PlanOverHttp, OfAnotherStartIsPlannedAndSaidNotToBeJudged) {
   EXPECT_EQ(plan["not_judged"]["type"], "urn:armloom:problem:start-mismatch");
 }
 
-TEST_F(PlanOverHttp, RepeatsForASeedAndGoesSlowerWhenAsked) {
-  start(1.0);
-  const json body = {{"arm", "right"}, {"to", {{"named", "extended"}}}, {"seed", 7}};
-  json plan = planned(body), again = planned(body);
-  EXPECT_EQ(plan["trajectory"], again["trajectory"]);
-  json slow = body;
-  slow["velocity_scaling_factor"] = 0.25;
-  EXPECT_GT(planned(slow)["duration_s"], 1.5 * plan["duration_s"].get<double>());
-}
-
-TEST_F(PlanOverHttp, SaysWhyThereIsNone) {
-  start(1.0);
-  const auto in_table =
-      plan({{"arm", "left"}, {"to", {{"joints", {0.0, 1.7, 0.0, -1.0, 0.0, 1.0, 0.0}}}}});
-  EXPECT_EQ(in_table.status, 422);
-  const json collides = in_table.json();
-  EXPECT_EQ(collides["type"], "urn:armloom:problem:goal-in-collision");
-  EXPECT_EQ(collides["links"].size(), 2U);
-  EXPECT_LT(collides["clearance_m"], 0.02);
-  const json far = plan({{"arm", "left"}, {"to", {{"pose", {{"xyz", {3, 0, 0.5}}}}}}}).json();
-  EXPECT_EQ(far["type"], "urn:armloom:problem:goal-not-reached");
-  EXPECT_EQ(far["nearest"].size(), 7U);
-}
-
 TEST_F(PlanOverHttp, SaysWhatOfTheRequestIsAtFaultAndTheNearestThatWouldDo) {
   start(1.0);
   const json beyond = {0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0};
@@ -183,17 +159,6 @@ TEST_F(GoalsOverHttp, AJobToANamedStateIsPlannedToldAndDone) {
   EXPECT_GT(planned["duration_s"], 1.5 * full["duration_s"].get<double>()) << "slowly";
 }
 
-TEST_F(GoalsOverHttp, AGoalThatIsNotReachedFailsTheJobWithThePlannersReason) {
-  start(20.0);
-  test::Listener listener(port());
-  const json body = {{"id", "far"}, {"arm", "left"}, {"move_to", {{"pose", {{"xyz", {3, 0, 1}}}}}}};
-  ASSERT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
-  const json failed = until(listener, "far", "failed");
-  EXPECT_EQ(failed["result"]["reason"], "no_plan");
-  EXPECT_NE(failed["result"]["detail"].get<std::string>().find("does not reach"),
-            std::string::npos);
-}
-
 TEST_F(GoalsOverHttp, OneOfAGoalAndATrajectoryIsGiven) {
   start(1.0);
   json both = test::move("left", test::kHome, test::kMiddle);
@@ -242,18 +207,6 @@ TEST_F(GoalsOverHttp, AJobIsGivenAnotherWayUnderItsId) {
   EXPECT_EQ(done["replan"]["done"], 1) << done;
   EXPECT_EQ(post("/api/v1/jobs/go/replan", "").status, 409);
   EXPECT_EQ(post("/api/v1/jobs/nobody/replan", "").status, 404);
-}
-
-TEST_F(GoalsOverHttp, AJobThatBeginsElsewhereIsApproachedWhenItAsksForIt) {
-  start(20.0);
-  test::Listener listener(port());
-  json elsewhere = test::move("left", test::kMiddle, test::kHome);
-  elsewhere["id"] = "back";
-  EXPECT_EQ(post("/api/v1/jobs", elsewhere.dump()).status, 422);
-  elsewhere["approach"] = "plan";
-  ASSERT_EQ(post("/api/v1/jobs", elsewhere.dump()).status, 202);
-  EXPECT_EQ(until(listener, "back", "succeeded")["result"]["reason"], "completed");
-  EXPECT_EQ(get("/api/v1/jobs/approach-1").json()["name"], "left goes to the start of back");
 }
 
 // A verb that never answers is told that nobody waits for it any more.

@@ -68,20 +68,5 @@ TEST_F(SceneVerbs, ObjectsThatCannotBeAreRefusedWithPlaceAndValue) {
   EXPECT_EQ(get("/api/v1/scene").json()["version"], version);
 }
 
-TEST_F(SceneVerbs, AnObjectInTheWayMakesAJobWaitUntilItIsTakenAway) {
-  start(20.0);
-  test::Listener listener(port());
-  ASSERT_EQ(
-      post("/api/v1/scene/objects", R"({"name": "ball", "sphere": [0.1], "xyz": [0.05, 0, 1.0]})")
-          .status,
-      201);
-  ASSERT_EQ(post("/api/v1/jobs", job("l", test::kHome, test::kMiddle).dump()).status, 202);
-  const json waits = until(listener, "l", "backlogged")["waits_on"][0];
-  EXPECT_EQ(waits["kind"], "object") << waits;
-  EXPECT_EQ(waits["links"][1], "ball");
-  ASSERT_EQ(remove("/api/v1/scene/objects/ball").status, 200);
-  until(listener, "l", "succeeded");
-}
-
 }  // namespace
 }  // namespace armloom

@@ -1,4 +1,4 @@
-// Single arms, cancels, and the simulation: speed and faults.
+// Single arms, and the simulation: speed and faults.
 #include "test/server/verbs_fixture.h"
 
 namespace armloom {
@@ -34,61 +34,6 @@ TEST_F(Verbs, OneArmStopsAndResumesAlone) {
   until(listener, "l", "succeeded");
   expect_refused(post("/api/v1/arms/middle/stop", ""), 404, "request target", "middle");
   expect_refused(post("/api/v1/arms/middle/resume", ""), 404, "request target", "middle");
-}
-
-// T6 over HTTP: the other one holds while the stall lasts, and goes on by itself.
-TEST_F(Verbs, AStalledArmStopsOnlyTheOneThatItEndangers) {
-  start(5.0);
-  test::Listener listener(port());
-  // Up in the middle and down again; the other one comes to the middle when it has left.
-  const json there_and_back = {{"jobs",
-                                {job("there", test::kHome, test::kMiddle),
-                                 job("back", test::kMiddle, test::kHome, "left", 6.0)}}};
-  ASSERT_EQ(post("/api/v1/batches", there_and_back.dump()).status, 202);
-  until(listener, "back", "running");
-  ASSERT_EQ(
-      post("/api/v1/jobs", job("other", test::kHome, test::kMiddle, "right", 9.0).dump()).status,
-      202);
-  until(listener, "other", "running");
-  const auto stalled =
-      post("/api/v1/sim/faults", R"({"arm": "left", "kind": "stall", "for_s": 20})");
-  ASSERT_EQ(stalled.status, 201) << stalled.body;
-  const json holding = until(listener, "other", "holding");
-  EXPECT_EQ(holding["waits_on"][0]["id"], "back") << holding;
-  EXPECT_EQ(get("/api/v1/jobs/back").json()["state"], "running");  // late, not ended
-  const std::string id = stalled.json()["id"];
-  EXPECT_EQ(remove("/api/v1/sim/faults/" + id).status, 204);
-  for (const std::string key : {"back", "other"}) {  // whichever is first
-    while (get("/api/v1/jobs/" + key).json()["state"] != "succeeded") {
-    }
-  }
-}
-
-// T7 over HTTP.
-TEST_F(Verbs, ACanceledJobIsStoppingUntilAtRestAndTheOtherArmGoesOn) {
-  start(1.0);
-  test::Listener listener(port());
-  ASSERT_EQ(post("/api/v1/jobs", job("l", test::kHome, kAside).dump()).status, 202);
-  ASSERT_EQ(post("/api/v1/jobs", job("r", test::kHome, kAside, "right").dump()).status, 202);
-  until(listener, "r", "running");
-  while (get("/api/v1/jobs/l").json()["progress"] < 0.3) {
-  }
-  const auto canceled = remove("/api/v1/jobs/l");
-  EXPECT_EQ(canceled.status, 202) << canceled.body;
-  EXPECT_EQ(canceled.json()["stopping"], true);
-  EXPECT_TRUE(canceled.json()["result"].is_null());
-  const json ended = until(listener, "l", "canceled");
-  EXPECT_EQ(ended["stopping"], false);
-  EXPECT_LT(ended["progress"], 1.0);
-  const double q = get("/api/v1/arms/left").json()["q"][0];
-  EXPECT_GT(q, 0.05);  // on its way, where it stands
-  EXPECT_LT(q, kAside[0] - 0.05);
-  until(listener, "r", "succeeded");
-  // The reservation has shrunk to that place: the arm can be sent on from there.
-  test::Pose stands = test::kHome;
-  const json measured = get("/api/v1/arms/left").json()["q"];
-  for (std::size_t j = 0; j < 7; ++j) stands[j] = measured[j];
-  EXPECT_EQ(post("/api/v1/jobs", job("on", stands, test::kHome).dump()).status, 202);
 }
 
 // ---- The simulation ----

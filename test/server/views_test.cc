@@ -27,36 +27,6 @@ JobView waiting_job() {
   return job;
 }
 
-TEST(WallClock, KeepsWhatItToldWhenTheSpeedChanges) {
-  using std::chrono::seconds;
-  const WallClock::Wall start{};
-  WallClock clock(start, 1.0);
-  clock.anchor(at(seconds(10)), start + seconds(10), 5.0);
-  EXPECT_EQ(clock.at(at(seconds(9))), "1970-01-01T00:00:09.000Z");
-  EXPECT_EQ(clock.at(at(seconds(20))), "1970-01-01T00:00:12.000Z");
-  clock.anchor(at(seconds(20)), start + seconds(12), 0.5);
-  EXPECT_EQ(clock.at(at(seconds(15))), "1970-01-01T00:00:11.000Z");
-  EXPECT_EQ(clock.at(at(seconds(21))), "1970-01-01T00:00:14.000Z");
-}
-
-TEST(WallClock, FollowsCellTimeThatSlips) {
-  using std::chrono::seconds;
-  const WallClock::Wall start{};
-  WallClock clock(start, 2.0);
-  clock.observe(at(seconds(10)), start + milliseconds(5050));
-  EXPECT_EQ(clock.at(at(seconds(10))), "1970-01-01T00:00:05.000Z") << "a little is no slip";
-  clock.observe(at(seconds(12)), start + seconds(9));
-  EXPECT_EQ(clock.at(at(seconds(14))), "1970-01-01T00:00:10.000Z");
-  EXPECT_EQ(clock.at(at(seconds(10))), "1970-01-01T00:00:05.000Z");
-}
-
-TEST(WallClock, GivesUpItsOldestAnchors) {
-  using std::chrono::seconds;
-  WallClock clock({}, 1.0);
-  for (int i = 1; i <= 1000; ++i) clock.anchor(at(seconds(i)), WallClock::Wall(seconds(i)), 1.0);
-  EXPECT_EQ(clock.at(at(seconds(0))), "1970-01-01T00:00:00.000Z");
-}
-
 TEST(Views, AJobThatWaitsSaysForWhat) {
   const WallClock clock(std::chrono::system_clock::time_point{}, 2.0);
   const json job = json::parse(text_of(*job_format(), waiting_job(), &clock));
@@ -94,16 +64,6 @@ TEST(Views, ASimulatedEventHasNoWallTime) {
   const Event event{7, at(milliseconds(26682)), Alert{Alert::Level::warning, "x"}};
   EXPECT_EQ(event_json(event, "s", nullptr), R"({"stream":"s","seq":7,"type":"alert","t_s":26.682,)"
                                              R"("data":{"level":"warning","text":"x"}})");
-}
-
-TEST(Views, TheStreamOfASeedIsAUuidAndRepeats) {
-  EXPECT_EQ(stream_of_seed(1), stream_of_seed(1));
-  EXPECT_NE(stream_of_seed(1), stream_of_seed(2));
-  const std::string stream = stream_of_seed(1);
-  EXPECT_EQ(stream.size(), 36U);
-  EXPECT_EQ(stream[14], '8');
-  EXPECT_NE(random_stream(), random_stream());
-  EXPECT_EQ(random_stream()[14], '4');
 }
 
 TEST(Problems, BecomeDocumentsAndSentences) {
