@@ -118,13 +118,6 @@ class Bench {
          now);
   }
 
-  // No way is found to any of the goals that were asked about.
-  void answer_plans_without_way(TimePoint now) {
-    for (const PlanMotion& plan : std::exchange(plans, {})) {
-      step(PlanMade{plan.job, plan.number, nullptr, "no way"}, now);
-    }
-  }
-
   // Free, but for these regions.
   void answer_regions(TimePoint now, std::vector<PairRegions> regions) {
     ASSERT_TRUE(question) << "nothing was asked";

@@ -6,7 +6,6 @@ namespace armloom {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 // A bench on which `count` jobs, one for each arm, are running.
 struct Running : Bench {

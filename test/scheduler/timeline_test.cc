@@ -6,7 +6,6 @@
 namespace armloom {
 namespace {
 
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
