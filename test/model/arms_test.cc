@@ -9,12 +9,6 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::UnorderedElementsAre;
 
-std::vector<std::string> names_of(const Cell& cell, const std::vector<JointId>& joints) {
-  std::vector<std::string> names;
-  for (const JointId joint : joints) names.push_back(cell.joint(joint).name);
-  return names;
-}
-
 std::vector<std::string> names_of(const Cell& cell, const std::vector<LinkId>& links) {
   std::vector<std::string> names;
   for (const LinkId link : links) names.push_back(cell.link(link).name);

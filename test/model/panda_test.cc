@@ -8,12 +8,6 @@
 namespace armloom {
 namespace {
 
-std::vector<std::string> names_of(const Cell& cell, const std::vector<JointId>& joints) {
-  std::vector<std::string> names;
-  for (const JointId joint : joints) names.push_back(cell.joint(joint).name);
-  return names;
-}
-
 TEST(Panda, HasSevenJointsAndOneGripperJoint) {
   const CellPtr cell = build_or_fail(two_pandas_description());
   ASSERT_EQ(cell->arms.size(), 2u);

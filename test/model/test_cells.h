@@ -58,6 +58,12 @@ inline const Joint& joint_of(const Cell& cell, const char* name) {
   return cell.joint(*cell.find_joint(name));
 }
 
+inline std::vector<std::string> names_of(const Cell& cell, const std::vector<JointId>& joints) {
+  std::vector<std::string> names;
+  for (const JointId joint : joints) names.push_back(cell.joint(joint).name);
+  return names;
+}
+
 // Of the first robot.
 inline CellDescription with_limits_file(const ScratchFolder& folder, const std::string& text) {
   CellDescription cell = two_arms_description();

@@ -23,21 +23,6 @@ CrowdedWorkload load_of(std::uint64_t seed) {
   return make_chain(2 + seed % 3, jobs, seed % 2 == 0, seed);
 }
 
-// The smallest distance between any two discs, as measured at every tick.
-struct Closest final : Observer {
-  void on_event(const Event&) override {}
-  void on_state(const StateFrame&) override {}
-  void on_tick(TimePoint, const Configuration& measured) override {
-    for (Eigen::Index i = 0; i < measured.size(); i += 2) {
-      for (Eigen::Index j = 0; j < i; j += 2) {
-        smallest_m = std::min(
-            smallest_m, (measured.segment<2>(i) - measured.segment<2>(j)).norm() - kDiscDistance_m);
-      }
-    }
-  }
-  double smallest_m = 1e9;
-};
-
 CellPtr cell_of(const CrowdedWorkload& load, OnIdleBlocker on_idle_blocker) {
   CellDescription description = load.cell();
   description.scheduling.on_idle_blocker = on_idle_blocker;
@@ -49,7 +34,7 @@ CellPtr cell_of(const CrowdedWorkload& load, OnIdleBlocker on_idle_blocker) {
 TEST(Chains, SucceedOneByOneInTheOrderOfSubmission) {
   for (std::uint64_t seed = 1; seed <= seed_count(kLoads); ++seed) {
     const CrowdedWorkload load = load_of(seed);
-    Closest closest;
+    ClosestDiscs closest;
     auto created = Simulation::create(cell_of(load, OnIdleBlocker::report),
                                       ExecutiveOptions{.policy = "sequential"}, closest);
     ASSERT_TRUE(created);
@@ -112,7 +97,7 @@ class GoalChainsUnder : public ::testing::TestWithParam<std::string> {
  protected:
   void expect_whole(std::uint64_t seed, std::vector<TimedJob> (*changed)(std::vector<TimedJob>)) {
     const CrowdedWorkload load = make_chain(2 + seed % 3, 8 + seed * 7 % 17, seed % 2 == 0, seed);
-    Closest closest;
+    ClosestDiscs closest;
     const auto result = simulate(cell_of(load, OnIdleBlocker::report),
                                  ExecutiveOptions{.policy = GetParam(), .waiting_max = 1000},
                                  {changed(load.jobs()), at(2000s)}, closest);
@@ -157,7 +142,7 @@ TEST_P(ChainsUnder, AllSucceedAndNeverTouch) {
     const CrowdedWorkload load = load_of(seed);
     double load_s = 0.0;
     for (const auto& one : load.submitted) load_s += one.motion.duration_s();
-    Closest closest;
+    ClosestDiscs closest;
     const auto result = simulate(cell_of(load, on_idle_blocker),
                                  ExecutiveOptions{.policy = policy, .waiting_max = 1000},
                                  {load.jobs(), at(from_seconds(3.0 * load_s + 100.0))}, closest);

@@ -8,13 +8,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-JobRequest move_to(const std::string& arm, double to_m, std::string key) {
-  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
-  request.arm = arm;
-  request.move_to = PlanGoal{.joints = std::vector{to_m}, .named = {}, .pose = {}};
-  return request;
-}
-
 JobRequest from_elsewhere(const std::string& arm, double from_m, double to_m, std::string key) {
   JobRequest request = slide(arm, from_m, to_m, 1.0, std::move(key));
   request.terms.approach = Approach::plan;

@@ -54,6 +54,14 @@ inline JobRequest slide(const std::string& arm, double from_m, double to_m, doub
   return request;
 }
 
+// A job that says where its arm is to go.
+inline JobRequest move_to(const std::string& arm, double to_m, std::string key) {
+  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
+  request.arm = arm;
+  request.move_to = PlanGoal{.joints = std::vector{to_m}, .named = {}, .pose = {}};
+  return request;
+}
+
 // Keeps everything that is told.
 struct Log final : Observer {
   void on_event(const Event& event) override {

@@ -24,23 +24,6 @@ constexpr std::uint64_t kWorlds = 100;
 // Of the server's own, for each job of a client: more is going to and fro.
 constexpr std::size_t kOwnJobsMax = 8;
 
-// The smallest distance between any two discs, as measured at every tick.
-struct Closest final : Observer {
-  void on_event(const Event&) override {}
-  void on_state(const StateFrame&) override {}
-  void on_tick(TimePoint now, const Configuration& measured) override {
-    for (Eigen::Index i = 0; i < measured.size(); i += 2) {
-      for (Eigen::Index j = 0; j < i; j += 2) {
-        const double apart_m =
-            (measured.segment<2>(i) - measured.segment<2>(j)).norm() - kDiscDistance_m;
-        if (apart_m < smallest_m) smallest_m = apart_m, when = now;
-      }
-    }
-  }
-  double smallest_m = 1e9;
-  TimePoint when{};
-};
-
 struct Tally {
   std::size_t worlds = 0, solved = 0;
   std::size_t jobs = 0, succeeded = 0;
@@ -175,7 +158,7 @@ void run(const Way& way, Crowd crowd, std::uint64_t seed, Tally& tally) {
   }
   auto cell = build_cell(description);
   ASSERT_TRUE(cell) << name;
-  Closest closest;
+  ClosestDiscs closest;
   const auto result =
       simulate(*cell, ExecutiveOptions{.policy = way.policy}, {world.jobs(), at(600s)}, closest);
   ASSERT_TRUE(result) << name << ": " << result.error().front().detail;

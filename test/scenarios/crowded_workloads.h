@@ -58,6 +58,23 @@ struct CrowdedWorkload {
   [[nodiscard]] std::vector<TimedJob> jobs() const;  // keys: "<arm><n>", n from 1
 };
 
+// The smallest distance between any two discs, as measured at every tick.
+struct ClosestDiscs final : Observer {
+  void on_event(const Event&) override {}
+  void on_state(const StateFrame&) override {}
+  void on_tick(TimePoint now, const Configuration& measured) override {
+    for (Eigen::Index i = 0; i < measured.size(); i += 2) {
+      for (Eigen::Index j = 0; j < i; j += 2) {
+        const double apart_m =
+            (measured.segment<2>(i) - measured.segment<2>(j)).norm() - kDiscDistance_m;
+        if (apart_m < smallest_m) smallest_m = apart_m, when = now;
+      }
+    }
+  }
+  double smallest_m = 1e9;
+  TimePoint when{};
+};
+
 // The arm's name: "a", "b", ...
 [[nodiscard]] std::string disc_name(std::size_t arm);
 

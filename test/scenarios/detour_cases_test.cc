@@ -8,13 +8,6 @@
 namespace armloom {
 namespace {
 
-JobRequest move_to(const std::string& arm, Place_m to, std::string key) {
-  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
-  request.arm = arm;
-  request.move_to = PlanGoal{.joints = std::vector{to.first, to.second}, .named = {}, .pose = {}};
-  return request;
-}
-
 // b comes into the middle, stays there for so long, and leaves it sideways.
 JobRequest across(double stays_s) {
   JobRequest request = go("b", {1, 0}, {0, 0}, 2.0, "b");
@@ -47,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Policies, Detours,
                          ::testing::Values("certified", "earliest_start", "coordinated"));
 
 TEST_P(Detours, WhereWaitingIsDearItGoesAnotherWayRound) {
-  EXPECT_LT(arrives_s(move_to("a", {0.6, 0.0}, "a"), 30.0), 20.0);
+  EXPECT_LT(arrives_s(to_place("a", {0.6, 0.0}, "a"), 30.0), 20.0);
   EXPECT_GT(cell->farthest_off_m(), 0.2);
   const auto detour = cell->job("a").ways.detour;
   ASSERT_TRUE(detour);
@@ -59,7 +52,7 @@ TEST_P(Detours, WhereWaitingIsDearItGoesAnotherWayRound) {
 }
 
 TEST_P(Detours, WhereWaitingIsCheapItTakesTheShortestWay) {
-  (void)arrives_s(move_to("a", {0.6, 0.0}, "a"), 0.0, at(2500ms));
+  (void)arrives_s(to_place("a", {0.6, 0.0}, "a"), 0.0, at(2500ms));
   EXPECT_LT(cell->farthest_off_m(), 0.01);
   EXPECT_FALSE(cell->job("a").ways.detour && cell->job("a").ways.detour->is_taken);
 }
@@ -70,7 +63,7 @@ TEST_P(Detours, ATrajectoryWaitsForItsTurn) {
 }
 
 TEST_P(Detours, AreAFewForOnePlaceThatIsHeld) {
-  (void)arrives_s(move_to("a", {0.6, 0.0}, "a"), 30.0);
+  (void)arrives_s(to_place("a", {0.6, 0.0}, "a"), 30.0);
   EXPECT_LE(cell->planning().plans, 5U) << "its own way, and those around";
 }
 
@@ -83,7 +76,7 @@ TEST_P(Detours, NeverArriveMuchLaterThanByTheStraightWay) {
   for (int i = 0; i < kRuns; ++i) {
     const double stays_s = std::uniform_real_distribution<double>(0.0, 20.0)(random);
     SCOPED_TRACE(stays_s);
-    const double by_goal_s = arrives_s(move_to("a", {0.6, 0.0}, "a"), stays_s);
+    const double by_goal_s = arrives_s(to_place("a", {0.6, 0.0}, "a"), stays_s);
     evaluations += cell->planning().evaluations;
     const double by_line_s = arrives_s(go("a", {-1, 0}, {0.6, 0}, 1.6, "a"), stays_s);
     EXPECT_LE(by_goal_s, by_line_s + 1.0);

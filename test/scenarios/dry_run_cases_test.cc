@@ -36,21 +36,14 @@ TEST(DryRun, RefusesACellWhoseArmsAreTooCloseAtHomeAsTheServerDoes) {
   EXPECT_EQ(checked.error().front().pointer, served.error().front().pointer);
 }
 
-JobRequest to_place(const std::string& arm, double to_m, std::string key) {
-  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
-  request.arm = arm;
-  request.move_to = PlanGoal{.joints = std::vector{to_m}, .named = {}, .pose = {}};
-  return request;
-}
-
 // Each from where the one before it ends; both cross in the middle.
 TEST(DryRun, PlansGoalsFromWhereTheJobsBeforeThemLeaveTheArms) {
   const auto cell = build_cell(crossing_description());
   ASSERT_TRUE(cell);
   const auto checked = check_jobs(*cell, "certified",
-                                  {{at(0s), to_place("x", 0.5, "x")},
-                                   {at(0s), to_place("y", 0.8, "y")},
-                                   {at(0s), to_place("x", -0.5, "then")},
+                                  {{at(0s), move_to("x", 0.5, "x")},
+                                   {at(0s), move_to("y", 0.8, "y")},
+                                   {at(0s), move_to("x", -0.5, "then")},
                                    {at(0s), slide("x", -0.5, 0.2, 2, "from there")}});
   ASSERT_TRUE(checked) << checked.error().front().detail;
   ASSERT_EQ(checked->size(), 4U);
@@ -68,12 +61,12 @@ TEST(DryRun, SaysOfAGoalWithoutAWayHowItWouldEndAndWhatComesAfterIt) {
   description.objects.push_back({"post", Box{{0.1, 0.1, 0.1}}, X_WO});
   const auto cell = build_cell(description);
   ASSERT_TRUE(cell);
-  JobRequest behind = to_place("y", 0.2, "behind");
+  JobRequest behind = move_to("y", 0.2, "behind");
   behind.after = {"into it"};
   const auto checked = check_jobs(*cell, "certified",
-                                  {{at(0s), to_place("x", 0.5, "into it")},
+                                  {{at(0s), move_to("x", 0.5, "into it")},
                                    {at(0s), behind},
-                                   {at(0s), to_place("x", -0.5, "before it")}});
+                                   {at(0s), move_to("x", -0.5, "before it")}});
   ASSERT_TRUE(checked) << checked.error().front().detail;
   ASSERT_TRUE(checked->at(0).verdict.result);
   EXPECT_EQ(checked->at(0).verdict.result->reason, Reason::no_plan);

@@ -4,13 +4,6 @@
 namespace armloom {
 namespace {
 
-JobRequest move_to(const std::string& arm, double to_m, std::string key) {
-  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
-  request.arm = arm;
-  request.move_to = PlanGoal{.joints = std::vector{to_m}, .named = {}, .pose = {}};
-  return request;
-}
-
 CollisionObject box_at(const std::string& name, double x, double y) {
   CollisionObject object{.name = name, .shape = Box{{0.1, 0.1, 0.1}}};
   object.X_WO.translation() = Eigen::Vector3d(x, y, 0.0);

@@ -4,13 +4,6 @@
 namespace armloom {
 namespace {
 
-JobRequest move_to(Place_m to, std::string key) {
-  JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
-  request.arm = "a";
-  request.move_to = PlanGoal{.joints = std::vector{to.first, to.second}, .named = {}, .pose = {}};
-  return request;
-}
-
 // A wall around the goal.
 void shut_in(TwoGantries& cell, Place_m goal) {
   int side = 0;
@@ -30,7 +23,7 @@ class RefusedGoals : public ::testing::Test {
   // The evaluations that it took to fail.
   std::uint64_t fails(const std::string& key) {
     const std::uint64_t before = cell.planning().evaluations;
-    cell.submit(move_to({-1, 2}, key));
+    cell.submit(to_place("a", {-1, 2}, key));
     cell.run_to_the_end(cell.executive().now() + 50s);
     EXPECT_EQ(cell.job(key).reason(), Reason::no_plan) << key;
     return cell.planning().evaluations - before;
@@ -65,14 +58,14 @@ TEST_F(RefusedGoals, AreTriedAgainFromElsewhereAndInAnotherScene) {
   for (int side = 0; side < 4; ++side) {
     ASSERT_TRUE(cell.executive().scene().remove("wall " + std::to_string(side)));
   }
-  cell.submit(move_to({-1, 2}, "open"));
+  cell.submit(to_place("a", {-1, 2}, "open"));
   cell.run_to_the_end(cell.executive().now() + 50s);
   EXPECT_EQ(cell.job("open").state, JobState::succeeded) << cell.job("open").detail();
 }
 
 // It has its way; what it is to go on by is not planned once more.
 TEST_F(RefusedGoals, AnotherWayOfAGoalIsPlannedOnce) {
-  cell.submit(move_to({-1, 3}, "goal"));
+  cell.submit(to_place("a", {-1, 3}, "goal"));
   cell.run_until(at(1s));
   ASSERT_EQ(cell.job("goal").state, JobState::running);
   ASSERT_EQ(cell.planning().plans, 1U);
