@@ -41,7 +41,7 @@ FAULTS = {'server_store_test': [
     ('a restart forgets stopped arms', RESTART, 'if (!arms.empty()) executive', 'if (!arms.empty() && !FAULT) executive'),
     ('unknown stops count as none', RESTART, '} else if (!knows_stops_) {', '} else if (!knows_stops_ && !FAULT) {'),
     ('two requests with one key run side by side', ACCEPTED, 'if (taken == under_way_.end()) continue;', 'if (FAULT || taken == under_way_.end()) continue;'),
-    ('an object that the operator removed comes back after a restart', 'server/durable/left_objects.cc', 'if (!stored.text) return is_there ?', 'if (!stored.text) return is_there && !FAULT ?'),
+    ('an object that the operator removed comes back after a restart', RESTART, 'if (!stored.text) return is_there ?', 'if (!stored.text) return is_there && !FAULT ?'),
     ('pages of other sites may command', HEAD, 'request.foreign = request.stranger ?', 'request.foreign = request.stranger || FAULT ?'),
     ('a rebound host name is served', HEAD, 'if (authority.empty() || may_command', 'if (FAULT || authority.empty() || may_command'),
     ('a handshake without a sound key is accepted', HEAD, 'if (keys.size() == 1 && is_websocket_key', 'if (FAULT || keys.size() == 1 && is_websocket_key'),
