@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "core/jobs/phases.h"
@@ -25,6 +27,9 @@ namespace {
 // What an arm may be granted beyond its stopping distance: so long it goes on at full speed without
 // a word from here, and so far others cannot be let pass before it.
 constexpr Duration kHorizon = std::chrono::milliseconds(250);
+
+// In one step jobs are put off so many times each at most.
+constexpr std::size_t kTriedMax = 32;
 
 // Returns the motion that has to be checked again and whose last check is the oldest; nullopt if
 // none has.
@@ -115,7 +120,13 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   } else {
     turn = turns.next();
   }
+  std::size_t tried = 0;
   for (; turn; turn = Turns(state).next()) {
+    // Most jobs are put off once, a few again when the sequence has changed.
+    if (++tried > kTriedMax * (state.jobs.active().size() + kTriedMax)) {
+      throw std::logic_error("the scheduler puts off the same jobs for ever, job " +
+                             std::to_string(turn->value()) + " among them");
+    }
     if (put_off_where_it_stands(state, state.jobs.at(*turn))) {
       put_off = true;
       continue;

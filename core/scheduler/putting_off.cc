@@ -1,8 +1,6 @@
 #include "core/scheduler/putting_off.h"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include "core/coordination/effort.h"
@@ -103,10 +101,6 @@ void wait_behind(State& state, Record& record, JobId first) {
 void wait_in_turn(State& state, Record& record, JobId first) {
   stay_queued(state, record,
               {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}, first});
-  // Else it would be asked about again at once, and for ever.
-  if (state.is_judged(record.job)) return;
-  throw std::logic_error("job " + std::to_string(record.job.id.value()) + " waits for job " +
-                         std::to_string(first.value()) + ", which does not go before it");
 }
 
 void refuse(State& state, Record& record, const Verdict& verdict) {
