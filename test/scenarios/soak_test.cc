@@ -7,6 +7,8 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <utility>
+#include <vector>
 
 #include "test/scenarios/seeds.h"
 
@@ -46,6 +48,17 @@ INSTANTIATE_TEST_SUITE_P(Policies, SoakOfCommands,
 
 TEST_P(SoakOfCommands, Sliders) { soak(Soak::World::sliders, GetParam(), seed_count(kSliders)); }
 TEST_P(SoakOfCommands, Pandas) { soak(Soak::World::pandas, GetParam(), seed_count(kPandas, 10)); }
+
+// A rest beside a synchronous motion, a question without end, an approach behind its job.
+TEST(Soak, SeedsThatFailedOnceDoNoMore) {
+  for (const auto& [policy, seed] : std::vector<std::pair<std::string, std::uint64_t>>{
+           {"coordinated", 7000447}, {"certified", 21000112}, {"coordinated", 20000387}}) {
+    SCOPED_TRACE(policy + ", seed " + std::to_string(seed));
+    SoakTally tally;
+    Soak(seed, Soak::World::sliders, policy).run(tally);
+    EXPECT_EQ(tally.runs, 1U);
+  }
+}
 
 }  // namespace
 }  // namespace armloom

@@ -130,7 +130,12 @@ bool others_may_take_its_turn(const State& state, const Record& turn) {
 std::size_t place_on(const State& state, const Record& record, ArmId arm) {
   const auto goes_before = [&](JobId id) {
     const Record& other = state.jobs.at(id);
-    return id != record.job.id && (other.job.in<Queued>() == nullptr || other.turn < record.turn);
+    if (id == record.job.id) return false;
+    // An errand has the turn of the job that it comes before.
+    const auto& next = other.errand.before;
+    if (other.job.in<Queued>() == nullptr || next == record.job.id) return true;
+    const Record* whose = next ? state.jobs.find(*next) : nullptr;
+    return (whose != nullptr ? whose->turn : other.turn) < record.turn;
   };
   const auto& queue = state.jobs.queues()[arm];
   const auto last = std::find_if(queue.rbegin(), queue.rend(), goes_before);
