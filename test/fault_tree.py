@@ -7,7 +7,7 @@ TOP = Path(__file__).resolve().parents[1]
 
 SWITCH = '''#pragma once
 #include <cstdlib>
-// The fault that is on; -1: any is.
+// Returns true if this fault is switched on; -1: if any is.
 inline bool armloom_fault(int number) {
   static const int on = std::getenv("ARMLOOM_FAULT") ? std::atoi(std::getenv("ARMLOOM_FAULT")) : 0;
   return number == -1 ? on != 0 : on == number;

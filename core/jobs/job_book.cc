@@ -200,10 +200,10 @@ bool lets_another_pass(const JobBook& book, const Record& record) {
          book.at(*record.errand.lets_pass).job.is_waiting();
 }
 
-// By turn, but no job before another one that stands ahead of it on an arm. A job that took its
-// place before another one (Errand::before) has the turn of that one.
+// Sorts by turn, but keeps the order of each arm's queue. An errand (Errand::before) counts with
+// the turn of the first job behind it in the queue that is no errand.
 std::vector<JobId> in_turn(const JobBook& book, const std::set<JobId>& jobs) {
-  std::map<JobId, JobId> behind;  // the job whose turn it has
+  std::map<JobId, JobId> behind;  // of an errand: the job whose turn counts
   for (const auto& queue : book.queues()) {
     std::optional<JobId> first;
     for (auto id = queue.rbegin(); id != queue.rend(); ++id) {
@@ -225,7 +225,8 @@ std::vector<JobId> in_turn(const JobBook& book, const std::set<JobId>& jobs) {
   }
   std::vector<JobId> sorted;
   std::set<JobId> left = jobs;
-  std::vector<std::size_t> passed(book.queues().size());  // by ArmId: so many jobs of its queue
+  std::vector<std::size_t> passed(
+      book.queues().size());  // by ArmId: jobs of its queue that are taken
   const auto take = [&](JobId job, const auto& again) -> void {
     if (left.erase(job) == 0) return;
     for (const ArmId arm : book.at(job).leg.arms) {

@@ -176,7 +176,7 @@ class JobBook {
 // Nothing of its own keeps it waiting: first of its arms, all in `after` ended, none let pass.
 [[nodiscard]] bool is_at_head(const JobBook& book, const Record& record);
 [[nodiscard]] bool lets_another_pass(const JobBook& book, const Record& record);
-// The same jobs, each after those before it.
+// Returns the same jobs by turn, in the order of each arm's queue.
 [[nodiscard]] std::vector<JobId> in_turn(const JobBook& book, const std::set<JobId>& jobs);
 
 }  // namespace armloom

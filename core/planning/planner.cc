@@ -20,7 +20,7 @@ using Reason = PlanRefusal::Reason;
 
 // The longest edge of a tree: Euclidean, in joint space (rad, m).
 constexpr double kStep = 1.2;
-// So many comparisons of two nodes take as long as one evaluation.
+// Comparing so many pairs of nodes takes as long as one evaluation.
 constexpr std::uint64_t kCompared = 250;
 
 std::string mm(double metres) {
@@ -112,8 +112,8 @@ class Search {
   [[nodiscard]] bool stop() const {
     return lines_.evaluations() + compared_ / kCompared >= request_.budget || cancelled();
   }
-  // For each edge the search has compared a place with nodes of a tree, one by one: with few joints
-  // that takes longer than the edges.
+  // Before each edge, RRT-Connect compares a sample with all nodes of a tree. For arms with few
+  // joints this takes longer than the edges, so that the budget counts it too.
   [[nodiscard]] bool joins(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
     compared_ += nodes_;
     const bool free = is_free(from, to);

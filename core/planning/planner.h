@@ -57,8 +57,8 @@ struct PlanRequest {
   std::vector<Eigen::VectorXd> goals;  // one or more, rows as the arm's joints
   std::vector<ArmId> left_out = {};    // other arms that are as good as gone
   std::uint64_t seed = 1;
-  // Stretches of lines that may be looked at (LineChecker::evaluations), shortening included;
-  // 250 comparisons of places in the search count as one.
+  // Stretches of lines that may be looked at (LineChecker::evaluations), shortening included.
+  // 250 comparisons of tree nodes count as one stretch.
   std::uint64_t budget = kDefaultBudget;
   const std::atomic<bool>* cancelled = nullptr;  // read now and then
 

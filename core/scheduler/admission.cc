@@ -28,8 +28,9 @@ namespace {
 // a word from here, and so far others cannot be let pass before it.
 constexpr Duration kHorizon = std::chrono::milliseconds(250);
 
-// In one step jobs are put off so many times each at most.
-constexpr std::size_t kTriedMax = 32;
+// In one step a job is put off once, or a few times if the sequence of waiting jobs changes. More
+// than this for each job, and as much for 32 more, is an endless loop.
+constexpr std::size_t kPutOffMax = 32;
 
 // Returns the motion that has to be checked again and whose last check is the oldest; nullopt if
 // none has.
@@ -120,12 +121,12 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   } else {
     turn = turns.next();
   }
-  std::size_t tried = 0;
+  std::size_t times_put_off = 0;
   for (; turn; turn = Turns(state).next()) {
-    // Most jobs are put off once, a few again when the sequence has changed.
-    if (++tried > kTriedMax * (state.jobs.active().size() + kTriedMax)) {
-      throw std::logic_error("the scheduler puts off the same jobs for ever, job " +
-                             std::to_string(turn->value()) + " among them");
+    if (++times_put_off > kPutOffMax * (state.jobs.active().size() + kPutOffMax)) {
+      throw std::logic_error("endless loop: one step put jobs off " +
+                             std::to_string(times_put_off) + " times, last job " +
+                             std::to_string(turn->value()));
     }
     if (put_off_where_it_stands(state, state.jobs.at(*turn))) {
       put_off = true;

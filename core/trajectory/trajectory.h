@@ -33,8 +33,8 @@ struct SegmentBounds {
   Eigen::VectorXd acceleration;
 };
 
-// Of the part of a segment from `from_s` to `to_s` after it begins: the tighter the shorter that
-// is. Sound but for rounding (1e-12). Precondition: from_s <= to_s.
+// Returns bounds of the part of a segment from `from_s` to `to_s` after its start; a shorter part
+// has tighter bounds. Sound up to rounding (1e-12). Precondition: from_s <= to_s.
 [[nodiscard]] SegmentBounds bounds_of(const Segment& segment, double from_s, double to_s);
 
 // A valid timed trajectory of the joints of one or more arms: parsed, within limits, at rest at

@@ -21,22 +21,21 @@ enum class Way { in, out };
 // What becomes of each path in a text.
 using PathMap = std::function<std::string(const std::string&)>;
 
-// How a value of some type stands in JSON. One description makes its reader, its writer, its
-// schema, and from the schema the reference for people, so that nothing is spelt twice. Formats are
-// values: small ones (scalar_formats.h) are put together to lists, objects (object_format.h) and
-// whole files (cell_format.h). Immutable, and shared by threads.
+// Describes the JSON of a value. One description makes the reader, the writer, the schema and, from
+// the schema, the reference for people. Small formats (scalar_formats.h) are combined to lists,
+// objects (object_format.h) and whole files (cell_format.h). Immutable, and shared by threads.
 //
-// The type is erased: `out` and `value` are the address of a value of the type that the format was
-// made for. FormatPtr<T> below is the typed handle, so that the compiler checks the types where a
-// message is described, and the formats themselves are compiled once, not once for each T.
+// The type of the value is erased, so that formats are compiled once instead of once for each T:
+// `out` and `value` are addresses. FormatPtr<T> below is the typed handle, with which the compiler
+// checks the types in the description of a message.
 class AnyFormat {
  public:
   AnyFormat() = default;
   AnyFormat(const AnyFormat&) = delete;
   AnyFormat& operator=(const AnyFormat&) = delete;
   virtual ~AnyFormat() = default;
-  // Into `out`, which holds the defaults. Faults go to the node's list, with place and value; then
-  // `out` is of no use.
+  // Reads into `out`, which holds the defaults. Faults go to the node's list, with place and value;
+  // `out` must not be used then.
   virtual void read_any(const JsonNode& node, void* out) const = 0;
   virtual void write_any(JsonWriter& out, const void* value) const = 0;
   [[nodiscard]] virtual Schema schema(Way way) const = 0;
@@ -63,8 +62,8 @@ class SharedAny {
 };
 using AnyFormatPtr = SharedAny<AnyFormat>;
 
-// An AnyFormat of values of type T. Copy it to keep it: the reference that `*format_pointer` gives
-// is good as long as the FormatPtr.
+// An AnyFormat of values of type T. To keep it, copy it: a reference from `*format_pointer` is
+// valid only as long as the FormatPtr.
 template <class T>
 class Format {
  public:
@@ -91,7 +90,7 @@ class FormatPtr {
   Format<T> format_;
 };
 
-// The base of a format that is written by hand for a T.
+// The base class of formats that are written by hand for a T.
 template <class T>
 class CustomFormat : public AnyFormat {
  public:

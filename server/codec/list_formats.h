@@ -23,7 +23,7 @@ struct ListSize {
 [[nodiscard]] bool is_readable(const JsonNode& array, const ListSize& size);
 void check_fewest(const JsonNode& array, const ListSize& size);
 
-// What a list format does with the std::vector<T> at an address.
+// Operations on a std::vector<T> whose type is erased, for list formats.
 struct ListOperations {
   void (*clear)(void* list, std::size_t to_come);
   void* (*add)(void* list);
@@ -51,7 +51,7 @@ template <class T>
   return FormatPtr<std::vector<T>>(list(element->any(), std::move(size), kListOperations<T>));
 }
 
-// What a dictionary format does with the std::map<std::string, T> at an address.
+// Operations on a std::map<std::string, T> whose type is erased, for dictionary formats.
 struct DictionaryOperations {
   void* (*at)(void* map, const std::string& key);
   void (*write)(JsonWriter& out, const void* map, const AnyFormat& member);

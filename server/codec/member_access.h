@@ -9,12 +9,12 @@
 
 namespace armloom::formats {
 
-// A reference to a function that takes the address of a value. It outlives no call.
+// A reference to a function that takes the address of a value. The function must outlive it.
 template <class Void>
 class AddressFunction {
  public:
   template <class F>
-  AddressFunction(const F& call)  // NOLINT: meant to be implicit
+  AddressFunction(const F& call)
       : f_(&call), call_([](const void* f, Void* value) { (*static_cast<const F*>(f))(value); }) {}
   void operator()(Void* value) const { call_(f_, value); }
 
@@ -25,8 +25,8 @@ class AddressFunction {
 using UseValue = AddressFunction<const void>;
 using FillValue = AddressFunction<void>;
 
-// Bytes from the start of a T to the member: what a pointer to a member is in the Itanium C++ ABI
-// (GCC and Clang but on Windows).
+// Returns the offset of the member in a T (bytes). In the Itanium C++ ABI (GCC, and Clang except on
+// Windows) a pointer to a data member is this offset.
 template <class T, class Where>
 [[nodiscard]] std::ptrdiff_t offset_of(Where T::*where) {
   static_assert(sizeof where == sizeof(std::ptrdiff_t) && !std::is_function_v<Where>);
@@ -39,7 +39,7 @@ template <class T, class Where>
   return static_cast<std::byte*>(object) + offset;
 }
 
-// A value to read into; Eigen leaves its own as they come.
+// Returns a value to read into. Eigen types need Zero(), because they are not initialized.
 template <class M>
 [[nodiscard]] M fresh() {
   if constexpr (requires { M::Zero(); }) {
@@ -49,8 +49,7 @@ template <class M>
   }
 }
 
-// How a part reaches its value in an object whose type is erased: the value stands at an offset, or
-// two functions reach it.
+// Gives access to a value in an object whose type is erased, by an offset or by two functions.
 class Access {
  public:
   // Calls use(object's value), unless the object has none.
@@ -59,7 +58,7 @@ class Access {
   using Fill = void (*)(const Access&, void* object, const FillValue& fill);
 
   explicit Access(std::ptrdiff_t offset) : Access(offset, nullptr, nullptr) {}
-  // `state`: what the functions get by state(). A function that is null takes it for the offset.
+  // `state`: the functions get it by state(). If a function is null, `state` must be the offset.
   template <class State>
   Access(const State& state, Use use, Fill fill) : use_(use), fill_(fill) {
     static_assert(std::is_trivially_copyable_v<State> && sizeof(State) <= sizeof state_);
@@ -96,7 +95,7 @@ class Access {
   alignas(std::max_align_t) std::byte state_[40];
 };
 
-// A member that may have no value.
+// Access to a member that may have no value.
 template <class T, class M>
 [[nodiscard]] Access member_access(std::optional<M> T::*where) {
   using Maybe = std::optional<M>;
@@ -110,7 +109,7 @@ template <class T, class M>
         fill(maybe ? &*maybe : &maybe.emplace(fresh<M>()));
       });
 }
-// A list, dictionary or text, which has no value when it is empty.
+// Access to a list, dictionary or text; an empty one counts as no value.
 template <class T, class M>
 [[nodiscard]] Access unless_empty(M T::*where) {
   return Access(
@@ -121,7 +120,7 @@ template <class T, class M>
       nullptr);
 }
 
-// Get(const T&) gives an std::optional<M>; Put(T&, M) stores what was read.
+// Get(const T&) returns std::optional<M>; Put(T&, M) stores the value that was read.
 template <class T, class M, class Get, class Put>
 [[nodiscard]] Access computed_access(Get get, Put put) {
   struct Both {

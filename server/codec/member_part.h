@@ -34,8 +34,8 @@ void describe_member(Schema& object, const MemberText& member, Schema schema,
 [[nodiscard]] AnyPartPtr member_part(Need need, std::string_view key, std::string_view text,
                                      const AnyFormatPtr& format, std::ptrdiff_t offset);
 
-// The Access of a member, or the offset of one that always has a value. An empty list, dictionary
-// or text is written as nothing: it is what an absent one means.
+// Returns the Access of a list, dictionary or text, and the offset of any other member. Empty
+// lists, dictionaries and texts are left out when written, because an absent member means the same.
 template <class M, class T>
 [[nodiscard]] auto field_access(M T::*where) {
   if constexpr (requires(const M& value) { value.empty(); }) {
@@ -52,8 +52,8 @@ template <class T, class Where, class M>
 [[nodiscard]] PartPtr<T> member(MemberText text, Where T::*where, const FormatPtr<M>& format) {
   return PartPtr<T>(member_part(std::move(text), format->any(), Access(field_access<M>(where))));
 }
-// Get(const T&) gives the value, or an optional that is empty where the member is absent; Put(T&,
-// M) stores what was read.
+// Get(const T&) returns the value, or an optional that is empty if the member is absent. Put(T&, M)
+// stores the value that was read.
 template <class T, class M, class Get, class Put>
 [[nodiscard]] PartPtr<T> member(MemberText text, const FormatPtr<M>& format, Get get, Put put) {
   return PartPtr<T>(member_part(std::move(text), format->any(), computed_access<T, M>(get, put)));
@@ -84,8 +84,8 @@ template <class T, class M>
                                 std::string_view text = "") {
   return PartPtr<T>(member_part(Need::required, key, text, format->any(), offset_of(where)));
 }
-// The same in other words: `spell` makes of the value what is written, `mean` the value of what is
-// read.
+// As above, converted: `spell` makes the written value of the member, `mean` the member of the
+// value that was read.
 template <class T, class Where, class M, class Spell, class Mean>
 [[nodiscard]] PartPtr<T> always(std::string_view key, Where T::*where, const FormatPtr<M>& format,
                                 std::string_view text, Spell spell, Mean mean) {

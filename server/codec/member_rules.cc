@@ -86,8 +86,8 @@ class CompanionPart final : public AroundPart {
   std::vector<std::string_view> keys_;
 };
 
-// What `object` demands beyond `before`, its description without the part, it demands only without
-// `key`.
+// Makes the requirements that the part added to `object` hold only if `key` is absent. `before`:
+// the description without the part.
 void describe_unless(Schema& object, const std::string& key, const Schema& before) {
   // The entries of a list that `before` does not have; they are taken out.
   const auto take_new = [&](const char* list) {

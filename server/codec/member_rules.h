@@ -32,7 +32,8 @@ template <class T, class M>
   return PartPtr<T>(only_with(companion, member_access(where), part.any()));
 }
 
-// The part, where the object has no member of that name. `may_be`: there are objects with it.
+// Returns a part that applies only to objects without the member `key`. `may_be`: false if no
+// object has it.
 [[nodiscard]] AnyPartPtr unless(std::string_view key, const AnyPartPtr& part, bool may_be);
 template <class T>
 [[nodiscard]] PartPtr<T> unless(std::string_view key, const PartPtr<T>& part) {

@@ -9,8 +9,8 @@
 
 namespace armloom::formats {
 
-// A part of the description of a JSON object: one member, several members that make up one value,
-// or a rule over members. The type of the object is erased as that of AnyFormat is.
+// A part of the description of a JSON object: one member, several members that form one value, or a
+// rule about members. The type of the object is erased as in AnyFormat.
 class AnyPart {
  public:
   AnyPart() = default;
@@ -19,10 +19,10 @@ class AnyPart {
   virtual ~AnyPart() = default;
   virtual void list_keys(std::vector<std::string_view>& /*keys*/) const {}
   virtual void read_any(const JsonNode& object, void* out) const = 0;
-  // Keys with their values.
+  // Writes keys and values.
   virtual void write_any(JsonWriter& /*out*/, const void* /*value*/) const {}
-  // Adds to the schema of the object: "properties", "required". What `defaults` holds is what an
-  // absent member means.
+  // Adds "properties" and "required" to the schema of the object. `defaults` holds the values that
+  // absent members stand for.
   virtual void describe_any(Schema& object, const void* defaults, Way way) const = 0;
   virtual void map_paths(nlohmann::json& /*object*/, const PathMap& /*map*/) const {}
 };
@@ -41,7 +41,7 @@ class PartPtr {
   AnyPartPtr any_;
 };
 
-// The base of a part that is written by hand for a T.
+// The base class of parts that are written by hand for a T.
 template <class T>
 class CustomPart : public AnyPart {
  public:
@@ -70,7 +70,7 @@ template <class T>
 class PartList {
  public:
   PartList() = default;
-  PartList(std::initializer_list<PartPtr<T>> parts) { add(parts); }  // NOLINT: meant to be implicit
+  PartList(std::initializer_list<PartPtr<T>> parts) { add(parts); }
   void add(std::initializer_list<PartPtr<T>> parts) {
     for (const PartPtr<T>& part : parts) add_part(parts_, part.any());
   }

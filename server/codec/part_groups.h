@@ -15,7 +15,7 @@ template <class T>
   return PartPtr<T>(parts(of_it.any()));
 }
 
-// A part that does with its inner one what this says, unless it overrides it.
+// The base class of parts that wrap one other part and override some of its functions.
 class AroundPart : public AnyPart {
  public:
   explicit AroundPart(const AnyPartPtr& part) : part_(part) {}
@@ -35,8 +35,8 @@ class AroundPart : public AnyPart {
   AnyPartPtr part_;
 };
 
-// Members that spell a T in other words: those of a Words, made of the T and back. Spell gives a
-// Words, or a reference to one.
+// Members that describe a T by the members of a Words: `spell` makes the Words of the T (Spell may
+// return a reference), `mean` makes the T of the Words.
 template <class T, class Words, class Spell>
 class SpeltPart final : public AroundPart {
  public:

@@ -16,7 +16,7 @@ namespace {
 constexpr Range kHeld{-1000.0, 1000.0};  // rad or m
 
 struct LimitText {
-  const char* angular;  // its two names
+  const char* angular;  // the key with angular and with linear units
   const char* linear;
   const char* text;
   std::optional<Schema> stated = {};  // its default

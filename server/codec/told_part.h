@@ -18,7 +18,7 @@ namespace armloom::formats {
 [[nodiscard]] AnyPartPtr told_part(Need need, std::string_view key, std::string_view text,
                                    const AnyFormatPtr& format, std::ptrdiff_t offset);
 
-// The T of a Get.
+// The type of the objects that a Get reads.
 template <class M, class T>
 T object_of(M T::*);
 template <class R, class T>
@@ -39,8 +39,8 @@ template <class M, class T>
 [[nodiscard]] Access told_access(std::optional<M> T::*where) {
   return member_access(where);
 }
-// Get is what std::invoke() takes with a const T&: it gives an M, or an optional or a pointer that
-// may be null. For parts that are never read.
+// For parts that are only written. std::invoke(get, const T&) returns an M, or an optional or
+// pointer that may be empty.
 template <class M, class Get>
 [[nodiscard]] Access told_access(Get get) {
   using T = ObjectOf<Get>;
@@ -82,7 +82,8 @@ template <class T, class Value>
 }
 
 // "started_s", cell time, and "started_at", wall time; the latter only where the writer knows it.
-// `may_lack`: an std::optional<TimePoint> stands at the offset (null), else a TimePoint.
+// `may_lack`: at the offset is a std::optional<TimePoint>, written as null if empty; else a
+// TimePoint.
 [[nodiscard]] AnyPartPtr told_times(std::string_view what, std::ptrdiff_t offset, bool may_lack,
                                     std::string_view text);
 template <class T>

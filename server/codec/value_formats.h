@@ -41,9 +41,9 @@ struct TextRule {
 struct Anything {};
 [[nodiscard]] FormatPtr<Anything> anything(std::string type);
 
-// What a format does with the std::optional<T> at an address.
+// Operations on a std::optional<T> whose type is erased, for nullable formats.
 struct OptionalOperations {
-  const void* (*value)(const void* maybe);  // null: none
+  const void* (*value)(const void* maybe);  // null if there is no value
   void* (*emplace)(void* maybe);
   void (*reset)(void* maybe);
 };
@@ -68,10 +68,10 @@ template <class T>
 void refuse_choice(const JsonNode& node, const std::string& found,
                    const std::vector<std::string>& known);
 
-// An enumeration that is spelt out (core/base/enumeration.h): what a format does with the one at an
-// address. Its values count from zero.
+// Operations on an enumeration (core/base/enumeration.h) whose type is erased, for choice formats.
+// Its values count from zero.
 struct ChoiceOperations {
-  const char* (*name)(std::size_t value);  // null: there is no such value
+  const char* (*name)(std::size_t value);  // null if the number is no value
   std::size_t (*value)(const void* choice);
   void (*set)(void* choice, std::size_t value);
 };

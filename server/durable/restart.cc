@@ -21,7 +21,7 @@
 namespace armloom {
 namespace {
 
-// What is not as clients of the former run had left it.
+// An object that could not be restored as clients of the former run had left it.
 struct ObjectNotPutBack {
   std::string name;
   std::string why;  // a sentence
@@ -35,8 +35,8 @@ Result<void> put_back(const StoredObject& stored, LiveScene& scene) {
   return is_there ? scene.replace(std::move(*object)) : scene.add(std::move(*object));
 }
 
-// Makes the scene what clients of the former run had made of it. On the strand, before anything
-// moves.
+// Restores the scene of the former run and returns what could not be restored. Call it on the
+// strand, before any arm moves.
 std::vector<ObjectNotPutBack> put_back(const std::vector<LeftObject>& objects, LiveScene& scene) {
   std::vector<ObjectNotPutBack> not_done;
   for (const LeftObject& left : objects) {

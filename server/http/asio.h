@@ -21,7 +21,7 @@ namespace armloom {
 
 namespace asio = boost::asio;
 
-// The types of asio for the one io_context. Those with any_io_executor take longer to compile.
+// Asio types with the concrete executor of io_context: any_io_executor takes longer to compile.
 using Executor = asio::io_context::executor_type;
 using Timer = asio::basic_waitable_timer<std::chrono::steady_clock,
                                          asio::wait_traits<std::chrono::steady_clock>, Executor>;
@@ -34,7 +34,8 @@ inline auto into(ErrorCode& ec) {
   return asio::redirect_error(asio::use_awaitable_t<Executor>(), ec);
 }
 
-// Starts `task` on the executor's thread, later. An exception that leaves it is dropped.
+// Starts `task` on the executor's thread, after this call. Exceptions that leave `task` are
+// dropped.
 void spawn(const Executor& executor, Awaitable<void> task);
 
 }  // namespace armloom

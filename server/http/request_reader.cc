@@ -63,7 +63,7 @@ Awaitable<void> read_some(Connection& connection, std::size_t max, ErrorCode& ec
   connection.buffer.commit(size);
 }
 
-// Reads on until the parser has the header, or the whole request.
+// Reads until `is_read`, the parser's test for the header or for the whole request, is true.
 Awaitable<void> parse(Connection& connection, RequestParser& parser,
                       bool (RequestParser::*is_read)() const, ErrorCode& ec) {
   while (!ec && !(parser.*is_read)()) {

@@ -25,14 +25,14 @@ using TlsContextPtr = std::shared_ptr<asio::ssl::context>;
 // fit.
 [[nodiscard]] Result<TlsContextPtr> tls_context(const TlsFiles& files);
 
-// The handler of an operation. Its type is hidden, so that the operations are compiled once, not
+// The handler of an operation, with its type erased: so the operations are compiled once instead of
 // once for each handler.
 class Completion {
  public:
   template <class Handler>
   requires(!std::same_as<Handler, Completion>) explicit Completion(Handler handler)
       : handler_(std::make_unique<Typed<Handler>>(std::move(handler))) {}
-  // Of an operation without a size.
+  // Wraps the handler of an operation that reports no size.
   template <class Handler>
   static Completion of_error(Handler handler) {
     return Completion(
@@ -63,32 +63,32 @@ class Completion {
   std::unique_ptr<Erased> handler_;
 };
 
-// The bytes of a connection, as they are or through TLS; a stream to asio and Beast. On the
-// server's thread, where handlers run, too. One read and one write may be under way at a time.
+// The stream of a connection for asio and Beast, plain or through TLS. Use it on the server's
+// thread only, where its handlers run. At most one read and one write may be under way.
 class Transport {
  public:
   using executor_type = Executor;
 
-  // `tls`: null: without.
+  // `tls` is null for a plain connection.
   Transport(Socket socket, const TlsContextPtr& tls);
   Transport(Transport&&) noexcept;
   ~Transport();
 
   executor_type get_executor() noexcept { return socket().get_executor(); }
   Socket& socket();  // stays where it is when this is moved
-  // Deadline of what is read and written from now on: then the connection is closed.
+  // Sets the deadline of later reads and writes; when it passes, the connection is closed.
   void expires_after(std::chrono::milliseconds time);
   void expires_never();
-  void cancel();  // what is under way ends with an error
+  void cancel();  // reads and writes under way end with an error
   void close();
   // Where the other end is: an IP address.
   [[nodiscard]] std::string peer() const;
 
-  // Before anything else. False: it did not come about in time.
+  // Call it first. Returns false if the TLS handshake fails or takes longer than `time`.
   Awaitable<bool> shake_hands(std::chrono::milliseconds time);
-  // Waits for bytes, and says how many have come.
+  // Waits for bytes and returns their number.
   Awaitable<std::size_t> read_some(asio::mutable_buffer to, ErrorCode& ec);
-  // Writes all of both.
+  // Writes both buffers completely.
   Awaitable<void> write(asio::const_buffer first, asio::const_buffer second, ErrorCode& ec);
 
   template <class Buffers, class Token>
@@ -124,13 +124,13 @@ class Transport {
   std::unique_ptr<Layers> layers_;
 };
 
-// How Beast ends a WebSocket: its closing frames have said all.
+// Beast calls this to end a WebSocket after its closing frames.
 void async_teardown(boost::beast::role_type role, Transport& transport, Completion then);
 template <class Handler>
 void async_teardown(boost::beast::role_type role, Transport& transport, Handler&& handler) {
   async_teardown(role, transport, Completion::of_error(std::forward<Handler>(handler)));
 }
-// How Beast closes one that has timed out.
+// Beast calls this to close a connection that has timed out.
 void beast_close_socket(Transport& transport);
 
 }  // namespace armloom

@@ -17,14 +17,14 @@
 namespace armloom {
 namespace {
 
-// Slow and short enough for any robot that is built.
+// Cautious limits that no real robot falls short of.
 constexpr double kAngle_rad = 1.0;
 constexpr double kSpeed_rad_s = 0.5;
 constexpr double kLength_m = 0.1;
 constexpr double kSpeed_m_s = 0.05;
 
-// Limits that a cell needs of an arm's joints and that neither the URDF nor joint_limits.yaml
-// (null: there is none) gives, by joint: cautious guesses, for somebody to replace.
+// Returns, by joint, cautious guesses of the limits that a cell needs and that neither the URDF nor
+// joint_limits.yaml (`file`, null if there is none) gives. The user is to replace them.
 std::map<std::string, JointLimitsDescription> guess_limits(const RobotTree& tree,
                                                            const RobotSemantics::JointSet& joints,
                                                            const LimitsFile* file) {
@@ -41,7 +41,7 @@ std::map<std::string, JointLimitsDescription> guess_limits(const RobotTree& tree
     const UrdfLimits& urdf = link.joint.limits;
     JointLimitsDescription guess;
     if (!urdf.velocity && !filed.velocity) guess.velocity = slides ? kSpeed_m_s : kSpeed_rad_s;
-    // Of one bound the other follows (URDF: zero).
+    // If only one bound is given, URDF takes zero for the other.
     const bool bounded = urdf.lower || urdf.upper || filed.lower || filed.upper;
     if (link.joint.motion != JointKind::continuous && !bounded) {
       guess.lower = slides ? 0.0 : -kAngle_rad;

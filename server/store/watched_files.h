@@ -12,8 +12,8 @@
 
 namespace armloom {
 
-// A file as it stood at its path when this was made (precondition: it did): whoever has it open
-// goes on to write where nobody will look when it was removed or replaced since.
+// Detects that the file at a path was removed, replaced or cut off since this was made: a process
+// that has the old file open writes where nobody will read. Precondition: the file exists.
 class PlacedFile {
  public:
   explicit PlacedFile(std::filesystem::path path) : path_(std::move(path)) {
@@ -26,7 +26,7 @@ class PlacedFile {
     return stat(path_.c_str(), &now) == 0 && now.st_dev == was_.st_dev && now.st_ino == was_.st_ino;
   }
 
-  // From now on it is at least as long as it is now, or as `most` if that is less.
+  // Remembers the present length, at most `most`, as the least that the file must keep.
   void has_grown(std::uintmax_t most) {
     struct stat now {};
     if (stat(path_.c_str(), &now) == 0)

@@ -252,7 +252,7 @@ TEST(Coordinated, SeesTheOtherArmsOfAMotionThatSharesOne) {
   EXPECT_EQ(around(verdict.regions[0].regions[0]).from_b, 0s);
 }
 
-// x passes y, then both move on together. Until then y stands 7 mm off where that begins.
+// x passes y, then one motion moves both. Until then y rests 7 mm from where that motion begins.
 TEST(Coordinated, SeesAnArmWhereItStandsNotWhereItsMotionBegins) {
   Rails rails;
   rails.question.candidates = {rails.motion(1, {kX}, -1, 0.125),

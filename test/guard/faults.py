@@ -71,7 +71,7 @@ FAULTS_IN_GUARD = [
     ('a region that is met does not matter', '    if (met == pair.blocked.end()) return std::nullopt;', '    if (met == pair.blocked.end() || FAULT) return std::nullopt;'),
 ]
 
-# The scheduler first: their numbers begin at 1.
+# Faults are numbered from 1, those in the scheduler first.
 FAULTS = SCHEDULER + [(name, GUARD, old, new) for name, old, new in FAULTS_IN_GUARD]
 
 

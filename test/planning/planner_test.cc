@@ -111,9 +111,8 @@ TEST(Planner, SaysWhyThereIsNoPlan) {
   EXPECT_EQ(planner.plan(request).error().reason, Reason::cancelled);
 }
 
-// With one joint an edge costs one evaluation, and trees get so many nodes that to compare with all
-// of them takes longer: that is part of the budget.
-TEST(Planner, OfOneJointGivesUpSoonToo) {
+// With one joint the trees get so many nodes that comparing them takes longer than the evaluations.
+TEST(Planner, CountsComparisonsOfNodesInItsBudget) {
   rails::Rails rails;
   rails.question.rest[1] = 0.0;  // y, on x's rail
   const auto at = [](double x) { return Eigen::VectorXd::Constant(1, x); };

@@ -49,8 +49,9 @@ INSTANTIATE_TEST_SUITE_P(Policies, SoakOfCommands,
 TEST_P(SoakOfCommands, Sliders) { soak(Soak::World::sliders, GetParam(), seed_count(kSliders)); }
 TEST_P(SoakOfCommands, Pandas) { soak(Soak::World::pandas, GetParam(), seed_count(kPandas, 10)); }
 
-// A rest beside a synchronous motion, a question without end, an approach behind its job.
-TEST(Soak, SeedsThatFailedOnceDoNoMore) {
+// In this order: an arm at rest beside a synchronous motion, an endless loop, an approach that was
+// placed behind its job.
+TEST(Soak, PassesSeedsThatOnceFailed) {
   for (const auto& [policy, seed] : std::vector<std::pair<std::string, std::uint64_t>>{
            {"coordinated", 7000447}, {"certified", 21000112}, {"coordinated", 20000387}}) {
     SCOPED_TRACE(policy + ", seed " + std::to_string(seed));

@@ -10,10 +10,9 @@
 namespace armloom {
 namespace {
 
-// A job waits again ahead of an errand: the errand still comes before the job that it is for. The
-// two in the wrong order made the scheduler ask about them for ever (soak, certified, seed
-// 21000112).
-TEST(JobBook, KeepsTheOrderOfEachQueueInTurn) {
+// An errand stays before its job, even if another job is ahead of both. In the wrong order they
+// sent the scheduler into an endless loop (soak, certified, seed 21000112).
+TEST(JobBook, SortsByTurnWithinTheOrderOfEachQueue) {
   const CellPtr cell = one_joint_arms(1);
   State state(cell, std::move(*make_policy("certified", *cell)), cell->home(), JobId{1});
   const auto add_job = [&](std::optional<JobId> before) {

@@ -102,7 +102,7 @@ std::vector<PairRegionSearch::Side> PairRegionSearch::standing_beside(const Moti
       return motion != nullptr && !share_an_arm(candidate, *motion);
     };
     if (compared(before) || compared(behind)) continue;
-    Configuration rest = question_.rest;  // a motion behind begins nearly there
+    Configuration rest = question_.rest;  // not where its next motion begins
     if (before != nullptr) put(*before->trajectory, before->trajectory->duration(), rest);
     sides.push_back(resting(arm, rest));
   }

@@ -131,7 +131,7 @@ std::size_t place_on(const State& state, const Record& record, ArmId arm) {
   const auto goes_before = [&](JobId id) {
     const Record& other = state.jobs.at(id);
     if (id == record.job.id) return false;
-    // An errand has the turn of the job that it comes before.
+    // An errand counts with the turn of the job that it is for.
     const auto& next = other.errand.before;
     if (other.job.in<Queued>() == nullptr || next == record.job.id) return true;
     const Record* whose = next ? state.jobs.find(*next) : nullptr;
@@ -148,7 +148,7 @@ void take_alternative(State& state, Record& record, std::size_t which) {
   const auto now = std::ranges::find(queue, record.job.id) - queue.begin();
   auto place = static_cast<std::ptrdiff_t>(place_on(state, record, arm_of(*trajectory)));
   if (record.job.trajectory == trajectory) {
-    // Jobs that were admitted ahead of it may be waiting again: the older turn goes first.
+    // Jobs that were admitted before this one may wait again: then the older turn goes first.
     if (now < place) --place;
     if (now == place || record.job.in<Queued>() == nullptr) return;
   }

@@ -23,7 +23,8 @@ Eigen::VectorXd standing(const std::vector<JointId>& joints, const Configuration
   return q;
 }
 
-// Where the arm's joints are at the motion's start or goal; those that it does not move, as here.
+// Returns the arm's joints at `end`, the motion's start or goal. Joints that the motion does not
+// move stay as in `here`.
 Eigen::VectorXd end_of(const Trajectory& motion, const Eigen::VectorXd& end,
                        const std::vector<JointId>& joints, Eigen::VectorXd here) {
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -34,11 +35,11 @@ Eigen::VectorXd end_of(const Trajectory& motion, const Eigen::VectorXd& end,
   return here;
 }
 
-// Where an arm could go to make way, in the order in which it is tried: back along the motion that
-// brought it here (null: none), which is certified against the scene, or, where it stopped on the
-// way of that, straight joint lines to its start and its goal; then lines to its home and to the
-// named poses of its group. From where it stands in `rest` (whole cell); poses where it stands
-// already are left out. Pure.
+// Returns the ways by which the arm can make way for another one, in the order in which they are
+// tried. All begin where the arm rests (`rest`: whole cell):
+// - back along the motion that brought it here (`came_by`, may be null); if it stopped on that
+//   motion, straight joint lines to the motion's start and goal
+// - lines to its home and to the named poses of its group, except where it rests already
 std::vector<TrajectoryPtr> ways_aside(const Cell& cell, ArmId arm, const Configuration& rest,
                                       const TrajectoryPtr& came_by) {
   const double tolerance = cell.execution.start_tolerance_rad;
