@@ -166,7 +166,9 @@ void Publisher::publish(TimePoint now) {
                    .stopped = all_stopped(),
                    .jobs = jobs_.share(),
                    .q = shown_.motions.measured(),
-                   .arms = arms_});
+                   .arms = arms_},
+                  gone_);
+  gone_.clear();
 }
 
 void Publisher::publish_scene() {
@@ -175,7 +177,7 @@ void Publisher::publish_scene() {
 }
 
 void Publisher::forget(JobId job, const std::string& key) {
-  board_->remove_key(key, job);
+  gone_.emplace_back(key, job);
   explained_.erase(job);
   jobs_.erase(job);
 }

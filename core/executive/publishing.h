@@ -89,6 +89,7 @@ class Publisher {
   bool told_rest_ = false;
   std::shared_ptr<StatusBoard> board_ = std::make_shared<StatusBoard>();
   JobLedger jobs_;
+  std::vector<StatusBoard::KeyOfJob> gone_;  // forgotten since the board was published
   QueueLists lists_;
   std::set<JobId> explained_;         // past the queue, and waiting: what they wait for may get
                                       // other words though the job does not change

@@ -107,7 +107,7 @@ std::vector<JobSheet::JobPtr> StatusBoard::jobs(const std::vector<std::string>& 
   return all;
 }
 
-void StatusBoard::publish(const Now& now) {
+void StatusBoard::publish(const Now& now, const std::vector<KeyOfJob>& gone) {
   JobSheet before = now.jobs;  // what it held alone is given up outside the lock
   const std::scoped_lock lock(mutex_);
   std::swap(status_.jobs, before);
@@ -117,6 +117,10 @@ void StatusBoard::publish(const Now& now) {
   status_.stopped = now.stopped;
   status_.q = now.q;
   status_.arms = now.arms;
+  for (const auto& [key, job] : gone) {
+    const auto known = keys_.find(key);
+    if (known != keys_.end() && known->second == job) keys_.erase(known);
+  }
 }
 
 void StatusBoard::publish_scene(std::shared_ptr<const SceneView> scene) {
@@ -127,12 +131,6 @@ void StatusBoard::publish_scene(std::shared_ptr<const SceneView> scene) {
 void StatusBoard::add_key(const std::string& key, JobId job) {
   const std::scoped_lock lock(mutex_);
   keys_.insert_or_assign(key, job);
-}
-
-void StatusBoard::remove_key(const std::string& key, JobId job) {
-  const std::scoped_lock lock(mutex_);
-  const auto known = keys_.find(key);
-  if (known != keys_.end() && known->second == job) keys_.erase(known);
 }
 
 }  // namespace armloom

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/executive/events.h"
@@ -67,10 +68,12 @@ class StatusBoard {
     const Configuration& q;
     const std::vector<ArmStatus>& arms;
   };
-  void publish(const Now& now);
+  // `gone` are the keys of jobs that `now.jobs` has no longer: whoever looks one up finds it as
+  // long as a list does.
+  using KeyOfJob = std::pair<std::string, JobId>;
+  void publish(const Now& now, const std::vector<KeyOfJob>& gone);
   void publish_scene(std::shared_ptr<const SceneView> scene);
   void add_key(const std::string& key, JobId job);
-  void remove_key(const std::string& key, JobId job);
 
  private:
   mutable std::mutex mutex_;

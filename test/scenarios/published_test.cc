@@ -156,6 +156,26 @@ TEST(Published, IsReadWhileTheStrandIsBusy) {
   may_go_on.set_value();
 }
 
+TEST(Published, AWithdrawnJobLeavesTheListsAndTheLookupTogether) {
+  Follower follower;
+  const auto cell = build_cell(crossing_description());
+  const auto simulation = Simulation::create(*cell, {}, follower);
+  ASSERT_TRUE(simulation);
+  Executive& executive = (*simulation)->executive();
+  const auto board = executive.board();
+  const auto agree = [&] {
+    const bool is_listed = board->read().jobs_with_ended(1).size() == 1;
+    EXPECT_EQ(board->job("one") != nullptr, is_listed);
+    return is_listed;
+  };
+  EXPECT_TRUE(executive.submit(slide("x", -1, 1, 4, "one")));
+  EXPECT_TRUE(agree());
+  executive.withdraw("one");
+  agree();
+  (*simulation)->run_until(executive.now() + std::chrono::seconds(1));
+  EXPECT_FALSE(agree());
+}
+
 JobSheet::JobPtr job_of(std::uint64_t id, const std::string& key) {
   return std::make_shared<const JobView>(JobView{.id = JobId{id}, .key = key});
 }
