@@ -113,15 +113,15 @@ struct JobView {
   [[nodiscard]] std::string detail() const { return result ? result->detail : ""; }
 };
 
-enum class ArmState { idle, moving, holding, stopped, fault };
+enum class ArmState { idle, moving, paused, stopped, fault };
 [[nodiscard]] constexpr const char* to_string(ArmState state) {
   switch (state) {
     case ArmState::idle:
       return "idle";
     case ArmState::moving:
       return "moving";
-    case ArmState::holding:
-      return "holding";
+    case ArmState::paused:
+      return "paused";
     case ArmState::stopped:
       return "stopped";
     case ArmState::fault:
@@ -134,7 +134,7 @@ struct ArmView {
   std::string name;
   std::string robot;
   ArmState state = ArmState::idle;
-  std::string job;  // key of the job in motion or holding; empty: none
+  std::string job;  // key of the job in motion or paused; empty: none
   double progress = 0.0;
   std::vector<std::string> joints;
   std::vector<double> q;  // measured, as joints

@@ -10,7 +10,7 @@
 namespace armloom {
 
 // The list of the queue in which a job of this state stands; null once it has ended. A job at rest
-// on its path (`holding`) counts as running.
+// on its path (`paused`) counts as running.
 [[nodiscard]] std::vector<std::string> QueueView::*queue_list_of(JobState state);
 
 // Which job stands in which list of the queue, in order of submission. Takes the state that clients

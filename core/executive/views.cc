@@ -199,7 +199,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   JobView view{.id = job.id,
                .key = names.key(job.id),
                .name = names.name(job.id),
-               .state = job.pausing() ? JobState::holding : job.state(),
+               .state = job.pausing() ? JobState::paused : job.state(),
                .terms = job.terms,
                .system_job = job.system_job,
                .times = times_of(job),

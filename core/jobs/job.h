@@ -60,7 +60,7 @@ struct Moving {
 };
 struct Braking {
   AfterStop after;
-  JobState state;       // scheduled, running, holding
+  JobState state;       // scheduled, running, paused
   bool paused = false;  // it stood already
 };
 struct Held {
@@ -216,7 +216,7 @@ struct Job {
   // By the way that it has now.
   [[nodiscard]] bool has_started() const { return times.motion_started_at.has_value(); }
   void note_start(TimePoint now);
-  // Braking: on the way to canceled, holding or failed.
+  // Braking: on the way to canceled, paused or failed.
   [[nodiscard]] bool stopping() const { return in<Braking>() != nullptr; }
   // At rest on its way until others have passed.
   [[nodiscard]] bool pausing() const;

@@ -19,7 +19,7 @@ enum class JobState {
   backlogged,  // judged, in conflict: `waits_on` says with what
   scheduled,   // admitted, starts at scheduled_at
   running,
-  holding,  // in the middle of its path, at rest or braking, until resumed
+  paused,   // in the middle of its path, at rest or braking, until resumed
   succeeded,
   canceled,
   expired,
@@ -37,8 +37,8 @@ enum class JobState {
       return "scheduled";
     case JobState::running:
       return "running";
-    case JobState::holding:
-      return "holding";
+    case JobState::paused:
+      return "paused";
     case JobState::succeeded:
       return "succeeded";
     case JobState::canceled:

@@ -145,7 +145,7 @@ TEST_P(Approaches, AStoppedOneGoesOnWhenResumed) {
   cell->run_until(at(2s));
   stop_all(cell->executive(), "operator");
   cell->run_until(at(5s));
-  EXPECT_EQ(cell->job("approach-1").state, JobState::holding);
+  EXPECT_EQ(cell->job("approach-1").state, JobState::paused);
   resume_all(cell->executive());
   cell->run_to_the_end();
   expect_succeeded("job");

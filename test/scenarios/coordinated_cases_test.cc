@@ -19,7 +19,7 @@ TEST(CoordinatedLate, GoesAsFarAsItMayAndPausesThere) {
   cell.submit(slide("y", -1, 1, 4, "second"));
   cell.run_until(at(4s));
   const JobView paused = cell.job("second");
-  EXPECT_EQ(paused.state, JobState::holding);
+  EXPECT_EQ(paused.state, JobState::paused);
   ASSERT_EQ(paused.waits_on.size(), 1U);
   EXPECT_EQ(paused.waits_on[0].job, "first");
   EXPECT_FALSE(paused.waits_on[0].links.empty());
@@ -68,7 +68,7 @@ TEST_F(Coordinated, StaysBeforeAnArmThatWasCanceledInTheWayUntilItMovesOn) {
   cell.run_until(at(12s));
   EXPECT_EQ(cell.job("canceled").state, JobState::canceled);
   const JobView waits = cell.job("follows");
-  EXPECT_EQ(waits.state, JobState::holding);
+  EXPECT_EQ(waits.state, JobState::paused);
   ASSERT_EQ(waits.waits_on.size(), 1U);
   EXPECT_EQ(waits.waits_on[0].kind, Wait::Kind::arm);
   EXPECT_EQ(waits.waits_on[0].arm, "x");
@@ -89,7 +89,7 @@ TEST_F(Coordinated, GivesUpOnItsPathWhenNothingMovesTheArmAway) {
   cell.run_until(at(1950ms));
   ASSERT_TRUE(cell.simulation->executive().cancel("canceled"));
   cell.run_until(at(20s));
-  EXPECT_EQ(cell.job("follows").state, JobState::holding);
+  EXPECT_EQ(cell.job("follows").state, JobState::paused);
   cell.run_to_the_end(at(25s));
   const JobView gave_up = cell.job("follows");
   EXPECT_EQ(gave_up.state, JobState::expired);
@@ -133,8 +133,8 @@ TEST_F(Coordinated, KeepsItsOrderOverAStopAndAResume) {
   cell.run_until(at(1500ms));
   stop_all(cell.simulation->executive(), "operator");
   cell.run_until(at(4s));
-  EXPECT_EQ(cell.job("first").state, JobState::holding);
-  EXPECT_EQ(cell.job("second").state, JobState::holding);
+  EXPECT_EQ(cell.job("first").state, JobState::paused);
+  EXPECT_EQ(cell.job("second").state, JobState::paused);
   resume_all(cell.simulation->executive());
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("first").state, JobState::succeeded);

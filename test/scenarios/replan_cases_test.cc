@@ -160,7 +160,7 @@ TEST_P(Replans, OneThatAnObjectStoppedGoesAroundIt) {
   post.X_WO.translation() = Eigen::Vector3d(-0.2, 1.6, 0.0);
   ASSERT_TRUE(cell->executive().scene().add(std::move(post)));
   cell->run_until(at(5s));
-  ASSERT_EQ(cell->job("stopped").state, JobState::holding);
+  ASSERT_EQ(cell->job("stopped").state, JobState::paused);
   ASSERT_TRUE(cell->executive().replan("stopped"));
   cell->run_to_the_end();
   expect_succeeded("stopped");

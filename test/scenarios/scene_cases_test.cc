@@ -20,7 +20,7 @@ TEST(Scene, AnObjectSetInTheWayHoldsTheMotionUntilItIsTakenAway) {
   ASSERT_TRUE(cell.simulation->executive().scene().add(ball_at(0.8)));
   EXPECT_TRUE(std::holds_alternative<SceneView>(cell.log.events.back().body));
   cell.run_until(at(10s));
-  EXPECT_EQ(cell.job("moves").state, JobState::holding);
+  EXPECT_EQ(cell.job("moves").state, JobState::paused);
   EXPECT_EQ(cell.job("moves").waits_on.front().kind, Wait::Kind::object);
   EXPECT_EQ(cell.job("moves").waits_on.front().links.back(), "ball");
   ASSERT_TRUE(cell.simulation->executive().scene().remove("ball"));

@@ -124,7 +124,7 @@ TEST(Aging, AHeldJobIsNeverHeldBack) {
   ASSERT_EQ(bench.candidate(), bench.old);
   bench.answer_conflict(at(31102ms), Conflict::With::motion, bench.runs, ArmId{0});
   bench.on_plan(at(32s));
-  ASSERT_EQ(bench.state(held), JobState::holding);
+  ASSERT_EQ(bench.state(held), JobState::paused);
   bench.step(Resume{{ArmId{2}}}, at(32s));
   ASSERT_TRUE(bench.question);
   EXPECT_EQ(bench.candidate(), held);

@@ -63,9 +63,9 @@ TEST(Stop, OfAJobThatIsOnItsWayUnseenHoldsItThere) {
   bench.answer_free(at(1ms));
   bench.step(Stop{{ArmId{0}}, "operator"}, at(300ms));
   bench.stopped(job, 400ms, at(500ms));
-  EXPECT_EQ(bench.state(job), JobState::holding);
+  EXPECT_EQ(bench.state(job), JobState::paused);
   bench.step(Resume{{ArmId{0}}}, at(1s));
-  EXPECT_EQ(bench.state(job), JobState::holding) << bench.job(job).detail();
+  EXPECT_EQ(bench.state(job), JobState::paused) << bench.job(job).detail();
   bench.answer_free(at(1001ms));
   EXPECT_EQ(bench.dispatched.back().from_progress, 400ms);
 }

@@ -105,7 +105,7 @@ export function figure_in_words(job: Job, now_s: number, progress: number, ends_
   if (job.stopping) return { text: 'stopping', title: 'Brakes on its path' };
   switch (job.state) {
     case 'running': return { text: `${seconds(ends_s === null ? (1 - progress) * (job.duration_s ?? 0) : Math.max(0, ends_s - now_s))} left`, title: ends_s === null ? 'Time until its motion ends' : 'Time until its motion ends, with the pauses that are expected' };
-    case 'holding': return is_stopped(job) ? { text: 'stopped', title: 'Stands on its path until its arm is resumed' } : { text: 'holding', title: 'Stands still on its path' };
+    case 'paused': return is_stopped(job) ? { text: 'stopped', title: 'Stands on its path until its arm is resumed' } : { text: 'paused', title: 'Stands still on its path' };
     case 'queued': case 'backlogged': case 'scheduled': return waited(job, now_s);
     default: break;
   }

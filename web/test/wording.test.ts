@@ -76,7 +76,7 @@ describe('the figure of a job', () => {
     expect(figure({ state: 'expired', ended_s: 2 })).toBe('waited 1.0 s');
   });
   it('is a word while no time is known', () => {
-    expect(figure({ state: 'holding', started_s: 1 })).toBe('holding');
+    expect(figure({ state: 'paused', started_s: 1 })).toBe('paused');
     expect(figure({ state: 'running', started_s: 1, stopping: true })).toBe('stopping');
   });
 });

@@ -674,7 +674,7 @@ export interface components {
          * @description The last five are terminal: a job reaches exactly one of them.
          * @enum {string}
          */
-        JobState: "queued" | "backlogged" | "scheduled" | "running" | "holding" | "succeeded" | "canceled" | "expired" | "failed" | "interrupted";
+        JobState: "queued" | "backlogged" | "scheduled" | "running" | "paused" | "succeeded" | "canceled" | "expired" | "failed" | "interrupted";
         /** @description What a job waits for, with the evidence. */
         Wait: {
             /** @enum {string} */
@@ -839,7 +839,7 @@ export interface components {
             name: string;
             robot: string;
             state: components["schemas"]["ArmState"];
-            /** @description In motion or holding */
+            /** @description In motion or paused */
             job: string | null;
             progress: number;
             joints: string[];
@@ -965,7 +965,7 @@ export interface components {
             bytes: number;
         };
         /** @enum {string} */
-        ArmState: "idle" | "moving" | "holding" | "stopped" | "fault";
+        ArmState: "idle" | "moving" | "paused" | "stopped" | "fault";
         /** @description Two stretches of two motions. Trajectory time. */
         ProgressBox: {
             /** @description Of the arm's own motion */

@@ -67,7 +67,7 @@ function reason_place(job: Job): Extract<Place, { page: 'pair' | 'scene' }> | nu
 
 function Progress({ job, app }: Props) {
   use_beats(app.store);
-  return job.state === 'running' || job.state === 'holding' ? <Bar share={app.store.progress(job)} /> : null;
+  return job.state === 'running' || job.state === 'paused' ? <Bar share={app.store.progress(job)} /> : null;
 }
 
 function Figure({ job, app }: Props) {

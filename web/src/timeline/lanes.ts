@@ -144,7 +144,7 @@ export function drawn_of(marks: readonly Mark[], from_s: number, to_s: number, l
     return true;
   });
 }
-const kAlways: ReadonlySet<Mark['state']> = new Set(['failed', 'interrupted', 'expired', 'running', 'holding']);
+const kAlways: ReadonlySet<Mark['state']> = new Set(['failed', 'interrupted', 'expired', 'running', 'paused']);
 
 /** The mark on top at a time. */
 export function mark_at(lane: Lane, t_s: number): Mark | null {
