@@ -28,7 +28,7 @@ struct ServeOptions {
   std::size_t keep_recordings = 0;
   std::size_t keep_recording_days = 0;
   std::size_t keep_recording_mb = 0;
-  double hold_lease_s = 0.5;  // of wall time
+  double jog_lease_s = 0.5;  // of wall time
   std::string log_format = "text";
   std::string log_requests = "none";
   std::string tokens;           // file; empty: everybody may everything

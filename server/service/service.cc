@@ -91,7 +91,7 @@ class Service::Impl {
         ApiParts{cell,        stream_,          *clock_,       *loop_,        hub_,
                  states_,     recording_.get(), keeper_.get(), *alerts_,      post,
                  post_urgent, guard_,           aside,         *listings_,    *metrics_,
-                 limits_,     *comparison_,     control_,      options_.data, options_.hold_lease});
+                 limits_,     *comparison_,     control_,      options_.data, options_.jog_lease});
     api_->add_routes(router_);
     router_.otherwise([this](const Request& request) { return answer_file(request); });
     return std::nullopt;

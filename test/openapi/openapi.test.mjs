@@ -78,7 +78,7 @@ const ended = (id) => until(`the end of ${id}`, async () => {
 before(async () => {
   folder = fs.mkdtempSync(path.join(os.tmpdir(), 'armloom-openapi-'));
   writeCell();
-  server = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', process.env.ARMLOOM_PRISM ? '2' : '10', '--hold-lease', '5', '--web', path.join(folder, 'web')]);
+  server = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', process.env.ARMLOOM_PRISM ? '2' : '10', '--jog-lease', '5', '--web', path.join(folder, 'web')]);
   const {text} = await ask(server.port, 'GET', '/openapi.json');
   contract = new Contract(JSON.parse(text));
   if (process.env.ARMLOOM_PRISM) proxy = await startPrism(process.env.ARMLOOM_PRISM, contract.document, path.join(folder, 'openapi.json'), server.port);
@@ -260,7 +260,7 @@ test('What the others would have done', async () => {
 });
 
 test('Moves by hand', async () => {
-  const hold = `${v1}/arms/{name}/hold`;
+  const hold = `${v1}/arms/{name}/jog`;
   const left = {args: {name: 'left'}};
   await call(200, 'GET', `${v1}/control`);
   const {key} = await call(200, 'POST', `${v1}/control`, {body: example(`${v1}/control`, 'POST', 'ada')});

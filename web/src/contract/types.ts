@@ -358,7 +358,7 @@ export interface components {
             key?: string;
         };
         /** @description A move by hand, as it is now. */
-        Hold: {
+        Jog: {
             job: components["schemas"]["Job"];
             /** @description The arm brakes when it is not renewed for so long, in wall time */
             lease_s: number;
