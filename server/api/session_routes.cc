@@ -40,7 +40,7 @@ void log_in(Call call) {
     if (!session.role || (session.asks_for_token && !may_stand_in_a_cookie(read.token))) {
       return respond(refusal_response({401,
                                        "not-authenticated",
-                                       "the token is none of this server's, or was withdrawn",
+                                       "the token is none of this server's, or was revoked",
                                        "/token",
                                        std::nullopt,
                                        {kHowToShowAToken}}));
