@@ -53,9 +53,9 @@ struct CheckView {
   std::vector<WaitView> conflicts;               // not free: the same
   std::uint64_t evaluations = 0;
   std::uint64_t scene_version = 0;
-  std::optional<ChoiceView> choice;     // of a goal that several arms could go to
-  std::optional<double> approach_s;     // from now until its arms are where it begins
-  std::optional<JobResultView> result;  // it would end at once
+  std::optional<ChoiceView> choice;       // of a goal that several arms could go to
+  std::optional<double> move_to_start_s;  // from now until its arms are where it begins
+  std::optional<JobResultView> result;    // it would end at once
 };
 // Other ways that were looked for, for a job (scheduler/ways/replanning.h).
 struct AnotherWayView {

@@ -17,7 +17,7 @@
 namespace armloom {
 
 // Jobs of the server's own, as their keys begin.
-enum class OwnJob { aside, approach };
+enum class OwnJob { retreat, move_to_start };
 
 // What clients know a job by.
 struct JobLabel {

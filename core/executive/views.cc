@@ -217,7 +217,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
 
 CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobNames& names) {
   CheckView view{.kind = outcome.kind, .scene_version = 0};
-  if (outcome.approach) view.approach_s = to_seconds(*outcome.approach);
+  if (outcome.approach) view.move_to_start_s = to_seconds(*outcome.approach);
   const Job& job = outcome.job;
   if (job.goal && job.choice) view.choice = view_of(job, *job.choice, cell, names);
   if (outcome.starts_in) view.earliest_start_s = to_seconds(*outcome.starts_in);

@@ -21,43 +21,32 @@ enum class OnTimeout {
   return nullptr;
 }
 
-// How an arm comes to where a job begins.
-enum class Approach {
-  none,  // it stands there by then
-  plan,  // one that stands elsewhere at the job's turn is brought there first (approach.h)
+// How an arm gets to the start of a job's trajectory.
+enum class MoveToStart {
+  none,  // the arm must be there at the job's turn
+  plan,  // an arm that is elsewhere at the job's turn is moved there first (ways/approach.h)
 };
-[[nodiscard]] constexpr const char* to_string(Approach how) {
+[[nodiscard]] constexpr const char* to_string(MoveToStart how) {
   switch (how) {
-    case Approach::none:
+    case MoveToStart::none:
       return "none";
-    case Approach::plan:
+    case MoveToStart::plan:
       return "plan";
   }
   return nullptr;
 }
 
-// Whether jobs of one arm that begin and end at one place have to run in the order in which they
-// came. They may change places with each other where each of them says `any`.
-enum class JobOrder { as_given, any };
-[[nodiscard]] constexpr const char* to_string(JobOrder order) {
-  switch (order) {
-    case JobOrder::as_given:
-      return "as_given";
-    case JobOrder::any:
-      return "any";
-  }
-  return nullptr;
-}
-
-// What a job's turn goes by, as its client asks for it: it stands in the request, stays with the
-// job, and is told of it. server/messages/job_terms.h says how each of these is written.
+// A job's terms: the settings of its request that decide when it runs. They stay with the job and
+// are part of its published view. server/messages/job_terms.h describes them as JSON.
 struct JobTerms {
   int priority = 0;  // larger goes first
-  // In the backlog. Absent: the cell's; of a job of the scheduler it is never absent.
+  // Longest time in the backlog. nullopt: the cell's default; never nullopt in a scheduled Job.
   std::optional<Duration> backlog_timeout = {};
   OnTimeout on_timeout = OnTimeout::abort;
-  Approach approach = Approach::none;
-  JobOrder order = JobOrder::as_given;
+  MoveToStart move_to_start = MoveToStart::none;
+  // The job may change places with other reorderable jobs of its arm that begin and end where it
+  // does.
+  bool reorderable = false;
 };
 
 // Of these, what can still be changed while the job has not ended; what is absent stays.

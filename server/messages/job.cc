@@ -87,7 +87,7 @@ PartPtr<CheckView> make_verdict_part() {
       told("scene_version", &View::scene_version, count()),
       told_if("choice", &View::choice, choice_format(),
               "Of a goal that several arms could go to: which one would"),
-      told_if("approach_s", &View::approach_s, number({0.0}),
+      told_if("move_to_start_s", &View::move_to_start_s, number({0.0}),
               "Of a job that asks for an approach: so long its arms would take to where it begins. "
               "The verdict is of that motion; where it would not be admitted together with it, the "
               "job is judged again when it is there"),

@@ -46,7 +46,7 @@ class Metrics::Impl {
       jobs_.Add({{"outcome", to_string(state)}});
     }
     for (const Wait::Kind kind :
-         {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object, Wait::Kind::order,
+         {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object, Wait::Kind::predecessor,
           Wait::Kind::capacity, Wait::Kind::stop, Wait::Kind::plan, Wait::Kind::guard}) {
       waits_.Add({{"reason", to_string(kind)}});
     }

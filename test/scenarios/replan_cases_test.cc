@@ -40,7 +40,7 @@ TEST_P(Replans, WhereThereIsNoWayAroundTheArmGoesAside) {
   cell->submit(go("a", {-1, 0}, {0, 0}, 3, "into its place"));
   cell->run_to_the_end();
   expect_succeeded("into its place");
-  expect_succeeded("aside-1");
+  expect_succeeded("retreat-1");
   const auto other = cell->job("into its place").ways.another_way;
   ASSERT_TRUE(other && other->refusal);
   EXPECT_EQ(other->done, 0U);
@@ -61,8 +61,8 @@ TEST_P(Replans, WhereThereIsNoStraightWayAsideOneIsPlanned) {
       continue;
     }
     expect_succeeded("into its home");
-    expect_succeeded("aside-1");
-    EXPECT_EQ(cell->job("aside-1").name, "b moves aside for into its home");
+    expect_succeeded("retreat-1");
+    EXPECT_EQ(cell->job("retreat-1").name, "b retreats for into its home");
     cell->expect_at("a", {1, 0});
     expect_apart();
   }

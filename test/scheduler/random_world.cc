@@ -95,7 +95,7 @@ std::optional<Submit> World::draw(bool any) {
     if (!any && !bench_.crossings.free_beside(*motion, rest)) continue;
     Submit job{JobId{0}, motion, {static_cast<int>(random_() % 3), 1'000'000s}};
     if (disturbances_.cancels) job.terms.backlog_timeout = 20s + up_to(100s);
-    if (is_brought) job.terms.approach = Approach::plan;
+    if (is_brought) job.terms.move_to_start = MoveToStart::plan;
     const auto active = bench_.scheduler.active();
     if (!active.empty() && random_() % 5 == 0) {
       job.after.push_back(active[random_() % active.size()]);
@@ -118,7 +118,7 @@ std::optional<Submit> World::draw_visit(const Configuration& rest, bool any) {
   if (job.alternatives.empty()) return std::nullopt;
   job.trajectory = job.alternatives.front();
   if (job.alternatives.size() == 1) job.alternatives.clear();
-  job.terms.order = JobOrder::any;
+  job.terms.reorderable = true;
   return job;
 }
 

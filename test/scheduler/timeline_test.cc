@@ -162,7 +162,7 @@ TEST_F(Timeline, WhoIsHeldForGoodHasNoEndNorWhatFollowsIt) {
   EXPECT_EQ(behind.starts, std::nullopt);
   EXPECT_EQ(behind.ends, std::nullopt);
   ASSERT_THAT(behind.pauses, SizeIs(1));
-  EXPECT_EQ(behind.pauses[0].waits_on->kind, Wait::Kind::order);
+  EXPECT_EQ(behind.pauses[0].waits_on->kind, Wait::Kind::predecessor);
   EXPECT_EQ(behind.pauses[0].waits_on->job, second);
 }
 

@@ -63,7 +63,7 @@ export function wait_in_words(w: WaitsOn): string {
     case 'job': return how ? `waits for ${who}: ${how}` : `waits for ${who} to end`;
     case 'arm': return `waits for ${who} to move away${how ? `: ${how}` : ''}${w.detail ? ` (${w.detail})` : ''}`;
     case 'object': return how ? `waits for ${who} to be clear: ${how}` : `waits for ${who} to be clear`;
-    case 'order': return w.id ? `waits its turn: ${short_id(w.id)}${w.arm ? ` of ${w.arm}` : ''} comes first` : `waits its turn${w.arm ? ` on ${w.arm}` : ''}`;
+    case 'predecessor': return w.id ? `waits its turn: ${short_id(w.id)}${w.arm ? ` of ${w.arm}` : ''} comes first` : `waits its turn${w.arm ? ` on ${w.arm}` : ''}`;
     case 'capacity': return w.id ? `waits until ${who} has ended: one at a time` : 'waits for a free place';
     case 'plan': return 'waits until the way to its goal is planned';
     case 'check': return `is being checked: ${Math.round(100 * (w.progress ?? 0))} %`;
@@ -135,7 +135,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'plan': return 'waits for its plan';
     case 'check': return 'is being checked';
     case 'capacity': return 'waits for a free place';
-    case 'order': return 'waits its turn';
+    case 'predecessor': return 'waits its turn';
     case 'guard': return 'kept back by the authority guard';
   }
 }

@@ -62,7 +62,7 @@ const forecast = (now_s: number) => {
       {
         name: 'left', waiting: 1, legs: [
           { id: 'pick', name: '', arms: ['left'], state: 'paused', progress: 0.25, starts_s: 2, ends_s: null, pauses: stands(3, kStop) },
-          { id: 'behind', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ kind: 'order', id: 'pick' })) },
+          { id: 'behind', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ kind: 'predecessor', id: 'pick' })) },
         ],
       },
       {

@@ -33,7 +33,7 @@ describe('the reason why a job waits', () => {
   it('tells an arm at rest, an object, the order, the capacity and a stop apart', () => {
     expect(reason({ kind: 'arm', id: null })).toMatch(/^waits for arm right to move away: left_panda_hand would/);
     expect(reason({ kind: 'object', id: 'crate', arm: null, ...kBare })).toBe('waits for crate to be clear');
-    expect(reason({ kind: 'order', id: 'pick-6', arm: 'left', ...kBare })).toBe('waits its turn: pick-6 of left comes first');
+    expect(reason({ kind: 'predecessor', id: 'pick-6', arm: 'left', ...kBare })).toBe('waits its turn: pick-6 of left comes first');
     expect(reason({ kind: 'capacity', ...kBare })).toBe('waits until job place-6 of right has ended: one at a time');
     expect(reason({ kind: 'object', id: null, arm: null, links: ['left_panda_hand', 'table'] })).toMatch(
       /^waits for table to be clear: left_panda_hand would come within 12 mm of table/);

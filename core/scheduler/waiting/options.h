@@ -9,7 +9,7 @@
 namespace armloom {
 
 // What could take a turn: the job whose turn it is; one of those that follow it on its arm and like
-// it may be taken in any order (JobOrder), have its priority, and begin and end where it
+// it may be reordered (JobTerms::reorderable), have its priority, and begin and end where it
 // does; or the job on another arm (Submit::alternatives). None of these leaves an arm elsewhere, so
 // that everything else remains as possible as it was.
 struct Option {
