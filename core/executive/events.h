@@ -32,9 +32,9 @@ struct WaitView {
 
 // That it was taken before others, or by one of several arms (scheduler/job.h, Choice).
 struct ChoiceView {
-  std::vector<std::string> among;  // keys of jobs, or names of arms
-  std::string taken;               // of these
-  std::optional<double> saves_s;
+  std::vector<std::string> candidates;  // keys of jobs, or names of arms
+  std::string selected;                 // of these
+  std::optional<double> time_saved_s;
   std::string detail;  // one sentence
 };
 // How a job ended.
@@ -66,9 +66,9 @@ struct AnotherWayView {
 };
 // Ways around the places that others hold (scheduler/ways/detour.h).
 struct DetourView {
-  std::uint64_t weighed = 0;      // so many
-  bool is_taken = false;          // it goes by one of them
-  std::optional<double> saves_s;  // nothing: none is taken, or the shortest way could not go
+  std::uint64_t candidates_evaluated = 0;  // so many
+  bool is_selected = false;                // it goes by one of them
+  std::optional<double> time_saved_s;  // nothing: none is taken, or the shortest way could not go
 };
 // What was left open of a job, and how that came out.
 struct JobWaysView {
@@ -104,7 +104,7 @@ struct JobView {
   JobMotionView motion = {};
   JobWaysView ways = {};
   std::vector<WaitView> waits_on;
-  std::vector<std::string> ring;        // keys: the deadlock that it is part of, itself first
+  std::vector<std::string> cycle;       // keys: the deadlock that it is part of, itself first
   std::optional<JobResultView> result;  // when ended
 
   [[nodiscard]] std::optional<Reason> reason() const {

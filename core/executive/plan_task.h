@@ -55,8 +55,8 @@ struct PlanView {
   std::string arm;
   std::vector<OtherArm> others;
   PlannedMotion motion;
-  double length;    // in joint space (rad, m), ...
-  double straight;  // ... and of the straight line
+  double length;                // in joint space (rad, m), ...
+  double straight_line_length;  // ... and of the straight line
   // What would become of it as a job now; or why that is not told: it begins elsewhere.
   Result<CheckView> verdict;
 };

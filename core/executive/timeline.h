@@ -14,7 +14,7 @@ namespace armloom {
 // What is expected of the arms, as the strand knows it at one instant.
 struct TimelineView {
   PredictedTimeline predicted;
-  std::uint64_t horizon_legs = 0;
+  std::uint64_t horizon_steps = 0;
   Status status;  // of the same instant
 };
 
@@ -35,11 +35,11 @@ struct TimelineLanes {
   };
   struct Lane {
     std::string arm;
-    std::vector<Leg> legs;      // in the order in which they go
+    std::vector<Leg> steps;     // in the order in which they go
     std::uint64_t waiting = 0;  // jobs of the arm that are no leg
   };
   TimePoint now;
-  std::uint64_t horizon_legs = 0;
+  std::uint64_t horizon_steps = 0;
   std::vector<Lane> lanes;  // by ArmId
 };
 

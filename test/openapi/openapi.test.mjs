@@ -413,7 +413,7 @@ test('A server with tokens asks for them', async () => {
     assert.equal(entered.status, 200);
     const cookie = entered.headers['set-cookie'][0].split(';')[0];
     const session = JSON.parse((await asked('GET', `${v1}/session`, {Cookie: cookie})).text);
-    assert.deepEqual(session, {asks_for_token: true, name: 'a', role: 'viewer'});
+    assert.deepEqual(session, {auth_required: true, name: 'a', role: 'viewer'});
     assert.equal((await asked('DELETE', `${v1}/session`, {Cookie: cookie})).status, 204);
     const {kept, recordings: [running]} = JSON.parse((await asked('GET', `${v1}/recordings`, {Authorization: `Bearer ${token}`})).text);
     assert.deepEqual([kept, running.name, running.running], [true, 'data', true]);

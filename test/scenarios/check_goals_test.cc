@@ -72,7 +72,7 @@ TEST_P(CheckedGoals, AnOpenArmIsChosenAsItWouldBe) {
   const CheckView said = check(request);
   EXPECT_EQ(said.kind, Verdict::Kind::free);
   ASSERT_TRUE(said.choice);
-  EXPECT_EQ(said.choice->taken, "y");
+  EXPECT_EQ(said.choice->selected, "y");
 }
 
 TEST_P(CheckedGoals, AnApproachIsPlannedAndItsTimeTold) {

@@ -60,8 +60,8 @@ TEST(FreeOrder, TakesTheOneThatCanGoBesideWhatMoves) {
   EXPECT_LT(beside.times.ended_at, through.times.started_at);
   EXPECT_TRUE(beside.terms.reorderable);
   ASSERT_TRUE(beside.ways.choice);
-  EXPECT_THAT(beside.ways.choice->among, ElementsAre("through", "beside"));
-  EXPECT_EQ(beside.ways.choice->taken, "beside");
+  EXPECT_THAT(beside.ways.choice->candidates, ElementsAre("through", "beside"));
+  EXPECT_EQ(beside.ways.choice->selected, "beside");
   EXPECT_THAT(beside.ways.choice->detail, HasSubstr("through"));
   EXPECT_EQ(free.cell.simulation->executive().figures().monitor_stops, 0U);
 }
@@ -108,7 +108,7 @@ TEST(Alternatives, AreSharedByTheArms) {
   EXPECT_LT(two.times.started_at, one.times.ended_at);
   EXPECT_THAT(two.ways.alternatives, ElementsAre("x", "y"));
   ASSERT_TRUE(two.ways.choice);
-  EXPECT_EQ(two.ways.choice->taken, two.arms.front());
+  EXPECT_EQ(two.ways.choice->selected, two.arms.front());
 }
 
 TEST(Alternatives, OfAStoppedArmAreDoneByTheOther) {
@@ -121,7 +121,7 @@ TEST(Alternatives, OfAStoppedArmAreDoneByTheOther) {
     EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key;
     EXPECT_THAT(cell.job(key).arms, ElementsAre("y")) << key;
     ASSERT_TRUE(cell.job(key).ways.choice) << key;
-    EXPECT_THAT(cell.job(key).ways.choice->among, ElementsAre("y", "x")) << key;
+    EXPECT_THAT(cell.job(key).ways.choice->candidates, ElementsAre("y", "x")) << key;
     EXPECT_THAT(cell.job(key).ways.choice->detail, HasSubstr("x cannot: it is stopped")) << key;
   }
 }
@@ -138,7 +138,7 @@ TEST(Alternatives, OfAnArmThatDoesNotComeToTheirBeginningAreDoneByTheOther) {
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("job").state, JobState::succeeded);
   ASSERT_TRUE(cell.job("job").ways.choice);
-  EXPECT_THAT(cell.job("job").ways.choice->among, ElementsAre("y", "x"));
+  EXPECT_THAT(cell.job("job").ways.choice->candidates, ElementsAre("y", "x"));
   EXPECT_THAT(cell.job("job").ways.choice->detail, HasSubstr("x cannot: it will not stand"));
 }
 

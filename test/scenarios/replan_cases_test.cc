@@ -207,7 +207,7 @@ TEST_P(Replans, WhatCanBeGivenNoneIsRefused) {
   cell->submit(std::move(loop));
   const auto refused = cell->executive().replan("loop");
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().front().slug, "no-other-way");
+  EXPECT_EQ(refused.error().front().slug, "no-alternative-path");
   EXPECT_EQ(cell->executive().replan("nobody").error().front().kind, ProblemKind::not_found);
   cell->run_to_the_end();
   EXPECT_EQ(cell->executive().replan("loop").error().front().slug, "job-has-ended");

@@ -88,7 +88,7 @@ struct AheadOfTheirTurns : ::testing::Test {
 
   static CellPtr cell_that_looks_ahead() {
     auto cell = std::make_shared<Cell>(*one_joint_arms(2));
-    cell->scheduling.horizon_legs = 3;
+    cell->scheduling.horizon_steps = 3;
     return cell;
   }
 

@@ -35,7 +35,7 @@ CellPtr World::cell() {
       *(disturbances_.parks ? one_joint_arms_that_park(arms_) : one_joint_arms(arms_)));
   made->execution.duration_margin = 1h;  // stalls are none of the scheduler's business here
   made->execution.start_tolerance_rad = 1e-7;
-  made->scheduling.horizon_legs = 1 + static_cast<int>(arms_ + random_() % 5) % 6;
+  made->scheduling.horizon_steps = 1 + static_cast<int>(arms_ + random_() % 5) % 6;
   return cell_ = made;
 }
 
