@@ -151,7 +151,7 @@ struct DiagramView {
     std::string arm_a;
     std::string arm_b;
     std::vector<DiagramCell> cells;
-    std::optional<DiagramMeeting> met;  // from where both are
+    std::optional<DiagramContact> met;  // from where both are
   };
   TimePoint time;  // when it was asked for
   Side a;

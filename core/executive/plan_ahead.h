@@ -12,12 +12,12 @@ namespace armloom {
 // conflict, or, where there is none, the first that is undecided. Around each conflict lies a seam
 // of undecided cells, which says nothing more. A corner that is only touched is not entered.
 // Nothing: the way leads through free cells only. Preconditions: 0 <= at <= end of each.
-struct DiagramMeeting {
+struct DiagramContact {
   DiagramCell::State state;
   Duration after;       // from now
   Duration at_a, at_b;  // trajectory times then
 };
-[[nodiscard]] std::optional<DiagramMeeting> first_met(const std::vector<DiagramCell>& cells,
+[[nodiscard]] std::optional<DiagramContact> first_met(const std::vector<DiagramCell>& cells,
                                                       Duration at_a, Duration at_b, Duration end_a,
                                                       Duration end_b);
 
