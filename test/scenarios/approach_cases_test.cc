@@ -86,7 +86,7 @@ TEST_P(Approaches, ThatBlockEachOtherCostEachArmOneJob) {
       const JobView job = cell->job(arm + std::to_string(i));
       if (job.state != JobState::failed) continue;
       EXPECT_EQ(job.reason(), Reason::deadlock) << job.key;
-      EXPECT_FALSE(job.ring.empty()) << job.key;
+      EXPECT_FALSE(job.cycle.empty()) << job.key;
       ++of_arm;
     }
     EXPECT_LE(of_arm, 1) << arm;
