@@ -5,10 +5,10 @@
 
 namespace armloom {
 
-// Every pair of bodies that is closer than the cell's clearance_m (of an arm from itself:
-// self_clearance_m) while all arms stand at home, with its distance: such a cell is refused. Empty:
-// the homes are free. Points at the home of the arm that the first body belongs to
-// ("/robots/0/arms/0/home").
+// Returns every pair of bodies that is closer than its limit while all arms are at home, with its
+// distance: clearance_m, or self_clearance_m or mount_clearance_m for an arm with itself or its
+// mount. Such a cell is refused. Empty if the homes are free. Each pointer names the home of the
+// first body's arm ("/robots/0/arms/0/home").
 [[nodiscard]] Problems check_home(const PlanningScenePtr& scene);
 
 }  // namespace armloom
