@@ -12,7 +12,8 @@ namespace armloom {
 // null), as certificates name them. Precondition: `arms` are its entries, not empty.
 [[nodiscard]] CertifiedSide certified_side(std::span<MotionStore::Entry* const> arms,
                                            const Motion* motion);
-// Precondition: both have been compared in this scene, and kept apart but for `blocked`.
+// Returns the certificate of two sides. Precondition: they were compared in this scene and are free
+// outside `blocked`.
 [[nodiscard]] PairCertificate pair_certificate(const PlanningScene& scene, CertifiedSide a,
                                                CertifiedSide b, std::vector<ProgressBox> blocked);
 

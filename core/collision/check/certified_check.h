@@ -6,11 +6,11 @@
 
 namespace armloom {
 
-// One question by a certified method (Swept, Coordinated), answered from a store in which it has
-// begun (MotionStore::begin_question). What they claim: motion_checker.h.
+// Answers one question by a certified method (Swept, Coordinated; motion_checker.h states their
+// guarantees). The question must have begun in the store (MotionStore::begin_question).
 class CertifiedCheck {
  public:
-  // Store and question outlive it.
+  // Store and question must outlive the check.
   CertifiedCheck(MotionStore& store, const Question& question);
   [[nodiscard]] Verdict swept();
   [[nodiscard]] Verdict coordinated();
@@ -42,10 +42,11 @@ class CertifiedCheck {
   Verdict verdict_;
 };
 
-// What a cell budget grows with: `cells` for each 10 s of the longest motion.
+// Returns a cell budget: `cells` for each 10 s of the longest motion, at least `cells`.
 [[nodiscard]] std::uint64_t cell_budget(std::uint64_t cells, double longest_s);
 
-// With joints up to `tracking_error` off their paths; adds to `evaluations`.
+// Answers a passage question, with joints up to `tracking_error` off their paths. Adds to
+// `evaluations`.
 [[nodiscard]] PassageAnswer check_passage(MotionStore& store, const PassageQuestion& passage,
                                           Configuration rest, double tracking_error,
                                           std::uint64_t& evaluations);

@@ -7,7 +7,7 @@
 
 namespace armloom {
 
-// A closed rectangle of states that are not certified free, and what is known of it.
+// A closed rectangle of states that are not certified free, with its evidence.
 struct BlockedCell {
   enum class Evidence {
     none,
@@ -16,24 +16,24 @@ struct BlockedCell {
   };
   ProgressBox box;
   Evidence evidence = Evidence::none;
-  double distance_m = 0.0;  // where there is evidence
+  double distance_m = 0.0;  // unset without evidence
 };
 
-// Blocked cells that hang together.
+// Connected blocked cells.
 struct BlockedRegion {
-  std::vector<ProgressBox> boxes;  // by from_a, then from_b; never empty
-  std::size_t evidence;            // place of the cell with the closest proven state; without one,
-                                   // the smallest distance known; without one, the largest cell
+  std::vector<ProgressBox> boxes;  // sorted by from_a, then from_b; never empty
+  std::size_t evidence;  // index of the cell with the closest proven state; if none, with the
+                         // smallest known distance; if none, the largest cell
 };
 
-// The connected components of the cells, each in few boxes that overlap by no more than kTouch.
-// Cells belong together when they touch, corners and gaps up to kTouch included. Boxes hold every
-// state of the cells that can still be reached; besides, only what a component (or several) closes
-// in on all sides, for no motion comes there. `remaining`: where both may still come to. Cells that
-// are behind it are dropped, and what is not blocked where both stand now is never filled.
+// Returns the connected components of the cells, each as few boxes that overlap by at most kTouch.
+// Cells are connected if they touch, at corners too, or have gaps up to kTouch. The boxes contain
+// every state of the cells that can still be reached. They also fill holes that one or more
+// components enclose, because no motion gets there. `remaining` is what remains of both motions:
+// cells behind it are dropped, and a free state where both are now is never filled.
 //
-// Precondition: a cell has no zero width, but on an axis on which all have (an arm at rest).
-// Pure; by from_a and from_b of the first boxes.
+// Precondition: no cell has zero width, except on an axis on which all cells have (an arm at rest).
+// Pure. Sorted by from_a and from_b of the first boxes.
 [[nodiscard]] std::vector<BlockedRegion> blocked_regions(const std::vector<BlockedCell>& cells,
                                                          const ProgressBox& remaining);
 inline constexpr Duration kTouch = std::chrono::nanoseconds(1);

@@ -8,16 +8,16 @@
 
 namespace armloom {
 
-// What stands behind a pair of capsules: two bodies that must not come closer than limit_m.
+// The two bodies of a pair of capsules, which must not come closer than limit_m.
 struct NarrowPair {
   PairId pair;  // in PlanningScene::Bodies::pairs
   int body_a;   // in the kinematics of the first side
-  int body_b;   // in that of the second side
+  int body_b;   // in the kinematics of the second side
   double limit_m;
 };
 
-// The pairs of one comparison, for the filter and for what comes behind it. Entry i of `pairs`
-// belongs to narrow[i], entry i of `boxes` to narrow_boxes[i].
+// The pairs of one comparison, for the broad phase (filter) and the narrow phase. Entry i of
+// `pairs` belongs to narrow[i], entry i of `boxes` to narrow_boxes[i].
 struct PairSet {
   std::vector<filter::Pair> pairs;
   std::vector<NarrowPair> narrow;
@@ -26,14 +26,14 @@ struct PairSet {
   std::vector<filter::Group> groups;  // of pairs: by the first side's capsules, or ...
   bool groups_of_second = false;      // ... by the second side's
   std::vector<filter::Group> others;  // filter::Groups::others
-  float limit_up = 0.0F;              // the largest of pairs
+  float limit_up = 0.0F;              // largest limit of pairs
 
   [[nodiscard]] bool empty() const { return pairs.empty() && boxes.empty(); }
-  // For the filter: whole groups are passed over where balls prove them; or every pair is looked
-  // at.
+  // Return the pairs for the filter: with groups, which are skipped as a whole if balls prove them
+  // apart, or without.
   [[nodiscard]] filter::Pairs grouped() const;
   [[nodiscard]] filter::Pairs ungrouped() const;
-  // limit_m(pair): what it is held to from now on.
+  // Sets the limit of each pair to limit_m(pair).
   template <class Limit>
   void set_limits(const Limit& limit_m) {
     const auto set_all = [&](auto& entries, std::vector<NarrowPair>& of) {
@@ -46,13 +46,14 @@ struct PairSet {
     set_all(boxes, narrow_boxes);
     limits_changed();
   }
+  // Updates the limits of groups after a change.
   void limits_changed();
 };
 
-// All pairs that are looked at between two arms (the first one's id is the smaller), an arm and
-// what stands still, or an arm and itself (a and b are one), with the cell's limits. Rows of the
-// sides' motion_bound arrays: one for each capsule; of an arm and itself those of the kinematics's
-// motion bounds, where what both capsules share does not count.
+// Returns all pairs to check between two arms (the first has the smaller id), an arm and static
+// bodies, or an arm and itself (a and b are the same), with the cell's limits. Rows in the sides'
+// motion_bound arrays: one per capsule; for an arm and itself those of the kinematics' motion
+// bounds, without the motion that both capsules share.
 [[nodiscard]] PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& a,
                                     const ArmKinematics& b);
 }  // namespace armloom
