@@ -57,7 +57,7 @@ void find_object_problems(const std::vector<CollisionObject>& objects,
   }
 }
 
-// Only at the start: an object of the cell file may be taken away later.
+// Only for a new scene: an object of the cell file may be removed later.
 void find_unknown_allowed(const Cell& cell, Problems& problems) {
   std::set<std::string> names;
   for (const CollisionObject& object : cell.objects) names.insert(object.name);
@@ -72,7 +72,7 @@ void find_unknown_allowed(const Cell& cell, Problems& problems) {
 
 void find_attachment_problems(const Cell& cell, const std::vector<CollisionObject>& objects,
                               const std::vector<Attachment>& attachments, Problems& problems) {
-  std::map<std::string, std::string> taken;  // name, by what
+  std::map<std::string, std::string> taken;  // name, owner
   for (const Link& link : cell.links) taken.emplace(link.name, "a link");
   for (const CollisionObject& object : objects) taken.emplace(object.name, "an object");
   for (std::size_t i = 0; i < attachments.size(); ++i) {
