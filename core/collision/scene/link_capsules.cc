@@ -248,7 +248,7 @@ bool contains(const LinkCapsule& capsule, const ConvexShape& shape) {
 }
 
 LinkCapsules fit_capsules(const std::vector<ConvexShape>& shapes) {
-  if (shapes.empty()) throw std::invalid_argument("capsules around no shape");
+  if (shapes.empty()) throw std::invalid_argument("fit_capsules: needs at least one shape");
   if (const auto around = shape_around_all(shapes)) {
     LinkCapsules fitted{{*around}, 0.0};
     fitted.overestimate_m = overestimate_of(fitted.capsules, shapes);

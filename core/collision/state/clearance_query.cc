@@ -34,9 +34,8 @@ struct ClearanceQuery::Scratch {
   PlanningScenePtr scene;
   const PlanningScene::Bodies& bodies;
   PlacedCell placed;
-  std::vector<Open> open;  // pairs of meshes, which are slow
-  std::vector<std::size_t>
-      order;  // of `open`: deepest overlap of capsules first, most likely too close
+  std::vector<Open> open;          // pairs of meshes, which are slow
+  std::vector<std::size_t> order;  // of `open`: deepest overlap of capsules first
   LinkPoses X_WL;
   std::vector<Candidate> candidates;
 
