@@ -9,11 +9,10 @@
 namespace armloom {
 
 // Returns the arms of one motion from its present progress on, or one arm at rest (`motion` is
-// null), as certificates name them. Precondition: `arms` are its entries, not empty.
+// null). Precondition: `arms` are its entries, not empty.
 [[nodiscard]] CertifiedSide certified_side(std::span<MotionStore::Entry* const> arms,
                                            const Motion* motion);
-// Returns the certificate of two sides. Precondition: they were compared in this scene and are free
-// outside `blocked`.
+// Precondition: both were compared in this scene and are free outside `blocked`.
 [[nodiscard]] PairCertificate pair_certificate(const PlanningScene& scene, CertifiedSide a,
                                                CertifiedSide b, std::vector<ProgressBox> blocked);
 

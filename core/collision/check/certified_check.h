@@ -6,11 +6,11 @@
 
 namespace armloom {
 
-// Answers one question by a certified method (Swept, Coordinated; motion_checker.h states their
-// guarantees). The question must have begun in the store (MotionStore::begin_question).
+// Answers one question by a certified method (guarantees: motion_checker.h). The question must have
+// begun in the store (MotionStore::begin_question).
 class CertifiedCheck {
  public:
-  // Store and question must outlive the check.
+  // Store and question must outlive it.
   CertifiedCheck(MotionStore& store, const Question& question);
   [[nodiscard]] Verdict swept();
   [[nodiscard]] Verdict coordinated();
@@ -42,11 +42,10 @@ class CertifiedCheck {
   Verdict verdict_;
 };
 
-// Returns a cell budget: `cells` for each 10 s of the longest motion, at least `cells`.
+// Returns a budget of `cells` for each 10 s of the longest motion, at least `cells`.
 [[nodiscard]] std::uint64_t cell_budget(std::uint64_t cells, double longest_s);
 
-// Answers a passage question, with joints up to `tracking_error` off their paths. Adds to
-// `evaluations`.
+// Joints may be up to `tracking_error` off their paths. Adds to `evaluations`.
 [[nodiscard]] PassageAnswer check_passage(MotionStore& store, const PassageQuestion& passage,
                                           Configuration rest, double tracking_error,
                                           std::uint64_t& evaluations);

@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-// A rectangle of fields: half-open ranges of columns on both axes.
+// A rectangle of fields: half-open ranges of columns.
 struct Span {
   int from_a, to_a, from_b, to_b;
 };
@@ -23,8 +23,8 @@ struct Run {
   int from, to;
 };
 
-// Fields as runs, line by line, so that the cost grows with the rectangles and not with their area.
-// A line is one column of A; runs go along B.
+// Fields as runs by line, so that the cost does not grow with the area. A line is one column of A;
+// runs go along B.
 class Lines {
  public:
   Lines(int lines, int places) : runs_(static_cast<std::size_t>(lines)), places_(places) {}
@@ -33,8 +33,7 @@ class Lines {
     for (int line = span.from_a; line < span.to_a; ++line)
       at(line).push_back({span.from_b, span.to_b});
   }
-  // Sorts the runs of each line and joins those that touch. The other functions require joined
-  // runs.
+  // Sorts and joins the runs of each line, as the other functions require.
   void join() {
     for (std::vector<Run>& runs : runs_) {
       std::ranges::sort(runs, {}, &Run::from);
@@ -88,7 +87,6 @@ class ConnectedRuns {
     }
   }
 
-  // Returns the number of the line's first run.
   [[nodiscard]] std::size_t first(int line) const { return first_[static_cast<std::size_t>(line)]; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t root(std::size_t run) { return sets_.root(run); }
@@ -109,7 +107,7 @@ class ConnectedRuns {
   DisjointSets sets_;
 };
 
-// Calls take(rectangle) for each block of equal runs on consecutive lines.
+// Calls take(rectangle) for equal runs on consecutive lines.
 template <class Take>
 void each_rectangle(const Lines& lines, const Take& take) {
   struct Open {  // reaches to the current line

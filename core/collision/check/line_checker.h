@@ -12,48 +12,45 @@
 
 namespace armloom {
 
-// Checks for planners whether one arm may move along a straight line in joint space while
-// everything else rests. Certifies the whole line, with the clearances and tracking error that jobs
-// are checked with (Swept, motion_checker.h). The arm is checked, with its attached objects,
-// against itself, static bodies, its mount, and the other arms where they rest. A line is cut in
-// eight, and stretches that are not certified are halved (as in CoordinationDiagram, along one
-// axis).
+// Checks for planners whether one arm may move straight through joint space while everything else
+// rests. Certifies the whole line with the clearances and tracking error of jobs (Swept,
+// motion_checker.h): the arm and its attached objects against themselves, static bodies, the mount,
+// and the other arms where they rest. A line is cut in eight; stretches that are not certified are
+// halved.
 //
-// Deterministic. Has scratch memory, so not thread-safe: use one per worker thread.
+// Deterministic. Not thread-safe: use one per worker thread.
 class LineChecker {
  public:
-  // `rest` has the positions of all joints of the cell, except those of the arm's group. Every
-  // joint may be off by `tracking_error` (rad, m). Arms in `left_out` are ignored, with their
-  // attached objects. Throws std::invalid_argument unless rest has an entry for each joint.
+  // `rest`: positions of all joints of the cell; those of the arm's group are ignored.
+  // `tracking_error`: of each joint (rad, m). `left_out`: arms that are ignored, with their
+  // attached objects. Throws std::invalid_argument unless `rest` has an entry for each joint.
   LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration& rest, double tracking_error,
               const std::vector<ArmId>& left_out = {});
 
   enum class Kind {
-    free,       // certified for the whole line
-    conflict,   // a pair is proven to be closer than its limit somewhere on the line
+    free,       // for the whole line
+    conflict,   // a pair is closer than its limit somewhere on the line
     undecided,  // neither; treat as a conflict
   };
   struct Answer {
     Kind kind = Kind::free;
     double at = 0.0;                          // share of the line, 0 to 1: where ...
     std::optional<Proximity> proximity = {};  // ... and which pair; body_a has the smaller arm id
-    // Undecided: how far the pair may move within the undecided stretch, tracking error included.
-    // Its distance is not large enough for that.
+    // Undecided: how far the pair may move within the stretch, tracking error included. Its
+    // distance is too small for that.
     double moves_m = 0.0;
   };
-  // Checks a line; rows as the arm's joints. With from == to: one state, with its tracking error.
+  // Checks a line; rows as the arm's joints. With from == to: one state.
   [[nodiscard]] Answer line(const Eigen::VectorXd& from, const Eigen::VectorXd& to);
   [[nodiscard]] Answer state(const Eigen::VectorXd& q) { return line(q, q); }
-  // Returns true if line() would return `free`. Faster, because it collects no evidence.
+  // Returns true if line() would return `free`; faster, without evidence.
   [[nodiscard]] bool is_free(const Eigen::VectorXd& from, const Eigen::VectorXd& to);
 
-  // Returns the number of stretches evaluated so far.
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
   [[nodiscard]] ArmId arm() const { return arm_; }
   [[nodiscard]] const PlanningScene& scene() const { return *scene_; }
 
-  // Limit of evaluated stretches for one line. A line that needs more passes an obstacle so closely
-  // that another path is found faster.
+  // A line that needs more stretches passes something so closely that another path is found faster.
   inline static constexpr int kStretchesMax = 600;
   // Stretches in which no joint moves by more than this are not halved; rad or m.
   inline static constexpr double kFinest = 1e-3;
@@ -75,8 +72,7 @@ class LineChecker {
                                    const std::shared_ptr<MotionTube>& tube) const;
   [[nodiscard]] std::optional<Found> search(const std::shared_ptr<MotionTube>& tube,
                                             double distance);
-  // The pair that falls short of its limit most, and the additional distance it needs because it
-  // moves.
+  // The pair that falls short most, and how far it may move.
   struct Worst {
     TubePair::PairDistance pair;
     double moves_m;

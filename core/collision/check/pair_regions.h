@@ -14,37 +14,33 @@
 namespace armloom {
 
 // Finds the conflict regions of one Coordinated question: every candidate against every motion of
-// other arms, and against every arm at rest. Uses the diagrams of the store, and refines them to
-// resolution_of() (but see kClosest). States that are not known when kCells are used up are not
-// free.
+// other arms and every arm at rest. Refines the store's diagrams to resolution_of() (but see
+// kClosest). What is unknown when the budget is used up is not free.
 //
-// Motions that share an arm run one after the other and are not compared: first those that are not
-// to come, then those to come; in both parts others before candidates, as named. The rests of an
-// arm before, between and after its motions are ends of their axes. If these motions share an arm
-// with the candidate, the arm is compared as an arm at rest instead.
+// Motions that share an arm are not compared. They run in this order: motions that are not to come,
+// then those to come; each part others first, then candidates, as named. The rests of an arm
+// before, between and after its motions are ends of their axes. If these motions share an arm with
+// the candidate, the arm is compared as an arm at rest instead.
 //
-// A pair that is too close now may part (motion_checker.h), if neither motion is to come.
+// A pair that is too close now may part (motion_checker.h) unless a motion is to come.
 class PairRegionSearch {
  public:
-  // `store` and `question` must outlive the search, and no other question may begin in the store.
+  // `store` and `question` must outlive it; no other question may begin in the store meanwhile.
   PairRegionSearch(MotionStore& store, const Question& question);
 
-  // Returns the regions by candidate: with others, with candidates named after it, with arms at
-  // rest. Pairs that are free everywhere are omitted.
+  // Returns the regions by candidate: with others, candidates named after it, arms at rest. Omits
+  // pairs that are free everywhere.
   [[nodiscard]] std::vector<PairRegions> find();
-  // Takes the certificates of all pairs that can reach each other, free pairs included.
+  // Includes pairs that are free everywhere; excludes pairs out of reach.
   [[nodiscard]] std::vector<Certificate> take_certificates() { return std::move(certificates_); }
-  // Returns the smallest limits of pairs that part; +inf if no pair does.
+  // Returns the smallest limits of pairs that part; +inf if none does.
   [[nodiscard]] const ClearanceBound& parted() const { return parted_; }
-  // Returns true if a larger effort might find more free states, because a region has no proven
-  // conflict.
+  // Returns true if a larger effort might find more free states.
   [[nodiscard]] bool exhausted() const { return exhausted_; }
-  // Returns the number of evaluated cells.
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
-  // Resolution if the shorter motion takes at most kShort. Otherwise fine cells are wider in
-  // proportion to the shorter motion, up to twice, so that waiting at a region costs the same share
-  // of time.
+  // If the shorter motion takes longer than kShort, fine cells widen with it, up to twice: a wait
+  // at a region then costs the same share of time.
   inline static constexpr Duration kShort = std::chrono::seconds(5);
   inline static constexpr CoordinationDiagram::Resolution kResolution{
       .coarse = std::chrono::milliseconds(160),
@@ -53,13 +49,13 @@ class PairRegionSearch {
                   .coarse = std::chrono::milliseconds(160),
                   .slope = 0.5}};
   [[nodiscard]] static CoordinationDiagram::Resolution resolution_of(Duration shorter);
-  // Cell budget of two arms, for each second of both motions together.
+  // Cell budget of two arms, for each second of both motions.
   inline static constexpr double kCells = 500.0;
-  // Largest cell budget of a pair of arms, whatever the effort, so that the cost of a check does
-  // not grow with the square of a motion's length.
+  // Largest cell budget of two arms, so that a check's cost does not grow with the square of a
+  // motion's length.
   inline static constexpr std::uint64_t kCellsMax = 400'000;
-  // A region without a proven conflict may be a close pass. It is refined to this width, with the
-  // same budget again; with effort > 1 to CellTree::kFinest.
+  // A region without a proven conflict may be a close pass: it is refined to this width, with the
+  // same budget again. With effort > 1 to CellTree::kFinest.
   inline static constexpr Duration kClosest = std::chrono::milliseconds(2);
 
  private:
@@ -94,7 +90,7 @@ class PairRegionSearch {
   std::vector<Certificate> certificates_;
   std::vector<const Motion*> in_order_;  // all motions; of each arm in the order they run in
   // Of the current two sides:
-  std::vector<OrientedDiagram> layers_;  // one per arm of the first side and arm of the second
+  std::vector<OrientedDiagram> layers_;  // each arm of one side against each of the other
   std::vector<BlockedCell> blocked_;
   std::vector<std::pair<std::size_t, CoordinationDiagram::Blocked>> leaves_;  // layer, by blocked_
 };

@@ -9,23 +9,21 @@
 
 namespace armloom {
 
-// A body at a pose in the world, and the joints that may move it, base to tip. For two bodies of
-// one arm, list only joints that move one of the two: the joints upstream of both do not change
-// their distance.
+// A body and the joints that may move it, base to tip. For two bodies of one arm, omit joints
+// upstream of both, which do not change their distance.
 struct MovingBody {
   PlacedBody at;
   std::span<const MovingAxis> axes;
 };
 
-// Returns true if the bodies are proven to keep limit_m for all joint values within the spans of
-// the axes. The proof gives each pair of shapes, or of surface triangles, a direction along which
-// neither comes within limit_m of the other (Sweep). Pairs that are already enough_m apart are
-// skipped; the caller must know that enough_m suffices. May return false for bodies that keep
-// limit_m, but never the reverse. Precondition: the bodies are apart here (body_distance() > 0).
+// Returns true if the bodies are proven to keep limit_m for all joint values within the spans. Each
+// pair of shapes or surface triangles needs a direction along which the two stay limit_m apart
+// (Sweep). Pairs that are enough_m apart here are skipped; the caller must know that this suffices.
+// Never wrongly true. Precondition: the bodies are apart here (body_distance() > 0).
 [[nodiscard]] bool keep_apart(const std::vector<ConvexShape>& shapes, const MovingBody& a,
                               const MovingBody& b, double limit_m, double enough_m);
 
-// Same as keep_apart(), for two surfaces. Precondition: neither lies inside the other here.
+// The same for two surfaces. Precondition: neither lies inside the other here.
 struct MovingSolid {
   PlacedSolid at;
   std::span<const MovingAxis> axes;
@@ -34,7 +32,7 @@ struct MovingSolid {
                                        double enough_m);
 
 // Returns a lower bound of the gap between two shapes along the unit vector n_W (from a to b), for
-// all joint values within the spans. Negative: the shapes may overlap.
+// all joint values within the spans; may be negative.
 struct MovingShape {
   const ConvexShape& shape;
   const PlacedConvexShape& at;

@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-// A set of boxes that hardly overlap, for point queries. Searches along axis A only.
+// Boxes that hardly overlap, for point queries by a search along axis A.
 class BoxAreas {
  public:
   // Precondition: `boxes` is not empty.
@@ -28,7 +28,6 @@ class BoxAreas {
     return box.from_a <= hull_.to_a && hull_.from_a <= box.to_a && box.from_b <= hull_.to_b &&
            hull_.from_b <= box.to_b;
   }
-  // Returns true if a box contains the point (a, b).
   [[nodiscard]] bool hold(Duration a, Duration b) const {
     const auto behind = std::ranges::upper_bound(boxes_, a, {}, &ProgressBox::from_a);
     for (auto i = static_cast<std::size_t>(behind - boxes_.begin()); i-- > 0 && to_a_[i] >= a;) {
@@ -39,7 +38,7 @@ class BoxAreas {
   }
 
  private:
-  std::vector<ProgressBox> boxes_;  // sorted by from_a
+  std::vector<ProgressBox> boxes_;  // by from_a
   std::vector<Duration> to_a_;      // largest to_a up to this box
   ProgressBox hull_;
 };

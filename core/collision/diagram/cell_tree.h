@@ -11,25 +11,24 @@
 namespace armloom {
 
 // The cells of a diagram: rectangles over the times of two motions, halved along one axis or both.
-// The first cell covers both motions. The children of a cell are stored consecutively.
+// The first cell covers both motions; children are consecutive.
 class CellTree {
  public:
   enum class CellState : std::uint8_t { unknown, free, mixed, conflict, finest, inner };
   struct Node {
-    int a;  // node in the TimeTree of each axis
+    int a;  // nodes of the axes
     int b;
-    int children = -1;  // index of the first of two or four
+    int children = -1;  // first of two or four
     CellState state = CellState::unknown;
-    bool split_a = false;  // how to split (mixed cells) or how it was split (inner cells)
+    bool split_a = false;  // of mixed cells: how to split; of inner cells: how they were split
     bool split_b = false;
-    std::uint8_t levels = 1;  // mixed cells: number of halvings at once
-    int witness = -1;         // evidence at the cell's middle, or -1
+    std::uint8_t levels = 1;  // of a mixed cell: halvings at once
+    int witness = -1;         // at its middle, or -1
 
     [[nodiscard]] int child_count() const { return (split_a ? 2 : 1) * (split_b ? 2 : 1); }
   };
 
-  // Wider stretches of a motion are hardly ever free as a whole, so they are halved without a
-  // check.
+  // Wider stretches are hardly ever free as a whole: they are halved without a check.
   inline static constexpr Duration kWide = std::chrono::milliseconds(700);
   // Cells are not split below this width.
   inline static constexpr Duration kFinest = std::chrono::microseconds(500);
@@ -46,7 +45,6 @@ class CellTree {
   [[nodiscard]] const TimeTree& a() const { return *a_; }
   [[nodiscard]] const TimeTree& b() const { return *b_; }
   [[nodiscard]] ProgressBox box_of(const Node& cell) const;
-  // Returns true if the cell is wider than this on either axis.
   [[nodiscard]] bool wider(const Node& cell, Duration than) const {
     return a_->width(cell.a) > than || b_->width(cell.b) > than;
   }
@@ -55,17 +53,16 @@ class CellTree {
     return a_->to(cell.a) >= now_a && b_->to(cell.b) >= now_b;
   }
 
-  // Splits as the cell's split_a and split_b say, the children too if `levels` > 1.
+  // Splits as split_a and split_b say; children too if `levels` > 1.
   void split(int cell, int levels);
-  // Splits an unknown cell that is wider than `wide` without checking it. Precondition: wide >=
-  // kWide.
+  // Splits an unknown cell that is wider than `wide` (at least kWide) without a check.
   void split_if_wide(int cell, Duration wide = kWide);
-  // Splits a mixed cell that is wider than `resolution`. Halves the other axis if the axis along
-  // which more moves is fine enough already.
+  // Splits a mixed cell that is wider than `resolution`. Halves the other axis if the preferred one
+  // is fine already.
   void split_if_coarse(int cell, Duration resolution);
 
-  // Calls visit(leaf) for the leaves that touch `of`, corners included, until visit() returns true.
-  // Returns true if it did.
+  // Calls visit(leaf) for leaves that touch `of`, corners included, until it returns true. Returns
+  // true if it did.
   template <class Visit>
   bool leaves_at(const Node& of, const Visit& visit) const {
     std::vector<int>& open = walk_;
@@ -108,7 +105,7 @@ class CellTree {
   std::shared_ptr<TimeTree> a_;
   std::shared_ptr<TimeTree> b_;
   std::vector<Node> cells_;
-  mutable std::vector<int> walk_;  // scratch of leaves_at() and leaves_where()
+  mutable std::vector<int> walk_;  // scratch
 };
 
 }  // namespace armloom

@@ -12,14 +12,14 @@ class CheckProgress {
   // Sets how many cells the check may evaluate.
   void expect(std::uint64_t cells) { expected_ = cells; }
   void add(std::uint64_t cells) { done_ += cells; }
-  // Returns the share of its budget that the check has used, 0 to 1. Most checks end long before 1.
+  // Returns the used share of the budget, 0 to 1. Most checks end long before 1.
   [[nodiscard]] double share() const {
     const std::uint64_t expected = expected_;
     if (expected == 0) return 0.0;
     return std::min(1.0, static_cast<double>(done_) / static_cast<double>(expected));
   }
 
-  // Ends the check within one batch of cells. Its verdict is then void.
+  // Ends the check within a batch of cells; its verdict is then void.
   void interrupt() { interrupted_ = true; }
   [[nodiscard]] bool is_interrupted() const { return interrupted_; }
 

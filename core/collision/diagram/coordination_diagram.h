@@ -13,23 +13,23 @@
 
 namespace armloom {
 
-// The coordination diagram of two motions of different arms (O'Donnell and Lozano-Perez 1989):
-// whether they collide depends only on where each is along its own path. Cells over (trajectory
-// time of A, trajectory time of B) are certified free, in conflict, or not known yet. Cells are
-// refined only where a question needs it, and kept, so that repeating a question costs next to
-// nothing. For one arm against static bodies, or against itself, the second axis has no length.
+// Whether two motions of different arms collide depends only on where each is along its own path
+// (O'Donnell and Lozano-Perez 1989). Cells over (trajectory time of A, trajectory time of B) are
+// certified free, in conflict, or not known yet. They are refined only where a question needs it,
+// and kept, so that repeating a question costs next to nothing. For one arm against static bodies,
+// or against itself, the second axis has no length.
 //
-// A cell is free if every pair of bodies keeps its limit in every state of the cell. The proof
-// takes the distance at the cell's middle, less the motion of each body within the cell
-// (MotionTube). Capsules are tried first, then the exact distance at the middle, and last the
-// motion of the bodies towards each other only (body_sweep.h).
+// A cell is free if every pair of bodies keeps its limit in all its states: the distance at its
+// middle, less the motion of both bodies within the cell (MotionTube), is at least the limit.
+// Capsules are tried first, then the exact distance, last the motion of the bodies towards each
+// other only (body_sweep.h).
 //
 // Not thread-safe; diagrams of one thread may share tubes.
 class CoordinationDiagram {
  public:
   explicit CoordinationDiagram(TubePair pair);
   [[nodiscard]] TubePair& pair() { return pair_; }
-  // Returns the memory in use, without the tubes.
+  // Without its tubes.
   [[nodiscard]] std::size_t bytes() const {
     return static_cast<std::size_t>(tree_.size()) * sizeof(Node) +
            found_.size() * sizeof(NarrowWitness);
@@ -38,57 +38,55 @@ class CoordinationDiagram {
   // Two bodies too close to each other.
   struct Witness {
     PairId pair;
-    double distance_m;  // exact if below the limit; else (undecided) a lower bound
+    double distance_m;  // exact if below the limit, else a lower bound
     Duration time_a;    // trajectory times
     Duration time_b;
-    double at_s;  // time from the start of the question's band until this state is first reached
+    double at_s;  // from the start of the question's band until it first contains this state
   };
   struct Answer {
     bool free = false;
     bool exhausted = false;  // the budget ended before the question was decided
-    // Set if not free. If proven: the first proven conflict in time, to within kFirst_s. Else: the
-    // first cell that could not be decided.
+    // If proven, the first conflict in time, to within kFirst_s; else the first cell that could not
+    // be decided. nullopt if free.
     std::optional<Witness> conflict;
     bool proven = false;
-    std::uint64_t evaluations = 0;  // cells and states evaluated for this question
+    std::uint64_t evaluations = 0;  // cells and states
   };
-  // Evaluates no more than `budget` cells and states. The refine functions stop within one batch of
-  // eight cells after `budget`, and return the number of evaluated cells (at least `budget` if
-  // interrupted).
+  // Evaluates at most `budget` cells and states. The refine functions stop within a batch of eight
+  // after `budget`; they return the number of evaluated cells (at least `budget` if interrupted).
   [[nodiscard]] Answer ask(const ProgressBand& band, std::uint64_t budget);
 
   // Refines what remains of both motions until each cell is free, in conflict, or no wider than
   // `resolution`.
   std::uint64_t refine(Duration now_a, Duration now_b, Duration resolution, std::uint64_t budget);
 
-  // Refines the border of the free part of what remains of both motions: cells that are not free
-  // and touch a free cell, or an edge where one motion is now. These become no wider than `fine`,
-  // or `coarse` if their middle is a proven conflict, and as fine as `passing` says where motions
-  // pass a region. Cells behind the border are not evaluated, because no motion gets there.
+  // Refines the border of the free part of what remains of both motions: cells that touch a free
+  // cell, or an edge where a motion is now. They become no wider than `fine`, or `coarse` if their
+  // middle is in conflict, and as `passing` requires where motions pass a region. Cells behind the
+  // border are not evaluated: no motion gets there.
   struct Resolution {
     Duration coarse;
     Duration fine;
     PassingResolution passing;
   };
   //
-  // For long motions the first cells are wider, so that few of them cover everything and the budget
-  // goes where the motions are close. A full diagram (kFull) is not refined further; it starts
-  // again when less than half of its area remains.
+  // Long motions begin with wider cells, so that the budget goes where motions are close. A full
+  // diagram (kFull) is not refined further; it starts again when less than half of its area
+  // remains.
   std::uint64_t refine_outline(Duration now_a, Duration now_b, const Resolution& resolution,
                                std::uint64_t budget);
 
-  // Returns the leaves in what remains of both motions that are not known to be free, in a fixed
-  // order.
+  // Returns the leaves of what remains that are not known to be free, in a fixed order.
   struct Blocked {
     ProgressBox box;
     std::optional<Witness> found;  // at the middle; at_s is not set
-    bool proven = false;           // found->distance_m is below the pair's limit
+    bool proven = false;           // closer than its limit
   };
   [[nodiscard]] std::vector<Blocked> blocked(Duration now_a, Duration now_b) const;
 
-  // Motions that pass each other closely leave cells that are neither free nor in conflict. Halves
-  // such cells if their middle lies in one of `areas`, until each is free or no wider than
-  // `finest`. Stops when one is a proven conflict, because then the motions do not pass.
+  // Close passes leave cells that are neither free nor in conflict. Halves such cells with the
+  // middle in one of `areas`, until each is free or no wider than `finest`. Stops at a proven
+  // conflict, because it is no close pass.
   std::uint64_t refine_close_passes(const std::vector<ProgressBox>& areas, Duration finest,
                                     std::uint64_t budget);
 
@@ -97,15 +95,13 @@ class CoordinationDiagram {
     ProgressBox box;
     CellState state;
   };
-  // Returns the leaves, in a fixed order. No question has needed the unknown ones so far.
+  // Returns the leaves, in a fixed order. Unknown ones were never needed.
   [[nodiscard]] std::vector<CellView> cells() const;
 
-  // The first cells take no more than this share of the budget.
+  // Largest share of the budget for the first cells.
   inline static constexpr double kFirstShare = 0.125;
-  // A diagram with this many cells is full.
   inline static constexpr int kFull = 1'000'000;
 
-  // Tolerance of the time of a first conflict.
   inline static constexpr double kFirst_s = 0.01;
 
  private:
@@ -154,14 +150,14 @@ class CoordinationDiagram {
   [[nodiscard]] bool clears(Node& cell, TubePair::Undecided& undecided);
 
   TubePair pair_;
-  CellTree tree_;  // axes: times of the tubes; the second has no length for an arm and itself
+  CellTree tree_;  // axes: times of the tubes; the second may have no length
   std::vector<NarrowWitness> found_;
   struct Outlined {
     Duration now_a, now_b;
     Resolution resolution;
   };
-  std::optional<Outlined> outlined_;  // the last refine_outline() that was completed
-  double begun_with_s2_ = 0.0;        // area that remained at the first refine_outline()
+  std::optional<Outlined> outlined_;  // last completed refine_outline()
+  double begun_with_s2_ = 0.0;        // area at the first refine_outline()
 };
 
 }  // namespace armloom

@@ -13,15 +13,14 @@
 
 namespace armloom {
 
-// Keeps the tubes of motions and rests, and the diagrams between them, while questions use them.
-// Diagrams between arms (links and attached objects) survive a change of the scene's objects. Not
-// thread-safe.
+// Keeps the tubes of motions and rests, and their diagrams, while questions use them. Diagrams of
+// links and attached objects survive a change of objects. Not thread-safe.
 class MotionStore {
  public:
   explicit MotionStore(PlanningScenePtr scene);
 
-  // Switches to a scene of the same cell with other objects or attached objects. Drops everything
-  // if the attached objects differ (PlanningScene::holds_as).
+  // Switches to another scene of the same cell. Drops everything if the attached objects differ
+  // (PlanningScene::holds_as).
   void look_at(PlanningScenePtr scene);
   [[nodiscard]] const PlanningScenePtr& scene() const { return scene_; }
 
@@ -33,21 +32,20 @@ class MotionStore {
     double tracking_error;
     std::shared_ptr<MotionTube> tube;
     std::uint64_t asked_at;
-    std::vector<Entry*> compared = {};            // entries with a common diagram
+    std::vector<Entry*> compared = {};            // have a diagram with it
     std::optional<double> stopping_reach_s = {};  // cached
     std::size_t bytes = 0;                        // of the tube, as last counted
 
     [[nodiscard]] Duration duration() const { return tube->duration(); }
   };
-  // When a question begins, each arm keeps the kKept entries that questions used last. References
-  // stay valid until the next begin_question() or look_at().
+  // When a question begins, each arm keeps the entries used last. References stay valid until the
+  // next begin_question() or look_at().
   inline static constexpr std::size_t kKept = 64;
-  // Memory limit of entries and diagrams when a question begins. The least recently used entries
-  // are dropped first.
+  // Memory limit when a question begins; the least recently used entries are dropped first.
   inline static constexpr std::size_t kBytesKept = std::size_t{192} << 20;
-  // `progress` is null or outlives the question.
+  // `progress`: null, or outlives the question.
   void begin_question(CheckProgress* progress = nullptr);
-  // Announces how many cells the current check may use; returns true if it must end early.
+  // Announces how many cells the check may use; returns true if it must end early.
   void expect(std::uint64_t cells);
   [[nodiscard]] bool is_interrupted() const;
   [[nodiscard]] Entry& motion(const TrajectoryPtr& trajectory, ArmId arm, const Configuration& rest,
@@ -55,13 +53,12 @@ class MotionStore {
 
   [[nodiscard]] double stopping_reach_s(Entry& entry) const;
 
-  // Return the diagram of two arms (empty if they are out of reach), of an arm and static bodies,
-  // or of an arm with itself.
+  // Diagrams of two arms (empty if out of reach), of an arm and static bodies, of an arm with
+  // itself.
   [[nodiscard]] OrientedDiagram between(Entry& own, Entry& other);
   [[nodiscard]] OrientedDiagram with_still(const Entry& own);
   [[nodiscard]] OrientedDiagram with_itself(const Entry& own);
 
-  // Returns true if the arms keep the cell's clearance in every state.
   [[nodiscard]] bool out_of_reach(ArmId a, ArmId b) const;
 
  private:
@@ -85,7 +82,7 @@ class MotionStore {
   void count();
 
   PlanningScenePtr scene_;
-  PlanningScenePtr links_;  // the scene from which cross and self pairs were built
+  PlanningScenePtr links_;  // source of cross and self pairs
   std::vector<std::shared_ptr<const ArmGeometry>> arms_;
   struct Scratch {
     std::vector<std::shared_ptr<MotionTube::Scratch>> tubes;  // by arm
@@ -104,14 +101,13 @@ class MotionStore {
   };
   Kept diagrams_;
   std::uint64_t question_ = 0;
-  // Entries and diagrams of the current question. Only these grow, so begin_question() and
-  // look_at() recount only these.
+  // Entries and diagrams of the current question. Only these grow and are recounted.
   struct Named {
     std::vector<Entry*> entries;
     std::vector<Diagram*> diagrams;
   };
   Named named_;
-  std::size_t bytes_ = 0;  // of all entries and diagrams, as last counted
+  std::size_t bytes_ = 0;  // as last counted
 };
 
 }  // namespace armloom

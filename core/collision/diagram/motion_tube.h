@@ -12,7 +12,7 @@
 
 namespace armloom {
 
-// The kinematics of an arm with its self-collision pairs, or of all static bodies.
+// An arm with its self-collision pairs, or all static bodies.
 struct ArmGeometry {
   ArmGeometry(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm)
       : kinematics(bodies, arm),
@@ -22,14 +22,13 @@ struct ArmGeometry {
 };
 
 // One arm's motion over its trajectory time, or all static bodies. A node holds the arm at the
-// middle of its interval, and a bound for each capsule: how far any point of it may be from there
-// during the interval, with `tracking_error` of each joint (rad, m). Nodes are kept, and shared by
-// the comparisons with all other motions. Not thread-safe.
+// middle of its interval, and bounds how far any point of each capsule may be from there during the
+// interval, `tracking_error` of each joint (rad, m) included. All comparisons of the motion share
+// its nodes. Not thread-safe.
 class MotionTube : public TimeTree {
  public:
-  // Joints that are not in the trajectory rest where `rest` (whole cell) has them. Without a
-  // trajectory all joints rest, and one node covers all times. Tubes of one arm in one thread may
-  // share their scratch.
+  // Joints that are not in the trajectory rest as in `rest` (whole cell). Without a trajectory, one
+  // node covers all times. Tubes of one arm and thread may share their scratch.
   struct Scratch;
   [[nodiscard]] static std::shared_ptr<Scratch> make_scratch(const ArmGeometry& geometry);
   MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPtr trajectory,
@@ -40,12 +39,11 @@ class MotionTube : public TimeTree {
   [[nodiscard]] const ArmGeometry& geometry() const { return *geometry_; }
   [[nodiscard]] const TrajectoryPtr& trajectory() const { return trajectory_; }
 
-  // Computes those of the nodes that are not placed yet, eight at once. Required before place_of(),
-  // axes_of() and self_hits().
+  // Computes missing nodes, eight at once. Required before place_of(), axes_of() and self_hits().
   void place(std::span<const int> nodes);
-  // Returns the memory in use, trajectory and time tree included.
+  // Includes the trajectory and the tree of times.
   [[nodiscard]] std::size_t bytes() const;
-  // Nodes wider than this consist of stretches of at most this width.
+  // Wider nodes consist of stretches of at most this width.
   inline static constexpr Duration kStretch = std::chrono::microseconds(87'500);
 
   // Eight nodes side by side, as the kernels place them.
@@ -66,8 +64,7 @@ class MotionTube : public TimeTree {
   [[nodiscard]] Place place_of(int node) const {
     return {blocks_[at(node).block].get(), at(node).lane};
   }
-  // The consecutive stretches that make up a placed node, halved down to kStretch, and placed
-  // together on first use. A node of more than eight stretches has none.
+  // The consecutive stretches of a placed node, placed on first use. Empty if more than eight.
   struct Stretches {
     const Block* block = nullptr;
     int first = 0;
@@ -75,11 +72,10 @@ class MotionTube : public TimeTree {
   };
   [[nodiscard]] Stretches stretches_of(int node);
 
-  // Writes the axes at this node that move a frame of the kinematics, base to tip, without the
-  // first `skipped`.
+  // Writes the axes that move a frame of the kinematics, base to tip, without the first `skipped`.
   void axes_of(int node, int frame, std::size_t skipped, std::vector<MovingAxis>& axes) const;
-  // Pairs of the arm's own links (ArmGeometry::self) that are undecided over the interval. The
-  // motion bound covers their relative motion.
+  // Pairs of the arm's own links (ArmGeometry::self) that are undecided over the interval, with the
+  // bound of their relative motion.
   struct SelfHit {
     int pair;
     float distance;
@@ -87,7 +83,7 @@ class MotionTube : public TimeTree {
   };
   [[nodiscard]] std::span<const SelfHit> self_hits(int node) const;
 
-  // Writes the configuration at a trajectory time, rows as ArmKinematics::joints.
+  // Writes the configuration at this time, rows as ArmKinematics::joints.
   void configuration(Duration time, double* q);
 
  private:

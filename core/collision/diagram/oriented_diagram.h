@@ -9,9 +9,9 @@
 
 namespace armloom {
 
-// A coordination diagram seen from one side: A is always the asking motion, whichever axis it has
-// in the stored diagram. Empty if no two bodies can come too close. Not thread-safe. The store owns
-// the cells (motion_store.h), except those of parting_at().
+// A coordination diagram as the asking motion sees it: A is always its own axis. Empty if no two
+// bodies can come too close. Not thread-safe. The store (motion_store.h) owns the cells, except
+// those of parting_at().
 class OrientedDiagram {
  public:
   OrientedDiagram() = default;
@@ -34,17 +34,17 @@ class OrientedDiagram {
                                                                   Duration now_b) const;
   [[nodiscard]] std::vector<CoordinationDiagram::CellView> cells() const;
 
-  // Returns the exact distance of the closest pair at these times.
+  // Returns the closest pair at these times, exactly.
   [[nodiscard]] CoordinationDiagram::Witness closest_at(Duration time_a, Duration time_b) const;
   // Returns the evidence; body_a belongs to the asking motion.
   [[nodiscard]] Proximity proximity_of(const CoordinationDiagram::Witness& found) const;
   [[nodiscard]] bool is_self(const CoordinationDiagram::Witness& found) const;
 
-  // Returns a new diagram for pairs that may part because they are too close now: each such pair
-  // must keep kPartingShare of its present distance. Empty if no pair is too close now.
+  // Returns a new diagram for pairs that are too close now and may part: each must keep
+  // kPartingShare of its present distance. Empty if no pair is too close.
   inline static constexpr double kPartingShare = 0.8;
   [[nodiscard]] OrientedDiagram parting_at(Duration now_a, Duration now_b) const;
-  // Lowers the bound to the smallest limit of the pairs here.
+  // Lowers the bound to the limits of the pairs here.
   void lower(ClearanceBound& bound) const;
 
  private:

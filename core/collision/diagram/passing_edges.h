@@ -6,7 +6,6 @@
 
 namespace armloom {
 
-// A leaf of a diagram that is not known to be free.
 struct OpenLeaf {
   int cell;
   ProgressBox box;
@@ -14,28 +13,27 @@ struct OpenLeaf {
   bool proven = false;     // its middle is in conflict (all of it, if not refinable)
 };
 
-// Required fineness of leaves where motions pass them. A monotone path passes a region on one side,
-// so only two staircases of its outline matter: the corners (to_a, from_b) with no part of the
-// region farther out in both, where A passes first; and the corners (from_a, to_b), where B does.
-// The most important corner is the one that a motion by the clock comes closest to: the largest
-// to_a - from_b, or to_b - from_a. Leaves may be coarser the farther they are behind it.
+// How fine leaves must be where motions pass them. A monotone path passes a region on one side, so
+// only two staircases of its outline matter: the corners (to_a, from_b) with no part of the region
+// farther out in both, where A passes first; and the corners (from_a, to_b), where B does. A motion
+// by the clock comes closest to the largest to_a - from_b, or to_b - from_a. Leaves may be coarser
+// the farther they are behind that corner.
 struct PassingResolution {
-  Duration fine;    // at that corner, and where the region touches the border of what remains
+  Duration fine;    // at that corner, and at the border of what remains
   Duration coarse;  // maximum width
-  double slope;     // allowed width for each second behind that corner
+  double slope;     // allowed width per second behind
 };
 
-// A leaf that must be refined, on either side.
 struct CoarseLeaf {
   int cell;
   Duration allowed;
-  bool a_first;  // on the side where A passes first
+  bool a_first;  // where A passes first
   bool b_first;
 };
 
-// Returns the leaves that are wider than allowed, in a fixed order. Leaves that touch, corners
-// included, form one region. `remaining` is what remains of both motions. Precondition: leaves do
-// not overlap. Takes n log n. Pure.
+// Returns the leaves that are too wide, in a fixed order. Leaves that touch, corners included, form
+// one region. `remaining`: of both motions. Precondition: leaves do not overlap. Takes n log n.
+// Pure.
 [[nodiscard]] std::vector<CoarseLeaf> coarse_leaves(std::vector<OpenLeaf> leaves,
                                                     const ProgressBox& remaining,
                                                     const PassingResolution& resolution);

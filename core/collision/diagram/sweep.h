@@ -9,9 +9,9 @@
 
 namespace armloom {
 
-// A joint that moves a body: its axis in the world at the present configuration, and how far the
-// joint may be from there. The deviation is s * drift + e with |e| <= loose. All joints of the body
-// share s, from -1 to 1, because their motion is nearly a line in joint space.
+// A joint that moves a body: its axis in the world at the present configuration. The joint may be
+// off by s * drift + e, with |e| <= loose, and the same s from -1 to 1 for all joints of the body
+// (the motion is nearly a line in joint space).
 struct MovingAxis {
   Eigen::Vector3d z_W;
   Eigen::Vector3d p_WO;  // a point of the axis; unused if prismatic
@@ -22,35 +22,32 @@ struct MovingAxis {
   [[nodiscard]] double span() const { return std::abs(drift) + loose; }
 };
 
-// Bounds how far a body may reach along one direction n, for all joint values within the spans of
-// the joints that move it. The bound is much smaller than the sum of spans times levers, which
-// treats every motion as if it went along n.
+// Bounds how far a body may reach along a direction n, for all joint values within the spans. Much
+// tighter than the sum of spans times levers, which takes every motion to be along n.
 //
-// Derivation (product of exponentials: Murray, Li and Sastry, "A Mathematical Introduction to
-// Robotic Manipulation", 3.2). Let p be a point at the present configuration, with axes base to
-// tip. If joint j is off by d_j, the point is at E_1 E_2 ... E_k p, where E_j turns or shifts about
-// the present axis j. Its displacement is the sum over j of E_1 .. E_j-1 (E_j - 1) p. For a turn
-// and r = p - p_WO:
-//   (E - 1) p = sin d (z x r) + (1 - cos d) z x (z x r).
-// E_1 .. E_j-1 turn a vector v by at most the sum of their |d_i|, so they move v by at most that
-// sum times |v|. Hence, for |d_j| <= s_j of any size, the displacement along n is at most
+// With axes base to tip, a point p moves to E_1 E_2 ... E_k p if joint j is off by d_j, where E_j
+// turns or shifts about the present axis j (product of exponentials: Murray, Li and Sastry, "A
+// Mathematical Introduction to Robotic Manipulation", 3.2). Its displacement is the sum over j of
+// E_1 .. E_j-1 (E_j - 1) p. For a turn, with r = p - p_WO,
+//   (E - 1) p = sin d (z x r) + (1 - cos d) z x (z x r),
+// and E_1 .. E_j-1 move a vector v by at most |v| times the sum of their |d_i|. Hence, for |d_j| <=
+// s_j of any size, the displacement along n is at most
 //   sum_j s_j |n . (z_j x r_j)|  +  sum_j s_j l_j (s_j / 2 + sum_{i<j} s_i),   l_j = |z_j x r_j|.
-// For a shift, |n . z_j| replaces |n . (z_j x r_j)|, 1 replaces l_j, and s_j / 2 and its s_j in the
-// sums of later joints drop out, because it turns nothing. If d_j = s drift_j + e_j, the first sum
-// is at most
-//   |sum_j drift_j n . (z_j x r_j)| + sum_j loose_j |n . (z_j x r_j)|,
-// so joints that move against each other cancel. The bound is convex in p: over a convex shape it
-// is largest at a corner.
+// For a shift, |n . z_j| replaces the first factor and 1 replaces l_j; its s_j turns nothing, so
+// s_j / 2 and s_j in later sums are 0. With d_j = s drift_j + e_j, the first sum is at most
+//   |sum_j drift_j n . (z_j x r_j)| + sum_j loose_j |n . (z_j x r_j)|:
+// joints that move against each other cancel. It is convex in p, so it is largest at a corner of a
+// convex shape.
 class Sweep {
  public:
-  // Preconditions: n_W has unit length; axes are base to tip and outlive the sweep.
+  // n has unit length; axes are base to tip and must outlive the sweep.
   Sweep(std::span<const MovingAxis> axes, const Eigen::Vector3d& n_W);
 
   // Returns an upper bound of n . x over a shape, for all joint values.
   [[nodiscard]] double reach(const ConvexShape& shape, const PlacedConvexShape& placed) const;
-  // Same, over all points within radius_m of the convex hull of these points.
+  // The same over all points within radius_m of the hull of these.
   [[nodiscard]] double reach(std::span<const Eigen::Vector3d> p_W, double radius_m) const;
-  // Returns an upper bound of n . (x - p), for points p of the hull and x within radius_m of where
+  // Returns an upper bound of n . (x - p) over points p of the hull and x within radius_m of where
   // p may move.
   [[nodiscard]] double overestimate(std::span<const Eigen::Vector3d> p_W, double radius_m) const;
 
@@ -72,7 +69,7 @@ class Sweep {
   std::vector<Moment> moments_;                 // of the loose parts
   Moment drift_{Eigen::Vector3d::Zero(), 0.0};  // of all drifts together, shifts included
   double shifts_m_ = 0.0;                       // loose parts of the prismatic joints, along n
-  double turn_ = 0.0;  // bound of the slope: the sum of |m| over whole spans
+  double turn_ = 0.0;                           // bound of the slope: sum of |m| over whole spans
 };
 
 }  // namespace armloom

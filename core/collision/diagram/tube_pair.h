@@ -10,14 +10,14 @@
 
 namespace armloom {
 
-// The tubes of two motions and the pairs of bodies to keep apart: of two arms, of an arm and static
+// The tubes of two motions and the pairs of bodies to check: of two arms, of an arm and static
 // bodies, or of an arm with itself (both tubes are the same). Not thread-safe.
 class TubePair {
  public:
-  // Scratch for the current batch or state. All pairs of a thread may share it.
+  // For the current batch or state; pairs of a thread may share it.
   struct Scratch;
   [[nodiscard]] static std::shared_ptr<Scratch> make_scratch();
-  // Scene and pairs must outlive the TubePair; their owner keeps them alive.
+  // Scene and pairs must outlive the TubePair.
   struct Setting {
     const PlanningScene::Bodies* bodies;
     const PairSet* pairs;
@@ -33,39 +33,37 @@ class TubePair {
   // Counts cells of the current check; returns false if the check must end early.
   [[nodiscard]] bool goes_on(std::uint64_t cells) const;
 
-  // One node of each tube; twice the same node for an arm with itself.
+  // For an arm with itself, twice the same node.
   struct Nodes {
     int a;
     int b;
   };
-  // A pair of capsules that the filter cannot prove apart while both are within their nodes.
+  // A pair of capsules that the filter leaves undecided within its nodes.
   struct Undecided {
-    int narrow;  // index in PairSet::narrow, or narrow_boxes
+    int narrow;  // in PairSet::narrow, or narrow_boxes
     bool box;
     double distance_m;  // lower bound at the middle
     double moves_a_m;   // within the node
     double moves_b_m;
     double limit_m;
-    double slack_m;      // how much larger the exact distance may be than the bound
-    double short_m;      // how much farther apart the capsules would have to be for a proof
+    double slack_m;      // the exact distance may be this much larger
+    double short_m;      // how much farther apart the capsules would have to be
     double towards_a_m;  // how much closer each comes along the separating direction
     double towards_b_m;
 
     [[nodiscard]] double moves_m() const { return moves_a_m + moves_b_m; }
-    // Returns how much farther apart the bodies would have to be. A body is at most slack_m farther
-    // away than its capsules.
+    // Returns how much farther apart the bodies would have to be.
     [[nodiscard]] double needs_m() const { return short_m - slack_m; }
   };
-  // Possible gain of the exact shapes' own separating direction over that of the capsules.
+  // Possible gain of the exact shapes' separating direction.
   inline static constexpr double kAlongShapes_m = 0.004;
 
-  // Places many nodes at once, which is faster than eight by eight.
+  // Places many at once, which is faster than by eight.
   void place_all(std::span<const Nodes> nodes);
-  // Places and filters up to eight nodes. Then undecided() returns what is open in each, until the
-  // next call.
+  // Places and filters up to eight. undecided() then returns what is open in each, until the next
+  // call.
   void filter(std::span<const Nodes> batch);
   [[nodiscard]] std::vector<Undecided>& undecided(std::size_t of_batch);
-  // Returns the bodies and limit of an entry.
   [[nodiscard]] const NarrowPair& narrow(int entry, bool box) const;
 
   // Returns min(exact distance at the middle of both nodes, limit_m).
@@ -74,19 +72,18 @@ class TubePair {
   // Returns how many of these limits the exact distance there reaches. Precondition: ascending.
   [[nodiscard]] std::size_t limits_kept(const NarrowPair& pair, Nodes at,
                                         std::span<const double> limits_m) const;
-  // Returns true if the pair is proven to keep limit_m throughout both nodes. Each pair of shapes
-  // must be enough_m apart at the middle, or stay apart along its separating direction
-  // (keep_apart).
+  // Returns true if the pair is proven to keep limit_m throughout both nodes. `enough_m`: see
+  // keep_apart().
   [[nodiscard]] bool keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, double enough_m);
 
   struct PairDistance {
     PairId pair;
     double distance_m;
   };
-  // Places both at these trajectory times, for placed_distance().
+  // For placed_distance().
   void place(Duration time_a, Duration time_b);
   [[nodiscard]] double placed_distance(const NarrowPair& pair, double limit_m) const;
-  // Return every pair that is closer than its limit at these times, exactly; and the closest pair.
+  // Return all pairs that are closer than their limits at these times; the closest pair.
   [[nodiscard]] std::vector<PairDistance> too_close_at(Duration time_a, Duration time_b);
   [[nodiscard]] PairDistance closest_at(Duration time_a, Duration time_b);
 

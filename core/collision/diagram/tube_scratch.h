@@ -8,14 +8,14 @@
 
 namespace armloom {
 
-// Nodes from different blocks of a tube, gathered side by side.
+// Nodes from different blocks, side by side.
 struct TubePair::Gathered {
   std::vector<float> capsules, motion_bound, ball;  // MotionTube::Block
 };
 
 // Nodes being filtered, what is open in one of them, and one state.
 struct TubePair::Scratch {
-  CheckProgress* progress = nullptr;  // of the current check; null: not watched
+  CheckProgress* progress = nullptr;  // null: not watched
   Gathered a, b;
   struct Hits {
     std::vector<filter::Hit> of;
