@@ -94,7 +94,6 @@ std::vector<Span> holes_of(const Lines& solid, const Axis& axis_a, const Axis& a
   return holes;
 }
 
-// The blocked cells and the holes in them.
 class SolidFields {
  public:
   SolidFields(const std::vector<Span>& cells, const Axis& axis_a, const Axis& axis_b,

@@ -110,7 +110,7 @@ class ConnectedRuns {
 // Calls take(rectangle) for equal runs on consecutive lines.
 template <class Take>
 void each_rectangle(const Lines& lines, const Take& take) {
-  struct Open {  // reaches to the current line
+  struct Open {
     Run run;
     int since;
   };

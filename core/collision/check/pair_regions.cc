@@ -19,7 +19,6 @@ bool share_an_arm(const Motion& a, const Motion& b) {
   return std::ranges::any_of(a.trajectory->arms(), [&](ArmId arm) { return moves(b, arm); });
 }
 
-// Sets the trajectory's joints to their positions at `time`.
 void put(const Trajectory& trajectory, Duration time, Configuration& q) {
   Eigen::VectorXd position;
   trajectory.sample_positions(time, position);

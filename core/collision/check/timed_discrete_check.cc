@@ -14,7 +14,6 @@ namespace {
 // Rounding of the distance of a pair that rests or moves in parallel.
 constexpr double kSameDistance_m = 1e-6;
 
-// A motion at the current instant.
 struct Runner {
   const Motion* motion;
   bool candidate;

@@ -35,7 +35,6 @@ class CoordinationDiagram {
            found_.size() * sizeof(NarrowWitness);
   }
 
-  // Two bodies too close to each other.
   struct Witness {
     PairId pair;
     double distance_m;  // exact if below the limit, else a lower bound

@@ -1,4 +1,3 @@
-// Decides a batch of cells by the filter and exact distances.
 #include <algorithm>
 #include <limits>
 

@@ -1,4 +1,3 @@
-// Refines cells, except for questions of times.
 #include <algorithm>
 #include <utility>
 

@@ -24,7 +24,6 @@ class MotionStore {
   void look_at(PlanningScenePtr scene);
   [[nodiscard]] const PlanningScenePtr& scene() const { return scene_; }
 
-  // One arm's motion, or an arm at rest.
   struct Entry {
     ArmId arm;
     TrajectoryPtr trajectory;  // null: at rest

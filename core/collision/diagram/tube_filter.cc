@@ -15,7 +15,6 @@ using Block = MotionTube::Block;
 
 }  // namespace
 
-// The nodes of a batch, by lane.
 struct TubePair::Batch {
   const MotionTube& tube;
   Gathered& to;
@@ -52,7 +51,6 @@ struct TubePair::Batch {
   }
 };
 
-// The nodes and stretches of a batch, by cell.
 struct TubePair::Lanes {
   struct Side {
     MotionTube::Place at;

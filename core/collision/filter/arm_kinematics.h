@@ -11,8 +11,7 @@
 
 namespace armloom {
 
-// A body (scene_bodies.h) of a kinematics: the frame that moves it (-1: static) and its capsules in
-// the filter.
+// A body (scene_bodies.h): the frame that moves it (-1: static) and its capsules in the filter.
 struct KinematicBody {
   std::size_t body;  // in PlanningScene::Bodies::bodies
   int frame;
@@ -21,35 +20,34 @@ struct KinematicBody {
   int capsules_end;
 };
 
-// One arm with its attached objects, in the form that the filter's kernels need. Only joints that
-// move become frames, and each frame's joint axis is its z. Fixed links are part of the frame that
-// moves them. Works for any tree of revolute, continuous, prismatic and mimic joints. Also
-// represents all static links and objects, as a kinematics without frames. Immutable.
+// One arm with its attached objects, in the form of the filter's kernels. Only movable joints
+// become frames, each with its axis as z; fixed links belong to the frame that moves them. Works
+// for any tree of revolute, continuous, prismatic and mimic joints. Static links and objects form a
+// kinematics without frames. Immutable.
 class ArmKinematics {
  public:
-  // `arm` is nullopt for static bodies.
+  // nullopt: static bodies.
   ArmKinematics(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm);
 
   [[nodiscard]] std::optional<ArmId> arm() const { return arm_; }
-  // Rows of the kernels' q, including joints upstream that no arm moves.
+  // Rows of the kernels' q, including upstream joints that no arm moves.
   [[nodiscard]] const std::vector<JointId>& joints() const { return joints_; }
   [[nodiscard]] const std::vector<KinematicBody>& bodies() const { return bodies_; }
   [[nodiscard]] const std::vector<filter::Frame>& frames() const { return frames_; }
   [[nodiscard]] const std::vector<filter::Capsule>& capsules() const { return capsules_; }
   [[nodiscard]] int motion_bound_rows() const { return motion_bound_rows_; }
   [[nodiscard]] filter::ArmKinematics view() const;
-  // Returns an upper bound of all world coordinates of its bodies and joints (m).
+  // Upper bound of all world coordinates of its bodies and joints (m).
   [[nodiscard]] double extent_m() const { return extent_m_; }
-  // Returns the frames from the root to this one, inclusive; empty for the world (-1).
+  // Returns the frames from the root to this one; empty for the world (-1).
   [[nodiscard]] std::span<const int> ancestors(int frame) const;
-  // Returns how many ancestors two capsules share.
   [[nodiscard]] int common_ancestors(int capsule_a, int capsule_b) const;
 
  private:
-  struct Carried {  // a link: the frame that moves it, and its pose there
+  struct Carried {  // the frame that moves a link, and its pose there
     int frame = -1;
     Eigen::Isometry3d X_FL = Eigen::Isometry3d::Identity();
-    double reach_m = 0.0;  // bound of the distance of the link's origin from the world's
+    double reach_m = 0.0;  // upper bound, from the world's origin to the link's
   };
   Carried carry(const Cell& cell, LinkId link, std::vector<int>& seen,
                 std::vector<Carried>& carried);
@@ -67,14 +65,13 @@ class ArmKinematics {
   double extent_m_ = 0.0;
 };
 
-// Writes the pose of each frame for one configuration, in double: [frame][12] as filter::Frame::C.
-// `q` as ArmKinematics::joints.
+// Writes the pose of each frame, in double: [frame][12] as filter::Frame::C. `q` as
+// ArmKinematics::joints.
 void place_frames(const ArmKinematics& kinematics, const double* q, double* frames);
-// Returns the body's pose; `frames` as above, `stride` between consecutive numbers.
+// `frames` as above; `stride` between consecutive numbers.
 [[nodiscard]] Eigen::Isometry3d body_pose(const KinematicBody& body, const double* frames,
                                           int stride = 1);
 
-// Returns a capsule of a body, fixed in the world or in a frame.
 [[nodiscard]] filter::Capsule kernel_capsule(const Eigen::Isometry3d& X_FP,
                                              const Eigen::Vector3d& p_PA,
                                              const Eigen::Vector3d& p_PB, double radius_m);
@@ -83,7 +80,7 @@ struct NumberedCapsule {
   int number;
   const filter::Capsule& capsule;
 };
-// Returns a pair in the form that the kernels need; `margin_m` is the rounding margin.
+// `margin_m`: rounding margin.
 [[nodiscard]] filter::Pair kernel_pair(const NumberedCapsule& a, const NumberedCapsule& b,
                                        double limit_m, double margin_m);
 // Returns the smallest float that is not below x.

@@ -1,9 +1,8 @@
 #pragma once
 
-// The common source of the kernels, with kernel_pairs.h: poses of capsules and bounds of their
-// motion. Each instruction set's file includes this once, with its vector types D (doubles) and F
-// (floats). Everything is in an unnamed namespace, so that code of one instruction set is never
-// linked into another.
+// The common source of the kernels, with kernel_pairs.h: where capsules are, and bounds of their
+// motion. Each instruction set's file includes it once, with its vector types D (doubles) and F
+// (floats). The unnamed namespace prevents code of one set from being linked into another.
 // - D, F: kLanes, load(p), store(p), all(x), +, -, *
 // - F also: max(a, b), min(a, b), sqrt, abs, /, not_at_least(a, b) (bits by lane of !(a >= b))
 // - D also: round, select(odd, a, b), store_float(p)
@@ -13,7 +12,7 @@
 namespace armloom::filter {
 namespace {
 
-// fdlibm's polynomials on [-pi/4, pi/4] after subtracting k * pi/2 in two parts. Error 1e-16 for
+// fdlibm's polynomials on [-pi/4, pi/4], after subtracting k * pi/2 in two parts. Error 1e-16 for
 // |x| < 1e6.
 template <class D>
 inline void sin_cos(D x, D& sin_x, D& cos_x) {
@@ -182,7 +181,7 @@ struct SweepSums {
   }
 };
 
-// Covers float roundings of a lever, which are below one part in 1e5 and a micrometer.
+// Allows for float roundings of a lever: below one part in 1e5 and a micrometer.
 template <class F>
 void inflate(const ArmKinematics& kinematics, const Placed& at, const JointMotions& motions,
              const MotionBounds& out) {
@@ -223,8 +222,7 @@ void inflate(const ArmKinematics& kinematics, const Placed& at, const JointMotio
         sum = sum + lever * by * F::all(1.00001F);
         sum.store(rows + k * kLanes + l);
       }
-      // sqrt(1 + t^2) - 1 <= t^2 / 2. The last term covers roundings of the moments about each
-      // axis.
+      // sqrt(1 + t^2) - 1 <= t^2 / 2. Last term: roundings of the moments about each axis.
       const F turned = sweep.turned;
       const F size = F::abs(center.x) + F::abs(center.y) + F::abs(center.z);
       sweep.off = sweep.off + half_one * F::all(capsule.radius_up) * turned * turned +

@@ -7,9 +7,9 @@
 namespace armloom::filter {
 
 // Returns the fastest kernel that this processor runs. For measurements, the environment variable
-// ARMLOOM_KERNEL=scalar|baseline|avx2 selects another; ignored if the processor cannot run it.
+// ARMLOOM_KERNEL=scalar|baseline|avx2 selects another (ignored if it cannot run).
 [[nodiscard]] const Kernel& best_kernel();
-// Returns all kernels that this processor runs, the scalar reference first.
+// Returns all kernels that this processor runs, the reference first.
 [[nodiscard]] std::vector<const Kernel*> kernels();
 
 }  // namespace armloom::filter

@@ -30,7 +30,6 @@ double limit_of(const PlanningScene::Bodies& bodies, const PairGroup& group) {
   return group.limit_m(PairLimits::of(*bodies.cell));
 }
 
-// A body with the capsules of its side.
 struct BodyCapsules {
   const KinematicBody& body;
   const std::vector<filter::Capsule>& of_side;

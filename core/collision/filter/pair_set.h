@@ -8,16 +8,16 @@
 
 namespace armloom {
 
-// The two bodies of a pair of capsules, which must not come closer than limit_m.
+// The bodies of a pair of capsules; they must not come closer than limit_m.
 struct NarrowPair {
   PairId pair;  // in PlanningScene::Bodies::pairs
   int body_a;   // in the kinematics of the first side
-  int body_b;   // in the kinematics of the second side
+  int body_b;   // in that of the second side
   double limit_m;
 };
 
-// The pairs of one comparison, for the broad phase (filter) and the narrow phase. Entry i of
-// `pairs` belongs to narrow[i], entry i of `boxes` to narrow_boxes[i].
+// The pairs of one comparison, for the broad phase and the narrow phase. Entry i of `pairs` belongs
+// to narrow[i], entry i of `boxes` to narrow_boxes[i].
 struct PairSet {
   std::vector<filter::Pair> pairs;
   std::vector<NarrowPair> narrow;
@@ -29,8 +29,7 @@ struct PairSet {
   float limit_up = 0.0F;              // largest limit of pairs
 
   [[nodiscard]] bool empty() const { return pairs.empty() && boxes.empty(); }
-  // Return the pairs for the filter: with groups, which are skipped as a whole if balls prove them
-  // apart, or without.
+  // For the broad phase: balls may skip whole groups, or every pair is compared.
   [[nodiscard]] filter::Pairs grouped() const;
   [[nodiscard]] filter::Pairs ungrouped() const;
   // Sets the limit of each pair to limit_m(pair).
@@ -46,14 +45,13 @@ struct PairSet {
     set_all(boxes, narrow_boxes);
     limits_changed();
   }
-  // Updates the limits of groups after a change.
   void limits_changed();
 };
 
-// Returns all pairs to check between two arms (the first has the smaller id), an arm and static
-// bodies, or an arm and itself (a and b are the same), with the cell's limits. Rows in the sides'
-// motion_bound arrays: one per capsule; for an arm and itself those of the kinematics' motion
-// bounds, without the motion that both capsules share.
+// Returns the pairs to check, with the cell's limits: of two arms (the first has the smaller id),
+// an arm and static bodies, or an arm and itself (a and b are the same). Rows in motion_bound: one
+// per capsule; for an arm and itself those of its kinematics, without the motion that both capsules
+// share.
 [[nodiscard]] PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& a,
                                     const ArmKinematics& b);
 }  // namespace armloom

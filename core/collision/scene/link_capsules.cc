@@ -26,7 +26,6 @@ LinkCapsule capsule_of(const ConvexShape& round) {
   return {center - round.p_SE_P, center + round.p_SE_P, round.radius_m};
 }
 
-// A shape, prepared for fits.
 struct Spanned {
   Balls balls;
   Balls outer;  // balls that matter when partitions are compared

@@ -142,7 +142,6 @@ void add_pairs(PlanningScene::Bodies& scene) {
   }
 }
 
-// Removes the bodies from `end` on.
 void cut(PlanningScene::Bodies& scene, std::size_t end) {
   if (end == scene.bodies.size()) return;
   scene.shapes.resize(scene.bodies[end].shapes_begin);

@@ -24,15 +24,14 @@
 
 namespace armloom {
 
-// Convex shapes that move together: a link, a single box of a static link, an object, or an
-// attached object.
+// Shapes that move together: a link, one box of a static link, an object, or an attached object.
 struct CollisionBody {
   std::string name;
   std::optional<LinkId> link;     // nullopt: an object
   std::optional<LinkId> carrier;  // moves the body: its link, or the link it is attached to
   std::optional<ArmId> arm;       // moves the body; nullopt: it is static
-  std::optional<RobotId> robot;   // nullopt: an object that is not attached
-  // Pose in the carrier, or in the world without one; the identity for a link.
+  std::optional<RobotId> robot;   // nullopt: a static object
+  // Pose in the carrier, or in the world; identity for a link.
   Eigen::Isometry3d X_CP = Eigen::Isometry3d::Identity();
   std::size_t shapes_begin = 0;  // range in Bodies::shapes
   std::size_t shapes_end = 0;
@@ -40,41 +39,40 @@ struct CollisionBody {
     Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // its center
     double radius_m = 0.0;
   } sphere = {};
-  bool has_pieces = false;  // shapes include pieces of a closed mesh
-  bool lone_box = false;    // its only shape is a box, for which a sphere is a poor bound
+  bool has_pieces = false;  // of a closed mesh, among its shapes
+  bool lone_box = false;    // its only shape is a box: a sphere would be a poor bound
   LinkCapsules fitted;      // in P
 
   [[nodiscard]] bool held() const { return carrier && !link; }
-  // Returns the pose in the world. Precondition: `X_WL` has the poses of all links.
+  // `X_WL`: of all links.
   [[nodiscard]] Eigen::Isometry3d pose(const LinkPoses& X_WL) const {
     if (!carrier) return X_CP;
     return link ? X_WL[carrier->index()] : X_WL[carrier->index()] * X_CP;
   }
 };
 
-// Returns the evidence for two bodies that are `clearance_m` apart.
 [[nodiscard]] inline Proximity proximity_of(const CollisionBody& a, const CollisionBody& b,
                                             double clearance_m) {
   return {a.name, b.name, a.arm, b.arm, !b.carrier, clearance_m, a.held(), b.held()};
 }
 
-// Two bodies that must not touch. The first belongs to the group's `arm`.
+// The first body belongs to the group's `arm`.
 struct BodyPair {
   std::size_t a;
   std::size_t b;
 };
 
-// A clearance of zero still forbids contact, in which distances are zero.
+// A clearance of zero still forbids contact, where distances are zero.
 inline constexpr double kTouching_m = 1e-9;
 
-// All pairs of an arm with one counterpart, checked or skipped together. The kind determines the
-// limit, and how conflicts, the monitor and metrics classify the pair.
+// All pairs with one counterpart, checked or skipped together. Limits, conflicts, the monitor and
+// metrics go by the kind.
 struct PairGroup {
   enum class Kind {
     arms,   // links and attached objects of two arms
-    still,  // an arm against static objects and links, except its mount
-    mount,  // an arm against its mount: as `still`, with another limit (Cell::is_mount)
-    self,   // an arm against itself: its links and attached objects
+    still,  // an arm and static bodies, except its mount
+    mount,  // an arm and its mount (Cell::is_mount): scene with another limit
+    self,   // an arm and itself, attached objects included
   };
   Kind kind;
   ArmId arm;
@@ -91,18 +89,18 @@ struct PairGroup {
   }
 };
 
-// Pairs are in the order of their groups: arms by (arm, other), then still and mount by arm, then
-// self by arm. Within a group they are sorted by link, then attached object, then object.
+// Pairs are sorted by group: arms by (arm, other), then still and mount by arm, then self by arm.
+// Within a group: by link, attached object, object.
 struct PlanningScene::Bodies {
   CellPtr cell;
   std::vector<CollisionObject> objects;
   std::shared_ptr<const std::vector<Attachment>> attachments;  // shared while objects change
-  // Links in the order of their ids, then attached objects, then objects.
+  // Links in the order of their ids, attached objects, objects.
   std::vector<CollisionBody> bodies;
-  std::size_t links_end = 0;  // end of the links in `bodies`
-  // Claimed pairs (AllowedCollisions) that are proven out of reach; equal in all scenes of a cell.
+  std::size_t links_end = 0;  // in `bodies`
+  // Proven claimed pairs (AllowedCollisions); equal in all scenes of a cell.
   std::shared_ptr<const std::set<LinkPair>> out_of_reach;
-  std::size_t held_end = 0;  // end of the attached objects, which begin at links_end
+  std::size_t held_end = 0;  // attached objects: from links_end to it
   std::vector<ConvexShape> shapes;
   std::vector<BodyPair> pairs;
   std::vector<PairGroup> groups;

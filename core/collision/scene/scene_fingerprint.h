@@ -10,14 +10,14 @@
 
 namespace armloom {
 
-// Hashes of the content that certificates rely on: poses and shapes (for meshes the triangles),
-// required distances, and pairs that are not checked.
+// Hashes of the content that certificates rely on: poses and shapes (triangles of meshes), required
+// distances, and pairs that are not checked.
 
-// Returns the fingerprint of the cell's links, without objects and attached objects.
-// `out_of_reach`: pairs that are not checked because they are proven apart.
+// Returns the cell's links, without objects and attached objects. `out_of_reach`: pairs that are
+// not checked because they are proven apart.
 [[nodiscard]] SceneFingerprint fingerprint_of_links(const Cell& cell,
                                                     const std::set<LinkPair>& out_of_reach);
-// Returns the arms of `links` with their attached objects added.
+// Returns `links` with attached objects.
 [[nodiscard]] std::vector<Fingerprint> fingerprint_of_arms(
     const Cell& cell, const SceneFingerprint& links, const std::vector<Attachment>& attachments);
 // Returns SceneFingerprint::objects. Precondition: `bodies` is complete except pairs and groups.

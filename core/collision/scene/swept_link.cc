@@ -148,7 +148,7 @@ void SweptLink::place(Part& part) const {
   enclose(part, placed);
 }
 
-// Sets the smaller ball: around the capsules with their motion, or around a joint's reach.
+// Sets the smallest ball: around the capsules with their motion, or around a joint's reach.
 void SweptLink::enclose(Part& part, const std::vector<PlacedStep>& placed) const {
   part.ball = {part.capsules.front().line.center, 0.0};
   for (const Part::Segment& capsule : part.capsules) {

@@ -5,10 +5,9 @@
 
 namespace armloom {
 
-// Returns every pair of bodies that is closer than its limit while all arms are at home, with its
-// distance: clearance_m, or self_clearance_m or mount_clearance_m for an arm with itself or its
-// mount. Such a cell is refused. Empty if the homes are free. Each pointer names the home of the
-// first body's arm ("/robots/0/arms/0/home").
+// Returns all pairs that are closer than their limits (clearance_m, self_clearance_m,
+// mount_clearance_m) with all arms at home, each with its distance. Such a cell is refused. Each
+// pointer names the home of the first body's arm ("/robots/0/arms/0/home").
 [[nodiscard]] Problems check_home(const PlanningScenePtr& scene);
 
 }  // namespace armloom

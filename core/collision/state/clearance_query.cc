@@ -25,7 +25,6 @@ struct ClearanceQuery::Scratch {
     std::size_t lane;
     float least_m;  // from the capsules
   };
-  // A pair that the filter leaves open in a single state.
   struct Candidate {
     double least_m;  // lower bound
     std::size_t pair;

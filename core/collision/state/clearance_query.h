@@ -11,8 +11,8 @@
 
 namespace armloom {
 
-// A pair that is too close. If the depth of overlap is known, clearance_m is negative by it
-// (capsules and spheres, against each other and against boxes); otherwise zero in contact.
+// A pair that is too close. In contact, clearance_m is minus the depth if that is known (capsules
+// and spheres, against each other and boxes), else zero.
 struct NearPair {
   PairId pair;
   double clearance_m;
@@ -20,20 +20,19 @@ struct NearPair {
 };
 
 // Finds the pairs of a scene that are closer than their limits, for configurations of the whole
-// cell. Capsules decide nearly all pairs; only the rest need exact distances. A pair that cannot be
-// proven apart counts as contact (clearance 0).
+// cell. Capsules decide nearly all pairs, exact distances the rest. A pair that is not proven apart
+// counts as contact (clearance 0).
 //
-// Distances are never larger than the true ones. They are smaller by at most 2e-7 m, with rare
-// exceptions (exact_distance.h). Another exception are closed meshes farther apart than
-// kSurfaceWithin_m: they get the distance of their convex pieces, or kSurfaceWithin_m
+// Distances are never larger than the true ones, and smaller by at most 2e-7 m, with rare
+// exceptions (exact_distance.h) and except for closed meshes farther apart than kSurfaceWithin_m
 // (body_distance.h).
 //
 // Attached objects are treated as links of their arm. Configurations have one entry per joint of
-// the cell (throws std::invalid_argument otherwise), arm masks one per arm. Has scratch memory, so
-// not thread-safe: use one per worker thread.
+// the cell (else throws std::invalid_argument), arm masks one per arm. Not thread-safe: use one per
+// worker thread.
 class ClearanceQuery {
  public:
-  // Uses the cell's limits by default.
+  // Default limits: the cell's.
   explicit ClearanceQuery(PlanningScenePtr scene);
   ClearanceQuery(PlanningScenePtr scene, const PairLimits& limits);
   ClearanceQuery(ClearanceQuery&&) noexcept;
@@ -43,32 +42,31 @@ class ClearanceQuery {
   [[nodiscard]] const PlanningScene& scene() const;
   void set_limits(const PairLimits& limits);
 
-  // Checks up to eight states. Bit i of the result is set if a pair in state i is closer than its
-  // limit. The fastest query, without distances.
+  // Checks up to eight states: bit i is set if a pair in state i is closer than its limit. The
+  // fastest query.
   [[nodiscard]] unsigned too_close(std::span<const Configuration* const> states);
 
   // Writes to `near`, in the scene's order, every such pair that involves an arm in `of` and an arm
-  // in `moved`, which may be the same arm.
+  // in `moved`, possibly the same arm.
   void near_pairs(const Configuration& q, const std::vector<bool>& of,
                   const std::vector<bool>& moved, std::vector<NearPair>& near);
   [[nodiscard]] std::vector<NearPair> near_pairs(const Configuration& q);
-  // Returns true if near_pairs() checks this pair for these masks.
   [[nodiscard]] bool looks_at(PairId pair, const std::vector<bool>& of,
                               const std::vector<bool>& moved) const;
 
-  // Returns the closest too close pair of each group: of two arms, of each arm with static bodies,
-  // with its mount, and with itself.
+  // Returns the closest such pair of each two arms, and of each arm with static bodies, with its
+  // mount, and with itself.
   [[nodiscard]] std::vector<Proximity> closest_too_close(const Configuration& q);
   // Returns the closest pair of each two arms, and of each arm with all static bodies, if closer
-  // than `horizon_m`. Ignores the limits.
+  // than `horizon_m`; ignores the limits.
   [[nodiscard]] std::vector<Proximity> closest_apart(const Configuration& q, double horizon_m);
 
-  // Returns the pair's names and arms. body_a belongs to the arm with the smaller id; body_b to the
-  // other arm, a static link or an object.
+  // body_a belongs to the arm with the smaller id; body_b to the other arm, a static link or an
+  // object.
   [[nodiscard]] Proximity describe(const NearPair& near) const;
-  // Returns true if both bodies belong to one arm (Cell::is_own) or are attached to it.
+  // Returns true if both bodies belong to one arm (Cell::is_own), attached objects included.
   [[nodiscard]] bool is_self(PairId pair) const;
-  // Returns true for an arm and its mount (Cell::is_mount), which is scene and not part of the arm.
+  // Returns true for an arm and its mount (Cell::is_mount).
   [[nodiscard]] bool is_mount(PairId pair) const;
 
  private:

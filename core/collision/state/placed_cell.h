@@ -12,8 +12,8 @@ namespace armloom {
 // Number of states that are checked at once.
 inline constexpr auto kStatesAtOnce = static_cast<std::size_t>(filter::kLanes);
 
-// Up to eight configurations of a whole cell as the filter's kernels place them, with all pairs
-// that the scene checks and their limits. Not thread-safe.
+// Up to eight configurations of a whole cell as the kernels place them, and all pairs to check with
+// their limits. Not thread-safe.
 class PlacedCell {
  public:
   PlacedCell(const PlanningScene::Bodies& bodies, const PairLimits& limits);
@@ -23,15 +23,14 @@ class PlacedCell {
   // Places one to eight states; throws std::invalid_argument otherwise.
   void place(std::span<const Configuration* const> states);
 
-  // The pairs of two arms, of an arm with itself (b == a), or of an arm with static bodies.
+  // The pairs of two arms, an arm and itself (b == a), or an arm and static bodies.
   struct Comparison {
     std::size_t a;
     std::size_t b;
     PairSet pairs;
   };
   [[nodiscard]] const std::vector<Comparison>& comparisons() const { return comparisons_; }
-  // Calls visit(hits, narrow pairs) for the pairs that the filter cannot prove apart in these
-  // lanes.
+  // Calls visit(hits, narrow pairs) for the pairs that the filter leaves undecided in these lanes.
   template <class Visit>
   void filter(const Comparison& c, unsigned lanes, const Visit& visit) {
     const filter::Kernel& kernel = filter::best_kernel();
@@ -47,11 +46,11 @@ class PlacedCell {
                                   static_cast<int>(set.boxes.size()), lanes, hits_.data())),
           set.narrow_boxes);
   }
-  // Returns a placed body of a side (Comparison::a or b).
+  // `side`: Comparison::a or b.
   [[nodiscard]] PlacedBody body(std::size_t side, int index, std::size_t lane) const;
 
  private:
-  struct Side {  // an arm with room for eight placements, or the static bodies
+  struct Side {  // an arm with eight placements, or the static bodies
     Side(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm);
     void place();
     [[nodiscard]] filter::Side side() const { return {capsules.data(), nullptr, ball.data()}; }
@@ -64,7 +63,7 @@ class PlacedCell {
 
   const PlanningScene::Bodies& bodies_;
   PairLimits limits_;
-  std::vector<Side> arms_;  // the last one has the static bodies
+  std::vector<Side> arms_;  // the last one: static bodies
   std::vector<Comparison> comparisons_;
   std::vector<filter::Hit> hits_;
 };
