@@ -17,7 +17,7 @@ class CertifiedCheck {
 
  private:
   struct ArmMotion {       // one arm of a motion, or an arm at rest
-    const Motion* motion;  // null: at rest
+    const Motion* motion;  // null if at rest
     MotionStore::Entry* entry;
 
     [[nodiscard]] double progress_s() const;

@@ -13,7 +13,6 @@ constexpr int kFirstLevels = 3;
 // Bodies mostly move towards each other by at least this share of their motion bounds. With less
 // room, no proof is tried.
 constexpr double kLineTowardsShare = 0.25;
-// The nominal duration of a line.
 constexpr Duration kLength = std::chrono::seconds(1);
 
 // Returns a node of the line and the node of a static counterpart.

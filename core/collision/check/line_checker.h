@@ -58,7 +58,7 @@ class LineChecker {
  private:
   struct Counterpart {
     PairSet pairs;
-    std::shared_ptr<MotionTube> tube;  // null: the arm itself
+    std::shared_ptr<MotionTube> tube;  // null for the arm itself
   };
   struct Found {
     std::size_t counterpart;
@@ -91,7 +91,7 @@ class LineChecker {
   std::shared_ptr<MotionTube::Scratch> tube_scratch_;
   std::shared_ptr<TubePair::Scratch> pair_scratch_;
   std::vector<Counterpart> counterparts_;
-  std::vector<std::vector<int>> open_;  // by counterpart: nodes of the line at hand
+  std::vector<std::vector<int>> open_;  // by counterpart: nodes of the current line
   std::uint64_t evaluations_ = 0;
 };
 

@@ -51,7 +51,7 @@ class MotionChecker {
   // state merged.
   [[nodiscard]] Diagram draw(const Drawing& drawing, CheckProgress* progress = nullptr);
 
-  // Cell budget of a pair of motions for each 10 s of the longer one.
+  // Cell budget of a pair of motions for each 10 s of the longer motion.
   inline static constexpr std::uint64_t kBudget = 1000;
 
  private:

@@ -61,7 +61,7 @@ class PairRegionSearch {
  private:
   struct Side {  // a motion, or an arm at rest
     std::variant<JobId, ArmId> who;
-    const Motion* motion;  // null: at rest
+    const Motion* motion;  // null if at rest
     std::vector<MotionStore::Entry*> arms;
     std::optional<CertifiedSide> certified = {};  // built on first use
 
@@ -89,7 +89,7 @@ class PairRegionSearch {
   bool exhausted_ = false;
   std::vector<Certificate> certificates_;
   std::vector<const Motion*> in_order_;  // all motions; of each arm in the order they run in
-  // Of the current two sides:
+  // For the current two sides:
   std::vector<OrientedDiagram> layers_;  // each arm of one side against each of the other
   std::vector<BlockedCell> blocked_;
   std::vector<std::pair<std::size_t, CoordinationDiagram::Blocked>> leaves_;  // layer, by blocked_

@@ -138,7 +138,7 @@ class Judgement {
     std::erase_if(parting_, [](const Parting& parting) { return !parting.still_close; });
   }
 
-  // Adds the conflict, or replaces one with the same counterpart if this one is closer.
+  // Adds the conflict, or replaces a farther conflict with the same counterpart.
   void report(const NearPair& near, std::vector<Conflict>& conflicts) const {
     Conflict found = conflict_of(near);
     for (Conflict& known : conflicts) {
@@ -157,7 +157,7 @@ class Judgement {
     Proximity proximity = query_.describe(near);
     const Runner* own = runner_of(proximity.arm_a);
     const Runner* other = runner_of(proximity.arm_b);
-    // Body a belongs to the candidate; of two candidates, to the one named first.
+    // Body a belongs to the candidate; of two, to the first named.
     const bool b_is_own =
         other != nullptr && other->candidate && (own == nullptr || !own->candidate || other < own);
     if (b_is_own) {
@@ -191,7 +191,7 @@ class Judgement {
   const Cell& cell_;
   Configuration q_;
   std::vector<Runner> runners_;               // candidates first
-  std::vector<const Runner*> runner_of_arm_;  // by ArmId; null: at rest
+  std::vector<const Runner*> runner_of_arm_;  // by ArmId; null if at rest
   std::vector<bool> of_candidates_;           // by ArmId
   std::vector<bool> moved_;                   // by ArmId: since the last instant
   std::vector<Parting> parting_;

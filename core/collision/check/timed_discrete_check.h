@@ -20,7 +20,7 @@ namespace armloom {
 // Counterparts are another job, an arm at rest, an object or static link (With::scene), and the
 // candidate's own links (With::self; also the other arms of a synchronous motion). Stops at the
 // first instant with a conflict and reports each counterpart with its closest pair. Two candidates
-// in conflict are reported once, the one named first as the candidate.
+// in conflict are reported once, the first named as the candidate.
 //
 // A motion that stays (Motion::Stands) rests at its progress. If a motion may stay, both cases must
 // be free.

@@ -57,8 +57,8 @@ class CellTree {
   void split(int cell, int levels);
   // Splits an unknown cell that is wider than `wide` (at least kWide) without a check.
   void split_if_wide(int cell, Duration wide = kWide);
-  // Splits a mixed cell that is wider than `resolution`. Halves the other axis if the preferred one
-  // is fine already.
+  // Splits a mixed cell that is wider than `resolution`. Halves the other axis if the preferred
+  // axis is fine already.
   void split_if_coarse(int cell, Duration resolution);
 
   // Calls visit(leaf) for leaves that touch `of`, corners included, until it returns true. Returns

@@ -13,11 +13,11 @@
 
 namespace armloom {
 
-// Whether two motions of different arms collide depends only on where each is along its own path
-// (O'Donnell and Lozano-Perez 1989). Cells over (trajectory time of A, trajectory time of B) are
-// certified free, in conflict, or not known yet. They are refined only where a question needs it,
-// and kept, so that repeating a question costs next to nothing. For one arm against static bodies,
-// or against itself, the second axis has no length.
+// The progress of two motions of different arms determines if they collide (O'Donnell and
+// Lozano-Perez 1989). Cells over (trajectory time of A, trajectory time of B) are certified
+// free, in conflict, or not known yet. They are refined only where a question needs it, and kept,
+// so that repeating a question costs next to nothing. For one arm against static bodies, or against
+// itself, the second axis has no length.
 //
 // A cell is free if every pair of bodies keeps its limit in all its states: the distance at its
 // middle, less the motion of both bodies within the cell (MotionTube), is at least the limit.
@@ -94,7 +94,7 @@ class CoordinationDiagram {
     ProgressBox box;
     CellState state;
   };
-  // Returns the leaves, in a fixed order. Unknown ones were never needed.
+  // Returns the leaves, in a fixed order. Unknown leaves were never needed.
   [[nodiscard]] std::vector<CellView> cells() const;
 
   // Largest share of the budget for the first cells.

@@ -71,7 +71,7 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
   for (; width >= CellTree::kWide && looked_at < budget; width /= 2) {
     looked_at += refine(now_a, now_b, width, budget - looked_at);
   }
-  // A motion that is to come may find the other one anywhere on its path, so edges are entries.
+  // A motion that is to come may find the other motion anywhere on its path, so edges are entries.
   const auto may_be_entered = [&](const Node& cell) {
     return tree_.a().from(cell.a) <= now_a || tree_.b().from(cell.b) <= now_b ||
            tree_.leaves_at(cell,

@@ -26,7 +26,7 @@ class MotionStore {
 
   struct Entry {
     ArmId arm;
-    TrajectoryPtr trajectory;  // null: at rest
+    TrajectoryPtr trajectory;  // null if at rest
     std::vector<double> rest;  // the arm's joints, rows as in its kinematics
     double tracking_error;
     std::shared_ptr<MotionTube> tube;

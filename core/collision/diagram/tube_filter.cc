@@ -65,7 +65,7 @@ struct TubePair::Lanes {
     }
   };
   std::array<Side, kLanes> a, b;
-  unsigned lost = 0;  // by lane: one pair cannot be proven apart, so the others are not tried
+  unsigned lost = 0;  // by lane: a pair cannot be proven apart; others are not tried
 };
 
 // Bounds a hit along the direction that separates its capsules, for all pairs of stretches.

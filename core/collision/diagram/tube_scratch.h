@@ -15,7 +15,7 @@ struct TubePair::Gathered {
 
 // Nodes being filtered, what is open in one of them, and one state.
 struct TubePair::Scratch {
-  CheckProgress* progress = nullptr;  // null: not watched
+  CheckProgress* progress = nullptr;  // null if not watched
   Gathered a, b;
   struct Hits {
     std::vector<filter::Hit> of;

@@ -39,7 +39,7 @@ class ArmKinematics {
   [[nodiscard]] filter::ArmKinematics view() const;
   // Upper bound of all world coordinates of its bodies and joints (m).
   [[nodiscard]] double extent_m() const { return extent_m_; }
-  // Returns the frames from the root to this one; empty for the world (-1).
+  // Returns the frames from the root to this frame; empty for the world (-1).
   [[nodiscard]] std::span<const int> ancestors(int frame) const;
   [[nodiscard]] int common_ancestors(int capsule_a, int capsule_b) const;
 

@@ -161,7 +161,8 @@ struct Kernel {
   // and the second sum).
   void (*inflate)(const ArmKinematics& kinematics, const Placed& at, const JointMotions& motions,
                   const MotionBounds& out);
-  // Writes the ball of a side. rows[c] is the row of capsule c in `motion_bound`; null: no motion.
+  // Writes the ball of a side. rows[c] is the row of capsule c in `motion_bound`, which is null
+  // without motion.
   void (*enclose)(const ArmKinematics& kinematics, const float* capsules, const float* motion_bound,
                   const int* rows, float* ball);
   // Writes the pairs that are undecided in `lanes`; returns their number. `hits` has room for all

@@ -9,7 +9,7 @@ namespace armloom {
 
 // One or two capsules that enclose all shapes of a body.
 struct LinkCapsules {
-  std::vector<LinkCapsule> capsules;  // each shape lies completely in one
+  std::vector<LinkCapsule> capsules;  // each shape lies completely in one capsule
   double overestimate_m = 0.0;  // how far their surface stands off the shapes at most, at least 0:
                                 // slightly too small (some hundred samples)
 };
@@ -24,7 +24,7 @@ struct LinkCapsules {
 
 // Returns small capsules around the shapes. A round shape that contains all others yields its own
 // capsule. There are two capsules if
-// - their volume together is below kTwoVolume of the single one, or
+// - their volume together is below kTwoVolume of the single capsule, or
 // - they stand off less than kTwoOverestimate as far, by at least kTwoGain_m, with no larger
 //   volume.
 // The two are the best of all partitions for up to 8 shapes, else of those across a principal axis.

@@ -51,8 +51,8 @@ void add_body(PlanningScene::Bodies& scene, CollisionBody body,
   scene.bodies.push_back(std::move(body));
 }
 
-// A link is one body. But each box of a static link is a body of its own, like a box object,
-// because a sphere or capsule is a poor bound of a table.
+// A link is one body. But each box of a static link is a body, like a box object, because a
+// sphere or capsule is a poor bound of a table.
 void add_link(PlanningScene::Bodies& scene, LinkId id) {
   const Cell& cell = *scene.cell;
   const Link& link = cell.link(id);

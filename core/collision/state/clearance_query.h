@@ -23,7 +23,7 @@ struct NearPair {
 // cell. Capsules decide nearly all pairs, exact distances the rest. A pair that is not proven apart
 // counts as contact (clearance 0).
 //
-// Distances are never larger than the true ones, and smaller by at most 2e-7 m, with rare
+// Distances are never larger than the true distances, and smaller by at most 2e-7 m, with rare
 // exceptions (exact_distance.h) and except for closed meshes farther apart than kSurfaceWithin_m
 // (body_distance.h).
 //
