@@ -8,33 +8,33 @@
 
 namespace armloom {
 
-// A point of the phase plane of a motion: where on the path, and the rate r = ds/dt (1: as
-// planned).
+// A point of a motion's phase plane: progress, and the rate r = ds/dt (1: as planned).
 struct PathPoint {
   Duration progress;
   double rate;
 };
 
-// How fast the rate of progress along a trajectory q(s) may change. The joints' acceleration is
+// Limits on the change of rate along a trajectory q(s). The joints' acceleration is
 //   q'(s) s'' + q''(s) r^2
-// with ' the derivative by trajectory time, so each joint's limit is an interval of s'' (Bobrow,
-// Dubowsky and Gibson 1985). All joints of the trajectory count, also those of other arms: arms
-// that share a synchronous motion then brake and continue in step. All s'' are in 1/s.
+// with ' the derivative by trajectory time, so each joint limits s'' to an interval (Bobrow,
+// Dubowsky and Gibson 1985). All joints of the trajectory are included, also those of other arms,
+// so that the arms of a synchronous motion brake and continue in step. All s'' are in 1/s.
 class RateLaw {
  public:
-  // |s''| is never larger: where the path nearly rests, its limits say nothing.
+  // Bound on |s''|: where the path is almost at rest, the joint limits permit any s''.
   inline static constexpr double kRateChangeMax_1_s = 50.0;
-  // A brake always makes this share of a joint's limit, even where the path itself uses it all up:
-  // so it ends.
+  // A brake uses at least this share of the joint limits, even where the path itself needs them
+  // all, so that it ends.
   inline static constexpr double kBrakeFloorShare = 0.02;
 
   explicit RateLaw(CellPtr cell) : cell_(std::move(cell)) {}
   void follow(TrajectoryPtr trajectory);
 
-  // The strongest deceleration s'' < 0 for the stretch from `first` to `last`, within `share` of
-  // the joints' brake limits at both of its ends; where no s'' is, the one that breaks them least.
+  // Returns the strongest deceleration s'' < 0 from `first` to `last` within `share` of the joints'
+  // brake limits at both ends. If there is none, returns the s'' that violates the limits least.
   [[nodiscard]] double brake(PathPoint first, PathPoint last, double share = 1.0);
-  // The strongest acceleration s'' >= 0 within the acceleration limits, on a tick of `period_s`.
+  // Returns the strongest acceleration s'' >= 0 within the acceleration limits for a tick of
+  // `period_s`.
   [[nodiscard]] double rise(PathPoint first, double period_s);
 
  private:
@@ -57,7 +57,7 @@ class RateLaw {
   Eigen::VectorXd acceleration_;  // limits of the trajectory's joints, > 0
   Eigen::VectorXd brake_;
   double floor_ = 0.0;              // smallest deceleration of a brake, > 0
-  std::array<Sampled, 2> sampled_;  // the last two places that were asked for
+  std::array<Sampled, 2> sampled_;  // the last two points requested
   std::size_t older_ = 0;
 };
 

@@ -10,22 +10,21 @@
 
 namespace armloom {
 
-// A simulated arm with a 1 kHz control cycle. Commanded progress advances along the path at a rate
-// (0..1) that a brake lowers to zero, and a start or resume raises to one, as fast as the joints'
-// brake (acceleration) limits allow: |q'(s) s'' + q''(s) s'^2| <= limit for every joint. Measured
-// progress follows the commanded one with a first-order lag (ControllerDescription::lag); measured
-// positions are the path at the measured progress plus, if asked for, Gaussian noise from the seed.
-// Deterministic: the same seed and the same calls give the same feedback, bit for bit.
+// A simulated arm with a 1 kHz control cycle. A brake lowers the rate (0..1) of commanded progress
+// to zero, and a start or resume raises the rate to one, as fast as the joints' brake or
+// acceleration limits permit: |q'(s) s'' + q''(s) s'^2| <= limit for every joint. Measured progress
+// follows commanded progress with a first-order lag (ControllerDescription::lag). Measured
+// positions are the path at the measured progress, with optional Gaussian noise. Deterministic: the
+// same seed and calls give the same feedback, bit for bit.
 //
-// What the interface leaves open:
-// - From the very start of a path (at rest there) the rate is one at once; elsewhere it begins at
-// zero.
-// - Whoever shares a trajectory brakes alike: the limits of all its joints bind the rate, so the
-//   commanded progress of synchronous arms stays equal.
+// Behavior that the interface leaves open:
+// - At the start of a path (at rest there) the rate is one at once; elsewhere it starts at zero.
+// - Synchronous arms keep equal commanded progress, because the limits of all joints of their
+//   trajectory bind the rate.
 // - At rest at its authority the phase stays `moving`; more authority continues the motion.
-// - A grant that comes too late to stop for is raised to where a brake brings the arm to rest.
-// - A brake on the last stretch may come to rest at the goal: the phase is then `finished`.
-// - A start that is off the path (within execution.start_tolerance_rad) is pulled in with the lag.
+// - A grant that is too close to stop at is raised to where a brake brings the arm to rest.
+// - A brake near the goal may come to rest at the goal: the phase is then `finished`.
+// - A start off the path (within execution.start_tolerance_rad) is pulled in with the lag.
 // - It never reports `fault`.
 // Broken preconditions throw std::logic_error.
 class SimulatedArm final : public ArmController {
@@ -46,8 +45,8 @@ class SimulatedArm final : public ArmController {
   void advance(Duration period);
   void lag_behind(Duration commanded_before, Duration period);
   void settle();
-  void place();    // position_ from the measured progress
-  void measure();  // feedback_.measured from position_
+  void place();    // sets position_ from the measured progress
+  void measure();  // sets feedback_.measured from position_
   [[nodiscard]] bool under_way() const;
   [[nodiscard]] bool stands() const;
 
@@ -61,14 +60,14 @@ class SimulatedArm final : public ArmController {
 
   struct Path {
     TrajectoryPtr trajectory;
-    std::vector<Eigen::Index> rows;  // of the trajectory, for each of joints_; -1: not in it
-    Eigen::VectorXd at;              // scratch, of the trajectory's joints: at measured progress
-    Eigen::VectorXd target;          // the same, at commanded progress
+    std::vector<Eigen::Index> rows;  // row in the trajectory of each of joints_; -1 if not in it
+    Eigen::VectorXd at;              // scratch: the trajectory's joints at measured progress
+    Eigen::VectorXd target;          // scratch: the same at commanded progress
   };
   Path path_;
-  Eigen::VectorXd position_;  // of joints_: where the arm truly is
+  Eigen::VectorXd position_;  // true positions of joints_
   struct Offset {
-    Eigen::VectorXd left;  // of joints_: of the distance to the path at the start
+    Eigen::VectorXd left;  // of joints_: remaining part of the start's distance to the path
     bool is_any = false;
   };
   Offset offset_;

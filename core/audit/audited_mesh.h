@@ -10,8 +10,8 @@
 
 namespace armloom {
 
-// A mesh as the audit sees it: its plain triangles, about the middle C of their bounding box, which
-// is the origin of all points here.
+// The audit's model of a mesh: its triangles. All points are relative to C, the center of their
+// bounding box.
 class AuditedMesh {
  public:
   explicit AuditedMesh(const MeshData& mesh);
@@ -20,17 +20,16 @@ class AuditedMesh {
   [[nodiscard]] double radius_m() const { return radius_m_; }          // about C
   [[nodiscard]] std::shared_ptr<fcl::CollisionGeometryd> make_surface() const;
 
-  // One vertex of each connected piece of the surface: a piece that touches nothing is inside of
-  // another surface if this vertex is. Of the kMaxRepresentatives largest pieces, should a file be
-  // a heap of crumbs.
+  // One vertex of each connected piece of the surface, at most of the kMaxRepresentatives largest.
+  // A piece that touches nothing is inside another surface if its vertex is.
   static constexpr std::size_t kMaxRepresentatives = 64;
   [[nodiscard]] const std::vector<Eigen::Vector3d>& representatives() const {
     return representatives_;
   }
 
-  // Whether the surface closes around the point: whether rays from it cross one of its pieces an
-  // odd number of times (the majority of three rays, as one may graze an edge). Orientation plays
-  // no part. Points on the surface may be either; surfaces with holes do not close around anything.
+  // Returns true if the surface encloses the point: rays cross a piece an odd number of times
+  // (majority of three, because a ray may graze an edge). Orientation is ignored. On the surface
+  // either result is possible; surfaces with holes enclose nothing.
   [[nodiscard]] bool encloses(const Eigen::Vector3d& p_C) const;
 
  private:
