@@ -4,7 +4,7 @@
 
 namespace armloom {
 
-// A radius of zero: a point.
+// A ball; a point if its radius is zero.
 struct Ball {
   Eigen::Vector3d center;
   double radius_m = 0.0;
