@@ -10,7 +10,6 @@
 
 namespace armloom {
 
-// Feedback of an arm's controller at one tick.
 struct ArmFeedback {
   enum class Phase {
     idle,      // at rest, no motion
@@ -32,28 +31,28 @@ struct ArmFeedback {
   bool settled = false;
 };
 
-// One arm (arm joints, then gripper joints) behind an interface that real arms can implement.
-// Confined to the executive's strand. No function blocks.
+// One arm (arm joints, then gripper joints); an interface for real arms too. Confined to the
+// executive's strand. Never blocks.
 class ArmController {
  public:
   virtual ~ArmController() = default;
 
   [[nodiscard]] virtual const std::vector<JointId>& joints() const = 0;
 
-  // Follows the controller's own joints of `trajectory` from `from_progress`, starting at cell time
-  // `start_at` (at the next tick if that has passed). The controller never passes `authority`
-  // (trajectory time): it brakes by itself so that it comes to rest there. Precondition: idle,
-  // stopped or finished; the arm is at `from_progress` of the trajectory.
+  // Follows its own joints of `trajectory` from `from_progress`, starting at cell time `start_at`
+  // (at the next tick if that has passed). Brakes by itself to rest at `authority` (trajectory
+  // time) and never passes it. Precondition: idle, stopped or finished; the arm is at
+  // `from_progress`.
   virtual void start(TrajectoryPtr trajectory, TimePoint start_at, Duration from_progress,
                      Duration authority) = 0;
-  // Moves the authority of the present motion, never back past what is already commanded.
+  // Moves the authority of the present motion, but not back past what is commanded.
   virtual void grant(Duration authority) = 0;
-  // Stops (category 2): brakes on the path within the joints' brake limits and keeps the position.
+  // Category 2 stop: brakes on the path within the joints' brake limits and keeps the position.
   virtual void brake() = 0;
-  // Drops the motion after stopped, finished or fault. The arm becomes idle at its position.
+  // Drops the motion after stopped, finished or fault: the arm becomes idle.
   virtual void release() = 0;
 
-  // Runs one control cycle: advances to `now` and measures. `now` grows by the control period.
+  // Runs one control cycle up to `now`, which grows by the control period.
   virtual const ArmFeedback& tick(TimePoint now) = 0;
 };
 

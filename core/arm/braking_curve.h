@@ -6,23 +6,23 @@
 
 namespace armloom {
 
-// The largest rate at each point of the path from which a brake still brings the arm to rest at
-// `authority`. Integrated backwards from there with the rate law's deceleration (the decelerating
-// arc of time-optimal path following). Solutions of one differential equation do not cross, so an
-// arm that brakes from below the curve stays below it.
+// The largest rates along the path from which a brake still brings the arm to rest at `authority`.
+// Integrated backwards with the rate law's deceleration (the decelerating arc of time-optimal path
+// following). Solutions of one differential equation do not cross, so an arm that brakes below the
+// curve stays below it.
 class BrakingCurve {
  public:
   BrakingCurve() { squares_.reserve(1024); }
 
-  // Computes the curve backwards from `authority` to where it no longer binds (rate one) or to
-  // `from`. Takes about 0.1 us per millisecond of trajectory time.
+  // Computes the curve backwards from `authority` until it no longer binds (rate one), at most to
+  // `from`. About 0.1 us per millisecond of trajectory time.
   void compute(RateLaw& law, Duration from, Duration authority);
 
   [[nodiscard]] Duration authority() const { return authority_; }
-  // Any rate in [0, 1] is allowed up to here. Not after the `from` of compute() if the curve binds
+  // Any rate in [0, 1] is allowed up to here; at or before compute()'s `from` if the curve binds
   // there.
   [[nodiscard]] Duration free_until() const { return free_until_; }
-  // Returns the square of the largest rate at `progress_s` (seconds); zero from the authority on.
+  // Returns the square of the largest rate at `progress_s`; zero from the authority on.
   [[nodiscard]] double rate_squared(double progress_s) const;
 
  private:

@@ -7,15 +7,15 @@
 
 namespace armloom {
 
-// Commanded progress of an arm along its path. Its rate (0 to 1) changes as fast as the rate law
-// permits, and the progress comes to rest at the authority.
+// Commanded progress of an arm on its path. The rate (0 to 1) changes within the rate law and
+// reaches zero at the authority.
 class CommandedProgress {
  public:
   explicit CommandedProgress(CellPtr cell) : law_(std::move(cell)) {}
 
   // Starts at rest at `from`.
   void follow(TrajectoryPtr trajectory, Duration from, Duration authority);
-  // Sets the authority. If it is too close to stop at, raises it to where a brake ends.
+  // Sets the authority; raises it to where a brake ends if it is too close.
   void grant(Duration authority);
   void advance(Duration period, bool braking);
 
@@ -25,7 +25,6 @@ class CommandedProgress {
   [[nodiscard]] Duration end() const { return std::min(authority_, trajectory_->duration()); }
 
  private:
-  // Result of the rate law for one tick.
   struct Step {
     double rate;        // at the end of the tick
     double progress_s;  // progress made in the tick

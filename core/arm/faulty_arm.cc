@@ -80,7 +80,7 @@ const ArmFeedback& FaultyArm::advance(TimePoint now) {
     withhold(period);
   }
   feedback_ = inner_->tick(now);
-  // An arm whose path is commanded to the end can no longer brake: it gives up at the goal.
+  // An arm whose path is commanded to the end cannot brake any more: it gives up at the goal.
   if (giving_up_ && (feedback_.phase == Phase::stopped || feedback_.phase == Phase::finished)) {
     feedback_.phase = Phase::fault;
     feedback_.detail = "the simulated controller gave up";
@@ -90,7 +90,7 @@ const ArmFeedback& FaultyArm::advance(TimePoint now) {
   return feedback_;
 }
 
-// Returns true if the faults will act differently on the present motion as time passes.
+// Returns true if the faults' effect on the present motion changes with time.
 bool FaultyArm::fault_changes() const {
   const bool over = phase_ == Phase::stopped || phase_ == Phase::finished || phase_ == Phase::fault;
   if (over) return false;

@@ -9,7 +9,6 @@
 
 namespace armloom {
 
-// A fault of a simulated arm, and its time.
 struct ArmFault {
   enum class Kind {
     stall,       // stops on its path, then continues
@@ -27,13 +26,13 @@ struct ArmFault {
 };
 
 // A controller with faults, for tests and simulation. Acts on the inner controller only as an
-// executive could (withholds authority, starts late, brakes), so limits and path are kept whatever
-// is injected. Deterministic.
+// executive could (withholds authority, starts late, brakes), so limits and path are always kept.
+// Deterministic.
 class FaultyArm final : public ArmController {
  public:
   explicit FaultyArm(std::unique_ptr<ArmController> inner);
 
-  // Adds a fault. The caller chooses `id`, which must not be in use.
+  // Adds a fault under an unused `id`.
   void inject(std::uint64_t id, ArmFault fault);
   // Returns false if there is no such fault.
   bool remove(std::uint64_t id);

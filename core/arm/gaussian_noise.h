@@ -7,8 +7,8 @@
 
 namespace armloom {
 
-// Standard normal numbers from a seed (Box and Muller). Unlike std::normal_distribution, the
-// numbers are the same with every standard library.
+// Standard normal numbers (Box and Muller). Unlike std::normal_distribution, equal with every
+// standard library.
 class GaussianNoise {
  public:
   explicit GaussianNoise(std::uint64_t seed) : engine_(seed) {}

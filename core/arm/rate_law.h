@@ -14,24 +14,24 @@ struct PathPoint {
   double rate;
 };
 
-// Limits on the change of rate along a trajectory q(s). The joints' acceleration is
+// Limits the change of rate along a trajectory q(s). The joints' acceleration is
 //   q'(s) s'' + q''(s) r^2
 // with ' the derivative by trajectory time, so each joint limits s'' to an interval (Bobrow,
-// Dubowsky and Gibson 1985). All joints of the trajectory are included, also those of other arms,
-// so that the arms of a synchronous motion brake and continue in step. All s'' are in 1/s.
+// Dubowsky and Gibson 1985). Includes all joints of the trajectory, so that the arms of a
+// synchronous motion keep in step. All s'' are in 1/s.
 class RateLaw {
  public:
-  // Bound on |s''|: where the path is almost at rest, the joint limits permit any s''.
+  // Bound on |s''|, because the joint limits permit any s'' where the path almost rests.
   inline static constexpr double kRateChangeMax_1_s = 50.0;
-  // A brake uses at least this share of the joint limits, even where the path itself needs them
-  // all, so that it ends.
+  // Least share of the joint limits used by a brake, even if the path itself needs them all: so it
+  // ends.
   inline static constexpr double kBrakeFloorShare = 0.02;
 
   explicit RateLaw(CellPtr cell) : cell_(std::move(cell)) {}
   void follow(TrajectoryPtr trajectory);
 
-  // Returns the strongest deceleration s'' < 0 from `first` to `last` within `share` of the joints'
-  // brake limits at both ends. If there is none, returns the s'' that violates the limits least.
+  // Returns the strongest deceleration s'' < 0 from `first` to `last` within `share` of the brake
+  // limits at both ends, or the s'' that violates them least if there is none.
   [[nodiscard]] double brake(PathPoint first, PathPoint last, double share = 1.0);
   // Returns the strongest acceleration s'' >= 0 within the acceleration limits for a tick of
   // `period_s`.

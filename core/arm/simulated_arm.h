@@ -11,19 +11,17 @@
 namespace armloom {
 
 // A simulated arm with a 1 kHz control cycle. A brake lowers the rate (0..1) of commanded progress
-// to zero, and a start or resume raises the rate to one, as fast as the joints' brake or
-// acceleration limits permit: |q'(s) s'' + q''(s) s'^2| <= limit for every joint. Measured progress
-// follows commanded progress with a first-order lag (ControllerDescription::lag). Measured
-// positions are the path at the measured progress, with optional Gaussian noise. Deterministic: the
-// same seed and calls give the same feedback, bit for bit.
+// to zero, and a start or resume raises it to one, as fast as the joints' brake or acceleration
+// limits permit: |q'(s) s'' + q''(s) s'^2| <= limit. Measured progress follows with a first-order
+// lag (ControllerDescription::lag). Measured positions are the path at that progress, plus optional
+// Gaussian noise. Deterministic: the same seed and calls give the same feedback, bit for bit.
 //
 // Behavior that the interface leaves open:
 // - At the start of a path (at rest there) the rate is one at once; elsewhere it starts at zero.
-// - Synchronous arms keep equal commanded progress, because the limits of all joints of their
-//   trajectory bind the rate.
+// - Synchronous arms keep equal commanded progress: all joints of the trajectory bind the rate.
 // - At rest at its authority the phase stays `moving`; more authority continues the motion.
-// - A grant that is too close to stop at is raised to where a brake brings the arm to rest.
-// - A brake near the goal may come to rest at the goal: the phase is then `finished`.
+// - A grant that is too close is raised to where a brake ends.
+// - A brake near the goal may end at the goal: the phase is then `finished`.
 // - A start off the path (within execution.start_tolerance_rad) is pulled in with the lag.
 // - It never reports `fault`.
 // Broken preconditions throw std::logic_error.

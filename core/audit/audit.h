@@ -30,12 +30,12 @@ struct AuditReport {
   std::size_t states_checked = 0;
 };
 
-// Re-checks recorded states with plain FCL, sharing only the model with admission: its own FCL
-// objects, one per collision element of the URDF. Between two recorded states joints are
-// interpolated linearly in steps of at most `step`, except during rest. The smallest clearance
-// covers arms against each other and against the scene, static links included. Pairs within one arm
-// (Cell::is_own) are checked for contact only. Precondition: every q has one entry per joint of the
-// cell; times increase.
+// Re-checks recorded states with plain FCL. Shares only the model with admission: it has its own
+// FCL objects, one per collision element of the URDF. Joints are interpolated linearly between
+// states, in steps of at most `step`, except during rest. The smallest clearance covers arms
+// against each other and the scene, static links included. Pairs within one arm (Cell::is_own) are
+// checked for contact only. Precondition: every q has one entry per joint of the cell; times
+// increase.
 [[nodiscard]] Result<AuditReport> audit(const Cell& cell, const std::vector<RecordedState>& states,
                                         Duration step);
 

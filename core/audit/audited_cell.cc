@@ -13,8 +13,8 @@ namespace {
 
 // Subtracted from a distance before later states rely on it.
 constexpr double kDoubt_m = 1e-3;
-// FCL needs milliseconds for a mesh distance unless it may skip what is beyond a bound. Looking
-// this much beyond the relevant distance saves that much travel until the next look.
+// FCL needs milliseconds for meshes unless it may skip what is beyond a bound. Looking this much
+// beyond the relevant distance saves that much travel until the next look.
 constexpr double kLookAhead_m = 0.05;
 
 bool lacks_mesh(const std::vector<PlacedShape>& shapes) {
@@ -142,7 +142,7 @@ void AuditedCell::move_to(const Cell& cell, const Configuration& q) {
     if (!solid.link) continue;
     const Eigen::Isometry3d& X_WL = X_WL_[solid.link->index()];
     if (moved_once_) {
-      // Bounds |(R' - R) p + (t' - t)| for every p within the radius about the link's origin.
+      // Bounds |(R' - R) p + (t' - t)| for every p within radius_m.
       const double shift = (X_WL.translation() - solid.X_WL.translation()).norm();
       const double turn = (X_WL.linear() - solid.X_WL.linear()).norm();
       solid.travel_m += shift + turn * solid.radius_m;

@@ -17,7 +17,7 @@
 
 namespace armloom {
 
-// A link with shapes, or an object: one FCL object per collision element.
+// A link or object: one FCL object per collision element.
 struct AuditedSolid {
   struct Element {
     fcl::CollisionObjectd surface;  // triangles
@@ -42,7 +42,7 @@ struct AuditedPair {
   std::size_t a;
   std::size_t b;
   bool contact_only;  // within one arm (Cell::is_own)
-  // Lower bound of the distance at the last look(), and both solids' travel at that time.
+  // Lower bound of the distance, and both solids' travel, at the last look().
   double distance_then_m;
   double travel_then_m;
 };
@@ -59,11 +59,11 @@ class AuditedCell {
   [[nodiscard]] std::vector<AuditedPair>& pairs() { return pairs_; }
   [[nodiscard]] const AuditedSolid& solid(std::size_t index) const { return solids_[index]; }
 
-  // Returns a lower bound of the pair's distance, from the last look() and the travel since.
+  // Returns a lower bound of the distance, from the last look() and the travel since.
   [[nodiscard]] double at_least(const AuditedPair& pair) const;
-  // Computes the pair's distance with FCL and stores it for at_least(). Returns the distance if
-  // below `matters_m` (to 0.03 mm; 0.1 mm for cylinders of 1 m radius), else at least `matters_m`.
-  // Returns zero in contact, if one solid is inside the other, or if FCL throws.
+  // Computes the distance with FCL and stores it for at_least(). Exact (to 0.03 mm; 0.1 mm for
+  // cylinders of 1 m radius) if below `matters_m`, else at least `matters_m`. Zero in contact, if
+  // one solid is inside the other, or if FCL throws.
   [[nodiscard]] double look(AuditedPair& pair, double matters_m);
 
  private:

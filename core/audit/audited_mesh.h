@@ -10,8 +10,7 @@
 
 namespace armloom {
 
-// The audit's model of a mesh: its triangles. All points are relative to C, the center of their
-// bounding box.
+// The audit's model of a mesh: triangles, relative to the center C of their bounding box.
 class AuditedMesh {
  public:
   explicit AuditedMesh(const MeshData& mesh);
@@ -20,16 +19,16 @@ class AuditedMesh {
   [[nodiscard]] double radius_m() const { return radius_m_; }          // about C
   [[nodiscard]] std::shared_ptr<fcl::CollisionGeometryd> make_surface() const;
 
-  // One vertex of each connected piece of the surface, at most of the kMaxRepresentatives largest.
-  // A piece that touches nothing is inside another surface if its vertex is.
+  // One vertex of each connected piece, at most kMaxRepresentatives (largest pieces first). A piece
+  // that touches nothing is inside another surface if its vertex is.
   static constexpr std::size_t kMaxRepresentatives = 64;
   [[nodiscard]] const std::vector<Eigen::Vector3d>& representatives() const {
     return representatives_;
   }
 
-  // Returns true if the surface encloses the point: rays cross a piece an odd number of times
-  // (majority of three, because a ray may graze an edge). Orientation is ignored. On the surface
-  // either result is possible; surfaces with holes enclose nothing.
+  // Returns true if rays from the point cross a piece of the surface an odd number of times
+  // (majority of three, because a ray may graze an edge). Orientation is ignored. Either result is
+  // possible on the surface; surfaces with holes enclose nothing.
   [[nodiscard]] bool encloses(const Eigen::Vector3d& p_C) const;
 
  private:

@@ -15,8 +15,8 @@ class AuditedPrimitive {
  public:
   explicit AuditedPrimitive(const Shape& shape);  // precondition: no mesh
 
-  // Returns its triangles. A box is exact. A cylinder is a prism around it, at most kPrismExcess_m
-  // outside. A sphere is a tiny triangle at its center; round_m() is subtracted from its distances.
+  // Returns its triangles: a box exactly, a cylinder as a prism at most kPrismExcess_m outside, a
+  // sphere as a tiny triangle at its center (subtract round_m() from distances).
   [[nodiscard]] std::shared_ptr<fcl::CollisionGeometryd> make_surface() const;
   [[nodiscard]] double round_m() const;
   static constexpr double kPrismExcess_m = 2e-5;
@@ -24,10 +24,9 @@ class AuditedPrimitive {
   [[nodiscard]] double radius_m() const;  // bounding sphere
   [[nodiscard]] bool contains(const Eigen::Vector3d& p, double within_m = 0.0) const;
 
-  // Returns the GJK distance if proven to kProof_m: not above the distance of two points of the
-  // shapes, and not below the gap between two planes that separate them. Returns nullopt if not
-  // proven, as in contact: for 5 % of upright box pairs, libccd's GJK ends too early and returns up
-  // to twice the distance, or none.
+  // Returns the GJK distance if proven to kProof_m by two points of the shapes and by two planes
+  // that separate them, else nullopt, as in contact. For 5 % of upright box pairs, libccd's GJK
+  // ends too early and returns up to twice the distance, or none.
   [[nodiscard]] static std::optional<double> proven_distance(const AuditedPrimitive& a,
                                                              const Eigen::Isometry3d& X_WA,
                                                              const AuditedPrimitive& b,

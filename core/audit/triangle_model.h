@@ -15,8 +15,8 @@ struct TriangleModel {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
 
-  // Builds the FCL model. FCL's triangle distance is exact, but arbitrary for triangles without
-  // area: these get an area by moving a corner by at most kAside_m.
+  // Builds the FCL model. FCL's triangle distance is arbitrary for triangles without area, so one
+  // of their corners is moved by at most kAside_m.
   [[nodiscard]] std::shared_ptr<fcl::CollisionGeometryd> made() const;
   static constexpr double kAside_m = 1e-6;
 };

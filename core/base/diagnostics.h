@@ -20,7 +20,6 @@ class Diagnostics {
   void add(Problem problem);
   // Adds a warning: input that is accepted but probably a mistake, or ignored.
   void warn(Problem problem);
-  // Takes over another collection, or takes it over as warnings.
   void merge(Diagnostics other);
   void merge_as_warnings(Diagnostics other);
 
@@ -28,8 +27,8 @@ class Diagnostics {
   void in_cell(std::string slug, std::string pointer, std::string detail,
                decltype(Problem::value) value = {});
 
-  // Returns the number of add() calls. If it is unchanged, a reader has added no problem, not
-  // even a repeated problem.
+  // Returns the number of add() calls. If unchanged, a reader has found no problem, not even a
+  // repeated problem.
   [[nodiscard]] std::size_t count() const { return added_; }
 
   [[nodiscard]] Problems take();

@@ -13,7 +13,6 @@ class Id {
  public:
   constexpr explicit Id(Rep value) : value_(value) {}
   [[nodiscard]] constexpr Rep value() const { return value_; }
-  // Position in the indexed array (links, joints, arms of a cell).
   [[nodiscard]] constexpr std::size_t index() const { return static_cast<std::size_t>(value_); }
   constexpr auto operator<=>(const Id&) const = default;
 

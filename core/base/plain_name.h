@@ -5,15 +5,15 @@
 
 namespace armloom {
 
-// Names that occur in paths of the API (robots, arms, objects): 1 to kPlainNameMax characters of
-// UTF-8, no slashes, backslashes or control characters, and not "." or "..", which clients
-// resolve as folders.
+// For names in API paths (robots, arms, objects): 1 to kPlainNameMax characters of UTF-8, no
+// slashes, backslashes or control characters, and not "." or "..", which clients resolve as
+// folders.
 inline constexpr std::size_t kPlainNameMax = 128;
 inline constexpr const char* kPlainNameRule =
     "a name is 1 to 128 characters without slashes and control characters, and not . or ..";
 [[nodiscard]] bool is_plain_name(std::string_view name);
 
-// Returns the number of characters of a UTF-8 text.
+// Counts UTF-8 characters.
 [[nodiscard]] std::size_t characters(std::string_view text);
 
 }  // namespace armloom

@@ -7,7 +7,7 @@
 namespace armloom {
 
 // Cell time: starts at zero with the executive and runs X times faster than the wall clock under
-// --speed X. No now(): time is an argument; only the executive's drivers read a clock.
+// --speed X. Only the executive's drivers read a clock: there is no now().
 struct CellClock {
   using rep = std::int64_t;
   using period = std::nano;

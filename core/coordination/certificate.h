@@ -13,8 +13,7 @@
 
 namespace armloom {
 
-// Certificates: proofs of the checker, as values. Each is complete and stays true after its
-// question is gone.
+// Certificates: proofs of the checker, as self-contained values.
 
 // Content hash of everything that a proof relies on besides the motions: shapes, poses, attached
 // objects, pairs that are not checked, and required distances.
@@ -32,8 +31,8 @@ struct SceneFingerprint {
   [[nodiscard]] Fingerprint of(std::span<const ArmId> one, std::span<const ArmId> other = {}) const;
   bool operator==(const SceneFingerprint&) const = default;
 };
-// Returns the arms whose motions must be checked again. These are arms with a new or changed
-// object within reach; all arms if any arm or the common content changed.
+// Returns the arms whose motions must be checked again: arms with a new or changed object within
+// reach; all arms if an arm or the common content changed.
 [[nodiscard]] std::vector<ArmId> arms_in_question(const SceneFingerprint& before,
                                                   const SceneFingerprint& now);
 
@@ -47,9 +46,9 @@ struct CertifiedSide {
   std::vector<std::pair<JointId, double>> still;  // positions of the arms' joints that do not move
 };
 
-// Proves that two sides keep their clearance at every combination of positions on their motions,
-// except in the `blocked` rectangles (progress of `a`, progress of `b`; zero at rest). A
-// rectangle's edge is free unless another rectangle, or the motion's own end, adjoins that edge.
+// Proves that two sides keep their clearance at all combinations of positions on their motions,
+// except in `blocked` (progress of `a`, progress of `b`; zero at rest). A rectangle's edge is free
+// unless another rectangle, or the motion's own end, adjoins it.
 struct PairCertificate {
   CertifiedSide a;
   CertifiedSide b;
@@ -63,15 +62,15 @@ struct ApartCertificate {
   ArmId b;
   Fingerprint geometry;
 };
-// Proves that the rest of the motion keeps its clearance from itself, from stationary links and
-// from these objects.
+// Proves that the rest of the motion keeps its clearance from itself, stationary links and these
+// objects.
 struct SceneCertificate {
   CertifiedSide side;
   std::vector<std::vector<Fingerprint>> objects;  // of each arm of the side, ascending
   Fingerprint geometry;
 };
-// Proves that the arms of one motion keep their clearance from each other while no arm is ahead
-// of another by more than `apart` (trajectory time).
+// Proves that a motion's arms keep their clearance from each other while no arm is ahead of another
+// by more than `apart` (trajectory time).
 struct TogetherCertificate {
   CertifiedSide side;
   Duration apart;

@@ -14,9 +14,9 @@ struct ProgressBox {
   Duration from_a, to_a, from_b, to_b;
 };
 
-// A connected set of states (progress of A, progress of B) that are not certified free. A
-// monotone path through the diagram passes the whole region on one side: either A is first (B
-// enters no box before A has left that box), or B is.
+// A connected set of states (progress of A, progress of B) that are not certified free. A monotone
+// path passes the whole region on one side: either A is first (B enters no box before A has left
+// it), or B is.
 struct ConflictRegion {
   std::vector<ProgressBox> boxes;  // never empty
   Proximity proximity;             // evidence: the closest pair found; body_a is A's
@@ -24,9 +24,8 @@ struct ConflictRegion {
   Duration time_b;
 };
 
-// Conflict regions of a candidate and another motion or resting arm. Every state outside the
-// boxes is certified free, from the question's progress on: both keep the cell's clearance,
-// including their tracking errors.
+// Conflict regions of a candidate and another motion or resting arm. From the question's progress
+// on, every state outside the boxes is certified free, including the tracking errors.
 struct PairRegions {
   JobId a;                       // a candidate
   std::variant<JobId, ArmId> b;  // another motion, or a resting arm: its times are zero

@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// A rectangle of a coordination diagram: trajectory times of A and of B.
+// A rectangle of trajectory times of A and of B.
 struct DiagramCell {
   enum class State : std::uint8_t {
     free,       // certified: the arms keep their clearance in every state of the cell
@@ -32,7 +32,7 @@ struct DiagramCell {
   return nullptr;
 }
 
-// Diagram of one arm's motion and another arm's motion, over all combinations of progress.
+// Diagram of two arms' motions.
 struct DiagramLayer {
   ArmId arm_a;
   ArmId arm_b;
@@ -49,7 +49,7 @@ struct Drawing {
   std::uint64_t budget;  // cells per pair of arms
 };
 
-// Coordination diagram of two motions: one layer for each arm of A and each arm of B.
+// One layer for each arm of A and each arm of B.
 struct Diagram {
   Duration duration_a;
   Duration duration_b;

@@ -8,8 +8,8 @@
 namespace armloom {
 
 // A job is not deferred because its budget of evaluations ran out: its question is checked again
-// with a larger budget, up to kEffortMax times the usual budget. Results are kept
-// (motion_store.h), so that each check continues where the previous check ended.
+// with a larger budget, up to kEffortMax times the usual budget. Each check continues where the
+// previous check ended (motion_store.h).
 inline constexpr std::uint64_t kEffortGrowth = 4;
 inline constexpr std::uint64_t kEffortMax = 16;
 

@@ -4,9 +4,9 @@
 
 namespace armloom {
 
-// Arms of one synchronous motion keep in step: an arm that gets ahead of another by more than
-// kOutOfStep is ordered to wait. Their difference in progress is therefore at most kOutOfStep,
-// plus kUntilTold (the delay of the order), plus the stopping reach. All in trajectory time.
+// Arms of one synchronous motion keep in step: an arm ahead of another by more than kOutOfStep is
+// ordered to wait. So they differ in progress by at most kOutOfStep, plus kUntilTold (delay of the
+// order), plus the stopping reach. All in trajectory time.
 inline constexpr Duration kOutOfStep = std::chrono::milliseconds(50);
 inline constexpr Duration kUntilTold = std::chrono::milliseconds(2);  // control cycles
 

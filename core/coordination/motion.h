@@ -13,16 +13,15 @@
 namespace armloom {
 
 // One job's motion in a collision check. At the question's instant the motion is at `progress`
-// of its trajectory (trajectory time, <= duration). From there it runs at the planned speed to
-// the end and rests at the goal. If `progress` is negative, the motion first rests at its start
-// for that long.
+// (trajectory time, <= duration), from which it runs to the end and rests at the goal. If
+// `progress` is negative, the motion first rests at its start for that long.
 struct Motion {
   JobId job;
   TrajectoryPtr trajectory;
   Duration progress;
   bool to_come = false;  // Coordinated only: its arm executes another motion first
-  // Largest distance of its joints from the path where the motion starts or resumes (rad, m).
-  // Certified methods use the larger of this distance and their tracking error.
+  // Largest distance of its joints from the path at its start or resume (rad, m). Certified methods
+  // use the larger of this and their tracking error.
   double off_path = 0.0;
   // TimedDiscrete only, because it has no passing orders that keep other arms away from a paused
   // motion.
@@ -36,7 +35,6 @@ struct Motion {
   [[nodiscard]] Duration remaining() const { return trajectory->duration() - progress; }
 };
 
-// How motions are compared.
 // The paper's method: checks equal instants, every `step`. Guarantees nothing between them.
 struct TimedDiscrete {
   Duration step;
@@ -46,12 +44,13 @@ struct Swept {
   double tracking_error;  // of each joint from its path (rad, m)
 };
 // Ignores times: finds the states of each pair that are not certified free (Verdict::regions). An
-// arm may have several motions, in execution order; each begins where the previous motion ends.
+// arm may have several motions, in execution order, each starting at the end of the previous
+// motion.
 struct Coordinated {
   double tracking_error;
 };
 using CheckMethod = std::variant<TimedDiscrete, Swept, Coordinated>;
-// Returns the method's tracking error of each joint (rad, m); zero if the method has none.
+// Returns the tracking error of each joint (rad, m); zero if the method has none.
 [[nodiscard]] inline double tracking_error_of(const CheckMethod& method) {
   if (const auto* swept = std::get_if<Swept>(&method)) return swept->tracking_error;
   const auto* coordinated = std::get_if<Coordinated>(&method);
@@ -78,8 +77,8 @@ struct Question {
   std::vector<PassageQuestion> passages = {};  // answered whatever the result for the candidates
   // Budget of evaluations as a multiple of the usual budget (not for TimedDiscrete).
   std::uint64_t effort = 1;
-  // Lets pairs that are too close at the question's instant move apart. Must be false if the
-  // arms are not really at these positions yet.
+  // Lets pairs that are too close at the question's instant move apart. Must be false if the arms
+  // are not really there yet.
   bool may_part = true;
 };
 

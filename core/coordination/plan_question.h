@@ -18,7 +18,7 @@ struct LinkTarget {
   LinkId link;
   Eigen::Isometry3d X_WL;  // in the world (m)
 };
-// Goal: the nearest configuration found that is clear of the rest of this motion of other arms.
+// Goal: the nearest configuration found that is clear of the rest of this motion.
 struct ClearOf {
   TrajectoryPtr motion;
   Duration progress{};

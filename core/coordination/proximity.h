@@ -24,7 +24,7 @@ struct Proximity {
   bool operator==(const Proximity&) const = default;
 };
 
-// Returns the same evidence with the bodies swapped.
+// Returns the evidence with the bodies swapped.
 [[nodiscard]] inline Proximity turned_around(Proximity proximity) {
   std::swap(proximity.body_a, proximity.body_b);
   std::swap(proximity.arm_a, proximity.arm_b);

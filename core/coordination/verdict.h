@@ -54,7 +54,6 @@ struct ClearanceBound {
   friend bool operator==(const ClearanceBound&, const ClearanceBound&) = default;
 };
 
-// The answer to a Question, with its evidence.
 struct Verdict {
   enum class Kind { free, conflict, undecided };
   Kind kind;

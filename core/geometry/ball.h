@@ -4,7 +4,6 @@
 
 namespace armloom {
 
-// A ball; a point if its radius is zero.
 struct Ball {
   Eigen::Vector3d center;
   double radius_m = 0.0;

@@ -9,9 +9,9 @@ namespace {
 
 using Why = GuardRefusal::Why;
 
-// The free states next to a rectangle certify its edge, and an interval across the common edge
-// of two rectangles overlaps the inside of one. So the edge belongs to the rectangle only if the
-// arm rests or the rectangle has no width.
+// Free states next to a rectangle certify its edge, and an interval across the common edge of two
+// rectangles overlaps the inside of one. So the edge matters only if the arm rests or the rectangle
+// has no width.
 bool overlap(Duration from, Duration to, Duration box_from, Duration box_to) {
   if (from < to && box_from < box_to) return box_from < to && from < box_to;
   return box_from <= to && from <= box_to;
@@ -154,8 +154,8 @@ double AuthorityGuard::off(const Trajectory& motion, ArmId arm, Duration progres
   return largest;
 }
 
-// A start before the measured progress restarts the motion of one arm. Arms of a synchronous
-// motion may rest at different progress, so there it is not a restart.
+// A start before the measured progress restarts the motion of one arm. Arms of a synchronous motion
+// may rest at different progress: no restart there.
 ArmPosition AuthorityGuard::as_granted(const TrajectoryPtr& motion, ArmId arm, From from,
                                        Duration authority) const {
   ArmPosition position = positions_[arm.index()];

@@ -24,13 +24,13 @@ struct ArmPosition {
 };
 
 // The last check before every start, resume and grant of authority (README.md). Invariants:
-// - For every two arms, a valid certificate covers the product [measured, authority] x
-//   [measured, authority], and the product overlaps none of its rectangles.
+// - For every two arms, a valid certificate covers the product [measured, authority] x [measured,
+//   authority], which overlaps none of its rectangles.
 // - Every motion has a valid certificate for the present scene.
 //
-// A certificate covers an arm that is on its motion, that rests where the certificate says, or
-// that rests at the motion's start or end. Each certificate is a proof by itself while its
-// content equals the present content. README.md lists the assumptions. Pure; not thread-safe.
+// A certificate covers an arm on its motion, an arm at rest where the certificate says, and an arm
+// at rest at the motion's start or end. Each is a proof by itself while its content is the present
+// content. Pure; not thread-safe.
 class AuthorityGuard {
  public:
   // `joints`: by ArmId, the joints of each arm and its gripper. `rest`: all joints of the cell.
@@ -39,8 +39,8 @@ class AuthorityGuard {
 
   // ---- What is known ----
   void take(std::span<const Certificate> certificates);
-  // Sets the present content after a change of the scene or of attached objects. Certificates
-  // about other content are ignored.
+  // Sets the present content (scene, attached objects). Certificates about other content are
+  // ignored.
   void look_at(SceneFingerprint present) { present_ = std::move(present); }
   [[nodiscard]] const SceneFingerprint& scene() const { return present_; }
   // Forgets a motion that will not start again. Its certificates are dropped when no arm is on
@@ -69,8 +69,8 @@ class AuthorityGuard {
   // Returns the largest distance between a joint of the motion's arms and the motion (rad, m).
   [[nodiscard]] double off_path(const TrajectoryPtr& motion, From from) const;
 
-  // Limits; the oldest are dropped. Motions per arm (a motion with an arm on it is kept), and
-  // for each motion pair certificates with one other arm and scene certificates.
+  // Limits; the oldest are dropped: motions per arm (those with an arm on them are kept), and per
+  // motion the certificates with one other arm and with the scene.
   inline static constexpr std::size_t kMotionsKept = 16, kPairsKept = 16, kScenesKept = 2;
 
  private:

@@ -20,8 +20,7 @@ using Directions = std::vector<Eigen::Vector3d>;
 
 constexpr int kOutermostDirections = 60;
 
-// Variables of the search: a line, and how much wider the capsule is than the line requires (a
-// wider capsule may be shorter).
+// The search's variables: a line, and extra width (a wider capsule may be shorter).
 struct Axis {
   Eigen::Vector3d point;
   Eigen::Vector3d direction;  // unit
@@ -72,7 +71,7 @@ std::array<Eigen::Vector3d, 2> across(const Eigen::Vector3d& direction) {
   return {first, direction.cross(first)};
 }
 
-// Returns the line along the direction through the center of the balls' extent across it.
+// Returns the line along the direction through the middle of the balls.
 Axis axis_along(const Eigen::Vector3d& direction, const Balls& balls) {
   const auto sides = across(direction);
   Axis axis{Eigen::Vector3d::Zero(), direction};
@@ -119,8 +118,8 @@ Axis moved(const Axis& axis, const Step& step, double extent) {
   return next;
 }
 
-// Pattern search along the coordinates and, because the volume has creases that no coordinate leads
-// down, along some random directions. Halves the step if nothing improves.
+// Pattern search along the coordinates and, because the volume has creases, some random directions.
+// Halves the step if nothing improves.
 Candidate improved(Candidate best, const Balls& balls, double extent) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -152,7 +151,7 @@ Candidate improved(Candidate best, const Balls& balls, double extent) {
   return best;
 }
 
-// Corrects the radius for rounding and checks that the capsule contains every ball.
+// Corrects the radius for rounding and verifies containment.
 LinkCapsule checked(LinkCapsule capsule, const Balls& balls) {
   double reach = 0.0;
   capsule.radius_m = 0.0;

@@ -19,16 +19,14 @@ struct LinkCapsule {
 // Returns the distance of a point from the capsule's segment; exactly 0 at its ends.
 [[nodiscard]] double distance_to_axis(const LinkCapsule& capsule, const Eigen::Vector3d& p);
 
-// Returns true if the ball lies in the capsule. The convex hull of balls lies in the capsule if
-// each ball does. Rounding is on the safe side: true is certain; false may be wrong by about 1e-15
-// of the coordinates.
+// Returns true if the ball lies in the capsule. If several balls do, so does their convex hull.
+// True is certain; false may be wrong by about 1e-15 of the coordinates.
 [[nodiscard]] bool contains(const LinkCapsule& capsule, const Ball& ball);
 
-// Returns a capsule of small volume that contains every ball. Tries lines along `directions` and
-// the principal axes; if `thorough`, improves the best by a pattern search over direction and
-// position. Radius and ends follow from the line in closed form. Containment is checked; the radius
-// exceeds the minimum for its segment by at most 1e-11 of the coordinates. Deterministic. Use
-// `thorough` = false to compare many groups of balls. Precondition: at least one ball.
+// Returns a capsule of small volume that contains every ball (checked). Tries lines along
+// `directions` and the principal axes; if `thorough`, improves the best by a pattern search. Radius
+// and ends follow from the line in closed form; the radius exceeds its minimum by at most 1e-11 of
+// the coordinates. Deterministic. Precondition: at least one ball.
 [[nodiscard]] LinkCapsule fit_capsule(const std::vector<Ball>& balls,
                                       const std::vector<Eigen::Vector3d>& directions,
                                       bool thorough = true);

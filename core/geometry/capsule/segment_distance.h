@@ -17,10 +17,9 @@ struct CenteredSegment {
 [[nodiscard]] Eigen::Vector3d segment_segment_gap(const CenteredSegment& a,
                                                   const CenteredSegment& b);
 
-// Returns the distance of a segment from a solid box, centered in the segment's frame and aligned
-// with its axes; zero in contact. Exact except for rounding: the squared distance is convex and
-// piecewise quadratic along the segment, so its minimum is the zero of a piecewise linear
-// derivative with at most six breakpoints.
+// Returns the distance of a segment from a solid box at the origin, aligned with the axes; zero in
+// contact. Exact except for rounding: the squared distance along the segment is convex and
+// piecewise quadratic, so its derivative is piecewise linear with at most six breakpoints.
 [[nodiscard]] double segment_box_distance(const CenteredSegment& segment,
                                           const Eigen::Vector3d& half_size_m);
 

@@ -26,9 +26,8 @@ enum class ConvexShapeKind {
 struct ConvexShape {
   ConvexShapeKind kind = ConvexShapeKind::round;
   Eigen::Isometry3d X_PS = Eigen::Isometry3d::Identity();  // axis along z of S
-  double half_length_m =
-      0.0;  // half length of the axis (hull: of its capsule); zero for spheres and boxes
-  double radius_m = 0.0;  // about the axis; box: radius of its bounding sphere
+  double half_length_m = 0.0;  // of the axis; zero for spheres and boxes; of a hull's capsule
+  double radius_m = 0.0;       // about the axis; box: radius of its bounding sphere
   Eigen::Vector3d half_size_m = Eigen::Vector3d::Zero();  // of a box, or of the box around a hull
   Eigen::Vector3d p_SE_P = Eigen::Vector3d::Zero();       // from the center to the axis' upper end
   std::shared_ptr<const HullShape> hull;                  // hulls only
@@ -41,10 +40,9 @@ struct ConvexShape {
 };
 
 // Returns the convex bodies of a link or object.
-// - A cylinder with a sphere of its radius at both ends (within kMergeTolerance_m) becomes one
-//   capsule that contains all three. The spheres are dropped, even if two cylinders share a sphere.
-// - A mesh becomes its convex pieces, or its hull if it has no pieces. Their `solid` is the mesh's
-//   surface if the mesh is closed.
+// - A cylinder with a sphere of its radius at each end (within kMergeTolerance_m) becomes one
+//   capsule that contains all three. The spheres are dropped, even if shared.
+// - A mesh becomes its convex pieces, else its hull. If closed, its surface is their `solid`.
 // - Every other shape is kept.
 // Precondition: meshes have their data.
 inline constexpr double kMergeTolerance_m = 1e-6;
@@ -67,9 +65,8 @@ struct Bound {
 [[nodiscard]] Bound lower_bound(const ConvexShape& a, const PlacedConvexShape& at_a,
                                 const ConvexShape& b, const PlacedConvexShape& at_b);
 
-// Finds two parallel planes with a gap of distance_m that separate the bodies; n_W is their unit
-// normal, from a to b. distance_m is the distance, or at least enough_m. Returns nullopt if no gap
-// is found, as in contact.
+// Finds two parallel planes that separate the bodies: the gap is their distance, or at least
+// enough_m; n_W is the unit normal from a to b. Returns nullopt if none is found, as in contact.
 struct Separation {
   double distance_m;
   Eigen::Vector3d n_W;

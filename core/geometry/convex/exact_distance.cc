@@ -31,8 +31,8 @@ namespace {
 // m.
 constexpr double kGjkTolerance = 1e-12;
 // Sometimes GJK still stops early (libccd's for 1 in 20 pairs of boxes rotated about parallel axes,
-// 1 in 5000 of other shapes) or reports contact wrongly (boxes). Then FCL's own solver is tried,
-// then libccd's with the bodies swapped, and last the nearest triangles of the bodies' surfaces.
+// 1 in 5000 of other shapes) or reports false contact (boxes). Then FCL's own solver is tried, then
+// libccd's with the bodies swapped, and last the nearest triangles of the surfaces.
 constexpr double kProofGap_m = 5e-7;
 
 // Returns the largest n·(x - center) over the body; n of unit length, in world axes.
@@ -52,16 +52,15 @@ double support(const ConvexShape& body, const Eigen::Isometry3d& X_WS, const Eig
   return along + body.radius_m;
 }
 
-// Returns the gap between two planes across n that bound the bodies; negative if they overlap along
-// n.
+// Returns the bodies' gap along n; negative if they overlap along n.
 double gap_along(const ConvexShape& a, const Eigen::Isometry3d& X_WA, const ConvexShape& b,
                  const Eigen::Isometry3d& X_WB, const Eigen::Vector3d& n) {
   return n.dot(X_WB.translation() - X_WA.translation()) - support(a, X_WA, n) -
          support(b, X_WB, -n);
 }
 
-// FCL's distance, and its proven part: the gap between two parallel planes across the direction of
-// FCL's nearest points (n, from a to b) that separate the bodies. Both zero in contact.
+// FCL's distance and the gap between separating planes across the direction of its nearest points
+// (n, from a to b). Both zero in contact.
 struct Proof {
   double claimed;
   double proven;
@@ -88,8 +87,8 @@ Proof prove(const ConvexShape& a, const Eigen::Isometry3d& X_WA, const ConvexSha
   return {0.0, 0.0, Eigen::Vector3d::Zero(), true};
 }
 
-// Finds separating planes across the direction of the nearest triangles of the bodies' surfaces.
-// Not for pieces, whose surface is that of the whole mesh.
+// Finds separating planes by the nearest triangles of the bodies' surfaces. Not for pieces, whose
+// surface is the whole mesh's.
 std::optional<Separation> prove_by_surfaces(const ConvexShape& a, const Eigen::Isometry3d& X_WA,
                                             const ConvexShape& b, const Eigen::Isometry3d& X_WB) {
   if (a.solid == nullptr || b.solid == nullptr || a.is_piece || b.is_piece) return std::nullopt;

@@ -8,9 +8,8 @@
 
 namespace armloom {
 
-// The convex hull of a mesh or of a piece, in its own frame S, with its bounds. S is centered in a
-// tight box around the hull (the better of the mesh's axes and the principal axes of the hull's
-// corners), with z along the longest side.
+// The convex hull of a mesh or piece, with its bounds. Its frame S is centered in a tight box
+// around it (along the mesh's axes or the corners' principal axes), with z along the longest side.
 struct HullShape {
   ConvexHull hull;              // corners in S
   Eigen::Isometry3d X_MS;       // S in the mesh's frame
@@ -24,8 +23,8 @@ struct HullShape {
 
   // Returns the largest n . x of all corners; n in S.
   [[nodiscard]] double support(const Eigen::Vector3d& n_S) const;
-  // Returns the corner with the largest n . x, found by walking uphill along edges from `from`;
-  // looks at few corners. May return a neighbor of it if faces are flat except for rounding.
+  // Walks uphill from `from` along edges to the corner with the largest n . x. May end at a
+  // neighbor if faces are flat except for rounding.
   [[nodiscard]] std::uint32_t uphill(const Eigen::Vector3d& n_S, std::uint32_t from) const;
 };
 

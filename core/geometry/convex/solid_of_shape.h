@@ -8,8 +8,8 @@ namespace armloom {
 inline constexpr double kPrismOverestimate_m = 1e-4;
 inline constexpr int kPrismCornersMost = 256;
 
-// Returns the body as a surface (hull: its faces). A cylinder becomes a prism around it. Prisms of
-// large cylinders have kPrismCornersMost corners (0.1 mm outside for a radius of 1.3 m).
+// Returns the body as a surface (hull: its faces; cylinder: a prism around it). Prisms of large
+// cylinders have kPrismCornersMost corners (for 1.3 m radius 0.1 mm outside).
 [[nodiscard]] SolidPtr solid_of(const ConvexShape& body);
 
 }  // namespace armloom

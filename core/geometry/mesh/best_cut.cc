@@ -35,7 +35,6 @@ double estimated_volume(const Points& points) {
   return hull ? volume_m3(*hull) : std::numeric_limits<double>::infinity();
 }
 
-// A surface, and its corners without duplicates.
 struct Estimated {
   const Polygons& surface;
   Points corners;
@@ -70,7 +69,6 @@ double estimated_volume(const Estimated& cell, Eigen::Index axis, double at) {
   return estimated_volume(low) + estimated_volume(high);
 }
 
-// Updates `best` with the best cut of these positions.
 void try_cuts(const Estimated& cell, Eigen::Index axis, const std::vector<double>& places,
               Cut& best) {
   for (const double at : places) {
@@ -79,8 +77,8 @@ void try_cuts(const Estimated& cell, Eigen::Index axis, const std::vector<double
   }
 }
 
-// Returns positions just before and behind the surface corner nearest to the cut, because cuts gain
-// most at concave edges.
+// Returns positions just before and behind the surface corner nearest to the cut: cuts gain most at
+// concave edges.
 std::vector<double> beside_corner(const Points& corners, const Cut& cut, double extent) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& p : corners) {

@@ -19,8 +19,7 @@ struct Polygons {
 struct Cut {
   Eigen::Index axis = 0;
   double at = 0.0;
-  double volume_m3 =
-      std::numeric_limits<double>::infinity();  // estimated hull volume of both sides
+  double volume_m3 = std::numeric_limits<double>::infinity();  // estimated hulls of both sides
 };
 
 // Returns the cut with the smallest hulls on both sides, of the cuts tried.

@@ -45,8 +45,7 @@ bool may_hit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
   });
 }
 
-// Returns true if some ray leaves the point without hitting the surface, so that nothing encloses
-// the point.
+// Returns true if a ray from p does not hit the surface, so that nothing encloses p.
 bool escapes(const Eigen::Vector3d& p, const MeshData& mesh) {
   static const Points kDirections = spread_directions(kEscapeDirections);
   return std::any_of(kDirections.begin(), kDirections.end(), [&](const Eigen::Vector3d& n) {

@@ -9,7 +9,7 @@
 namespace armloom {
 
 inline constexpr std::size_t kMaxPieces = 8;
-// A cut must remove this part of the whole hull's volume. So bores and shallow dents are not cut.
+// Share of the whole hull's volume that a cut must remove. Bores and shallow dents are not cut.
 inline constexpr double kCutGain = 0.05;
 // Larger meshes are not cut, because that would take seconds.
 inline constexpr std::size_t kMaxTrianglesCut = 20'000;
@@ -17,16 +17,16 @@ inline constexpr std::size_t kMaxTrianglesCut = 20'000;
 // Returns convex polytopes whose union contains the mesh: its surface S and every point that S
 // encloses. Returns just {mesh.hull} if
 // - no single cut across an axis of the mesh's frame helps (for example for a ring),
-// - the surface, by its orientation, encloses nearly the volume of its hull,
-// - the mesh is not closed (an edge borders an odd number of triangles), or
+// - the surface, by its orientation, encloses nearly its hull's volume,
+// - an edge borders an odd number of triangles (not closed), or
 // - the mesh is too large.
 //
 // Proof. The cuts divide space into boxes, some with sides at infinity. Let K be the part of the
-// mesh in one box. An extreme point of K's hull lies in K. If it lies on S, it is a corner of a
-// triangle clipped by the box. If S encloses it, S also encloses its neighborhood, so it must be a
-// corner of the box. The piece is the hull of all corners of clipped triangles and of all corners
-// of the box that S may enclose, that is, from which every ray tried hits S. Orientation and
-// overlap of the triangles do not matter. Rounding is below kHullTolerance_m (convex_hull.h).
+// mesh in one box. An extreme point of K's hull lies in K. If it is on S, it is a corner of a
+// triangle clipped by the box. If S encloses it, S encloses its neighborhood too, so it is a corner
+// of the box. The piece is the hull of all corners of clipped triangles and of all corners of the
+// box from which every ray tried hits S. Orientation and overlap of triangles do not matter.
+// Rounding is below kHullTolerance_m.
 [[nodiscard]] std::vector<ConvexHull> convex_pieces(const MeshData& mesh);
 
 }  // namespace armloom

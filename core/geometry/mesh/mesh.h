@@ -14,19 +14,18 @@
 
 namespace armloom {
 
-// The surface of a mesh file, in the shape's frame S, in meters. The file's units, its node
-// transforms and the URDF scale are applied; its "up axis" is ignored, as in RViz, because robot
-// meshes are z up. Orientation has no meaning: a negative scale mirrors. Equal points are one
-// vertex, in float precision. Solids with every face modeled from both sides have each face once
-// (one_sided.h).
+// The surface of a mesh file, in the shape's frame S (m). Units, node transforms and the URDF scale
+// are applied; the file's "up axis" is ignored, as in RViz. Orientation has no meaning: a negative
+// scale mirrors. Equal points are one vertex, in float precision. Solids modeled from both sides
+// have each face once (one_sided.h).
 struct MeshData {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;  // indices into vertices; at least one
   ConvexHull hull;                  // contains all vertices (convex_hull.h)
-  std::vector<ConvexHull>
-      pieces;  // their union contains the solid (convex_pieces.h); if empty, use `hull`
-  // The same triangles if they are closed. Null if it is unknown what the surface encloses; then
-  // the pieces are the solid (for an open surface, its hull).
+  // Their union contains the solid (convex_pieces.h); use `hull` if there are no pieces.
+  std::vector<ConvexHull> pieces;
+  // The triangles if closed. Null if it is unknown what they enclose; then the pieces are the solid
+  // (for an open surface, its hull).
   SurfaceTreePtr surface;
   std::size_t open_edges = 0;  // of the triangles (surface_tree.h); zero if closed
   bool both_sides = false;     // one_sided() could not decide
@@ -43,8 +42,8 @@ inline constexpr double kMaxMeshReach_m = 1000.0;  // bound of each coordinate
 // - is missing, not regular, unreadable, empty or of another kind,
 // - exceeds a bound above (checked before much memory is used),
 // - has no triangle, is a single point, or has a number that is not finite, or
-// - has any other surface content that would be lost.
-// Precondition: scale is finite and contains no 0.
+// - has other surface content that would be lost.
+// Precondition: scale is finite without 0.
 [[nodiscard]] Result<MeshPtr> load_mesh(const std::string& path, const Eigen::Vector3d& scale,
                                         const std::string& pointer, const std::string& whose);
 

@@ -112,7 +112,7 @@ class Collector {
   std::map<std::tuple<double, double, double>, std::uint32_t> known_;
 };
 
-// Keeps only the importer for the file's own format; assimp would also guess from the content.
+// Keeps only the importer for the file's format; assimp would also guess from the content.
 void keep_only(Assimp::Importer& importer, const char* extension) {
   std::set<Assimp::BaseImporter*> others;
   for (std::size_t i = 0; i < importer.GetImporterCount(); ++i)

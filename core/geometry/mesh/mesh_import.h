@@ -28,9 +28,9 @@ using Checked = tl::expected<T, MeshRefusal>;
 
 enum class MeshFormat { stl, obj, dae };
 
-// Reads all triangles of all nodes with assimp (used only here), in the shape's frame, with equal
-// points merged. Refuses what assimp cannot read and more than kMaxMeshTriangles triangles. May
-// throw for some broken files.
+// Reads all triangles of all nodes with assimp (used only here), in the shape's frame, merging
+// equal points. Refuses what assimp cannot read and more than kMaxMeshTriangles. May throw for some
+// broken files.
 [[nodiscard]] Checked<MeshData> import_mesh(const std::string& bytes, MeshFormat format,
                                             const Eigen::Vector3d& scale);
 

@@ -15,7 +15,6 @@ class MeshWords {
 
   // Returns the next word; empty at the end.
   [[nodiscard]] std::string_view next();
-  // Skips the rest of the last word's line.
   void skip_line();
   // Line of the last word, from 1.
   [[nodiscard]] std::size_t line() const { return line_; }
@@ -25,8 +24,8 @@ class MeshWords {
   std::size_t line_ = 1;
 };
 
-// Parses a decimal number, nan or inf. Returns infinity if too large for a float, nullopt if the
-// word is not one number.
+// Parses a decimal number, nan or inf; infinity if too large for a float; nullopt if not one
+// number.
 [[nodiscard]] std::optional<float> float_of(std::string_view word);
 
 // Quotes a word for a message, shortened and with unprintable characters replaced.

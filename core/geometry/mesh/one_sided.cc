@@ -81,7 +81,6 @@ class Doubled {
   [[nodiscard]] bool empty() const {
     return std::ranges::none_of(left_, [](const auto& entry) { return entry.second; });
   }
-  // Returns true if a remaining face has the edge.
   [[nodiscard]] bool has(const Edge& edge) const {
     const auto at = at_.find(edge);
     return at != at_.end() && !at->second.empty();

@@ -8,13 +8,13 @@
 namespace armloom {
 
 // Removes the second side of solids that are modeled from both sides: CAD programs and Blender
-// write each face twice, once reversed. The winding number of such a surface is zero everywhere, so
-// it would enclose nothing.
+// write each face twice, once reversed. The winding number of such a surface is zero, so it would
+// enclose nothing.
 //
-// A face is doubled if it occurs equally often in both orientations. Faces with a free edge are
-// removed from the doubled faces until none is left. The rest encloses something: of these faces
-// one side is kept. Sheets, bins and the wall between two boxes keep both sides. Returns nullopt if
-// other faces share an edge with the rest, because the solid is then ambiguous.
+// A face is doubled if it occurs equally often in both orientations. Doubled faces with a free edge
+// are dropped repeatedly; the rest encloses something, and keeps one side. So sheets, bins and the
+// wall between two boxes keep both sides. Returns nullopt if other faces share an edge with the
+// rest, because the solid is then ambiguous.
 [[nodiscard]] std::optional<std::vector<Triangle>> one_sided(std::vector<Triangle> triangles);
 
 }  // namespace armloom

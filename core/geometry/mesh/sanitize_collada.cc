@@ -81,8 +81,8 @@ std::size_t count_numbers(const XMLElement& element, const char* what) {
   return count;
 }
 
-// Checks that arrays have the count they state and that accessors stay within. Returns the element
-// count of the longest accessor.
+// Checks that arrays hold their stated count and accessors stay within. Returns the element count
+// of the longest accessor.
 std::size_t check_source(XMLElement& source) {
   std::size_t longest = 0;
   keep_children(source, {"float_array", "technique_common"});
@@ -115,8 +115,8 @@ std::size_t check_source(XMLElement& source) {
   return longest;
 }
 
-// Returns the triangles of <triangles>, <polylist> and similar elements. Corners are indices, one
-// per input; checks that all are below `elements`.
+// Returns the triangle count of <triangles>, <polylist> and similar. Checks that all indices (one
+// per corner and input) are below `elements`.
 std::size_t check_primitive(XMLElement& part, std::size_t elements) {
   keep_children(part, {"input", "p", "vcount"});
   unsigned inputs = 0;
@@ -215,8 +215,8 @@ class DaeReader {
     });
   }
 
-  // Returns the triangles of a node or scene, including nodes that it instances. Each instance adds
-  // one, because nodes without geometry can multiply too.
+  // Returns the triangle count of a node or scene with the nodes it instances. Each instance adds
+  // one, because empty nodes can multiply too.
   std::size_t below(const XMLElement& node) {
     const auto known = placed_.find(&node);
     if (known != placed_.end()) return known->second;

@@ -9,9 +9,8 @@ namespace armloom {
 
 // Returns an STL file in binary form: a binary file unchanged, a text file with the triangles of
 // all its solids. The error is a phrase that names the line ("line 12: expected 'facet' or
-// 'endsolid', found 'facte'"). A text must end with `endsolid` and a binary file must have the
-// length given by its triangle count, so that truncated files are detected. Case is ignored, and so
-// are normals.
+// 'endsolid', found 'facte'"). Detects truncated files: a text must end with `endsolid`, a binary
+// file must have the length given by its triangle count. Ignores case and normals.
 [[nodiscard]] tl::expected<std::string, std::string> read_stl(std::string bytes);
 
 // Returns the triangle count of read_stl()'s result.

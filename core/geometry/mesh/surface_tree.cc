@@ -19,7 +19,7 @@ float rounded_up(double x) {
   return std::nextafter(near, std::numeric_limits<float>::infinity());
 }
 
-// A triangle, or the part of it in a box. One box around a long triangle would be mostly empty.
+// A triangle, or its part in a box. One box around a long triangle would be mostly empty.
 struct Share {
   std::uint32_t triangle;
   Eigen::AlignedBox3d box;

@@ -11,14 +11,12 @@ namespace armloom {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Returns the number of edges that border an odd number of triangles. A surface without such edges
-// is closed.
+// Returns the number of edges that border an odd number of triangles; zero if closed.
 [[nodiscard]] std::size_t open_edges(const std::vector<Triangle>& triangles);
 [[nodiscard]] bool is_closed(const std::vector<Triangle>& triangles);
 
-// The triangles of a surface in a tree of boxes, so that distance queries visit few of them. All in
-// the frame T of the vertices, in meters. About 100 bytes per triangle, more for long triangles.
-// Immutable.
+// Triangles in a tree of boxes, so that distance queries visit few of them. All in the frame T of
+// the vertices (m). About 100 bytes per triangle, more if long. Immutable.
 struct SurfaceTree {
   // A box along the axes of T around all triangles, or parts of triangles, below it.
   struct Box {
@@ -45,8 +43,7 @@ struct SurfaceTree {
   // Triangles connected by common corners. In a closed surface each component is closed.
   struct Component {
     std::uint32_t vertex;  // one of its vertices
-    // Each edge is used equally often in both directions: the orientation is consistent, so a
-    // winding number is defined.
+    // Each edge is used equally often in both directions, so that a winding number is defined.
     bool oriented;
   };
 
@@ -66,10 +63,10 @@ struct SurfaceTree {
 };
 using SurfaceTreePtr = std::shared_ptr<const SurfaceTree>;
 
-// Builds the tree. Divides long triangles among several leaves, each with a box around its part.
-// Then halves at the median along the longest side until each leaf has one part. Accepts degenerate
-// triangles (points, segments). Deterministic; half a second for half a million triangles.
-// Precondition: at least one triangle, all numbers finite.
+// Builds the tree: divides long triangles into parts, each with a box, and halves at the median
+// along the longest side until each leaf has one part. Accepts degenerate triangles (points,
+// segments). Deterministic; half a second for half a million triangles. Precondition: at least one
+// triangle, all numbers finite.
 [[nodiscard]] SurfaceTreePtr make_surface_tree(std::vector<Eigen::Vector3d> vertices,
                                                std::vector<Triangle> triangles);
 

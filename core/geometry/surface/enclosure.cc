@@ -64,8 +64,7 @@ Hit hit_of(const Vector3d& n, const std::array<Vector3d, 3>& t) {
   return rise > 0.0 ? Hit::from_behind : Hit::from_front;
 }
 
-// Returns which boxes the ray may meet, by a slab test widened for rounding. `slack_m`: float
-// rounding error of the coordinates.
+// Returns which boxes the ray may meet: a slab test with `slack_m` for rounding to float.
 Eigen::Array<bool, 4, 1> may_meet(const SurfaceTree::Node& node, const Vector3d& p,
                                   const Vector3d& inverse, float slack_m) {
   Array4f from = Array4f::Zero();
@@ -87,15 +86,13 @@ struct Crossing {
   int turn;
 };
 
-// Crossings of one ray.
 struct Crossings {
   std::array<Crossing, kMost> all;
   std::size_t count = 0;
   bool doubtful = false;
 };
 
-// Returns false if it is uncertain whether the ray crosses the triangle, or if there are too many
-// crossings.
+// Returns false if it is uncertain whether the ray crosses, or if it crosses too many.
 bool add_crossing(const SurfaceTree& tree, std::uint32_t triangle, const Vector3d& p,
                   const Vector3d& n, Crossings& crossings) {
   const Triangle& t = tree.triangles[triangle];
@@ -136,8 +133,8 @@ Crossings cross(const SurfaceTree& tree, const Vector3d& p, const Vector3d& n) {
 
 enum class Answer { outside, enclosed, open };
 
-// Returns a clear ray's answer: open if it crosses a component without consistent orientation, an
-// even number of times, and no other component encloses the point.
+// Returns a clear ray's answer; `open` if only components of inconsistent orientation might enclose
+// the point.
 Answer answer_of(const SurfaceTree& tree, Crossings& crossings) {
   const auto begin = crossings.all.begin();
   const auto place = [](const Crossing& c) { return std::pair(c.component, c.triangle); };

@@ -10,16 +10,14 @@
 
 namespace armloom {
 
-// Balls inside a solid. If balls of two solids overlap, the solids do, without GJK or a triangle
-// test. Immutable.
+// Balls inside a solid: if those of two solids overlap, so do the solids. Immutable.
 class InnerBalls {
  public:
   InnerBalls() = default;  // no balls
   explicit InnerBalls(const std::vector<Ball>& balls);
 
-  // Returns true if a ball of these and a ball of `others` are certainly closer than limit_m or
-  // overlap. X: pose of the others' frame in this frame. Single precision, four at once; the
-  // rounding error is subtracted.
+  // Returns true if a ball of these and a ball of `others` (X: their frame in this frame) are
+  // certainly closer than limit_m or overlap. Single precision, minus the rounding error.
   [[nodiscard]] bool surely_meet(const InnerBalls& others, const Eigen::Isometry3d& X,
                                  double limit_m) const;
 
@@ -35,9 +33,9 @@ class InnerBalls {
   double reach_m_ = 0.0;  // largest reach of a ball from the origin
 };
 
-// Returns at most kInnerBalls large balls inside a solid that lies in the box about `center`.
-// depth_m returns a lower bound of an inside point's distance to the surface, and at most zero
-// elsewhere. It is called about 500 times.
+// Returns at most kInnerBalls large balls inside a solid in the box about `center`. depth_m returns
+// a lower bound of an inside point's distance to the surface, at most zero elsewhere, and is called
+// about 500 times.
 inline constexpr std::size_t kInnerBalls = 16;
 using Depth = std::function<double(const Eigen::Vector3d& p)>;
 [[nodiscard]] std::vector<Ball> inner_balls(const Eigen::Vector3d& center,

@@ -23,7 +23,7 @@ bool lies_inside(const SurfaceTree& inner, const SurfaceTree& outer,
   });
 }
 
-// Returns the pose of the second solid's tree in the first solid's tree frame.
+// Returns the pose of b's tree in a's tree frame.
 Eigen::Isometry3d X_AB_of(const PlacedSolid& a, const PlacedSolid& b) {
   return a.X_WT.inverse(Eigen::Isometry) * b.X_WT;
 }

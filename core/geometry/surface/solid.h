@@ -26,17 +26,15 @@ struct Solid {
 };
 using SolidPtr = std::shared_ptr<const Solid>;
 
-// A solid with its tree's pose in the world.
 struct PlacedSolid {
   const Solid& solid;
   Eigen::Isometry3d X_WT;
 };
 
 // Returns min(distance, limit_m) of two solids; zero if they touch, overlap or contain each other.
-// Never larger than the true distance: each pair of triangles is proven apart (triangle_distance.h)
-// and the rounding of the boxes is subtracted. Measured less than 1e-9 m below it, plus what
-// `rough` allows. Skips whatever is beyond limit_m, so small limits are cheap. Never throws,
-// allocates nothing; thread-safe.
+// Never larger than the true distance: each pair of triangles is proven apart
+// (triangle_distance.h), minus rounding. Measured less than 1e-9 m below it, plus what `rough`
+// allows. Small limits are cheap. Never throws, allocates nothing; thread-safe.
 [[nodiscard]] double solid_distance(const PlacedSolid& a, const PlacedSolid& b, double limit_m,
                                     const Roughness& rough = {});
 
@@ -47,14 +45,13 @@ struct PlacedSolid {
 [[nodiscard]] bool surely_closer_than(const PlacedSolid& a, const PlacedSolid& b, double limit_m);
 
 // Returns the unit direction from a to b of their nearest triangles, in the world, or nullopt if
-// two triangles touch. Along it, convex solids are separated by their whole distance (radii
-// included).
+// they touch. Along it, convex solids are apart by their whole distance (radii included).
 [[nodiscard]] std::optional<Eigen::Vector3d> direction_apart(const PlacedSolid& a,
                                                              const PlacedSolid& b);
 
-// Returns true if `kept` accepts every two triangles that (with the radii) are closer than
-// within_m; `kept` sees triangles without radii. Stops at the first that it rejects. Does not check
-// if one solid is inside the other.
+// Returns true if `kept` accepts every two triangles (passed without radii) that are closer than
+// within_m, radii included. Stops at the first rejected. Does not check if one solid is inside the
+// other.
 [[nodiscard]] bool surfaces_apart(const PlacedSolid& a, const PlacedSolid& b, double within_m,
                                   KeptApart& kept);
 

@@ -67,8 +67,7 @@ double SurfaceDescent::run() {
   return std::min(best_m_, passed_m_);
 }
 
-// Returns lower bounds for the boxes' contents: the distance of the other boxes from `box` along
-// its axes, and the reverse.
+// Returns lower bounds from the axes of both frames.
 SurfaceDescent::Gaps SurfaceDescent::gaps(const Box& box, const Node& others,
                                           const Turn& turn) const {
   const Eigen::Vector3f from = turn.p - box.center;

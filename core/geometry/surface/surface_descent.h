@@ -11,8 +11,8 @@
 
 namespace armloom {
 
-// Predicate for triangle pairs that may be skipped although they are closer than the query
-// distance. All in the frame of A's tree; directions of unit length, from A to B.
+// Predicate for triangle pairs that may be skipped although closer than the query distance. In the
+// frame of A's tree; directions of unit length, from A to B.
 class KeptApart {
  public:
   virtual ~KeptApart() = default;
@@ -29,9 +29,9 @@ struct Roughness {
   double by_m = 0.0;
 };
 
-// Computes the distance of two surfaces (without radii): descends both trees from the root, nearer
-// boxes first, down to the triangles. Compares boxes in single precision, four in one step, and
-// subtracts the rounding error; triangles in double precision. Holds references; one query each.
+// Computes the distance of two surfaces (without radii): descends both trees, nearer boxes first,
+// to the triangles. Boxes are compared in single precision, minus the rounding error; triangles in
+// double. Holds references; one query each.
 class SurfaceDescent {
  public:
   // Finds distances below limit_m, and stops once below enough_m.
@@ -41,7 +41,7 @@ class SurfaceDescent {
   void pass_over(KeptApart* kept) { kept_.apart = kept; }
   void allow(const Roughness& rough) { rough_ = rough; }
   // Returns min(distance, limit), never larger than the true value. Above enough_m, less than 1e-9
-  // m below it, plus what allow() permits.
+  // m below it, plus allow().
   [[nodiscard]] double run();
   // After run() with a result above zero and below the limit: direction from a to b of the nearest
   // triangles, in A's frame.
@@ -52,8 +52,8 @@ class SurfaceDescent {
  private:
   using Box = SurfaceTree::Box;
   using Node = SurfaceTree::Node;
-  // One tree's frame X in the other's frame S: rotation, its absolute values, translation. Also a
-  // direction towards X that separated the nearest triangles so far: it separates most others.
+  // One tree's frame X in the other's frame S: rotation, its absolute values, translation; and the
+  // latest separating direction towards X, which separates most other triangles too.
   struct Turn {
     Eigen::Matrix3f R;
     Eigen::Matrix3f width;
@@ -86,8 +86,7 @@ class SurfaceDescent {
     double triangles_m;
   };
   Rounding rounding_;
-  // Returns the lower bound from which pairs are skipped, because they cannot reduce the distance
-  // by more than permitted.
+  // Returns the lower bound from which pairs are skipped.
   [[nodiscard]] double passes_at() const {
     return rough_.by_m > 0.0
                ? std::max(best_m_ - rough_.by_m, std::min(best_m_, rough_.exact_below_m))
@@ -104,8 +103,7 @@ class SurfaceDescent {
     double along_m;  // parts separated by this along n_A_ are skipped
   };
   Kept kept_;
-  // Recently measured pairs of triangles (hash table, key plus one), because several leaves may
-  // share a triangle.
+  // Recently measured pairs of triangles (key plus one), because leaves may share triangles.
   std::array<std::uint64_t, 128> measured_{};
 };
 

@@ -35,7 +35,6 @@ class Search {
     return proven_ >= limit_m_ || proven_ >= claimed_ - kProven;
   }
 
-  // Tries a point of each triangle. Returns true if the result is final.
   bool try_points(const Vector3d& p_a, const Vector3d& p_b) {
     const Vector3d gap = p_b - p_a;
     const double squared = gap.squaredNorm();

@@ -7,11 +7,10 @@ namespace armloom {
 
 using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 
-// Returns min(distance, limit_m) of two triangles, which may be degenerate (segments, points); zero
-// if they touch. Never larger than the true distance except by rounding (about 1e-16 of the
-// coordinates): nearest points of edges and faces only give directions, and the result is the gap
-// between two planes across a direction that separate the triangles. Less than 1e-9 m too small in
-// all tests (test/soundness).
+// Returns min(distance, limit_m) of two triangles, degenerate or not; zero if they touch. Never
+// larger than the true distance except by rounding (about 1e-16 of the coordinates): nearest points
+// only give directions, and the result is the gap between two separating planes. Less than 1e-9 m
+// too small in all tests (test/soundness).
 [[nodiscard]] double triangle_distance(const TrianglePoints& a, const TrianglePoints& b,
                                        double limit_m);
 // The distance with its unit direction from a to b; the direction is zero if they touch.
