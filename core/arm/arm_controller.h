@@ -16,9 +16,9 @@ struct ArmFeedback {
     waiting,   // a motion is accepted and will start later
     moving,    // on the path
     braking,   // coming to rest on the path
-    stopped,   // at rest on the path after a brake; the motion can continue or be dropped
+    stopped,   // at rest on the path after a brake; can continue
     finished,  // at the goal and at rest, until the next command
-    fault,     // the controller gave up; at rest
+    fault,     // gave up; at rest
   };
   Phase phase = Phase::idle;
   Duration commanded_progress{};  // trajectory time commanded so far
@@ -27,7 +27,7 @@ struct ArmFeedback {
   std::string detail;             // reason of a fault
   // True if the arm has no motion, waits for its start, or rests on its path.
   bool at_rest = false;
-  // True if the arm also stays at rest until the next command.
+  // True if it also stays at rest until the next command.
   bool settled = false;
 };
 

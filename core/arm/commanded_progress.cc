@@ -95,9 +95,9 @@ CommandedProgress::Step CommandedProgress::below_curve(Step fastest, double peri
   if (!above(fastest.rate, fastest.progress_s)) return fastest;
 
   const double left_s = to_seconds(authority_) - here_s;
-  if (left_s <= 0.5 * rate_ * period_s) return {0.0, left_s};  // comes to rest within this tick
+  if (left_s <= 0.5 * rate_ * period_s) return {0.0, left_s};  // rests within this tick
   const auto covered = [&](double rate) { return 0.5 * (rate_ + rate) * period_s; };
-  double low = 0.0;  // the curve falls along the path, so there is one crossing
+  double low = 0.0;  // the curve falls: one crossing
   double high = fastest.rate;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);

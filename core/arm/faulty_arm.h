@@ -21,7 +21,7 @@ struct ArmFault {
   };
   Kind kind;
   TimePoint from;
-  std::optional<TimePoint> until;  // nullopt if until removed
+  std::optional<TimePoint> until;  // unlimited if nullopt
   double value = 0.0;
 };
 
@@ -56,8 +56,8 @@ class FaultyArm final : public ArmController {
   std::map<std::uint64_t, ArmFault> faults_;
   TimePoint now_{};
   bool under_way_ = false;
-  Duration granted_{};             // authority from the caller
-  Duration allowed_{};             // authority passed on
+  Duration granted_{};             // by the caller
+  Duration allowed_{};             // to the inner controller
   std::optional<double> creep_s_;  // while slow: authority that grows with time
   bool giving_up_ = false;
   ArmFeedback::Phase phase_ = ArmFeedback::Phase::idle;  // last reported by advance()

@@ -8,7 +8,7 @@
 
 namespace armloom {
 
-// A point of a motion's phase plane: progress, and the rate r = ds/dt (1: as planned).
+// A point of a motion's phase plane; rate r = ds/dt (1: as planned).
 struct PathPoint {
   Duration progress;
   double rate;
@@ -33,8 +33,7 @@ class RateLaw {
   // Returns the strongest deceleration s'' < 0 from `first` to `last` within `share` of the brake
   // limits at both ends, or the s'' that violates them least if there is none.
   [[nodiscard]] double brake(PathPoint first, PathPoint last, double share = 1.0);
-  // Returns the strongest acceleration s'' >= 0 within the acceleration limits for a tick of
-  // `period_s`.
+  // Returns the strongest acceleration s'' >= 0 within the limits for a tick of `period_s`.
   [[nodiscard]] double rise(PathPoint first, double period_s);
 
  private:

@@ -43,8 +43,8 @@ class SimulatedArm final : public ArmController {
   void advance(Duration period);
   void lag_behind(Duration commanded_before, Duration period);
   void settle();
-  void place();    // sets position_ from the measured progress
-  void measure();  // sets feedback_.measured from position_
+  void place();    // position_ from the measured progress
+  void measure();  // feedback_.measured from position_
   [[nodiscard]] bool under_way() const;
   [[nodiscard]] bool stands() const;
 
@@ -58,14 +58,14 @@ class SimulatedArm final : public ArmController {
 
   struct Path {
     TrajectoryPtr trajectory;
-    std::vector<Eigen::Index> rows;  // row in the trajectory of each of joints_; -1 if not in it
+    std::vector<Eigen::Index> rows;  // rows of joints_ in the trajectory; -1 if absent
     Eigen::VectorXd at;              // scratch: the trajectory's joints at measured progress
     Eigen::VectorXd target;          // scratch: the same at commanded progress
   };
   Path path_;
   Eigen::VectorXd position_;  // true positions of joints_
   struct Offset {
-    Eigen::VectorXd left;  // of joints_: remaining part of the start's distance to the path
+    Eigen::VectorXd left;  // of joints_: what is left of the start's distance to the path
     bool is_any = false;
   };
   Offset offset_;

@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// One recorded instant: measured positions of all joints of the cell.
+// Measured positions of all joints of the cell.
 struct RecordedState {
   TimePoint time;
   Configuration q;
@@ -26,7 +26,7 @@ struct AuditFinding {
 
 struct AuditReport {
   std::optional<AuditFinding> first_contact;
-  std::optional<AuditFinding> smallest_clearance;  // over all pairs that are not allowed to touch
+  std::optional<AuditFinding> smallest_clearance;  // over all pairs that must not touch
   std::size_t states_checked = 0;
 };
 

@@ -34,7 +34,7 @@ struct AuditedSolid {
   std::vector<Element> elements;
   double radius_m = 0.0;  // bounding sphere about the link's origin
   Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
-  double travel_m = 0.0;         // upper bound of the distance traveled by any point
+  double travel_m = 0.0;         // upper bound of any point's travel
   bool elements_placed = false;  // the FCL objects are placed at X_WL
 };
 

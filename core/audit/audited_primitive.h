@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// The audit's model of a box, cylinder or sphere: solid, about its center. Immutable.
+// A solid box, cylinder or sphere about its center. Immutable.
 class AuditedPrimitive {
  public:
   explicit AuditedPrimitive(const Shape& shape);  // precondition: no mesh
@@ -34,7 +34,7 @@ class AuditedPrimitive {
   static constexpr double kProof_m = 1e-5;
 
  private:
-  // Returns the largest n·x over the shape; n of unit length in the shape's frame.
+  // Returns the largest n·x over the shape; n of unit length in its frame.
   [[nodiscard]] double support(const Eigen::Vector3d& n) const;
 
   Shape shape_;

@@ -14,8 +14,7 @@ namespace armloom {
 [[nodiscard]] std::optional<std::string_view> nearest_name(std::string_view misspelt,
                                                            std::span<const std::string_view> known);
 
-// Returns the nearest key of a map, or nullopt. Ignores large maps: many names can be unknown at
-// once.
+// Returns the nearest key of a map. Ignores large maps: many names can be unknown at once.
 template <class Map>
 [[nodiscard]] std::optional<std::string> nearest_key(const std::string& misspelt,
                                                      const Map& known) {

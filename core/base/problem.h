@@ -8,18 +8,18 @@
 
 namespace armloom {
 
-// Kind of mistake. The server maps the kind to an HTTP status, the command line to exit code 2.
+// Kind of mistake. Mapped to an HTTP status by the server, to exit code 2 by the command line.
 enum class ProblemKind {
   malformed,    // cannot be read at all: broken JSON or XML, wrong type
-  invalid,      // can be read, but can never be right: limits, sizes, unknown names
+  invalid,      // readable, but never right: limits, sizes, unknown names
   not_found,    // names something that does not exist
   conflict,     // contradicts the present state: id in use, job already ended
   too_large,    // exceeds a documented limit
-  unsupported,  // a kind of input that is not supported: content type, <capsule>
+  unsupported,  // an unsupported kind of input: content type, <capsule>
   unavailable,  // valid, but not possible now: queue full, shutting down
 };
 
-// A client's mistake. Always contains the place and, if any, the value found there.
+// A client's mistake, with its place and, if any, the value found.
 struct Problem {
   ProblemKind kind = ProblemKind::invalid;
   std::string slug;     // stable name for programs, e.g. "limit-exceeded"

@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// Returns a hint for two revolute positions that differ but look the same: ", 2 whole turns
-// away: ...". Empty unless they are whole turns apart, within the tolerance.
+// Returns ", 2 whole turns away: ..." if two revolute positions are whole turns apart (within the
+// tolerance), else an empty string.
 [[nodiscard]] inline std::string whole_turns_apart(double a_rad, double b_rad,
                                                    double tolerance_rad) {
   constexpr double kTurn_rad = 2.0 * std::numbers::pi;

@@ -15,8 +15,8 @@ namespace armloom {
 
 // Certificates: proofs of the checker, as self-contained values.
 
-// Content hash of everything that a proof relies on besides the motions: shapes, poses, attached
-// objects, pairs that are not checked, and required distances.
+// Content hash of what a proof relies on besides motions: shapes, poses, attached objects,
+// unchecked pairs, required distances.
 using Fingerprint = std::uint64_t;
 
 // The content of a planning scene.
@@ -26,8 +26,8 @@ struct SceneFingerprint {
   // By ArmId: the objects within the arm's reach, ascending.
   std::vector<std::vector<Fingerprint>> objects;
 
-  // Returns the content that a proof about the arms of both lists relies on. Precondition: each
-  // list is ascending, and no arm is in both.
+  // Returns the content that a proof about these arms relies on. Precondition: each list is
+  // ascending, and no arm is in both.
   [[nodiscard]] Fingerprint of(std::span<const ArmId> one, std::span<const ArmId> other = {}) const;
   bool operator==(const SceneFingerprint&) const = default;
 };
@@ -41,9 +41,9 @@ struct SceneFingerprint {
 struct CertifiedSide {
   std::vector<ArmId> arms;  // ascending
   TrajectoryPtr motion;     // null if the arm rests
-  Duration from{};          // the proof is valid from this progress of the motion on
+  Duration from{};          // valid from this progress on
   double error = 0.0;
-  std::vector<std::pair<JointId, double>> still;  // positions of the arms' joints that do not move
+  std::vector<std::pair<JointId, double>> still;  // the arms' joints that do not move
 };
 
 // Proves that two sides keep their clearance at all combinations of positions on their motions,

@@ -13,9 +13,9 @@ namespace armloom {
 // A rectangle of trajectory times of A and of B.
 struct DiagramCell {
   enum class State : std::uint8_t {
-    free,       // certified: the arms keep their clearance in every state of the cell
-    conflict,   // the arms violate their clearance in every state of the cell
-    undecided,  // has states of both kinds, or neither is proven
+    free,       // the arms keep their clearance in every state (certified)
+    conflict,   // they violate it in every state
+    undecided,  // both kinds, or not proven
   };
   Duration from_a, to_a, from_b, to_b;
   State state;

@@ -13,7 +13,7 @@ namespace armloom {
 inline constexpr std::uint64_t kEffortGrowth = 4;
 inline constexpr std::uint64_t kEffortMax = 16;
 
-// Returns the Question::effort for the next check, or nullopt if the verdict is final.
+// Returns the next Question::effort, or nullopt if the verdict is final.
 [[nodiscard]] inline std::optional<std::uint64_t> larger_effort(const Verdict& verdict,
                                                                 std::uint64_t effort) {
   if (!verdict.exhausted || effort >= kEffortMax) return std::nullopt;

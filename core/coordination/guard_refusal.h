@@ -10,10 +10,10 @@ namespace armloom {
 // Evidence that an arm must not be given authority.
 struct GuardRefusal {
   enum class Why {
-    uncertified,  // no valid certificate covers the request: ask the checker for one
-    region,       // certified, but the product of authorities overlaps a conflict region
+    uncertified,  // no valid certificate: ask the checker
+    region,       // the certified product of authorities overlaps a conflict region
     busy,         // the arm is on another motion
-    out_of_step,  // the motion's arms are farther apart in progress than certified
+    out_of_step,  // the motion's arms are too far apart in progress
   };
   Why why = Why::uncertified;
   ArmId arm{0};                     // the refused arm

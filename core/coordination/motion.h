@@ -23,8 +23,7 @@ struct Motion {
   // Largest distance of its joints from the path at its start or resume (rad, m). Certified methods
   // use the larger of this and their tracking error.
   double off_path = 0.0;
-  // TimedDiscrete only, because it has no passing orders that keep other arms away from a paused
-  // motion.
+  // TimedDiscrete only: no passing orders protect a paused motion.
   enum class Stands : std::uint8_t {
     goes_on,
     may_stay,  // brakes, or has not moved for a while: both cases are checked
@@ -57,25 +56,24 @@ using CheckMethod = std::variant<TimedDiscrete, Swept, Coordinated>;
   return coordinated != nullptr ? coordinated->tracking_error : 0.0;
 }
 
-// Asks if a motion is free, from its progress on, while an arm that it does not move rests at
-// `rest`.
+// Asks if a motion is free, from its progress on, while another arm rests at `rest`.
 struct PassageQuestion {
   Motion motion;
   ArmId arm;
-  Eigen::VectorXd rest;  // positions of the arm's joints, in the arm's order
+  Eigen::VectorXd rest;  // the arm's joints, in its order
 };
 
 // Asks if the candidates may start together, given all other motions and resting arms. Plain
 // data, safe to pass to another thread.
 struct Question {
-  Version version;                 // of the reservations that `others` and `rest` were read from
-  TimePoint start_at;              // the question's instant, in cell time
+  Version version;                 // of the reservations behind `others` and `rest`
+  TimePoint start_at;              // the question's instant
   std::vector<Motion> candidates;  // usually one; several are checked as one synchronous start
   std::vector<Motion> others;      // every motion that holds a reservation
-  Configuration rest;              // positions of the joints that are in none of these motions
+  Configuration rest;              // joints that are in none of these motions
   CheckMethod method;
   std::vector<PassageQuestion> passages = {};  // answered whatever the result for the candidates
-  // Budget of evaluations as a multiple of the usual budget (not for TimedDiscrete).
+  // Multiple of the usual budget of evaluations (not for TimedDiscrete).
   std::uint64_t effort = 1;
   // Lets pairs that are too close at the question's instant move apart. Must be false if the arms
   // are not really there yet.

@@ -13,7 +13,6 @@
 
 namespace armloom {
 
-// Goal: a pose of one of the arm's links.
 struct LinkTarget {
   LinkId link;
   Eigen::Isometry3d X_WL;  // in the world (m)
@@ -23,7 +22,6 @@ struct ClearOf {
   TrajectoryPtr motion;
   Duration progress{};
 };
-// The goal of one arm, and its speed. Plain data.
 struct MotionGoal {
   ArmId arm;
   // Joint positions in the arm's order (rad, m), a link pose, or out of another motion's path.
@@ -35,11 +33,11 @@ struct MotionGoal {
 // Asks for a motion to a goal. Plain data, safe to pass to another thread.
 struct PlanQuestion {
   MotionGoal goal;
-  Configuration at;  // positions of all joints of the cell; the arm's own are the start
+  Configuration at;  // all joints of the cell; the arm's own are the start
   // Arms that will move away from their present position. The planner first looks for a path
   // past them, except those at the arm's start or goal. If there is none, it ignores them all.
   std::vector<ArmId> may_move = {};
-  bool has_no_way_past = false;  // known to have no path past `may_move`: ignore these arms at once
+  bool has_no_way_past = false;  // no path exists past `may_move`: ignore them at once
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> budget = {};  // evaluations per try; nullopt for the default
 };

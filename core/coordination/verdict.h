@@ -29,7 +29,7 @@ struct Conflict {
   std::optional<JobId> other_job;  // With::motion
   Proximity proximity;             // body_a belongs to the candidate
   Duration own_time;               // trajectory time of the candidate
-  Duration other_time;             // trajectory time of the other job; zero if there is none
+  Duration other_time;             // trajectory time of the other job, or zero
 };
 
 // Answer to a PassageQuestion. Not decided within the budget means `blocked`.

@@ -140,8 +140,7 @@ bool AuthorityGuard::are_apart(ArmId a, ArmId b) const {
   return apart != apart_.end() && apart->second == present_.of({&a, 1}, {&b, 1});
 }
 
-// Returns how far the arm's joints, as last measured at rest, are from the motion at `progress`
-// (rad, m).
+// Returns how far (rad, m) the arm's joints, as last measured at rest, are from the motion.
 double AuthorityGuard::off(const Trajectory& motion, ArmId arm, Duration progress) const {
   Eigen::VectorXd at;
   motion.sample_positions(progress, at);
@@ -221,7 +220,7 @@ std::optional<GuardRefusal> AuthorityGuard::between(const Known& known, ArmId ar
   return refusal;
 }
 
-// Checks that the arms of one motion may be as far apart on it as from `last` to `first`.
+// Checks that the motion's arms may be as far apart as `last` and `first`.
 std::optional<GuardRefusal> AuthorityGuard::together(const Known& known, Duration last,
                                                      Duration first) const {
   const auto& of = known.together;

@@ -14,7 +14,6 @@
 
 namespace armloom {
 
-// Position and authority of one arm, on a motion or at rest.
 struct ArmPosition {
   TrajectoryPtr motion = {};  // null if the arm has not moved yet
   Duration measured{};        // progress proven by feedback
@@ -47,9 +46,9 @@ class AuthorityGuard {
   // it.
   void forget(const TrajectoryPtr& motion);
 
-  // Reports that the arm is on its motion. Progress never decreases.
+  // Reports a moving arm's progress, which never decreases.
   void moves(ArmId arm, Duration measured);
-  // Reports that the arm rests at `progress` of its motion; `measured`: all joints of the cell.
+  // Reports a resting arm: its progress, and all joints of the cell.
   void rests(ArmId arm, Duration progress, const Configuration& measured);
 
   // Trajectory time at which a start or resume begins; nullopt for a grant to moving arms.
@@ -64,9 +63,9 @@ class AuthorityGuard {
   // Records the positions without a check, for policies that have no certificates.
   void hold(const TrajectoryPtr& motion, From from, Duration authority);
   [[nodiscard]] const ArmPosition& position(ArmId arm) const { return positions_[arm.index()]; }
-  // Returns the joints of the whole cell, as last measured at rest.
+  // Returns all joints of the cell, as last measured at rest.
   [[nodiscard]] const Configuration& rest() const { return q_; }
-  // Returns the largest distance between a joint of the motion's arms and the motion (rad, m).
+  // Returns the largest distance of a joint from the motion (rad, m).
   [[nodiscard]] double off_path(const TrajectoryPtr& motion, From from) const;
 
   // Limits; the oldest are dropped: motions per arm (those with an arm on them are kept), and per

@@ -27,7 +27,6 @@ struct Axis {
   double widening = 0.0;
 };
 
-// Returns the smallest capsule of this width about the axis.
 LinkCapsule capsule_about(const Axis& axis, const Balls& balls) {
   double radius = 0.0;
   for (const Ball& ball : balls) {
@@ -65,7 +64,7 @@ double extent_of(const Balls& balls) {
   return extent;
 }
 
-// Returns two unit vectors perpendicular to a unit vector and to each other.
+// Returns two perpendicular unit vectors across `direction`.
 std::array<Eigen::Vector3d, 2> across(const Eigen::Vector3d& direction) {
   const Eigen::Vector3d first = direction.unitOrthogonal();
   return {first, direction.cross(first)};
@@ -118,8 +117,7 @@ Axis moved(const Axis& axis, const Step& step, double extent) {
   return next;
 }
 
-// Pattern search along the coordinates and, because the volume has creases, some random directions.
-// Halves the step if nothing improves.
+// Pattern search along the coordinates and, because the volume has creases, random directions.
 Candidate improved(Candidate best, const Balls& balls, double extent) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;

@@ -7,7 +7,7 @@
 
 namespace armloom {
 
-// All points within radius_m of the segment AB (a ball if A = B), in the frame P of a part.
+// All points within radius_m of the segment AB (may be a point), in a part's frame P.
 struct LinkCapsule {
   Eigen::Vector3d p_PA = Eigen::Vector3d::Zero();
   Eigen::Vector3d p_PB = Eigen::Vector3d::Zero();
@@ -16,7 +16,7 @@ struct LinkCapsule {
   [[nodiscard]] double volume_m3() const;
 };
 
-// Returns the distance of a point from the capsule's segment; exactly 0 at its ends.
+// Returns the distance of p from the segment; exactly 0 at its ends.
 [[nodiscard]] double distance_to_axis(const LinkCapsule& capsule, const Eigen::Vector3d& p);
 
 // Returns true if the ball lies in the capsule. If several balls do, so does their convex hull.
@@ -31,7 +31,7 @@ struct LinkCapsule {
                                       const std::vector<Eigen::Vector3d>& directions,
                                       bool thorough = true);
 
-// Returns the balls that reach farthest in 60 directions: enough to compare capsules.
+// Returns the balls that reach farthest in 60 directions, to compare capsules.
 [[nodiscard]] std::vector<Ball> outermost(const std::vector<Ball>& balls);
 
 }  // namespace armloom

@@ -13,7 +13,7 @@ struct CenteredSegment {
 // Returns the distance of two segments (m). Exact except for rounding (about 1e-15; 1e-7 if the
 // segments are parallel to within 1e-7 rad). C. Ericson, "Real-Time Collision Detection", 5.1.9.
 [[nodiscard]] double segment_segment_distance(const CenteredSegment& a, const CenteredSegment& b);
-// Returns the vector from the nearest point on b to the nearest point on a.
+// Returns the vector from the nearest point on b to that on a.
 [[nodiscard]] Eigen::Vector3d segment_segment_gap(const CenteredSegment& a,
                                                   const CenteredSegment& b);
 

@@ -19,7 +19,7 @@ enum class ConvexShapeKind {
   round,     // sphere or capsule: all points within radius of a segment
   cylinder,  // flat ends
   box,
-  hull,  // convex hull of a mesh or of a piece
+  hull,  // of a mesh or a piece
 };
 
 // One convex shape of a part (a link or an object), fixed in the part's frame P.
@@ -28,12 +28,12 @@ struct ConvexShape {
   Eigen::Isometry3d X_PS = Eigen::Isometry3d::Identity();  // axis along z of S
   double half_length_m = 0.0;  // of the axis; zero for spheres and boxes; of a hull's capsule
   double radius_m = 0.0;       // about the axis; box: radius of its bounding sphere
-  Eigen::Vector3d half_size_m = Eigen::Vector3d::Zero();  // of a box, or of the box around a hull
+  Eigen::Vector3d half_size_m = Eigen::Vector3d::Zero();  // of the box, or the box around the hull
   Eigen::Vector3d p_SE_P = Eigen::Vector3d::Zero();       // from the center to the axis' upper end
   std::shared_ptr<const HullShape> hull;                  // hulls only
   std::shared_ptr<const ExactGeometry> exact;
   SolidPtr solid;         // the real body; shared by the pieces of one mesh
-  bool is_piece = false;  // part of a closed mesh, whose solid may not fill the piece
+  bool is_piece = false;  // of a closed mesh: the solid is less than this hull
 
   // Radius of the bounding sphere about the origin of S.
   [[nodiscard]] double bounding_radius_m() const { return half_length_m + radius_m; }
@@ -48,7 +48,7 @@ struct ConvexShape {
 inline constexpr double kMergeTolerance_m = 1e-6;
 [[nodiscard]] std::vector<ConvexShape> make_convex_shapes(const std::vector<PlacedShape>& shapes);
 
-// A body's position in the world: its segment, and its full pose unless it is round.
+// Position in the world: the segment, and the full pose unless round.
 struct PlacedConvexShape {
   CenteredSegment segment;
   Eigen::Isometry3d X_WS;  // not filled for round bodies
@@ -57,7 +57,7 @@ struct PlacedConvexShape {
                                            const PlacedConvexShape& placed);
 void place(const ConvexShape& body, const Eigen::Isometry3d& X_WP, PlacedConvexShape& placed);
 
-// A lower bound of the distance, from the segments and boxes alone.
+// A lower bound from segments and boxes alone.
 struct Bound {
   double distance_m;  // negative if the bounding volumes overlap
   bool exact;         // distance_m is the distance itself
@@ -76,8 +76,7 @@ struct Separation {
                                                    const ConvexShape& b,
                                                    const PlacedConvexShape& at_b, double enough_m);
 
-// Returns min(distance, limit_m). Cheap if the lower bound reaches the limit. Zero or negative in
-// contact.
+// Returns min(distance, limit_m); at most zero in contact. Cheap if lower_bound() reaches limit_m.
 [[nodiscard]] double distance_below(const ConvexShape& a, const PlacedConvexShape& at_a,
                                     const ConvexShape& b, const PlacedConvexShape& at_b,
                                     double limit_m);

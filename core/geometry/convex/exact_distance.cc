@@ -27,8 +27,7 @@ class ExactGeometry {
 
 namespace {
 
-// FCL's tolerance bounds one step of GJK, not its error. At 1e-12 the measured error is below 1e-7
-// m.
+// FCL's tolerance bounds one GJK step, not the error, which is below 1e-7 m at 1e-12.
 constexpr double kGjkTolerance = 1e-12;
 // Sometimes GJK still stops early (libccd's for 1 in 20 pairs of boxes rotated about parallel axes,
 // 1 in 5000 of other shapes) or reports false contact (boxes). Then FCL's own solver is tried, then
@@ -87,12 +86,12 @@ Proof prove(const ConvexShape& a, const Eigen::Isometry3d& X_WA, const ConvexSha
   return {0.0, 0.0, Eigen::Vector3d::Zero(), true};
 }
 
-// Finds separating planes by the nearest triangles of the bodies' surfaces. Not for pieces, whose
-// surface is the whole mesh's.
+// Finds separating planes by the nearest triangles of the surfaces. Not for pieces, whose surface
+// is the whole mesh's.
 std::optional<Separation> prove_by_surfaces(const ConvexShape& a, const Eigen::Isometry3d& X_WA,
                                             const ConvexShape& b, const Eigen::Isometry3d& X_WB) {
   if (a.solid == nullptr || b.solid == nullptr || a.is_piece || b.is_piece) return std::nullopt;
-  // A solid's tree is in the part's frame; the poses are of the shape frames.
+  // The tree is in the part's frame; the poses are of the shape frames.
   const auto solid = [](const ConvexShape& body, const Eigen::Isometry3d& X_WS) {
     return PlacedSolid{*body.solid, X_WS * body.X_PS.inverse(Eigen::Isometry) * body.solid->X_PT};
   };

@@ -24,8 +24,8 @@ struct Core {
   [[nodiscard]] double radius_m() const {
     return shape.kind == ConvexShapeKind::round ? shape.radius_m : 0.0;
   }
-  // Returns the farthest point along n, relative to the shape's center. For a hull the search
-  // starts at the last corner found.
+  // Returns the farthest point along n, from the shape's center. A hull's search starts at the last
+  // corner.
   [[nodiscard]] Vector3d farthest(const Vector3d& n_W) {
     if (shape.kind == ConvexShapeKind::round) {
       return n_W.dot(at.segment.half) < 0.0 ? Vector3d(-at.segment.half) : at.segment.half;
@@ -44,7 +44,7 @@ struct Core {
     }
     return at.X_WS.linear() * p;
   }
-  // Returns how far the shape reaches along n beyond farthest(); nonzero only for hulls.
+  // Returns the reach beyond farthest(); nonzero only for hulls.
   [[nodiscard]] double beyond(const Vector3d& n_W) const {
     if (shape.kind != ConvexShapeKind::hull) return 0.0;
     const Vector3d n = at.X_WS.linear().transpose() * n_W;
@@ -59,8 +59,8 @@ class Simplex {
   [[nodiscard]] bool has(const Vector3d& p) const {
     return std::find(points_.begin(), points_.begin() + size_, p) != points_.begin() + size_;
   }
-  // Returns the simplex' point nearest to the origin, and keeps only the corners around this point.
-  // Keeps all four if the origin is inside.
+  // Returns the point nearest to the origin, and keeps only the corners around it; all four if the
+  // origin is inside.
   [[nodiscard]] Vector3d reduce() {
     switch (size_) {
       case 1:
@@ -133,7 +133,7 @@ class Simplex {
     if (va <= 0.0 && d4 >= d3 && d5 >= d6) {
       return between(j, k, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
     }
-    // Projection on the normal is better conditioned than barycentric coordinates.
+    // Better conditioned than barycentric coordinates.
     const Vector3d n = ab.cross(ac);
     return {n * (n.dot(a) / n.squaredNorm()), {i, j, k}, 3};
   }
@@ -174,7 +174,7 @@ std::optional<Separation> gjk(const ConvexShape& a, const PlacedConvexShape& at_
   const double radii_m = of_a.radius_m() + of_b.radius_m();
   const Vector3d centers = at_b.segment.center - at_a.segment.center;
   Simplex simplex;
-  Vector3d nearest = centers;  // point of b - a nearest to the origin
+  Vector3d nearest = centers;  // of b - a, to the origin
   double length = nearest.norm();
   for (int step = 0; step < kMostSteps && length > 0.0; ++step) {
     const Vector3d n = nearest / length;

@@ -15,16 +15,16 @@ struct HullShape {
   Eigen::Isometry3d X_MS;       // S in the mesh's frame
   Eigen::Vector3d half_size_m;  // of the box
   double radius_m = 0.0;        // of a capsule about z that contains the hull
-  double half_length_m = 0.0;   // half the length of that capsule's axis
+  double half_length_m = 0.0;   // half its axis
 
-  // The neighbors of each corner (that share an edge), corner by corner.
+  // Corners that share an edge with each corner, corner by corner.
   std::vector<std::uint32_t> neighbors;
   std::vector<std::uint32_t> neighbors_end;  // end of each corner's neighbors
 
   // Returns the largest n . x of all corners; n in S.
   [[nodiscard]] double support(const Eigen::Vector3d& n_S) const;
-  // Walks uphill from `from` along edges to the corner with the largest n . x. May end at a
-  // neighbor if faces are flat except for rounding.
+  // Walks uphill along edges to the corner with the largest n . x. May end at its neighbor if faces
+  // are flat except for rounding.
   [[nodiscard]] std::uint32_t uphill(const Eigen::Vector3d& n_S, std::uint32_t from) const;
 };
 

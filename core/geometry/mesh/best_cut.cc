@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kOffsets = 7;        // cuts tried along an axis before refinement
 constexpr int kRefinements = 5;    // each halves the distance to the next cut tried
-constexpr double kBeside = 1e-5;   // share of the extent: distance of a cut from a face
+constexpr double kBeside = 1e-5;   // of the extent: distance of a cut from a face
 constexpr int kEstimateFrom = 80;  // directions whose farthest points represent a side
 
 double estimated_volume(const Points& points) {
@@ -77,8 +77,7 @@ void try_cuts(const Estimated& cell, Eigen::Index axis, const std::vector<double
   }
 }
 
-// Returns positions just before and behind the surface corner nearest to the cut: cuts gain most at
-// concave edges.
+// Returns positions next to the corner nearest to the cut: cuts gain most at concave edges.
 std::vector<double> beside_corner(const Points& corners, const Cut& cut, double extent) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& p : corners) {

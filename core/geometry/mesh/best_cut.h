@@ -9,7 +9,7 @@ namespace armloom {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-// Convex polygons, stored corner by corner; polygon i ends before ends[i].
+// Convex polygons, corner by corner; polygon i ends before ends[i].
 struct Polygons {
   Points corners;
   std::vector<std::size_t> ends;
@@ -22,10 +22,10 @@ struct Cut {
   double volume_m3 = std::numeric_limits<double>::infinity();  // estimated hulls of both sides
 };
 
-// Returns the cut with the smallest hulls on both sides, of the cuts tried.
+// Returns the tried cut with the smallest hulls on both sides.
 [[nodiscard]] Cut best_cut(const Polygons& surface);
 
-// Returns the part of the polygons with sign * (x - cut.at) >= 0 along the cut's axis.
+// Returns the part with sign * (x - cut.at) >= 0 along the cut's axis.
 [[nodiscard]] Polygons clipped(const Polygons& polygons, const Cut& cut, double sign);
 
 }  // namespace armloom

@@ -95,7 +95,7 @@ tl::expected<Facets, std::string> run_qhull(const Points& points) {
   return facets;
 }
 
-// Returns every point as a small cube, or nullopt if the points have volume.
+// Returns a small cube for each point, or nullopt if the points have volume.
 std::optional<Points> thickened(const Points& points) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
@@ -121,7 +121,7 @@ std::optional<Points> thickened(const Points& points) {
   return cubes;
 }
 
-// Returns the corners of an icosahedron with its edges halved twice, on the unit sphere.
+// Returns a unit icosahedron's corners after halving its edges twice.
 Points directions() {
   const double t = 0.5 * (1.0 + std::sqrt(5.0));
   Points corners;

@@ -67,7 +67,7 @@ Points enclosed_corners(const Eigen::AlignedBox3d& box, const MeshData& mesh) {
   return corners;
 }
 
-// Returns the volume by the triangles' orientation; wrong if they overlap or are inconsistent.
+// Returns the volume by orientation; wrong if triangles overlap or are inconsistent.
 double enclosed_volume(const MeshData& mesh) {
   double sum = 0.0;
   for (const Triangle& t : mesh.triangles) {
@@ -93,7 +93,7 @@ std::optional<Block> side_of(const Block& cell, const Cut& cut, double sign, con
   return side;
 }
 
-// Returns both sides of the cell's best cut, or an empty list if it gains too little.
+// Returns both sides of the best cut; empty if it gains too little.
 std::vector<Block> parted(const Block& cell, const MeshData& mesh, double least_gain_m3) {
   const Cut cut = best_cut(cell.surface);
   if (!(cut.volume_m3 < cell.volume_m3)) return {};

@@ -14,10 +14,10 @@
 
 namespace armloom {
 
-// The surface of a mesh file, in the shape's frame S (m). Units, node transforms and the URDF scale
-// are applied; the file's "up axis" is ignored, as in RViz. Orientation has no meaning: a negative
-// scale mirrors. Equal points are one vertex, in float precision. Solids modeled from both sides
-// have each face once (one_sided.h).
+// The surface of a mesh file in the shape's frame S (m), with units, node transforms and the URDF
+// scale applied; the file's "up axis" is ignored, as in RViz. Orientation has no meaning: a
+// negative scale mirrors. Equal points are one vertex, in float precision. Solids modeled from both
+// sides have each face once (one_sided.h).
 struct MeshData {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;  // indices into vertices; at least one
@@ -47,7 +47,7 @@ inline constexpr double kMaxMeshReach_m = 1000.0;  // bound of each coordinate
 [[nodiscard]] Result<MeshPtr> load_mesh(const std::string& path, const Eigen::Vector3d& scale,
                                         const std::string& pointer, const std::string& whose);
 
-// Loads each file once per scale, because robots of one kind share meshes.
+// Loads each file once per scale.
 class MeshCache {
  public:
   [[nodiscard]] Result<MeshPtr> get(const std::string& path, const Eigen::Vector3d& scale,
@@ -57,10 +57,10 @@ class MeshCache {
   std::map<std::tuple<std::string, double, double, double>, MeshPtr> meshes_;
 };
 
-// Returns true if all vertices lie within kFlat_m of a plane: valid, but probably a mistake.
+// Returns true if all vertices lie within kFlat_m of a plane: probably a mistake.
 [[nodiscard]] bool is_flat(const MeshData& mesh);
 
-// Returns true if load_mesh reads files of this name: .stl, .obj, .dae, in any case.
+// Returns true for .stl, .obj and .dae, in any case.
 [[nodiscard]] bool is_mesh_name(const std::string& path);
 
 }  // namespace armloom

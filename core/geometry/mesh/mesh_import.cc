@@ -98,7 +98,7 @@ class Collector {
     const Eigen::Vector3d as_written(p_N.x, p_N.y, p_N.z);
     const aiVector3D p = X_FN * p_N;
     const Eigen::Vector3d p_S = scale_.cwiseProduct(Eigen::Vector3d(p.x, p.y, p.z));
-    // NaN is unordered and cannot be a key. The caller reports the value as written in the file.
+    // NaN is unordered and cannot be a key. The caller reports it as written in the file.
     if (!p_S.allFinite()) {
       mesh.vertices.push_back(as_written.allFinite() ? p_S : as_written);
       return next;

@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// Reason for refusing a mesh, without its place.
+// A refusal, without the mesh's name.
 struct MeshRefusal {
   ProblemKind kind;
   std::string slug;

@@ -8,7 +8,7 @@
 
 namespace armloom {
 
-// Splits the text of a mesh file into words and counts lines.
+// Words of a mesh file, with line numbers.
 class MeshWords {
  public:
   explicit MeshWords(std::string_view text) : rest_(text) {}
@@ -28,7 +28,7 @@ class MeshWords {
 // number.
 [[nodiscard]] std::optional<float> float_of(std::string_view word);
 
-// Quotes a word for a message, shortened and with unprintable characters replaced.
+// Quotes a word for a message, shortened, unprintable characters replaced.
 [[nodiscard]] std::string quoted(std::string_view word);
 
 }  // namespace armloom

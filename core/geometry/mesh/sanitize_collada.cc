@@ -45,7 +45,7 @@ void keep_children(XMLElement& element, std::initializer_list<std::string_view> 
   });
 }
 
-// Reads an attribute that is a whole number; returns `otherwise` if it is absent.
+// Returns a whole-number attribute, or `otherwise` if absent.
 unsigned count_of(const XMLElement& element, const char* attribute, unsigned otherwise) {
   unsigned value = otherwise;
   const auto read = element.QueryUnsignedAttribute(attribute, &value);
@@ -54,7 +54,7 @@ unsigned count_of(const XMLElement& element, const char* attribute, unsigned oth
               element.Attribute(attribute) + "', which is not a valid count"};
 }
 
-// Calls visit(number) for each word of the element's text. Throws if a word is not a Number.
+// Calls visit(number) for each word of the text. Throws if a word is not a Number.
 template <class Number, class Visit>
 void each_number(const XMLElement& element, const char* what, const Visit& visit) {
   std::string_view text = element.GetText() == nullptr ? "" : element.GetText();
@@ -195,7 +195,7 @@ class DaeReader {
   }
 
   void read_node(XMLElement& node) {
-    // Without these elements the shape would change, not only its appearance.
+    // Dropping these would change the shape, not only its appearance.
     each_child(node, [](const XMLElement& child) {
       if (is_one_of(child, {"skew", "instance_controller"})) {
         throw Fault{std::string("<") + child.Name() + "> is not supported"};

@@ -31,7 +31,7 @@ bool is_whole_binary(std::string_view bytes) {
   return bytes.size() >= kHeader && bytes.size() == kHeader + kTriangle * count_of(bytes);
 }
 
-// Binary headers may begin with "solid" too, but contain unprintable bytes soon.
+// Binary headers may begin with "solid" too, but unprintable bytes follow.
 bool is_text(std::string_view bytes) {
   const std::string_view start = bytes.substr(0, 1000);
   const bool prints = std::ranges::all_of(start, [](char c) { return c < 0 || c >= '\t'; });

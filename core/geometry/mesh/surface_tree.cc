@@ -25,10 +25,10 @@ struct Share {
   Eigen::AlignedBox3d box;
 };
 
-constexpr double kShare = 1.0 / 16.0;  // of the surface's extent: larger triangles are divided
+constexpr double kShare = 1.0 / 16.0;  // of the extent: larger triangles are divided
 constexpr double kRounding = 1e-12;    // of the extent: shares are enlarged by this
 
-constexpr float kNoBox_m = -1e18F;  // half extent of an unused box: far from everything
+constexpr float kNoBox_m = -1e18F;  // half extent of an unused box
 
 const SurfaceTree::Box kNoBox{Eigen::Vector3f::Zero(), Eigen::Vector3f::Constant(kNoBox_m), 0,
                               true};
@@ -90,7 +90,6 @@ class Builder {
     return kept;
   }
 
-  // The depth is logarithmic in the number of shares.
   SurfaceTree::Box box_of(std::size_t begin, std::size_t end) {
     SurfaceTree::Box box = bound(begin, end);
     box.leaf = end - begin == 1;
@@ -157,7 +156,7 @@ std::uint32_t root_of(std::vector<std::uint32_t>& above, std::uint32_t i) {
   return i;
 }
 
-// A triangle with a repeated corner contributes one edge in both directions: not open.
+// A triangle with a repeated corner has an edge in both directions: not open.
 std::vector<Edge> sorted_edges(const std::vector<Triangle>& triangles, bool directed) {
   std::vector<Edge> edges;
   edges.reserve(3 * triangles.size());

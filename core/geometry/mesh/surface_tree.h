@@ -53,7 +53,7 @@ struct SurfaceTree {
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> component_of;  // by triangle
   std::vector<Component> components;
-  double reach_m = 0.0;   // distance of the farthest vertex from the origin of T
+  double reach_m = 0.0;   // farthest vertex from the origin of T
   bool encloses = false;  // is_closed(), with enough triangles for a volume
 
   [[nodiscard]] std::array<Eigen::Vector3d, 3> corners(std::uint32_t triangle) const {

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Array4f;
 using Eigen::Vector3d;
 
-// Arbitrary directions, so that robot faces are unlikely to be parallel to a ray.
+// Arbitrary, so that robot faces are unlikely to be parallel to a ray.
 const std::array<Vector3d, 12> kRays = {{{0.8365, 0.4127, 0.3613},
                                          {-0.3119, 0.8741, -0.3724},
                                          {0.2371, -0.4509, 0.8606},

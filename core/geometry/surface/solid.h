@@ -38,10 +38,10 @@ struct PlacedSolid {
 [[nodiscard]] double solid_distance(const PlacedSolid& a, const PlacedSolid& b, double limit_m,
                                     const Roughness& rough = {});
 
-// Returns true if they are closer than limit_m. Faster than the distance.
+// Returns true if closer than limit_m. Faster than the distance.
 [[nodiscard]] bool closer_than(const PlacedSolid& a, const PlacedSolid& b, double limit_m);
 
-// Returns true if inner balls prove that they are closer than limit_m, as in most deep overlaps.
+// Returns true if inner balls prove closer_than(), as in most deep overlaps.
 [[nodiscard]] bool surely_closer_than(const PlacedSolid& a, const PlacedSolid& b, double limit_m);
 
 // Returns the unit direction from a to b of their nearest triangles, in the world, or nullopt if

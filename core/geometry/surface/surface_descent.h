@@ -19,11 +19,11 @@ class KeptApart {
   // Returns true if two triangles may be skipped; n separates them (TriangleGap).
   [[nodiscard]] virtual bool keeps(const TrianglePoints& a, const TrianglePoints& b,
                                    const Eigen::Vector3d& n) = 0;
-  // Returns the separation along n beyond which all parts of the two surfaces can be skipped.
+  // Returns the separation along n beyond which everything can be skipped.
   [[nodiscard]] virtual double enough_along(const Eigen::Vector3d& n) const = 0;
 };
 
-// Permitted error: a distance not below exact_below_m may be returned up to by_m too small.
+// Distances from exact_below_m on may be returned up to by_m too small.
 struct Roughness {
   double exact_below_m = 0.0;
   double by_m = 0.0;
@@ -43,10 +43,9 @@ class SurfaceDescent {
   // Returns min(distance, limit), never larger than the true value. Above enough_m, less than 1e-9
   // m below it, plus allow().
   [[nodiscard]] double run();
-  // After run() with a result above zero and below the limit: direction from a to b of the nearest
-  // triangles, in A's frame.
+  // After run() with a result above zero and below the limit: direction from a to b, in A's frame.
   [[nodiscard]] const Eigen::Vector3d& direction() const { return n_A_; }
-  // After run(): true if the boxes around all of A and all of B are apart.
+  // After run(): true if the two root boxes are apart.
   [[nodiscard]] bool boxes_apart() const { return roots_m_ > 0.0; }
 
  private:
@@ -76,7 +75,7 @@ class SurfaceDescent {
   const SurfaceTree& a_;
   const SurfaceTree& b_;
   Eigen::Isometry3d X_AB_;
-  Eigen::Vector3d n_A_ = Eigen::Vector3d::Zero();  // the present separating direction, from a to b
+  Eigen::Vector3d n_A_ = Eigen::Vector3d::Zero();  // separating direction, from a to b
   Eigen::Vector3d n_B_ = Eigen::Vector3d::Zero();  // the same in B's frame
   double n_offset_m_ = 0.0;                        // position of B's origin along n_A_
   Turn of_b_in_a_;
@@ -100,14 +99,14 @@ class SurfaceDescent {
   double roots_m_ = 0.0;
   struct Kept {
     KeptApart* apart = nullptr;
-    double along_m;  // parts separated by this along n_A_ are skipped
+    double along_m;  // skip beyond this along n_A_
   };
   Kept kept_;
   // Recently measured pairs of triangles (key plus one), because leaves may share triangles.
   std::array<std::uint64_t, 128> measured_{};
 };
 
-// Returns the distance of a point, inside or outside, from the surface (no radius).
+// Returns a point's distance, from inside or outside (no radius).
 [[nodiscard]] double distance_to_surface(const SurfaceTree& tree, const Eigen::Vector3d& p_T);
 
 }  // namespace armloom

@@ -21,7 +21,7 @@ class Search {
   Search(const TrianglePoints& a, const TrianglePoints& b, double limit_m)
       : a_(a), b_(b), limit_m_(limit_m) {}
 
-  // Tries a direction that may separate them. Returns true if the result is final.
+  // Tries a direction that may separate them. Returns true if final.
   bool try_direction(const Vector3d& from_a_to_b, double length) {
     const double a = std::max({from_a_to_b.dot(a_[0]), from_a_to_b.dot(a_[1]),  //
                                from_a_to_b.dot(a_[2])});
@@ -81,7 +81,7 @@ bool try_edges(const Vector3d& p, const Vector3d& u, const Vector3d& q, const Ve
   return search.try_points(p + s * u, q + t * v);
 }
 
-// Tries the other triangle's corner nearest to the face's plane, if its projection is on the face.
+// Tries the other triangle's corner nearest to the face's plane, if above the face.
 bool try_face(const TrianglePoints& face, const TrianglePoints& other, bool face_is_a,
               Search& search) {
   const Vector3d normal = (face[1] - face[0]).cross(face[2] - face[0]);

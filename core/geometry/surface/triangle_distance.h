@@ -13,7 +13,7 @@ using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 // too small in all tests (test/soundness).
 [[nodiscard]] double triangle_distance(const TrianglePoints& a, const TrianglePoints& b,
                                        double limit_m);
-// The distance with its unit direction from a to b; the direction is zero if they touch.
+// A distance and its unit direction from a to b (zero in contact).
 struct TriangleGap {
   double distance_m;
   Eigen::Vector3d n;
