@@ -27,7 +27,7 @@ struct ArmFeedback {
   std::string detail;             // reason of a fault
   // True if the arm has no motion, waits for its start, or rests on its path.
   bool at_rest = false;
-  // True if it also stays at rest until the next command.
+  // True if the arm also stays at rest until the next command.
   bool settled = false;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using Phase = ArmFeedback::Phase;
 
-// Closer than this to its commanded position, the arm has arrived.
+// The arm has arrived if closer than this to its commanded position.
 constexpr double kArrived_rad = 1e-5;
 
 }  // namespace

@@ -36,7 +36,7 @@ class AuthorityGuard {
   AuthorityGuard(std::vector<std::vector<JointId>> joints, Configuration rest,
                  SceneFingerprint present);
 
-  // ---- What is known ----
+  // ---- Certificates and content ----
   void take(std::span<const Certificate> certificates);
   // Sets the present content (scene, attached objects). Certificates about other content are
   // ignored.

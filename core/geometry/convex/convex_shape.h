@@ -57,7 +57,7 @@ struct PlacedConvexShape {
                                            const PlacedConvexShape& placed);
 void place(const ConvexShape& body, const Eigen::Isometry3d& X_WP, PlacedConvexShape& placed);
 
-// A lower bound from segments and boxes alone.
+// A lower bound of the distance, from segments and boxes alone.
 struct Bound {
   double distance_m;  // negative if the bounding volumes overlap
   bool exact;         // distance_m is the distance itself

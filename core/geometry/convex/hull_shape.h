@@ -17,7 +17,7 @@ struct HullShape {
   double radius_m = 0.0;        // of a capsule about z that contains the hull
   double half_length_m = 0.0;   // half its axis
 
-  // Corners that share an edge with each corner, corner by corner.
+  // Neighbors of each corner along edges, corner by corner.
   std::vector<std::uint32_t> neighbors;
   std::vector<std::uint32_t> neighbors_end;  // end of each corner's neighbors
 

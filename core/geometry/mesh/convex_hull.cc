@@ -165,9 +165,9 @@ Points directions() {
   return corners;
 }
 
-// Returns the corners of the half spaces' polytope that touches the hull in all directions(). A
-// half space n . (x - inside) <= h is the point n / h of the dual hull, whose facets are the
-// corners.
+// Returns the corners of a polytope of half spaces that touch the hull in all directions(). A half
+// space n . (x - inside) <= h is the point n / h of the dual hull; each facet of the dual hull is a
+// corner of the polytope.
 tl::expected<Points, std::string> corners_around(const Points& hull) {
   Eigen::Vector3d inside = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : hull) inside += p / static_cast<double>(hull.size());

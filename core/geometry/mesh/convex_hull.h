@@ -18,8 +18,8 @@ struct ConvexHull {
 // Points within kFlat_m of a plane have no volume: each becomes a cube of this side, so that the
 // hull is slightly too large, never too small.
 inline constexpr double kFlat_m = 2e-4;
-// Larger hulls are replaced by a simpler polytope that touches them from outside in 162 directions
-// (for a sphere at most 1.5 % of the radius too large).
+// Hulls with more vertices are replaced by a simpler polytope around them that touches them in 162
+// directions (for a sphere at most 1.5 % of the radius too large).
 inline constexpr std::size_t kMaxHullVertices = 400;
 // No point lies farther than this outside a face (checked for every point).
 inline constexpr double kHullTolerance_m = 1e-6;

@@ -24,7 +24,7 @@ struct Block {
   double volume_m3 = 0.0;
 };
 
-// Returns true if the ray may hit the triangle, also in doubt.
+// Returns true if the ray may hit the triangle, including doubtful cases.
 bool may_hit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
              const std::array<Eigen::Vector3d, 3>& t) {
   constexpr double kDoubt = 1e-10;

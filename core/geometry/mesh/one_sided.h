@@ -12,8 +12,8 @@ namespace armloom {
 // enclose nothing.
 //
 // A face is doubled if it occurs equally often in both orientations. Doubled faces with a free edge
-// are dropped repeatedly; the rest encloses something, and keeps one side. So sheets, bins and the
-// wall between two boxes keep both sides. Returns nullopt if other faces share an edge with the
+// are dropped repeatedly; the rest encloses something, and one side is kept. So sheets, bins and
+// the wall between two boxes keep both sides. Returns nullopt if other faces share an edge with the
 // rest, because the solid is then ambiguous.
 [[nodiscard]] std::optional<std::vector<Triangle>> one_sided(std::vector<Triangle> triangles);
 

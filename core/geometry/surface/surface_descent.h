@@ -43,7 +43,8 @@ class SurfaceDescent {
   // Returns min(distance, limit), never larger than the true value. Above enough_m, less than 1e-9
   // m below it, plus allow().
   [[nodiscard]] double run();
-  // After run() with a result above zero and below the limit: direction from a to b, in A's frame.
+  // After run() with a result above zero and below the limit: direction from a to b of the nearest
+  // triangles, in A's frame.
   [[nodiscard]] const Eigen::Vector3d& direction() const { return n_A_; }
   // After run(): true if the two root boxes are apart.
   [[nodiscard]] bool boxes_apart() const { return roots_m_ > 0.0; }
@@ -106,7 +107,7 @@ class SurfaceDescent {
   std::array<std::uint64_t, 128> measured_{};
 };
 
-// Returns a point's distance, from inside or outside (no radius).
+// Returns a point's distance from the surface, inside or outside (no radius).
 [[nodiscard]] double distance_to_surface(const SurfaceTree& tree, const Eigen::Vector3d& p_T);
 
 }  // namespace armloom

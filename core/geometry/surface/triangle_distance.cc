@@ -81,7 +81,7 @@ bool try_edges(const Vector3d& p, const Vector3d& u, const Vector3d& q, const Ve
   return search.try_points(p + s * u, q + t * v);
 }
 
-// Tries the other triangle's corner nearest to the face's plane, if above the face.
+// Tries the other triangle's corner nearest to the face's plane, if its projection is on the face.
 bool try_face(const TrianglePoints& face, const TrianglePoints& other, bool face_is_a,
               Search& search) {
   const Vector3d normal = (face[1] - face[0]).cross(face[2] - face[0]);
