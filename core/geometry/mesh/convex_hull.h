@@ -9,7 +9,6 @@
 
 namespace armloom {
 
-// A convex polytope that contains a set of points.
 struct ConvexHull {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> faces;  // counter-clockwise from outside, closed

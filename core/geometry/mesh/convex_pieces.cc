@@ -55,7 +55,6 @@ bool escapes(const Eigen::Vector3d& p, const MeshData& mesh) {
   });
 }
 
-// Returns the corners of the box that the mesh may enclose.
 Points enclosed_corners(const Eigen::AlignedBox3d& box, const MeshData& mesh) {
   Points corners;
   for (int i = 0; i < 8; ++i) {

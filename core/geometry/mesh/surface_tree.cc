@@ -12,7 +12,6 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-// Returns a float not smaller than x.
 float rounded_up(double x) {
   const auto near = static_cast<float>(x);
   if (static_cast<double>(near) >= x) return near;
