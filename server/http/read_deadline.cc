@@ -5,8 +5,8 @@
 namespace armloom {
 namespace {
 
-// What was read in the instant in which the time was over goes on with its next piece: that is
-// ended, too.
+// A read that completes just before cancel() may be followed by another read, which must be
+// canceled, too.
 constexpr std::chrono::milliseconds kAgain{50};
 
 }  // namespace
