@@ -12,9 +12,9 @@
 
 namespace armloom {
 
-// Requests for jobs, which clients may repeat if no answer arrives. A request's names are its
-// Idempotency-Key and its jobs' client-given ids. Knows the requests being answered and, without a
-// store, the accepted ones (`kept_max` names). Use on the server's thread.
+// Requests for jobs, which clients may repeat. A request's names are its Idempotency-Key and its
+// client-given job ids. Knows requests in progress and, without a store, accepted requests
+// (`kept_max` names). Use on the server's thread.
 class AcceptedRequests {
  public:
   using Names = std::vector<std::string>;
@@ -23,8 +23,8 @@ class AcceptedRequests {
 
   explicit AcceptedRequests(std::size_t kept_max = 20'000) : kept_max_(kept_max) {}
 
-  // Marks these names as being answered, until end(). Returns false if another request being
-  // answered has one of them; `again` is called when that request was answered.
+  // Registers a request in progress, until end(). Returns false if another request in progress has
+  // one of its names; `again` is called when that request was answered.
   [[nodiscard]] bool begin(const Names& names, std::function<void()> again);
   void end(const Names& names);
 

@@ -30,7 +30,7 @@ bool waits_to_be_asked(const RequestParser& parser) {
          !parser.is_done();
 }
 
-// Returns true if the whole body has arrived, so that another request may follow an unread body.
+// Returns true if the whole body has arrived.
 bool is_all_here(const Connection& connection, const RequestParser& parser) {
   const auto left = parser.content_length_remaining();
   return parser.is_done() || (left && connection.buffer.size() >= *left);

@@ -36,9 +36,8 @@ class Allowance {
   Time at_;
 };
 
-// Rate limits of each client and of all clients together, so that a runaway client leaves others
-// their share. A client is identified by its token, or else by its address. Use on the server's
-// thread.
+// Rate limits of each client and of all together, so that a runaway client leaves others their
+// share. A token identifies a client, or else its address. Use on the server's thread.
 class ClientLimits {
  public:
   using Time = Allowance::Time;
@@ -52,8 +51,7 @@ class ClientLimits {
 
   // Takes one request. Returns a refusal (429, with Retry-After) if it exceeds a limit.
   [[nodiscard]] std::optional<Refusal> request(const std::string& client, Time now);
-  // Takes the `count` jobs of one request, as request() does. A batch above the burst is accepted
-  // if the bucket is full.
+  // Takes `count` jobs of one request. A full bucket admits even a batch above the burst.
   [[nodiscard]] std::optional<Refusal> jobs(const std::string& client, std::size_t count, Time now);
   // Returns the number of remembered clients. Clients with full buckets are forgotten.
   [[nodiscard]] std::size_t clients() const { return clients_.size(); }

@@ -10,11 +10,10 @@
 
 namespace armloom {
 
-// Size of the read buffer: a whole header, or a piece of a body with its chunk line or the
-// trailers. A longer chunk line or trailer is refused.
+// Read buffer: a whole header, or a piece of a body with its chunk line or trailers, which must not
+// be longer.
 inline constexpr std::size_t kBufferMax = 32 * 1024;
 
-// One connection, and the state shared by its requests.
 struct Connection {
   Connection(Transport transport, MemoryBudget& budget)
       : stream(std::move(transport)), memory(budget) {}
@@ -31,7 +30,7 @@ struct Delivery {
   bool without_body = false;  // for HEAD
 };
 
-// Sends a whole response, with the headers that every response has. Sets a write deadline.
+// Sends a whole response with the common headers, within a time limit.
 Awaitable<void> send(Connection& connection, Response response, Delivery delivery, ErrorCode& ec);
 
 // Ends a connection so that the client can still read the response.

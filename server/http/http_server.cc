@@ -25,8 +25,7 @@ constexpr std::chrono::milliseconds kReadToTheEnd{500};  // for clients to read 
 constexpr std::size_t kReservedMax = 64;                 // slots beyond connections_max
 // Connections accepted before other tasks get a turn.
 constexpr int kTakenAtOnce = 16;
-// Time for arms to come to rest. With the closing of connections, the process ends within two
-// seconds.
+// Time for arms to come to rest. The whole shutdown takes two seconds at most.
 constexpr std::chrono::milliseconds kWindDownMax{1200};
 
 Problem cannot_listen(const std::string& address, std::uint16_t port, const std::string& why) {
@@ -185,7 +184,7 @@ class HttpServer::Impl {
     spawn(io_.get_executor(), serve(std::move(socket), client));
   }
 
-  // Accepts a connection with a descriptor of the reserve, when the system has none left.
+  // Accepts with a descriptor of the reserve.
   ErrorCode take_in_reserve() {
     ErrorCode ec = asio::error::no_descriptors;
     if (!reserve_.make_room()) return ec;
@@ -199,7 +198,7 @@ class HttpServer::Impl {
     return ec;
   }
 
-  // Accepts up to kTakenAtOnce connections. Returns the error that stopped it.
+  // Returns the error that ended accepting.
   ErrorCode take_some() {
     ErrorCode ec;
     for (int taken = 0; !ec && taken < kTakenAtOnce; ++taken) {

@@ -17,8 +17,7 @@ struct TlsFiles {
   std::string key;
 };
 
-// Which clients can connect to a server that listens on the address: no client (it is not an IP
-// address), only clients on this machine, or others too.
+// Clients that can reach a listener on the address; `nobody` if it is not an IP address.
 enum class Reach { nobody, this_machine, others };
 [[nodiscard]] Reach reach_of(const std::string& address);
 
@@ -42,12 +41,10 @@ class HttpServer {
   [[nodiscard]] std::uint16_t port() const;
 
   // Serves `site` on the calling thread until stop() or, with `until_signal`, until SIGINT, SIGTERM
-  // or SIGHUP. After a signal, every subscription is first sent the reason. Then all connections
-  // are closed.
+  // or SIGHUP, after which every subscription gets the reason. Then closes all connections.
   void run(Site site, bool until_signal);
 
-  // Thread-safe. Runs `task` soon on the server's thread, in the order posted. Sockets are served
-  // in between.
+  // Thread-safe. Runs `task` soon on the server's thread, in order. Sockets are served in between.
   void post(std::function<void()> task);
   // Like post(), but ahead of the queue of post().
   void post_urgent(std::function<void()> task);

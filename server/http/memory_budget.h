@@ -29,8 +29,8 @@ class MemoryBudget {
       if (budget_ != nullptr) budget_->used_ -= held_;
     }
 
-    // Grows the charge to `bytes`, including the free bytes. Returns false, without change, if the
-    // budget has no room.
+    // Grows the charge to `bytes`, free ones included. Returns false, without change, if there is
+    // no room.
     [[nodiscard]] bool grow_to(std::size_t bytes) {
       const std::size_t wanted = bytes > kFree ? bytes - kFree : 0;
       if (budget_ == nullptr || wanted <= held_) return true;

@@ -30,8 +30,7 @@ struct Target {
 // parameter that occurs twice.
 [[nodiscard]] Result<Target> parse_target(std::string_view text);
 
-// Returns a problem (malformed) naming the first query parameter that is not in `known`, or
-// nullopt.
+// Returns a problem (malformed) that names a query parameter not in `known`, or nullopt.
 [[nodiscard]] std::optional<Problem> unknown_parameter(const Target& target,
                                                        const std::vector<std::string>& known);
 
@@ -49,7 +48,7 @@ struct Refusal {
 };
 [[nodiscard]] Refusal refusal_of(int status, const Problem& problem);
 
-// A whole request with checked framing. Plain data: handlers do not see sockets.
+// A whole request with checked framing. Handlers do not see sockets.
 struct Request {
   std::string method;  // "GET" for HEAD, too; its body is dropped when sent
   Target target;
@@ -104,11 +103,11 @@ struct EventStream {
   std::function<bool()> permitted = {};  // may the subscriber stay? May be null.
 };
 
-// A body too large for memory: read in pieces as the client takes them.
+// A body too large for memory, read in pieces.
 struct PiecedBody {
   std::uintmax_t size = 0;  // in bytes
-  // Passes `count` bytes starting at `from` to `then`, once, on the server's thread. Passes nullopt
-  // if they can no longer be read; then the connection is cut.
+  // Passes `count` bytes starting at `from` to `then`, once, on the server's thread; nullopt if
+  // they are unreadable, which cuts the connection.
   using Then = std::function<void(std::optional<std::string>)>;
   std::function<void(std::uintmax_t from, std::size_t count, Then then)> read = {};
 };
@@ -149,14 +148,13 @@ struct HostRule {
 inline constexpr std::string_view kTokenCookie = "armloom_token";
 
 // The application behind the listener. All functions are called on the server's thread. `handle`
-// answers through its callback, at once or later. The request is only valid during the call.
+// may answer later, but its request is only valid during the call.
 struct Site {
   std::function<void(const Request&, Respond)> handle;
   // Returns the refusal if it does not depend on the body; nullopt if `handle` must answer.
   std::function<std::optional<Response>(const Request&)> refuse_unread;
   WriteRefusal refuse;  // formats errors of HTTP itself: framing, limits, targets
-  // Returns true for requests that are exempt from connection limits and do not wait for their
-  // body.
+  // Returns true if the request is exempt from connection limits and does not wait for its body.
   std::function<bool(const Request&)> is_never_limited;
   // Graceful shutdown: brings all arms to rest, then calls `done` (from any thread).
   std::function<void(std::function<void()> done)> wind_down;

@@ -16,8 +16,7 @@ enum class NoFile { absent, busy };
 // Returns the refusal for NoFile::busy.
 [[nodiscard]] Refusal too_many_files();
 
-// A file open for reading, with its real path. A path may lead to another file at any time; an open
-// file stays the same.
+// An open file with its real path. A path may later lead to another file.
 class OpenFile {
  public:
   // Opens a regular file of at most `size_max` bytes. Follows links.

@@ -11,9 +11,8 @@ namespace armloom {
 
 inline constexpr std::size_t kPieceSize = 64 * 1024;  // in memory at a time
 
-// Sends the whole body, after the header. `time` limits the sending of each piece. Also an error if
-// a piece cannot be read: the response is then shorter than its Content-Length and the connection
-// unusable.
+// Sends the whole body, after the header. `time` limits each piece. After an error, also if a piece
+// cannot be read, the response is incomplete and the connection unusable.
 Awaitable<void> send_pieces(Transport& stream, const PiecedBody& body,
                             std::chrono::milliseconds time, ErrorCode& ec);
 

@@ -11,9 +11,9 @@
 
 namespace armloom {
 
-// Tasks of other threads for the server's thread, run in the order posted for about a millisecond
-// at a time. Asio polls sockets only when all ready handlers have run, so that thousands of events
-// of one batch would delay a stop. The queue is unbounded: callers must limit it.
+// Tasks of other threads for the server's thread. Runs them in order, about a millisecond at a
+// time: asio polls sockets only when all ready handlers have run, so thousands of events would
+// delay a stop. Callers must limit the queue.
 class PostedTasks {
  public:
   using Task = std::function<void()>;

@@ -5,8 +5,7 @@
 namespace armloom {
 namespace {
 
-// A read that completes just before cancel() may be followed by another read, which must be
-// canceled, too.
+// The reader may start another read just after cancel(), which must be canceled, too.
 constexpr std::chrono::milliseconds kAgain{50};
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace armloom {
 
 class Transport;
 
-// Cancels reads that do not finish in time, again and again while this object lives. The connection
+// Cancels reads that do not finish in time, repeatedly, while this object lives. The connection
 // stays open, so that the client can be answered.
 class ReadDeadline {
  public:

@@ -11,8 +11,8 @@
 
 namespace armloom {
 
-// A body for Beast's parser that allocates as bytes arrive, not by Content-Length. Fails with
-// not_enough_memory if the budget of all bodies is exhausted.
+// A body for Beast's parser that allocates as bytes arrive. Fails with not_enough_memory if the
+// budget of all bodies is exhausted.
 struct RequestBody {
   struct value_type {
     std::string text;

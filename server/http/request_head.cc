@@ -28,7 +28,7 @@ std::optional<std::string> one_of(const RequestHeader& header, beast::string_vie
   return it == header.end() ? std::nullopt : std::optional(std::string(it->value()));
 }
 
-// Returns a refusal even to read if the host is not allowed: protection against DNS rebinding.
+// Returns a refusal, even to read, for a host that is not allowed (DNS rebinding).
 std::optional<Refusal> foreign_host(const std::string& authority, const HostRule& hosts) {
   const std::string host = host_of(authority);
   if (authority.empty() || may_command(host, hosts)) return std::nullopt;
@@ -39,7 +39,7 @@ std::optional<Refusal> foreign_host(const std::string& authority, const HostRule
                  std::nullopt, host};
 }
 
-// Returns a refusal to command or subscribe if a browser's page of another site asks.
+// Returns a refusal to command or subscribe for a page of another site.
 std::optional<Refusal> foreign_origin(const RequestHeader& header, const std::string& authority,
                                       const HostRule& hosts) {
   const auto origin = header.find(http::field::origin);

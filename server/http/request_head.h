@@ -19,8 +19,7 @@ using RequestHeader = boost::beast::http::request_header<>;
 // version becomes 1.1 in place; another major version is refused.
 [[nodiscard]] std::optional<Refusal> settle_version(char* line, std::size_t size);
 
-// Returns true if the header asks for a WebSocket; handshake_fault() returns what is wrong with the
-// upgrade (RFC 6455, 4.2.1).
+// Returns true for a WebSocket upgrade; handshake_fault() returns its fault (RFC 6455, 4.2.1).
 [[nodiscard]] bool is_handshake(const RequestHeader& header);
 [[nodiscard]] std::optional<Refusal> handshake_fault(const RequestHeader& header);
 

@@ -80,7 +80,7 @@ Awaitable<void> parse(Connection& connection, RequestParser& parser,
   }
 }
 
-// Reads until the first line is complete or exceeds the header limit.
+// Reads until the first line is complete or too long.
 Awaitable<std::optional<NoRequest>> read_first_line(Connection& connection) {
   ErrorCode ec;
   for (std::size_t empty = 0;;) {

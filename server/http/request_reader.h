@@ -8,8 +8,7 @@
 
 namespace armloom {
 
-// Why no request was read. `refusal` is to be sent; nullopt if the client disconnected or sent
-// nothing.
+// `refusal` is nullopt if the client disconnected or sent nothing.
 struct NoRequest {
   std::optional<Refusal> refusal = {};
 };

@@ -11,11 +11,10 @@
 
 namespace armloom {
 
-// Extra connection slots, in which a stop is served even when no regular connection is left. A file
-// descriptor is kept for each free slot, for when the system has none. When all slots are taken, a
-// new connection evicts the oldest of the client that has most, so that one client cannot lock out
-// others. A connection whose request is being answered is never evicted. Use on the server's
-// thread.
+// Extra connection slots, in which a stop is served when no regular connection is left. Each free
+// slot keeps a file descriptor, in case the system has none. When all slots are taken, a new
+// connection evicts the oldest of the client with most, so that no client locks out others. A
+// connection being answered is never evicted. Use on the server's thread.
 class Reserve {
  public:
   explicit Reserve(std::size_t places) : places_(places) {}
@@ -23,11 +22,10 @@ class Reserve {
   Reserve(const Reserve&) = delete;
   Reserve& operator=(const Reserve&) = delete;
 
-  // Takes missing descriptors, as far as available. Call at the start and when a reserve connection
-  // has ended.
+  // Takes missing descriptors, as far as available. Call at the start and after each reserve
+  // connection.
   void fill();
-  // Frees a descriptor for one more connection, by eviction if necessary. Returns false if it
-  // cannot.
+  // Frees a descriptor for another connection, if necessary by eviction. Returns false on failure.
   bool make_room();
 
   // A connection's slot. Precondition: make_room() returned true. The reserve and `socket` outlive
@@ -42,8 +40,7 @@ class Reserve {
     Place(const Place&) = delete;
     Place& operator=(const Place&) = delete;
 
-    // Protects the connection from eviction while its request is answered. Returns false if already
-    // evicted.
+    // Prevents eviction while the request is answered. Returns false if already evicted.
     bool keep(bool is_kept);
 
    private:

@@ -15,13 +15,11 @@ namespace armloom {
 
 // Clients that a route serves.
 // - anyone: any Host, and no rate limit (probes);
-// - reader: an allowed Host. Pages of other sites are served, too, but browsers hide the response
-//   from them;
+// - reader: an allowed Host; also pages of other sites, but browsers hide the response from them;
 // - commander: an allowed Host, and no Origin of another site unless it is allowed.
 enum class Who { anyone, reader, commander };
 
-// Clients that a route serves, and the role that their token must have; nullopt if no token is
-// needed.
+// Clients of a route, and the role that their token needs; nullopt if no token is needed.
 struct Rights {
   Who who = Who::reader;
   std::optional<Role> role = Role::viewer;
@@ -44,8 +42,7 @@ class Router {
   // `parameters`: allowed query parameters.
   void add(std::string method, std::string_view pattern, Rights rights, Answer answer,
            std::vector<std::string> parameters = {});
-  // Called for every response of dispatch(): method, matching pattern ("" if no pattern matches),
-  // status, duration.
+  // Called for every response of dispatch() with method, pattern (or ""), status and duration.
   using Watch =
       std::function<void(const std::string&, const std::string&, int, std::chrono::nanoseconds)>;
   void watch(Watch watch) { watch_ = std::move(watch); }
@@ -63,8 +60,8 @@ class Router {
   // guard's refusal, 400 (a route's unknown query parameter), 405 with Allow (another method would
   // match), 204 with Allow for OPTIONS, the route's function, otherwise(), 404.
   void dispatch(const Request& request, Respond respond) const;
-  // Returns the response of dispatch() if it does not depend on the body; nullopt if a route's
-  // function answers. Does not apply the limit.
+  // Returns the response of dispatch(), apart from its limit, if independent of the body, else
+  // nullopt.
   [[nodiscard]] std::optional<Response> refuse_unread(const Request& request) const;
   [[nodiscard]] bool is_never_limited(const Request& request) const {
     return is_never_limited(find(request));

@@ -12,8 +12,7 @@
 namespace armloom {
 namespace {
 
-// Sets `gone` if the client disconnects while its response is computed. Other input is its next
-// request.
+// Sets `gone` if the client disconnects before the response. Other input is its next request.
 void watch_peer(Socket& socket, std::shared_ptr<std::atomic<bool>> gone) {
   socket.async_wait(Socket::wait_read, [&socket, gone = std::move(gone)](ErrorCode over) {
     if (over) return;
@@ -24,7 +23,6 @@ void watch_peer(Socket& socket, std::shared_ptr<std::atomic<bool>> gone) {
   });
 }
 
-// Hands the request to the site and waits for its answer.
 Awaitable<Response> answer(const Site& site, const Request& request, Socket& socket) {
   struct Pending {
     explicit Pending(const Executor& executor)

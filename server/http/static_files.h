@@ -12,10 +12,10 @@
 
 namespace armloom {
 
-// The dashboard's files in a folder: GET only, "/" is index.html, MIME types by extension. Files
-// under /assets have a hash in their names and are cached forever; others are revalidated by their
-// ETag. Files outside the folder (by ".." or a link) and hidden files are not served. Files are
-// kept in memory until they change, compressed if smaller; 64 MiB at most.
+// The dashboard's folder: GET only, "/" is index.html. Files under /assets have hashed names and
+// are cached forever; others are revalidated by ETag. Hidden files, and files outside the folder
+// (by ".." or a link), are not served. Unchanged files stay in memory, compressed if smaller, 64
+// MiB at most.
 class StaticFiles {
  public:
   // Reads the folder. A missing folder is tried again at each request.

@@ -9,8 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Time for the current message of a subscriber that is too far behind, before it is sent the
-// reason.
+// Time for a slow subscriber's current message, before it is sent the reason.
 constexpr std::chrono::seconds kLastMessage{2};
 // Interval at which an idle subscriber's permission is checked.
 constexpr std::chrono::seconds kLooksAgain{1};
@@ -47,8 +46,8 @@ class Session : public std::enable_shared_from_this<Session> {
   bool closed = false;
 
  private:
-  // The timer is not reset for each message, which cost more than sending with thousands of
-  // subscribers. When it expires, it checks the current message.
+  // Not reset for each message: with thousands of subscribers that cost more than sending. On
+  // expiry, the timer checks the current message.
   void watch_deadline() {
     if (is_watched_ && deadline_.expiry() <= cut_at_) return;
     is_watched_ = true;
@@ -92,8 +91,7 @@ Awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier
   spawn(carrier->executor(), watch(session));
   ErrorCode ec;
   const auto is_permitted = [&events] { return !events.permitted || events.permitted(); };
-  // Measured from the last byte sent, because events that this subscriber does not get wake it,
-  // too.
+  // Counted from the last byte sent, because skipped frames wake this, too.
   auto keep_alive_at = after(times.keep_alive);
   while (!ec && !session->closed) {
     auto reason = session->subscription->close_reason();

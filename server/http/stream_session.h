@@ -31,8 +31,8 @@ struct StreamTimes {
   std::chrono::milliseconds keep_alive;
 };
 
-// Sends the subscription's messages until either side ends it. Cuts off slow subscribers: a message
-// took longer than times.send, or the subscriber fell farther behind than the subscription allows.
+// Sends the subscription's messages until either side ends it. Cuts off a subscriber that takes too
+// long for a message, or falls too far behind.
 Awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier,
                       StreamTimes times);
 

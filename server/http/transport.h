@@ -21,12 +21,10 @@ namespace armloom {
 struct TlsFiles;
 using TlsContextPtr = std::shared_ptr<asio::ssl::context>;
 
-// Returns the TLS context of connections. Problem (invalid): a file cannot be read, or key and
-// certificate do not match.
+// Problem (invalid): a file cannot be read, or key and certificate do not match.
 [[nodiscard]] Result<TlsContextPtr> tls_context(const TlsFiles& files);
 
-// A type-erased completion handler, so that operations are compiled once instead of once for each
-// handler.
+// A type-erased completion handler, so that operations are compiled only once.
 class Completion {
  public:
   template <class Handler>

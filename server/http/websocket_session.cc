@@ -92,9 +92,8 @@ class WebSocket final : public StreamCarrier, public std::enable_shared_from_thi
   void cut() override { socket_.next_layer().close(); }
 
  private:
-  // Beast echoes the code of a close frame. It rejects reserved codes (RFC 6455, 7.4) but accepts
-  // codes beyond the last valid one. For such a code, this sends protocol_error before Beast
-  // answers.
+  // Beast echoes close codes and rejects reserved codes (RFC 6455, 7.4), but accepts codes beyond
+  // the last valid code. For these, sends protocol_error before Beast answers.
   void answer_close() {
     if (socket_.reason().code <= kCloseCodeMax) return;
     start_close(websocket::close_code::protocol_error, [self = shared_from_this()](ErrorCode) {});

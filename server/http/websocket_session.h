@@ -9,8 +9,8 @@
 
 namespace armloom {
 
-// Accepts the upgrade and sends the subscription's messages until either side ends it, with the
-// close reason if the subscription has one. Ignores messages of the client.
+// Accepts the upgrade and sends the subscription's messages until either side ends it. Ignores
+// client messages. Closes with the subscription's reason, if any.
 Awaitable<void> serve_websocket(Transport stream, RequestHeader upgrade, std::string request_id,
                                 EventStream events, const Site& site);
 

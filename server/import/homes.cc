@@ -26,8 +26,8 @@ double van_der_corput(std::size_t n, std::size_t base) {
   return number;
 }
 
-// Returns Halton's n-th point (van der Corput with one prime for each joint) in a box around zero
-// that grows to the joint limits. Rounded to milliradians for readability.
+// Returns Halton's n-th point in a box around zero that grows to the joint limits. Rounded to
+// milliradians for readability.
 Eigen::VectorXd made_up(const Cell& cell, const Arm& arm, std::size_t n) {
   static constexpr std::array<std::size_t, 12> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
   const double share = static_cast<double>(n) / static_cast<double>(kMadeUp);

@@ -34,10 +34,10 @@ struct ImportedCell {
   std::vector<std::string> remarks;  // choices, guesses and missing files; also in the comments
 };
 
-// Returns a cell file for robots described by URDF and SRDF: arms (choose_arm_groups), homes
-// (choose_homes), fixed joints above arms, package folders, and default settings. The cell may
-// still fail to load: load_cell says why. Problems: the files cannot be read; no group is an arm;
-// prefixes or file counts do not fit together (at the command-line option).
+// Returns a cell file for robots with URDF and SRDF: arms (choose_arm_groups), homes
+// (choose_homes), fixed joints, package folders and default settings. load_cell may still refuse
+// it. Problems: the files cannot be read; no group is an arm; prefixes or file counts do not fit
+// together (at the command-line option).
 [[nodiscard]] Result<ImportedCell> import_cell(const ImportRequest& request);
 
 }  // namespace armloom

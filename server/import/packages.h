@@ -8,9 +8,9 @@
 
 namespace armloom {
 
-// Folders of the packages that a URDF names by package://name/..., in addition to `given`. A
-// package is where its files are: in a folder above the URDF, in a subfolder of that with the
-// package's name, or in `installed` (share/ folders of ROS).
+// Folders of the packages named by package://name/... in a URDF, in addition to `given`. A package
+// is where its files are: in a folder above the URDF, in a subfolder of it with the package's name,
+// or in `installed` (ROS share/ folders).
 struct Packages {
   std::map<std::string, std::string> folders;  // absolute
   std::map<std::string, std::string> guessed;  // whose folder has another name

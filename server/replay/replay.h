@@ -22,8 +22,7 @@ class Replay {
   ~Replay();
 
   // Runs all cycles before the next line, then applies the line. Problems: it is invalid;
-  // `diverged`: this executive behaves differently, for example because the program or the cell
-  // differs.
+  // `diverged`: this executive behaves differently (another program or cell).
   [[nodiscard]] Result<void> take(std::string_view line);
   // Runs cycles without inputs.
   void run_until(TimePoint time);

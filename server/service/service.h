@@ -51,8 +51,8 @@ struct ServiceOptions {
   std::size_t memory_max = std::size_t{64} << 20U;  // see Site
 };
 
-// The server: executive in real time, HTTP, WebSocket, dashboard. One thread for all connections
-// (the caller of run()), one for the executive, one for collision checks.
+// The server: executive in real time, HTTP, WebSocket, dashboard. The caller of run() serves all
+// connections; the executive and collision checks have their own threads.
 class Service {
  public:
   // Listens and starts the executive. Problems: those of Executive::create, the port is in use, the
@@ -66,7 +66,7 @@ class Service {
   void run(bool until_signal);  // until stop(), or SIGINT, SIGTERM, SIGHUP
   void stop();                  // thread-safe
 
-  // Call after run(). Ends the executive, writes remaining jobs and the recording. Returns what
+  // Call after run(). Ends the executive and completes jobs and recording on disk. Returns what
   // could not be written and why, or nullopt.
   [[nodiscard]] std::optional<std::string> close();
 
