@@ -25,8 +25,8 @@ class AlertBook {
   [[nodiscard]] const std::deque<StoredAlert>& alerts() const { return alerts_; }  // oldest first
   [[nodiscard]] const StoredAlert* find(const std::string& id) const;
 
-  // The first acknowledgement of an alert stays. `then` is called when it is on disk, or with the
-  // reason why not yet. Precondition: find() knows all ids.
+  // The first acknowledgement stays. `then` is called when it is on disk, or with the reason why
+  // not yet. Precondition: find() knows all ids.
   void acknowledge(const std::vector<std::string>& ids, const std::string& who,
                    std::function<void(std::optional<Refusal>)> then);
 

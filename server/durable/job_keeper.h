@@ -42,8 +42,8 @@ class JobKeeper final : public StartLog {
     RequestOrigin origin;
     std::optional<StoredJob> row = {};  // row_of(job), if already made
   };
-  // Persists jobs that the executive accepted. Calls `then` when they are on disk, or with the
-  // reason why not; then they are rolled back.
+  // Persists accepted jobs. Calls `then` when they are on disk, or with the reason why not; then
+  // they are rolled back.
   void accept(std::vector<AcceptedJob> jobs, std::function<void(std::optional<Refusal>)> then);
   // Persists a job's amendments. Calls `then` when they are on disk, or with the reason why not
   // yet.

@@ -11,8 +11,8 @@
 
 namespace armloom {
 
-// Writes requests that change something or are refused to the audit trail, and requests to the log
-// if wanted. Use on the server's thread.
+// Writes changes and refusals to the audit trail, and requests to the log if wanted. Use on the
+// server's thread.
 class RequestTrail {
  public:
   // `keeper` may be null; then there is no audit trail. It outlives what follow() returns.

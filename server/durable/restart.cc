@@ -21,7 +21,6 @@
 namespace armloom {
 namespace {
 
-// A scene object that could not be restored.
 struct ObjectNotPutBack {
   std::string name;
   std::string why;  // a sentence

@@ -9,7 +9,6 @@
 
 namespace armloom {
 
-// A request with the data that its response needs.
 struct Arrived {
   Request request;
   RequestHeader header;
@@ -19,15 +18,14 @@ struct Arrived {
 // The response to send if no request was read; nullopt if no client is left to answer.
 using NotArrived = std::optional<Response>;
 
-// How to read a request.
 struct Terms {
   ReadTimes times;
   // Returns why the request is refused after its header, or nullopt. May be null.
   std::function<std::optional<Refusal>(const Request&)> refusal = {};
 };
 
-// Reads the next request of the connection. Releases the memory of a refused request before its
-// refusal is sent, because sending takes time.
+// Reads the next request. Releases a refused request's memory before sending the refusal, which
+// takes time.
 Awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection, const Site& site,
                                                           const Terms& terms);
 

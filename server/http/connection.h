@@ -36,7 +36,6 @@ Awaitable<void> send(Connection& connection, Response response, Delivery deliver
 // Ends a connection so that the client can still read the response.
 Awaitable<void> linger(Connection& connection);
 
-// Sends the refusal and ends the connection.
 Awaitable<void> refuse(Connection& connection, Response why);
 
 }  // namespace armloom

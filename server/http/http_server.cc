@@ -158,7 +158,6 @@ class HttpServer::Impl {
     reserve_.fill();
   }
 
-  // Precondition: make_room() returned true.
   void reserve(Socket socket, const Refusal& why) {
     std::string client = client_of(socket);
     Transport transport(std::move(socket), tls_);

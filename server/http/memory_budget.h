@@ -7,7 +7,7 @@ namespace armloom {
 
 // Limits the memory of request and response bodies of all connections together. Small charges are
 // free, so that a stop always gets through; larger ones are refused when the budget is exhausted.
-// Not thread-safe: use on the server's thread. Outlives its charges.
+// Use on the server's thread. Outlives its charges.
 class MemoryBudget {
  public:
   inline static constexpr std::size_t kFree = 16 * 1024;  // of each charge

@@ -166,7 +166,7 @@ struct Site {
   std::chrono::milliseconds read_time{10'000};   // for a whole header, and for a whole body
   std::size_t memory_max = std::size_t{64} << 20U;  // of large bodies and responses together
   std::size_t connections_per_client_max = ~std::size_t{0};  // of one address; beyond: 429
-  std::function<void()> on_limited_connection = {};          // called for each refused so
+  std::function<void()> on_limited_connection = {};          // called for each beyond
 };
 
 }  // namespace armloom

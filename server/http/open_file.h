@@ -10,8 +10,8 @@
 
 namespace armloom {
 
-// Why a file cannot be read. absent: it is missing, irregular, too large or has shrunk. busy:
-// too few file descriptors or memory at present, which says nothing about the file.
+// Why a file cannot be read. absent: it is missing, not a regular file, too large or has shrunk.
+// busy: too few file descriptors or memory at present, which says nothing about the file.
 enum class NoFile { absent, busy };
 // Returns the refusal for NoFile::busy.
 [[nodiscard]] Refusal too_many_files();

@@ -63,7 +63,7 @@ Awaitable<void> read_some(Connection& connection, std::size_t max, ErrorCode& ec
   connection.buffer.commit(size);
 }
 
-// Reads until `is_read`, the parser's test for a whole header or request, is true.
+// Reads until `is_read` is true.
 Awaitable<void> parse(Connection& connection, RequestParser& parser,
                       bool (RequestParser::*is_read)() const, ErrorCode& ec) {
   while (!ec && !(parser.*is_read)()) {

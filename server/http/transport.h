@@ -84,9 +84,7 @@ class Transport {
 
   // Call it first. Returns false if the TLS handshake fails or takes longer than `time`.
   Awaitable<bool> shake_hands(std::chrono::milliseconds time);
-  // Waits for bytes and returns their number.
   Awaitable<std::size_t> read_some(asio::mutable_buffer to, ErrorCode& ec);
-  // Writes both buffers completely.
   Awaitable<void> write(asio::const_buffer first, asio::const_buffer second, ErrorCode& ec);
 
   template <class Buffers, class Token>

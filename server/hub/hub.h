@@ -14,9 +14,8 @@ namespace armloom {
 
 // Distributes events to many subscribers. Keeps the latest events, limited in number and bytes;
 // each subscriber reads them at its own pace and can resume. A subscriber that falls farther behind
-// is disconnected and told why, so events are never skipped silently. Pose frames are not kept: a
-// subscriber that has read all events gets the newest frame. Not thread-safe: use on the server's
-// thread.
+// is disconnected with the reason: no event is skipped silently. Pose frames are not kept: a
+// subscriber that has read all events gets the newest frame. Use on the server's thread.
 class Hub {
  public:
   using Text = std::shared_ptr<const std::string>;

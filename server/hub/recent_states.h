@@ -12,7 +12,7 @@ namespace armloom {
 
 // Measured positions of all joints in the last five minutes, for clients that connect later:
 // kFramesMax frames, at most one per kPeriod of wall time. Takes about 250 kB and 24 kB per joint.
-// Not thread-safe: use on the server's thread.
+// Use on the server's thread.
 class RecentStates {
  public:
   using Clock = std::chrono::steady_clock;

@@ -103,8 +103,7 @@ void leave_out_torsos(const RobotTree& tree, const RobotSemantics& semantics,
   }
 }
 
-// Drops groups that consist of two others by their joints, because in a comparison of pairs an arm
-// may seem a small part of such a group.
+// Drops groups that consist of two others by their joints, of which an arm may be a small part.
 void leave_out_unions(const RobotTree& tree, const RobotSemantics& semantics,
                       std::vector<GroupChoice>& choices) {
   for (GroupChoice& whole : choices) {

@@ -8,8 +8,7 @@
 
 namespace armloom {
 
-// A possible home of an arm: a named state of its group, every joint at zero, or a generated
-// configuration.
+// A possible home: a named state, every joint at zero, or a generated configuration.
 struct HomeCandidate {
   enum class Kind { named, zero, made_up } kind;
   std::string state;  // name, if named
@@ -18,8 +17,8 @@ struct HomeCandidate {
 // Returns the rank of a state name as a home; smaller is better.
 [[nodiscard]] std::size_t home_rank(std::string name);
 
-// Returns an arm's candidates, best first: states with names for homes, other states, zero, then
-// generated configurations, increasingly far from zero. Deterministic.
+// Returns an arm's candidates, best first: states with names for homes, other states, zero,
+// generated configurations ever farther from zero. Deterministic.
 [[nodiscard]] std::vector<HomeCandidate> home_candidates(const Cell& cell, const Arm& arm);
 
 // Homes at which all arms keep their clearance. If none are found, `is_free` is false and each arm

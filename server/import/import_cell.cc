@@ -122,7 +122,6 @@ class CellImport {
     remark_on_guesses(source, pointer);
   }
 
-  // Adds a remark on the guessed limits of each arm.
   void remark_on_guesses(const ImportedRobot& source, const std::string& pointer) {
     for (std::size_t a = 0; a < source.guesses.size(); ++a) {
       std::string joints;

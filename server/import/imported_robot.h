@@ -19,7 +19,6 @@ struct HeldJoint {
   std::string state;
 };
 
-// Data from one robot's files.
 struct ImportedRobot {
   RobotFiles files;
   std::string name;                   // from the URDF

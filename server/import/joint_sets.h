@@ -19,8 +19,7 @@ using JointSet = RobotSemantics::JointSet;
 
 [[nodiscard]] bool stand_side_by_side(const RobotTree& tree, const JointSet& a, const JointSet& b);
 
-// Returns true if two chains share only a torso at their base that is no larger than either of
-// their arms beyond it.
+// Returns true if two chains share only a torso at their base, no larger than the rest of either.
 [[nodiscard]] bool share_a_torso(const RobotTree& tree, const JointSet& a, const JointSet& b);
 
 }  // namespace armloom

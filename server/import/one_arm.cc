@@ -14,7 +14,7 @@ const JointSet& piece_with(const std::vector<JointSet>& pieces, std::size_t join
 }
 
 // Returns the pieces of a group: candidates within it and, if it names subgroups, its other joints.
-// Empty if these other joints are in another group (an end effector, a torso).
+// Empty if other joints remain, or are in another group (an end effector, a torso).
 std::vector<JointSet> pieces_of(const GroupChoice& whole, const RobotSemantics& semantics,
                                 const GroupNames& names, const std::vector<GroupChoice>& choices) {
   const JointSet& joints = semantics.groups.at(whole.group);

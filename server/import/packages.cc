@@ -10,7 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Returns the files that the URDF names, by package.
 std::map<std::string, std::set<std::string>> named_files(const std::string& urdf) {
   static constexpr std::string_view kScheme = "package://";
   std::map<std::string, std::set<std::string>> files;

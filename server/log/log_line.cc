@@ -51,7 +51,6 @@ void write(JsonWriter& out, const Value& value) {
   std::visit([&](const auto& what) { out.value(what); }, value);
 }
 
-// Plain words are not quoted.
 std::string shown(const Value& value) {
   const auto* text = std::get_if<std::string>(&value);
   if (text == nullptr) {

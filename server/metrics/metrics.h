@@ -10,8 +10,8 @@
 
 namespace armloom {
 
-// Metrics of a server session for Prometheus (text format 0.0.4), called "armloom_...".
-// config/grafana/armloom.json shows them. Names and labels are part of the interface.
+// Prometheus metrics of a server session (text format 0.0.4), called "armloom_...", shown by
+// config/grafana/armloom.json. Names and labels are part of the interface.
 class Metrics {
  public:
   // `speed`: cell seconds per wall second. Below 1, periods may be longer accordingly.

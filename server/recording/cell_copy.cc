@@ -18,7 +18,6 @@ using Packages = std::map<std::string, std::string>;
 
 constexpr const char* kFolder = "files";
 
-// Copies each file once.
 class Copies {
  public:
   Copies(const fs::path& folder, const CellDescription& cell) : folder_(folder / kFolder) {

@@ -17,7 +17,7 @@ struct CellFile {
 };
 
 // Copies the files. Returns the cell file's text for `folder`, without comments. Precondition: the
-// cell was built from it, so its files exist. Problem (unavailable): a file cannot be copied.
+// cell was built from it. Problem (unavailable): a file cannot be copied.
 [[nodiscard]] Result<std::string> copy_cell(const CellFile& source,
                                             const std::filesystem::path& folder);
 

@@ -24,9 +24,9 @@ struct RecordingBounds {
   [[nodiscard]] bool is_any() const { return count || age || bytes; }
 };
 
-// Removes recordings of a data folder, least recently written first, until the limits hold, but
-// none in a folder in use. Touches only files that Recording makes, in the data folder and in its
-// subfolders named by Recording.
+// Removes recordings, least recently written first, until the limits hold, except in folders in
+// use. Touches only files that Recording makes, in the data folder and in subfolders named by
+// Recording.
 struct RemovedRecording {
   std::filesystem::path folder;
   std::uintmax_t bytes;

@@ -17,13 +17,13 @@
 namespace armloom {
 
 // A recording folder being written: events.jsonl, states.csv (if wanted), cell.json with copies of
-// its files (cell_copy.h), jobs.json. Replaces files of an earlier recording. A full disk does not
-// stop the session; fault() reports it soon, because events and jobs are flushed one by one. Not
+// its files (cell_copy.h), jobs.json. Replaces an earlier recording. A full disk does not stop the
+// session; fault() reports it soon, because events and jobs are flushed individually. Not
 // thread-safe, but another thread may write states.
 class Recording {
  public:
-  // Returns `folder`. If that holds a recording, returns a new folder in it, named after the
-  // present time ("2026-11-21T09-33-00Z"), so that a restarted server overwrites nothing.
+  // Returns `folder`, or if that holds a recording, a new folder in it named after the present time
+  // ("2026-11-21T09-33-00Z"), so that a restarted server overwrites nothing.
   [[nodiscard]] static std::filesystem::path unused_folder(const std::filesystem::path& folder);
 
   // Creates the folder. Problem (unavailable): it cannot be written.

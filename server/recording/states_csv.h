@@ -17,8 +17,8 @@ namespace armloom {
 
 // Writes states.csv: header `time_s,<joint>,...` in the order of the cell's joints, one row per
 // control tick in which an arm moves. An idle stretch has only its first and last row
-// (idle_stretches.h). Times in seconds, positions in rad or m, both with nine decimals: positions
-// are rounded to half a nanometer or nanoradian. Equal runs give equal bytes.
+// (idle_stretches.h). Times in seconds, positions in rad or m, rounded to nine decimals. Equal runs
+// give equal bytes.
 class StatesWriter {
  public:
   StatesWriter(const std::filesystem::path& file, const Cell& cell);
@@ -56,8 +56,8 @@ class StatesWriter {
 
 // Reads states.csv strictly: a column for each joint of the cell (in any order, no others), finite
 // numbers, increasing times. Problems name "states.csv:LINE" and the column. `warnings`, if given,
-// gets up to ten sentences about gaps in the times that are not idle stretches, and about a last
-// row without line end, which is ignored.
+// gets up to ten sentences on gaps that are not idle stretches, and on a last row without line end,
+// which is ignored.
 [[nodiscard]] Result<std::vector<RecordedState>> read_states(
     const std::filesystem::path& file, const Cell& cell,
     std::vector<std::string>* warnings = nullptr);

@@ -21,7 +21,7 @@ class SqlFault : public std::runtime_error {
   SqlFault(int code, const std::string& text) : std::runtime_error(text), code_(code) {}
   [[nodiscard]] bool is_full() const;       // disk or quota
   [[nodiscard]] bool is_corrupt() const;    // not a database, or damaged
-  [[nodiscard]] bool is_of_access() const;  // no permission to read or write
+  [[nodiscard]] bool is_of_access() const;  // cannot be opened, read or written
 
  private:
   int code_;
@@ -45,9 +45,7 @@ class Statement {
 
   // Moves to the next row. Returns false after the last; the statement can then run again.
   [[nodiscard]] bool step();
-  // Runs a statement without rows.
   void run();
-  // Drops unread rows.
   void reset();
 
   [[nodiscard]] std::int64_t number(int column) const;

@@ -56,8 +56,8 @@ struct Leftover {
 
 // The jobs of a data folder on disk (SQLite, write-ahead log, synced). One thread writes: all
 // changes since its last write share one transaction and one sync (group commit); changes of one
-// job are merged. Callers do not wait for the disk, except in flush() and close(). Changes that
-// cannot be written are kept, at most one entry for each job, and retried. Thread-safe.
+// job are merged. Only flush() and close() wait for the disk. Changes that cannot be written are
+// kept, at most one entry for each job, and retried. Thread-safe.
 class JobStore {
  public:
   // Called with true once the change is durable. On the store's thread; not after close().

@@ -8,10 +8,10 @@
 namespace armloom {
 
 // High-water mark of the job store, in a small file beside it. Detects on opening that the store
-// lost data (its log is truncated, damaged or gone, which SQLite takes for the log's end), and that
-// the set of stopped arms may be out of date. Writes reach the system at once, need no disk space
-// and outlive the process. Only the file's existence is synced: after a power cut the mark may be
-// older and claim less. Thread-safe.
+// lost data (its log is truncated, damaged or gone, which SQLite does not notice), and that its set
+// of stopped arms may be out of date. Writes reach the system at once, need no disk space and
+// outlive the process. Only the file's existence is synced: after a power cut the mark may be older
+// and claim less. Thread-safe.
 class StoreMark {
  public:
   inline static constexpr const char* kFile = "armloom.mark";  // in the data folder

@@ -31,9 +31,9 @@ struct StoredJob {
 // A request that changed something or was refused.
 struct AuditEntry {
   std::uint64_t number = 0;  // set when stored
-  std::int64_t at_ms = 0;    // token name; "" without a token
-  std::string who;           // client address
-  std::string peer;          // the address that it came from
+  std::int64_t at_ms = 0;    // wall time since 1970
+  std::string who;           // token name; "" without a token
+  std::string peer;          // client address
   std::string method;
   std::string path;
   int status = 0;  // of the response
