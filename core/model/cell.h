@@ -92,8 +92,7 @@ struct Robot {
   std::string prefix;
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   std::vector<ArmId> arms;
-  std::string
-      urdf_text;  // as read, but with the joints that the cell file fixes; for the dashboard
+  std::string urdf_text;  // as read, except that fixed joints are fixed; for the dashboard
   std::string srdf_text;
   ControllerDescription controller;
   // Existing mesh files by the name in the URDF (package://...), also of visuals.

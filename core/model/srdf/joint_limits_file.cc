@@ -90,7 +90,7 @@ class JointReader {
       const std::string key = scalar_of(member.first);
       const std::string place = place_of(member.first.Mark());
       if (!seen.insert(key).second) {
-        report(place, "duplicate", key + " stands there twice", key, joint_.faults);
+        report(place, "duplicate", key + " is given twice", key, joint_.faults);
       } else if (std::find(kKnown.begin(), kKnown.end(), key) == kKnown.end()) {
         unknown(place, key);
       }
@@ -137,7 +137,7 @@ class JointReader {
   std::optional<double> number(const char* key, const char* because) {
     const YAML::Node value = node_[key];
     if (!value) {
-      report(joint_.place, "missing", std::string(key) + " is missing, and " + because + " is true",
+      report(joint_.place, "missing", std::string(key) + " is missing, but " + because + " is true",
              {}, joint_.faults);
       return std::nullopt;
     }
@@ -157,7 +157,7 @@ class JointReader {
     if (tag == "!degrees") return read * std::numbers::pi / 180.0;
     if (!tag.starts_with('!') || tag == "!" || tag == "!radians") return read;
     report(place_of(value.Mark()), "unknown-tag",
-           std::string(key) + " has the tag " + tag + ", known here are !degrees and !radians", tag,
+           std::string(key) + " has the unknown tag " + tag + "; use !degrees or !radians", tag,
            joint_.faults);
     return std::nullopt;
   }
@@ -176,7 +176,7 @@ class JointReader {
     const auto read = number("max_deceleration", "has_deceleration_limits");
     if (!read || *read != 0.0) return read ? std::optional(std::abs(*read)) : std::nullopt;
     report(place_of(node_["max_deceleration"].Mark()), "not-positive",
-           "max_deceleration is 0, so nothing could stop", 0.0, joint_.faults);
+           "max_deceleration is 0, so the joint could never stop", 0.0, joint_.faults);
     return std::nullopt;
   }
 
@@ -195,7 +195,7 @@ void check_scaling(const YAML::Node& root, const std::string& file, Diagnostics&
     if (read && *read > 0.0 && *read <= 1.0) continue;
     warn(at_line(file, value.Mark()), "not-a-number",
          std::string(key) + " is '" + scalar_of(value) +
-             "', not a number above 0 and at most 1; it is of plans, and plays no part here",
+             "', but must be above 0 and at most 1; ignored, because it affects planning only",
          scalar_of(value), diagnostics);
   }
 }
@@ -213,10 +213,11 @@ std::optional<LimitsFile> read_document(const YAML::Node& document, const std::s
   const YAML::Node holder = holder_of_limits(document);
   const YAML::Node joints = holder.IsMap() ? holder["joint_limits"] : YAML::Node();
   if (!holder.IsMap() || !joints || !(joints.IsMap() || joints.IsNull())) {
-    report(file, "missing",
-           "there is no joint_limits with joints in it; it has to hold joint_limits: and below it, "
-           "indented, each joint: with its has_velocity_limits: true, max_velocity: 1 and the like",
-           {}, diagnostics);
+    report(
+        file, "missing",
+        "there is no joint_limits with joints in it; it must contain joint_limits: and below it, "
+        "indented, each joint: with its has_velocity_limits: true, max_velocity: 1 etc.",
+        {}, diagnostics);
     return std::nullopt;
   }
   check_scaling(holder, file, diagnostics);

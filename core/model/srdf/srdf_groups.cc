@@ -69,7 +69,8 @@ class GroupReader {
   void warn_unknown(const std::string& what, const std::string& name, const XmlPlace& place) const {
     if (tree_.nameless) return;
     place.warn("unknown-name",
-               what + " " + name + " is not in " + tree_.file + "; the group is without it", name);
+               what + " " + name + " is not in " + tree_.file + "; it is left out of the group",
+               name);
   }
 
   void add_chain(const XMLElement& chain, const XmlPlace& place, Group& group) const {
@@ -102,9 +103,10 @@ class GroupReader {
   void add(std::size_t joint, const XmlPlace& place, Group& group) const {
     const TreeLink& link = tree_.links[joint];
     if (link.joint.many_values) {
-      place.report("unsupported-joint",
-                   "joint " + link.joint.name + " is floating or planar, which no arm can hold",
-                   link.joint.name, ProblemKind::unsupported);
+      place.report(
+          "unsupported-joint",
+          "joint " + link.joint.name + " is floating or planar, which an arm cannot contain",
+          link.joint.name, ProblemKind::unsupported);
     } else if (link.joint.is_independent() || link.joint.held) {
       group.joints.insert(joint);
     }
@@ -118,10 +120,10 @@ class GroupReader {
       const XmlPlace place(file_, group.line, "group " + name, group.faults);
       const auto found = groups_.find(subgroup);
       if (found == groups_.end()) {
-        place.warn("unknown-name", "group " + subgroup + " does not exist; the group is without it",
-                   subgroup);
+        place.warn("unknown-name",
+                   "group " + subgroup + " does not exist; it is left out of the group", subgroup);
       } else if (found->second.mark == Group::Mark::open) {
-        place.report("group-cycle", "group " + subgroup + " holds this group too: a cycle",
+        place.report("group-cycle", "group " + subgroup + " also contains this group: a cycle",
                      subgroup);
       } else {
         const JointSet& below = joints_of(subgroup, found->second);

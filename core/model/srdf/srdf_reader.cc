@@ -65,13 +65,14 @@ class SrdfReader {
   void check_name() const {
     const XmlPlace place(file_, srdf_.GetLineNum(), "robot", diagnostics_);
     const std::string name =
-        place.only_warning("whether it is of the URDF's robot is not known").name(srdf_, "name");
+        place.only_warning("it may belong to another robot than the URDF").name(srdf_, "name");
     if (name.empty() || name == tree_.name || tree_.links.empty()) return;
-    place.warn("other-robot",
-               "the SRDF is of robot " + name + ", " + tree_.file + " of robot " + tree_.name +
-                   "; pairs of links that it disables are not checked, and its groups are taken as "
-                   "they are, so it has to be of the same robot",
-               name);
+    place.warn(
+        "other-robot",
+        "the SRDF is for robot " + name + ", but " + tree_.file + " for robot " + tree_.name +
+            "; its groups and disabled pairs of links are used all the same, so a wrong SRDF "
+            "can hide collisions: use the SRDF of this robot",
+        name);
   }
 
   bool is_root(const std::string& link) const {
@@ -89,14 +90,14 @@ class SrdfReader {
         place.warn("other-child",
                    "child_link " + std::string(child) + " is not the root link " +
                        tree_.links.front().name + " of " + tree_.file +
-                       "; it is left out: the root link stands where \"base\" of the cell has it",
+                       "; it is left out: the cell's \"base\" places the root link",
                    std::string(child));
       }
       const char* type = joint.Attribute("type");
       if (type == nullptr || std::string_view(type) == "fixed") return;
       place.warn("moving-base",
-                 std::string("the robot's base is ") + type +
-                     " by it; here it stands where \"base\" of the cell has it",
+                 std::string("it makes the robot's base ") + type +
+                     "; here the base does not move: the cell's \"base\" places it",
                  std::string(type));
     });
     return names;
@@ -154,9 +155,9 @@ class SrdfReader {
         static_cast<void>(line.of("joint " + name).number(element, "value", Presence::required));
         return;
       }
-      return line.warn("unknown-name",
-                       "joint " + name + " is not in " + tree_.file + "; the state is without it",
-                       name);
+      return line.warn(
+          "unknown-name",
+          "joint " + name + " is not in " + tree_.file + "; it is left out of the state", name);
     }
     const TreeLink& link = tree_.links[found->second];
     if (!link.joint.is_independent() && !link.joint.held) return;  // it has no value of its own
@@ -167,7 +168,7 @@ class SrdfReader {
     }
     if (!group.contains(found->second)) {
       return line.warn("foreign-joint",
-                       "joint " + name + " is not in the group; the state is without it", name);
+                       "joint " + name + " is not in the group; it is left out of the state", name);
     }
     if (!state.values.emplace(found->second, *value).second) {
       line.report("duplicate-name", "joint " + name + " has more than one value", name);
@@ -196,11 +197,10 @@ class SrdfReader {
     for (const auto& [tag, stale] : stale_) {
       if (stale.stale == 0) continue;
       XmlPlace(file_, 0, tag, diagnostics_)
-          .warn("unknown-name",
-                std::to_string(stale.stale) + " of " + std::to_string(stale.all) +
-                    " name links that are not in " + tree_.file + " (" + stale.examples +
-                    (stale.stale > 3 ? ", ..." : "") +
-                    "); they are left out, and the links that were meant stay checked");
+          .warn("unknown-name", std::to_string(stale.stale) + " of " + std::to_string(stale.all) +
+                                    " name links that are not in " + tree_.file + " (" +
+                                    stale.examples + (stale.stale > 3 ? ", ..." : "") +
+                                    "); they are left out, and the intended links stay checked");
     }
   }
 

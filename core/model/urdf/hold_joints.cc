@@ -40,14 +40,16 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
   if (link.joint.mimic) {
     return refuse("held-mimic", "joint " + name + " follows joint " +
                                     tree.links[link.joint.mimic->driver].joint.name +
-                                    ": hold that one");
+                                    ": hold that joint instead");
   }
   if (link.joint.many_values)
-    return refuse("unsupported-joint", "joint " + name + " is floating or planar: it has no value");
+    return refuse("unsupported-joint",
+                  "joint " + name + ": floating and planar joints cannot be held");
   if (!link.joint.motion)
-    return refuse("held-fixed", "joint " + name + " is fixed in " + tree.file);
+    return refuse("held-fixed", "joint " + name + " is already fixed in " + tree.file);
   if (!std::isfinite(value))
-    return refuse("not-a-number", "joint " + name + " is held at " + text_of(value));
+    return refuse("not-a-number",
+                  "joint " + name + " is held at " + text_of(value) + ", not a finite number");
   const UrdfLimits& limits = link.joint.limits;
   if ((limits.lower && value < *limits.lower) || (limits.upper && value > *limits.upper)) {
     static_cast<void>(

@@ -64,7 +64,7 @@ std::string spelt_otherwise(const fs::path& file) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(file.parent_path(), error)) {
     const std::string name = entry.path().filename().string();
-    if (lower(name) == wanted) return "; there is " + name;
+    if (lower(name) == wanted) return "; did you mean " + name + "?";
   }
   return {};
 }
@@ -156,8 +156,8 @@ tl::expected<fs::path, std::string> resolve_mesh(
     inside = uri.substr(slash + 1);
   } else if (uri.find("://") != std::string::npos) {
     return tl::unexpected<std::string>(
-        "is neither package:// nor file:// nor a path from the URDF's folder; nothing is fetched "
-        "from elsewhere: save the file beside the URDF, and name that");
+        "is neither package:// nor file:// nor a path from the URDF's folder; nothing is "
+        "downloaded: save the file next to the URDF, and give its path");
   }
   if (folder.empty()) folder = ".";
   std::error_code error;
@@ -174,7 +174,7 @@ tl::expected<fs::path, std::string> resolve_mesh(
   if (error) return tl::unexpected("lies in a folder that does not exist: " + folder.string());
   const fs::path real_file = fs::weakly_canonical(real_folder / lexical, error);
   if (error || !is_below(real_folder, real_file))
-    return tl::unexpected("leaves its folder " + folder.string() + " through a link");
+    return tl::unexpected("leaves its folder " + folder.string() + " through a symbolic link");
   if (!fs::exists(real_file, error))
     return tl::unexpected("does not exist: " + (folder / lexical).string() +
                           spelt_otherwise(folder / lexical));

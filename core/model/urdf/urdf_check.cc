@@ -23,14 +23,14 @@ void narrow_to_soft_limits(const XMLElement& joint, double lower, double upper,
                            const XmlPlace& place, XMLElement& limit) {
   const auto* safety = joint.FirstChildElement("safety_controller");
   if (safety == nullptr) return;
-  const XmlPlace odd = place.only_warning("the <limit> counts");
+  const XmlPlace odd = place.only_warning("the <limit> applies");
   const auto soft_lower = odd.number(*safety, "soft_lower_limit", Presence::optional);
   const auto soft_upper = odd.number(*safety, "soft_upper_limit", Presence::optional);
   const double from = std::max(lower, soft_lower.value_or(lower));
   const double to = std::min(upper, soft_upper.value_or(upper));
   if (from > to || (from == to && lower < upper)) {
     odd.at(*safety).report("limits-crossed",
-                           "the soft limits leave nothing of the <limit>, from " + text_of(from) +
+                           "the soft limits leave no range of the <limit>: from " + text_of(from) +
                                " to " + text_of(to),
                            from);
     return;
@@ -85,8 +85,8 @@ void check_axis(const XMLElement& joint, const XmlPlace& place, XMLElement& to) 
     if (std::abs(norm - 1.0) > kUnitAxis)
       place.at(*axis).warn("axis-not-unit",
                            std::string("axis xyz '") + axis->Attribute("xyz") +
-                               "' is not of length 1: only its direction counts, and a value of "
-                               "the joint is radians or metres along it all the same",
+                               "' is not of length 1: only its direction is used; values of the "
+                               "joint are still radians or meters",
                            norm);
     return;
   }
@@ -106,7 +106,9 @@ std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes
   if (type == "floating" || type == "planar") {
     notes.many_values = true;
     place.warn("unsupported-joint",
-               "joint type " + type + " is not moved here: what hangs on it stands at its origin",
+               "joint type " + type +
+                   " is not supported: the joint is fixed at its origin, and the links below it "
+                   "are checked there",
                type);
     return "fixed";
   }
@@ -114,7 +116,7 @@ std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes
     place.report(
         "unknown-joint-type",
         "joint type '" + type +
-            "' is not known (revolute, continuous, prismatic, fixed, floating, planar are)",
+            "' is not known (known: revolute, continuous, prismatic, fixed, floating, planar)",
         type);
   // As what its limits would fit, so that all else of it is told.
   const auto* limit = joint.FirstChildElement("limit");
@@ -181,7 +183,7 @@ void refuse_what_holds_links(const XMLElement& robot, const std::string& file,
         .report("misplaced",
                 "<" + tag +
                     "> holds a part of the robot, which would be left out: <link> and <joint> "
-                    "stand directly below <robot>, and <collision> in a <link>",
+                    "must be directly below <robot>, and <collision> in a <link>",
                 tag);
   }
 }

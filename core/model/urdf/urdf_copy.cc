@@ -19,7 +19,7 @@ void warn_if_far(double length_m, const std::string& what, const XmlPlace& place
   if (length_m <= kRobotEnds_m) return;
   place.warn("far-away",
              what + " is " + text_of(length_m) +
-                 " m, hardly meant (millimetres?); what hangs there is checked that far away",
+                 " m, probably a unit error (millimeters?); its links are checked at that distance",
              length_m);
 }
 
@@ -48,8 +48,8 @@ void warn_if_degrees(const std::vector<double>& rpy, const XmlPlace& place) {
   if (far == rpy.end()) return;
   place.warn("degrees",
              "origin rpy holds " + text_of(*far) +
-                 ", more than a turn: angles are in rad (degrees?), and it is turned "
-                 "by as many",
+                 ", more than a full turn: angles are in rad (degrees?), and this one is "
+                 "used as rad",
              *far);
 }
 

@@ -88,10 +88,10 @@ class TreeMender {
           find_end(name, "parent", joint->FirstChildElement("parent")->Attribute("link"));
       Node* child = find_end(name, "child", link);
       if (child != nullptr && child->joint != nullptr) {
-        report_joint(
-            name, "two-parents",
-            "child link " + link + " already hangs on joint " + child->joint->Attribute("name"),
-            link);
+        report_joint(name, "two-parents",
+                     "child link " + link + " already has the parent joint " +
+                         child->joint->Attribute("name"),
+                     link);
         all_children_known_ = false;  // which link this one was to move
         child = nullptr;
       }
@@ -124,7 +124,7 @@ class TreeMender {
     if (roots.size() > 1)
       return report("two-roots",
                     "more than one root link: " + listed_with_lines(roots) +
-                        "; hang all but one on a <joint>, as type=\"fixed\"",
+                        "; attach all but one to a <joint>, for example of type=\"fixed\"",
                     listed(roots));
     for (const auto* starts : {&roots, &notes_.loose}) {
       for (const std::string& start : *starts) {
@@ -132,7 +132,7 @@ class TreeMender {
       }
     }
     if (hanging.empty()) return;
-    report("loop", "links hang in a loop and not below a root: " + listed_with_lines(hanging),
+    report("loop", "links form a cycle without a root: " + listed_with_lines(hanging),
            listed(hanging));
   }
 
@@ -169,7 +169,7 @@ class TreeMender {
       const bool fixed = joint->Attribute("type", "fixed") != nullptr;
       if (!fixed && joint->FirstChildElement("mimic") == nullptr) movable.insert(name);
     }
-    return "; the joints that one can follow: " + (movable.empty() ? "none" : listed(movable));
+    return "; joints that it could follow: " + (movable.empty() ? "none" : listed(movable));
   }
 
   bool is_mimic_right(const std::string& name, const std::string& followed) const {
@@ -192,7 +192,7 @@ class TreeMender {
       if (mimic == nullptr) return true;
       if (!passed.insert(next->first).second)
         return refuse("mimic-ring",
-                      "mimic joint " + followed + " and those that it follows go in a ring");
+                      "mimic joint " + followed + " and the joints that it follows form a cycle");
       next = joints_.find(mimic->Attribute("joint"));
     }
     return false;

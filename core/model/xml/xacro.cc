@@ -121,13 +121,15 @@ tl::expected<ExpandedXacro, std::string> expand_xacro(const std::filesystem::pat
   const std::string path = std::filesystem::absolute(file).string();
   Pipe out;
   Pipe err;
-  if (!out.is_open() || !err.is_open()) return refuse("no pipe is left for it");
+  if (!out.is_open() || !err.is_open()) return refuse("no pipe could be opened");
   pid_t child = 0;
   const int error = start(path, out, err, child);
   if (error == ENOENT) {
     const std::string plain = (file.parent_path() / file.stem()).string();
-    return refuse("the program xacro is not installed; expand it where it is (xacro " + path +
-                  " > " + plain + ") and name that file, or install it (pip install xacro)");
+    return refuse(
+        "the program xacro is not installed; install it (pip install xacro), or expand the "
+        "file elsewhere (xacro " +
+        path + " > " + plain + ") and use the result");
   }
   if (error != 0) return refuse(std::string("xacro cannot be started: ") + std::strerror(error));
   out.close_write_end();
@@ -144,7 +146,7 @@ tl::expected<ExpandedXacro, std::string> expand_xacro(const std::filesystem::pat
     return refuse("xacro took more than " + std::to_string(at_most.count()) + " s");
   std::string said = in_one_line(output.err);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    return refuse(said.empty() ? "xacro fails and says nothing" : "xacro says: " + said);
+    return refuse(said.empty() ? "xacro failed without a message" : "xacro says: " + said);
   return ExpandedXacro{std::move(output.out), std::move(said)};
 }
 
