@@ -33,7 +33,8 @@ std::string scalar_of(const YAML::Node& node) {
   return node.IsScalar() ? node.Scalar() : node.IsNull() ? "nothing" : "no single value";
 }
 
-// The keys of one joint, each read once. Doubled keys are told: YAML lets the first one count.
+// Reads the keys of one joint, each once. Reports duplicate keys: YAML would silently use the
+// first.
 class JointReader {
  public:
   JointReader(const YAML::Node& node, const std::string& file, const std::string& name,
@@ -97,7 +98,7 @@ class JointReader {
     }
   }
 
-  // One that is nearly a known one was meant to limit something.
+  // A key that resembles a known key was probably meant as a limit, so it is a problem.
   void unknown(const std::string& place, const std::string& key) {
     const auto meant = nearest_name(key, kKnown);
     if (meant) {
@@ -114,7 +115,7 @@ class JointReader {
     return at_line(file_, mark) + ": joint " + name_;
   }
 
-  // Whether the limit counts: what stands there does, unless its has_... is false, as for MoveIt.
+  // Returns true if the limit applies: if it is present and its has_... is not false, as in MoveIt.
   [[nodiscard]] bool counts(const std::optional<bool>& has, const char* limit) const {
     return has ? *has : static_cast<bool>(node_[limit]);
   }
@@ -131,7 +132,7 @@ class JointReader {
     report(place_of(value.Mark()), "wrong-type",
            std::string(key) + " is '" + scalar_of(value) + "', not true or false", scalar_of(value),
            joint_.faults);
-    return true;  // so that its number is looked at, too
+    return true;  // so that its number is checked, too
   }
 
   std::optional<double> number(const char* key, const char* because) {
@@ -151,7 +152,7 @@ class JointReader {
     return in_radians(key, value, *read);
   }
 
-  // ROS has tags for angles: !degrees 90.
+  // Converts values with the ROS tags for angles: !degrees 90.
   std::optional<double> in_radians(const char* key, const YAML::Node& value, double read) {
     const std::string& tag = value.Tag();
     if (tag == "!degrees") return read * std::numbers::pi / 180.0;
@@ -171,7 +172,7 @@ class JointReader {
     return std::nullopt;
   }
 
-  // MoveIt's Pilz planner has it below zero.
+  // Takes the absolute value, because MoveIt's Pilz planner expects a negative number.
   std::optional<double> deceleration() {
     const auto read = number("max_deceleration", "has_deceleration_limits");
     if (!read || *read != 0.0) return read ? std::optional(std::abs(*read)) : std::nullopt;
@@ -200,7 +201,8 @@ void check_scaling(const YAML::Node& root, const std::string& file, Diagnostics&
   }
 }
 
-// Where `joint_limits` is a key: at the top, or where ROS 2's parameter files have it.
+// Returns the map that contains `joint_limits`: at the top, or nested as in ROS 2's parameter
+// files.
 YAML::Node holder_of_limits(YAML::Node node) {
   for (const char* key : {"/**", "move_group", "ros__parameters", "robot_description_planning"}) {
     if (node.IsMap() && !node["joint_limits"] && node[key]) node.reset(YAML::Node(node[key]));

@@ -81,7 +81,7 @@ class GroupReader {
     std::optional<std::size_t> link = *tip;
     for (; link && *link != *base; link = tree_.links[*link].parent) joints.insert(*link);
     if (!link) {
-      if (tree_.patched) return;  // links may hang elsewhere than meant
+      if (tree_.patched) return;  // links may hang elsewhere than intended
       return place.at(chain).report("broken-chain",
                                     "tip_link " + tree_.links[*tip].name +
                                         " is not below base_link " + tree_.links[*base].name,
@@ -112,7 +112,7 @@ class GroupReader {
     }
   }
 
-  // Joints of the group and of all groups below it. A group met while it is open holds itself.
+  // Adds the joints of all groups below. A group that is met while it is open contains itself.
   const JointSet& joints_of(const std::string& name, Group& group) {
     if (group.mark != Group::Mark::fresh) return group.joints;
     group.mark = Group::Mark::open;
@@ -134,7 +134,8 @@ class GroupReader {
     return group.joints;
   }
 
-  // Of a used group and of all below it. Each once: cycles end.
+  // Reports the faults of a used group and all groups below it, each once, also if they form a
+  // cycle.
   void tell_faults(const std::string& name) {
     const auto found = groups_.find(name);
     if (found == groups_.end() || !told_.insert(name).second) return;
@@ -155,7 +156,7 @@ class GroupReader {
 std::map<std::string, JointSet> read_groups(const XMLElement& srdf, const std::string& file,
                                             const RobotTree& tree, const GroupNames& names,
                                             Diagnostics& diagnostics) {
-  constexpr std::size_t kMaxGroups = 1000;  // also bounds how deep groups can hold each other
+  constexpr std::size_t kMaxGroups = 1000;  // also bounds the nesting of groups
   GroupReader reader(file, tree, names.virtual_joints, diagnostics);
   std::size_t count = 0;
   for (const auto* group = srdf.FirstChildElement("group"); group != nullptr;

@@ -13,8 +13,8 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Elements of one tag that name links which the URDF does not have: told together, as an SRDF that
-// is behind its URDF has many of them.
+// Counts elements of one tag that name links unknown to the URDF. Reported together, because an
+// SRDF older than its URDF has many.
 struct StaleElements {
   std::size_t stale = 0;
   std::size_t all = 0;
@@ -115,7 +115,7 @@ class SrdfReader {
       place.report("unknown-name", "joint " + name + " is not in " + tree_.file, name);
   }
 
-  // A state with a fault can be no home and no goal; its faults say why.
+  // Reads a state. A state with faults cannot be a home or goal; its faults say why.
   void read_state(const XMLElement& element, const std::set<std::string>& virtual_joints,
                   RobotSemantics& semantics) const {
     const std::string consequence = "the state is left out";
@@ -160,7 +160,7 @@ class SrdfReader {
           "joint " + name + " is not in " + tree_.file + "; it is left out of the state", name);
     }
     const TreeLink& link = tree_.links[found->second];
-    if (!link.joint.is_independent() && !link.joint.held) return;  // it has no value of its own
+    if (!link.joint.is_independent() && !link.joint.held) return;  // it has no value
     const auto value = line.of("joint " + name).number(element, "value", Presence::required);
     if (!value) {
       state.unread.insert(found->second);
@@ -238,7 +238,7 @@ class SrdfReader {
   std::string file_;
   const RobotTree& tree_;
   Diagnostics& diagnostics_;
-  std::map<std::string, StaleElements> stale_;  // tag -> those with unknown links
+  std::map<std::string, StaleElements> stale_;  // by tag
   const XMLElement* last_stale_ = nullptr;
 };
 

@@ -16,8 +16,8 @@ struct NamedTree {
   const RobotTree& tree;
 };
 
-// The tree index of a joint that can be held, or nothing with the reason told. A value beyond the
-// limits is told, too, and put to the nearest one.
+// Returns the tree index of a joint that can be fixed, or reports why not and returns nullopt. A
+// value beyond the limits is reported and clamped.
 std::optional<std::size_t> holdable(const std::string& name, double& value,
                                     const std::string& pointer, const NamedTree& of,
                                     Diagnostics& diagnostics) {
@@ -31,7 +31,7 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
     if (tree.nameless) return std::nullopt;
     static_cast<void>(refuse("unknown-joint", "fixed joint " + name + " is not in " + tree.file +
                                                   did_you_mean(name, tree.by_joint)));
-    // Held under the name that is meant: that arms hang on that joint need not be told then.
+    // Fix the joint that was probably meant, to avoid follow-up problems.
     const auto meant = nearest_key(name, tree.by_joint);
     Diagnostics unsaid;
     return meant ? holdable(*meant, value, pointer, of, unsaid) : std::nullopt;
@@ -56,7 +56,7 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
         refuse("limit-exceeded", "joint " + name + " is held at " + text_of(value) + ", outside [" +
                                      (limits.lower ? text_of(*limits.lower) : "-inf") + ", " +
                                      (limits.upper ? text_of(*limits.upper) : "inf") + "]"));
-    // Nothing else of the robot is wrong for that.
+    // Clamp: the rest of the robot is still valid.
     if (limits.lower) value = std::max(value, *limits.lower);
     if (limits.upper) value = std::min(value, *limits.upper);
   }
@@ -77,7 +77,7 @@ std::string text_of_vector(const Eigen::Vector3d& v) {
   return text_of(v.x()) + " " + text_of(v.y()) + " " + text_of(v.z());
 }
 
-// Fixed-axis roll, pitch, yaw; where only their sum is known, yaw is 0.
+// Returns fixed-axis roll, pitch, yaw; at gimbal lock, yaw is 0.
 Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
   const double level = std::hypot(R(0, 0), R(1, 0));
   const double pitch = std::atan2(-R(2, 0), level);
@@ -97,7 +97,7 @@ void fix_in_text(const TreeLink& link, tinyxml2::XMLElement& joint) {
   joint.InsertFirstChild(origin);
 }
 
-// Precondition: the text was read before.
+// Precondition: the text was parsed before.
 void fix_in_text(RobotTree& tree) {
   tinyxml2::XMLDocument document;
   if (document.Parse(tree.text.data(), tree.text.size()) != tinyxml2::XML_SUCCESS) return;
@@ -114,10 +114,9 @@ void fix_in_text(RobotTree& tree) {
   tree.text = printer.CStr();
 }
 
-// Of the joint above links[index]; none: it moves.
+// Returns the value at which the joint above links[index] is fixed, or nullopt if it moves.
 std::optional<double> value_held_at(const TreeLink& link, std::size_t index,
                                     const std::map<std::size_t, double>& held) {
-  // Whatever it follows moves, it does not.
   if (link.joint.mimic && link.joint.mimic->multiplier == 0.0) return link.joint.mimic->offset;
   const auto own = held.find(link.joint.mimic ? link.joint.mimic->driver : index);
   if (own == held.end()) return std::nullopt;

@@ -15,10 +15,10 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Files round their axes: one is off by less than this.
+// Deviation of an axis from length 1 that counts as rounding.
 constexpr double kUnitAxis = 0.01;
 
-// The limits of a <safety_controller> count where they are narrower, as for MoveIt.
+// Applies the limits of a <safety_controller> if they are narrower, as in MoveIt.
 void narrow_to_soft_limits(const XMLElement& joint, double lower, double upper,
                            const XmlPlace& place, XMLElement& limit) {
   const auto* safety = joint.FirstChildElement("safety_controller");
@@ -39,7 +39,8 @@ void narrow_to_soft_limits(const XMLElement& joint, double lower, double upper,
   limit.SetAttribute("upper", text_of(to).c_str());
 }
 
-// urdfdom wants a limit, with effort and velocity; the notes say what of it the file gives.
+// Writes a limit with effort and velocity, which urdfdom requires. The notes record which values
+// the file gives.
 void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace& place,
                  UrdfNotes::Joint& notes, XMLElement& to) {
   XMLElement& copy = *to.InsertNewChildElement("limit");
@@ -56,12 +57,12 @@ void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace&
   place.only_warning("efforts play no part in the checks")
       .number(*limit, "effort", Presence::optional);
   const auto velocity = number("velocity");
-  notes.velocity = velocity && *velocity > 0.0;  // 0 says nothing, as for MoveIt
+  notes.velocity = velocity && *velocity > 0.0;  // 0 means no limit, as in MoveIt
   if (velocity && *velocity < 0.0)
     faults.at(*limit).report(
         "not-positive", "limit velocity is " + text_of(*velocity) + ", it must be greater than 0",
         *velocity);
-  if (type == "continuous") return;  // MoveIt's too ignore what stands there
+  if (type == "continuous") return;  // MoveIt ignores its position limits, too
   const auto lower = number("lower");
   const auto upper = number("upper");
   const bool crossed = lower && upper && *lower > *upper;
@@ -97,7 +98,7 @@ void check_axis(const XMLElement& joint, const XmlPlace& place, XMLElement& to) 
                            norm);
 }
 
-// The type for urdfdom. A joint of several values stands at its origin, as MoveIt has it by
+// Returns the type for urdfdom. A floating or planar joint is fixed at its origin, as in MoveIt by
 // default.
 std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes::Joint& notes) {
   std::string type = place.name(joint, "type");
@@ -118,7 +119,7 @@ std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes
         "joint type '" + type +
             "' is not known (known: revolute, continuous, prismatic, fixed, floating, planar)",
         type);
-  // As what its limits would fit, so that all else of it is told.
+  // Guess the type from the limits, so that other faults are still found.
   const auto* limit = joint.FirstChildElement("limit");
   if (limit == nullptr) return "continuous";
   return limit->Attribute("lower") || limit->Attribute("upper") ? "revolute" : "continuous";
@@ -163,7 +164,7 @@ XmlPlace place_of(const XMLElement& element, const std::string& file, Diagnostic
   return {file, element.GetLineNum(), element.Name() + named, diagnostics};
 }
 
-// Links and joints count directly below <robot> only: in another element they would vanish.
+// Reports links and joints in other elements than <robot>, where they would be ignored.
 void refuse_what_holds_links(const XMLElement& robot, const std::string& file,
                              Diagnostics& diagnostics) {
   const auto has_part = [](const XMLElement& element) {

@@ -11,7 +11,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr double kRobotEnds_m = 10.0;  // robots end before; millimetres read as metres do not
+constexpr double kRobotEnds_m = 10.0;  // larger than any robot in meters
 
 }  // namespace
 

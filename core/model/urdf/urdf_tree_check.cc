@@ -21,8 +21,9 @@ std::string listed(const std::set<std::string>& names) {
   return text;
 }
 
-// Connects the elements of a mended robot, whose names are unique. A joint whose child is missing,
-// unknown or moved by another one gets a made link; what then is no tree hangs on a made root.
+// Connects the elements of a mended robot, whose names are unique. A joint gets a made link if its
+// child is missing, unknown or already moved by another joint. Parts that do not form one tree are
+// attached to a made root.
 class TreeMender {
  public:
   TreeMender(XMLElement& robot, const std::string& file, UrdfNotes& notes, Diagnostics& diagnostics)
@@ -32,7 +33,7 @@ class TreeMender {
     const std::size_t before = diagnostics_.count();
     index_names();
     connect();
-    if (all_children_known_) check_one_root();  // else a root may only be misspelt elsewhere
+    if (all_children_known_) check_one_root();  // otherwise a root may only be a misspelled child
     notes_.patched = notes_.patched || diagnostics_.count() != before || !all_children_known_ ||
                      !notes_.loose.empty();
     fix_faulty_mimics();
@@ -75,7 +76,7 @@ class TreeMender {
     const auto found = links_.find(link);
     if (found != links_.end()) return &found->second;
     if (end == "child") all_children_known_ = false;
-    if (!link.empty())  // else told with the element
+    if (!link.empty())  // else reported with the element
       report_joint(joint, "unknown-link",
                    end + " link " + link + " does not exist" + did_you_mean(link, links_), link);
     return nullptr;
@@ -92,7 +93,7 @@ class TreeMender {
                      "child link " + link + " already has the parent joint " +
                          child->joint->Attribute("name"),
                      link);
-        all_children_known_ = false;  // which link this one was to move
+        all_children_known_ = false;  // the child that was meant is unknown
         child = nullptr;
       }
       if (child == nullptr) child = &childless_[name];
@@ -143,7 +144,7 @@ class TreeMender {
       const Node* node = open.back();
       open.pop_back();
       for (const Node* child : node->children) {
-        if (names.erase(child->name) != 0) open.push_back(child);  // else seen: a loop
+        if (names.erase(child->name) != 0) open.push_back(child);  // otherwise visited: a loop
       }
     }
   }
@@ -173,7 +174,7 @@ class TreeMender {
   }
 
   bool is_mimic_right(const std::string& name, const std::string& followed) const {
-    if (followed.empty()) return false;  // told with the element
+    if (followed.empty()) return false;  // reported with the element
     const auto refuse = [&](const std::string& slug, const std::string& sentence) {
       report_joint(name, slug, sentence, followed);
       return false;
@@ -185,7 +186,7 @@ class TreeMender {
     if (followed == name) return refuse("mimic-ring", "the joint mimics itself");
     if (driver->second->Attribute("type", "fixed") != nullptr)
       return refuse("mimic-fixed", "mimic joint " + followed + " is fixed");
-    // Farther on, what is wrong is told with the joint whose mimic it is.
+    // Faults farther along the chain are reported with the joint that has the faulty mimic.
     std::set<std::string> passed{name};
     for (auto next = driver; next != joints_.end() && !next->second->Attribute("type", "fixed");) {
       const auto* mimic = next->second->FirstChildElement("mimic");
@@ -207,7 +208,7 @@ class TreeMender {
     }
     for (const auto* some : {&links_, &childless_}) {
       for (const auto& [name, node] : *some) {
-        // Roots first: what is left then hangs in loops, or on nothing.
+        // Roots first: the remaining nodes hang in loops or have no parent.
         nodes.insert(node.joint == nullptr ? nodes.begin() : nodes.end(), &node);
         names.insert(node.name);
       }

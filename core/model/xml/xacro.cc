@@ -51,7 +51,7 @@ struct Output {
   bool in_time = false;
 };
 
-// Appends what is there; false at the end of the stream or of what may be read.
+// Appends available bytes. Returns false at the end of the stream, or beyond kMaxRobotFileBytes.
 bool read_some(int from, std::string& text) {
   std::array<char, 4096> buffer;
   const ssize_t count = read(from, buffer.data(), buffer.size());
@@ -80,7 +80,7 @@ Output read_both(const Pipe& out, const Pipe& err, std::chrono::seconds at_most)
   return output;
 }
 
-// Zero, or the error of the start.
+// Starts xacro. Returns 0 or the error number.
 int start(const std::string& file, const Pipe& out, const Pipe& err, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -96,8 +96,8 @@ int start(const std::string& file, const Pipe& out, const Pipe& err, pid_t& chil
   return error;
 }
 
-// What a program says on its standard error, in one line. xacro says first what is wrong and then
-// where; of a traceback of Python only the last line is of use.
+// Joins a program's standard error into one line. xacro prints the fault before its place; of a
+// Python traceback only the last line is kept.
 std::string in_one_line(const std::string& text) {
   constexpr std::size_t kMost = 1000;
   std::istringstream lines(text);
@@ -117,7 +117,7 @@ std::string in_one_line(const std::string& text) {
 tl::expected<ExpandedXacro, std::string> expand_xacro(const std::filesystem::path& file,
                                                       std::chrono::seconds at_most) {
   const auto refuse = [](std::string why) { return tl::unexpected(std::move(why)); };
-  // Absolute: a name that begins with - would be an option.
+  // Use an absolute path: a name that begins with - would be an option.
   const std::string path = std::filesystem::absolute(file).string();
   Pipe out;
   Pipe err;

@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-// The first <!...> that is no comment: DOCTYPE, ENTITY and the like.
+// Returns the first <!...> other than a comment: DOCTYPE, ENTITY and the like.
 const tinyxml2::XMLUnknown* find_declaration(const tinyxml2::XMLNode& node) {
   for (const auto* child = node.FirstChild(); child != nullptr; child = child->NextSibling()) {
     if (const auto* unknown = child->ToUnknown()) return unknown;
@@ -20,7 +20,7 @@ const tinyxml2::XMLUnknown* find_declaration(const tinyxml2::XMLNode& node) {
   return nullptr;
 }
 
-// An element that a xacro macro stands behind, anywhere in the file.
+// Returns the first element of the xacro namespace, at any depth.
 const tinyxml2::XMLElement* find_xacro(const tinyxml2::XMLElement& element) {
   for (const auto* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {

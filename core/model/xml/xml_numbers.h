@@ -6,14 +6,14 @@
 
 namespace armloom {
 
-// Numbers in XML attributes, read strictly. The XML libraries underneath read "nan", "1e999",
-// "0x10" and "1.5 metres" as some number or other; a robot must not move by a guess.
+// Parse numbers in XML attributes strictly. XML libraries accept "nan", "1e999", "0x10" and "1.5
+// metres", but a robot must not move by a guess.
 
-// The whole token as a finite decimal number; a leading + is allowed. Empty, hexadecimal, nan, inf,
-// overflow and trailing text give nothing.
+// Returns the whole token as a finite decimal number, with an optional leading +. Returns nullopt
+// if it is empty, hexadecimal, nan, inf, too large, or followed by other text.
 [[nodiscard]] std::optional<double> parse_number(std::string_view token);
 
-// Finite numbers separated by white space; nothing when one of them is not a number.
+// Returns finite numbers separated by white space, or nullopt if any is not a number.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
 }  // namespace armloom
