@@ -13,7 +13,7 @@ struct Attachment {
   CollisionObject object;  // its X_WO is not used
   LinkId link;             // moved by an arm
   Eigen::Isometry3d X_LO = Eigen::Isometry3d::Identity();
-  std::vector<LinkId> touch;  // links of any robot that it may touch, besides its hand
+  std::vector<LinkId> touch;  // of any robot; may be touched besides the hand
 };
 
 // Returns for each LinkId whether the link belongs to the hand of `link`: links fixed to it, or

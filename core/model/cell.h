@@ -33,24 +33,23 @@ inline constexpr double kFarthestPosition = 1e5;
 struct Joint {
   std::string name;  // with prefix
   RobotId robot;
-  std::optional<ArmId> arm;  // the arm whose joint or gripper joint it is
+  std::optional<ArmId> arm;  // whose joint or gripper joint it is
   JointKind kind;
   double lower;  // rad or m; -kFarthestPosition if a continuous joint has no limit
   double upper;
   double velocity_max;      // > 0; rad/s or m/s
   double acceleration_max;  // > 0
   double jerk_max;          // > 0
-  double brake;             // > 0: deceleration during a stop
-  // Start position of a joint outside the arm groups: the value nearest to 0 within the limits,
-  // unless the cell file's "gripper" sets another value.
+  double brake;             // > 0; used by stops
+  // Outside arm groups: start position, nearest to 0 unless the cell file's "gripper" sets it.
   double start = 0.0;
 
   [[nodiscard]] bool has_lower() const { return lower > -kFarthestPosition; }
   [[nodiscard]] bool has_upper() const { return upper < kFarthestPosition; }
-  // Returns the unit of positions, for messages.
+  // For messages.
   [[nodiscard]] std::string unit() const { return kind == JointKind::prismatic ? "m" : "rad"; }
 
-  // Limits that no file gives, so that the defaults of cell_description.h apply.
+  // Limits that no file gives: defaults apply.
   struct Assumed {
     bool velocity = false;
     bool acceleration = true;
@@ -65,8 +64,8 @@ struct Joint {
 struct Link {
   std::string name;  // with prefix
   RobotId robot;
-  std::optional<ArmId> arm;      // nearest arm above whose joints move it; nullopt if static
-  std::optional<LinkId> parent;  // smaller than the link's own id: one pass computes all poses
+  std::optional<ArmId> arm;      // nearest arm above that moves it; nullopt if static
+  std::optional<LinkId> parent;  // smaller than the link's own id
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
   std::optional<JointId> driver;  // nullopt if fixed
   JointKind motion = JointKind::revolute;
@@ -80,11 +79,11 @@ struct Arm {
   std::string name;
   RobotId robot;
   std::string group;
-  std::vector<JointId> joints;          // of the group, in tree order: from base to tip
-  std::vector<JointId> gripper_joints;  // movable joints below the arm, in no arm's group
-  std::vector<LinkId> links;            // every link that these joints move
-  Eigen::VectorXd home;                 // size joints.size()
-  std::map<std::string, Eigen::VectorXd> named_states;  // of the group, from the SRDF
+  std::vector<JointId> joints;                          // from base to tip
+  std::vector<JointId> gripper_joints;                  // movable, below the arm, in no arm's group
+  std::vector<LinkId> links;                            // moved by these joints
+  Eigen::VectorXd home;                                 // size joints.size()
+  std::map<std::string, Eigen::VectorXd> named_states;  // from the SRDF
 };
 
 struct Robot {
@@ -97,7 +96,7 @@ struct Robot {
   ControllerDescription controller;
   // Existing mesh files by the name in the URDF (package://...), also of visuals.
   std::map<std::string, std::string> mesh_files;
-  // Reasons why a joint has no value of its own, by joint name with prefix: "follows left_finger".
+  // Why a joint has no value of its own, by prefixed name: "follows left_finger".
   std::map<std::string, std::string> joints_without_value;
 };
 
@@ -112,20 +111,18 @@ using LinkPair = std::pair<LinkId, LinkId>;
 
 // Pairs that need no check, and pairs that are disabled by an SRDF without proof.
 struct AllowedCollisions {
-  // From the robots' files: links of one rigid body, and pairs that the SRDF disables, except
-  // claimed_pairs.
+  // From the robots' files: rigid bodies, and pairs disabled by SRDFs except claimed_pairs.
   std::set<LinkPair> link_pairs;
   // From the cell file.
   std::set<LinkPair> cell_file_pairs;
   std::set<std::pair<LinkId, std::string>> link_objects;  // link, object name
   // Pairs disabled by an SRDF between different arms, or between an arm and a static link other
-  // than its mount; with the place of the entry ("arm.srdf:17"). MoveIt's Setup Assistant disables
-  // pairs that did not meet in random samples, which proves nothing. Therefore such a pair is
-  // checked unless it is proven out of reach (core/collision/scene/out_of_reach.h) or in
-  // cell_file_pairs.
+  // than its mount, with their place ("arm.srdf:17"). MoveIt's Setup Assistant disables pairs that
+  // did not meet in random samples, which proves nothing. So these pairs are checked unless proven
+  // out of reach (core/collision/scene/out_of_reach.h) or in cell_file_pairs.
   std::map<LinkPair, std::string> claimed_pairs;
 
-  // Returns true if the pair, in either order, may touch. Ignores claimed_pairs.
+  // Returns true if the pair may touch, in either order. Ignores claimed_pairs.
   [[nodiscard]] bool allows(LinkId a, LinkId b) const {
     const LinkPair pair = std::minmax(a, b);
     return link_pairs.contains(pair) || cell_file_pairs.contains(pair);
@@ -136,7 +133,7 @@ struct Clearances {
   double clearance_m = 0.02;
   double self_clearance_m = 0.005;          // for Cell::is_own() pairs; at most clearance_m
   std::optional<double> mount_clearance_m;  // between an arm and its mount; clearance_m if nullopt
-  // Returns the distance that an arm keeps from its mount; at most clearance_m.
+  // Returns the clearance between an arm and its mount; at most clearance_m.
   [[nodiscard]] double mount_limit_m() const {
     const double limit_m = mount_clearance_m.value_or(clearance_m);
     return limit_m < clearance_m ? limit_m : clearance_m;
@@ -168,16 +165,16 @@ struct Cell {
   [[nodiscard]] std::optional<LinkId> find_link(std::string_view link_name) const;
 
   // Returns true if the link is static and carries the arm, directly or through fixed links without
-  // shapes (mounting frames). A mount may be the arm's own pedestal or a table in the same URDF; no
-  // file tells them apart. So every link of the arm keeps mount_clearance_m from it: clearance_m,
-  // unless the cell file sets less for robots that fold onto their own body. Neighbors that touch
-  // are disabled by the SRDF or, without an SRDF, as parent and child.
+  // shapes. A mount may be a pedestal or a table in the same URDF: no file tells. So every link of
+  // the arm keeps mount_clearance_m from it; less than clearance_m suits robots that fold onto
+  // their own body. Neighbors that touch are disabled by the SRDF or, without an SRDF, as parent
+  // and child.
   [[nodiscard]] bool is_mount(LinkId link, ArmId arm) const;
-  // Returns true if both links belong to one arm. Such links keep only self_clearance_m: they pass
-  // closely by design.
+  // Returns true if both links belong to one arm. They pass closely by design and keep
+  // self_clearance_m.
   [[nodiscard]] bool is_own(LinkId a, LinkId b) const;
 
-  // Returns the configuration with every arm at its home and all other joints at Joint::start.
+  // Returns every arm at its home, other joints at Joint::start.
   [[nodiscard]] Configuration home() const;
 };
 

@@ -26,24 +26,22 @@ struct JointLimitsDescription {
   std::optional<double> acceleration;  // rad/s^2 (m/s^2), default kDefaultAcceleration
   std::optional<double> jerk;          // rad/s^3 (m/s^3), default kDefaultJerk
   std::optional<double> brake;         // rad/s^2 (m/s^2), default twice the acceleration
-  // The keys used in the cell file (velocity_m_s): their units must fit the joint.
+  // As spelled in the cell file (velocity_m_s): their units must fit the joint.
   std::set<std::string> keys = {};
 };
-inline constexpr double kDefaultVelocity =
-    1.0;  // rad/s (m/s), for joints outside arm groups; as in MoveIt
+inline constexpr double kDefaultVelocity = 1.0;  // outside arm groups; as in MoveIt
 inline constexpr double kDefaultAcceleration = 3.75;
 inline constexpr double kDefaultJerk = 7500.0;
 
 struct ArmDescription {
   std::string name;   // unique in the cell
-  std::string group;  // SRDF group (a chain, or joints) that forms the arm
-  // In group order. If empty, home_state applies; if both are empty, every joint is at zero,
-  // clamped to its limits.
+  std::string group;  // SRDF group that forms the arm
+  // In group order. If empty, home_state applies; if both are empty, all joints are at zero,
+  // clamped.
   std::vector<double> home;
-  std::string home_state;                                // name of a state of the group in the SRDF
-  std::map<std::string, JointLimitsDescription> limits;  // by URDF joint name, without prefix
-  // Start positions of gripper joints by URDF joint name (rad, m); other joints start at zero,
-  // clamped to their limits.
+  std::string home_state;                                // a state of the group in the SRDF
+  std::map<std::string, JointLimitsDescription> limits;  // by URDF joint name
+  // Start positions of gripper joints by URDF name (rad, m); others start at zero, clamped.
   std::map<std::string, double> gripper = {};
 };
 
@@ -66,11 +64,11 @@ struct RobotDescription {
   std::string name;
   std::string urdf;          // path, resolved against the folder of the cell file
   std::string srdf;          // like urdf
-  std::string joint_limits;  // path of a MoveIt joint_limits.yaml, like urdf; may be empty
+  std::string joint_limits;  // a MoveIt joint_limits.yaml, like urdf; may be empty
   std::string prefix;        // prepended to the URDF's joint and link names
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();  // base link in the world
   std::map<std::string, std::string> packages;             // package:// name -> folder
-  // Joints fixed at a value, by URDF name (rad or m); they are not joints of the cell.
+  // Joints fixed at a value, by URDF name (rad or m): not joints of the cell.
   std::map<std::string, double> fixed;
   std::vector<ArmDescription> arms;
   ControllerDescription controller;
@@ -136,7 +134,7 @@ struct SchedulingSettings {
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
   OnIdleBlocker on_idle_blocker = OnIdleBlocker::park;
-  int horizon_legs = 12;  // queued motions per arm that look-ahead policies admit together
+  int horizon_legs = 12;  // queued motions per arm, admitted by look-ahead policies
   OnRestart on_restart = OnRestart::ask;
 };
 struct MonitorSettings {
@@ -159,8 +157,7 @@ struct ExecutionSettings {  // MoveIt's defaults
   double start_tolerance_rad = 0.01;
   double duration_scaling = 1.1;
   Duration duration_margin = std::chrono::milliseconds(500);
-  // Share of the joint velocities, in (0, 1], for motions that the server time-parameterizes; a
-  // request can override it.
+  // Default share of the joint velocities, in (0, 1], for motions timed by the server.
   double velocity_scaling_factor = 1.0;
 };
 
@@ -172,9 +169,9 @@ struct CellDescription {
   std::vector<ObjectDescription> objects;
   std::vector<std::pair<std::string, std::string>> allowed_collisions;  // link or object names
   double clearance_m = 0.02;
-  // Between links of one arm, which pass each other closely by design.
+  // Within an arm, whose links pass each other closely by design.
   double self_clearance_m = 0.005;
-  // Between an arm and its mount (Cell::is_mount); clearance_m if nullopt.
+  // Between an arm and its mount; clearance_m if nullopt.
   std::optional<double> mount_clearance_m;
   CheckingSettings checking;
   SchedulingSettings scheduling;

@@ -33,7 +33,7 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
   Eigen::VectorXd values(static_cast<Eigen::Index>(joints.size()));
   Eigen::Index row = 0;
   for (const std::size_t index : arm.group) {
-    if (!robot.joints[index]) {  // held
+    if (!robot.joints[index]) {  // fixed
       const auto value = state.values.find(index);
       if (value != state.values.end() && name == arm.description->home_state)
         warn_if_held_elsewhere(robot, arm, index, value->second, state.faults);

@@ -283,7 +283,7 @@ Result<CellPtr> build_cell(const CellDescription& description, Problems& warning
     add_robot(std::move(build), *cell, diagnostics);
   }
   check_objects_are_no_links(description, links, diagnostics);
-  // While a robot's link names are unknown, its pairs would be reported as unknown names.
+  // Unread link names would be reported as unknown.
   if (complete) allow_pairs_of_cell(description, *cell, diagnostics);
   warn_of_cell(description, *cell, diagnostics);
   warn_of_settings(description, *cell, diagnostics);

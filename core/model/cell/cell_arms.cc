@@ -46,7 +46,7 @@ std::optional<RobotSemantics::JointSet> group_joints(const RobotBuild& robot,
   const bool movable = std::any_of(joints.begin(), joints.end(),
                                    [&](std::size_t i) { return robot.joints[i].has_value(); });
   if (movable) return joints;
-  if (robot.tree.patched) return std::nullopt;  // joints may hang elsewhere than intended
+  if (robot.tree.patched) return std::nullopt;  // joints may be misplaced
   if (!joints.empty())
     return refuse("all joints of group '" + arm.group +
                   "' are held by \"fixed\"; an arm needs a joint that can move");
@@ -85,8 +85,7 @@ void add_arms(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
 }
 
 void assign_to_arms(const RobotBuild& robot, Cell& cell) {
-  // A gripper's mimic joint may carry more joints anywhere in the tree, so repeat until nothing
-  // changes.
+  // A gripper's mimic joint may carry joints anywhere in the tree: repeat until stable.
   for (bool settled = false; !settled;) {
     settled = true;
     for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {

@@ -53,7 +53,7 @@ void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
     const auto joint =
         link == robot.tree.by_joint.end() ? std::nullopt : robot.joints[link->second];
     if (joint && cell.joint(*joint).arm == arm.id) continue;
-    if (joint && robot.tree.patched) continue;  // it may hang elsewhere than intended
+    if (joint && robot.tree.patched) continue;  // it may be misplaced
     diagnostics.in_cell("unknown-joint", pointer, no_such_joint(robot, *arm.description, name),
                         name);
   }
@@ -104,7 +104,7 @@ void tell_limits_without_joint(RobotBuild& robot, Diagnostics& diagnostics) {
 
 // Warns of mimic joints that the followed joint moves beyond their own limits.
 void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
-  constexpr double kRounding = 2e-3;  // rad or m: tolerance for limits that were rounded
+  constexpr double kRounding = 2e-3;  // rad or m
   for (const TreeLink& link : robot.tree.links) {
     if (!link.joint.mimic) continue;
     const auto driver = robot.joints[link.joint.mimic->driver];

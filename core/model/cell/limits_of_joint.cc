@@ -59,7 +59,7 @@ void LimitsOfJoint::settle(LimitsFile::Joint* filed, Needs& needs) {
   settle_velocity();
   settle_rates();
   warn_of_units();
-  // A faulty limit that is not needed, or replaced by another file's, is only a warning.
+  // A faulty limit that is unneeded or replaced is only a warning.
   if (own_ && !missing_.empty()) {
     needs.faulty = needs.faulty || link_.joint.limits.faults.count() > 0;
     diagnostics_.merge(std::move(link_.joint.limits.faults));

@@ -11,7 +11,7 @@ namespace armloom {
 struct Needs {
   std::string names;    // "velocity of j1, position of j2"
   std::string members;  // "\"j1\": {\"velocity_rad_s\": 1}"
-  bool faulty = false;  // the URDF gives some of them incorrectly, which is reported
+  bool faulty = false;  // the URDF gives faulty ones, which are reported
 };
 
 void append_item(std::string& list, const char* separator, const std::string& item);
@@ -38,18 +38,17 @@ class LimitsOfJoint {
 
   void need(const std::string& word, const std::string& members);
 
-  // Returns the cell file's value. Reports the value and returns nullopt if it is not finite or, as
-  // `wider` states, wider than the URDF's.
+  // Returns the cell file's value. Reports it and returns nullopt if not finite or, per `wider`,
+  // wider than the URDF's.
   std::optional<double> from_cell(const std::optional<double>& value, const std::string& name,
                                   const std::optional<double>& urdf, bool wider);
 
-  // Reports keys in the cell file whose unit does not fit the joint.
+  // Reports keys whose unit does not fit the joint.
   void check_units();
 
   void refuse(const char* slug, const std::string& name, const std::string& rest, double value);
 
-  // Returns the value of joint_limits.yaml, or the URDF's if the URDF is narrower or the only
-  // source.
+  // Returns the narrower value of joint_limits.yaml and the URDF.
   std::optional<double> from_file(const std::optional<double>& value, const char* name,
                                   const std::optional<double>& urdf, double wider_by);
 
@@ -85,8 +84,8 @@ class LimitsOfJoint {
   Diagnostics& diagnostics_;
   JointLimitsDescription cell_;
   JointLimitsDescription file_;
-  std::string pointer_;  // to the joint's limits in the cell file
-  std::string place_;    // of the joint in joint_limits.yaml
+  std::string pointer_;  // in the cell file
+  std::string place_;    // in joint_limits.yaml
   std::string words_;
   std::string missing_;
 };

@@ -18,7 +18,7 @@ struct ArmBuild {
   ArmId id;
   std::string pointer;  // "/robots/0/arms/1"
   const ArmDescription* description;
-  std::vector<std::size_t> group;  // tree indices, from base to tip, fixed joints included
+  std::vector<std::size_t> group;  // tree indices from base to tip, with fixed joints
 };
 
 // A robot while the cell is being built: its files as read, and the ids of its links, joints and
@@ -30,15 +30,14 @@ struct RobotBuild {
   std::string pointer;  // "/robots/0"
   const RobotDescription* description;
   RobotTree tree;
-  std::optional<RobotSemantics> semantics;  // nullopt if there is no SRDF, or it is unreadable
-  std::optional<LimitsFile> limits_file;    // nullopt if there is no such file, or it is unreadable
-  std::vector<LinkId> links;                // tree index -> link of the cell
+  std::optional<RobotSemantics> semantics;     // nullopt without a readable SRDF
+  std::optional<LimitsFile> limits_file;       // nullopt without a readable file
+  std::vector<LinkId> links;                   // tree index -> link of the cell
   std::vector<std::optional<JointId>> joints;  // tree index -> joint of the cell, if independent
-  std::vector<ArmBuild> arms;                  // arms whose groups were found
-  std::set<JointId> shared;                    // joints that move several arms; already reported
+  std::vector<ArmBuild> arms;                  // with known groups
+  std::set<JointId> shared;                    // by several arms; already reported
 
-  // Returns true if the joint limits file could not be read, which is reported: its limits are
-  // unknown.
+  // Returns true if the file was unreadable, as reported: limits are unknown.
   [[nodiscard]] bool limits_unread() const {
     return !limits_file && !description->joint_limits.empty();
   }

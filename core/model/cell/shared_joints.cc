@@ -57,7 +57,7 @@ std::string line_to_hold(const RobotBuild& robot, const Cell& cell,
 }  // namespace
 
 void refuse_shared_joints(RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
-  if (robot.tree.patched) return;  // joints may hang elsewhere than intended
+  if (robot.tree.patched) return;  // joints may be misplaced
   const auto above = joints_above(robot, cell);
   std::vector<JointsOfTheCell> places;
   for (const ArmBuild& arm : robot.arms)

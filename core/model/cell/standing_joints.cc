@@ -51,7 +51,7 @@ class StandingJoints {
     }
   }
 
-  // Warns of other joints above a link with a shape, such as a sliding table or a head.
+  // Warns of other joints that move shapes, such as a sliding table.
   void warn_of_others() {
     std::set<JointId> others;
     for (const LinkId link : robot_.links) {
@@ -73,8 +73,8 @@ class StandingJoints {
          names});
   }
 
-  // Warns of a joint that lies between joints of an arm's group but is not in the group: its
-  // position changes the geometry that the group's motions are checked against.
+  // Warns of a gripper joint between joints of an arm's group: its position changes the geometry
+  // that the group's motions are checked against.
   void warn_of_gaps() {
     for (const ArmBuild& build : robot_.arms) {
       std::set<std::string> skipped;
@@ -126,7 +126,7 @@ class StandingJoints {
 }  // namespace
 
 void tell_standing_joints(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
-  if (robot.tree.patched) return;  // joints may hang elsewhere than intended
+  if (robot.tree.patched) return;  // joints may be misplaced
   StandingJoints(robot, cell, diagnostics).tell();
 }
 

@@ -33,8 +33,7 @@ std::string scalar_of(const YAML::Node& node) {
   return node.IsScalar() ? node.Scalar() : node.IsNull() ? "nothing" : "no single value";
 }
 
-// Reads the keys of one joint, each once. Reports duplicate keys: YAML would silently use the
-// first.
+// Reads the keys of one joint. Reports duplicates, of which YAML silently uses the first.
 class JointReader {
  public:
   JointReader(const YAML::Node& node, const std::string& file, const std::string& name,
@@ -98,7 +97,7 @@ class JointReader {
     }
   }
 
-  // A key that resembles a known key was probably meant as a limit, so it is a problem.
+  // A key similar to a known key was probably meant as a limit.
   void unknown(const std::string& place, const std::string& key) {
     const auto meant = nearest_name(key, kKnown);
     if (meant) {
@@ -115,7 +114,7 @@ class JointReader {
     return at_line(file_, mark) + ": joint " + name_;
   }
 
-  // Returns true if the limit applies: if it is present and its has_... is not false, as in MoveIt.
+  // Returns true if the limit is present and its has_... is not false, or if its has_... is true.
   [[nodiscard]] bool counts(const std::optional<bool>& has, const char* limit) const {
     return has ? *has : static_cast<bool>(node_[limit]);
   }
@@ -152,7 +151,7 @@ class JointReader {
     return in_radians(key, value, *read);
   }
 
-  // Converts values with the ROS tags for angles: !degrees 90.
+  // ROS has tags for angles: !degrees 90.
   std::optional<double> in_radians(const char* key, const YAML::Node& value, double read) {
     const std::string& tag = value.Tag();
     if (tag == "!degrees") return read * std::numbers::pi / 180.0;
@@ -172,7 +171,7 @@ class JointReader {
     return std::nullopt;
   }
 
-  // Takes the absolute value, because MoveIt's Pilz planner expects a negative number.
+  // MoveIt's Pilz planner uses negative numbers.
   std::optional<double> deceleration() {
     const auto read = number("max_deceleration", "has_deceleration_limits");
     if (!read || *read != 0.0) return read ? std::optional(std::abs(*read)) : std::nullopt;
@@ -201,8 +200,7 @@ void check_scaling(const YAML::Node& root, const std::string& file, Diagnostics&
   }
 }
 
-// Returns the map that contains `joint_limits`: at the top, or nested as in ROS 2's parameter
-// files.
+// Returns the map with `joint_limits`: the root, or nested as by ROS 2.
 YAML::Node holder_of_limits(YAML::Node node) {
   for (const char* key : {"/**", "move_group", "ros__parameters", "robot_description_planning"}) {
     if (node.IsMap() && !node["joint_limits"] && node[key]) node.reset(YAML::Node(node[key]));

@@ -81,7 +81,7 @@ class GroupReader {
     std::optional<std::size_t> link = *tip;
     for (; link && *link != *base; link = tree_.links[*link].parent) joints.insert(*link);
     if (!link) {
-      if (tree_.patched) return;  // links may hang elsewhere than intended
+      if (tree_.patched) return;  // links may be misplaced
       return place.at(chain).report("broken-chain",
                                     "tip_link " + tree_.links[*tip].name +
                                         " is not below base_link " + tree_.links[*base].name,
@@ -112,7 +112,7 @@ class GroupReader {
     }
   }
 
-  // Adds the joints of all groups below. A group that is met while it is open contains itself.
+  // A group that is met while it is open contains itself.
   const JointSet& joints_of(const std::string& name, Group& group) {
     if (group.mark != Group::Mark::fresh) return group.joints;
     group.mark = Group::Mark::open;
@@ -134,8 +134,7 @@ class GroupReader {
     return group.joints;
   }
 
-  // Reports the faults of a used group and all groups below it, each once, also if they form a
-  // cycle.
+  // Reports a used group's faults and those of groups below, each once.
   void tell_faults(const std::string& name) {
     const auto found = groups_.find(name);
     if (found == groups_.end() || !told_.insert(name).second) return;

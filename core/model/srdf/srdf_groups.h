@@ -19,11 +19,10 @@ struct GroupNames {
   const std::set<std::string>& used;
 };
 
-// Returns every group of the SRDF with its independent joints and the joints that the cell fixes.
-// Other fixed joints and mimic joints, which MoveIt lists too, are dropped. As in MoveIt, a link
+// Returns every group of the SRDF with its independent and held joints. As in MoveIt, a link
 // denotes the joint above it, and a chain the joints between its base link and its tip link.
 // Virtual joints are ignored. Unknown names are left out with a warning. Other faults are problems
-// in a used group and in groups below it, and warnings elsewhere.
+// in used groups and groups below them, and warnings elsewhere.
 [[nodiscard]] std::map<std::string, RobotSemantics::JointSet> read_groups(
     const tinyxml2::XMLElement& srdf, const std::string& file, const RobotTree& tree,
     const GroupNames& names, Diagnostics& diagnostics);

@@ -13,8 +13,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Counts elements of one tag that name links unknown to the URDF. Reported together, because an
-// SRDF older than its URDF has many.
+// Elements of one tag with links unknown to the URDF, reported together: an outdated SRDF has many.
 struct StaleElements {
   std::size_t stale = 0;
   std::size_t all = 0;
@@ -115,7 +114,7 @@ class SrdfReader {
       place.report("unknown-name", "joint " + name + " is not in " + tree_.file, name);
   }
 
-  // Reads a state. A state with faults cannot be a home or goal; its faults say why.
+  // Faults make the state unusable as home and goal.
   void read_state(const XMLElement& element, const std::set<std::string>& virtual_joints,
                   RobotSemantics& semantics) const {
     const std::string consequence = "the state is left out";

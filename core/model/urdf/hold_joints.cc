@@ -16,8 +16,8 @@ struct NamedTree {
   const RobotTree& tree;
 };
 
-// Returns the tree index of a joint that can be fixed, or reports why not and returns nullopt. A
-// value beyond the limits is reported and clamped.
+// Returns the tree index of a joint that can be fixed, or nullopt with a report. Reports and clamps
+// a value beyond the limits.
 std::optional<std::size_t> holdable(const std::string& name, double& value,
                                     const std::string& pointer, const NamedTree& of,
                                     Diagnostics& diagnostics) {
@@ -56,7 +56,6 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
         refuse("limit-exceeded", "joint " + name + " is held at " + text_of(value) + ", outside [" +
                                      (limits.lower ? text_of(*limits.lower) : "-inf") + ", " +
                                      (limits.upper ? text_of(*limits.upper) : "inf") + "]"));
-    // Clamp: the rest of the robot is still valid.
     if (limits.lower) value = std::max(value, *limits.lower);
     if (limits.upper) value = std::min(value, *limits.upper);
   }
@@ -114,7 +113,7 @@ void fix_in_text(RobotTree& tree) {
   tree.text = printer.CStr();
 }
 
-// Returns the value at which the joint above links[index] is fixed, or nullopt if it moves.
+// nullopt if the joint above links[index] moves.
 std::optional<double> value_held_at(const TreeLink& link, std::size_t index,
                                     const std::map<std::size_t, double>& held) {
   if (link.joint.mimic && link.joint.mimic->multiplier == 0.0) return link.joint.mimic->offset;

@@ -23,7 +23,7 @@ bool is_below(const fs::path& folder, const fs::path& file) {
   return differ.first == folder.end() && differ.second != file.end();
 }
 
-// Returns the path of file:///path or file://localhost/path, with percent-encoding decoded.
+// Decodes file:///path or file://localhost/path.
 std::string path_of_file_uri(std::string_view uri) {
   uri.remove_prefix(kFile.size());
   if (uri.starts_with("localhost/")) uri.remove_prefix(std::string_view("localhost").size());
@@ -42,8 +42,8 @@ std::string path_of_file_uri(std::string_view uri) {
   return path;
 }
 
-// Returns the likely package folder of a mesh: the folder that contains "meshes", else the mesh's
-// folder. Uses only the name, because the location must not be read.
+// Returns the folder that contains "meshes", else the mesh's folder. Uses only the name: the
+// location must not be read.
 fs::path package_folder_of(const fs::path& mesh) {
   fs::path above;
   for (const fs::path& part : mesh.parent_path()) {
@@ -53,7 +53,7 @@ fs::path package_folder_of(const fs::path& mesh) {
   return mesh.parent_path();
 }
 
-// Returns a hint if a file exists whose name differs only in case: other systems ignore case.
+// Returns a hint if a file's name differs only in case.
 std::string spelt_otherwise(const fs::path& file) {
   const auto lower = [](std::string text) {
     std::ranges::transform(text, text.begin(),
@@ -73,15 +73,15 @@ std::string line_of_package(const std::string& name, const std::string& folder) 
   return "add to the robot \"packages\": {\"" + name + "\": \"" + folder + "\"}";
 }
 
-// Resolves an absolute path below the URDF's folder or a package folder. For other locations the
-// answer does not depend on whether the file exists.
+// Resolves an absolute path. Outside the permitted folders the answer does not reveal whether the
+// file exists.
 tl::expected<fs::path, std::string> resolve_absolute(
     const fs::path& file, const fs::path& urdf_folder,
     const std::map<std::string, std::string>& packages) {
   std::error_code error;
   if (!file.is_absolute()) return tl::unexpected<std::string>("names a file of another host");
   fs::path real_file = fs::weakly_canonical(file, error);
-  if (error) real_file = file.lexically_normal();  // a path that must not be read
+  if (error) real_file = file.lexically_normal();  // must not be read
   const auto found = [&]() -> tl::expected<fs::path, std::string> {
     if (!fs::exists(real_file, error))
       return tl::unexpected("does not exist: " + real_file.string() + spelt_otherwise(real_file));
@@ -103,7 +103,6 @@ tl::expected<fs::path, std::string> resolve_absolute(
       line_of_package(package.filename().string(), package.string()));
 }
 
-// Returns every <mesh filename="..."> in document order.
 std::vector<tinyxml2::XMLElement*> named_meshes(tinyxml2::XMLDocument& document) {
   struct Finder final : tinyxml2::XMLVisitor {
     std::vector<tinyxml2::XMLElement*> meshes;
@@ -118,7 +117,7 @@ std::vector<tinyxml2::XMLElement*> named_meshes(tinyxml2::XMLDocument& document)
   return found.meshes;
 }
 
-// Guesses a package's folder: a folder of that name above the URDF or next to a folder above it.
+// Looks for a folder of the package's name above the URDF, or next to a folder above it.
 std::string likely_folder(const std::string& package, const fs::path& urdf_folder) {
   std::error_code error;
   const fs::path start = fs::canonical(urdf_folder.empty() ? "." : urdf_folder, error);

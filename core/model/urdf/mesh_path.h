@@ -19,14 +19,13 @@ namespace armloom {
     const std::string& uri, const std::filesystem::path& urdf_folder,
     const std::map<std::string, std::string>& packages);
 
-// Returns all mesh names of the URDF, also in visuals, with their files, if resolve_mesh finds them
-// and their format is readable (is_mesh_name). Empty if the text is not XML.
+// Returns the mesh names of the URDF, also in visuals, with their files, if resolved and of a
+// readable format (is_mesh_name). Empty if the text is not XML.
 [[nodiscard]] std::map<std::string, std::string> mesh_files(
     const std::string& urdf_text, const std::filesystem::path& urdf_folder,
     const std::map<std::string, std::string>& packages);
 
-// Returns the URDF with mesh names replaced by `names`; other names are kept. Returns the text
-// unchanged if it is not XML.
+// Returns the URDF with mesh names replaced by `names`, or unchanged if it is not XML.
 [[nodiscard]] std::string with_mesh_names(const std::string& urdf_text,
                                           const std::map<std::string, std::string>& names);
 

@@ -13,19 +13,19 @@
 
 namespace armloom {
 
-// Joint limits given in the URDF. Whether they suffice depends on the joint's role.
+// Joint limits in the URDF; the joint's role decides whether they suffice.
 struct UrdfLimits {
-  std::optional<double> lower;  // rad or m; nullopt if missing or not a number
+  std::optional<double> lower;  // rad or m; nullopt if not a number
   std::optional<double> upper;
-  std::optional<double> velocity;  // > 0; nullopt if missing, not a number, or 0 (as in MoveIt)
+  std::optional<double> velocity;  // > 0; nullopt if not a number, or 0 (as in MoveIt)
   Diagnostics faults;              // faulty numbers, crossed limits
 };
 
-// One robot as described by its URDF: plain data between the reader and the cell. Names have no
-// prefix. A joint is identified by the index of the link that it moves.
+// One robot as described by its URDF. Names have no prefix. A joint has the index of the link that
+// it moves.
 struct TreeJoint {
   struct Mimic {
-    std::size_t driver;  // link whose joint is followed; that joint is movable and not a mimic
+    std::size_t driver;  // link of the followed joint, which is movable and not a mimic
     double multiplier;
     double offset;
   };
@@ -37,12 +37,12 @@ struct TreeJoint {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // unit
   std::optional<Mimic> mimic;
   UrdfLimits limits;
-  // Value of a joint fixed by the cell file or a mimic multiplier of 0 (rad or m); X_PJ includes
-  // it.
+  // Value of a joint fixed by the cell file or a mimic multiplier of 0 (rad or m); included in
+  // X_PJ.
   std::optional<double> held;
   int line = 0;  // in the file
 
-  // Returns true if the joint has a value of its own, so that it becomes a Joint of the cell.
+  // Returns true if the joint becomes a Joint of the cell.
   [[nodiscard]] bool is_independent() const { return motion.has_value() && !mimic.has_value(); }
 };
 struct TreeLink {
@@ -58,20 +58,19 @@ struct TreeLink {
 };
 
 struct RobotTree {
-  std::string name;  // of the robot, from the file
-  std::string file;  // file name without folder, as used in places
+  std::string name;  // of the robot
+  std::string file;  // as used in places, without folder
   std::string text;
   std::vector<TreeLink> links;                  // depth first: parents before children
   std::map<std::string, std::size_t> by_link;   // link name -> index
-  std::map<std::string, std::size_t> by_joint;  // joint name -> index of the link that it moves
-  // The structure in the file is faulty, which was reported. Links may hang elsewhere than
-  // intended, so consequences need not be reported.
+  std::map<std::string, std::size_t> by_joint;  // joint name -> index
+  // The file's structure is faulty, as reported: links may be misplaced, so consequences need not
+  // be reported.
   bool patched = false;
-  // A link or joint of the file has no name, so an unknown name in other files may be its name.
+  // A link or joint has no name, so unknown names in other files may be its name.
   bool nameless = false;
 
-  // Return "arm.urdf:12: link forearm", and "arm.urdf:17: joint elbow" for the joint above the
-  // link.
+  // Return "arm.urdf:12: link forearm" and, for the joint above, "arm.urdf:17: joint elbow".
   [[nodiscard]] std::string place_of_link(const TreeLink& link) const {
     return file + ":" + std::to_string(link.line) + ": link " + link.name;
   }

@@ -15,10 +15,10 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Deviation of an axis from length 1 that counts as rounding.
+// Rounding of axes to length 1.
 constexpr double kUnitAxis = 0.01;
 
-// Applies the limits of a <safety_controller> if they are narrower, as in MoveIt.
+// A <safety_controller> applies if narrower, as in MoveIt.
 void narrow_to_soft_limits(const XMLElement& joint, double lower, double upper,
                            const XmlPlace& place, XMLElement& limit) {
   const auto* safety = joint.FirstChildElement("safety_controller");
@@ -39,8 +39,7 @@ void narrow_to_soft_limits(const XMLElement& joint, double lower, double upper,
   limit.SetAttribute("upper", text_of(to).c_str());
 }
 
-// Writes a limit with effort and velocity, which urdfdom requires. The notes record which values
-// the file gives.
+// Adds effort and velocity, which urdfdom requires.
 void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace& place,
                  UrdfNotes::Joint& notes, XMLElement& to) {
   XMLElement& copy = *to.InsertNewChildElement("limit");
@@ -62,7 +61,7 @@ void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace&
     faults.at(*limit).report(
         "not-positive", "limit velocity is " + text_of(*velocity) + ", it must be greater than 0",
         *velocity);
-  if (type == "continuous") return;  // MoveIt ignores its position limits, too
+  if (type == "continuous") return;  // as in MoveIt
   const auto lower = number("lower");
   const auto upper = number("upper");
   const bool crossed = lower && upper && *lower > *upper;
@@ -98,8 +97,7 @@ void check_axis(const XMLElement& joint, const XmlPlace& place, XMLElement& to) 
                            norm);
 }
 
-// Returns the type for urdfdom. A floating or planar joint is fixed at its origin, as in MoveIt by
-// default.
+// A floating or planar joint is fixed at its origin, as by default in MoveIt.
 std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes::Joint& notes) {
   std::string type = place.name(joint, "type");
   if (type == "fixed" || type == "revolute" || type == "prismatic" || type == "continuous")
@@ -119,7 +117,7 @@ std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes
         "joint type '" + type +
             "' is not known (known: revolute, continuous, prismatic, fixed, floating, planar)",
         type);
-  // Guess the type from the limits, so that other faults are still found.
+  // Guess from the limits, to find other faults.
   const auto* limit = joint.FirstChildElement("limit");
   if (limit == nullptr) return "continuous";
   return limit->Attribute("lower") || limit->Attribute("upper") ? "revolute" : "continuous";
@@ -164,7 +162,7 @@ XmlPlace place_of(const XMLElement& element, const std::string& file, Diagnostic
   return {file, element.GetLineNum(), element.Name() + named, diagnostics};
 }
 
-// Reports links and joints in other elements than <robot>, where they would be ignored.
+// urdfdom would ignore links and joints in other elements than <robot>.
 void refuse_what_holds_links(const XMLElement& robot, const std::string& file,
                              Diagnostics& diagnostics) {
   const auto has_part = [](const XMLElement& element) {

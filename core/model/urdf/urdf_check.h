@@ -10,52 +10,50 @@
 
 namespace armloom {
 
-// Folders in which a URDF's meshes are searched (mesh_path.h).
+// Where a URDF's meshes are searched (mesh_path.h).
 struct MeshFolders {
   std::filesystem::path urdf_folder;
   const std::map<std::string, std::string>* packages;
 };
 
-// urdfdom reads a URDF completely or not at all, reports no places, and drops or guesses what it
-// does not understand. Therefore the URDF is checked first, and its valid parts are written into a
-// second, mended <robot>, which urdfdom reads (urdf_model.h). These notes hold the information that
-// the mended robot cannot express.
+// urdfdom reads all or nothing, reports no places, and drops or guesses what it does not
+// understand. So the URDF is checked first, and its valid parts are written into a second, mended
+// <robot> for urdfdom (urdf_model.h). These notes hold what the mended robot cannot express.
 struct UrdfNotes {
   struct Joint {
     bool many_values = false;  // floating or planar: mended to fixed
-    // Limits given in the file. Others in the mended <limit> are placeholders required by urdfdom.
+    // Limits in the file; the mended <limit> also has placeholders for urdfdom.
     bool lower = false;
     bool upper = false;
     bool velocity = false;
-    Diagnostics faults;  // of the limits; the joint's role decides their severity
+    Diagnostics faults;  // of the limits; the joint's role decides the severity
   };
   std::map<std::string, Joint> joints;        // of the mended robot
   std::map<std::string, std::string> meshes;  // name in the file -> path
   std::set<std::string> seen;                 // links with a <visual>
   std::set<std::string> solid;                // links with a <collision>, which may be faulty
-  std::set<std::string> loose;                // links left without a parent by a reported fault
-  std::set<std::string> made;  // names of links and joints added to make the mended robot one tree
-  bool patched = false;        // see RobotTree
-  bool nameless = false;       // see RobotTree
+  std::set<std::string> loose;                // links without a parent because of a reported fault
+  std::set<std::string> made;                 // links and joints added to form one tree
+  bool patched = false;                       // see RobotTree
+  bool nameless = false;                      // see RobotTree
   std::map<std::string, std::map<std::string, int>> lines;  // "link", "joint": name -> line
 };
 
-// Checks every <link> and <joint>, reports all faults and writes valid parts to `mended`. Faults in
-// what the model uses are problems: names, poses, axes, collision shapes, mimics; numbers that are
-// incomplete or not finite; duplicate, missing or misspelled elements. Faults in unused parts
-// (visuals, masses, efforts, unknown elements) are warnings. Faults of limits go to
-// UrdfNotes::Joint. `file` begins each place.
+// Checks every <link> and <joint>, and writes valid parts to `mended`. Faults in what the model
+// uses are problems: names, poses, axes, collision shapes, mimics. Faults in unused parts (visuals,
+// masses, efforts, unknown elements) are warnings. Faults of limits go to UrdfNotes::Joint. `file`
+// begins each place.
 [[nodiscard]] UrdfNotes check_urdf_elements(const tinyxml2::XMLElement& robot,
                                             const std::string& file, const MeshFolders& folders,
                                             tinyxml2::XMLElement& mended, Diagnostics& diagnostics);
 
-// Checks one <link> for check_urdf_elements (urdf_link_check.cc).
+// Checks one <link> (urdf_link_check.cc).
 void check_link(const tinyxml2::XMLElement& link, const XmlPlace& place, const MeshFolders& folders,
                 UrdfNotes& notes, tinyxml2::XMLElement& to);
 
-// Checks that joints connect known links, that all links form one tree, and that each mimic joint
-// follows a movable joint, directly or through other mimics. Reports faults and patches `mended`:
-// it keeps every name of the file, so that names in other files can still be looked up.
+// Checks that all links form one tree and that mimic joints follow a movable joint, directly or
+// through other mimics. Patches faults in `mended`, which keeps every name, so that names in other
+// files can be looked up.
 void check_urdf_tree(tinyxml2::XMLElement& mended, const std::string& file, UrdfNotes& notes,
                      Diagnostics& diagnostics);
 

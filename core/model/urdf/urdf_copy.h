@@ -9,10 +9,10 @@
 
 namespace armloom {
 
-// Copy parts of a URDF to the mended URDF (urdf_check.h), and report faults at `place`.
+// Copy parts of a URDF to the mended URDF (urdf_check.h); faults are reported at `place`.
 
-// Copies an attribute of `size` finite numbers, separated by spaces: urdfdom accepts no other white
-// space. Returns nullopt if the attribute is faulty or missing.
+// Copies `size` finite numbers, separated by spaces, as urdfdom requires. Returns nullopt if faulty
+// or missing.
 struct NumbersAttribute {
   const char* name;
   std::size_t size;
@@ -22,15 +22,15 @@ std::optional<std::vector<double>> copy_numbers(const tinyxml2::XMLElement& from
                                                 const NumbersAttribute& attribute,
                                                 const XmlPlace& place, tinyxml2::XMLElement& to);
 
-// Copies an optional attribute. Returns true if it is valid or missing.
+// Returns true if the attribute is valid or missing.
 bool copy_if_there(const tinyxml2::XMLElement& from, const char* attribute, std::size_t size,
                    const XmlPlace& place, tinyxml2::XMLElement& to);
 
-// Copies the <origin> of `parent`, if any. Returns true if it is valid or missing.
+// Returns true if the <origin> of `parent` is valid or missing.
 bool copy_origin(const tinyxml2::XMLElement& parent, const XmlPlace& place,
                  tinyxml2::XMLElement& to);
 
-// Warns of a length beyond any robot's size: probably millimeters.
+// Warns of a length beyond any robot's size.
 void warn_if_far(double length_m, const std::string& what, const XmlPlace& place);
 
 [[nodiscard]] double norm_of(const std::vector<double>& v);  // of 3 numbers

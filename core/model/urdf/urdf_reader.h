@@ -11,20 +11,19 @@
 
 namespace armloom {
 
-// Maximum number of links of a robot, because pairs of links are stored and checked.
+// Bounds the pairs of links that are stored and checked.
 inline constexpr std::size_t kMaxLinksOfRobot = 1000;
 
-// Reads a URDF that was loaded from `path`; places are "panda.urdf:12: joint panda_joint3". Faults
-// go to `diagnostics`, and the robot is read as far as possible, so that the rest of the cell can
-// be checked, too. The tree is as intended only if no problem was added. Returns nullopt if the
-// text is not XML, has too many links, or is refused by urdfdom. Meshes are resolved (mesh_path.h)
-// but not loaded.
+// Reads a URDF that was loaded from `path`; places are "panda.urdf:12: joint panda_joint3". After
+// faults, the tree holds what could be read, so that the rest of the cell can be checked. Returns
+// nullopt if the text is not XML, has too many links, or is refused by urdfdom. Meshes are resolved
+// (mesh_path.h), not loaded.
 [[nodiscard]] std::optional<RobotTree> read_urdf(std::string text,
                                                  const std::filesystem::path& path,
                                                  const std::map<std::string, std::string>& packages,
                                                  Diagnostics& diagnostics);
 
-// Returns an empty tree, with the file's name, for a URDF that cannot be read.
+// Returns the tree for an unreadable URDF: only the file's name.
 [[nodiscard]] RobotTree unread_robot(const std::filesystem::path& path);
 
 }  // namespace armloom

@@ -22,8 +22,8 @@ std::string listed(const std::set<std::string>& names) {
 }
 
 // Connects the elements of a mended robot, whose names are unique. A joint gets a made link if its
-// child is missing, unknown or already moved by another joint. Parts that do not form one tree are
-// attached to a made root.
+// child is missing, unknown or already moved by another joint. Other loose parts are attached to a
+// made root.
 class TreeMender {
  public:
   TreeMender(XMLElement& robot, const std::string& file, UrdfNotes& notes, Diagnostics& diagnostics)
@@ -33,7 +33,7 @@ class TreeMender {
     const std::size_t before = diagnostics_.count();
     index_names();
     connect();
-    if (all_children_known_) check_one_root();  // otherwise a root may only be a misspelled child
+    if (all_children_known_) check_one_root();  // else a root may be a misspelled child
     notes_.patched = notes_.patched || diagnostics_.count() != before || !all_children_known_ ||
                      !notes_.loose.empty();
     fix_faulty_mimics();
@@ -93,7 +93,7 @@ class TreeMender {
                      "child link " + link + " already has the parent joint " +
                          child->joint->Attribute("name"),
                      link);
-        all_children_known_ = false;  // the child that was meant is unknown
+        all_children_known_ = false;  // the intended child is unknown
         child = nullptr;
       }
       if (child == nullptr) child = &childless_[name];
@@ -144,7 +144,7 @@ class TreeMender {
       const Node* node = open.back();
       open.pop_back();
       for (const Node* child : node->children) {
-        if (names.erase(child->name) != 0) open.push_back(child);  // otherwise visited: a loop
+        if (names.erase(child->name) != 0) open.push_back(child);  // else visited: a loop
       }
     }
   }
@@ -186,7 +186,7 @@ class TreeMender {
     if (followed == name) return refuse("mimic-ring", "the joint mimics itself");
     if (driver->second->Attribute("type", "fixed") != nullptr)
       return refuse("mimic-fixed", "mimic joint " + followed + " is fixed");
-    // Faults farther along the chain are reported with the joint that has the faulty mimic.
+    // Faults farther along are reported with their joint.
     std::set<std::string> passed{name};
     for (auto next = driver; next != joints_.end() && !next->second->Attribute("type", "fixed");) {
       const auto* mimic = next->second->FirstChildElement("mimic");

@@ -51,7 +51,7 @@ struct Output {
   bool in_time = false;
 };
 
-// Appends available bytes. Returns false at the end of the stream, or beyond kMaxRobotFileBytes.
+// Returns false at the end of the stream or beyond kMaxRobotFileBytes.
 bool read_some(int from, std::string& text) {
   std::array<char, 4096> buffer;
   const ssize_t count = read(from, buffer.data(), buffer.size());
@@ -80,7 +80,7 @@ Output read_both(const Pipe& out, const Pipe& err, std::chrono::seconds at_most)
   return output;
 }
 
-// Starts xacro. Returns 0 or the error number.
+// Returns 0 or the error number.
 int start(const std::string& file, const Pipe& out, const Pipe& err, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -96,8 +96,7 @@ int start(const std::string& file, const Pipe& out, const Pipe& err, pid_t& chil
   return error;
 }
 
-// Joins a program's standard error into one line. xacro prints the fault before its place; of a
-// Python traceback only the last line is kept.
+// Of a Python traceback, only the last line is kept.
 std::string in_one_line(const std::string& text) {
   constexpr std::size_t kMost = 1000;
   std::istringstream lines(text);

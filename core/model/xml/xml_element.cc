@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-// Returns the first <!...> other than a comment: DOCTYPE, ENTITY and the like.
+// Returns the first DOCTYPE, ENTITY or similar.
 const tinyxml2::XMLUnknown* find_declaration(const tinyxml2::XMLNode& node) {
   for (const auto* child = node.FirstChild(); child != nullptr; child = child->NextSibling()) {
     if (const auto* unknown = child->ToUnknown()) return unknown;

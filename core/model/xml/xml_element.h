@@ -18,9 +18,9 @@ namespace armloom {
 
 enum class Presence { required, optional };
 
-// Parses XML into `document`. Refuses DOCTYPE and entity declarations, nesting deeper than
-// tinyxml2's bound (100), a second root element, and unexpanded xacro. Returns the <robot> element,
-// or nullptr after reporting the fault to `diagnostics` at its line ("panda.urdf:12").
+// Parses XML into `document`. Refuses DOCTYPE and entity declarations, deep nesting (100), a second
+// root element and unexpanded xacro. Returns the <robot> element, or nullptr with the fault and its
+// line in `diagnostics`.
 [[nodiscard]] tinyxml2::XMLElement* parse_robot_xml(const std::string& text,
                                                     const std::string& file,
                                                     tinyxml2::XMLDocument& document,
@@ -28,22 +28,20 @@ enum class Presence { required, optional };
 
 [[nodiscard]] std::size_t count_children(const tinyxml2::XMLElement& element, const char* child);
 
-// Reads one element of a robot file and reports faults at its place: "panda.urdf:12: joint
-// panda_joint3". Faults of child elements have the child's line. The message is place + ": " +
-// sentence.
+// Reads one element of a robot file and reports faults at its place, "panda.urdf:12: joint
+// panda_joint3". Faults of child elements have the child's line.
 class XmlPlace {
  public:
-  // `line` is 0 if the fault has no line. `whose` may be empty.
+  // `line` 0: without line. `whose` may be empty.
   XmlPlace(std::string file, int line, std::string whose, Diagnostics& diagnostics)
       : file_(std::move(file)), line_(line), whose_(std::move(whose)), diagnostics_(&diagnostics) {}
 
-  // Return the same place with the line of another element, for a part of it ("joint j1"), or
-  // reporting to another list.
+  // Return this place with another element's line, for a part ("joint j1"), or for another list.
   [[nodiscard]] XmlPlace at(const tinyxml2::XMLElement& element) const;
   [[nodiscard]] XmlPlace of(const std::string& part) const;
   [[nodiscard]] XmlPlace telling(Diagnostics& diagnostics) const;
 
-  // Returns the same place for unused parts: faults become warnings that end with this consequence.
+  // Returns this place for unused parts: faults become warnings with this consequence.
   [[nodiscard]] XmlPlace only_warning(std::string consequence) const;
 
   [[nodiscard]] std::string text() const;
@@ -52,21 +50,19 @@ class XmlPlace {
   void warn(std::string slug, const std::string& sentence,
             decltype(Problem::value) value = {}) const;
 
-  // Returns one finite number. Otherwise returns nullopt and reports the fault, unless the
-  // attribute is optional and missing.
+  // Returns one finite number, or nullopt with a report unless optional and missing.
   std::optional<double> number(const tinyxml2::XMLElement& element, const char* attribute,
                                Presence presence) const;
-  // Returns exactly `size` finite numbers; otherwise like number().
+  // Returns exactly `size` finite numbers, like number().
   std::optional<std::vector<double>> numbers(const tinyxml2::XMLElement& element,
                                              const char* attribute, std::size_t size,
                                              Presence presence) const;
-  // Returns a non-empty attribute. Otherwise returns "" and reports the fault.
+  // Returns a non-empty attribute, or "" with a report.
   std::string name(const tinyxml2::XMLElement& element, const char* attribute) const;
-  // Returns the only child of that name. Reports a second one, which libraries would ignore.
+  // Reports a second child of that name, which libraries would ignore.
   const tinyxml2::XMLElement* only_child(const tinyxml2::XMLElement& element, const char* child,
                                          Presence presence) const;
-  // Reports a misplaced child, which would be ignored here. `where` is its proper place ("in a
-  // <link>").
+  // Reports a child that is ignored here. `where` is its proper place ("in a <link>").
   void refuse_child(const tinyxml2::XMLElement& element, const char* child,
                     const char* where) const;
   // Names of elements or attributes.

@@ -6,14 +6,14 @@
 
 namespace armloom {
 
-// Parse numbers in XML attributes strictly. XML libraries accept "nan", "1e999", "0x10" and "1.5
-// metres", but a robot must not move by a guess.
+// Parse strictly. XML libraries accept "nan", "1e999", "0x10" and "1.5 metres", but a robot must
+// not move by a guess.
 
-// Returns the whole token as a finite decimal number, with an optional leading +. Returns nullopt
-// if it is empty, hexadecimal, nan, inf, too large, or followed by other text.
+// Returns a finite decimal number, with an optional leading +. Returns nullopt for empty,
+// hexadecimal, nan, inf, overflow or trailing text.
 [[nodiscard]] std::optional<double> parse_number(std::string_view token);
 
-// Returns finite numbers separated by white space, or nullopt if any is not a number.
+// Returns numbers separated by white space, or nullopt if any is invalid.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
 }  // namespace armloom
