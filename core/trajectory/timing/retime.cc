@@ -31,7 +31,7 @@ std::vector<Eigen::VectorXd> way_of(const TrajectoryRequest& request) {
   return way;
 }
 
-// Of the chord between two points.
+// Returns the distance to a chord.
 double distance_to_chord(const Eigen::VectorXd& point, const Eigen::VectorXd& from,
                          const Eigen::VectorXd& to) {
   const Eigen::VectorXd chord = to - from;
@@ -40,8 +40,7 @@ double distance_to_chord(const Eigen::VectorXd& point, const Eigen::VectorXd& fr
   return (point - from - std::clamp(share, 0.0, 1.0) * chord).norm();
 }
 
-// From each point that stays the farthest one to which the chord passes all between within
-// kThinWithin; so far it is looked, that the time goes with the number of points.
+// Bounds the span of a chord that replaces waypoints, so that the time is linear in their number.
 constexpr std::size_t kSpanMax = 64;
 
 std::vector<Eigen::VectorXd> thinned(const std::vector<Eigen::VectorXd>& way) {
@@ -58,10 +57,10 @@ std::vector<Eigen::VectorXd> thinned(const std::vector<Eigen::VectorXd>& way) {
     kept.push_back(way[to]);
     from = to;
   }
-  return JointPath::leads_somewhere(kept) ? kept : way;  // one that leads back at once
+  return JointPath::leads_somewhere(kept) ? kept : way;  // else it only goes there and back
 }
 
-// What could be done about it.
+// Returns a remedy for too many waypoints.
 std::string remedy(std::size_t given, double made) {
   const double share = static_cast<double>(kWaypointsMax) / made;
   const auto of_each = static_cast<std::size_t>(0.9 * share * static_cast<double>(given));
