@@ -65,9 +65,9 @@ std::string remedy(std::size_t given, double made) {
   const double share = static_cast<double>(kWaypointsMax) / made;
   const auto of_each = static_cast<std::size_t>(0.9 * share * static_cast<double>(given));
   return "the " + std::to_string(given) + " waypoints become " + to_text(made) +
-         " with the times that are made, and a motion has at most " +
-         std::to_string(kWaypointsMax) + ": give the way in several jobs of at most " +
-         std::to_string(of_each) + " waypoints each, or fewer waypoints";
+         " by time parameterization, but a motion has at most " + std::to_string(kWaypointsMax) +
+         ": split the path into several jobs of at most " + std::to_string(of_each) +
+         " waypoints each, or fewer waypoints";
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ Result<TrajectoryPtr> retimed(const TrajectoryRequest& request, const Cell& cell
     problems.add({ProblemKind::invalid,
                   "no-way",
                   "/points",
-                  "all waypoints are one place: there is no way to give times to",
+                  "all waypoints are equal: there is no path to time",
                   {}});
   }
   if (!problems.empty()) return failure(std::move(problems).take());
@@ -106,7 +106,7 @@ Result<TrajectoryPtr> retimed(const TrajectoryRequest& request, const Cell& cell
     if (problem.kind == ProblemKind::too_large && made != nullptr) {
       problem.detail = remedy(request.points.size(), *made);
     } else {
-      problem.detail.insert(0, "with the times that were made: ");
+      problem.detail.insert(0, "after time parameterization: ");
     }
   }
   return failure(std::move(timed.error()));
