@@ -165,10 +165,9 @@ struct Cell {
   [[nodiscard]] std::optional<LinkId> find_link(std::string_view link_name) const;
 
   // Returns true if the link is static and carries the arm, directly or through fixed links without
-  // shapes. A mount may be a pedestal or a table in the same URDF: no file tells. So every link of
-  // the arm keeps mount_clearance_m from it; less than clearance_m suits robots that fold onto
-  // their own body. Neighbors that touch are disabled by the SRDF or, without an SRDF, as parent
-  // and child.
+  // shapes. A mount may be a pedestal or a table in the same URDF. So every link of the arm keeps
+  // mount_clearance_m from it; less than clearance_m suits robots that fold onto their own body.
+  // Neighbors that touch are disabled by the SRDF or, without an SRDF, as parent and child.
   [[nodiscard]] bool is_mount(LinkId link, ArmId arm) const;
   // Returns true if both links belong to one arm. They pass closely by design and keep
   // self_clearance_m.

@@ -252,7 +252,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "</link>",
                 "twin.urdf: links",
                 "r1 have a <visual> but no <collision>: the dashboard shows them, but they are not "
-                "checked, so they may hit anything"},
+                "checked, so collisions with them are not detected"},
         Mistake{"<link name=\"r3\"><collision><geometry><sphere radius=\"0.03\"/></geometry>"
                 "</collision></link>",
                 "<link name=\"r3\"/>", "twin.urdf: arm right",

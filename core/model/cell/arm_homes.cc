@@ -22,7 +22,7 @@ void warn_if_held_elsewhere(const RobotBuild& robot, const ArmBuild& build, std:
                     value});
 }
 
-// Returns the state's values in the arm's order. Adds to `faults` why the state cannot be a home.
+// Returns values in the arm's order. Adds to `faults` why the state cannot be a home.
 Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const std::string& name,
                           NamedState& state, const Cell& cell) {
   const auto& joints = cell.arm(arm.id).joints;
@@ -61,8 +61,7 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
   return values;
 }
 
-// Reads the states of the arm's group and leaves out those with faults. The faults are problems if
-// the state is the arm's home, and warnings otherwise.
+// Keeps states without faults. Faults are problems for the arm's home, else warnings.
 void read_named_states(const RobotBuild& robot, const ArmBuild& build,
                        std::map<std::string, NamedState>& states, Cell& cell,
                        Diagnostics& diagnostics) {
@@ -103,7 +102,7 @@ void refuse_unknown_state(const RobotBuild& robot, const ArmDescription& arm,
                       arm.home_state);
 }
 
-// Checks the SRDF's states and the cell's homes against each other if the robot's tree is unknown.
+// Without a tree, checks the SRDF's states and the cell's homes against each other.
 void tell_homes_without_tree(RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.semantics) return;
   const auto& arms = robot.description->arms;
@@ -121,8 +120,7 @@ void tell_homes_without_tree(RobotBuild& robot, Diagnostics& diagnostics) {
   }
 }
 
-// Returns the home that the description names as a state. Reports an unknown state and returns
-// nullopt.
+// Returns the home that is named as a state, or nullopt with a report.
 std::optional<Eigen::VectorXd> named_home(const RobotBuild& robot, const ArmBuild& build,
                                           const Arm& arm, Diagnostics& diagnostics) {
   const std::string& name = build.description->home_state;
@@ -132,8 +130,7 @@ std::optional<Eigen::VectorXd> named_home(const RobotBuild& robot, const ArmBuil
   return std::nullopt;
 }
 
-// Returns the home that the description lists, with or without values for fixed joints. Reports a
-// wrong number of values and returns nullopt.
+// Returns the listed home, with or without values for fixed joints, or nullopt with a report.
 std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBuild& build,
                                            const Arm& arm, Diagnostics& diagnostics) {
   const std::vector<double>& home = build.description->home;

@@ -158,8 +158,8 @@ void add_links(RobotBuild& robot, Cell& cell) {
   }
 }
 
-// Reports prefixed names that another robot has, too. Reports one link and one joint only: two
-// robots of one URDF without prefixes share all names.
+// Reports one prefixed link and joint name of another robot: without prefixes, robots of one URDF
+// share all.
 void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links,
                           std::set<std::string>& joints, Diagnostics& diagnostics) {
   const auto first_taken = [&](const auto& by_name, std::set<std::string>& known) {

@@ -17,8 +17,8 @@ std::string usable_groups(const RobotBuild& robot) {
   return text.empty() ? "no group has movable joints" : "groups with movable joints: " + text;
 }
 
-// Returns the arm's joints, including fixed ones. Without an SRDF all joints of the robot form one
-// arm, whose group has no name. Reports an unusable group and returns nullopt.
+// Returns the arm's joints, fixed ones included, or nullopt with a report. Without an SRDF all
+// joints form one arm, whose group has no name.
 std::optional<RobotSemantics::JointSet> group_joints(const RobotBuild& robot,
                                                      const ArmDescription& arm,
                                                      const std::string& pointer,

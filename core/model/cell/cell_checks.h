@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// Check the parts of a cell file that do not depend on the robots' files: names, object shapes and
-// poses, settings. Places are JSON pointers with the keys of the file ("/checking/time_step_s").
+// Check the parts of a cell file that need no robot files: names, objects and settings. Places are
+// JSON pointers with the keys of the file ("/checking/time_step_s").
 void check_names(const CellDescription& description, Diagnostics& diagnostics);
 void check_objects(const CellDescription& description, Diagnostics& diagnostics);
 void check_settings(const CellDescription& description, Diagnostics& diagnostics);

@@ -5,8 +5,7 @@
 
 namespace armloom {
 
-// Warns of probable mistakes in the cell, each with its consequence. The cell was built from the
-// description and may be incomplete. Checked are:
+// Warns of probable mistakes, each with its consequence. The cell may be incomplete. Checked are:
 // - brakes weaker than the acceleration,
 // - arms with more lag or measurement noise than motions are certified for,
 // - meshes that are flat or not closed, or whose size suggests a unit error.

@@ -78,7 +78,7 @@ void check_names_without_group(const RobotBuild& robot, Diagnostics& diagnostics
   }
 }
 
-// Warns of joints in joint_limits.yaml that the URDF does not have: the file is older.
+// Warns of a file that is older than the URDF.
 void warn_of_stale_joints(const RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.limits_file || robot.tree.nameless) return;
   std::string names;
@@ -93,8 +93,7 @@ void warn_of_stale_joints(const RobotBuild& robot, Diagnostics& diagnostics) {
        file + ": joints that are not in " + robot.tree.file + " are left out: " + names, names});
 }
 
-// Reports all faults in joint_limits.yaml if the robot's joints are unknown, because any joint may
-// need them.
+// Without known joints, reports all faults: any joint may need the limits.
 void tell_limits_without_joint(RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.limits_file || !robot.tree.nameless) return;
   for (auto& [name, joint] : robot.limits_file->joints) {

@@ -185,7 +185,7 @@ void LimitsOfJoint::settle_rates() {
 void LimitsOfJoint::warn_of_units() {
   if (arm_ == nullptr) return;
   const bool slides = joint_.kind == JointKind::prismatic;
-  const char* meant = slides ? " (millimetres?)" : " (degrees?)";
+  const char* meant = slides ? " (millimeters?)" : " (degrees?)";
   const double farthest = slides ? kFarthestSlide_m : kFarthestTurn_rad;
   const double fastest = slides ? kFastestSlide_m_s : kFastestTurn_rad_s;
   const bool endless = joint_.kind == JointKind::continuous;

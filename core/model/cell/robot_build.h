@@ -37,7 +37,7 @@ struct RobotBuild {
   std::vector<ArmBuild> arms;                  // with known groups
   std::set<JointId> shared;                    // by several arms; already reported
 
-  // Returns true if the file was unreadable, as reported: limits are unknown.
+  // Returns true if the file was unreadable, as reported.
   [[nodiscard]] bool limits_unread() const {
     return !limits_file && !description->joint_limits.empty();
   }

@@ -23,8 +23,8 @@ void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Diagnostics& d
     tell("links",
          links +
              " have a <visual> but no <collision>: the dashboard shows them, but they are not "
-             "checked, "
-             "so they may hit anything; give each a <collision>, like its <visual> or simpler",
+             "checked, so collisions with them are not detected; give each a <collision>, like its "
+             "<visual> or simpler",
          links);
   }
   for (const ArmBuild& build : robot.arms) {
@@ -39,8 +39,7 @@ void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Diagnostics& d
     if (own > 0 && solid == 0)
       tell("arm " + arm.name,
            "no link has <collision> geometry, so its motions are not checked and it may hit "
-           "anything; "
-           "add <collision> elements to its links",
+           "anything; add <collision> elements to its links",
            arm.name);
   }
 }

@@ -57,8 +57,7 @@ class SettingWarnings {
     if (error_rad == 0.0)
       warn("/checking/tracking_error_rad", error_rad,
            ": motions are certified for arms that follow their paths exactly, which no arm does; "
-           "set "
-           "the real tracking error");
+           "set the real tracking error");
     if (error_rad > kLargeError_rad)
       warn(
           "/checking/tracking_error_rad", error_rad,
@@ -71,13 +70,11 @@ class SettingWarnings {
     if (given_.scheduling.policy == "timed_discrete" && step_s > kLongStep_s)
       warn("/checking/time_step_s", step_s,
            ": timed_discrete misses collisions between two such steps; reduce it, or use a "
-           "certified "
-           "policy");
+           "certified policy");
     if (given_.execution.start_tolerance_rad > kLargeStart_rad)
       warn("/execution/start_tolerance_rad", given_.execution.start_tolerance_rad,
            ": a job may begin with its joints that far off its path, and the motion onto the path "
-           "is "
-           "not checked");
+           "is not checked");
   }
 
   void warn_of_monitor() const {

@@ -8,7 +8,7 @@ namespace {
 
 using JointsOfTheCell = std::set<JointId>;
 
-// Returns for each tree index the joints that determine the link's pose: its own and those above.
+// Returns for each tree index the joints that place the link: its own and those above.
 std::vector<JointsOfTheCell> joints_above(const RobotBuild& robot, const Cell& cell) {
   std::vector<JointsOfTheCell> above;
   for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
@@ -19,8 +19,7 @@ std::vector<JointsOfTheCell> joints_above(const RobotBuild& robot, const Cell& c
   return above;
 }
 
-// Returns the joints that determine where the arm's motions take place: its own, and all above
-// them.
+// Returns the joints that place the arm's motions: its own and all above.
 JointsOfTheCell joints_that_place(const Arm& arm, ArmId id, const Cell& cell,
                                   const RobotBuild& robot,
                                   const std::vector<JointsOfTheCell>& above) {
@@ -37,7 +36,7 @@ std::string plain_name(const RobotBuild& robot, const Cell& cell, JointId joint)
   return cell.joint(joint).name.substr(robot.description->prefix.size());
 }
 
-// Returns the cell file line that fixes the joints at the permitted values nearest to 0.
+// Returns the line that fixes the joints at permitted values nearest to 0.
 std::string line_to_hold(const RobotBuild& robot, const Cell& cell,
                          const std::vector<JointId>& joints) {
   std::string members;

@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Returns the joints of no arm that determine the link's pose.
+// Returns the joints of no arm that place the link.
 std::set<JointId> standing_above(const Cell& cell, LinkId id) {
   std::set<JointId> joints;
   for (std::optional<LinkId> link = id; link; link = cell.link(*link).parent) {

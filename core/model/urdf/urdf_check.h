@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// Where a URDF's meshes are searched (mesh_path.h).
+// Folders in which a URDF's meshes are searched (mesh_path.h).
 struct MeshFolders {
   std::filesystem::path urdf_folder;
   const std::map<std::string, std::string>* packages;

@@ -96,7 +96,7 @@ int start(const std::string& file, const Pipe& out, const Pipe& err, pid_t& chil
   return error;
 }
 
-// Of a Python traceback, only the last line is kept.
+// Keeps only the last line of a Python traceback.
 std::string in_one_line(const std::string& text) {
   constexpr std::size_t kMost = 1000;
   std::istringstream lines(text);
