@@ -44,7 +44,7 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
   }
   if (link.joint.many_values)
     return refuse("unsupported-joint",
-                  "joint " + name + ": floating and planar joints cannot be held");
+                  "joint " + name + ": floating and planar joints cannot be fixed");
   if (!link.joint.motion)
     return refuse("held-fixed", "joint " + name + " is already fixed in " + tree.file);
   if (!std::isfinite(value))
