@@ -72,7 +72,7 @@ class Trajectory {
   [[nodiscard]] std::vector<SegmentBounds> bounds() const;
   // Bounds the distance of positions between two instants from the line through the middle, with
   // the velocity there:
-  // q(t) - position - velocity (t - middle)| <= off, t from `from` to `to`. Resizes as needed;
+  // |q(t) - position - velocity (t - middle)| <= off, t from `from` to `to`. Resizes as needed;
   // sound up to rounding (1e-12). Precondition: 0 <= from <= to <= duration.
   struct AboutLine {
     Eigen::VectorXd position, velocity, off;

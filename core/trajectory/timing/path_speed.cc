@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// on_u u + on_x x| <= limit, with x = s'^2 at the part's beginning and u = s'' in the part, solved
+// |on_u u + on_x x| <= limit, with x = s'^2 at the part's beginning and u = s'' in the part, solved
 // for u: within `half` of -slope x. Rows without u bound x alone.
 struct Row {
   double slope;

@@ -12,7 +12,7 @@ namespace armloom {
 // (Biagiotti and Melchiorri, "FIR filters for online trajectory planning with time- and
 // frequency-domain specifications", Control Engineering Practice 2012.) Velocity and acceleration
 // are means of q's, so no larger; jerk is
-// q''(t + T/2) - q''(t - T/2)| / T <= 2 a_max / T; the acceleration is zero at both ends. The
+// |q''(t + T/2) - q''(t - T/2)| / T <= 2 a_max / T; the acceleration is zero at both ends. The
 // motion takes T longer, and no joint leaves the path by more than a_max T^2 / 24.
 //
 // Returns waypoints with velocities and accelerations, the first at time zero. The quintics between
