@@ -197,9 +197,10 @@ TEST_F(Import, NamesTheLinksThatAnotherRobotsSrdfMeans) {
   const test::Outcome outcome =
       run("import --urdf " + models + "/panda.urdf --srdf " + models + "/ur5e.srdf");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("no group is an arm"),
-                                 HasSubstr("the SRDF is of robot ur5e, panda.urdf of robot panda"),
-                                 HasSubstr("is not in panda.urdf; the group is without it")));
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("no group of it is an arm"),
+                    HasSubstr("the SRDF is for robot ur5e, but panda.urdf for robot panda"),
+                    HasSubstr("is not in panda.urdf; it is left out of the group")));
 }
 
 TEST_F(Import, ItsSchemaIsPrinted) {
