@@ -8,8 +8,8 @@
 
 namespace armloom {
 
-// The queues of the arms: of each its jobs that have not ended, first goes first; and the work that
-// stands in each.
+// The arm queues: for each arm its jobs that have not ended, in running order, and the work in the
+// queue.
 class ArmQueues {
  public:
   using Queue = std::deque<JobId>;
@@ -21,23 +21,24 @@ class ArmQueues {
   [[nodiscard]] auto end() const { return queues_.end(); }
 
   [[nodiscard]] bool is_first(const Job& job) const;  // of all its arms
-  // Its neighbours on that arm of its own; nothing: it is the first, or the last one.
+  // Return the adjacent jobs in that arm's queue; nullopt at the front or the end of the queue.
   [[nodiscard]] std::optional<JobId> before(const Job& job, ArmId arm) const;
   [[nodiscard]] std::optional<JobId> behind(const Job& job, ArmId arm) const;
 
-  // At the end of its arms, or before that one where it stands.
+  // Inserts the job at the end of its arms' queues, or before `before` in the queues that contain
+  // it.
   void insert(const Job& job, std::optional<JobId> before);
-  // With so many in front of it.
+  // Inserts the job behind the first `place` jobs of its arms' queues.
   void insert_at(const Job& job, std::size_t place);
   void erase(const Job& job);
-  // These follow each other on the same arms: now in this order.
+  // Reorders jobs that occupy consecutive places on the same arms.
   void put_in_order(const Job& any_of_them, const std::vector<JobId>& jobs);
 
-  // The time that its motion takes comes to, or from, the work of its arms. A job that could still
-  // go on several arms counts as shared by them. Whatever changes that: first remove it, then add.
+  // Add or remove the job's duration as work of its arms. A job that may still run on several arms
+  // is shared equally between them. To change a job, remove its work first and add it again after.
   void add_work(const Job& job);
   void remove_work(const Job& job);
-  // By ArmId, of all jobs but these.
+  // Returns the work of all jobs except `in_front`, by ArmId.
   [[nodiscard]] std::vector<Duration> work_but(const std::vector<const Job*>& in_front) const;
 
  private:

@@ -10,22 +10,23 @@
 
 namespace armloom {
 
-// Where the arms of a cell rest, and which of them start nothing for now.
+// Where the arms of a cell rest, and which arms are stopped.
 class ArmRests {
  public:
-  // `rest`: of every joint of the cell; throws std::invalid_argument if it has another size.
+  // `rest` has one value for each joint of the cell; throws std::invalid_argument otherwise.
   ArmRests(const Cell& cell, Configuration rest);
 
-  // Where every joint stands, as far as it is not in motion; there where it set out.
+  // Returns the rest position of every joint; for a moving joint the position where it started.
   [[nodiscard]] const Configuration& rest() const { return rest_; }
   [[nodiscard]] const PlacePtr& place(ArmId arm) const { return places_at_[arm.index()]; }
   [[nodiscard]] const std::vector<PlacePtr>& places() const { return places_at_; }
-  // The motion on which it came to rest; or null.
+  // Returns the motion that brought the arm to its rest; null if there is none, or if it moved
+  // several arms.
   [[nodiscard]] const TrajectoryPtr& came_by(ArmId arm) const { return came_by_[arm.index()]; }
 
-  // At `position` of the trajectory's joints, in its order.
+  // Sets the rest to `position`, in the order of the trajectory's joints.
   void come_to_rest(const Cell& cell, const TrajectoryPtr& motion, const Eigen::VectorXd& position);
-  // At its goal, it counts as standing exactly there.
+  // Places the arms exactly at the goal, ignoring small deviations.
   void rest_at_goal(const WaitingLeg& leg);
 
   void stop(ArmId arm, std::string cause) { stopped_[arm.index()] = std::move(cause); }
@@ -36,14 +37,16 @@ class ArmRests {
   }
   [[nodiscard]] std::optional<Wait> stop_of(const Job& job) const;
 
-  // A motion of these arms as a leg of their lanes.
+  // Returns the motion as a leg of the safe sequence.
   [[nodiscard]] WaitingLeg leg_of(const Cell& cell, JobId job, const Trajectory& motion);
-  // The first joint that stands elsewhere than where the trajectory begins, by more than
-  // execution.start_tolerance_rad; of this arm only, if given.
+  // Returns the first joint whose rest differs from the trajectory's start by more than
+  // execution.start_tolerance_rad; nullopt if there is none. With `arm`, only joints of that arm
+  // are compared.
   [[nodiscard]] std::optional<JointId> begins_elsewhere(const Cell& cell,
                                                         const Trajectory& trajectory,
                                                         std::optional<ArmId> arm = {}) const;
-  // Why it cannot begin where the arms stand.
+  // Returns the sentence for Reason::start_mismatch; nullopt if the trajectory begins where the
+  // arms rest.
   [[nodiscard]] std::optional<std::string> start_mismatch(const Cell& cell,
                                                           const Trajectory& trajectory) const;
 
@@ -52,10 +55,10 @@ class ArmRests {
   std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
   std::vector<TrajectoryPtr> came_by_;
   Places places_;
-  std::vector<PlacePtr> places_at_;  // per arm: where it rests, or came from
+  std::vector<PlacePtr> places_at_;  // per arm: where it rests, or where it started
 };
 
-// Whether the motion of that arm may begin with it there (execution.start_tolerance_rad).
+// Returns true if the arm at `place` is at the motion's start within execution.start_tolerance_rad.
 [[nodiscard]] bool begins_at(const Cell& cell, const Trajectory& motion, const Place& place);
 
 }  // namespace armloom

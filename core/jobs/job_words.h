@@ -19,7 +19,7 @@ enum class JobState {
   backlogged,  // judged, in conflict: `waits_on` says with what
   scheduled,   // admitted, starts at scheduled_at
   running,
-  paused,   // in the middle of its path, at rest or braking, until resumed
+  paused,  // in the middle of its path, at rest or braking, until resumed
   succeeded,
   canceled,
   expired,

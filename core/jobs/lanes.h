@@ -9,44 +9,45 @@
 
 namespace armloom {
 
-// The lanes of the arms, as far as they wait: a sequence in which all of it can be done, kept up
-// to date with the jobs and with what becomes known of them. What waits in the queue is a leg; what
-// is admitted, held on its path or not, will come to its end; what ended elsewhere leaves its arms
-// where they stand. Who is stopped will go on: that changes nothing of what can be done in turn.
+// Keeps the safe sequence of waiting jobs up to date with the jobs and with known passages. Queued
+// jobs are its legs; admitted and held jobs are assumed to reach their ends; jobs that ended
+// elsewhere leave their arms there. Stops are ignored because stopped arms will be resumed.
 class Lanes {
  public:
   explicit Lanes(double start_tolerance) : sequence_(start_tolerance) {}
 
-  // A job came, at the end of its lanes or before others; or is in another phase than `before`;
-  // or something else has changed what waits.
+  // Update the sequence: a new job at the end of its arm queues, or before another job; a job that
+  // left the phase `before`; any other change of the waiting jobs.
   void add(const Record& record);
   void follow(const Job& job, const JobPhase& before);
   void renew_later() { is_stale_ = true; }
   void admitted(const std::vector<JobId>& jobs) { sequence_.admitted(jobs); }
 
-  // Whether these may be asked about, or admitted: a sequence of all else remains. Not where jobs
-  // are on their paths: they are admitted already.
+  // Returns what remains of the sequence if these jobs are admitted now. Empty, that is no
+  // objection, if one of them is not queued, because jobs on their path are admitted already.
   [[nodiscard]] SafeSequence::Outlook after(const std::vector<JobId>& jobs, const JobBook& book,
                                             const ArmRests& arms);
-  // In the sequence that after() went by last; where that is to be renewed, nothing speaks against.
+  // Returns true if `first` precedes `other` in the sequence of the last after(), or if the
+  // sequence must be renewed.
   [[nodiscard]] bool goes_before(JobId first, JobId other) const {
     return is_stale_ || sequence_.goes_before(first, other);
   }
-  // Whether a sequence of what waits has it in it, as far as is known: of its first legs.
+  // Returns true if the job is in the sequence, or if nothing contrary is known. Only the first
+  // legs are certain.
   [[nodiscard]] bool has_place(JobId job, const JobBook& book, const ArmRests& arms);
-  // Where they are as they were when asked last.
+  // Returns true if the job begins where the jobs before it leave its arms.
   [[nodiscard]] bool follows_on(JobId job) const { return sequence_.follows_on(job); }
   void renew(const JobBook& book, const ArmRests& arms);
 
-  // Whatever has become of the question since: what legs and places do to each other stays.
+  // Stores the answers, valid even if the question has become void.
   void learn(const std::vector<Passage>& asked, const Verdict& verdict, const JobBook& book);
-  // Found in its way when it was judged: an arm that rests without anything admitted.
+  // Stores that the resting `arm`, without an admitted job, was found in the job's path.
   void learn_in_the_way(JobId job, ArmId arm, const JobBook& book, const ArmRests& arms);
   void forget_passages() { sequence_.forget_passages(); }
 
  private:
-  SafeSequence sequence_;  // of all that waits in the queue
-  bool is_stale_ = true;   // it is otherwise than the sequence knows
+  SafeSequence sequence_;  // of all queued jobs
+  bool is_stale_ = true;   // sequence_ must be renewed
 };
 
 }  // namespace armloom
