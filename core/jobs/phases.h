@@ -28,8 +28,7 @@ void brake(State& state, Record& record, AfterStop after);
 void give_up(State& state, Record& record, const AfterStop& after);
 // Withdraws an admitted, undispatched job: it waits again, or ends.
 void withdraw(State& state, Record& record, const AfterStop& after);
-// Handles an arm at rest: at its end, after a brake, or after a fault. `report` is not
-// `progressed`.
+// Handles a report that the motion has stopped, finished or faulted.
 void come_to_rest(State& state, Record& record, const MotionReport& report);
 
 // Gives a job at rest a new path from its position; it waits in the queue again. Precondition: it
