@@ -74,9 +74,8 @@ class OrderSearch {
   OpenOrders& open_;
   const std::vector<Duration>& work_behind_;
   double weight_of_sum_;
-  std::vector<double>
-      urgency_;  // by motion: number of smaller priorities, if it is the first of its arms
-  std::vector<Node> waiting_;  // a heap
+  std::vector<double> urgency_;  // by motion: smaller priorities, if it is the first of its arms
+  std::vector<Node> waiting_;    // a heap
   std::optional<Node> best_;
   std::size_t made_ = 0;
   std::size_t made_max_;

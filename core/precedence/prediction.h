@@ -56,7 +56,7 @@ class Prediction {
   std::vector<Duration> begins = {};    // when it leaves its start; zero if it has begun
   std::vector<Duration> ends = {};      // of motions that reach their end
   std::vector<std::size_t> stuck = {};  // ascending: motions that never end
-  std::vector<std::size_t> ring = {};   // a cycle: each waits for the next, the last for the first
+  std::vector<std::size_t> ring = {};   // a cycle of waits, or one motion at its held_at
  private:
   friend class Race;
   std::vector<Stage> stages_ = {};

@@ -6,28 +6,31 @@
 
 namespace armloom {
 
-// What becomes of a job that was judged and does not go.
+// Handling of a job that was checked and is not admitted.
 
-// Precondition of all but hold_back(): it waits.
+// Precondition of all functions but hold_back(): the job is waiting.
 void note_found(Record& record, std::vector<Wait> waits);
-// Into the backlog, until what holds it back is another.
+// Moves the job to the backlog until the next version. A job that is not the first of its arms
+// stays queued.
 void put_off(State& state, Record& record, std::vector<Wait> waits);
-// Where its way begins in something that no job moves (Job::stands_in): nothing is asked about it.
+// Defers a job whose arm is too close to an object to be planned (Job::stands_in), without a
+// question. Returns false if it is not such a job.
 [[nodiscard]] bool put_off_where_it_stands(State& state, Record& record);
-// Not the backlog: it could go, or soon could, but for those that have to come before it.
+// Keeps the job queued, not backlogged: it is blocked only by jobs that must go first.
 void wait_behind(State& state, Record& record, JobId first);
-// So it is in the sequence; when that is another one, it is judged again.
+// Keeps the job queued behind `first`, which precedes it in the safe sequence. It is checked again
+// when that changes.
 void wait_in_turn(State& state, Record& record, JobId first);
-// Whether its arms would hit themselves or each other: then it has failed, unless it has begun.
+// Returns true if the verdict has a self-collision and the job has not begun; it has then failed.
 [[nodiscard]] bool fails_by_itself(State& state, Record& record, const Verdict& verdict);
-// For what the verdict found; or it fails by itself.
+// Defers the job with the conflicts of the verdict, or fails it for a self-collision.
 void refuse(State& state, Record& record, const Verdict& verdict);
-// An admitted one, that another scene endangers: it is stopped.
+// Brakes an admitted job whose motion is in conflict in the changed scene.
 void hold_back(State& state, Record& record, const Verdict& verdict);
 
-// Where the budget of evaluations has ended it is not put off yet, but judged again with a larger
-// one when its turn comes, behind those that are judged with less. So often at most that a job that
-// cannot be decided takes no time from others each time that something changes.
+// Returns true if the evaluation budget was exhausted and the job will be checked again at its turn
+// with a larger budget, after jobs with smaller budgets. The number of raises is limited so that an
+// undecidable job does not take time from other jobs after every change.
 [[nodiscard]] bool is_asked_again(Record& record, const Verdict& verdict);
 
 }  // namespace armloom
