@@ -4,8 +4,9 @@
 
 namespace armloom {
 
-// Jobs of the scheduler's own take the arm out of the way, and, where it has a job that begins
-// where it stands, back before that; one that is a goal lets the other pass first.
+// Adds the retreat as a job of the scheduler. If the arm has a job that begins at its present rest,
+// a return before that job is added too. A job with a goal needs no return, but lets the blocked
+// job pass first.
 void send_aside(State& state, const YieldTrial& move);
 
 }  // namespace armloom
