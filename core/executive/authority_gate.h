@@ -12,8 +12,8 @@
 namespace armloom {
 
 // The only way to the arms: starts, resumes and extends motions as far as the guard allows. Refused
-// authority is kept and tried again in each control cycle, until the guard allows it or the motion
-// is braked. The gate requests missing certificates.
+// authority is retried in each control cycle until it is allowed or the motion is braked. Requests
+// missing certificates.
 class AuthorityGate {
  public:
   struct Calls {
@@ -31,9 +31,7 @@ class AuthorityGate {
   // motion.
   void set_certified(bool certified) { is_certified_ = certified; }
 
-  // Takes certificates from the checker's answers to any question.
   void take(const std::vector<Certificate>& certificates) { guard_.take(certificates); }
-  // Takes the answer to Calls::certify.
   void certified(const std::vector<Certificate>& certificates);
   void look_at(const SceneFingerprint& present);
   [[nodiscard]] const SceneFingerprint& scene() const { return guard_.scene(); }
@@ -50,15 +48,12 @@ class AuthorityGate {
   // Returns the refusal that holds the job back and that the scheduler did not expect; nullopt if
   // there is none.
   [[nodiscard]] std::optional<GuardRefusal> refusal(JobId job) const;
-  // Returns true if the arms have all granted authority.
   [[nodiscard]] bool is_idle() const { return kept_.empty(); }
-  // Returns the job of the arm's last motion.
   [[nodiscard]] std::optional<JobId> job_of(ArmId arm) const { return jobs_[arm.index()]; }
 
   // Shortest time between two requests for the missing certificates of one job.
   inline static constexpr Duration kAskAgain = std::chrono::milliseconds(100);
-  // A certificate that is missing for longer than kMissing, and after kAnswers answers about the
-  // present scene, indicates a defect of the scheduler.
+  // Beyond both of these, a missing certificate is a defect of the scheduler.
   inline static constexpr Duration kMissing = std::chrono::seconds(1);
   inline static constexpr int kAnswers = 2;
 
@@ -69,10 +64,10 @@ class AuthorityGate {
     GuardRefusal refusal;
     TimePoint since;
     std::optional<Dispatch> start = {};  // not sent to the arms yet
-    bool is_braked = false;              // before it was sent
+    bool is_braked = false;
     bool is_reported = false;
     TimePoint asks_from = {};  // time of the next request for its certificates
-    int answers = 0;           // about the present scene, without the missing certificate
+    int answers = 0;
 
     [[nodiscard]] AuthorityGuard::From from() const {
       return start ? std::optional(start->from_progress) : std::nullopt;
@@ -94,7 +89,7 @@ class AuthorityGate {
   Calls calls_;
   bool is_certified_ = true;
   std::map<JobId, Kept> kept_;
-  std::map<JobId, TrajectoryPtr> told_;     // motions sent to the arms
+  std::map<JobId, TrajectoryPtr> told_;
   std::vector<std::optional<JobId>> jobs_;  // by ArmId
   std::optional<JobId> asked_;              // the job of the open question
   TimePoint now_{};

@@ -12,16 +12,15 @@ struct CheckedJob {
   CheckView verdict;
 };
 
-// Checks jobs against each other without running them, and returns the results in the given order.
-// A job is assumed to start at its own time, or when the earlier jobs of its arms and the jobs in
-// its `after` have ended. It is checked at that time (Trial) against all jobs that have started by
-// then, whatever their verdict; among jobs with equal start times, against those listed earlier. So
-// of two overlapping jobs the later one is checked against the earlier one. `earliest_start_s` is
-// relative to the job's own time.
+// Checks jobs against each other without running them; results are in the given order. A job is
+// assumed to start at its time, or when the earlier jobs of its arms and those in `after` have
+// ended. It is checked then (Trial) against all jobs that have started, whatever their verdict, and
+// among equal start times against those listed earlier. `earliest_start_s` is relative to the job's
+// own time.
 //
-// A goal (`move_to`) is planned from where the earlier jobs leave all arms. Of several candidate
-// arms, the one that would arrive first on its own is taken. If there is no plan, the verdict's
-// `result` says so, and so do the verdicts of jobs that depend on it.
+// A goal (`move_to`) is planned from where the earlier jobs leave all arms; of several arms the
+// first to arrive takes it. Without a plan, its verdict and those of dependent jobs have a
+// `result`.
 //
 // Problems: an unknown policy; arms too close at home; those of submit(), with pointers below
 // "/<index>/job".

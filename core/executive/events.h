@@ -20,8 +20,8 @@ namespace armloom {
 // freely between threads. Times are cell time; the server adds wall time.
 struct WaitView {
   Wait::Kind kind;
-  std::string job;                 // key, or empty
-  std::string arm;                 // name, or empty
+  std::string job;
+  std::string arm;
   std::vector<std::string> links;  // own, other; or empty
   std::optional<double> own_time_s;
   std::optional<double> other_time_s;
@@ -30,10 +30,10 @@ struct WaitView {
   std::optional<double> progress = {};  // check: 0 to 1
 };
 
-// The choice of a job or an arm among several (core/jobs/job.h, Choice).
+// See Choice in core/jobs/job.h.
 struct ChoiceView {
-  std::vector<std::string> among;  // keys of jobs, or names of arms
-  std::string taken;               // one of `among`
+  std::vector<std::string> among;
+  std::string taken;  // one of `among`
   std::optional<double> saves_s;
   std::string detail;  // one sentence
 };
@@ -43,13 +43,12 @@ struct JobResultView {
   std::string detail;
 };
 
-// The answer of check(), without starting the job.
 struct CheckView {
   Verdict::Kind kind = Verdict::Kind::free;
   std::optional<double> earliest_start_s;        // from now; nullopt: not known
   std::optional<double> clearance_bound_m;       // ClearanceBound; nullopt: not certified
   std::optional<double> self_clearance_bound_m;  // likewise
-  std::vector<WaitView> waits_on;                // of the job; free: until it starts
+  std::vector<WaitView> waits_on;                // free: until it starts
   std::vector<WaitView> conflicts;               // not free: the same as waits_on
   std::uint64_t evaluations = 0;
   std::uint64_t scene_version = 0;
@@ -57,20 +56,20 @@ struct CheckView {
   std::optional<double> approach_s;     // time until its arms are at its start
   std::optional<JobResultView> result;  // set if the job would end at once
 };
-// Replans of a job (scheduler/ways/replanning.h).
+// See scheduler/ways/replanning.h.
 struct AnotherWayView {
-  std::uint64_t done = 0;                               // number of successful replans
-  bool is_open = false;                                 // a replan is open
-  AnotherWay::Cause cause = AnotherWay::Cause::client;  // of the last replan
-  std::optional<std::string> refusal;                   // why the last replan failed
+  std::uint64_t done = 0;  // successful replans
+  bool is_open = false;
+  AnotherWay::Cause cause = AnotherWay::Cause::client;
+  std::optional<std::string> refusal;  // why the last replan failed
 };
-// Detours of a job (scheduler/ways/detour.h).
+// See scheduler/ways/detour.h.
 struct DetourView {
-  std::uint64_t weighed = 0;      // number of candidates evaluated
-  bool is_taken = false;          // the path is a detour
+  std::uint64_t weighed = 0;  // candidates evaluated
+  bool is_taken = false;
   std::optional<double> saves_s;  // nullopt: no detour, or the shortest path was not possible
 };
-// What a client left open about a job, and how it was decided.
+// The alternatives that a client left open, and the decision.
 struct JobWaysView {
   std::vector<std::string> alternatives;  // candidate arms, by name
   std::optional<ChoiceView> choice;
@@ -85,7 +84,6 @@ struct JobTimesView {
   std::optional<TimePoint> started_at;
   std::optional<TimePoint> ended_at;
 };
-// A job's trajectory and its progress.
 struct JobMotionView {
   Duration duration{};
   std::optional<bool> planned;  // for a goal; if false, the duration is an estimate
@@ -99,7 +97,7 @@ struct JobView {
   JobState state = JobState::queued;
   std::vector<std::string> arms;
   JobTerms terms = {};
-  bool system_job = false;  // initiated by the server
+  bool system_job = false;
   JobTimesView times = {};
   JobMotionView motion = {};
   JobWaysView ways = {};
@@ -165,7 +163,7 @@ struct GuardEvent {
   GuardRefusal refusal;
   std::string arm;
   std::string job;        // key
-  std::string other_arm;  // empty: the scene, or an arm of the same motion
+  std::string other_arm;  // empty if it is the scene or an arm of the same motion
   std::string other_job;  // present or last job of the other arm; may be empty
 };
 struct Alert {
@@ -192,12 +190,11 @@ struct Event {
   std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, GuardEvent, Alert> body;
 };
 
-// A motion on an arm. Trajectory time.
 struct ArmAuthority {
-  std::string arm;       // name
-  std::string job;       // key
-  Duration progress{};   // measured
-  Duration authority{};  // the arm may not pass it
+  std::string arm;      // name
+  std::string job;      // key
+  Duration progress{};  // measured
+  Duration authority{};
 };
 
 // A sample of the measured state; may be dropped.

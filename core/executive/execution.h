@@ -13,8 +13,7 @@
 
 namespace armloom {
 
-// The arms' side of the executive: commands, withheld until the start is on disk and the guard
-// allows them; reports; injected faults.
+// The arms' side: commands, withheld until the start is on disk and the guard allows them.
 class Execution {
  public:
   struct Made {
@@ -31,14 +30,14 @@ class Execution {
   void carry_out(const Grant& grant);
   void carry_out(const Brake& brake) { gate_.brake(brake.job); }
   void carry_out(const Release& release) { gate_.release(release.job); }
-  void brake_all() { motions_.brake_all(); }  // everything that moves
+  void brake_all() { motions_.brake_all(); }
   void forget(const Job& ended);
 
   // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs.
   // keeps_back() is true for reports that it must not get, because the job has not begun.
   [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now) { return gate_.tick(now); }
   [[nodiscard]] bool keeps_back(const MotionReport& report) const;
-  // Runs the arms' part of a cycle only, as if the executive had stopped.
+  // Runs the arms only, as if the executive had stopped.
   void tick_arms(TimePoint now) { motions_.tick_arms(now); }
 
   [[nodiscard]] const Motions& motions() const { return motions_; }

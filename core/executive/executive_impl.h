@@ -23,11 +23,10 @@
 
 namespace armloom {
 
-// The modules of the executive and their connections: inputs go to the scheduler, its decisions to
-// the arms, changes to the publisher.
+// The modules of the executive and their connections.
 class Executive::Impl {
  public:
-  // What create() has checked or made; the arms are at home.
+  // The parts checked or made by create(); the arms are at home.
   struct Checked {
     CellPtr cell;
     PlanningScenePtr scene;
@@ -62,7 +61,7 @@ class Executive::Impl {
   void resume(const std::vector<ArmId>& arms);
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
   [[nodiscard]] TimePoint settled_until() const;
-  void follow_policy();  // applies whether it has certificates
+  void follow_policy();
 
   struct Clock {
     TimePoint now{};
@@ -70,9 +69,9 @@ class Executive::Impl {
     HoldToRun held = {};                    // jobs that end with their lease
     bool quiet = false;  // in the last cycle all arms were settled and there was no report
     std::optional<TimePoint> dies_at = {};  // ExecutiveOptions
-    std::uint64_t ticks = 0;                // number of cycles begun
-    InputLog* inputs = nullptr;             // receives the inputs between them
-    TimePoint shows_check_at{};             // next publication of a check's progress
+    std::uint64_t ticks = 0;
+    InputLog* inputs = nullptr;  // receives the inputs between them
+    TimePoint shows_check_at{};  // next publication of a check's progress
   };
 
   CellPtr cell_;

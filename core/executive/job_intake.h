@@ -15,7 +15,7 @@ namespace armloom {
 
 // A request after all checks.
 struct PreparedJob {
-  std::string key;  // empty: to be generated
+  std::string key;  // generated if empty
   std::string name;
   std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first, mostly the only one
   std::vector<MotionGoal> goals;            // one for each trajectory, which are then estimates
@@ -24,10 +24,9 @@ struct PreparedJob {
   std::vector<TrajectoryPtr> returns;  // of its arms, to where the clients left them
 };
 
-// Returns the memory that the trajectories hold.
 [[nodiscard]] std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories);
 
-// Checks requests against the cell and the accepted jobs. Changes only its knowledge of returns.
+// Checks requests against the cell and the accepted jobs.
 class JobIntake {
  public:
   // Limits for active jobs (ExecutiveOptions).
@@ -39,7 +38,7 @@ class JobIntake {
   JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs, ActiveMax active_max)
       : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), active_max_(active_max) {}
 
-  // The situation that a request finds: joint positions and used keys after all earlier jobs.
+  // Joint positions and used keys after all earlier jobs.
   struct Ahead {
     Configuration rest;
     std::unordered_set<std::string> keys;
@@ -53,16 +52,13 @@ class JobIntake {
   // Checks a request completely, before anything is stored. Updates `ahead` for the next request of
   // a batch.
   [[nodiscard]] Result<PreparedJob> prepare(JobRequest request, Ahead& ahead) const;
-  // Returns the scheduler's job, without its id.
   [[nodiscard]] Submit submission(PreparedJob prepared) const;
   // Returns the job that brings an arm back after a retreat, before a job of this priority.
   [[nodiscard]] Submit return_of(TrajectoryPtr back, int priority) const;
 
-  // Commits a prepared request.
   void accepted(Ahead ahead) { ways_back_ = std::move(ahead.ways_back); }
   // The arm retreats: remembers where its clients left it, however often it retreats.
   void remember_way_back(ArmId arm, const Trajectory& way);
-  // The arm moves elsewhere for a client.
   void forget_way_back(ArmId arm) { ways_back_.erase(arm); }
   // The server is ending: refuses all further jobs.
   void close() { is_closed_ = true; }

@@ -19,7 +19,6 @@ namespace armloom {
 // Server-initiated jobs; part of their keys.
 enum class OwnJob { aside, approach };
 
-// A job's names for clients.
 struct JobLabel {
   std::string key;
   std::string name;
@@ -27,7 +26,6 @@ struct JobLabel {
   std::size_t bytes = 0;                       // of its trajectories
 };
 
-// Jobs by their keys, and the ended jobs.
 class JobRegister final : public JobNames {
  public:
   // Limits for ended jobs; beyond them the oldest are forgotten.
@@ -42,24 +40,21 @@ class JobRegister final : public JobNames {
   // Precondition: the key is not taken.
   void add(JobId id, JobLabel label);
   void rename(JobId id, std::string name);  // precondition: the job is known
-  // Records that the job has ended. Removes and returns the oldest ended jobs beyond the limits, so
-  // that the caller can forget them too.
+  // Returns the oldest ended jobs beyond the limits, now removed, so that the caller can forget
+  // them too.
   struct Forgotten {
     JobId id;
     std::string key;
   };
   std::vector<Forgotten> end(JobId id);
-  // Forgets an ended job, if it is known.
   void forget(JobId id);
 
   [[nodiscard]] std::optional<JobId> find(const std::string& key) const;
   // Problems: not_found; conflict if it has ended.
   [[nodiscard]] Result<JobId> not_ended(const std::string& key) const;
   [[nodiscard]] bool is_taken(const std::string& key) const { return ids_.contains(key); }
-  // Returns null for a forgotten job.
   [[nodiscard]] const JobLabel* label(JobId id) const;
   [[nodiscard]] std::size_t active() const { return labels_.size() - ended_.size(); }
-  // Returns the memory of the active jobs' trajectories.
   [[nodiscard]] std::size_t active_bytes() const { return active_bytes_; }
   [[nodiscard]] const std::deque<JobId>& ended() const { return ended_; }  // oldest first
 

@@ -16,7 +16,7 @@ namespace armloom {
 
 // A client's request for a job, parsed from JSON.
 struct JobRequest {
-  std::string key;  // the client's id; empty: generated ("job-17")
+  std::string key;  // generated if empty ("job-17")
   std::string name;
   TrajectoryRequest trajectory;  // ignored if there are alternatives or a goal
   // The same work by one of several arms: each moves one arm and ends where it begins. Empty, or at
@@ -30,7 +30,6 @@ struct JobRequest {
   std::optional<double> speed = {};
   JobTerms terms = {};
   std::vector<std::string> after;  // keys of jobs that must succeed first
-  // Results found before the request reaches the strand.
   struct Known {
     // Jobs of `after` that have succeeded, in an earlier session or long ago.
     std::vector<std::string> succeeded = {};
@@ -38,7 +37,7 @@ struct JobRequest {
     // strand. Empty: not validated yet.
     std::vector<Result<TrajectoryPtr>> validated = {};
   } known = {};
-  // The request as received, for the input log; null if no log keeps it.
+  // The request as received; null if no log keeps it.
   std::shared_ptr<const std::string> body = {};
 
   // Returns the trajectory, or the alternatives, each with its JSON pointer ("/alternatives/0").
@@ -49,7 +48,7 @@ struct JobRequest {
   [[nodiscard]] std::vector<PlacedMotion> motions() const;
 };
 
-// Changes of an accepted job, as in JobRequest; nullopt: unchanged.
+// nullopt: unchanged.
 struct JobAmendment {
   std::optional<std::string> name = {};
   AmendedTerms terms = {};

@@ -11,12 +11,11 @@
 
 namespace armloom {
 
-// The arms and their motions: hands a job's trajectory to the controllers of its arms and joins
-// their feedback into one report (the last arm's progress, one end). If an arm of a motion faults,
-// the other arms are braked. Arms that are ahead of the last one by more than kOutOfStep wait on
-// the path. No arm gets authority farther ahead of the last known position of the others than
-// kOutOfStep plus the motion's stopping reach, so the arms stay together even if feedback of one of
-// them is lost.
+// Hands a job's trajectory to the controllers of its arms and joins their feedback into one report
+// (the last arm's progress, one end). If one arm faults, the others are braked. Arms that lead by
+// more than kOutOfStep wait on the path. No arm gets authority farther ahead of the last known
+// position of the others than kOutOfStep plus the stopping reach, so the arms stay together even if
+// feedback is lost.
 class Motions {
  public:
   Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
@@ -25,7 +24,7 @@ class Motions {
   void dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory);
   void grant(const Grant& grant);
   void brake(JobId job);
-  void brake_all();  // everything that moves
+  void brake_all();
   void release(JobId job);
 
   // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs.
@@ -39,14 +38,13 @@ class Motions {
   [[nodiscard]] bool moving(ArmId arm) const;
   // Returns true if the arm progressed on its path in the last tick; false in a pause.
   [[nodiscard]] bool advances(ArmId arm) const { return advances_[arm.index()]; }
-  // Returns true if no arm moved in the last tick.
   [[nodiscard]] bool all_at_rest() const;
-  // Returns true if no arm will move before the next command.
+  // Until the next command.
   [[nodiscard]] bool all_settled() const;
   // Returns the largest distance of a measured joint from its path at the measured progress, rad or
   // m; zero without a motion.
   [[nodiscard]] double deviation(ArmId arm) const;
-  // Returns each arm's motion and authority, in order of jobs. Trajectory time.
+  // In order of jobs. Trajectory time.
   struct UnderWay {
     ArmId arm;
     JobId job;
@@ -61,7 +59,7 @@ class Motions {
     std::map<ArmId, Duration> stands_at{};  // measured, after a brake
     Duration authority{};
     Duration ahead_max{};  // limit of lead over the last arm; motions of several arms
-    Duration handed_on{};  // part of the authority that the controllers have
+    Duration handed_on{};
     bool resting = false;  // its end was reported
     bool braking = false;
   };

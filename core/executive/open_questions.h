@@ -10,14 +10,13 @@
 
 namespace armloom {
 
-// The open questions to the judgement service.
 class OpenQuestions {
  public:
   // All arguments outlive this object.
   OpenQuestions(const Scheduler& scheduler, const JobRegister& jobs, JudgementService& service)
       : service_(service), plans_(service), drawings_(scheduler, jobs, service) {}
 
-  // Asks the scheduler's question; one at a time. `done` is called on the strand.
+  // Asks the scheduler's question, one at a time. `done` is called on the strand.
   void judge(const Question& question, PlanningScenePtr scene, std::function<void(Judged)> done) {
     asked_ = question;
     service_.ask(question, std::move(scene), [this, done = std::move(done)](Verdict verdict) {
@@ -25,14 +24,13 @@ class OpenQuestions {
       done(Judged{std::move(verdict)});
     });
   }
-  // Returns the scheduler's open question.
   [[nodiscard]] const std::optional<Question>& asked() const { return asked_; }
 
-  // A job has ended: makes a question about it void.
+  // The job has ended: its question is void.
   void give_up(JobId job) {
     if (asks_about(job)) service_.interrupt();
   }
-  // Adds a wait of kind `check` with the progress; returns false if the job is not being checked.
+  // Adds a wait of kind `check`; returns false if the job is not being checked.
   [[nodiscard]] bool tell_check(JobView& job) const {
     const auto progress = asks_about(job.id) ? service_.progress() : std::nullopt;
     if (!progress) return false;

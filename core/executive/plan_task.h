@@ -29,7 +29,6 @@ struct PlanTask {
   return answer_plan(task.scene, task.question, task.cancelled.get());
 }
 
-// A client's query: a path of an arm to a goal.
 struct PlanInquiry {
   std::string arm;
   std::vector<std::string> arms;  // instead of `arm`: whichever arrives first
@@ -42,14 +41,12 @@ struct PlanInquiry {
 // A larger budget would keep a worker busy for minutes.
 inline constexpr int kPlanBudgetMax = 10 * static_cast<int>(PlanRequest::kDefaultBudget);
 
-// A candidate arm that was not selected.
 struct OtherArm {
   std::string arm;
   std::optional<double> arrives_s;  // from now, as a job
-  std::string detail;               // why it was not selected
+  std::string detail;
 };
 
-// A planned motion that is not executed.
 struct PlanView {
   std::string arm;
   std::vector<OtherArm> others;

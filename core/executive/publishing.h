@@ -23,7 +23,7 @@ namespace armloom {
 // is updated before the event is published.
 class Publisher {
  public:
-  // The sources; they outlive the publisher.
+  // All of it outlives the publisher.
   struct Shown {
     const Cell& cell;
     const Scheduler& scheduler;
@@ -38,29 +38,24 @@ class Publisher {
   using Body =
       std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, GuardEvent, Alert>;
   void tell(Body body, TimePoint now);
-  // Publishes a scene change.
   void tell_scene(TimePoint now);
-  // Publishes a job, with an alert if it failed.
+  // With an alert if it failed.
   void tell_job(JobView view, TimePoint now);
   // Publish only what changed since the last publication:
   void tell_arms(TimePoint now);
   void tell_stops();
   void tell_judged(std::uint64_t evaluations) { observer_.on_judged(evaluations); }
-  // Publishes the queue lists, less often if they are long: lists of thousands are not made for
-  // every change. The stop of all arms, and its end, is published at once.
+  // Publishes the queue lists, rarely if they are long. A change of "all arms are stopped" is
+  // published at once.
   void queue_may_have_changed(TimePoint now);
-  void tell_queue(TimePoint now);  // publishes pending changes of the queue if due
+  void tell_queue(TimePoint now);
   [[nodiscard]] bool is_behind() const { return queue_is_old_; }
-  // Called in each control cycle.
   void tell_tick(TimePoint now);
-  // Called in each period of the monitor.
   void tell_state(const std::vector<Proximity>& near, TimePoint now);
 
-  // Called after each scheduler step: also publishes changes that have no event.
+  // After each scheduler step: also publishes changes without an event.
   void publish_step(TimePoint now);
-  // Updates a job on the board without an event.
   void show(JobView view, TimePoint now);
-  // Removes a forgotten job, which had this key, from the board.
   void forget(JobId job, const std::string& key);
   [[nodiscard]] std::shared_ptr<const StatusBoard> board() const { return board_; }
 

@@ -30,7 +30,6 @@ class RealTimeLoop {
   // Runs before all other commands, in the order posted: stops, resumes, and answers that jobs wait
   // for.
   void post_urgent(std::function<void(Executive&)> command);
-  // Returns what clients see, without waiting for the strand.
   [[nodiscard]] const StatusBoard& board() const;
   [[nodiscard]] double speed() const;
   void set_speed(double speed);  // > 0; from the next control cycle on

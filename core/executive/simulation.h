@@ -14,7 +14,6 @@ namespace armloom {
 // Simulated duration of a check, whatever its real duration.
 inline constexpr Duration kSimulatedJudgement = std::chrono::milliseconds(2);
 
-// Simulated duration of a plan.
 inline constexpr Duration kSimulatedPlanning = std::chrono::milliseconds(20);
 
 // Cost of the checks: their number, collision evaluations and real time. Only `wall` differs
@@ -24,7 +23,6 @@ struct Judging {
   std::uint64_t evaluations = 0;
   Duration wall{};
 };
-// Cost of planning: the number of plans, their evaluations and real time.
 struct Planning {
   std::uint64_t plans = 0;
   std::uint64_t evaluations = 0;
@@ -51,9 +49,8 @@ class Simulation {
 
   // Runs one control cycle; the first is at time zero.
   void tick();
-  // Skips control cycles in which nothing would happen, up to `until` or the next event.
+  // Skips cycles in which nothing would happen, up to `until` or the next event.
   void pass_over_rest(TimePoint until);
-  // Runs all cycles up to and including `time`.
   void run_until(TimePoint time);
 
  private:
@@ -70,7 +67,6 @@ struct TimedJob {
   JobRequest job;
 };
 
-// The jobs and faults of a simulation.
 struct Scenario {
   std::vector<TimedJob> jobs;
   TimePoint time_limit;
@@ -86,13 +82,13 @@ struct SimulationResult {
   Planning planning;
   std::vector<JobView> jobs;  // all accepted jobs in their final state, in order of submission
   struct Refused {
-    std::size_t index;  // into Scenario::jobs
+    std::size_t index;
     Problems problems;
   };
-  std::vector<Refused> refused;  // by time of submission
-  bool all_ended = false;        // otherwise it is blocked, or reached `time_limit`
-  bool settled = false;          // false: reached `time_limit`, unless all have ended
-  bool given_up = false;         // ended by Scenario::gives_up
+  std::vector<Refused> refused;
+  bool all_ended = false;  // otherwise it is blocked, or reached `time_limit`
+  bool settled = false;    // false: reached `time_limit`, unless all have ended
+  bool given_up = false;
   TimePoint ended_at{};
   Duration wall{};  // real time; differs between equal runs
 };

@@ -7,25 +7,21 @@
 
 namespace armloom {
 
-// Runs the monitor on the measured state at the monitor's rate: finds near pairs and pairs that are
-// too close.
+// Runs the monitor on the measured state, at the monitor's rate.
 class StateWatch {
  public:
-  // Pairs farther apart are neither in state frames nor in near().
+  // Pairs farther apart are not reported as near.
   inline static constexpr double kHorizon_m = 2.0;
 
   explicit StateWatch(const PlanningScenePtr& scene);
-  // Returns the query with the monitor's limits.
   [[nodiscard]] static ClearanceQuery query_of(const PlanningScenePtr& scene);
-  // Sets the query of a changed scene; the next check runs even if no arm has moved.
+  // For a changed scene: the next check runs even if no arm has moved.
   void follow(ClearanceQuery query);
 
-  // Returns true once per period.
   [[nodiscard]] bool is_due(TimePoint now);
-  // Checks `measured`; returns false if nothing changed since the previous call. `moving`: by
-  // ArmId.
+  // Returns false if `measured` is unchanged since the previous call. `moving`: by ArmId.
   bool look(const Configuration& measured, const std::vector<bool>& moving, TimePoint now);
-  // Results of the last check that saw a changed state.
+  // Results of the last check of a changed state.
   [[nodiscard]] const std::vector<Proximity>& near() const { return near_; }
   [[nodiscard]] const std::vector<MonitorFinding>& found() const { return found_; }
 

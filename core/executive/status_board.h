@@ -16,7 +16,6 @@
 
 namespace armloom {
 
-// The changing part of an arm's view, at one instant.
 struct ArmStatus {
   ArmState state = ArmState::idle;
   bool stopped = false;           // until it is resumed
@@ -31,14 +30,14 @@ struct Status {
   TimePoint time{};
   std::string policy;
   bool stopped = false;  // every arm is stopped
-  JobSheet jobs;         // all active jobs, and the last ended ones
+  JobSheet jobs;         // active and recently ended
   std::shared_ptr<const SceneView> scene;
   Configuration q;              // measured, all joints of the cell
   std::vector<ArmStatus> arms;  // ArmId
 
   // Returns the job with its progress at this instant; copies the view only if it changed.
   [[nodiscard]] JobSheet::JobPtr with_progress(const JobSheet::JobPtr& job) const;
-  // Returns all active jobs and the `ended_max` jobs that ended last, in order of ids.
+  // In order of ids.
   [[nodiscard]] std::vector<JobSheet::JobPtr> jobs_with_ended(std::size_t ended_max) const;
 };
 [[nodiscard]] ArmView view_of(const ArmStatus& status, ArmId arm, const Cell& cell,
@@ -55,7 +54,6 @@ class StatusBoard {
   [[nodiscard]] Status read() const;
   // Null if no job has this key.
   [[nodiscard]] JobSheet::JobPtr job(const std::string& key) const;
-  // Returns several jobs at one instant.
   [[nodiscard]] std::vector<JobSheet::JobPtr> jobs(const std::vector<std::string>& keys) const;
 
   // The strand's arguments. Arms and poses are copied into existing memory.

@@ -20,8 +20,8 @@ class SteppedLoop {
 
   [[nodiscard]] Executive& executive();
   void tick();
-  [[nodiscard]] std::uint64_t ticks() const;  // number of ticks
-  [[nodiscard]] TimePoint next() const;       // time of the next tick
+  [[nodiscard]] std::uint64_t ticks() const;
+  [[nodiscard]] TimePoint next() const;
   // No effect if nothing is open.
   void answer_question(bool interrupted = false);
   void answer_certify();

@@ -8,8 +8,7 @@
 
 namespace armloom {
 
-// The arm queues: for each arm its jobs that have not ended, in running order, and the work in the
-// queue.
+// The arm queues: for each arm its active jobs, in running order, and their work.
 class ArmQueues {
  public:
   using Queue = std::deque<JobId>;
@@ -21,24 +20,22 @@ class ArmQueues {
   [[nodiscard]] auto end() const { return queues_.end(); }
 
   [[nodiscard]] bool is_first(const Job& job) const;  // of all its arms
-  // Return the adjacent jobs in that arm's queue; nullopt at the front or the end of the queue.
+  // Return the neighbor in that arm's queue, if any.
   [[nodiscard]] std::optional<JobId> before(const Job& job, ArmId arm) const;
   [[nodiscard]] std::optional<JobId> behind(const Job& job, ArmId arm) const;
 
-  // Inserts the job at the end of its arms' queues, or before `before` in the queues that contain
-  // it.
+  // At the end of its arms' queues, or before `before` where present.
   void insert(const Job& job, std::optional<JobId> before);
-  // Inserts the job behind the first `place` jobs of its arms' queues.
   void insert_at(const Job& job, std::size_t place);
   void erase(const Job& job);
-  // Reorders jobs that occupy consecutive places on the same arms.
+  // Reorders jobs that are consecutive on the same arms.
   void put_in_order(const Job& any_of_them, const std::vector<JobId>& jobs);
 
-  // Add or remove the job's duration as work of its arms. A job that may still run on several arms
-  // is shared equally between them. To change a job, remove its work first and add it again after.
+  // Add or remove the job's duration as work. A job with several candidate arms is shared equally
+  // between them. To change a job, remove its work first and add it again.
   void add_work(const Job& job);
   void remove_work(const Job& job);
-  // Returns the work of all jobs except `in_front`, by ArmId.
+  // By ArmId, without these jobs.
   [[nodiscard]] std::vector<Duration> work_but(const std::vector<const Job*>& in_front) const;
 
  private:

@@ -10,23 +10,22 @@
 
 namespace armloom {
 
-// Where the arms of a cell rest, and which arms are stopped.
+// Rest positions of the arms, and stopped arms.
 class ArmRests {
  public:
-  // `rest` has one value for each joint of the cell; throws std::invalid_argument otherwise.
+  // Throws std::invalid_argument unless `rest` has a value for every joint of the cell.
   ArmRests(const Cell& cell, Configuration rest);
 
-  // Returns the rest position of every joint; for a moving joint the position where it started.
+  // Returns the rest of every joint; of a moving joint, its start.
   [[nodiscard]] const Configuration& rest() const { return rest_; }
   [[nodiscard]] const PlacePtr& place(ArmId arm) const { return places_at_[arm.index()]; }
   [[nodiscard]] const std::vector<PlacePtr>& places() const { return places_at_; }
-  // Returns the motion that brought the arm to its rest; null if there is none, or if it moved
-  // several arms.
+  // Returns the motion that ended at this rest; null if there is none or it moved several arms.
   [[nodiscard]] const TrajectoryPtr& came_by(ArmId arm) const { return came_by_[arm.index()]; }
 
-  // Sets the rest to `position`, in the order of the trajectory's joints.
+  // `position`: of the trajectory's joints, in its order.
   void come_to_rest(const Cell& cell, const TrajectoryPtr& motion, const Eigen::VectorXd& position);
-  // Places the arms exactly at the goal, ignoring small deviations.
+  // Ignores small deviations from the goal.
   void rest_at_goal(const WaitingLeg& leg);
 
   void stop(ArmId arm, std::string cause) { stopped_[arm.index()] = std::move(cause); }
@@ -37,16 +36,13 @@ class ArmRests {
   }
   [[nodiscard]] std::optional<Wait> stop_of(const Job& job) const;
 
-  // Returns the motion as a leg of the safe sequence.
   [[nodiscard]] WaitingLeg leg_of(const Cell& cell, JobId job, const Trajectory& motion);
-  // Returns the first joint whose rest differs from the trajectory's start by more than
-  // execution.start_tolerance_rad; nullopt if there is none. With `arm`, only joints of that arm
-  // are compared.
+  // Returns the first joint that rests off the trajectory's start by more than
+  // execution.start_tolerance_rad. With `arm`, only its joints are compared.
   [[nodiscard]] std::optional<JointId> begins_elsewhere(const Cell& cell,
                                                         const Trajectory& trajectory,
                                                         std::optional<ArmId> arm = {}) const;
-  // Returns the sentence for Reason::start_mismatch; nullopt if the trajectory begins where the
-  // arms rest.
+  // Returns the detail of Reason::start_mismatch; nullopt without a mismatch.
   [[nodiscard]] std::optional<std::string> start_mismatch(const Cell& cell,
                                                           const Trajectory& trajectory) const;
 
@@ -55,10 +51,10 @@ class ArmRests {
   std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
   std::vector<TrajectoryPtr> came_by_;
   Places places_;
-  std::vector<PlacePtr> places_at_;  // per arm: where it rests, or where it started
+  std::vector<PlacePtr> places_at_;  // per arm: its rest or start
 };
 
-// Returns true if the arm at `place` is at the motion's start within execution.start_tolerance_rad.
+// Returns true if `place` is the motion's start, within execution.start_tolerance_rad.
 [[nodiscard]] bool begins_at(const Cell& cell, const Trajectory& motion, const Place& place);
 
 }  // namespace armloom

@@ -15,7 +15,7 @@
 
 namespace armloom {
 
-// What a waiting job was found to wait for at its last check.
+// The waits of a waiting job, from its last check.
 struct Judgement {
   Version at = 0;  // zero: not checked yet
   std::vector<Wait> found = {};
@@ -25,7 +25,7 @@ struct Judgement {
 struct Pause {
   std::optional<TimePoint> in_vain_since = {};  // waits for something that no job moves
 };
-// What happens to a job when its braking arms have come to rest.
+// How a job continues when its braking arms have come to rest.
 struct AfterStop {
   enum class Then { hold, cancel, fail };
   Then then = Then::hold;
@@ -51,7 +51,7 @@ struct Admitted {
 struct Moving {
   TimePoint overrun_at;  // unless it moves before
   TimePoint moved_at;    // the last time
-  // Start (time, progress) of the present stretch without a rest and without coming near its limit.
+  // Start (time, progress) of the present stretch without a rest or being near its limit.
   TimePoint goes_since = {};
   Duration goes_from = {};
   bool is_under_way = false;  // has been measured to move; until then it is `scheduled`
@@ -163,7 +163,6 @@ struct AnotherWay {
   return nullptr;
 }
 
-// A job as the scheduler knows it. Read-only outside the scheduler.
 struct Job {
   JobId id;
   TrajectoryPtr trajectory;
@@ -171,7 +170,7 @@ struct Job {
   std::vector<JobId> after = {};  // jobs of Submit::after that have not ended yet
   bool system_job = false;        // as in Submit
   bool is_held_over = false;
-  // Candidates of which `trajectory` is the present choice, which may change until admission.
+  // `trajectory` is one of them, and may change until admission.
   std::vector<TrajectoryPtr> alternatives = {};
   JobPhase phase = Queued{};
   JobTimes times = {};
@@ -192,25 +191,25 @@ struct Job {
   [[nodiscard]] JobState state() const;
   // True if the path must be planned (again) before the job can be checked.
   [[nodiscard]] bool is_unplanned() const { return goal && !goal->is_planned; }
-  // Returns the goal (of several arms the first) whose arm is too close to an object to be planned;
-  // the job waits for that object. Null if there is none.
+  // Returns the goal (of several arms the first) that cannot be planned because of an object near
+  // its arm; null if there is none.
   [[nodiscard]] const GoalWay* stands_in() const;
-  // True if the job's end is known, though perhaps not its path: a joint goal of one arm.
+  // True if the job's end is known: planned, or a joint goal of one arm.
   [[nodiscard]] bool knows_its_end() const {
     if (!is_unplanned()) return true;
     return !has_open_arm() && std::holds_alternative<Eigen::VectorXd>(goal->way().goal.to);
   }
-  // True if the job has a path and a detour that may be faster is being planned.
+  // True if the job has a path and a detour is being planned.
   [[nodiscard]] bool is_detour_asked() const {
     return goal && goal->detour && goal->detour->question;
   }
   // True if the job has a goal and several candidate arms, not decided yet.
   [[nodiscard]] bool has_open_arm() const { return goal && !alternatives.empty(); }
-  // True if the alternative is possible: for goals, if it is planned.
+  // True if the alternative is possible (goals: planned).
   [[nodiscard]] bool may_go_by(std::size_t alternative) const {
     return !goal || goal->ways[alternative].is_planned;
   }
-  // True while a replan is open; the job stays at rest until it is answered.
+  // True while a replan is open; the job then stays at rest.
   [[nodiscard]] bool is_replanned_now() const { return another_way && another_way->is_open; }
   [[nodiscard]] bool has_ended() const { return in<Ended>() != nullptr; }
   // On its present path.

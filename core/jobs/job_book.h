@@ -15,18 +15,18 @@
 
 namespace armloom {
 
-// Retreats of one arm that were tried to unblock a job (yield_moves.h).
+// Retreats of one arm tried for a job (yield_moves.h).
 struct YieldsTried {
   struct Planned {
     std::optional<std::uint64_t> question = {};  // number of the open question
     bool is_answered = false;
-    TrajectoryPtr way = nullptr;  // null: no path found
+    TrajectoryPtr way = nullptr;  // null if no path was found
   };
-  std::size_t total = 0;  // all tries for this job or a job that it helps
+  std::size_t total = 0;  // all tries, for a job that it helps too
   std::size_t next = 0;   // index into the candidate paths from the rest after `from`
   TrajectoryPtr from;
   Planned planned = {};                  // the last candidate from there (planned_aside.h)
-  std::vector<Eigen::VectorXd> went_to;  // ends of retreats, for this job or a job that it helps
+  std::vector<Eigen::VectorXd> went_to;  // ends, for a job that it helps too
 };
 
 // The purpose of a server-initiated job.
@@ -49,7 +49,7 @@ struct Asking {
 
 // Moves to the job's start (approach.h).
 struct Approaches {
-  // Whether the job is feasible from its start, which is checked before any arm moves there.
+  // Is the job feasible from its start? Checked before any arm moves there.
   enum class Feasibility { unknown, in_question, given };
   Feasibility feasibility = Feasibility::unknown;
   int tries = 0;
@@ -106,7 +106,6 @@ class JobBook {
   // it. Throws like JobIds::take().
   Record& add(Record record);
   [[nodiscard]] JobId next_id() const { return ids_.next(); }
-  // Precondition: the job has ended.
   void forget(JobId job);
 
   [[nodiscard]] bool is_active(JobId job) const { return active_.contains(job); }
@@ -126,33 +125,32 @@ class JobBook {
   void set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg leg);
   // Precondition: the job has not ended.
   void set_priority(Record& record, int priority);
-  // Sets the path of one of the alternatives, the present choice or another.
+  // For any alternative, also the present one.
   void set_alternative(Record& record, std::size_t which, TrajectoryPtr trajectory, WaitingLeg leg);
   // Assigns the job to its present arm. Precondition: the job is waiting.
   void decide_arm(Record& record);
-  // Returns true if any active job has a goal.
   [[nodiscard]] bool has_goals() const { return goals_ > 0; }
   // Waiting jobs that could still run on other arms.
   [[nodiscard]] const std::set<JobId>& undecided() const { return undecided_; }
-  // Jobs with Job::is_replanned_now() when they were inserted; some may have ended.
+  // Jobs that were being replanned when inserted; some may have ended.
   [[nodiscard]] std::set<JobId>& being_replanned() { return being_replanned_; }
   [[nodiscard]] bool all_as_urgent() const { return priorities_.size() <= 1; }
 
-  // Throws std::logic_error if the table in job.h does not allow the transition.
+  // Throws std::logic_error for transitions that are not in the table of job.h.
   void enter(Record& record, JobPhase phase);
   // Moves the job to Ended and out of the queues. Returns the active jobs that named it in `after`.
   [[nodiscard]] std::vector<JobId> end(Record& record, Ended how);
   void set_waits(Record& record, std::span<const Wait> waits);
   void set_wait(Record& record, const Wait& only) { set_waits(record, {&only, 1}); }
 
-  // Mark a job whose published view (changed) or wait explanation (explain) is out of date.
+  // Mark a job whose published view or wait explanation is out of date.
   void changed(const Record& record) { news_.changed.insert(record.job.id); }
   void explain(const Record& record) { news_.unexplained.insert(record.job.id); }
   struct News {
     std::set<JobId> changed = {};
     std::set<JobId> unexplained = {};
   };
-  // The caller that publishes the news takes them out.
+  // The publisher takes the news out.
   [[nodiscard]] News& news() { return news_; }
 
  private:

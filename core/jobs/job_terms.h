@@ -6,7 +6,7 @@
 
 namespace armloom {
 
-// What happens to a job when its backlog timeout is over.
+// Handling of a job whose backlog timeout is over.
 enum class OnTimeout {
   abort,   // it expires
   replan,  // it is replanned before it expires (replanning.h)
@@ -36,8 +36,7 @@ enum class Approach {
   return nullptr;
 }
 
-// Whether jobs of one arm with equal start and end must run in the order of submission. Jobs may
-// change places if all of them are `any`.
+// `any`: jobs of one arm with equal start and end may change places if all of them are `any`.
 enum class JobOrder { as_given, any };
 [[nodiscard]] constexpr const char* to_string(JobOrder order) {
   switch (order) {
@@ -49,8 +48,7 @@ enum class JobOrder { as_given, any };
   return nullptr;
 }
 
-// What a client sets for a job's turn; part of the request and of the published job.
-// server/messages/job_terms.h defines the JSON.
+// A client's terms for a job's turn. server/messages/job_terms.h defines the JSON.
 struct JobTerms {
   int priority = 0;  // larger goes first
   // nullopt: the cell's value; always set in the scheduler's jobs.

@@ -10,23 +10,22 @@
 
 namespace armloom {
 
-// One conflict region of two motions (indices), and which motion may pass first.
+// A conflict region of two motions (indices), and which may pass first.
 struct OpenOrder {
   std::size_t a;
   std::size_t b;
-  ConflictRegion region;  // of a new order: only the part that still lies ahead
+  ConflictRegion region;  // only the part still ahead
   bool a_may = true;
   bool b_may = true;
-  bool prefers_a = true;                               // if both sides are equally good
+  bool prefers_a = true;
   bool a_first = true;                                 // the present setting
   bool at_start = false;                               // the second waits at its start
   bool is_open = false;                                // undecided: delays no motion
   std::array<std::optional<Precedence>, 4> made = {};  // cache, by a_first and at_start
 };
 
-// Orders that are decided together: all take the same side, or the opposite side if `turned`. For
-// example, the regions before and after a rest between two motions of an arm that the same other
-// motion passes.
+// Orders that are decided together, with equal or `turned` sides. For example, the regions before
+// and after an arm's rest that the same other motion passes.
 struct OrderChoice {
   struct Member {
     std::size_t order;
@@ -37,9 +36,9 @@ struct OrderChoice {
   bool at_start = false;           // the present setting
 };
 
-// The open decisions in all regions of admitted motions and candidates: the start and the result of
-// a search. An order can be reversed until the motion that would have to wait has authority in the
-// region, because no motion is made to go back.
+// The open decisions in all regions of admitted motions and candidates. An order can be reversed
+// until the motion that would have to wait has authority in the region, because no motion is made
+// to go back.
 class OpenOrders {
  public:
   explicit OpenOrders(const OrderQuestion& question);
@@ -55,23 +54,19 @@ class OpenOrders {
   [[nodiscard]] std::vector<OrderChoice>& choices() { return choices_; }
   [[nodiscard]] bool blocked() const { return !answer_.blockers.empty(); }
 
-  // `at_start`: the second motion waits at its start, if it is still there, so that it does not
-  // have to stop on its path.
+  // `at_start`: the second motion waits at its start, if still there, instead of on its path.
   void set(OrderChoice& choice, bool value, bool at_start = false);
-  // Makes the choice delay no motion in predictions until it is set again.
+  // Makes the choice delay no motion in predictions.
   void leave_open(const OrderChoice& choice);
-  // Returns the earliest predicted time at which the second motion enters a region before the first
-  // has left it, that is, at which this order is violated; nullopt if the prediction satisfies it
-  // without any wait.
+  // Returns when the prediction first violates this side of the choice: the second motion enters a
+  // region before the first has left it; nullopt if never.
   [[nodiscard]] std::optional<Duration> broken_at(const OrderChoice& choice, bool value,
                                                   const Prediction& prediction);
-  // Return the prediction with the orders as set, or with the admitted motions and existing orders
-  // only.
+  // Predict with the orders as set, or only with existing ones among admitted motions.
   [[nodiscard]] Prediction predicted();
   [[nodiscard]] Prediction predicted_before();
 
-  // Return the answer: admitted with the orders as set; refused because of these orders; or stuck
-  // in a cycle of waits.
+  // The answers: admitted as set; refused because of these orders; stuck in a cycle.
   [[nodiscard]] PassingOrders admitted(Prediction prediction);
   [[nodiscard]] PassingOrders refused(const std::vector<std::size_t>& because);
   [[nodiscard]] PassingOrders stuck(const Prediction& prediction);

@@ -21,15 +21,14 @@ namespace armloom {
 //
 // Under every policy an admitted job is a motion in the precedence graph (precedence_graph.h): it
 // gets authority as far as the orders allow, and otherwise waits at its start or pauses on its
-// path. The policy chooses the orders. Motions do not rely on times, so late arms disturb no other
-// arm. Under timed_discrete there are no orders.
+// path. The policy chooses the orders (none under timed_discrete). Motions do not rely on times, so
+// late arms disturb no other arm.
 //
 // Every change of the admitted motions, or of an arm's rest, makes a new version: a verdict for an
 // older version is void, and every waiting job is checked again.
 //
-// An arm that comes to rest elsewhere than planned (canceled, faulted) blocks the motions that
-// would pass there. A changed scene may endanger admitted motions: they are checked again, and
-// stopped if they are in conflict.
+// An arm that rests elsewhere than planned (canceled, faulted) blocks the motions that would pass
+// there. After a scene change, admitted motions are checked again and stopped if in conflict.
 class Scheduler {
  public:
   // `rest`: the initial position of every joint. The policy is not null. Jobs of earlier sessions
@@ -69,12 +68,11 @@ class Scheduler {
   [[nodiscard]] std::optional<Duration> earliest_start(const Question& question,
                                                        const Verdict& verdict) const;
 
-  // Returns the predicted times of all admitted motions.
   [[nodiscard]] PredictedTimeline timeline(TimePoint now) const {
     return predicted_timeline(state_, now);
   }
 
-  [[nodiscard]] const Job* find(JobId job) const;   // null: unknown or forgotten
+  [[nodiscard]] const Job* find(JobId job) const;   // null if unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
   // Returns true if a job that has not ended moves the arm, or will.
   [[nodiscard]] bool has_job(ArmId arm) const { return !state_.jobs.queues()[arm].empty(); }

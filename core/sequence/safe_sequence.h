@@ -22,33 +22,29 @@ struct WaitingLeg {
   std::vector<JobId> after = {};  // does not begin before these waiting jobs
   // Revision of the job's motion; cached answers for other revisions do not apply.
   std::uint64_t motion = 0;
-  // The path is still to be planned from the arm's position at its turn, around all other arms when
-  // the legs before it are done: it is assumed to pass those. For other places the estimated path
-  // is checked.
+  // The path is still to be planned, around all other arms when the legs before it are done: it is
+  // assumed to pass those. For other places the estimate is checked.
   bool is_estimate = false;
   // Its arms are moved to its start from wherever they are, on estimated paths.
   bool is_approached = false;
 };
 
-// A question: is the leg's path free while an arm that it does not move rests at `place`?
+// Is the leg's path free while an arm that it does not move rests at `place`?
 struct Passage {
   JobId leg;
   PlacePtr place;
   std::uint64_t motion = 0;  // WaitingLeg::motion
-  PlacePtr from = nullptr;   // not null: asks about the move from there to the leg's start instead
+  PlacePtr from = nullptr;   // if set: asks about the move from there to the leg's start
 };
 
 // Dijkstra's banker's algorithm (1965) with places instead of money: when all admitted jobs have
 // ended, can all waiting jobs still be done, at least one after the other? The order of submission
-// is the first witness. If an admission breaks it, another order is searched among the first legs.
-// Admissions that leave a sequence keep every such job possible.
+// is the first witness. If an admission breaks it, another order of the first legs is searched.
 //
-// Geometry is queried as little as possible: about the first kKnownAhead legs, and about legs that
-// an admission overtakes. Until then an unknown passage is assumed free. Answers are cached by leg
-// and place.
+// Geometry is queried only about the first kKnownAhead legs and about legs that an admission
+// overtakes. Until then an unknown passage is assumed free. Answers are cached by leg and place.
 //
-// A leg without a known sequence, and all that follows it, is in no sequence; no job waits for it.
-// Pure.
+// A leg without a known sequence, and all that follows it, is in none; no job waits for it. Pure.
 class SafeSequence {
  public:
   // `start_tolerance`: largest distance between a leg's start and its arm's position for the leg to
@@ -71,9 +67,8 @@ class SafeSequence {
   [[nodiscard]] bool remove(JobId job);
   // Records the admission that after() was last asked about: the arms will be at these legs' ends.
   void admitted(const std::vector<JobId>& group);
-  // Rebuilds the sequence from the places of the arms after all admitted jobs, and from the waiting
-  // legs in an order that every arm queue allows. Cached answers are kept, and known legs keep
-  // their order in the sequence.
+  // Rebuilds the sequence from the arms' places after all admitted jobs and the waiting legs, in an
+  // order that every arm queue allows. Keeps cached answers and the order of known legs.
   void renew(std::vector<PlacePtr> stands, const std::vector<WaitingLeg>& legs);
 
   // Store answers: for a passage; for two arms that never meet at any position.

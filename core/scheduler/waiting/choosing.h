@@ -9,25 +9,23 @@
 
 namespace armloom {
 
-// Chooses which of several options gets a turn: each gets the turn temporarily and is checked as if
-// there were no other; the one with the least cost keeps it. An option other than the first must be
-// better by more than kWorthwhile. The cost is the time at which the last arm has done its work,
-// waiting jobs included, plus OrderSearch::weight_of_sum times the sum of these times over all
-// arms; for a goal, its arrival time.
+// Chooses among options for a turn: each gets the turn temporarily and is checked as if there were
+// no other; the cheapest keeps it. An option other than the first must be better by more than
+// kWorthwhile. Cost: for a goal its arrival; otherwise the time when the last arm has done all its
+// work plus OrderSearch::weight_of_sum times the sum over all arms.
 class Choosing {
  public:
   inline static constexpr Duration kWorthwhile = std::chrono::milliseconds(50);
 
-  // Returns true if there are several options; then job() is to be checked.
+  // Returns false if there is only one option; otherwise job() must be checked.
   [[nodiscard]] bool begin(State& state, JobId turn);
   [[nodiscard]] JobId job() const { return options_[at_].job; }
   // False if a candidate no longer waits; then call begin() again.
   [[nodiscard]] bool stands(const State& state) const { return stand(state, options_); }
-  // Takes the verdict for job(). Returns true if another candidate is to be checked; job() is then
-  // that one.
+  // Takes the verdict for job(). Returns true if job(), now another candidate, must be checked.
   [[nodiscard]] bool rate(State& state, Verdict verdict);
-  // Gives the turn to the best option and returns its verdict; nullopt if it waits behind other
-  // jobs. Precondition: all options are rated.
+  // After all ratings: gives the turn to the best option and returns its verdict; nullopt if it
+  // waits behind other jobs.
   [[nodiscard]] std::optional<Verdict> decide(State& state);
 
  private:
@@ -42,8 +40,8 @@ class Choosing {
     std::optional<Verdict> verdict;  // if it can go now
   };
   std::vector<Option> options_;
-  std::vector<Rating> rated_;  // parallel to the front of options_
-  std::size_t at_ = 0;         // the option that has the turn
+  std::vector<Rating> rated_;
+  std::size_t at_ = 0;
 };
 
 }  // namespace armloom

@@ -10,9 +10,8 @@
 
 namespace armloom {
 
-// The blocking conditions of a job, in the order in which they are checked. Selection, published
-// waits, aging and the waits-for graph all read the one list in gates.cc: a new condition is one
-// entry of it.
+// The blocking conditions, in the order of checks. Selection, published waits, aging and the
+// waits-for graph all read the list in gates.cc: a new condition is one entry of it.
 enum class GateKind {
   behind,     // another job of its arm precedes it
   open_arm,   // a job with an undecided arm could bring this job's arm to its start
@@ -25,7 +24,7 @@ enum class GateKind {
   aging,      // an aged job goes first
 };
 
-// What a job waits for: a wait of its own, or a view of the waits found by the last check.
+// A wait of its own, or a view of the waits found by the last check.
 class FoundWaits {
  public:
   FoundWaits() = default;
@@ -48,8 +47,7 @@ struct ClosedGate {
 
 // Returns the waits-for graph of all jobs and arms at rest.
 [[nodiscard]] WaitsFor waits_for(const State& state);
-// Returns the part of that graph that these jobs wait for, directly or through others. The cost is
-// proportional to that part.
+// The same for these jobs and all that they wait for; costs only that part.
 [[nodiscard]] WaitsFor waits_for(const State& state, std::vector<JobId> jobs);
 
 // Returns the waits of the last check, if it still applies; for an admitted job, what holds it

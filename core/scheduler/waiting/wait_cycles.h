@@ -13,8 +13,8 @@ namespace armloom {
 // Delay between the publication of a deadlock cycle and its resolution, which is a separate step.
 inline constexpr Duration kAfterRingWasTold(1);
 
-// Publishes and resolves deadlock cycles. Jobs in a cycle can never move; each reports the cycle in
-// the step that finds it. In a later step, the first possible remedy is taken:
+// Publishes and resolves deadlock cycles. Each job in a cycle reports it in the step that finds it.
+// In a later step, the first possible remedy is taken:
 // - a job that is moved to its start precedes a job with an undecided arm that it waits for
 // - a job takes another arm or another path, or an arm retreats and returns
 // - the job that was submitted last fails, among jobs whose arms have lost none since they moved

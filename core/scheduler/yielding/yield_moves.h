@@ -8,40 +8,34 @@
 
 namespace armloom {
 
-// Retreats of arms that rest in a job's path (scheduling.on_idle_blocker), without a job of their
-// own or in a deadlock cycle. Each candidate is first checked: is its path free, and would the job
-// then pass?
+// Retreats of arms without a job, or in a deadlock cycle (scheduling.on_idle_blocker). Each
+// candidate is checked first: is its path free, and would the blocked job then pass?
 struct YieldTrial {
   JobId blocked_job;
   ArmId arm;
-  TrajectoryPtr way;                 // null: to be planned first (ways/planned_aside.h)
-  std::optional<JobId> before = {};  // the arm's own job that the retreat precedes
+  TrajectoryPtr way;                 // null if to be planned (planned_aside.h)
+  std::optional<JobId> before = {};  // the arm's job that it precedes
   bool is_free = false;              // `way` is known to be free
   std::size_t index = 0;             // into the candidates from the arm's present rest
 };
 
-// Returns the first untried retreat for a job that waits for an arm that no job will move. Marks
-// the waits of jobs for which no candidate is left.
+// Returns the first untried retreat for a job that waits for an idle arm. Marks waits without
+// candidates.
 [[nodiscard]] std::optional<YieldTrial> next_yield(State& state);
-// Returns a retreat of an arm in the cycle, or nullopt. Each job of a cycle waits for the next one,
-// mostly for an arm that only the next one will move: could that arm move before its job? The arm
-// whose job would otherwise fail is tried first. No retreat if the cycle contains a dispensable
-// retreat.
+// Returns a retreat of an arm in the cycle that could move before its job, or nullopt. Tries the
+// arm first whose job would otherwise fail. None if the cycle contains a dispensable retreat.
 [[nodiscard]] std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring);
 
-// Returns the question whether the path is free or, if that is known, whether the job would pass.
+// Asks whether the path is free or, if known, whether the job would pass.
 [[nodiscard]] Question question_about(const State& state, const YieldTrial& move);
-// Returns true if the trial still applies: the job is active, and the arm still has no job, or the
-// same first job.
+// Returns true if the job is active and the arm still has no job, or the same first job.
 [[nodiscard]] bool is_as_asked(const State& state, const YieldTrial& move);
 // Returns true if nothing that stays blocks the retreat (an object, the arm itself, an arm of the
-// cycle) or, once that is known to be free, the job (the retreated arm).
+// cycle) or, if `is_free`, the job.
 [[nodiscard]] bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& move);
-// Records the result of a trial.
 void note_tried(State& state, const YieldTrial& move, bool goes);
 
-// Returns true if the client's next job on this arm begins where the scheduler's own job leaves the
-// arm, and not where the arm rests without it.
+// Returns true if the arm's next client job begins where the own job leaves the arm.
 [[nodiscard]] bool is_counted_on(const State& state, const Record& own);
 
 }  // namespace armloom
