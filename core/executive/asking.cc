@@ -210,7 +210,7 @@ void Executive::Impl::plan_next(const std::shared_ptr<OpenInquiry>& inquiry) {
     JobRequest job{.key = "", .name = "", .trajectory = answer->timed.request};
     PlanView view{.arm = arm, .others = {}, .motion = *std::move(answer)};
     view.length = view.motion.way.length();
-    view.straight = (points.back() - points.front()).norm();
+    view.straight_line_length = (points.back() - points.front()).norm();
     check(std::move(job), [this, inquiry, view = std::move(view)](auto verdict) mutable {
       view.verdict = std::move(verdict);
       inquiry->plans.push_back(std::move(view));

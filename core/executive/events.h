@@ -32,9 +32,9 @@ struct WaitView {
 
 // See Choice in core/jobs/job.h.
 struct ChoiceView {
-  std::vector<std::string> among;
-  std::string taken;  // one of `among`
-  std::optional<double> saves_s;
+  std::vector<std::string> candidates;
+  std::string selected;  // one of `candidates`
+  std::optional<double> time_saved_s;
   std::string detail;  // one sentence
 };
 // How a job ended.
@@ -52,9 +52,9 @@ struct CheckView {
   std::vector<WaitView> conflicts;               // not free: the same as waits_on
   std::uint64_t evaluations = 0;
   std::uint64_t scene_version = 0;
-  std::optional<ChoiceView> choice;     // of a goal with several candidate arms
-  std::optional<double> approach_s;     // time until its arms are at its start
-  std::optional<JobResultView> result;  // set if the job would end at once
+  std::optional<ChoiceView> choice;       // of a goal with several candidate arms
+  std::optional<double> move_to_start_s;  // time until its arms are at its start
+  std::optional<JobResultView> result;    // set if the job would end at once
 };
 // See scheduler/ways/replanning.h.
 struct AnotherWayView {
@@ -65,9 +65,9 @@ struct AnotherWayView {
 };
 // See scheduler/ways/detour.h.
 struct DetourView {
-  std::uint64_t weighed = 0;  // candidates evaluated
-  bool is_taken = false;
-  std::optional<double> saves_s;  // nullopt: no detour, or the shortest path was not possible
+  std::uint64_t candidates_evaluated = 0;
+  bool is_selected = false;
+  std::optional<double> time_saved_s;  // nullopt: no detour, or the shortest path was not possible
 };
 // The alternatives that a client left open, and the decision.
 struct JobWaysView {
@@ -102,7 +102,7 @@ struct JobView {
   JobMotionView motion = {};
   JobWaysView ways = {};
   std::vector<WaitView> waits_on;
-  std::vector<std::string> ring;        // keys of the deadlock cycle, this job first
+  std::vector<std::string> cycle;       // keys of the deadlock cycle, this job first
   std::optional<JobResultView> result;  // when ended
 
   [[nodiscard]] std::optional<Reason> reason() const {

@@ -17,7 +17,7 @@
 namespace armloom {
 
 // Server-initiated jobs; part of their keys.
-enum class OwnJob { aside, approach };
+enum class OwnJob { retreat, move_to_start };
 
 struct JobLabel {
   std::string key;

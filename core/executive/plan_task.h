@@ -51,8 +51,8 @@ struct PlanView {
   std::string arm;
   std::vector<OtherArm> others;
   PlannedMotion motion;
-  double length;    // in joint space (rad, m), ...
-  double straight;  // ... and of the straight line
+  double length;                // in joint space (rad, m), ...
+  double straight_line_length;  // ... and of the straight line
   // Result of check() for this motion, or why it was not checked (its start is not where the arm
   // will be).
   Result<CheckView> verdict;

@@ -14,7 +14,7 @@ namespace armloom {
 // The predicted timeline and the status at the same instant.
 struct TimelineView {
   PredictedTimeline predicted;
-  std::uint64_t horizon_legs = 0;
+  std::uint64_t horizon_steps = 0;
   Status status;
 };
 
@@ -35,11 +35,11 @@ struct TimelineLanes {
   };
   struct Lane {
     std::string arm;
-    std::vector<Leg> legs;      // in running order
-    std::uint64_t waiting = 0;  // jobs of the arm that are not in `legs`
+    std::vector<Leg> steps;     // in running order
+    std::uint64_t waiting = 0;  // jobs of the arm that are not in `steps`
   };
   TimePoint now;
-  std::uint64_t horizon_legs = 0;
+  std::uint64_t horizon_steps = 0;
   std::vector<Lane> lanes;  // by ArmId
 };
 

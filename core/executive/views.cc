@@ -62,11 +62,11 @@ std::string opens(const Proximity& proximity, const Cell& cell) {
 }
 
 // "a -> b -> a: none of them can move before the next one does", and what would open it.
-std::string deadlock_text(const std::vector<std::string>& ring, const Cell& cell) {
+std::string deadlock_text(const std::vector<std::string>& cycle, const Cell& cell) {
   std::string text;
-  for (const std::string& key : ring) text += key + " -> ";
-  text += ring.front() + ": none of them can move before the next one does; a job before them " +
-          "that moves an arm out of the others' way would open the ring, or ";
+  for (const std::string& key : cycle) text += key + " -> ";
+  text += cycle.front() + ": none of them can move before the next one does; a job before them " +
+          "that moves an arm out of the others' way would break the cycle, or ";
   if (cell.scheduling.on_idle_blocker == OnIdleBlocker::report) {
     return text + to_send_aside("one");
   }
@@ -101,37 +101,37 @@ const char* why_first(const Job& job, std::size_t among) {
 
 ChoiceView view_of(const Job& job, const Choice& choice, const Cell& cell, const JobNames& names) {
   ChoiceView view;
-  for (JobId other : choice.jobs) view.among.push_back(names.key(other));
-  for (ArmId arm : choice.arms) view.among.push_back(cell.arm(arm).name);
+  for (JobId other : choice.jobs) view.candidates.push_back(names.key(other));
+  for (ArmId arm : choice.arms) view.candidates.push_back(cell.arm(arm).name);
   const bool by_arm = !choice.arms.empty();
-  view.taken = by_arm ? cell.arm(job.trajectory->arms().front()).name : names.key(job.id);
-  const std::string& first = view.among.front();
-  if (view.taken == first) {
-    view.detail = why_first(job, view.among.size());
+  view.selected = by_arm ? cell.arm(job.trajectory->arms().front()).name : names.key(job.id);
+  const std::string& first = view.candidates.front();
+  if (view.selected == first) {
+    view.detail = why_first(job, view.candidates.size());
   } else if (!choice.saves) {
     view.detail = first + " could not go as things stood";
   } else {
-    view.saves_s = to_seconds(*choice.saves);
+    view.time_saved_s = to_seconds(*choice.saves);
     char text[64];
     std::snprintf(
         text, sizeof text,
         job.goal ? "it arrives %.2f s sooner than " : "the plan costs %.2f s less than with ",
-        *view.saves_s);
+        *view.time_saved_s);
     view.detail = text + first;
   }
   for (const Choice::Without& other : choice.without) {
     const std::string& name = cell.arm(other.arm).name;
-    view.among.push_back(name);
+    view.candidates.push_back(name);
     view.detail += "; " + name + " cannot: " + other.why;
   }
   return view;
 }
 
 DetourView view_of(const Detour& detour) {
-  DetourView view{.weighed = static_cast<std::uint64_t>(detour.tries),
-                  .is_taken = detour.is_taken,
-                  .saves_s = {}};
-  if (detour.saves > Duration{}) view.saves_s = to_seconds(detour.saves);
+  DetourView view{.candidates_evaluated = static_cast<std::uint64_t>(detour.tries),
+                  .is_selected = detour.is_taken,
+                  .time_saved_s = {}};
+  if (detour.saves > Duration{}) view.time_saved_s = to_seconds(detour.saves);
   return view;
 }
 
@@ -172,12 +172,12 @@ JobWaysView ways_of(const Job& job, const Cell& cell, const JobNames& names) {
 }
 
 std::vector<std::string> ring_of(const Job& job, const JobNames& names) {
-  std::vector<std::string> ring;
+  std::vector<std::string> cycle;
   for (JobId on_it : job.ring) {
     const std::string key = names.key(on_it);
-    ring.push_back(key.empty() ? "this job" : key);  // that is only asked about
+    cycle.push_back(key.empty() ? "this job" : key);  // that is only asked about
   }
-  return ring;
+  return cycle;
 }
 
 // Of one that has ended. `waits`: as they are told.
@@ -210,14 +210,14 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   for (const Wait& wait : job.waits_on) {
     view.waits_on.push_back(view_of(wait, cell, names, in_vain));
   }
-  view.ring = ring_of(job, names);
+  view.cycle = ring_of(job, names);
   if (job.reason()) view.result = result_of(job, view.waits_on, cell, names);
   return view;
 }
 
 CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobNames& names) {
   CheckView view{.kind = outcome.kind, .scene_version = 0};
-  if (outcome.approach) view.approach_s = to_seconds(*outcome.approach);
+  if (outcome.approach) view.move_to_start_s = to_seconds(*outcome.approach);
   const Job& job = outcome.job;
   if (job.goal && job.choice) view.choice = view_of(job, *job.choice, cell, names);
   if (outcome.starts_in) view.earliest_start_s = to_seconds(*outcome.starts_in);

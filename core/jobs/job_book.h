@@ -79,7 +79,7 @@ struct Record {
 
   // True if its arms are moved to its start, in case they rest elsewhere at its turn.
   [[nodiscard]] bool is_brought_to_start() const {
-    return job.terms.approach == Approach::plan || approaches.after_deadlock;
+    return job.terms.move_to_start == MoveToStart::plan || approaches.after_deadlock;
   }
 };
 

@@ -22,28 +22,16 @@ enum class OnTimeout {
 }
 
 // How an arm gets to a job's start.
-enum class Approach {
+enum class MoveToStart {
   none,  // the arm must be there at the job's turn
   plan,  // the server moves it there at the job's turn (approach.h)
 };
-[[nodiscard]] constexpr const char* to_string(Approach how) {
+[[nodiscard]] constexpr const char* to_string(MoveToStart how) {
   switch (how) {
-    case Approach::none:
+    case MoveToStart::none:
       return "none";
-    case Approach::plan:
+    case MoveToStart::plan:
       return "plan";
-  }
-  return nullptr;
-}
-
-// `any`: jobs of one arm with equal start and end may change places if all of them are `any`.
-enum class JobOrder { as_given, any };
-[[nodiscard]] constexpr const char* to_string(JobOrder order) {
-  switch (order) {
-    case JobOrder::as_given:
-      return "as_given";
-    case JobOrder::any:
-      return "any";
   }
   return nullptr;
 }
@@ -54,8 +42,10 @@ struct JobTerms {
   // nullopt: the cell's value; always set in the scheduler's jobs.
   std::optional<Duration> backlog_timeout = {};
   OnTimeout on_timeout = OnTimeout::abort;
-  Approach approach = Approach::none;
-  JobOrder order = JobOrder::as_given;
+  MoveToStart move_to_start = MoveToStart::none;
+  // The job may change places with other reorderable jobs of its arm that begin and end where it
+  // does.
+  bool reorderable = false;
 };
 
 // The terms that can change while the job has not ended; nullopt: unchanged.

@@ -58,9 +58,9 @@ static_assert(is_terminal(kJobEnds.front()) && !is_terminal(*(kJobEnds.begin() -
 
 // Why a job does not move.
 struct Wait {
-  enum class Kind { job, arm, object, order, capacity, stop, plan, check, guard };
+  enum class Kind { job, arm, object, predecessor, capacity, stop, plan, check, guard };
   Kind kind;
-  std::optional<JobId> job;            // job, order, capacity
+  std::optional<JobId> job;            // job, predecessor, capacity
   std::optional<ArmId> arm;            // arm, stop; job: the other arm that comes too close
   std::optional<Proximity> proximity;  // job, arm, object: evidence
   Duration own_time{};                 // with proximity: time in this job's trajectory
@@ -83,8 +83,8 @@ struct Wait {
       return "arm";
     case Wait::Kind::object:
       return "object";
-    case Wait::Kind::order:
-      return "order";
+    case Wait::Kind::predecessor:
+      return "predecessor";
     case Wait::Kind::capacity:
       return "capacity";
     case Wait::Kind::stop:

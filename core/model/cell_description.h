@@ -129,13 +129,13 @@ enum class OnRestart {
 struct SchedulingSettings {
   inline static constexpr NumberRange backlog_timeout_range = kSettingPositiveTime_s;
   inline static constexpr NumberRange aging_range = kSettingTime_s;
-  inline static constexpr NumberRange horizon_legs_range{1, 32};
+  inline static constexpr NumberRange horizon_steps_range{1, 32};
 
   std::string policy = "earliest_start";
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
   OnIdleBlocker on_idle_blocker = OnIdleBlocker::park;
-  int horizon_legs = 12;  // of each lane, admitted ahead by policies that look ahead
+  int horizon_steps = 12;  // of each lane, admitted ahead by policies that look ahead
   OnRestart on_restart = OnRestart::ask;
 };
 struct MonitorSettings {

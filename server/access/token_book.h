@@ -17,7 +17,7 @@ struct Caller {
   Role role = Role::viewer;
 };
 
-// The tokens of a server as their file has them now: what is added or withdrawn counts at once. A
+// The tokens of a server as their file has them now: what is added or revoked counts at once. A
 // file with a mistake in it does not: those that were read before it stay, so that a slip of
 // whoever edits it takes Stop from nobody. Without a file nobody has one. One thread.
 class TokenBook {

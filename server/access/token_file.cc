@@ -149,8 +149,7 @@ Result<std::string> TokenFile::add(const std::string& name, Role role) {
   }
   if (std::ranges::find(tokens, name, &KeptToken::name) != tokens.end()) {
     return failure(Problem{ProblemKind::conflict, "name-in-use", "--name",
-                           "there is a token of \"" + name + "\" already; withdraw it first",
-                           name});
+                           "there is a token of \"" + name + "\" already; revoke it first", name});
   }
   std::string token = "armloom_" + random_hex();
   tokens.push_back({name, role, sha256_hex(token), now_text()});
@@ -158,7 +157,7 @@ Result<std::string> TokenFile::add(const std::string& name, Role role) {
   return token;
 }
 
-Result<void> TokenFile::withdraw(const std::string& name) {
+Result<void> TokenFile::revoke(const std::string& name) {
   const Locked locked(file_);
   auto tokens = read();
   if (!tokens) return failure(std::move(tokens.error()));

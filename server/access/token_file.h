@@ -30,7 +30,7 @@ class TokenFile {
   // alone. Problems: the name is none, or is taken (conflict); it cannot be written (unavailable).
   [[nodiscard]] Result<std::string> add(const std::string& name, Role role);
   // Problem (not_found): there is none of that name.
-  [[nodiscard]] Result<void> withdraw(const std::string& name);
+  [[nodiscard]] Result<void> revoke(const std::string& name);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 

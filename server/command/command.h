@@ -49,7 +49,7 @@ int serve(const ServeOptions& options);
 
 // The tokens of a server: a new one, which is printed this once, all of them, or one less.
 struct TokenOptions {
-  enum class What { add, list, withdraw };
+  enum class What { add, list, revoke };
   What what = What::list;
   std::string file;
   std::string name;

@@ -107,7 +107,7 @@ void hold_against_sequential(std::vector<PolicyRun>& runs) {
   if (sequential == runs.end() || !sequential->makespan) return;
   for (PolicyRun& run : runs) {
     if (!run.makespan) continue;
-    run.of_sequential = to_seconds(*run.makespan) / to_seconds(*sequential->makespan);
+    run.makespan_ratio = to_seconds(*run.makespan) / to_seconds(*sequential->makespan);
   }
 }
 

@@ -69,7 +69,7 @@ StoredJob ended(StoredJob job, JobState state, Reason reason, const std::string&
   view["state"] = job.state;
   view["stopping"] = false;
   view["waits_on"] = nlohmann::ordered_json::array();
-  view["ring"] = nlohmann::ordered_json::array();
+  view["cycle"] = nlohmann::ordered_json::array();
   view["ended_s"] = view["started_s"].is_null() ? view["submitted_s"] : view["started_s"];
   view["ended_at"] = clock.at(TimePoint{});
   view["result"] = {{"reason", to_string(reason)}, {"detail", detail}};

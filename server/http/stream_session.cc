@@ -96,7 +96,7 @@ Awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier
   while (!ec && !session->closed) {
     auto reason = session->subscription->close_reason();
     if (!reason && !is_permitted()) {
-      reason = {CloseReason::Why::not_permitted, "the token was withdrawn"};
+      reason = {CloseReason::Why::not_permitted, "the token was revoked"};
     }
     if (reason) {
       session->begin_sending(times.send);

@@ -46,7 +46,7 @@ class Metrics::Impl {
       jobs_.Add({{"outcome", to_string(state)}});
     }
     for (const Wait::Kind kind :
-         {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object, Wait::Kind::order,
+         {Wait::Kind::job, Wait::Kind::arm, Wait::Kind::object, Wait::Kind::predecessor,
           Wait::Kind::capacity, Wait::Kind::stop, Wait::Kind::plan, Wait::Kind::guard}) {
       waits_.Add({{"reason", to_string(kind)}});
     }
@@ -225,11 +225,12 @@ class Metrics::Impl {
       counters("armloom_limited_total", "What was refused as one too many of a client, or of all");
   Family<Histogram>& took_ =
       histograms("armloom_http_seconds", "From a whole request to its answer");
-  Gauge& readers_ = gauges("armloom_event_readers", "Readers of events and poses").Add({});
+  Gauge& readers_ = gauges("armloom_event_subscribers", "Readers of events and poses").Add({});
   Counter& frames_dropped_ =
       counters("armloom_frames_dropped_total", "Pose frames that slow readers did not get").Add({});
   Counter& sent_away_ =
-      counters("armloom_readers_sent_away_total", "Readers that fell too far behind").Add({});
+      counters("armloom_subscribers_disconnected_total", "Readers that fell too far behind")
+          .Add({});
   Gauge& recording_lost_ =
       gauges("armloom_recording_lost", "1: the recording is no longer whole").Add({});
   Gauge& storage_failed_ =

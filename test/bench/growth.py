@@ -13,7 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 BEGIN, END = "<!-- growth.py begins -->\n", "<!-- growth.py ends -->\n"
 # Row of the bench: what grows, the counter that says how large it is, and its words.
 ROWS = {
-    "horizon": ("horizon_legs", "legs of each lane in the horizon"),
+    "horizon": ("horizon_steps", "legs of each lane in the horizon"),
     "waiting": ("waiting", "waiting jobs"),
     "spacing_cm": ("in_reach", "arms in reach"),
 }

@@ -87,9 +87,9 @@ TEST_P(Aside, AnIdleArmInTheWayGoesBackWhereItCameFrom) {
   start(OnIdleBlocker::park);
   cell->run_to_the_end(at(20s));
   EXPECT_EQ(cell->job("passes").state, JobState::succeeded);
-  const JobView aside = cell->job("aside-1");
+  const JobView aside = cell->job("retreat-1");
   EXPECT_EQ(aside.state, JobState::succeeded);
-  EXPECT_EQ(aside.name, "x moves aside for passes");
+  EXPECT_EQ(aside.name, "x retreats for passes");
   EXPECT_NEAR(cell->log.last[0], -1.0, 1e-3);
   EXPECT_GT(cell->log.closest_m, 0.01);
 }
@@ -99,7 +99,7 @@ TEST_P(Aside, ItReturnsForAJobThatBeginsWhereItWasLeft) {
   cell->run_to_the_end(at(20s));
   cell->submit(slide("x", 0, 1, 2, "goes on"));
   cell->run_to_the_end(at(40s));
-  EXPECT_EQ(cell->job("aside-2").state, JobState::succeeded);
+  EXPECT_EQ(cell->job("retreat-2").state, JobState::succeeded);
   EXPECT_EQ(cell->job("goes on").state, JobState::succeeded);
   EXPECT_NEAR(cell->log.last[0], 1.0, 1e-3);
 }
@@ -110,7 +110,7 @@ TEST_P(Aside, AJobThatBeginsWhereItStandsNowNeedsNoReturn) {
   cell->submit(slide("x", -1, 1, 2, "from here"));
   cell->run_to_the_end(at(40s));
   EXPECT_EQ(cell->job("from here").state, JobState::succeeded);
-  EXPECT_FALSE(cell->simulation->executive().job("aside-2"));
+  EXPECT_FALSE(cell->simulation->executive().job("retreat-2"));
 }
 
 // Nowhere to go: it stays told, and nothing hangs in a circle.
@@ -122,7 +122,7 @@ TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
   cell->run_until(at(10s));
   const JobView waits = cell->job("passes");
   EXPECT_EQ(waits.state, JobState::backlogged);
-  EXPECT_FALSE(cell->simulation->executive().job("aside-1"));
+  EXPECT_FALSE(cell->simulation->executive().job("retreat-1"));
   ASSERT_FALSE(waits.waits_on.empty());
   EXPECT_EQ(
       waits.waits_on[0].detail,
@@ -169,7 +169,7 @@ TEST_P(Aside, AStoppedArmInTheWayIsToldToNeedAResume) {
   cell->simulation->executive().resume({ArmId{0}});
   cell->run_to_the_end(at(40s));
   EXPECT_EQ(cell->job("passes").state, JobState::succeeded);
-  EXPECT_EQ(cell->job("aside-1").state, JobState::succeeded);
+  EXPECT_EQ(cell->job("retreat-1").state, JobState::succeeded);
 }
 
 TEST(AsideByDefault, ArmsInTheWayGoAside) {

@@ -129,7 +129,7 @@ TEST(Published, EveryJobIsALegOrWaitsInTheLanesOfItsArms) {
         for (const JobView& job : executive.snapshot(0).jobs) {
           jobs += static_cast<std::size_t>(std::ranges::count(job.arms, lane.arm));
         }
-        EXPECT_EQ(lane.legs.size() + lane.waiting, jobs) << lane.arm << ", seed " << seed;
+        EXPECT_EQ(lane.steps.size() + lane.waiting, jobs) << lane.arm << ", seed " << seed;
         waited += lane.waiting;
       }
     });

@@ -40,7 +40,7 @@ TEST_P(Replans, WhereThereIsNoWayAroundTheArmGoesAside) {
   cell->submit(go("a", {-1, 0}, {0, 0}, 3, "into its place"));
   cell->run_to_the_end();
   expect_succeeded("into its place");
-  expect_succeeded("aside-1");
+  expect_succeeded("retreat-1");
   const auto other = cell->job("into its place").ways.another_way;
   ASSERT_TRUE(other && other->refusal);
   EXPECT_EQ(other->done, 0U);
@@ -61,8 +61,8 @@ TEST_P(Replans, WhereThereIsNoStraightWayAsideOneIsPlanned) {
       continue;
     }
     expect_succeeded("into its home");
-    expect_succeeded("aside-1");
-    EXPECT_EQ(cell->job("aside-1").name, "b moves aside for into its home");
+    expect_succeeded("retreat-1");
+    EXPECT_EQ(cell->job("retreat-1").name, "b retreats for into its home");
     cell->expect_at("a", {1, 0});
     expect_apart();
   }
@@ -207,7 +207,7 @@ TEST_P(Replans, WhatCanBeGivenNoneIsRefused) {
   cell->submit(std::move(loop));
   const auto refused = cell->executive().replan("loop");
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().front().slug, "no-other-way");
+  EXPECT_EQ(refused.error().front().slug, "no-alternative-path");
   EXPECT_EQ(cell->executive().replan("nobody").error().front().kind, ProblemKind::not_found);
   cell->run_to_the_end();
   EXPECT_EQ(cell->executive().replan("loop").error().front().slug, "job-has-ended");

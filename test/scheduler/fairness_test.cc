@@ -35,7 +35,7 @@ TEST(Aging, AJobThatHasWaitedForItHoldsBackLaterOnesOfOtherArmsAndNotBefore) {
   EXPECT_FALSE(bench.question) << "not even with a larger priority";
   EXPECT_EQ(bench.state(after), JobState::queued);
   ASSERT_EQ(bench.job(after).waits_on.size(), 1u);
-  EXPECT_EQ(bench.job(after).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(after).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(bench.job(after).waits_on.front().job, bench.old);
 }
 

@@ -24,7 +24,7 @@ TEST(Admission, WhatIsAdmittedBehindAJobOfItsArmSaysThatItWaitsForIt) {
   bench.answer_regions(at(5ms), {at_goal, {b, y, {region(ProgressBox{1s, 1200ms, 0s, 200ms})}}});
   ASSERT_EQ(bench.state(y), JobState::scheduled);
   ASSERT_EQ(bench.job(y).waits_on.size(), 1u);
-  EXPECT_EQ(bench.job(y).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(y).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(bench.job(y).waits_on.front().job, x);
 }
 

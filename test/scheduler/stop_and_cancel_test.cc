@@ -153,7 +153,7 @@ TEST(Stop, HoldsMotionsAndKeepsTheQueue) {
   EXPECT_FALSE(bench.job(bench.jobs[0]).stopping());
   EXPECT_EQ(bench.job(bench.jobs[0]).waits_on.front().kind, Wait::Kind::stop);
   EXPECT_EQ(bench.job(bench.jobs[0]).waits_on.front().detail, "operator");
-  EXPECT_EQ(bench.job(waits).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(waits).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_FALSE(bench.question);
 
   bench.step(Resume{{ArmId{0}}}, at(5s));

@@ -27,7 +27,7 @@ TEST_F(Verbs, OneArmStopsAndResumesAlone) {
   const json arm = get("/api/v1/arms/left").json();
   EXPECT_EQ(arm["state"], "stopped") << "not as if it went on by itself";
   EXPECT_EQ(arm["job"], "l");
-  const json leg = get("/api/v1/timeline").json()["arms"][0]["legs"][0];
+  const json leg = get("/api/v1/timeline").json()["arms"][0]["steps"][0];
   EXPECT_TRUE(leg["ends_s"].is_null()) << leg;
   EXPECT_EQ(leg["pauses"][0]["waits_on"]["kind"], "stop");
   EXPECT_EQ(post("/api/v1/arms/left/resume", "").status, 202);

@@ -58,15 +58,15 @@ describe('an arm that was stopped', () => {
 const forecast = (now_s: number) => {
   const stands = (at_s: number, waits_on: unknown) => [{ from_s: now_s, to_s: null, at_s, waits_on }];
   return {
-    now_s, horizon_legs: 6, arms: [
+    now_s, horizon_steps: 6, arms: [
       {
-        name: 'left', waiting: 1, legs: [
+        name: 'left', waiting: 1, steps: [
           { id: 'pick', name: '', arms: ['left'], state: 'paused', progress: 0.25, starts_s: 2, ends_s: null, pauses: stands(3, kStop) },
-          { id: 'behind', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ kind: 'order', id: 'pick' })) },
+          { id: 'behind', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ kind: 'predecessor', id: 'pick' })) },
         ],
       },
       {
-        name: 'right', waiting: 0, legs: [
+        name: 'right', waiting: 0, steps: [
           { id: 'other', name: '', arms: ['right'], state: 'running', progress: 0.5, starts_s: 1, ends_s: now_s + 4, pauses: [] },
           { id: 'waits', name: '', arms: ['right'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ id: 'pick', arm: 'left' })) },
         ],

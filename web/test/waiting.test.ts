@@ -59,7 +59,7 @@ describe('the figure of a job that moves', () => {
   const job = store_of([job_json('r', { state: 'running', started_s: 1, duration_s: 4 })]).job('r') as Job;
 
   it('is until when the server expects it to end, pauses with it, where that is known', () => {
-    const forecast = { arms: [{ name: 'left', waiting: 0, legs: [{ id: 'r', ends_s: 30 }] }] } as unknown as Forecast;
+    const forecast = { arms: [{ name: 'left', waiting: 0, steps: [{ id: 'r', ends_s: 30 }] }] } as unknown as Forecast;
     expect(figure_in_words(job, 3.4, 0.5, leg_of(job, forecast)?.ends_s ?? null).text).toBe('26.6 s left');
     expect(figure_in_words(job, 3.4, 0.5, leg_of({ ...job, id: 'other' }, forecast)?.ends_s ?? null).text).toBe('2.0 s left');
   });

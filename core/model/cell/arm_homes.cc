@@ -15,7 +15,7 @@ void warn_if_held_elsewhere(const RobotBuild& robot, const ArmBuild& build, std:
                             double value, Diagnostics& diagnostics) {
   const TreeLink& link = robot.tree.links[index];
   if (!link.joint.held || std::abs(*link.joint.held - value) <= 1e-6) return;
-  diagnostics.warn({ProblemKind::invalid, "held-joint", build.pointer + "/home",
+  diagnostics.warn({ProblemKind::invalid, "fixed-joint", build.pointer + "/home",
                     "arm " + build.description->name + ": home has joint " + link.joint.name +
                         " at " + text_of(value) + ", and \"fixed\" holds it at " +
                         text_of(*link.joint.held) + ", which counts",

@@ -144,7 +144,7 @@ void check_settings(const CellDescription& d, Diagnostics& diagnostics) {
   time_within(scheduling.backlog_timeout_range, scheduling.backlog_timeout,
               "/scheduling/backlog_timeout_s");
   time_within(scheduling.aging_range, scheduling.aging, "/scheduling/aging_s");
-  within(scheduling.horizon_legs_range, scheduling.horizon_legs, "/scheduling/horizon_legs");
+  within(scheduling.horizon_steps_range, scheduling.horizon_steps, "/scheduling/horizon_steps");
 
   const MonitorSettings& monitor = d.monitor;
   within(monitor.rate_range, monitor.rate_hz, "/monitor/rate_hz");

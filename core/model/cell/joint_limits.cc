@@ -43,7 +43,7 @@ void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
     const std::string pointer = arm.pointer + "/limits/" + pointer_token(name);
     const auto link = robot.tree.by_joint.find(name);
     if (link != robot.tree.by_joint.end() && robot.tree.links[link->second].joint.held) {
-      diagnostics.warn({ProblemKind::invalid, "held-joint", pointer,
+      diagnostics.warn({ProblemKind::invalid, "fixed-joint", pointer,
                         "arm " + arm.description->name + ": the limits of " + name +
                             " say nothing, as \"fixed\" holds it",
                         name});

@@ -32,7 +32,7 @@ class StandingJoints {
     }
     if (!names.empty()) {
       diagnostics_.in_cell(
-          "standing-joint", robot_.pointer,
+          "stationary-joint", robot_.pointer,
           "robot " + robot_.description->name + ": " + names +
               " would move an arm and is in no arm's group, so where it stands has "
               "to be said: " +
@@ -66,7 +66,7 @@ class StandingJoints {
     for (const JointId joint : others) list(joint, names, line, kLongest);
     if (names.empty()) return;
     diagnostics_.warn(
-        {ProblemKind::invalid, "standing-joint", robot_.pointer,
+        {ProblemKind::invalid, "stationary-joint", robot_.pointer,
          "robot " + robot_.description->name + ": " + names +
              " in no arm's group, so what hangs there is checked where it stands at 0 "
              "(or at the limit next to it); if it stands elsewhere " +

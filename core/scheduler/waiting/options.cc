@@ -18,7 +18,7 @@ bool is_loop(const Record& record) {
 
 // One that several arms could do has no place on any of them yet that it could change.
 bool may_change_places(const Record& record) {
-  return record.job.terms.order == JobOrder::any && record.job.in<Queued>() != nullptr &&
+  return record.job.terms.reorderable && record.job.in<Queued>() != nullptr &&
          record.job.alternatives.empty() && is_loop(record) && record.job.after.empty() &&
          !record.errand.before && !record.errand.lets_pass;
 }

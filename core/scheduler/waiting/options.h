@@ -9,8 +9,9 @@
 namespace armloom {
 
 // An option for a turn: the job whose turn it is; a later job of its arm with equal priority, start
-// and end, if both are reorderable (JobOrder); or the job on another arm (Submit::alternatives).
-// All options leave every arm where it was, so all other jobs remain possible.
+// and end, if both are reorderable (JobTerms::reorderable); or the job on another arm
+// (Submit::alternatives). All options leave every arm where it was, so all other jobs remain
+// possible.
 struct Option {
   JobId job;
   std::size_t alternative = 0;  // index into Job::alternatives, if there are any

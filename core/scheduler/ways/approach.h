@@ -7,7 +7,7 @@
 
 namespace armloom {
 
-// Moves arms to the start of their next job, if its client wants that (Approach::plan): by the
+// Moves arms to the start of their next job, if its client wants that (MoveToStart::plan): by the
 // scheduler's own slow jobs with a goal (goals.h), each in front of that job. If one ends elsewhere
 // (stopped, failed), another one follows, up to kApproachesMax. Before anything moves, the job is
 // checked for self-collisions (Admission).
@@ -19,7 +19,7 @@ inline constexpr double kApproachSpeed = 0.25;
 // the arms are moved there.
 void fail_impossible_starts(State& state);
 // The job fails with Reason::deadlock, or because of such a job: the next jobs of its arms are
-// moved to their start, as with Approach::plan, instead of failing.
+// moved to their start, as with MoveToStart::plan, instead of failing.
 void keep_those_behind(State& state, const Record& record);
 // Returns the first job at the front of its queues whose feasibility is to be checked, or nullopt.
 [[nodiscard]] std::optional<JobId> next_in_question(const State& state);

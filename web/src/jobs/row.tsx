@@ -79,7 +79,7 @@ function Figure({ job, app }: Props) {
 
 /** That others of its arm come first is said with its times, in one line. */
 function only_waits_its_turn(job: Job): boolean {
-  return job.waits_on[0]?.kind === 'order' && job.ring.length === 0 && !job.result;
+  return job.waits_on[0]?.kind === 'predecessor' && job.cycle.length === 0 && !job.result;
 }
 
 function Reason({ job }: { job: Job }) {

@@ -8,7 +8,7 @@ import { seconds } from '../wording';
 
 /** What the server expects of a job; null: nothing is known. */
 export function leg_of({ id }: Pick<Job, 'id'>, forecast: Forecast | null): ForecastLeg | null {
-  return forecast?.arms.flatMap((lane) => lane.legs).find((known) => known.id === id) ?? null;
+  return forecast?.arms.flatMap((lane) => lane.steps).find((known) => known.id === id) ?? null;
 }
 
 export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'forecast'>): string {

@@ -26,11 +26,11 @@ export type Diagram = Schemas['Diagram'];
 /** What one arm of A and one arm of B do to each other, wherever each is on its way. */
 export type DiagramLayer = Diagram['layers'][number];
 /** What the two meet if both go on from where they are. */
-export type DiagramMeeting = Schemas['DiagramMeeting'];
+export type DiagramContact = Schemas['DiagramContact'];
 export type CellState = Schemas['DiagramCell']['state'];
 /** When each arm is expected to move. */
 export type Forecast = Schemas['Timeline'];
-export type ForecastLeg = Schemas['TimelineLeg'];
+export type ForecastLeg = Schemas['TimelineStep'];
 /** What the admission code says of a job that was only asked about. */
 export type Verdict = Schemas['Verdict'];
 /** What of a job can be changed. */
