@@ -127,7 +127,7 @@ struct RunFigures {
   // Smallest distances between arms, and of arms from the scene (ClearanceQuery::closest_apart);
   // +inf: never near.
   double min_clearance_m;
-  double between_arms_m;
+  double between_arms_m;  // between arms alone
   std::uint64_t monitor_stops = 0;
   std::uint64_t guard_refusals = 0;  // unexpected (GuardEvent)
 };

@@ -55,7 +55,7 @@ class Publisher {
 
   // After each scheduler step: also publishes changes without an event.
   void publish_step(TimePoint now);
-  void show(JobView view, TimePoint now);
+  void show(JobView view, TimePoint now);  // on the board only, without an event
   void forget(JobId job, const std::string& key);
   [[nodiscard]] std::shared_ptr<const StatusBoard> board() const { return board_; }
 
