@@ -145,7 +145,7 @@ struct DiagramView {
     std::string arm_a;
     std::string arm_b;
     std::vector<DiagramCell> cells;
-    std::optional<DiagramMeeting> met;  // first contact if both go on from their progress
+    std::optional<DiagramContact> met;  // first contact if both go on from their progress
   };
   TimePoint time;  // time of the request
   Side a;
