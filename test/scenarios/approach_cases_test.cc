@@ -64,8 +64,7 @@ TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
   cell->run_to_the_end();
   const JobView failed = cell->job("in the post");
   EXPECT_EQ(failed.reason(), Reason::start_mismatch);
-  EXPECT_NE(failed.detail().find("no way to where it begins: "), std::string::npos)
-      << failed.detail();
+  EXPECT_NE(failed.detail().find("no path to its start: "), std::string::npos) << failed.detail();
   EXPECT_NE(failed.detail().find("post"), std::string::npos) << failed.detail();
   cell->expect_at("a", {-1, 0});
 }
@@ -104,7 +103,7 @@ TEST_P(Approaches, OneThatWaitsInVainIsNotTriedAgain) {
   EXPECT_FALSE(cell->executive().job("move-to-start-2"));
   const JobView failed = cell->job("where b stands");
   EXPECT_EQ(failed.reason(), Reason::start_mismatch);
-  EXPECT_NE(failed.detail().find("no way to where it begins: waited 5 s"), std::string::npos)
+  EXPECT_NE(failed.detail().find("no path to its start: waited 5 s"), std::string::npos)
       << failed.detail();
   EXPECT_LT(failed.times.ended_at, at(6s));
 }

@@ -26,10 +26,9 @@ TEST_P(T10, ASwapOfTwoGoalsIsNamedAtOnceAndTheLastJobGivesWay) {
   EXPECT_EQ(failed.reason(), Reason::deadlock);
   EXPECT_EQ(
       failed.detail(),
-      "two -> one -> two: none of them can move before the next one does; a job before them that "
-      "moves an arm out of the others' way would open the ring, or \"on_idle_blocker\": "
-      "\"park\" or \"replan\" in the cell's scheduling, which send one aside where there is a free "
-      "way");
+      "two -> one -> two: each waits for the next one, so none can move; submit a job before them "
+      "that moves an arm out of the others' paths, or set \"on_idle_blocker\": \"park\" or "
+      "\"replan\" in the cell's scheduling, so that an arm retreats if a path is free");
   const JobView stays = cell.job("one");
   EXPECT_EQ(stays.state, JobState::backlogged);
   EXPECT_TRUE(stays.cycle.empty());
