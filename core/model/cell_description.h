@@ -134,7 +134,7 @@ struct SchedulingSettings {
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
   OnIdleBlocker on_idle_blocker = OnIdleBlocker::park;
-  int horizon_legs = 12;  // queued motions per arm, admitted by look-ahead policies
+  int horizon_steps = 12;  // queued motions per arm, admitted by look-ahead policies
   OnRestart on_restart = OnRestart::ask;
 };
 struct MonitorSettings {

@@ -31,7 +31,7 @@ class TokenFile {
   // (unavailable).
   [[nodiscard]] Result<std::string> add(const std::string& name, Role role);
   // Problem (not_found): no token has this name.
-  [[nodiscard]] Result<void> withdraw(const std::string& name);
+  [[nodiscard]] Result<void> revoke(const std::string& name);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
 

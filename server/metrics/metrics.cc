@@ -223,7 +223,7 @@ class Metrics::Impl {
       counters("armloom_limited_total", "Requests, jobs and connections refused by a limit");
   Family<Histogram>& took_ =
       histograms("armloom_http_seconds", "Time from a whole request to its response");
-  Gauge& readers_ = gauges("armloom_event_readers", "Readers of events and poses").Add({});
+  Gauge& readers_ = gauges("armloom_event_subscribers", "Readers of events and poses").Add({});
   Counter& frames_dropped_ =
       counters("armloom_frames_dropped_total", "Pose frames that slow readers did not get").Add({});
   Counter& sent_away_ =

@@ -31,7 +31,7 @@ class StandingJoints {
       list(joint, names, line, std::string::npos);
     }
     if (!names.empty()) {
-      diagnostics_.in_cell("standing-joint", robot_.pointer,
+      diagnostics_.in_cell("stationary-joint", robot_.pointer,
                            "robot " + robot_.description->name + ": " + names +
                                " would move an arm but is in no arm's group, so its position must "
                                "be given: " +
