@@ -9,9 +9,9 @@ namespace armloom::row_of_arms {
 using namespace std::chrono_literals;
 inline const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 
-// Three arms in a row along x, bases 0.7 m apart, each one link of 0.4 m that turns about z: at
-// zero it points to its right neighbour, at pi to its left one. Two neighbours that point at each
-// other overlap; one that points there while the other points up (pi/2) does not.
+// Returns three arms in a row along x, bases 0.7 m apart. Each is one 0.4 m link that turns about
+// z: at zero it points to its right neighbor, at pi to its left neighbor. Two neighbors that point
+// at each other overlap. If one of them points up (pi/2) instead, they do not.
 inline Cell row() {
   Cell cell;
   cell.clearances.clearance_m = 0.02;

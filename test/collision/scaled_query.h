@@ -8,8 +8,8 @@
 
 namespace armloom::small {
 
-// The product's query, asked for one clearance after the other: what arms keep from each other and
-// from the scene; an arm is held to its shares of that from itself and its mount.
+// The product's ClearanceQuery with a chosen clearance per call between arms and to the scene. Self
+// and mount clearances are scaled in proportion.
 struct ScaledQuery : ClearanceQuery {
   using ClearanceQuery::ClearanceQuery;
 

@@ -6,8 +6,8 @@ namespace armloom::small {
 
 enum class As { object, link, mount };
 
-// Two arms of two joints in one plane, and a wall beside them: an object, a link, or the link that
-// carries the first arm, whose mount has a shape of its own too.
+// Returns a cell with two planar two-joint arms and a wall: a scene object, a static link, or the
+// link that carries the first arm. The first arm's mount always has a shape too.
 inline CellPtr walled(As as) {
   Cell cell;
   const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
