@@ -4,8 +4,8 @@
 
 #include "test/model/test_cells.h"
 
-// What a cell may say and hardly means, and what a robot's files say that would make it less safe:
-// nothing of it passes without a word.
+// Tests that probable mistakes in a cell file, and hazards in a robot's files, always cause a
+// warning.
 
 namespace armloom {
 namespace {
@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::Not;
 using namespace std::chrono_literals;
 
-// One setting of two_arms, where it is warned of and what follows from it.
+// One setting of two_arms, the pointer of its warning and the consequence that the warning states.
 struct Doubt {
   const char* name;
   std::function<void(CellDescription&)> make;
@@ -27,7 +27,7 @@ void PrintTo(const Doubt& doubt, std::ostream* out) { *out << doubt.name; }
 
 class DoubtfulSetting : public testing::TestWithParam<Doubt> {};
 
-TEST_P(DoubtfulSetting, IsToldWithItsConsequenceAndRefusesNothing) {
+TEST_P(DoubtfulSetting, CausesAWarningWithItsConsequence) {
   CellDescription description = two_arms_description();
   GetParam().make(description);
   EXPECT_THAT(warnings_of(description), AllOf(HasSubstr(std::string(GetParam().pointer) + " | "),
@@ -91,7 +91,7 @@ constexpr const char* kTurnLimit =
 
 const Joint& turn_of(const Cell& cell) { return cell.joint(*cell.find_joint("t_l_turn")); }
 
-TEST(SoftLimits, CountWhereTheyAreNarrowerAsForMoveIt) {
+TEST(SoftLimits, ApplyIfTheyAreNarrowerAsInMoveIt) {
   const ScratchFolder folder;
   const auto with_soft = [&](const std::string& attributes) {
     return with_urdf(folder, kTurnLimit,
@@ -110,7 +110,7 @@ TEST(SoftLimits, CountWhereTheyAreNarrowerAsForMoveIt) {
                         "the <limit> counts"));
 }
 
-TEST(JointLimitsFile, CountsWhatStandsThereUnlessItSaysFalse) {
+TEST(JointLimitsFile, AppliesLimitsUnlessTheirFlagIsFalse) {
   const ScratchFolder folder;
   CellDescription description = two_arms_description();
   description.robots[0].joint_limits = folder.write(
@@ -125,7 +125,7 @@ TEST(JointLimitsFile, CountsWhatStandsThereUnlessItSaysFalse) {
   EXPECT_EQ(cell->joint(*cell->find_joint("t_r_bend")).velocity_max, 1.0);
 }
 
-TEST(LimitsInDegrees, AreToldOf) {
+TEST(LimitsInDegrees, CauseAWarning) {
   const ScratchFolder folder;
   EXPECT_THAT(
       warnings_of(
@@ -135,7 +135,7 @@ TEST(LimitsInDegrees, AreToldOf) {
             HasSubstr("joint l_turn: its velocity is 180 rad/s, hardly meant (degrees?)")));
 }
 
-TEST(Axes, OfAnotherLengthThanOneAreDirectionsAndToldOf) {
+TEST(Axes, OfNonUnitLengthAreNormalizedWithAWarning) {
   const ScratchFolder folder;
   const CellDescription cell =
       with_urdf(folder, "<axis xyz=\"0 0.6 0.8\"/>", "<axis xyz=\"0 1.2 1.6\"/>");
@@ -150,14 +150,14 @@ TEST(Axes, OfAnotherLengthThanOneAreDirectionsAndToldOf) {
   EXPECT_EQ(warnings_of(rounded), "");
 }
 
-TEST(Meshes, ThatAreAsGoodAsNothingAreToldOf) {
+TEST(Meshes, TooSmallForTheirUnitCauseAWarning) {
   const ScratchFolder folder;
   EXPECT_THAT(
       warnings_of(with_urdf(folder, "scale=\"0.5 0.5 2\"", "scale=\"0.001 0.001 0.001\"")),
       HasSubstr("hardly meant (is the file in metres already? then its scale is too small)"));
 }
 
-TEST(Shapes, InTheWrongPlaceAreRefused) {
+TEST(Shapes, OutsideCollisionElementsAreRejected) {
   const ScratchFolder folder;
   const std::string geometry = "<geometry><box size=\"1 1 1\"/></geometry>";
   EXPECT_THAT(problems_of(with_urdf(folder, "<link name=\"r1\"/>",
@@ -170,7 +170,7 @@ TEST(Shapes, InTheWrongPlaceAreRefused) {
       HasSubstr("joint l_turn: <collision> would be left out here: it has to stand in a <link>"));
 }
 
-TEST(HeldJoints, MisspeltAreHeldAsTheyAreMeantSoThatNothingElseFollows) {
+TEST(FixedJoints, MisspelledNameSuppressesFollowOnErrors) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf =
@@ -184,7 +184,7 @@ TEST(HeldJoints, MisspeltAreHeldAsTheyAreMeantSoThatNothingElseFollows) {
             "did you mean l_slide?\n");
 }
 
-TEST(NamedStates, WithAValueThatIsNoneAreToldOnce) {
+TEST(NamedStates, WithAnInvalidValueAreReportedOnce) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf = folder.write(
@@ -196,7 +196,7 @@ TEST(NamedStates, WithAValueThatIsNoneAreToldOnce) {
             "left_arm: joint l_turn: joint value is 'x', not a finite number\n");
 }
 
-TEST(CrossedLimits, AreToldWithoutHomesThatLieOutside) {
+TEST(CrossedLimits, SuppressProblemsOfHomesOutside) {
   const ScratchFolder folder;
   EXPECT_THAT(
       problems_of(with_urdf(folder, kTurnLimit,
@@ -204,7 +204,7 @@ TEST(CrossedLimits, AreToldWithoutHomesThatLieOutside) {
       AllOf(HasSubstr("limit lower 2 is above upper -2"), Not(HasSubstr("outside"))));
 }
 
-TEST(LimitsInTheCell, OfNoJointSayWhichIsMeant) {
+TEST(LimitsInTheCell, OfUnknownJointsSuggestAName) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms[0].limits["l_tern"].velocity = 1;
   cell.robots[0].arms[0].limits["r_bend"].velocity = 1;

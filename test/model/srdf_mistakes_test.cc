@@ -7,7 +7,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// One mistake, made by replacing a piece of two_arms.srdf: where it must be found and what is said.
+// One mistake, made by replacing a piece of two_arms.srdf: its place and a part of its message.
 struct Mistake {
   const char* from;
   const char* to;
@@ -28,7 +28,7 @@ CellDescription cell_with_srdf(const ScratchFolder& folder, const Mistake& mista
 
 class SrdfMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(SrdfMistake, InWhatAnArmNeedsIsAProblem) {
+TEST_P(SrdfMistake, InAnArmsDefinitionIsAProblem) {
   const ScratchFolder folder;
   EXPECT_THAT(
       without_lines(problems_of(cell_with_srdf(folder, GetParam()))),
@@ -65,10 +65,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<?xml version=\"1.0\"?>", "<!DOCTYPE robot>", "twin.srdf:1",
                 "twin.srdf:1: a DOCTYPE or entity declaration is not allowed"}));
 
-// What names things that are not there, or what no arm of the cell uses.
+// Names of missing elements, or mistakes that affect no arm of the cell.
 class SrdfOddity : public testing::TestWithParam<Mistake> {};
 
-TEST_P(SrdfOddity, IsAWarningAndRefusesNothing) {
+TEST_P(SrdfOddity, IsOnlyAWarning) {
   const ScratchFolder folder;
   EXPECT_THAT(without_lines(warnings_of(cell_with_srdf(folder, GetParam()))),
               testing::AllOf(HasSubstr(std::string(GetParam().place) + " | "),
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "the SRDF is of robot three_arms, two_arms.urdf of robot two_arms; pairs of links "
                 "that it disables are not checked"}));
 
-TEST(SrdfStates, ThatAreAnArmsHomeHaveToBeWhole) {
+TEST(SrdfStates, UsedAsHomeMustBeValid) {
   const ScratchFolder folder;
   CellDescription cell = cell_with_srdf(folder, {"value=\"1.5\"", "value=\"2.6\"", "", ""});
   cell.robots[0].arms[0].home.clear();
@@ -152,7 +152,7 @@ TEST(SrdfStates, ThatAreAnArmsHomeHaveToBeWhole) {
       "l_turn is at 2.6, outside [-2, 2.5]\n");
 }
 
-TEST(SrdfGroups, ThatHoldEachOtherAreToldAsACycle) {
+TEST(SrdfGroups, CycleIsReported) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf = folder.write("twin.srdf",
@@ -173,7 +173,7 @@ TEST(SrdfGroups, MayReferToLaterGroups) {
   EXPECT_EQ(build_or_fail(cell)->arms[0].joints.size(), 5u);
 }
 
-TEST(SrdfFile, ThatIsMissingIsAProblemAndNoReasonToGuess) {
+TEST(SrdfFile, MissingFileIsAProblem) {
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf = data_file("missing.srdf");
   EXPECT_THAT(problems_of(cell), testing::StartsWith("/robots/0/srdf | robot twin: cannot read"));

@@ -7,13 +7,13 @@ namespace {
 
 using testing::HasSubstr;
 
-// One mistake, made by replacing a piece of two_arms.urdf: where it must be found and what is said.
+// One mistake, made by replacing a piece of two_arms.urdf: its place and a part of its message.
 struct Mistake {
   const char* from;
   const char* to;
   const char* place;
   const char* sentence;
-  int line = 0;  // that has to be named, if any is; 0: that of the change
+  int line = 0;  // line that the place must name; 0 for the changed line
 };
 
 void PrintTo(const Mistake& mistake, std::ostream* out) {
@@ -22,7 +22,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out) {
 
 class UrdfMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(UrdfMistake, IsTheOnlyProblemAndNamedByPlaceAndValue) {
+TEST_P(UrdfMistake, IsTheOnlyProblemReportedWithPlaceAndValue) {
   const Mistake& mistake = GetParam();
   const ScratchFolder folder;
   const std::string sound = file_with(data_file("two_arms.urdf"), "</robot>", "</robot>");
@@ -156,8 +156,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<robot name=\"two_arms\"", "<robot", "twin.urdf: robot",
                 "robot name is missing"}));
 
-// What is misspelt would vanish without a word: a link without its shape, a joint without its
-// mimic.
+// A misspelled element would be lost silently: a link without its shape, a joint without its mimic.
 INSTANTIATE_TEST_SUITE_P(
     Spelling, UrdfMistake,
     testing::Values(
@@ -195,8 +194,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><Link name=\"table\"/>",
                 "twin.urdf: robot", "<Link> is not known; did you mean <link>?"}));
 
-// Names that other tools give their elements are no misspellings.
-TEST(UrdfElements, OfOtherToolsPassWithoutAWord) {
+// Element names of other tools are no misspellings.
+TEST(UrdfElements, OfOtherToolsCauseNoWarning) {
   const ScratchFolder folder;
   const std::string others =
       "<gazebo reference='r1'><kp>1</kp></gazebo><transmission name='t'><joint name='r_spin'/>"
@@ -220,10 +219,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"</robot>", "", "twin.urdf:5", "the XML is malformed", 5},
         Mistake{"</robot>", "</robot><robot/>", "twin.urdf:67", "more than one XML element"}));
 
-// What the cell does not use, or what is only odd.
+// Mistakes that the cell does not use, or mere oddities.
 class UrdfOddity : public testing::TestWithParam<Mistake> {};
 
-TEST_P(UrdfOddity, IsAWarningAndRefusesNothing) {
+TEST_P(UrdfOddity, IsOnlyAWarning) {
   const Mistake& oddity = GetParam();
   const ScratchFolder folder;
   EXPECT_THAT(

@@ -11,12 +11,12 @@ inline double uniform(std::mt19937_64& random, double from, double to) {
 }
 
 struct SplineScale {
-  double reach;                  // of positions, velocities and accelerations, to either side
+  double reach;                  // of positions, velocities and accelerations, in both directions
   double shortest_s, longest_s;  // of a segment
 };
 
-// Of the arm "pair": one to five segments, cubic or quintic, as clients send them; at rest at both
-// ends, but for the accelerations.
+// Returns a motion of the arm "pair" like a client's: one to five segments, cubic or quintic, with
+// zero velocity (but not zero acceleration) at both ends.
 inline TrajectoryRequest random_spline(std::mt19937_64& random, const SplineScale& scale,
                                        bool quintic) {
   TrajectoryRequest request{{"pair_a", "pair_b"}, {}};

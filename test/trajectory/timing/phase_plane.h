@@ -5,12 +5,12 @@
 
 namespace armloom::testing {
 
-// The least time along a path within velocities and accelerations, from rest to rest, by the phase
-// plane (Bobrow, Dubowsky and Gibson 1985; Shin and McKay 1985) at `steps` even steps of s: no
-// faster than the maximum velocity curve, no faster than the largest acceleration from the
-// beginning on, no faster than the largest deceleration to the end. Derivatives of the path by
-// differences of positions; nothing is shared with what it judges. As steps grow it comes down to
-// the time, from below where the curve itself cannot be followed.
+// Returns the least time along a path from rest to rest within velocity and acceleration limits.
+// Uses the phase plane (Bobrow, Dubowsky and Gibson 1985; Shin and McKay 1985) at `steps` even
+// steps of s. The speed is bounded by the maximum velocity curve, by the largest acceleration from
+// the start, and by the largest deceleration to the end. Path derivatives are differences of
+// positions; no code is shared with the code under test. With more steps the result decreases to
+// the true time, or rises to it if the maximum velocity curve itself cannot be followed.
 [[nodiscard]] double least_time_s(const JointPath& path, const JointRates& rates,
                                   std::size_t steps);
 
