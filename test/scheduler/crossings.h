@@ -9,8 +9,8 @@
 
 namespace armloom {
 
-// Two arms of one joint each are too close while `a` is between these places and `b` between those
-// (rad). No two of the same arm.
+// Two one-joint arms are too close while `a` and `b` are both within these intervals (rad). `a` and
+// `b` must differ.
 struct Crossing {
   ArmId a;
   double from_a, to_a;
@@ -24,9 +24,9 @@ struct Object {
   double from, to;
 };
 
-// The geometry of a cell of one-joint arms as a table, and its answers to questions of every
-// method, by the rules of core/collision: exact, but for boxes that are a microsecond too large.
-// Motions go straight from place to place (`move` and `visit` of bench_cell.h).
+// The geometry of a cell of one-joint arms as a table. Answers the questions of every method by the
+// rules of core/collision: exact, except that boxes are a microsecond too large. Motions must be
+// straight lines (`move` and `visit` of bench_cell.h).
 class Crossings {
  public:
   explicit Crossings(std::vector<Crossing> table = {}) : table_(std::move(table)) {}
@@ -34,9 +34,10 @@ class Crossings {
 
   [[nodiscard]] Verdict answer(const Question& question) const;
 
-  // Whether the two may be too close while each is somewhere on its stretch; edges are free.
+  // Returns true if both may be too close while each is somewhere on its stretch; touching edges
+  // are free.
   [[nodiscard]] bool meet(ArmId a, Stretch of_a, ArmId b, Stretch of_b) const;
-  // Whether the motion finds its way when every other arm stands there; with all objects.
+  // Returns true if the motion is free of all objects and of all other arms at `rest`.
   [[nodiscard]] bool free_beside(const Trajectory& motion, const Configuration& rest) const;
 
  private:

@@ -1,4 +1,4 @@
-// What has to hold after every step.
+// Checks of what must be true after every step.
 #include <algorithm>
 
 #include "test/scheduler/ideal_arms.h"
@@ -14,7 +14,8 @@ void IdealArms::check() {
   check_explained();
 }
 
-// Between what was measured and its authority, and with an admitted job alone.
+// Checks that the arm is between its measured progress and its authority, and moves for an admitted
+// job.
 void IdealArms::check_moving(const Moving& arm) const {
   const Job& job = this->job(arm.job);
   const std::string what = "job " + std::to_string(arm.job.value()) + ", " + to_string(job.state());
@@ -29,7 +30,7 @@ void IdealArms::check_moving(const Moving& arm) const {
   for (const ArmId moved : arm.motion->arms()) EXPECT_EQ(scheduler.occupant(moved), arm.job);
 }
 
-// What is known of a job is what its state says, and no more.
+// Checks that the job's times and reasons match its state.
 void IdealArms::check_phase(const Job& job) const {
   const std::string what = "job " + std::to_string(job.id.value()) + ", " + to_string(job.state());
   const bool admitted = job.state() == JobState::scheduled || job.state() == JobState::running;
@@ -46,7 +47,8 @@ void IdealArms::check_phase(const Job& job) const {
       << what;
 }
 
-// Of what is admitted and stands, as far as its reports say, nobody waits for itself in the end.
+// Checks that no admitted job that rests, according to its reports, waits for itself through
+// others.
 void IdealArms::check_orders() const {
   const auto next = [this](JobId id) -> std::optional<JobId> {
     const Job& job = this->job(id);
@@ -66,7 +68,7 @@ void IdealArms::check_orders() const {
   }
 }
 
-// Where the arm may be, and for which job; that is no job where it rests.
+// Returns where the arm may be, and its job; the job is 0 if the arm rests.
 std::pair<Stretch, JobId> IdealArms::stretch_of(ArmId arm) const {
   for (const Moving& moving : moving_) {
     const auto& arms = moving.motion->arms();
@@ -106,7 +108,7 @@ void IdealArms::check_explained() const {
           << "job " << id.value() << " waits for a stop, and the arm is not stopped";
     }
   }
-  if (question) return;  // it may be about to go
+  if (question) return;  // the job may be about to start
   for (const JobId id : scheduler.active()) {
     const Job& job = this->job(id);
     const bool stands = job.pausing() || !moves(id);

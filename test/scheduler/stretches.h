@@ -6,7 +6,7 @@
 
 namespace armloom {
 
-// A stretch of an arm's places (rad), from <= to.
+// An interval of an arm's positions (rad), from <= to.
 struct Stretch {
   double from, to;
 };
@@ -14,10 +14,10 @@ struct Span {
   Duration from, to;
 };
 
-// Where the arm of this motion is at `progress` (rad).
+// Returns the arm's position at `progress` of this motion (rad).
 [[nodiscard]] double place_of(const Trajectory& motion, ArmId arm, Duration progress);
-// When the arm is in the stretch, line by line: a microsecond longer on either side. The motion
-// goes from rest to rest on each (`move` and `visit` of bench_cell.h).
+// Returns when the arm is in the stretch, one span per line, a microsecond longer on either side.
+// Each line of the motion must go from rest to rest (`move` and `visit` of bench_cell.h).
 [[nodiscard]] std::vector<Span> spans_in(const Trajectory& motion, ArmId arm, Stretch stretch);
 
 }  // namespace armloom
