@@ -1,6 +1,6 @@
-// The collision benchmarks: FCL the MoveIt way beside the engine, one run, one thread. Before the
-// first of them the workloads are made and checked, and the baseline against the exact shapes: it
-// must report every contact that these have, else the run ends with exit code 1.
+// Collision benchmarks: FCL the MoveIt way and the engine, in one run on one thread. First creates
+// and checks the workloads, and compares the baseline with exact shapes. If the baseline misses a
+// contact, the run ends with exit code 1.
 #include "test/bench/collision_bench.h"
 
 #include <benchmark/benchmark.h>
@@ -17,7 +17,7 @@
 namespace armloom::bench {
 namespace {
 
-// How the baseline's answers compare with the exact ones; throws if it misses a contact.
+// Compares the baseline's answers with exact ones; throws if the baseline misses a contact.
 void compare_with_exact(const std::string& name, const States& states) {
   ExactScene exact(states.cell);
   MoveItWay moveit(states.cell);
@@ -37,7 +37,7 @@ void compare_with_exact(const std::string& name, const States& states) {
                moveit.triangles());
 }
 
-// How close the arms come, exactly, every 5 ms.
+// Prints the exact smallest distance of the arms, every 5 ms.
 void tell_distance(const std::string& name, const Motions& motions) {
   ExactScene exact(motions.cell);
   const double closest_m =

@@ -17,18 +17,19 @@ struct States {
   std::vector<Configuration> all;
 };
 
-// Everything that is timed; lives for the whole run.
+// Everything that is measured; lives for the whole run.
 struct Workloads {
   std::map<std::string, States> states;    // apart, near, touching, eight_arms
   std::map<std::string, Motions> motions;  // clear, crossing
   std::map<std::size_t, Hall> halls;       // by the number of other arms
 };
 
-// Makes them all and throws std::runtime_error where one is not what it claims; two seconds.
+// Creates all workloads; throws std::runtime_error if one does not meet its claim. Takes two
+// seconds.
 [[nodiscard]] Workloads make_workloads();
 
-// Each adds its benchmarks, named "<way>/<workload>", of the same workloads; these must outlive the
-// run. An iteration is one state (in turn) or one admission.
+// Each adds its benchmarks, named "<way>/<workload>". The workloads must outlive the run. An
+// iteration is one state (in turn) or one admission.
 void register_moveit_way(const Workloads& workloads);
 void register_engine(const Workloads& workloads);
 

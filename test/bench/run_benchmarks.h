@@ -4,7 +4,8 @@
 
 namespace armloom::bench {
 
-// What main returns: a filter that names no benchmark (it is told) has measured nothing.
+// Returns main's exit code. A filter that matches no benchmark is an error, because nothing was
+// measured.
 inline int run_benchmarks() { return benchmark::RunSpecifiedBenchmarks() > 0 ? 0 : 2; }
 
 }  // namespace armloom::bench

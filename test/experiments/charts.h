@@ -6,9 +6,10 @@
 
 namespace armloom::experiments {
 
-// SVG 1.1, by themselves.
+// Self-contained SVG 1.1.
 
-// A bar for each policy's mean makespan, a dot for each seed, the lower bound dashed.
+// Returns a bar for each policy's mean makespan, a dot for each seed, and the lower bound as a
+// dashed line.
 [[nodiscard]] std::string makespan_svg(const WorkloadKind& kind, const std::vector<RunRow>& rows);
 
 }  // namespace armloom::experiments

@@ -9,14 +9,15 @@ namespace armloom::experiments {
 
 struct Claim {
   bool holds = false;
-  std::string sentence;  // with the figures
+  std::string sentence;  // with the measured values
 };
-// What issues 5 and 14 say must hold of the experiments, of the policy `best` ("coordinated").
+// Returns the claims of issues 5 and 14 about the experiments, for the policy `best`
+// ("coordinated").
 [[nodiscard]] std::vector<Claim> claims(const Plan& plan, const std::vector<RunRow>& rows,
                                         const std::string& best);
 
-// (other - best) / (other - bound): how much of what a policy leaves above the lower bound another
-// one realises.
+// Returns (other - best) / (other - bound): the share of another policy's excess over the lower
+// bound that the best policy saves.
 [[nodiscard]] double realised(double other_s, double best_s, double bound_s);
 
 }  // namespace armloom::experiments

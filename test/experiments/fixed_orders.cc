@@ -12,8 +12,8 @@ class FixedOrders final : public Policy {
   std::size_t horizon() const override { return coordinated_->horizon(); }
   bool admits_groups() const override { return coordinated_->admits_groups(); }
   CheckMethod method() const override { return coordinated_->method(); }
-  // Who keeps its place is overtaken no more where that has been decided; where all do, what comes
-  // new is as free as it was.
+  // Marks all motions as not to be overtaken, so orders that have been decided stay. Orders of new
+  // motions are as free as before, because all motions are marked.
   PassingOrders decide(const OrderQuestion& question) const override {
     const auto keep = [](std::vector<CoordinatedMotion> motions) {
       for (CoordinatedMotion& motion : motions) motion.outlook.keeps_its_place = true;

@@ -11,7 +11,7 @@ namespace {
 constexpr int kThrows = 60;
 constexpr int kSteps = 160;
 
-// A state in the unit cube: the place of each motion in what remains of it, and each joint's
+// A state in the unit cube: the position of each motion in its remaining range, and each joint's
 // deviation.
 struct Point {
   double candidate = 0.0;

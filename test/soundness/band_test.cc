@@ -14,8 +14,8 @@ namespace {
 constexpr double kRounding_m = 1e-6;
 constexpr double kHorizonOfAttack_m = 0.06;
 
-// One set of pairs for all methods; each is asked about as it is and, where that is a conflict,
-// started just so late that it is free.
+// One set of pairs for all methods. Each pair is checked unchanged; if it is a conflict, also with
+// the delay that just makes it free.
 struct Scenery {
   Scenery()
       : exact(bench::two_pandas()),
@@ -54,7 +54,7 @@ TEST(HardlyFree, PairsKeepTheClearanceAtEverySampledInstant) {
   EXPECT_GE(tight, found / 2);
 }
 
-TEST(Swept, MotionsKeepTheClearanceInAnyCombinationOfPlaces) {
+TEST(Swept, FreeMotionsKeepTheClearanceAtAnyProgress) {
   constexpr double kTracking_rad = 0.001;
   Scenery& s = scenery();
   const Cell& cell = s.exact.cell();

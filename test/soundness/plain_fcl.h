@@ -8,15 +8,15 @@
 
 namespace armloom::soundness {
 
-// Distances of parts by FCL alone, in double: its own shapes made anew from the bodies' sizes, no
-// bounds and no proofs before or behind it. What the engine's distances are held against.
+// Distances of bodies by FCL alone, in double: own shapes built from the bodies' sizes, without the
+// engine's bounds and proofs. Reference for the engine's distances.
 class PlainFcl {
  public:
   explicit PlainFcl(const PlanningScene::Bodies& bodies);
   ~PlainFcl();
 
-  // The smallest distance over the parts' bodies; zero or negative in contact, and zero where FCL
-  // throws.
+  // Returns the smallest distance over the bodies' shapes; zero or negative in contact, and zero if
+  // FCL throws.
   [[nodiscard]] double distance(std::size_t body_a, const Eigen::Isometry3d& X_WA,
                                 std::size_t body_b, const Eigen::Isometry3d& X_WB) const;
 

@@ -8,9 +8,9 @@
 namespace armloom::soundness {
 namespace {
 
-// A band without width is the plan's line: what lies on it must be found there in spite of
-// seconds being rounded, else a conflict cell proves nothing.
-TEST(ProgressBand, WithoutABandHoldsEveryStateOfItsPlan) {
+// A band without width is the planned line. Every state on the line must be found despite rounding
+// of seconds, otherwise a conflict cell proves nothing.
+TEST(ProgressBand, WithoutWidthContainsEveryPlannedState) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 100'000; ++i) {
     const Duration progress_a = from_seconds(uniform(random, 0.0, 9.0));
@@ -29,9 +29,9 @@ TEST(ProgressBand, WithoutABandHoldsEveryStateOfItsPlan) {
   }
 }
 
-// A band is covered by the times of the cells that it meets: random states of it, however late the
-// motions are, lie in some time range of their own cell.
-TEST(ProgressBand, MeetsEveryCellThatHoldsOneOfItsStates) {
+// The time ranges of the cells that a band meets must cover the band: random states of it, with any
+// lag, lie in a time range of their cell.
+TEST(ProgressBand, MeetsEveryCellWithOneOfItsStates) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 100'000; ++i) {
     const auto lag = [&] { return random() % 3 == 0 ? 0.0 : uniform(random, 0.0, 0.8); };
@@ -62,8 +62,8 @@ TEST(ProgressBand, MeetsEveryCellThatHoldsOneOfItsStates) {
   }
 }
 
-// Where times do not count, whatever is left of both motions counts.
-TEST(ProgressBand, ThatIsSweptHoldsTheWholeRectangleOfWhatRemains) {
+// For swept bands times do not matter: the whole remaining rectangle belongs to the band.
+TEST(ProgressBand, SweptBandContainsTheRemainingRectangle) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 100'000; ++i) {
     const ProgressBand r{.progress_a = uniform(random, 0.0, 9.0),

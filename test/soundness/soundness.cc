@@ -59,14 +59,14 @@ void measure_certified(const MovingPair& pair, const Truth& truth, const Verdict
   ++report.pairs;
 }
 
-// Times from the question's instant on, in seconds.
+// A time range after the question's time, in seconds.
 struct Stay {
   double from_s;
   double to_s;
 };
 
-// When a motion that goes on as planned is between two places; one that never leaves stays for
-// ever.
+// Returns when a motion that continues as planned is between two progress values. A motion that
+// ends there stays forever. Returns nullopt if never.
 std::optional<Stay> stay_of(const Motion& motion, Duration from, Duration to) {
   const Duration end = motion.trajectory->duration();
   const Duration now = std::clamp(motion.progress, Duration{}, end);
@@ -131,7 +131,8 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
   for (const MovingPair& pair : random_pairs(exact, pool, count, seed + 1)) {
     const Truth truth = sampler.of(pair);
     report.truth_samples += truth.looked_at;
-    // What the candidate does to itself and to what stands still is asked, and kept, before.
+    // Checks the candidate against itself and static bodies first, so that these results are
+    // cached.
     Question alone = pair.question(cell, kExactly);
     alone.others.clear();
     static_cast<void>(checker.judge(alone));
@@ -149,7 +150,7 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
       const auto free = [&](MotionChecker& by) {
         return between_motions(by.judge(pair.question(cell, method))) == nullptr;
       };
-      if (!free(checker_without)) continue;  // a clearance does not make it miss more
+      if (!free(checker_without)) continue;  // a clearance does not cause more misses
       if (contact_s < 0.0) contact_s = contact_time_s(pair, exact_without);
       note_missed(row.without, truth.smallest_m, contact_s);
       if (free(checker)) note_missed(row.with_clearance, truth.smallest_m, contact_s);

@@ -39,7 +39,7 @@ bool filters(std::size_t states, std::uint64_t seed) {
   return sound;
 }
 
-// The distances of surfaces (surface_check.h).
+// Checks the distances of surfaces (surface_check.h).
 bool surfaces(std::size_t count, std::uint64_t seed) {
   const SurfaceReport report = check_surfaces(count, seed);
   std::cout << "| pairs | apart | in contact | of these one inside of the other | apart though "
@@ -52,7 +52,7 @@ bool surfaces(std::size_t count, std::uint64_t seed) {
   return report.too_far == 0 && report.false_contacts == 0;
 }
 
-// What stays open where two Pandas have to keep 5 mm only, each joint 1 mrad off its path.
+// Reports what stays open for two Pandas with a clearance of 5 mm and a tracking error of 1 mrad.
 bool open(std::size_t count, std::uint64_t seed) {
   const struct {
     const char* name;
@@ -78,8 +78,8 @@ bool open(std::size_t count, std::uint64_t seed) {
 }  // namespace
 }  // namespace armloom::soundness
 
-// soundness pairs|filter|open|surfaces [count [seed]]: the tables of
-// test/soundness/README.md. Fails where one of the claims there does not hold.
+// soundness pairs|filter|open|surfaces [count [seed]]: prints the tables of
+// test/soundness/README.md. Fails if a claim of that README is violated.
 int main(int argc, char** argv) {
   using namespace armloom::soundness;
   try {
