@@ -46,7 +46,6 @@ TEST(Authority, IsReachedButNeverExceeded) {
       if (feedback.phase == Phase::finished) break;
       ASSERT_EQ(feedback.phase, Phase::moving) << seed;
       at_rest = feedback.measured_progress == authority ? at_rest + 1 : 0;
-      // Extends the authority sometimes while the arm moves, and always some time after it rests.
       if (at_rest > 50 || c.random() % 400 == 0) {
         authority += share_of(duration / 4, c.random) + 1us;
         c.bench.arm.grant(authority);

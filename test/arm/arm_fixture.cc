@@ -72,7 +72,7 @@ std::vector<Segment> joined(const std::vector<Waypoint>& waypoints,
   return segments;
 }
 
-// Returns the factor by which the time must grow so that every limit is met.
+// Returns the factor by which the time must grow to meet all limits.
 double needed_slowdown(const Trajectory& trajectory, const Cell& cell) {
   JointState state;
   double needed = 0.0;
@@ -196,8 +196,7 @@ void AccelerationGauge::observe(const ArmFeedback& feedback, bool may_brake) {
   last_.swap(now_);
   trajectory_->sample_positions(feedback.commanded_progress, now_);
   if (++known_ >= 3) {
-    // Progress is a whole number of nanoseconds, so each position is off by at most half a
-    // nanosecond.
+    // Progress is in whole nanoseconds.
     const double rounding = 4.0 * 0.5e-9 * 2.61 / (tick_s * tick_s);
     const Eigen::ArrayXd found =
         (now_ - 2.0 * last_ + before_).array().abs() / (tick_s * tick_s) - rounding;

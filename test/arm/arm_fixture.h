@@ -7,8 +7,8 @@
 
 namespace armloom {
 
-// A handmade cell of two arms with seven joints each and a Panda's limits; the left arm also has a
-// gripper joint. JointIds: 0..6 left, 7 left gripper, 8..14 right.
+// A handmade cell: two seven-joint arms with a Panda's limits, the left with a gripper joint.
+// JointIds: 0..6 left, 7 left gripper, 8..14 right.
 struct CellOptions {
   Duration lag = std::chrono::milliseconds(20);
   double noise_rad = 0.0;
@@ -18,8 +18,8 @@ struct CellOptions {
 inline const ArmId kLeft{0};
 inline const ArmId kRight{1};
 
-// Piecewise polynomials through random waypoints, at rest at both ends. The time is scaled so that
-// the tightest velocity or acceleration limit is just met.
+// Polynomials through random waypoints, at rest at both ends; the time just meets the tightest
+// velocity or acceleration limit.
 enum class Pieces {
   quintic,  // acceleration is continuous
   cubic,    // acceleration jumps at the waypoints
@@ -29,11 +29,9 @@ enum class Pieces {
                                               Pieces pieces = Pieces::quintic);
 [[nodiscard]] std::vector<JointId> joints_of(const Cell& cell, ArmId arm);  // without the gripper
 
-// Returns the controller's joint positions at the start of `trajectory`; joints outside
-// `trajectory` are at zero.
+// Returns the controller's joint positions at the start of `trajectory`; other joints are at zero.
 [[nodiscard]] Eigen::VectorXd at_start(const Trajectory& trajectory, const Cell& cell, ArmId arm);
 
-// An arm with a manually driven clock.
 struct Bench {
   Bench(CellPtr the_cell, ArmId the_arm, const Trajectory& first, std::uint64_t seed = 1)
       : cell(std::move(the_cell)), arm(cell, the_arm, at_start(first, *cell, the_arm), seed) {}
@@ -46,7 +44,7 @@ struct Bench {
     for (const TimePoint end = now + time - kControlPeriod; now < end;) tick();
     return tick();
   }
-  // Ticks until the phase is reached; fails the test after `most` of simulated time.
+  // Fails the test after `most` of simulated time.
   const ArmFeedback& tick_until(ArmFeedback::Phase phase,
                                 Duration most = std::chrono::seconds(120));
 
@@ -55,8 +53,8 @@ struct Bench {
   TimePoint now{};
 };
 
-// Measures the joints' accelerations by second differences of the commanded positions, per tick.
-// Keeps the largest as a share of the limit at that time.
+// Keeps the largest joint acceleration, by second differences of commanded positions, as a share of
+// the limit at that time.
 class AccelerationGauge {
  public:
   AccelerationGauge(const Cell& cell, TrajectoryPtr trajectory);

@@ -86,7 +86,6 @@ TEST(SimulatedArm, RunsOneTrajectoryAfterAnother) {
   Example e;
   e.start_now();
   e.bench.tick_until(Phase::finished);
-  // A motion back from the current position.
   std::vector<Segment> segments;
   Segment back{{}, from_seconds(6.0), {}};
   back.coefficients.setZero(7, 6);

@@ -1,4 +1,3 @@
-// Tests a simulated arm that brakes and continues.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Compares the distances of the audit between all kinds of shapes with alternating projections
-// (reference_distance.h). Poses are random, or share the planes in which GJK is known to fail.
+// Compares audit distances of all kinds of shapes with reference_distance.h, also in planes in
+// which GJK is known to fail.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ Sample sample(Kind kind, std::mt19937_64& random) {
       return {Sphere{half.x()}, {sphere}};
     }
     case Kind::box_mesh: {
-      // One face is a fan of triangles, two of them without area.
+      // One face is a fan of triangles, two without area.
       small::Surface surface = small::box_surface(-half, half);
       surface.triangles.push_back({0, 1, 1});
       surface.vertices.emplace_back(0.5 * (surface.vertices[0] + surface.vertices[1]));

@@ -15,8 +15,7 @@ using namespace std::chrono_literals;
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 constexpr double kUp = small::kHalfTurn / 2;
 
-// Returns a cell with `object` and one arm of one 0.4 m link that turns in the plane z = 0, with
-// `shape` at its tip instead of a capsule.
+// One arm of one 0.4 m link in the plane z = 0, with `shape` at its tip, and `object`.
 Cell cell_of(const Shape& shape, const Shape& object, const Eigen::Isometry3d& X_WO) {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
@@ -32,7 +31,7 @@ AuditReport at_angle(const Cell& cell, double q) {
   return *report;
 }
 
-// A slot along y about x = 0, 0.2 m wide; the tip at (0, 0.4, 0) is inside the slot.
+// 0.2 m wide, along y about x = 0; contains the tip at (0, 0.4, 0).
 const Eigen::Isometry3d kSlot = small::at_xyz(0, 0.4, -0.5);
 
 TEST(AuditMeshes, ArmInASlotIsNoContactAlthoughTheHullIsSolid) {
@@ -61,7 +60,7 @@ TEST(AuditMeshes, ArmAtTheWallOfASlotIsAContact) {
 TEST(AuditMeshes, BodyInsideAnotherIsAContact) {
   const small::Surface large = small::box_surface({-1, -1, -1}, {1, 1, 1});
   const small::Surface small_box = small::box_surface({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05});
-  // A mesh of two pieces: the second piece lies inside, the first far outside.
+  // The second piece lies inside, the first far outside.
   const small::Surface two = small::joined(small::box_surface({5, 5, 5}, {6, 6, 6}), small_box);
   const std::pair<Shape, Shape> cases[] = {{small::mesh_of(small_box), small::mesh_of(large)},
                                            {Sphere{0.05}, small::mesh_of(large)},

@@ -15,8 +15,7 @@ using namespace std::chrono_literals;
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 constexpr double kUp = small::kHalfTurn / 2;
 
-// Two arms of one 0.4 m link each, bases 0.7 m apart on x: they overlap when they point at each
-// other.
+// Two 0.4 m links, bases 0.7 m apart on x, overlap when they point at each other.
 Cell pair_of_arms() {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
@@ -24,7 +23,6 @@ Cell pair_of_arms() {
   return cell;
 }
 
-// Returns the rows of a rotation of both arms from `from` to `to` at a constant rate.
 std::vector<RecordedState> turn(const std::vector<double>& from, const std::vector<double>& to,
                                 Duration duration, Duration row) {
   std::vector<RecordedState> states;
@@ -49,8 +47,7 @@ AuditReport report_of(const Cell& cell, const std::vector<RecordedState>& states
 
 TEST(Audit, MeasuresTheSmallestClearanceOfACleanRecording) {
   const Cell cell = pair_of_arms();
-  // a points up at x = 0; b turns from right over up to left and back. b's tip is closest when it
-  // points left.
+  // b's tip is closest when b points left.
   auto states = turn({kUp, 0.0}, {kUp, 2 * kUp}, 1s, 10ms);
   auto back = turn({kUp, 2 * kUp}, {kUp, 0.0}, 1s, 10ms);
   for (RecordedState& state : back) state.time += 1s;
@@ -86,8 +83,7 @@ TEST(Audit, FindsContactBetweenTwoRows) {
   const AuditReport report = report_of(cell, states, 1ms);
   ASSERT_TRUE(report.first_contact.has_value());
   EXPECT_EQ(report.states_checked, 1001U);
-  // a's axis from (0,0) at angle w touches b's tip cap, centered at (0.3, 0), when both radii are
-  // added.
+  // a's axis at angle w touches b's tip cap, centered at (0.3, 0), with both radii.
   const double touching = std::asin(0.06 / 0.3);
   const double expected_s = (0.6 - touching) / 1.2;
   EXPECT_NEAR(to_seconds(report.first_contact->time), expected_s, 0.0011);
@@ -129,7 +125,7 @@ TEST(Audit, ChecksSelfPairsForContactOnly) {
   EXPECT_FALSE(report.smallest_clearance.has_value());
 }
 
-// The audit skips pairs that have not moved far enough since. This must not change the result.
+// The audit skips pairs that have not moved far enough.
 TEST(Audit, MatchesAnAuditOfEachStateAlone) {
   Cell cell = pair_of_arms();
   Eigen::Isometry3d leaning = small::at_xyz(0.35, 0.45, 0);

@@ -90,7 +90,7 @@ TEST(Numbers, FormatAsShortestRoundTripText) {
   }
 }
 
-// RFC 6901: escape the tilde first, otherwise the tilde of an escaped slash would be escaped again.
+// RFC 6901: tildes first, or the tilde of an escaped slash would be escaped again.
 TEST(PointerTokens, EscapeTildesAndSlashes) {
   EXPECT_EQ(pointer_token("a/b"), "a~1b");
   EXPECT_EQ(pointer_token("~1"), "~01");

@@ -1,4 +1,3 @@
-// Tests of enumerations whose value names are defined in one place.
 #include "core/base/enumeration.h"
 
 #include <gtest/gtest.h>

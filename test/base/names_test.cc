@@ -1,4 +1,3 @@
-// Tests which names are valid, and which known name a misspelled name most likely means.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -28,7 +27,7 @@ TEST(NearestName, IsNulloptIfMoreThanAThirdDiffers) {
   EXPECT_EQ(nearest_name("elbow", {}), std::nullopt);
 }
 
-// A client may send a very long name; such a name is not compared.
+// A client may send a very long name.
 TEST(NearestName, IgnoresNamesLongerThanTheLimit) {
   const std::string long_name(101, 'a');
   const std::array<std::string_view, 1> same{long_name};

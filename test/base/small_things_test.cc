@@ -1,4 +1,3 @@
-// Tests of cell time, disjoint sets and the formatting of joint positions.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -32,7 +31,7 @@ TEST(DisjointSets, UseTheFirstMemberAsRoot) {
   EXPECT_EQ(sets.root(0), 0U);
   sets.join(5, 2);
   for (const std::size_t member : {1U, 2U, 4U, 5U}) EXPECT_EQ(sets.root(member), 1U);
-  sets.join(4, 1);  // they are in the same set already
+  sets.join(4, 1);  // already joined
   EXPECT_EQ(sets.root(3), 3U);
 }
 

@@ -1,6 +1,5 @@
-// Collision benchmarks: FCL the MoveIt way and the engine, in one run on one thread. First creates
-// and checks the workloads, and compares the baseline with exact shapes. If the baseline misses a
-// contact, the run ends with exit code 1.
+// FCL the MoveIt way and the engine, on one thread. First checks the workloads, and the baseline
+// against exact shapes: exit code 1 if it misses a contact.
 #include "test/bench/collision_bench.h"
 
 #include <benchmark/benchmark.h>
@@ -17,7 +16,7 @@
 namespace armloom::bench {
 namespace {
 
-// Compares the baseline's answers with exact ones; throws if the baseline misses a contact.
+// Throws if the baseline misses an exact contact.
 void compare_with_exact(const std::string& name, const States& states) {
   ExactScene exact(states.cell);
   MoveItWay moveit(states.cell);
@@ -37,7 +36,6 @@ void compare_with_exact(const std::string& name, const States& states) {
                moveit.triangles());
 }
 
-// Prints the exact smallest distance of the arms, every 5 ms.
 void tell_distance(const std::string& name, const Motions& motions) {
   ExactScene exact(motions.cell);
   const double closest_m =

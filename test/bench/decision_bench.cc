@@ -1,9 +1,7 @@
-// Measures decision time: from a job's submission to its admission or rejection, including
-// geometry, on one thread. The hall has 48 Pandas; 15 motions run, 30 are admitted but not started,
-// and 200 jobs wait. Under coordinated, waiting jobs within the horizon are admitted too.
-// Candidates have new motions each time. lockstep admits to a round until a job of the round moves;
-// here no job does yet. sequential admits one job at a time; here all other arms rest. Reports
-// processor time.
+// Decision time (processor time): from submission to admission or rejection, including geometry, on
+// one thread. 48 Pandas: 15 motions run, 30 are admitted but not started, 200 jobs wait
+// (coordinated also admits those within its horizon). Candidates have new motions each time. Under
+// lockstep no job of the round moves yet; under sequential all other arms rest.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -33,14 +31,12 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kColumns = 8, kRows = 6;
 constexpr double kReach = 0.5;
-// Share of a random motion about home: with half of it neighbors stay clear, with all of it they
-// cross.
+// Share of a random motion about home: with half of it neighbors stay clear, with all they cross.
 constexpr double kShare = 0.5, kCrossingShare = 1.0;
 constexpr std::size_t kAdmitted = 45, kRunning = 15;
 constexpr std::size_t kFree[] = {18, 28, 29};  // arms in the middle, which get the candidates
 constexpr std::size_t kDecisions = 300, kDecisionsOfGrowth = 100;
 
-// Parameters that the time may grow with.
 struct Load {
   double spacing_m = 1.2;
   std::size_t waiting = 200;
@@ -73,7 +69,7 @@ class Hall {
     if (policy != "sequential") fill();
   }
 
-  // Returns a new motion per call that the arm can make alone.
+  // Returns a new motion that the arm can make alone.
   TrajectoryPtr new_motion(ArmId arm) {
     while (true) {
       const auto random = random_motion(*cell_, arm, ++seed_, kReach);
@@ -84,7 +80,6 @@ class Hall {
     }
   }
 
-  // Returns the number of arms that a candidate's arm can come close to.
   [[nodiscard]] double in_reach() const {
     const MotionStore store(*PlanningScene::build(cell_));
     double all = 0.0;
@@ -97,7 +92,6 @@ class Hall {
     return all / static_cast<double>(std::size(kFree));
   }
 
-  // Submits a job and answers all questions until the job is admitted or backlogged.
   struct Decision {
     double took_ms;
     bool admitted;
@@ -131,7 +125,6 @@ class Hall {
     return chooses_.judge(question).kind == Verdict::Kind::free;
   }
 
-  // Gives each arm except the free ones one admitted motion, with others waiting behind.
   void fill() {
     std::size_t admitted = 0, waiting = 0;
     std::vector<TrajectoryPtr> out(cell_->arms.size());
@@ -208,8 +201,7 @@ class Hall {
   MotionChecker checker_;
   MotionChecker chooses_;  // separate, so that it warms no cache of the measured checker
   Scheduler scheduler_;
-  std::map<TrajectoryPtr, TrajectoryPtr> random_;  // maps a motion to the random motion that it was
-                                                   // made of
+  std::map<TrajectoryPtr, TrajectoryPtr> random_;  // a motion and its random original
   std::optional<Question> question_;
   TimePoint now_{};
   std::uint64_t last_ = 0;
@@ -244,8 +236,7 @@ void decision(benchmark::State& state, const std::string& policy, double share, 
   state.counters["horizon_legs"] = static_cast<double>(load.horizon_legs);
 }
 
-// Rows "growth/": one of the three parameters grows, the others stay (growth.py makes the README's
-// table).
+// Rows "growth/": one of three parameters grows (growth.py makes the README's table).
 void register_growth(const std::string& policy, double share, const std::string& name,
                      const Load& load) {
   benchmark::RegisterBenchmark(

@@ -1,8 +1,7 @@
 // line_bench [EDGES]
-// An edge of a planner, one arm straight through its joint space, all others at rest. Compares
-// LineChecker, which certifies the whole edge, with FCL the MoveIt way at states 0.01 rad apart
-// (moveit_way.h: contact only, no clearance). Reports the time for the same edges, and how many
-// colliding edges the samples miss.
+// A planner's edge: one arm straight through its joint space, others at rest. LineChecker, which
+// certifies the edge, against FCL the MoveIt way at states 0.01 rad apart (contact only): time, and
+// colliding edges that samples miss.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -46,7 +45,7 @@ struct Edge {
     }
     return q;
   }
-  // Returns true if `bad` is true for a state on the edge; states are at most step_rad apart.
+  // Returns true if `bad` is true for a state; states are at most step_rad apart.
   [[nodiscard]] bool any(double step_rad, const std::function<bool(const Configuration&)>& bad,
                          int* first = nullptr) const {
     const int count =
@@ -101,7 +100,6 @@ void run(const char* name, const CellPtr& cell, std::size_t edges) {
       continue;
     }
     undecided += lines.line(edge.from, edge.to).kind == LineChecker::Kind::undecided;
-    // With the same shapes and limits, at both step sizes.
     const auto too_close = [&](const Configuration& q) {
       const Configuration* one = &q;
       return query.too_close({&one, 1}) != 0;

@@ -11,7 +11,7 @@
 namespace armloom::bench {
 namespace {
 
-// qhull may leave a point this far outside of a face, so the mesh is enlarged by twice as much.
+// qhull may leave a point this far outside of a face; twice as much is added.
 constexpr double kMargin_m = 2.0 * kHullTolerance_m;
 
 // Returns the largest n·p over the body's points p in P; n has unit length.
@@ -38,7 +38,7 @@ double support(const std::vector<ConvexShape>& bodies, const Eigen::Vector3d& n)
   return largest;
 }
 
-// Returns evenly spread unit vectors: a spiral with the golden angle.
+// A spiral with the golden angle.
 std::vector<Eigen::Vector3d> directions(std::size_t count) {
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
   std::vector<Eigen::Vector3d> all;
@@ -69,8 +69,8 @@ LinkMesh circumscribed_mesh(const std::vector<ConvexShape>& bodies, std::size_t 
   for (const ConvexShape& body : bodies) center += body.X_PS.translation();
   center /= static_cast<double>(bodies.size());
 
-  // A plane at height h above the center along n is the point n / h of the dual. The corners of the
-  // polytope are the faces of the dual's hull, converted the same way.
+  // The plane at height h along n is the point n / h of the dual; the polytope's corners are the
+  // faces of the dual's hull.
   std::vector<Eigen::Vector3d> dual;
   for (const Eigen::Vector3d& n : directions((triangles + 8) / 4)) {
     dual.push_back(n / (support(bodies, n) - n.dot(center) + kMargin_m));

@@ -10,16 +10,14 @@
 
 namespace armloom::bench {
 
-// A triangle mesh in a link's frame P.
 struct LinkMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-// Returns a closed convex mesh of about `triangles` triangles that contains one link's bodies, like
-// manufacturers' collision meshes. It is the polytope of the planes that touch the bodies in
-// (triangles + 8) / 4 evenly spread directions. It touches the bodies there and is larger at its
-// corners (a 6 cm sphere in 252 triangles: 3 mm), so it never hides a contact. Throws
+// Returns a closed convex mesh of about `triangles` triangles around one link's bodies, like
+// manufacturers' meshes: the planes that touch the bodies in (triangles + 8) / 4 even directions.
+// Larger at its corners (a 6 cm sphere in 252 triangles: 3 mm), so it never hides a contact. Throws
 // std::logic_error if a body is not contained. Precondition: bodies not empty, triangles >= 32.
 [[nodiscard]] LinkMesh circumscribed_mesh(const std::vector<ConvexShape>& bodies,
                                           std::size_t triangles);

@@ -1,7 +1,7 @@
 // longest_step CELL JOBS [POLICY]
-// Measures how long the strand is blocked: runs a jobs file on simulated time and prints the
-// longest control cycles and the longest submission. Checks are subtracted, because a server runs
-// them on separate threads. Processor time.
+// How long the strand is blocked: runs a jobs file on simulated time and prints the longest control
+// cycles and submission (processor time). Checks are subtracted, because servers run them on other
+// threads.
 #include <time.h>
 
 #include <algorithm>

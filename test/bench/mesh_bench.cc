@@ -1,6 +1,5 @@
 // mesh_bench [--benchmark_...] [CELL.json ...]
-// Checked states of two arms with meshes, for the two cells below or for the given files. Names are
-// "decided_<question>/<cell>/<states>".
+// Checked states of two arms with meshes. Names are "decided_<question>/<cell>/<states>".
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -17,7 +16,7 @@ namespace {
 
 constexpr std::size_t kStates = 2048;
 
-// One iteration is one state; eight states are checked at once.
+// One iteration is one of eight states that are checked at once.
 void decided(benchmark::State& run, const PlanningScenePtr& scene,
              const std::vector<Configuration>& states, const PairLimits& limits) {
   ClearanceQuery check(scene, limits);
@@ -33,7 +32,7 @@ void decided(benchmark::State& run, const PlanningScenePtr& scene,
   run.counters["not_clear_percent"] = 100.0 * close / asked;
 }
 
-// Cost of the monitor's distances: the closest pair of different arms below a horizon.
+// Cost of the monitor's distances: the closest pair below a horizon.
 void closest(benchmark::State& run, const PlanningScenePtr& scene,
              const std::vector<Configuration>& states, double horizon_m) {
   ClearanceQuery checker(scene);

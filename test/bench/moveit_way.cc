@@ -35,7 +35,6 @@ std::shared_ptr<MeshModel> bvh_of(const LinkMesh& mesh) {
   return model;
 }
 
-// Pairs of bodies (links with a mesh, then objects) that need no check.
 class AllowedPairs {
  public:
   explicit AllowedPairs(std::size_t bodies) : bodies_(bodies), allowed_(bodies * bodies, 0) {}
@@ -58,7 +57,7 @@ std::size_t body_of(const fcl::CollisionObjectd& object) {
   return static_cast<std::size_t>(reinterpret_cast<std::uintptr_t>(object.getUserData()));
 }
 
-// Called by FCL for each two objects with overlapping boxes; returns true to end the search.
+// Called by FCL for objects with overlapping boxes; true ends the search.
 bool collide_pair(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
   Query& query = *static_cast<Query*>(data);
   if (query.collision) return true;

@@ -5,8 +5,7 @@
 
 namespace armloom::bench {
 
-// Claims about the motions of the workloads, decided with exact shapes at samples. Used both for
-// searching the motions and for checking them.
+// Claims about the workloads' motions, decided with exact shapes at samples.
 
 inline constexpr std::size_t kHallArms = 16;
 inline constexpr double kHallSpacing_m = 1.2;  // only adjacent arms have overlapping reaches
@@ -14,15 +13,15 @@ inline constexpr double kPairReach = 0.5;
 inline constexpr double kHallReach = 0.5;
 
 // Returns true if each motion keeps 0.04 m from the table and 10 mm from itself, and the baseline
-// reports no collision for the motions run together.
+// reports no collision.
 [[nodiscard]] bool keeps_to_itself(Referees& referees, const Motions& motions);
 
-// See workloads.h for each claim.
+// See workloads.h.
 [[nodiscard]] bool is_clear_pair(Referees& referees, const Motions& pair);
 [[nodiscard]] bool is_crossing_pair(Referees& referees, const Motions& pair);
 [[nodiscard]] bool is_clear_hall(Referees& referees, const Motions& motions);
 
-// Checks the part of is_clear_hall that concerns the arms i and i + 1.
+// The part of is_clear_hall about the arms i and i + 1.
 [[nodiscard]] bool are_clear_neighbours(Referees& referees, const Motions& motions, std::size_t i);
 
 }  // namespace armloom::bench

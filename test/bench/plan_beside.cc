@@ -1,8 +1,8 @@
 // plan_beside CELL [QUERIES]
-// Plans alongside moving arms: measures planning time, and whether the admitted motion is the
-// planned one. The first two arms of the cell move between random poses without end. The last arm
-// is asked to go to QUERIES (1000) random poses, as jobs with `move_to`, and is stopped once a job
-// is admitted. Every 20th query changes a distant object, so that plans become out of date.
+// Planning time alongside moving arms, and whether the admitted motion is the planned one. The
+// first two arms move between random poses. The last arm gets QUERIES (1000) jobs with `move_to`
+// and is stopped once a job is admitted. Every 20th query changes a distant object, so that plans
+// become out of date.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -39,7 +39,6 @@ CellPtr load(const std::string& file) {
   return *cell;
 }
 
-// Answers like Simulation's service, and measures the time of each plan.
 class TimedJudge final : public JudgementService {
  public:
   explicit TimedJudge(ArmId asked) : asked_(asked) {}
@@ -123,8 +122,7 @@ class Queries {
   }
 
  private:
-  // Checks the pose against the other arms' current positions, so that the goal itself is not
-  // blocked permanently.
+  // Uses the other arms' current positions, so that the goal is not blocked permanently.
   JobRequest to_random_place(ArmId id, const std::string& key) {
     const Arm& arm = cell_->arm(id);
     const auto scene = judge_.last_scene ? judge_.last_scene : *PlanningScene::build(cell_);
@@ -169,7 +167,7 @@ class Queries {
     if (executive_->scene().add(fly)) fly_ = fly.name;
   }
 
-  // Follows a job until it is admitted or has ended, then makes room for the next.
+  // Until the job is admitted or has ended; then makes room for the next.
   void follow(const std::string& key) {
     const std::size_t plans_before = judge_.ms.size() - 1;
     const TimePoint limit = now_ + std::chrono::seconds(10);
@@ -187,8 +185,7 @@ class Queries {
     while (!is_terminal(executive_->job(key)->state)) tick();
   }
 
-  // Checks that the job was admitted with the last plan, for this scene and from the arm's
-  // position.
+  // Expects the last plan, for this scene and from the arm's position.
   void note_admitted(const std::string& key) {
     ++admitted_;
     const Trajectory& motion = *executive_->trajectory(key);

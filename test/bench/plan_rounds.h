@@ -10,14 +10,12 @@
 
 namespace armloom {
 
-// Poses that are connected by paths, and pairs of poses that very likely cannot be connected. A
-// query between such a pair has no solution to be found.
+// Connected poses, and pairs that very likely cannot be connected.
 class PoseGroups {
  public:
-  // Poses are numbered from zero.
   explicit PoseGroups(std::size_t poses);
   void join(std::size_t a, std::size_t b);
-  // Marks a pair for which even a ten times larger budget found no path.
+  // Even a ten times larger budget found no path.
   void part(std::size_t a, std::size_t b) { parted_.emplace_back(a, b); }
   [[nodiscard]] bool are_joined(std::size_t a, std::size_t b) const;
   [[nodiscard]] bool are_parted(std::size_t a, std::size_t b) const;
@@ -28,20 +26,19 @@ class PoseGroups {
   std::vector<std::pair<std::size_t, std::size_t>> parted_;
 };
 
-// Solved queries of one arm as a closed tour: from the first pose, where the arm rests, through
-// each query once, as far as there is such a tour (Hierholzer), and back.
+// Solved queries of one arm as a closed tour from the first pose through each query once, as far as
+// there is one (Hierholzer).
 class PlanRounds {
  public:
   void add(std::size_t from, std::size_t to, TrajectoryRequest way);
-  // Returns the tour. No query is left out if each pose has as many outgoing as incoming paths, as
-  // is the case if all queries are solved.
+  // Complete if each pose has as many outgoing as incoming paths, e.g. if all queries are solved.
   [[nodiscard]] std::vector<const TrajectoryRequest*> round_from(std::size_t first) const;
 
  private:
   std::map<std::size_t, std::map<std::size_t, TrajectoryRequest>> ways_;
 };
 
-// Writes a jobs file for `armloom simulate`: the arms make their tours one after the other.
+// A jobs file for `armloom simulate`: arms make their tours one after the other.
 void write_jobs(const std::string& file,
                 const std::vector<std::vector<const TrajectoryRequest*>>& rounds);
 

@@ -1,10 +1,8 @@
 // plan_table CELL [SCENARIO]... [--jobs FILE]
-// Makes the table of core/planning/README.md. Plans from every named or published pose of each arm
-// to every other, all other arms at home. Reports the number of solved queries, planning times and
-// path lengths. Arms with few poses get random poses in addition. A scenario
+// Makes the table of core/planning/README.md: plans between all named or published poses of each
+// arm, other arms at home. Arms with few poses get random poses too. A scenario
 // (shared/data/scenarios) adds its poses to the arms at its robots' places. FILE gets all solved
-// queries as jobs, one after the other, for `armloom simulate` and `armloom audit`
-// (plan_and_audit.py).
+// queries as jobs for `armloom simulate` and `armloom audit` (plan_and_audit.py).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -76,7 +74,7 @@ struct Row {
   PlanRounds rounds;
 };
 
-// Adds ten free poses, with a fixed seed, to arms with few poses.
+// Adds ten free poses with a fixed seed.
 void add_postures(const Cell& cell, ArmId id, LineChecker& lines, Poses& free) {
   if (free.size() > 4) return;
   std::mt19937_64 random(1);
@@ -96,7 +94,7 @@ void add_postures(const Cell& cell, ArmId id, LineChecker& lines, Poses& free) {
   }
 }
 
-// Returns the poses that are free with the other arms at home; records the conflicts of the others.
+// Returns the poses that are free with other arms at home; records the other poses' conflicts.
 Poses free_poses(const PlanningScenePtr& scene, ArmId id, const Poses& poses, Row& row) {
   const Cell& cell = scene->cell();
   LineChecker lines(scene, id, cell.home(), cell.checking.tracking_error_rad);
@@ -114,7 +112,6 @@ Poses free_poses(const PlanningScenePtr& scene, ArmId id, const Poses& poses, Ro
   return free;
 }
 
-// The queries of one arm.
 class Queries {
  public:
   Queries(const PlanningScenePtr& scene, ArmId id, const Poses& free, Row& row)
@@ -166,7 +163,7 @@ class Queries {
     row_.rounds.add(from, to, planned->timed.request);
   }
 
-  // Returns true if there is very likely no path: none is found with ten times the budget either.
+  // Returns true if even ten times the budget finds no path.
   bool part(std::size_t from, std::size_t to) {
     if (groups_.are_joined(from, to)) return false;
     PlanRequest longer = request(from, to);
@@ -196,7 +193,6 @@ void print(const std::string& name, const Row& row) {
   std::fflush(stdout);
 }
 
-// Returns the index of home.
 std::size_t home_of(const Poses& free, const Eigen::VectorXd& home) {
   const auto is_home = [&](const auto& pose) { return (pose.second - home).norm() < 1e-9; };
   const auto found = std::ranges::find_if(free, is_home);

@@ -1,5 +1,5 @@
-// Searches the seeds of the workloads (workloads.cc) and prints them. Not part of any run. Needed
-// again if the Panda's shapes, limits or random_motion change.
+// Searches the seeds of the workloads (workloads.cc). Needed again if the Panda's shapes, limits or
+// random_motion change.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -18,8 +18,7 @@ struct Candidate {
   TrajectoryPtr trajectory;
 };
 
-// Returns the first `count` motions of the arm that keep clear of themselves, with seeds from one
-// on.
+// Returns the first motions of the arm that keep clear of themselves.
 std::vector<Candidate> usable(Referees& referees, const CellPtr& cell, ArmId arm, double reach,
                               std::size_t count) {
   std::vector<Candidate> found;

@@ -10,7 +10,7 @@
 
 namespace armloom::bench {
 
-// A scene checked with exact shapes, without the engine's filter: the reference of the benchmarks.
+// Exact shapes without the engine's filter: the reference of the benchmarks.
 struct ExactScene {
   PlanningScenePtr scene;
   LinkPoses X_WL;  // scratch
@@ -20,48 +20,44 @@ struct ExactScene {
 
   // Returns the exact distance between different arms, at most horizon_m.
   [[nodiscard]] double between_arms(const Configuration& q, double horizon_m);
-  // Returns the exact distance of any arm to objects and other robots' static links, at most
-  // horizon_m.
+  // Returns the exact distance of arms to the scene, at most horizon_m.
   [[nodiscard]] double to_scene(const Configuration& q, double horizon_m);
-  // Returns true if an arm's own links are closer than their share self_clearance_m /
-  // Cell::clearance_m of clearance_m.
+  // Returns true if own links are closer than their share self_clearance_m / Cell::clearance_m of
+  // clearance_m.
   [[nodiscard]] bool self_too_close(const Configuration& q, double clearance_m);
   [[nodiscard]] bool self_too_close(const Configuration& q) {
     return self_too_close(q, cell().clearances.clearance_m);
   }
-  // Returns true if any checked pair touches, including an arm's own links.
+  // Returns true if any checked pair touches, own links included.
   [[nodiscard]] bool in_contact(const Configuration& q);
-  // Returns true if the arm is closer than clearance_m to anything, or than its share of it to
-  // itself.
+  // Returns true if the arm is closer than clearance_m to anything, or its share to itself.
   [[nodiscard]] bool too_close(const Configuration& q, ArmId arm, double clearance_m);
 };
 
-// Decides what is a workload: the exact shapes, and whether the baseline's own meshes touch
-// although the shapes do not. The baseline's convex link meshes fill the hollows of a folded arm. A
-// check that ends at such a contact would measure nothing, so these states are excluded.
+// Decides what is a workload: exact shapes, and whether only the baseline's meshes touch. Its
+// convex link meshes fill the hollows of a folded arm; a check that ends there would measure
+// nothing.
 struct Referees {
   ExactScene exact;
   MoveItWay moveit;
 
   explicit Referees(const CellPtr& cell) : exact(cell), moveit(cell) {}
-  // Returns true if the baseline reports one arm against itself or the scene, with all others at
-  // home.
+  // Returns true if the baseline reports one arm, with all others at home.
   [[nodiscard]] bool baseline_sees_one_arm_touch(const Configuration& q);
 };
 
-// Combined states of two Pandas, uniform within the limits, in classes by the exact distance d
-// between the arms. Except in `touching`, each arm keeps self_clearance_m from itself, and the
-// baseline reports no self contact.
+// Combined states of two Pandas by the exact distance d between the arms. Except in `touching`,
+// each arm keeps self_clearance_m from itself, also for the baseline.
 struct StateClasses {
   std::vector<Configuration> apart;     // d and the distance to the table above 0.10 m
   std::vector<Configuration> near;      // 3 mm <= d <= 50 mm, the table at least 3 mm away
   std::vector<Configuration> touching;  // d <= 0: the arms touch, possibly among other contacts
 };
-// Deterministic for `count`, on every machine with the same standard library.
+// Deterministic for `count` and the standard library.
 [[nodiscard]] StateClasses classed_states(Referees& referees, std::size_t count);
 
-// Returns states in which nothing is closer than 3 mm (an arm to itself: self_clearance_m), for any
-// number of arms. Places each arm at random until it is clear of all others, in three rounds.
+// Returns states in which nothing is closer than 3 mm (an arm to itself: self_clearance_m): three
+// times, each arm is placed at random until clear.
 [[nodiscard]] std::vector<Configuration> free_states(Referees& referees, std::size_t count);
 
 }  // namespace armloom::bench

@@ -1,4 +1,4 @@
-// Cost of time parameterization: one segment from rest to rest, and a path through 100 points.
+// Cost of time parameterization.
 #include <benchmark/benchmark.h>
 
 #include "core/trajectory/timing/time_parameterisation.h"

@@ -11,8 +11,8 @@ inline const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
 inline const Eigen::Vector3d kY = Eigen::Vector3d::UnitY();
 inline const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 
-// Returns a cell with two four-link arms facing each other over a table, with a rod and a crate.
-// The left robot has a static post; the right arm's last link has a flat cylinder and a box.
+// Two four-link arms face to face over a table, with a rod, a crate, and a static post on the left
+// robot. The right arm's last link has a flat cylinder and a box.
 inline Cell busy_cell() {
   Cell cell;
   cell.clearances.clearance_m = 0.02;

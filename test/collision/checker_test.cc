@@ -37,8 +37,8 @@ reference::Convex placed(const PlacedShape& shape, const Eigen::Isometry3d& X_WP
   return {Kind::box, 0.5 * std::get<Box>(shape.shape).size_m, 0.0, 0.0, X_WS};
 }
 
-// Computes the distance of every pair that matters, shape by shape, with closed forms
-// (reference_distance.h). Shares no filter, no groups and no FCL with the engine.
+// Computes the distance of every relevant pair, shape by shape, in closed form
+// (reference_distance.h).
 std::map<NamePair, reference::Bracket> brute_force(const Cell& cell, const Configuration& q) {
   struct Solid {
     std::string name;
@@ -91,7 +91,6 @@ Configuration random_configuration(const Cell& cell, std::mt19937_64& random) {
 
 constexpr double kRounding_m = 1e-6;
 
-// Checks that the checker's clearance (zero or less: contact) lies in the reference bracket.
 void expect_within(const reference::Bracket& distance, double clearance_m) {
   EXPECT_GE(std::max(0.0, clearance_m), std::max(0.0, distance.lower) - kRounding_m);
   EXPECT_LE(std::max(0.0, clearance_m), distance.upper + kRounding_m);
@@ -213,7 +212,7 @@ TEST(ClearanceQuery, AppliesSelfClearanceToAnArmsOwnLinks) {
   cell.clearances.self_clearance_m = 0.005;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.05});
   Configuration q(3);
-  q << 0.0, small::kHalfTurn - std::asin(0.11 / 0.3), 0.0;  // link3 begins 0.11 m from link1
+  q << 0.0, small::kHalfTurn - std::asin(0.11 / 0.3), 0.0;
   small::ScaledQuery checker(scene_of(small::shared(cell)));
   EXPECT_TRUE(checker.all_closer_than(q, 0.02).empty());
   cell.clearances.self_clearance_m = 0.012;

@@ -36,7 +36,7 @@ void expect_box(const ProgressBox& box, Duration from_a, Duration to_a, Duration
   EXPECT_EQ(box.to_b, to_b);
 }
 
-// A pause at the edge of a region costs up to a fine cell.
+// A pause at a region's edge costs up to a fine cell.
 TEST(PairRegionSearch, ResolutionFollowsTheShorterMotion) {
   const auto fine = [](Duration shorter) {
     return PairRegionSearch::resolution_of(shorter).passing.fine;
@@ -78,8 +78,7 @@ TEST(BlockedRegions, MergeCellsIntoFewBoxes) {
 }
 
 TEST(BlockedRegions, CutInTheDirectionWithFewerBoxes) {
-  // A comb with teeth along B: its back and three teeth; cut across its back there would be five
-  // boxes.
+  // A comb with teeth along B; cut across its back there would be five boxes.
   std::vector<BlockedCell> comb{cell(0s, 5s, 0s, 1s), cell(0s, 1s, 1s, 3s), cell(2s, 3s, 1s, 4s),
                                 cell(4s, 5s, 1s, 5s)};
   for (const bool along_a : {false, true}) {
@@ -123,9 +122,8 @@ TEST(BlockedRegions, DropCellsBehindBothArms) {
   const auto regions = blocked_regions(cells, remaining);
   ASSERT_EQ(regions.size(), 1U);
   expect_box(regions[0].boxes[0], 5s, 6s, 0s, 0s);
-  // The current position is not behind the arm, although the cell ends there.
+  // The current position is not behind the arm.
   EXPECT_EQ(blocked_regions({cell(1s, 3s, 0s, 0s)}, remaining).size(), 1U);
-  // At its end the motion is in the last cell.
   EXPECT_EQ(blocked_regions({cell(9s, 10s, 0s, 0s)}, {10s, 10s, 0s, 0s}).size(), 1U);
 }
 
@@ -150,8 +148,8 @@ TEST(BlockedRegions, UseMemoryProportionalToTheCells) {
   EXPECT_EQ(blocked_regions(cells, {0s, 600s, 0s, 600s}).size(), cells.size());
 }
 
-// Random cells of a 16 x 16 square, some overlapping. The boxes must contain all cells and no field
-// that is connected to the outside, and be connected as by brute force.
+// The boxes must contain all random cells, no field connected to the outside, and be connected as
+// by brute force.
 TEST(BlockedRegions, ContainAllCellsAndOnlyWhatTheyEnclose) {
   std::mt19937_64 random(17);
   for (int round = 0; round < 300; ++round) {
@@ -168,7 +166,7 @@ TEST(BlockedRegions, ContainAllCellsAndOnlyWhatTheyEnclose) {
     }
     const ProgressBox remaining{0s, kFields * 1s, 0s, kFields * 1s};
     const auto regions = blocked_regions(cells, remaining);
-    // Free fields that are connected to the border of the square.
+    // Free fields connected to the border.
     bool outside[kFields][kFields] = {};
     for (bool grows = true; grows;) {
       grows = false;

@@ -1,4 +1,3 @@
-// Tests the coordinated check with spheres on rails, whose conflicts are known in closed form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +20,6 @@ bool hold(const std::vector<ConflictRegion>& regions, Duration a, Duration b) {
   });
 }
 
-// Returns the bounding box of a region.
 ProgressBox around(const ConflictRegion& region) {
   ProgressBox hull = region.boxes.front();
   for (const ProgressBox& box : region.boxes) {
@@ -31,9 +29,9 @@ ProgressBox around(const ConflictRegion& region) {
   return hull;
 }
 
-// Returns how far from the true conflict an uncertified state may lie. A cell of the outline is not
-// free if its middle is nearer than both arms move in half of the cell; its farthest state is as
-// far away again. A cell whose middle is a conflict is coarser, and adds this once.
+// Returns how far from the true conflict an uncertified state may lie. An outline cell is not free
+// if its middle is nearer than both arms move in half of it; its farthest state is as far away
+// again. A coarser cell whose middle is a conflict adds this once.
 double slack_m() {
   const auto moves = [](Duration width) {
     return 2 * (kSpeed_m_s * to_seconds(width) / 2 + kTracking_m);
@@ -43,7 +41,7 @@ double slack_m() {
          1e-4;
 }
 
-// Returns the distance of the centers at x = -1 + v a and y = `start` + v b.
+// Returns the distance of the centers at x = -1 + v a, y = `start` + v b.
 double apart_m(Duration a, Duration b, double start) {
   return std::hypot(-1.0 + kSpeed_m_s * to_seconds(a), start + kSpeed_m_s * to_seconds(b));
 }
@@ -179,7 +177,7 @@ TEST(CoordinatedCheck, ComparesMotionsOfDifferentArmsOnly) {
 
 TEST(CoordinatedCheck, JoinsTheArmsOfASynchronousMotion) {
   Rails rails;
-  // y passes x's rail at 2 s and the second rail at 4 s; both arms are in y's way at 2 s.
+  // y passes the two arms' rails at 2 s and 4 s; both arms are there at 2 s.
   rails.question.candidates = {rails.motion(1, {kX, kSecond}, -1, 1)};
   rails.question.others = {rails.motion(2, {kY}, -1, 1.7)};
   Verdict verdict = rails.judge();
@@ -189,7 +187,6 @@ TEST(CoordinatedCheck, JoinsTheArmsOfASynchronousMotion) {
   EXPECT_TRUE(hold(verdict.regions[0].regions, 2s, 2s));
   EXPECT_TRUE(hold(verdict.regions[0].regions, 2s, 4s));
   EXPECT_FALSE(hold(verdict.regions[0].regions, 2s, 3s));
-  // The two-arm motion against one arm at rest: one region.
   rails.question.others.clear();
   rails.question.rest[1] = 1.0;
   verdict = rails.judge();
@@ -224,19 +221,18 @@ TEST(CoordinatedCheck, ReportsASynchronousMotionWhoseArmsMeet) {
 TEST(CoordinatedCheck, AllowsAPairTooCloseNowToSeparate) {
   Rails rails;
   rails.question.rest[1] = 0.0;
-  rails.question.candidates = {rails.motion(1, {kX}, 0.115, 1)};  // away from y, from 5 mm too
-                                                                  // close
+  rails.question.candidates = {rails.motion(1, {kX}, 0.115, 1)};  // away from y, too close
   EXPECT_TRUE(rails.judge().regions.empty());
   rails.question.candidates = {rails.motion(2, {kX}, 0.115, -1)};  // through it
   EXPECT_EQ(rails.judge().regions.size(), 1U);
-  // The exception is only for arms that are too close now, not for a later motion.
+  // A later motion must not start too close.
   rails.question.candidates = {rails.to_come(rails.motion(3, {kX}, 0.115, 1))};
   const Verdict verdict = rails.judge();
   ASSERT_EQ(verdict.regions.size(), 1U);
   EXPECT_EQ(verdict.regions[0].regions[0].boxes[0].from_a, 0s);
 }
 
-// x and y move together; then x alone returns to where y was left and still rests.
+// x and y move together; then x alone returns to where y still rests.
 TEST(CoordinatedCheck, ChecksAgainstTheOtherArmsOfASharedMotion) {
   Rails rails;
   rails.question.others = {rails.motion(1, {kX, kY}, 1.5, 0.1)};
@@ -245,7 +241,6 @@ TEST(CoordinatedCheck, ChecksAgainstTheOtherArmsOfASharedMotion) {
   Verdict verdict = rails.judge();
   ASSERT_EQ(verdict.regions.size(), 1U);
   EXPECT_EQ(std::get<ArmId>(verdict.regions[0].b), kY);
-  // If y has a later motion of its own, the region is with that motion instead.
   rails.question.others.push_back(rails.to_come(rails.motion(3, {kY}, 0.1, 1.5)));
   verdict = rails.judge();
   ASSERT_EQ(verdict.regions.size(), 1U);
@@ -253,7 +248,7 @@ TEST(CoordinatedCheck, ChecksAgainstTheOtherArmsOfASharedMotion) {
   EXPECT_EQ(around(verdict.regions[0].regions[0]).from_b, 0s);
 }
 
-// x passes y, then one motion moves both. Until then y rests 7 mm from the start of that motion.
+// One motion moves both after x has passed; until then y rests 7 mm from its start.
 TEST(CoordinatedCheck, UsesTheArmsPositionNotItsMotionsStart) {
   Rails rails;
   rails.question.candidates = {rails.motion(1, {kX}, -1, 0.125),
@@ -266,7 +261,7 @@ TEST(CoordinatedCheck, UsesTheArmsPositionNotItsMotionsStart) {
   EXPECT_TRUE(rails.judge().regions.empty());
 }
 
-// Two motions of 20 minutes that cross each other in hundreds of thousands of places.
+// Two motions of 20 minutes with hundreds of thousands of crossings.
 void cross_for_long(Rails& rails) {
   rails.question.candidates = {rails.shuttle(1, kX, -0.3, 0.3, 1000)};
   rails.question.others = {rails.shuttle(2, kY, -0.31, 0.3, 1000)};
@@ -281,8 +276,7 @@ TEST(CoordinatedCheck, LongMotionsStayWithinTheCellLimit) {
     EXPECT_EQ(verdict.kind, Verdict::Kind::free);
     EXPECT_FALSE(verdict.regions.empty());
     EXPECT_FALSE(verdict.exhausted) << "a larger effort would find no more";
-    // The limit covers the outline and close passes. Isolated cells come on top, in proportion to
-    // the length.
+    // Isolated cells come on top, in proportion to the length.
     EXPECT_LT(verdict.evaluations, 2 * PairRegionSearch::kCellsMax + 50'000);
   }
 }

@@ -53,8 +53,7 @@ TEST(AttachedObjects, CheckerDistancesMatchBruteForce) {
   EXPECT_GT(contacts, 100);
 }
 
-// The limit is set just above and just below the distance of the attached object alone, so the
-// kernels must see that object.
+// Limits just above and below the distance of the attached object force the kernels to see it.
 TEST(AttachedObjects, KernelsDecideByTheAttachedObjectAlone) {
   Holding h;
   int alone = 0;
@@ -74,7 +73,6 @@ TEST(AttachedObjects, KernelsDecideByTheAttachedObjectAlone) {
   EXPECT_GT(alone, 3);
 }
 
-// A motion certified with its attached objects stays free at every millisecond.
 TEST(AttachedObjects, KeepTheClearanceAlongSweptMotions) {
   Holding h;
   MotionChecker motion_checker(h.scene);

@@ -1,4 +1,3 @@
-// Tests the capsules of attached objects in the broad phase.
 #include <gtest/gtest.h>
 
 #include "core/collision/filter/arm_kinematics.h"
@@ -14,7 +13,6 @@ namespace {
 
 using namespace holding;
 
-// An arm's broad-phase capsules at one configuration, in double precision.
 struct Filtered {
   Filtered(const PlanningScene& scene, ArmId arm, const Configuration& state)
       : kinematics(scene.bodies(), arm), frames(kinematics.frames().size() * 12) {
@@ -136,7 +134,7 @@ TEST(AttachedObjects, BroadPhaseNeverOverestimatesDistance) {
       EXPECT_LE(seen->second, distance_m + 1e-6) << pair.first << " " << pair.second;
       ++compared;
     }
-    // The kernels must see it too: an attached object is closer than this limit.
+    // The kernels must see the attached object too.
     const double limit_m = closest_m + 1e-6;
     const Configuration* state = &q;
     EXPECT_EQ(ClearanceQuery(h.scene, {limit_m, limit_m}).too_close({&state, 1}), 1U);

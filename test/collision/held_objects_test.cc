@@ -10,7 +10,7 @@
 #include "test/collision/small_cell.h"
 #include "test/model/test_cells.h"
 
-// Defect T8: an attached object would collide although the bare arms would not.
+// Defect T8: an attached object collides although the bare arms do not.
 namespace armloom {
 namespace {
 
@@ -29,7 +29,7 @@ LinkId link(const Cell& cell, const std::string& name) {
   return id.value_or(LinkId{0});
 }
 
-// Returns a rod of `rod_m` attached to the end of a link of `link_m`, along x.
+// Returns a rod attached to the end of a link, along x.
 Attachment rod_at(const Cell& cell, const std::string& name, const std::string& holder,
                   double link_m, double rod_m) {
   Attachment held{{name, Cylinder{0.015, rod_m}}, link(cell, holder)};
@@ -38,8 +38,8 @@ Attachment rod_at(const Cell& cell, const std::string& name, const std::string& 
   return held;
 }
 
-// Returns a cell of two arms, bases `apart_m` apart along x. Each is one 0.4 m link that turns
-// about z: at zero a points to b, at pi b points to a.
+// Two 0.4 m links that turn about z, bases `apart_m` apart along x. At zero a points to b, at pi b
+// points to a.
 Cell two_arms(double apart_m) {
   Cell cell;
   cell.clearances.clearance_m = 0.02;
@@ -63,8 +63,8 @@ Question question_of(const Configuration& rest, TrajectoryPtr candidate) {
   return {1, at(0s), {{kJob, std::move(candidate), 0s}}, {}, rest, TimedDiscrete{20ms}};
 }
 
-// Checks the question with one checker: bare arms, then attached objects, then bare again. Only the
-// second check may be a conflict, and it must report `expected`.
+// Checks bare arms, then attached objects, then bare arms again with one checker: only the second
+// check is a conflict, as `expected`.
 void expect_only_held_conflicts(const PlanningScenePtr& bare, const PlanningScenePtr& held,
                                 Question question, const Proximity& expected, With with) {
   for (const CheckMethod& method : methods()) {
@@ -136,7 +136,7 @@ TEST(AttachedObject, CollidesWithTheScene) {
                              {"rod", "post", kA, {}, true, 0.0, true, false}, With::scene);
 }
 
-// Three links of 0.3 m fold up: the tip clears the first link, but the attached rod does not.
+// Three 0.3 m links fold up: the tip clears the first link, the attached rod does not.
 struct Folding {
   CellPtr cell = [] {
     Cell made;

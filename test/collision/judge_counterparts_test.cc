@@ -1,4 +1,3 @@
-// Tests which counterparts of a motion are checked, and which are reported.
 #include <gtest/gtest.h>
 
 #include "test/collision/row_of_arms.h"

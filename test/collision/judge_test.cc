@@ -20,15 +20,15 @@ TEST(DiscreteCheck, ChecksEveryStepAndTheEnd) {
   EXPECT_EQ(verdict.evaluations, 22U);  // 0, 50, ..., 1000 and 1010 ms
 }
 
-// Defect T2: b has done half of its motion; only the remaining half may be checked.
+// Defect T2: only the remaining half of b's motion may be checked.
 TEST(DiscreteCheck, ComparesWithTheRemainingMotion) {
   Judged judged(row());
-  // b leaves a's side within its first half; a turns there in the meantime.
+  // b leaves a's side within its first half.
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 4s)};
   judged.question.others = {judged.begun(judged.motion(1, kB, kPi, 0, 4s), 2s)};
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
 
-  // The same, but b reaches a's side in its second half, which a's clock would take for the first.
+  // b reaches a's side in its second half, which a's clock would take for the first.
   judged.question.others = {judged.begun(judged.motion(1, kB, 0, kPi, 4s), 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.kind, Verdict::Kind::conflict);
@@ -78,7 +78,7 @@ TEST(DiscreteCheck, FindsTheRestBeforeAMotionThatStartsLater) {
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
 }
 
-// Defect T4: what the discrete check guarantees, and what it does not.
+// Defect T4.
 TEST(DiscreteCheck, FindsAThinRodOnlyWithFineSteps) {
   Cell cell = row();
   cell.clearances.clearance_m = 0.001;
@@ -97,7 +97,6 @@ TEST(DiscreteCheck, FindsAThinRodOnlyWithFineSteps) {
   EXPECT_TRUE(verdict.conflicts[0].proximity.object_b);
 }
 
-// The last instant is the end of the motion, not the last multiple of the step.
 TEST(DiscreteCheck, ChecksTheGoalEvenIfTheStepIsLongerThanTheMotion) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
@@ -119,8 +118,7 @@ TEST(DiscreteCheck, AllowsAPairThatIsTooCloseToSeparate) {
 TEST(DiscreteCheck, RejectsAPairThatIsTooCloseAndApproaches) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
-  // The tips pass side by side, closest at 0, when the links are parallel. From 0.12 on the
-  // distance is below the clearance.
+  // Closest at 0, when the links are parallel; below the clearance from 0.12 on.
   judged.question.candidates = {judged.motion(2, kA, 0.12, -0.12, 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);

@@ -14,8 +14,7 @@ namespace {
 
 constexpr double kTrackingError = 0.001;
 
-// Lines of the left Panda near home; the right Panda rests at a random state between home and its
-// limits.
+// Lines of the left Panda near home, with the right Panda at rest.
 struct Lines {
   explicit Lines(std::uint64_t seed) : random(seed) {}
 
@@ -41,8 +40,8 @@ struct Lines {
   std::mt19937_64 random;
 };
 
-// Confirms each answer about a line with exact distances of single states, the arm off its line by
-// up to the tracking error, and with the motion checker for jobs.
+// Confirms each answer with exact distances, off the line by up to the tracking error, and with the
+// motion checker.
 TEST(LineChecker, AgreesWithStateChecksAndMotionChecker) {
   Lines lines(21);
   const ArmId left{0}, right{1};
@@ -60,7 +59,7 @@ TEST(LineChecker, AgreesWithStateChecksAndMotionChecker) {
     LineChecker checker(lines.scene, left, rest, kTrackingError);
     const auto answer = checker.line(from, to);
     EXPECT_EQ(checker.is_free(from, to), answer.kind == LineChecker::Kind::free);
-    // All pairs except those of the right arm alone, which rests and is not asked about.
+    // All pairs except those of the right arm alone.
     const auto too_close = [&](const Eigen::VectorXd& q) {
       Configuration whole = rest;
       lines.put(whole, left, q);
@@ -114,7 +113,6 @@ TEST(LineChecker, ChecksAStateWithItsTrackingError) {
   const auto answer = checker.state(low);
   EXPECT_EQ(answer.kind, LineChecker::Kind::conflict);
   EXPECT_LT(answer.proximity->clearance_m, lines.cell->clearances.clearance_m);
-  // An arm with a tracking error of 3 rad is not free in any state.
   LineChecker loose(lines.scene, left, rest, 3.0);
   EXPECT_NE(loose.state(lines.cell->arm(left).home).kind, LineChecker::Kind::free);
 }

@@ -21,7 +21,7 @@ Eigen::Vector3d random_direction(std::mt19937_64& random) {
   return Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
 }
 
-// Returns a point on the surface of the original shape, not of its ConvexShape.
+// Returns a point on the original shape, not on its ConvexShape.
 Eigen::Vector3d surface_point(const PlacedShape& placed, std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const Eigen::Vector3d n = random_direction(random);
@@ -61,7 +61,7 @@ PlacedShape random_shape(std::mt19937_64& random) {
 }
 
 double outside(const LinkCapsule& capsule, const Eigen::Vector3d& p) {
-  // Uses other code than the fitting and its check.
+  // Independent of the fitting and its check.
   const CenteredSegment segment{(capsule.p_PA + capsule.p_PB) / 2,
                                 (capsule.p_PB - capsule.p_PA) / 2};
   return segment_segment_distance(segment, {p, Eigen::Vector3d::Zero()}) - capsule.radius_m;
@@ -132,7 +132,7 @@ TEST(LinkCapsules, AreAsThinAsALongBar) {
     ASSERT_EQ(fitted.capsules.size(), 1U);
     EXPECT_LE(fitted.capsules.front().radius_m, 0.05 * 1.02);
     EXPECT_LE((fitted.capsules.front().p_PB - fitted.capsules.front().p_PA).norm(), 1.0);
-    // The capsule's side is 50 mm - 30 mm outside the bar; a cap's tip is almost a radius outside.
+    // The capsule is 50 mm - 30 mm larger at the side, almost a radius at its tips.
     EXPECT_GE(fitted.overestimate_m, 0.02);
     EXPECT_LE(fitted.overestimate_m, 0.05);
   }
@@ -160,7 +160,7 @@ TEST(LinkCapsules, EqualTwoRoundShapesAtAnAngle) {
 }
 
 TEST(LinkCapsules, BeatAPrincipalAxisCapsule) {
-  // For a flat disk the principal axis is arbitrary; the best capsule is close to a sphere.
+  // For a flat disk the principal axis is arbitrary.
   const LinkCapsules disc = fit_capsules(make_convex_shapes({{Cylinder{0.2, 0.02}}}));
   const double ball = 4.0 / 3.0 * small::kHalfTurn * std::pow(std::hypot(0.2, 0.01), 3);
   EXPECT_LE(volume(disc), ball * 1.005);

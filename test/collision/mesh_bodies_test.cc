@@ -17,7 +17,6 @@ namespace {
 using Points = std::vector<Eigen::Vector3d>;
 
 double point_to_triangle(const Eigen::Vector3d& p, const std::array<Eigen::Vector3d, 3>& t) {
-  // Uses the projection into the plane if that is inside the triangle, otherwise the nearest edge.
   const Eigen::Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]);
   bool inside = n.norm() > 1e-15;
   double nearest = 1e9;
@@ -49,8 +48,7 @@ struct Solid {
   }
 };
 
-// Compares every feature of one surface with every feature of the other. Exact unless the solids
-// overlap.
+// Compares all features. Exact unless the solids overlap.
 double brute_distance(const Solid& a, const Solid& b) {
   double nearest = 1e9;
   for (std::size_t i = 0; i < a.faces.size(); ++i) {
@@ -69,7 +67,7 @@ double brute_distance(const Solid& a, const Solid& b) {
   return nearest;
 }
 
-// Returns true if the plane of a face separates the solids, which proves that they are apart.
+// Returns true if the plane of a face separates the solids.
 bool apart(const Solid& a, const Solid& b) {
   for (const auto* solid : {&a, &b}) {
     const Solid& other = solid == &a ? b : a;
@@ -210,7 +208,7 @@ TEST(MeshShape, ShapeInsideAnotherIsInContact) {
 TEST(PlanningScene, MeshWithoutPiecesIsItsHull) {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {Eigen::Vector3d::UnitZ()}, {0.4, 0.03});
-  // The arm is inside a slot without touching the channel, but the hull has no slot.
+  // The arm is inside a slot, but the hull has no slot.
   cell.objects.push_back(
       {"channel", small::mesh_of(small::channel(0.3)), small::at_xyz(0.0, -0.2, -0.5)});
   auto scene = PlanningScene::build(small::shared(cell));

@@ -1,5 +1,3 @@
-// Tests pairs that an SRDF disables between arms: skipped only if proven out of reach, otherwise
-// checked.
 #include "core/collision/scene/out_of_reach.h"
 
 #include <gmock/gmock.h>
@@ -24,7 +22,6 @@ using testing::Not;
 using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
-// Returns a row of arms (test/model/arm_row.h) that are parallel at home.
 CellDescription row_of(int arms, const ScratchFolder& folder) {
   RobotDescription robot;
   robot.name = "row";
@@ -61,8 +58,8 @@ TEST(ClaimedPairs, AreSkippedForArmsTooFarApart) {
   const ScratchFolder folder;
   const PlanningScenePtr scene = busy::scene_of(build_or_fail(row_of(8, folder)));
   const auto skipped = out_of_reach(scene);
-  // Links reach 0.43 and 0.83 m and the arms are 0.6 m apart. Proven: all pairs of arms three
-  // places apart, the first links of arms two places apart, and three pairs with the posts.
+  // Links reach 0.43 and 0.83 m, arms are 0.6 m apart. Proven: arms three places apart, first links
+  // two places apart, and three pairs with the posts.
   EXPECT_THAT(skipped, SizeIs(15 * 4 + 6 + 3));
   EXPECT_THAT(skipped, Contains(NamePair("arm0_2_link", "arm3_2_link")));
   EXPECT_THAT(skipped, Contains(NamePair("arm0_1_link", "arm2_1_link")));
@@ -80,15 +77,14 @@ TEST(ClaimedPairs, AreProvenFromJointLimitsAndClearance) {
   };
   const NamePair first{"arm0_1_link", "arm1_1_link"};
   EXPECT_THAT(skipped_with(0.3), Not(Contains(first)));
-  // The link stays on its side of the y axis, 0.15 m from the nearest position of arm1's link.
+  // The link stays 0.15 m from the nearest position of arm1's link.
   EXPECT_THAT(skipped_with(1.5), Contains(first));
   EXPECT_THAT(skipped_with(1.5), Not(Contains(NamePair{"arm0_1_link", "arm1_2_link"})));
   row.clearance_m = 0.2;
   EXPECT_THAT(skipped_with(1.5), Not(Contains(first)));
 }
 
-// Returns two arms with joint limits, including prismatic and mimic joints; all pairs between them
-// are claimed.
+// Returns two arms with prismatic and mimic joints and limits; all pairs between them are claimed.
 Cell claimed_cell(std::mt19937_64& random) {
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -144,7 +140,6 @@ double distance_of(const Cell& cell, const Configuration& q, const LinkPair& pai
          0.06;
 }
 
-// Searches from random configurations; returns the smallest distance found.
 double closest(const Cell& cell, const LinkPair& pair, std::mt19937_64& random) {
   const auto position = [&](std::size_t j) {
     const double turn = 2.0 * small::kHalfTurn;
@@ -174,7 +169,6 @@ double closest(const Cell& cell, const LinkPair& pair, std::mt19937_64& random) 
   return smallest;
 }
 
-// Returns the joints that move the link, from the root on.
 std::vector<JointId> drivers_of(const Cell& cell, LinkId link) {
   std::vector<JointId> drivers;
   for (auto next = std::optional(link); next; next = cell.link(*next).parent) {

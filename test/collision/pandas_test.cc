@@ -56,8 +56,7 @@ TEST(TwoPandas, AreCollisionFreeAtHome) {
 
 struct Audited {
   bool contact = false;
-  double smallest_m = kHorizon_m;  // smallest distance between arms or to the scene, capped at the
-                                   // horizon
+  double smallest_m = kHorizon_m;  // between arms or to the scene
 };
 
 Audited audited_at(AuditedCell& audited, const Cell& cell, const Configuration& q) {
@@ -73,7 +72,7 @@ Audited audited_at(AuditedCell& audited, const Cell& cell, const Configuration& 
   return found;
 }
 
-// The audit uses no capsule, no filter and no group: one FCL object for each URDF element.
+// The audit uses no capsules, filters or groups.
 TEST(TwoPandas, CheckerAndAuditAgreeOnRandomStates) {
   Pandas pandas;
   AuditedCell audited = AuditedCell::build(*pandas.cell).value();

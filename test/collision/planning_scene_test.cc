@@ -1,4 +1,3 @@
-// Tests what a planning scene requires of a cell, and the checks of its homes.
 #include <gmock/gmock.h>
 
 #include "core/collision/state/check_home.h"

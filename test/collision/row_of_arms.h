@@ -9,9 +9,8 @@ namespace armloom::row_of_arms {
 using namespace std::chrono_literals;
 inline const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 
-// Returns three arms in a row along x, bases 0.7 m apart. Each is one 0.4 m link that turns about
-// z: at zero it points to its right neighbor, at pi to its left neighbor. Two neighbors that point
-// at each other overlap. If one of them points up (pi/2) instead, they do not.
+// Three 0.4 m links in a row along x, bases 0.7 m apart, turning about z: 0 points to the right
+// neighbor, pi to the left. Neighbors overlap only if they point at each other.
 inline Cell row() {
   Cell cell;
   cell.clearances.clearance_m = 0.02;

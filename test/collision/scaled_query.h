@@ -8,8 +8,7 @@
 
 namespace armloom::small {
 
-// The product's ClearanceQuery with a chosen clearance per call between arms and to the scene. Self
-// and mount clearances are scaled in proportion.
+// A ClearanceQuery with a chosen clearance per call; self and mount clearances scale with it.
 struct ScaledQuery : ClearanceQuery {
   using ClearanceQuery::ClearanceQuery;
 

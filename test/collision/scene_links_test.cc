@@ -1,4 +1,3 @@
-// Tests that a static link of an arm's URDF is scene, exactly like a scene object.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +31,6 @@ std::vector<CheckMethod> methods() {
   return {TimedDiscrete{20ms}, Swept{0.001}, Coordinated{0.001}};
 }
 
-// Returns the same motions for every cell.
 Question question(const Cell& cell, const CheckMethod& method, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto angle = [&](double most) {
@@ -52,8 +50,7 @@ Question question(const Cell& cell, const CheckMethod& method, std::uint64_t see
   return asked;
 }
 
-// Returns the wall's name if the wall carries the arm, because its pedestal then belongs to the
-// same link.
+// If the wall carries the arm, its pedestal belongs to the same link.
 std::string named(const std::string& body) { return body == "a_base" ? "wall" : body; }
 
 void expect_same(const Verdict& link, const Verdict& object, const std::string& where) {
@@ -101,8 +98,7 @@ TEST(SceneLinks, AreCheckedLikeObjectsByEveryMethod) {
   }
 }
 
-// With the second joint straight, the tip of arm "a" reaches y = 0.6 sin q + 0.03; the wall is at
-// 0.4.
+// With a straight arm, the tip is 0.03 m beyond y = 0.6 sin q; the wall is at 0.4.
 Configuration tip_from_wall(const Cell& cell, double gap_m) {
   Configuration q = cell.home();
   q[0] = std::asin((0.4 - 0.03 - gap_m) / 0.6);
@@ -150,7 +146,6 @@ TEST(SceneLinks, AppearInDistancesAndInTheAudit) {
   }
 }
 
-// An arm and all its links keep the scene clearance to the arm's mount, as to any table.
 TEST(SceneLinks, IncludeTheMountButNoOwnLinks) {
   const CellPtr cell = walled(As::link);
   const LinkId mount = *cell->find_link("a_base");
@@ -183,7 +178,7 @@ TEST(SceneLinks, IncludeTheMountButNoOwnLinks) {
   EXPECT_EQ(others, 2);
 }
 
-// Robots that fold onto their own base need a smaller mount clearance. The verdict must then claim
+// Robots that fold onto their own base need a smaller mount clearance, and the verdict must claim
 // no more.
 TEST(SceneLinks, MountMayHaveItsOwnClearance) {
   Cell closer = *walled(As::mount);
@@ -218,8 +213,7 @@ TEST(SceneLinks, MountMayHaveItsOwnClearance) {
   EXPECT_EQ(verdict.clearance_bound.value().apart_m, 0.008);
 }
 
-// Base frame -> wall: the link that the frame is fixed to is the mount, until the frame has a
-// shape.
+// The link that the frame is fixed to is the mount, until the frame has a shape.
 TEST(SceneLinks, MountFrameWithoutShapePassesItsRoleToItsParent) {
   Cell cell = *walled(As::link);
   cell.clearances.mount_clearance_m = 0.008;
@@ -244,7 +238,7 @@ TEST(SceneLinks, MountFrameWithoutShapePassesItsRoleToItsParent) {
   EXPECT_TRUE(too_close(0.0079));
 }
 
-// A pair that separates is held to less, so the verdict must not claim more.
+// A pair that separates is held to less.
 TEST(ClearanceBound, ClaimsOnlyWhatEveryPairKept) {
   for (const As as : {As::link, As::object, As::mount}) {
     const CellPtr cell = walled(as);

@@ -21,7 +21,7 @@ inline Eigen::Isometry3d at_xyz(double x, double y, double z) {
   return X;
 }
 
-// Returns a capsule along x from `from` to `to`, written as in URDF: a cylinder and two spheres.
+// Returns a capsule along x, as in URDF: a cylinder and two spheres.
 inline std::vector<PlacedShape> capsule_along_x(double from, double to, double radius) {
   Eigen::Isometry3d X_LS = at_xyz((from + to) / 2, 0, 0);
   X_LS.linear() = Eigen::AngleAxisd(kHalfTurn / 2, Eigen::Vector3d::UnitY()).toRotationMatrix();
@@ -36,8 +36,7 @@ inline Link static_link(std::string name, RobotId robot, const Eigen::Isometry3d
   return link;
 }
 
-// Not inline: GCC 12 reports uninitialized variants when it inlines this function
-// (-Wmaybe-uninitialized).
+// Not inline, because of false -Wmaybe-uninitialized warnings of GCC 12.
 void add_shape(Link& link, const Shape& shape, const Eigen::Isometry3d& X_LS);
 
 inline LinkId add_link(Cell& cell, Link link) {
@@ -49,8 +48,8 @@ struct LinkSize {
   double length_m;
   double radius_m;
 };
-// Adds a robot with one arm: a static base without shape, then one capsule per axis, end to end
-// along x. Adjacent links may touch.
+// Adds an arm on a static base without shape: one capsule per axis, end to end along x. Adjacent
+// links may touch.
 inline ArmId add_robot(Cell& cell, const std::string& name, const Eigen::Isometry3d& X_WB,
                        const std::vector<Eigen::Vector3d>& axes, const LinkSize& size) {
   const RobotId robot{static_cast<std::uint32_t>(cell.robots.size())};
@@ -87,7 +86,7 @@ inline ArmId add_robot(Cell& cell, const std::string& name, const Eigen::Isometr
 
 inline CellPtr shared(Cell cell) { return std::make_shared<const Cell>(std::move(cell)); }
 
-// Returns a cubic motion of the arms from `from` to `to` (rad, every joint), at rest at both ends.
+// Returns a cubic motion from `from` to `to` (rad, every joint), at rest at both ends.
 inline TrajectoryPtr sweep(const Cell& cell, const std::vector<ArmId>& arms,
                            const std::vector<double>& from, const std::vector<double>& to,
                            Duration duration) {

@@ -1,5 +1,3 @@
-// Tests concave closed meshes in complete checks: if convex pieces are too close, the surface
-// decides.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,8 +30,7 @@ Mesh loaded(const small::Surface& surface) {
   return {"by hand", Eigen::Vector3d::Ones(), std::make_shared<const MeshData>(std::move(data))};
 }
 
-// Returns a body with a notch: half a ring about z, open towards +y, from the inner radius to a
-// square back.
+// Returns a notch: half a ring about z, open towards +y, with a square back.
 small::Surface notch(double inner_m) {
   small::Surface surface;
   for (int i = 0; i <= kFacets; ++i) {
@@ -63,7 +60,7 @@ small::Surface notch(double inner_m) {
   return surface;
 }
 
-// One arm that turns about z in the notch, with a gap of gap_m to the wall all around.
+// One arm that turns in the notch, gap_m from the wall.
 struct InNotch {
   explicit InNotch(double gap_m, bool open = false) {
     cell.clearances.clearance_m = 0.008;

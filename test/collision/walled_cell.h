@@ -6,8 +6,8 @@ namespace armloom::small {
 
 enum class As { object, link, mount };
 
-// Returns a cell with two planar two-joint arms and a wall: a scene object, a static link, or the
-// link that carries the first arm. The first arm's mount always has a shape too.
+// Two planar two-joint arms and a wall: an object, a static link, or the link that carries the
+// first arm. That arm's mount always has a shape.
 inline CellPtr walled(As as) {
   Cell cell;
   const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();

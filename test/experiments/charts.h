@@ -8,8 +8,7 @@ namespace armloom::experiments {
 
 // Self-contained SVG 1.1.
 
-// Returns a bar for each policy's mean makespan, a dot for each seed, and the lower bound as a
-// dashed line.
+// A bar for each policy's mean makespan, a dot for each seed, the lower bound dashed.
 [[nodiscard]] std::string makespan_svg(const WorkloadKind& kind, const std::vector<RunRow>& rows);
 
 }  // namespace armloom::experiments

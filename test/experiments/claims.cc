@@ -17,11 +17,9 @@ constexpr double kOrderSlack = 0.02;
 constexpr double kMeanAbove = 0.03;  // above the optimum
 constexpr double kMostAbove = 0.08;
 constexpr double kMeanAboveBound = 0.07;                    // for more than two arms
-constexpr double kBehind = 0.01;                            // largest deficit against
-                                                            // earliest_start, on any seed
+constexpr double kBehind = 0.01;                            // against earliest_start, any seed
 constexpr double kFreeSaves = 0.05;                         // saving by choices of the scheduler
-constexpr double kTurningSaves = 0.08;                      // saving by reversing orders if jobs
-                                                            // are late
+constexpr double kTurningSaves = 0.08;                      // if jobs are late
 constexpr const char* kPromisesNothing = "timed_discrete";  // no guarantee between two time steps
 // Fastest first.
 constexpr const char* kOrder[] = {"coordinated", "earliest_start", "certified", "reservation",
@@ -33,7 +31,6 @@ class Claims {
  public:
   Claims(const std::vector<RunRow>& rows, std::string best) : rows_(rows), best_(std::move(best)) {}
 
-  // Returns false if there is no such run.
   [[nodiscard]] bool ran(const std::string& workload, const std::string& policy) const {
     return !rows_of(rows_, workload, policy).empty();
   }
@@ -65,7 +62,7 @@ class Claims {
     }
     say(holds, workload + ": " + sentence + " s, each within " + percent(kOrderSlack));
   }
-  // For two arms the optimum; for more arms the mean against a bound.
+  // For more than two arms, the mean against a bound.
   void near_optimum(const std::string& workload) {
     const auto rows = rows_of(rows_, workload, best_);
     if (rows.empty()) return;
@@ -142,7 +139,7 @@ class Claims {
     std::size_t lost = 0;
     std::uint64_t stops = 0;
     for (const RunRow& row : rows_) {
-      // timed_discrete lets late arms meet, and the monitor stops them permanently.
+      // timed_discrete lets late arms meet.
       if (row.policy == kPromisesNothing && row.workload.ends_with("_delayed")) continue;
       jobs += row.jobs;
       lost += row.not_succeeded;
@@ -183,7 +180,7 @@ std::vector<Claim> claims(const Plan& plan, const std::vector<RunRow>& rows,
   for (const WorkloadKind& kind : plan.workloads) all.order(kind.name);
   for (const WorkloadKind& kind : plan.workloads) all.both_move(kind.name);
   for (const WorkloadKind& kind : plan.workloads) {
-    // If jobs are late and slow, the optimum is no bound: a run may be late while it waits anyway.
+    // Late jobs may be late while they wait anyway, so the optimum is no bound.
     if (kind.freed_from.empty() && !kind.delayed) all.optimum_is_one(kind.name);
   }
   for (const WorkloadKind& kind : plan.workloads) {

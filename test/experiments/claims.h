@@ -11,13 +11,11 @@ struct Claim {
   bool holds = false;
   std::string sentence;  // with the measured values
 };
-// Returns the claims of issues 5 and 14 about the experiments, for the policy `best`
-// ("coordinated").
+// Claims of issues 5 and 14 for the policy `best` ("coordinated").
 [[nodiscard]] std::vector<Claim> claims(const Plan& plan, const std::vector<RunRow>& rows,
                                         const std::string& best);
 
-// Returns (other - best) / (other - bound): the share of another policy's excess over the lower
-// bound that the best policy saves.
+// Returns (other - best) / (other - bound): how much of the other policy's excess `best` saves.
 [[nodiscard]] double realised(double other_s, double best_s, double bound_s);
 
 }  // namespace armloom::experiments

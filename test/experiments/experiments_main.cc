@@ -86,7 +86,6 @@ int experiments(int argc, char** argv) {
   }
   std::cout << table << '\n';
 
-  // Claims are about the most ambitious policy that ran.
   bool all_hold = true;
   for (const Claim& claim : claims(plan, results.rows, plan.policies.back())) {
     std::cout << (claim.holds ? "holds: " : "does not hold: ") << claim.sentence << '\n';

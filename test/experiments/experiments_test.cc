@@ -39,7 +39,7 @@ TEST(Exclusion, IsOneWholeSideWithoutConflicts) {
   EXPECT_EQ(size_of(largest_exclusion(table_of(2, "......"))), 3U);
 }
 
-// Tries all sets of rows, each with the columns that conflict with all of them.
+// Tries all sets of rows.
 std::size_t largest_by_trying(const ConflictTable& table) {
   std::size_t most = 0;
   for (std::size_t rows = 0; rows < (std::size_t{1} << table.rows); ++rows) {
@@ -78,7 +78,7 @@ TEST(Exclusion, MatchesExhaustiveSearch) {
 }
 
 TEST(Exclusion, OfAllArmsContainsNoCompatiblePair) {
-  // 0 and 1 are compatible with 3 only: without 3 no compatible pair remains.
+  // 0 and 1 are compatible with 3 only.
   const std::vector<char> free = {0, 0, 0, 1,  //
                                   0, 0, 0, 1,  //
                                   0, 0, 0, 0,  //
@@ -91,7 +91,7 @@ TEST(Exclusion, CountsStepsBetweenChosenNeighborsOfOneMotion) {
 }
 
 TEST(LowerBound, OfOneFixtureIsTheSumOfTheTimesThere) {
-  // Each of the two is for at least 2 s where the other would collide with it.
+  // Each of the two is there for at least 2 s.
   const Workload workload = workload_kind("one_fixture").make(1);
   std::vector<Work> work;
   double inside_s = 0.0;

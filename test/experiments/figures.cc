@@ -15,7 +15,6 @@ namespace {
 constexpr Duration kTimeLimit = std::chrono::minutes(20);
 constexpr double kMoves_rad = 1e-7;  // in one control cycle
 
-// Observes which arms move and which jobs are backlogged.
 class Spectator final : public Observer {
  public:
   explicit Spectator(const Cell& cell) : cell_(cell) {}
@@ -50,14 +49,12 @@ class Spectator final : public Observer {
   Duration together_{};
 };
 
-// Indexes the jobs by key.
 std::map<std::string, const PlannedJob*> index_of(const std::vector<PlannedJob>& jobs) {
   std::map<std::string, const PlannedJob*> index;
   for (const PlannedJob& job : jobs) index[job.timed.job.key] = &job;
   return index;
 }
 
-// Records waiting and paused times.
 void note_jobs(const SimulationResult& result, const std::vector<PlannedJob>& planned,
                RunRow& row) {
   const auto index = index_of(planned);

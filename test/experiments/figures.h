@@ -12,14 +12,12 @@ namespace armloom::experiments {
 // Policy name of the runs with the first arm alone.
 inline constexpr const char* kOneArm = "one arm";
 
-// Limits that no policy can beat.
 struct Limits {
   LowerBound bound;
   Optimum optimum;
 };
 
-// Metrics of one run; shares are of the makespan. All except judging_s are deterministic for a
-// seed.
+// Metrics of one run; shares are of the makespan. Deterministic except judging_s.
 struct RunRow {
   std::string workload;
   std::string policy;
@@ -30,7 +28,7 @@ struct RunRow {
   Limits limits;
   std::vector<double> busy;  // per arm: share of time under way
   double together = 0.0;     // share of time in which the joints of at least two arms move
-  // From when a job is first in its arm queue (or submitted) to its start.
+  // From being first in the arm queue (or submission) to the start.
   double wait_mean_s = 0.0;
   double wait_max_s = 0.0;
   double held_mean_s = 0.0;  // time from a job's start to its end beyond its duration
@@ -42,9 +40,9 @@ struct RunRow {
   double judging_s = 0.0;  // time of the machine
 };
 
-// Runs the jobs under a policy on simulated time. `policy` kOneArm runs workload.one_arm, one job
-// after the other. Prints on stderr which jobs did not succeed. Throws std::runtime_error if the
-// executive cannot be created or rejects a job.
+// Runs the jobs under a policy on simulated time; kOneArm runs workload.one_arm. Reports
+// unsuccessful jobs on stderr. Throws std::runtime_error if the executive cannot be created or
+// rejects a job.
 [[nodiscard]] RunRow run_policy(const Workload& workload, const std::string& name,
                                 const std::string& policy, std::uint64_t seed,
                                 const Limits& limits);

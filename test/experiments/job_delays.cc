@@ -11,8 +11,8 @@
 namespace armloom::experiments {
 namespace {
 
-// Observes jobs and makes their arms late and slow. An observer must not send commands, so this
-// class acts after the tick in which it observes.
+// Makes the arms of delayed jobs late and slow. An observer must not send commands, so faults are
+// injected after the tick.
 class Delays final : public Observer {
  public:
   Delays(const Cell& cell, const std::vector<PlannedJob>& jobs, Observer& inner)

@@ -12,13 +12,11 @@
 
 namespace armloom::experiments {
 
-// Delay of a job's arm (job_delays.h).
 struct JobDelay {
   double late_s;
   double speed;  // (0, 1], share of the planned speed
 };
 
-// A job as submitted by a client, with data for the experiments.
 struct PlannedJob {
   ArmId arm;
   std::string kind;  // "pick", "place", ...
@@ -27,9 +25,9 @@ struct PlannedJob {
   std::optional<JobDelay> delay = {};
 };
 
-// Draws jobs for the arms of one cell. Every accepted job can run whenever its arm is at its start
-// and the other arms rest at home or at the end of any job of this maker. So no policy can run into
-// a dead end. Deterministic for equal cell, seed and calls. Not thread-safe.
+// Draws jobs for one cell. Every job can run when its arm is at its start and other arms rest at
+// home or at the end of any job, so no policy runs into a dead end. Deterministic for equal cell,
+// seed and calls. Not thread-safe.
 class JobMaker {
  public:
   JobMaker(CellPtr cell, std::uint64_t seed);
@@ -38,7 +36,7 @@ class JobMaker {
   [[nodiscard]] std::mt19937_64& random() { return random_; }
   [[nodiscard]] double draw(double from, double to) { return uniform(random_, from, to); }
 
-  // Returns joint positions with the tool down at a point of the world, or nullopt if out of reach.
+  // Returns joint positions with the tool down at a point, or nullopt if out of reach.
   [[nodiscard]] std::optional<Eigen::VectorXd> tool_at(ArmId arm,
                                                        const Eigen::Vector3d& p_WT) const;
   [[nodiscard]] Eigen::Vector3d from_base(ArmId arm, const Eigen::Vector3d& p_BT) const;
@@ -49,20 +47,18 @@ class JobMaker {
     std::vector<Leg> legs;
     int priority = 0;
   };
-  // Appends the jobs to the arm, each starting at the end of the previous one. Adds no job and
-  // returns false if one is not open (open_places.h). Throws std::runtime_error if a draft violates
-  // limits, which is an error of the workload.
+  // Appends jobs, each starting at the end of the previous one; returns false and adds none if one
+  // is not open (open_places.h). Throws std::runtime_error if a draft violates limits.
   [[nodiscard]] bool add(ArmId arm, TimePoint at, const std::vector<Draft>& drafts);
-  // Appends jobs that return home and are known to be clear with all other arms at home. The end of
-  // one of them may block other arms until the next; so that all jobs can be done in turn, use
-  // take(drafts.size()). Throws std::invalid_argument if the jobs do not return home.
+  // Appends jobs that return home and are clear with other arms at home. One job's end may block
+  // other arms until the next; use take(drafts.size()). Throws std::invalid_argument if they do not
+  // return home.
   void add_trip(ArmId arm, const std::vector<Draft>& drafts);
 
   [[nodiscard]] const std::vector<PlannedJob>& jobs_of(ArmId arm) const {
     return jobs_[arm.index()];
   }
-  // Returns the jobs in order of submission: by time, then `each` jobs of each arm in turn, with a
-  // random first arm.
+  // Returns the jobs by time, then `each` jobs of each arm in turn, with a random first arm.
   [[nodiscard]] std::vector<PlannedJob> take(std::size_t each = 1);
 
  private:

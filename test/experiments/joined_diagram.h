@@ -23,10 +23,9 @@ struct Lane {
   [[nodiscard]] std::size_t squares() const;
 };
 
-// The coordination diagram of all motions of one arm against all motions of another, in squares of
-// kSquare. Projects the cells of the pair diagrams onto squares (MotionChecker::draw; decided cells
-// are no wider than a square; each pair of motions once). Uses the cell's clearance_m, with arms
-// exactly on their paths. Not thread-safe.
+// The coordination diagram of all motions of two arms, in squares of kSquare, from the diagrams of
+// pairs (MotionChecker::draw; decided cells no wider than a square). Uses the cell's clearance_m
+// and exact paths. Not thread-safe.
 class JoinedDiagram {
  public:
   inline static constexpr Duration kSquare = std::chrono::milliseconds(10);
@@ -34,16 +33,14 @@ class JoinedDiagram {
   // Throws std::runtime_error if the scene cannot be built.
   explicit JoinedDiagram(const CellPtr& cell);
 
-  // Selects from `work` the motions of the arm, in order. Throws std::invalid_argument if a
-  // duration is not a multiple of kSquare.
+  // Selects the arm's motions, in order. Throws std::invalid_argument if a duration is not a
+  // multiple of kSquare.
   [[nodiscard]] static Lane lane_of(ArmId arm, const std::vector<Work>& work);
 
-  // One square of `leg` in the rows' lane against the whole columns' lane.
   struct Row {
     std::vector<char> in_conflict;  // proven over the whole square
     std::vector<char> not_free;     // not proven free in a part of the square
   };
-  // Resizes `row` as needed.
   void read(const Lane::Leg& leg, std::size_t square, const Lane& columns, Row& row);
 
  private:

@@ -18,7 +18,7 @@ struct Moments {
   std::vector<Eigen::VectorXd> q;  // as Arm::joints
 };
 
-// Only motions of this arm are used; its gripper joints are left out.
+// Gripper joints are left out.
 Moments moments_of(const Cell& cell, ArmId arm, const std::vector<Work>& work, Duration step) {
   Moments moments{arm};
   Configuration q = cell.home();
@@ -86,7 +86,7 @@ void consider(std::size_t steps, Duration step, std::vector<std::string> arms, L
   bound.excluding = std::move(arms);
 }
 
-// The tables of all pairs in one graph of all moments: 1 if two moments are compatible.
+// All moments in one graph: 1 if two are compatible.
 class FreeOfAll {
  public:
   explicit FreeOfAll(const std::vector<Moments>& arms) {

@@ -9,17 +9,15 @@
 
 namespace armloom::experiments {
 
-// A lower bound for every order of the jobs and every pace: the larger of
+// A lower bound for every order and pace: the larger of
 // - own: the busiest arm's own work, the sum of its jobs' durations;
-// - excluding: the work that excludes each other. If every moment of a set of moments of arm A's
-//   jobs conflicts with every moment of a set of B's (the arms would be closer than the cell's
-//   clearance), no two of them can coincide. Together they take the sum of their times.
-// The largest such pair of sets is a maximum biclique of the conflict graph by number of vertices.
-// That is the maximum independent set of its bipartite complement: by Koenig's theorem, all
-// vertices minus a maximum matching (Hopcroft and Karp). For more than two arms, the bound is the
-// largest over all pairs of arms. It may also be the largest over sets of all arms in which every
-// two moments of different arms conflict. These sets are found greedily, which can only make the
-// bound too small.
+// - excluding: work that excludes each other. If every moment of a set of arm A's jobs conflicts
+//   with every moment of a set of B's (closer than the cell's clearance), they take the sum of
+//   their times.
+// The largest pair of sets is a maximum biclique of the conflict graph: by Koenig's theorem, the
+// vertices of its bipartite complement minus a maximum matching (Hopcroft and Karp). More than two
+// arms: the largest over all pairs, or over sets of all arms in which all moments of different arms
+// conflict, found greedily (may be too small).
 struct LowerBound {
   double own_s = 0.0;
   double excluding_s = 0.0;
@@ -28,15 +26,14 @@ struct LowerBound {
   [[nodiscard]] double bound_s() const { return own_s > excluding_s ? own_s : excluding_s; }
 };
 
-// One motion of one arm. Every motion must be clear with all other arms at home, because the
-// checked states have two arms under way and the other arms at home.
+// One motion of one arm, which must be clear with all other arms at home.
 struct Work {
   ArmId arm;
   TrajectoryPtr motion;
   TimePoint from{};  // not known before this time; ignored for the lower bound
 };
-// Moments are samples every `step`. Rounded down: a chosen sample counts only with its chosen
-// neighbor, for the time between them. Time after the last whole step is ignored.
+// Moments are samples every `step`. Rounded down: only the time between chosen neighbors counts,
+// without the last partial step.
 [[nodiscard]] LowerBound lower_bound(const CellPtr& cell, const std::vector<Work>& work,
                                      Duration step);
 
@@ -52,17 +49,15 @@ struct ChosenMoments {
   std::vector<char> rows;
   std::vector<char> columns;
 };
-// Returns the largest sets of rows and columns, by their total number, in which every pair
-// conflicts.
+// Returns the largest sets of rows and columns in which every pair conflicts.
 [[nodiscard]] ChosenMoments largest_exclusion(const ConflictTable& table);
 
-// Returns a large exclusion among more than two arms, found greedily. `free[i * n + j]` is true if
-// i and j are compatible. No two of the returned moments are compatible.
+// Greedy exclusion among more than two arms: no two returned moments are compatible. `free[i * n +
+// j]`: i and j are compatible.
 [[nodiscard]] std::vector<char> exclusion_of_all(const std::vector<char>& free, std::size_t n);
 
-// Returns chosen samples as time: the number of steps between neighboring samples of one motion
-// that are both chosen. `motion[i]` is the motion of sample i; samples of one motion must be
-// consecutive.
+// Counts the steps between neighboring samples of one motion that are both chosen. `motion[i]` is
+// the motion of sample i; samples of one motion are consecutive.
 [[nodiscard]] std::size_t steps_chosen(const std::vector<char>& chosen,
                                        const std::vector<std::size_t>& motion);
 

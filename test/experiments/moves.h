@@ -11,22 +11,21 @@
 
 namespace armloom::experiments {
 
-// Returns a uniform value in [from, to). The standard's distributions differ between libraries.
+// Uniform in [from, to), equal for all standard libraries.
 [[nodiscard]] double uniform(std::mt19937_64& random, double from, double to);
 
-// A straight line in joint space, from rest to rest, and a rest time at its end.
+// A line in joint space, from rest to rest, and a rest at its end.
 struct Leg {
   Eigen::VectorXd q;   // rad, as Arm::joints
   double speed = 1.0;  // (0, 1], share of the fastest speed within kLimitShare
   double stand_s = 0.0;
 };
 
-// Share of each joint's velocity and acceleration limit at the peaks of a line at speed 1.
+// Share of each joint's limits at the peaks of a line at speed 1.
 inline constexpr double kLimitShare = 0.8;
 
-// Returns lines from `start` through every leg. Each line is a quintic with zero velocity and
-// acceleration at both ends (config/joint_moves.py), in ten pieces. A line takes a multiple of 10
-// ms, at least 0.2 s.
+// Returns lines from `start` through every leg: quintics at rest at both ends
+// (config/joint_moves.py), in ten pieces. A line takes a multiple of 10 ms, at least 0.2 s.
 [[nodiscard]] TrajectoryRequest way(const Cell& cell, ArmId arm, const Eigen::VectorXd& start,
                                     const std::vector<Leg>& legs);
 [[nodiscard]] double line_time_s(const Cell& cell, ArmId arm, const Eigen::VectorXd& from,
@@ -35,10 +34,9 @@ inline constexpr double kLimitShare = 0.8;
 // Rounds up to a multiple of 10 ms.
 [[nodiscard]] double whole_10_ms(double time_s);
 
-// Returns joint positions near `guess` with the arm's link `tool` (with prefix) at p_WT and its z
-// axis down. The rotation about that axis stays near the guess's. Damped least squares on numeric
-// derivatives, to 0.1 mm and 1 mrad, at least 0.05 rad inside the joint limits. nullopt if none was
-// found.
+// Returns joint positions near `guess` with the link `tool` (with prefix) at p_WT and its z axis
+// down. Damped least squares, to 0.1 mm and 1 mrad, 0.05 rad inside the joint limits. nullopt if
+// none was found.
 [[nodiscard]] std::optional<Eigen::VectorXd> tool_down(const Cell& cell, ArmId arm,
                                                        const std::string& tool,
                                                        const Eigen::Vector3d& p_WT,

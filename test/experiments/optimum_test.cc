@@ -36,8 +36,7 @@ struct Table {
   }
 };
 
-// Tracks all positions that both can reach after each step, until both are at the end or the set no
-// longer changes.
+// Tracks all positions reachable after each step.
 std::optional<std::size_t> steps_by_trying(const Table& table) {
   const std::size_t rows = table.ready_rows.size();
   const auto may = [&](std::size_t row, std::size_t column, std::size_t step) {
@@ -124,8 +123,7 @@ double own_s(const std::vector<Work>& work, ArmId arm) {
   return sum_s;
 }
 
-// Tracks all states that both arms can reach after each step, at instants only. Checks states of
-// the whole cell one by one, without diagrams.
+// Tracks all states reachable after each step, checked one by one, without diagrams.
 std::optional<double> optimum_by_trying(const CellPtr& cell, const std::vector<Work>& work,
                                         Duration step) {
   ClearanceQuery check(*PlanningScene::build(cell));

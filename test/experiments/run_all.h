@@ -17,8 +17,8 @@ struct Plan {
 struct Results {
   std::vector<RunRow> rows;  // by workload, seed and policy, as planned; one arm first
 };
-// Runs every policy on the same jobs. Rows are equal for any number of threads, except judging_s.
-// Prints progress (seed and workload) on stderr. Throws what a run throws.
+// Runs every policy on the same jobs. Independent of the number of threads, except judging_s.
+// Reports progress on stderr. Throws what a run throws.
 [[nodiscard]] Results run_all(const Plan& plan);
 
 }  // namespace armloom::experiments

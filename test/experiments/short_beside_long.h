@@ -7,8 +7,8 @@
 
 namespace armloom::experiments {
 
-// Returns twelve short tasks and four tasks that take three times as long, equal work. For odd
-// seeds the first arm gets the short tasks.
+// Twelve short tasks, and four that take three times as long. For odd seeds the first arm gets the
+// short tasks.
 [[nodiscard]] std::vector<PlannedJob> short_beside_long(const CellPtr& two_pandas,
                                                         std::uint64_t seed);
 

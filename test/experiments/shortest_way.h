@@ -8,20 +8,18 @@
 
 namespace armloom::experiments {
 
-// The earliest path through a table of cells from the first row and column to the last. Each time
-// step advances the row, the column, both or neither, and may not enter a blocked cell. Rows are
-// added one after the other, so that a table may exceed the memory.
+// The earliest path through a table from the first row and column to the last. Each step advances
+// row, column, both or neither, without blocked cells. Rows are added one by one to save memory.
 class ShortestWay {
  public:
-  // `ready`: the step before which a column must not be entered.
+  // `ready`: first step in which a column may be entered.
   explicit ShortestWay(std::vector<std::size_t> ready);
 
-  // Adds a row that must not be entered before step `ready`. Precondition: blocked.size() is the
-  // number of columns.
+  // `ready`: first step in which the row may be entered. Precondition: blocked.size() is the number
+  // of columns.
   void add_row(std::span<const char> blocked, std::size_t ready);
 
-  // Returns the number of steps to the last column of the last added row, or nullopt if there is no
-  // path.
+  // Steps to the last column of the last added row; nullopt if there is no path.
   [[nodiscard]] std::optional<std::size_t> steps() const;
 
  private:

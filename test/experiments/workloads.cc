@@ -35,8 +35,8 @@ std::vector<ArmId> arms_of(const Cell& cell) {
   return arms;
 }
 
-// Two jobs: to the tray and down to the part, where the arm rests while the fingers close; then up,
-// to the middle, down, open, up and home.
+// To the tray and down to the part, closing the fingers; then up, to the middle, down, open, up and
+// home.
 bool pick_and_place_task(JobMaker& maker, ArmId arm, const Box2& tray_B, const Box2& middle_W) {
   const double speed = maker.draw(0.8, 1.0);
   const auto pick = spot_in_tray(maker, arm, tray_B);
@@ -52,8 +52,7 @@ bool pick_and_place_task(JobMaker& maker, ArmId arm, const Box2& tray_B, const B
                       {maker.home(arm), speed}}}});
 }
 
-// Returns the same work for the first of two arms that face each other. The second arm's work is
-// rotated about the middle together with that arm, so its joint positions stay the same.
+// Rotates the second arm's work about the middle to the first; joint positions stay the same.
 std::vector<PlannedJob> for_first_arm(const Cell& cell, const std::vector<PlannedJob>& jobs) {
   const ArmId first(0);
   std::vector<PlannedJob> all;
@@ -86,7 +85,7 @@ Workload pick_and_place(std::uint64_t seed) {
   return workload;
 }
 
-// The tray is on the outer side of each arm, next to its base.
+// The tray is on the outer side of each arm.
 Workload four_pandas(std::uint64_t seed) {
   Workload workload{config("four_pandas")};
   JobMaker maker(workload.cell, seed);
@@ -101,8 +100,7 @@ Workload four_pandas(std::uint64_t seed) {
   return workload;
 }
 
-// Lines through one to three random postures in front of the arm and home again; jobs arrive over
-// time.
+// Lines through one to three random postures and home; jobs arrive over time.
 bool random_task(JobMaker& maker, ArmId arm, TimePoint at) {
   constexpr double kSpread_rad[] = {1.3, 0.7, 0.5, 0.7, 0.4, 0.6, 0.8};
   Eigen::VectorXd middle(7);
@@ -136,7 +134,6 @@ Workload random_mix(std::uint64_t seed) {
   return workload;
 }
 
-// Fits a part into the only fixture, in the middle.
 void add_fit(JobMaker& maker, ArmId arm) {
   until_taken([&] {
     const auto place = spot_in(maker, arm, {-0.02, 0.02, -0.02, 0.02});
@@ -149,7 +146,6 @@ void add_fit(JobMaker& maker, ArmId arm) {
   });
 }
 
-// Tends the arm's own tray, where no other arm comes.
 void add_tending(JobMaker& maker, ArmId arm) {
   constexpr double kTakt_s = 6.0;
   until_taken([&] {
@@ -163,7 +159,6 @@ void add_tending(JobMaker& maker, ArmId arm) {
   });
 }
 
-// Returns `fits` jobs of each arm at the fixture, then `tending` jobs at its tray.
 Workload of_fits_and_tending(std::uint64_t seed, int fits, int tending) {
   Workload workload{config("two_pandas")};
   JobMaker maker(workload.cell, seed);

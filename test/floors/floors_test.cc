@@ -1,5 +1,4 @@
-// Checks the includes of core and server against the layers of the design: a folder includes only
-// from the folders below it.
+// Checks the includes of core and server: a folder includes only from the folders below it.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -17,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What each folder may include besides itself: whole folders, or single files.
+// Folders, or single files, that a folder may include besides itself.
 const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"core/base", {}},
     {"core/geometry", {"core/base"}},
@@ -57,8 +56,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
       "core/planning", "core/executive", "core/audit"}},
 };
 
-// The modules inside a folder, lowest first: each includes only from itself and the modules before
-// it.
+// Modules of a folder, lowest first: each includes only from itself and lower modules.
 const std::map<std::string, std::vector<std::string>> kRooms = {
     {"core/geometry", {"mesh", "capsule", "surface", "convex"}},
     {"core/model", {"xml", "urdf", "srdf", "cell"}},
@@ -68,7 +66,6 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
       "import", "replay", "comparison", "durable", "hub", "api", "service", "command"}},
 };
 
-// Text that must not appear in a folder, whatever the layer.
 const std::map<std::string, std::vector<std::string>> kMustNotSay = {
     {"core", {"nlohmann", "boost/asio", "boost/beast", "spdlog", "std::cout", "std::cerr"}},
     {"core/precedence",

@@ -12,8 +12,7 @@ TEST(ConvexHullOf, ContainsEveryPointAndIsClosed) {
     std::vector<Eigen::Vector3d> points;
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector3d p = Eigen::Vector3d::Random();
-      points.push_back(count == 20000 ? p.normalized() : p);  // on a sphere: all points are on the
-                                                              // hull
+      points.push_back(count == 20000 ? p.normalized() : p);  // on a sphere
     }
     const ConvexHull hull = convex_hull(points).value();
     EXPECT_LE(hull.vertices.size(), kMaxHullVertices) << count;

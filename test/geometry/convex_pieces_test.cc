@@ -12,7 +12,7 @@
 namespace armloom {
 namespace {
 
-// Returns how far the point is outside of the polytope's faces; negative if it is inside.
+// Returns how far the point is outside of the polytope; negative if inside.
 double outside(const ConvexHull& hull, const Eigen::Vector3d& p) {
   double farthest = -1e9;
   for (const auto& face : hull.faces) {
@@ -38,8 +38,7 @@ double volume(const std::vector<ConvexHull>& pieces) {
 
 MeshData data_of(const small::Surface& surface) { return *small::mesh_of(surface).data; }
 
-// Returns the prism over a polygon of the xy plane. The polygon must be star-shaped about `center`,
-// because the caps are fans.
+// Returns the prism over a polygon that is star-shaped about `center`, because caps are fans.
 small::Surface prism(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& center,
                      double height) {
   small::Surface surface;
@@ -63,8 +62,7 @@ small::Surface letter_l() {
   return prism({{0, 0}, {1, 0}, {1, 0.2}, {0.2, 0.2}, {0.2, 1}, {0, 1}}, {0.1, 0.1}, 0.3);
 }
 
-// Returns true if the point is inside the star-shaped outline: right of no edge as seen from the
-// center.
+// Returns true if the point is right of no edge as seen from the center.
 bool in_star(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& center,
              const Eigen::Vector2d& p) {
   const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -124,7 +122,6 @@ TEST(ConvexPieces, ContainEveryPointOfRandomSolids) {
       outline.push_back(center +
                         (0.1 + unit(random)) * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
     }
-    // Rotated, so that no cut is perpendicular to a face.
     const Eigen::Matrix3d R =
         Eigen::AngleAxisd(unit(random), Eigen::Vector3d(1, unit(random), 2).normalized())
             .toRotationMatrix();
@@ -157,14 +154,13 @@ TEST(ConvexPieces, ContainEveryPointOfRandomSolids) {
   EXPECT_GT(cut, 30U);
 }
 
-// Cuts across all axes leave boxes of space whose corners are deep inside the solid, far from any
-// triangle.
+// Cuts leave boxes whose corners are deep inside the solid, far from any triangle.
 TEST(ConvexPieces, ContainTheInteriorOfASolid) {
   std::mt19937_64 random(52);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::size_t pieces_seen = 0;
   for (int trial = 0; trial < 15; ++trial) {
-    // Overlapping bars, rotated together: they are solid however they overlap.
+    // Overlapping bars, rotated together, form a solid.
     const Eigen::Matrix3d R =
         Eigen::AngleAxisd(unit(random), Eigen::Vector3d(1, unit(random), 2).normalized())
             .toRotationMatrix();

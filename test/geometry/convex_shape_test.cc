@@ -83,7 +83,6 @@ TEST(ConvexShapes, CapsuleContainsCapsThatAreAMicrometerOff) {
   EXPECT_GE(bodies[0].radius_m, 0.05 + 8e-7);
 }
 
-// All pairs of kinds: separated, near and overlapping.
 TEST(ConvexShapes, DistancesAreNeverTooLargeAndRarelyTooSmall) {
   std::mt19937_64 random(20240701);
   std::array<int, 5> apart{};
@@ -123,7 +122,7 @@ TEST(ConvexShapes, DistancesAreNeverTooLargeAndRarelyTooSmall) {
   EXPECT_LE(too_small, 2);
 }
 
-// An undecided pair costs an exact distance query; a wrongly decided pair costs an arm.
+// An undecided pair costs an exact distance query, a wrong decision an arm.
 TEST(Gjk, DecidesNearlyAllPairsAndNoneWrongly) {
   std::mt19937_64 random(20261126);
   int asked = 0;
@@ -156,7 +155,7 @@ TEST(Gjk, DecidesNearlyAllPairsAndNoneWrongly) {
   for (const int count : settled) EXPECT_GE(count, 150);
 }
 
-// As with arms that turn about vertical axes. libccd's GJK reports contact here, or 20 mm too much.
+// libccd's GJK reports contact for such boxes, or 20 mm too much.
 TEST(ConvexShapes, DistancesOfUprightBoxesAreExact) {
   std::mt19937_64 random(41);
   std::uniform_real_distribution<double> side(0.02, 0.5);
@@ -165,7 +164,7 @@ TEST(ConvexShapes, DistancesOfUprightBoxesAreExact) {
   int apart = 0;
   int near = 0;
   for (int i = 0; i < 3000; ++i) {
-    // Often with equal sizes and heights, like links above one table.
+    // Often with equal heights, like links above one table.
     const double height = i % 3 == 0 ? side(random) : 0.05;
     const ConvexShape a = make_convex_shapes({{Box{{side(random), 0.05, 0.05}}}}).front();
     const ConvexShape b = make_convex_shapes({{Box{{0.02, side(random), height}}}}).front();
@@ -190,7 +189,6 @@ TEST(ConvexShapes, DistancesOfUprightBoxesAreExact) {
   EXPECT_GE(near, 15);
 }
 
-// A link turns past a small box, up to and beyond contact.
 TEST(ConvexShapes, LinkThatTurnsPastABoxReportsNoFalseContact) {
   std::mt19937_64 random(43);
   std::uniform_real_distribution<double> place_m(0.46, 0.53);

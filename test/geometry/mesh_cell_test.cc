@@ -1,4 +1,3 @@
-// Tests of the meshes of a cell's links and objects.
 #include <gmock/gmock.h>
 
 #include "test/geometry/mesh_file.h"

@@ -5,7 +5,7 @@
 
 #include "test/geometry/mesh_file.h"
 
-// assimp 5.2 leaks about a kilobyte per file that it rejects, and nothing per file that it reads.
+// assimp 5.2 leaks about a kilobyte per file that it rejects.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }
 
@@ -172,8 +172,7 @@ TEST_F(MeshFile, RejectsExponentialAndCyclicNodeInstances) {
               HasSubstr("its nodes place themselves"));
 }
 
-// Files truncated, overwritten and duplicated at random places are either read or rejected with a
-// reason.
+// Truncated, overwritten and duplicated files are read or rejected with a reason.
 TEST_F(MeshFile, SurvivesBrokenBytes) {
   std::mt19937_64 random(3);
   const auto below = [&](std::size_t n) {

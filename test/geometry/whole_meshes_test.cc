@@ -1,5 +1,3 @@
-// Tests that a mesh file is loaded completely or rejected with its line, and that an open mesh is
-// reported.
 #include <gmock/gmock.h>
 
 #include <map>
@@ -21,7 +19,6 @@ class WholeMesh : public testing::Test {
   Result<MeshPtr> load(const std::string& name, const std::string& bytes) {
     return load_mesh(folder_.write(name, bytes), Eigen::Vector3d::Ones(), "/here", "robot a");
   }
-  // Expects exactly a closed box.
   void expect_box(const std::string& name, const std::string& bytes) {
     const auto mesh = load(name, bytes);
     ASSERT_TRUE(mesh.has_value()) << mesh.error().front().detail;
@@ -140,7 +137,7 @@ TEST_F(WholeMesh, AcceptsVariantsOfObj) {
   expect_box("colour.obj", replaced(whole, "0.5\n", "5e-1 1 0 0.3 # 9\n"));
   expect_box("long.obj", replaced(whole, "f 1 3 4",
                                   "o part\ng x y\nusemtl z\nvt 0 0\nvn 0 0 1\ns off\nf 1 3\\\n 4"));
-  // A 3 mm pentagon, as in meshes of small parts.
+  // A 3 mm pentagon, as in small parts.
   std::string nut =
       "v 0.003 0 0\nv 0.001 0.003 0\nv -0.002 0.002 0\nv -0.002 -0.002 0\nv 0.001 -0.003 0\n"
       "v 0 0 0.001\nf 1 2 3 4 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 5 4 6\nf 1 5 6\n";

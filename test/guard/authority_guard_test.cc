@@ -1,4 +1,3 @@
-// Tests each rule of the guard on handmade certificates.
 #include "core/guard/authority_guard.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +13,7 @@ using Why = GuardRefusal::Why;
 const ArmId kLeft{0}, kRight{1}, kThird{2};
 constexpr double kError = 0.001;
 
-// Each arm has one joint, with the arm's number.
+// Each arm has one joint of the same number.
 JointId joint(ArmId arm) { return JointId{arm.value()}; }
 
 TrajectoryPtr line(const std::vector<ArmId>& arms, double from, double to, Duration takes = 10s) {

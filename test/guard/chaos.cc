@@ -47,7 +47,6 @@ std::vector<std::vector<JointId>> joints_of(const Cell& cell) {
 }  // namespace
 
 RailCell::RailCell(std::size_t arms) {
-  // Two rails cross at the origin; the third and fourth pass near the origin.
   const std::vector<std::pair<Eigen::Vector3d, double>> all{
       {{0, 0, 0}, 0.0}, {{0, 0, 0}, 90.0}, {{0.1, 0, 0}, 45.0}, {{0, 0.1, 0}, 135.0}};
   Cell made;
@@ -135,7 +134,7 @@ void Chaos::begin() {
   grant(motion, {}, from_seconds(share() * to_seconds(motion->duration())));
 }
 
-// Asks about all arms or a part of them. The answer may be used late or never.
+// The answer may be used late or never.
 void Chaos::ask(const TrajectoryPtr& motion, Duration from) {
   Question question{.version = 0,
                     .start_at = {},
@@ -201,7 +200,7 @@ void Chaos::resume() {
         own.progress + from_seconds(share() * to_seconds(motion->duration() - own.progress)));
 }
 
-// Brakes on the path, somewhere before the authority ends; arms of one motion stay in step.
+// Brakes on the path before the authority ends; arms of one motion stay in step.
 void Chaos::stop() {
   const TrajectoryPtr motion = at(any_arm()).motion;
   if (!motion || at(motion->arms().front()).motion != motion) return;
@@ -255,7 +254,6 @@ void Chaos::come_to_rest(ArmId arm) {
   guard_.rests(arm, own.progress, where());
 }
 
-// Adds, removes or moves an object while all arms are stopped.
 void Chaos::change_scene() {
   if (!std::ranges::all_of(arms_, &RailArm::stopped)) return;
   std::vector<CollisionObject> objects;

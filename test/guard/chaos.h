@@ -11,8 +11,7 @@
 
 namespace armloom {
 
-// Spheres on rails that cross near the origin: the checker issues real certificates, and all
-// distances are known in closed form.
+// Spheres on rails that cross near the origin: real certificates, and distances in closed form.
 struct RailCell {
   explicit RailCell(std::size_t arms);
 
@@ -26,9 +25,9 @@ struct RailCell {
   std::vector<Eigen::Vector3d> begins, along;  // by ArmId
 };
 
-// A scheduler without rules, and arms that obey it. The scheduler starts, extends, stops, resumes,
-// cancels and forgets motions at random, asks the checker about a part of the cell, and uses old
-// answers. Either all grants go through the guard (`guarded`), or none do.
+// A scheduler without rules, and arms that obey it: starts, extends, stops, resumes, cancels and
+// forgets motions at random, asks the checker about a part of the cell, and uses old answers. All
+// grants go through the guard if `guarded`, otherwise none.
 class Chaos {
  public:
   Chaos(const RailCell& rails, MotionChecker& checker, std::uint64_t seed, bool guarded);

@@ -151,7 +151,7 @@ TEST(AllowedPairs, AcceptLinksOfAnyRobotFromTheCellFile) {
   EXPECT_TRUE(allows(*cell, "left_panda_link0", "right_panda_link0"));
 }
 
-// Returns a robot with a torso under both arms; `torso_type` is the type of the torso's joint.
+// Returns a torso under both arms; `torso_type` is its joint's type.
 std::string torso_urdf(const std::string& torso_type) {
   const auto revolute = [](const std::string& name, const std::string& parent,
                            const std::string& child) {

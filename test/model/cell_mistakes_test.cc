@@ -15,7 +15,6 @@ using namespace std::chrono_literals;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// One mistake in the description of two_arms: its pointer and a part of its message.
 struct Mistake {
   const char* name;
   std::function<void(CellDescription&)> make;

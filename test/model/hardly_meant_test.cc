@@ -4,9 +4,6 @@
 
 #include "test/model/test_cells.h"
 
-// Tests that probable mistakes in a cell file, and hazards in a robot's files, always cause a
-// warning.
-
 namespace armloom {
 namespace {
 
@@ -15,7 +12,6 @@ using testing::HasSubstr;
 using testing::Not;
 using namespace std::chrono_literals;
 
-// One setting of two_arms, the pointer of its warning and the consequence that the warning states.
 struct Doubt {
   const char* name;
   std::function<void(CellDescription&)> make;

@@ -1,4 +1,3 @@
-// Tests limits from a joint_limits.yaml in MoveIt's format.
 #include <gmock/gmock.h>
 
 #include <numbers>
@@ -110,8 +109,7 @@ TEST(JointLimitsFile, ReportsMistakesWithLineAndValue) {
             HasSubstr("r_bend: min_position 2 is above max_position 1")));
 }
 
-// The content of the broken file is unknown, so the cell need not provide the missing limits
-// instead.
+// The broken file's content is unknown, so missing limits are not reported.
 TEST(JointLimitsFile, ParseErrorSuppressesFollowOnErrors) {
   const ScratchFolder folder;
   for (const char* text : {"joint_limits:\n  l_turn: [\n", "limits: {}\n"}) {

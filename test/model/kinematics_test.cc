@@ -41,7 +41,7 @@ void add_children(const urdf::Link& link, KDL::Tree& tree) {
   }
 }
 
-// The same robot in Orocos KDL, built directly from the URDF. Shares no code with core/model.
+// The same robot in Orocos KDL, built directly from the URDF.
 struct KdlRobot {
   explicit KdlRobot(const RobotDescription& description)
       : model(urdf::parseURDFFile(description.urdf)),
@@ -86,8 +86,7 @@ double largest_difference(const KDL::Frame& expected, const Eigen::Isometry3d& X
   return worst;
 }
 
-// Returns the largest difference of any entry of any link's pose over `rounds` random
-// configurations.
+// Returns the largest difference of any link pose over random configurations.
 double compare_with_kdl(const CellDescription& description, std::uint32_t seed, int rounds) {
   const CellPtr cell = build_or_fail(description);
   std::mt19937 random(seed);

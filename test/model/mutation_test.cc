@@ -17,8 +17,7 @@ std::string text_of_file(const std::string& path) {
   return text.str();
 }
 
-// Applies a few random edits: replaces bytes, or drops, duplicates or replaces pieces with awkward
-// tokens.
+// Replaces bytes, or drops, duplicates or replaces pieces.
 std::string mutated(std::string text, std::mt19937& random) {
   static const char* const kTokens[] = {"nan", "-",      "1e308", "<",         ">",     "/>",
                                         "\"",  "&#0;",   "&amp;", "<!--",      "joint", "link",
@@ -46,7 +45,6 @@ std::string mutated(std::string text, std::mt19937& random) {
   return text;
 }
 
-// Expects either a cell whose poses are all finite, or problems with place and message.
 void expect_cell_or_problems(const CellDescription& description, const std::string& text,
                              int& built) {
   const auto cell = build_cell(description);

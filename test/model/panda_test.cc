@@ -21,7 +21,7 @@ TEST(Panda, HasSevenJointsAndOneGripperJoint) {
   EXPECT_TRUE(cell->arms[0].named_states.contains("ready"));
 }
 
-// The manufacturer's limits of the Panda (positions in rad, velocities in rad/s).
+// Positions in rad, velocities in rad/s.
 TEST(Panda, HasTheManufacturersLimits) {
   const CellPtr cell = build_or_fail(two_pandas_description());
   const double lower[] = {-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973};

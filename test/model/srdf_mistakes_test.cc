@@ -7,7 +7,6 @@ namespace {
 
 using testing::HasSubstr;
 
-// One mistake, made by replacing a piece of two_arms.srdf: its place and a part of its message.
 struct Mistake {
   const char* from;
   const char* to;
@@ -65,7 +64,6 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<?xml version=\"1.0\"?>", "<!DOCTYPE robot>", "twin.srdf:1",
                 "twin.srdf:1: a DOCTYPE or entity declaration is not allowed"}));
 
-// Names of missing elements, or mistakes that affect no arm of the cell.
 class SrdfOddity : public testing::TestWithParam<Mistake> {};
 
 TEST_P(SrdfOddity, IsOnlyAWarning) {

@@ -1,6 +1,6 @@
-// Tests that the shapes of every model in models/ contain the robot. The published outermost points
-// of each link must lie inside the shapes by the reserve that the URDF states ("reserve: 3 mm").
-// URDFs are read with urdfdom and distances are closed forms: no code is shared with the product.
+// The shapes of every model in models/ must contain the robot. The published outermost points of
+// each link lie inside by the reserve that the URDF states ("reserve: 3 mm"). Independent of the
+// product: urdfdom and closed forms.
 #include <gtest/gtest.h>
 #include <urdf_parser/urdf_parser.h>
 
@@ -76,8 +76,8 @@ double reserve_m(const std::string& urdf) {
   return std::stod(found[1]) * 1e-3;
 }
 
-// Returns how deep the point lies in the shape. If negative, the point is outside by at least that
-// much. The shape is shrunk by `thinner` on each side.
+// Returns how deep the point lies in the shape, shrunk by `thinner` on each side; if negative, the
+// point is outside by at least that.
 double depth(const urdf::Collision& collision, const Eigen::Vector3d& p_L, double thinner) {
   const auto& at = collision.origin;
   const Eigen::Quaterniond R(at.rotation.w, at.rotation.x, at.rotation.y, at.rotation.z);
@@ -97,8 +97,7 @@ double depth(const urdf::Collision& collision, const Eigen::Vector3d& p_L, doubl
   return (half - p.cwiseAbs()).minCoeff() - thinner;
 }
 
-// Returns the least depth of the points in the link's shapes. The depth of a point is that in its
-// deepest shape.
+// Returns the least depth of the points, each in its deepest shape.
 double least_depth(const urdf::Link& link, const std::vector<Eigen::Vector3d>& points,
                    double thinner = 0.0) {
   double least = std::numeric_limits<double>::infinity();
@@ -145,7 +144,6 @@ TEST_P(ModelSurface, CoversEveryLinkThatHasShapes) {
   }
 }
 
-// The tables must be sharp enough to detect shapes that have become too thin.
 TEST_P(ModelSurface, DetectsShapesThatAreTooThin) {
   constexpr double kSharp_m = 0.006;
   for (const auto& [name, points] : surface_) {

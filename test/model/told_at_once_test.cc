@@ -1,4 +1,3 @@
-// Tests that all mistakes in a cell's files are reported at once, as far as they can be detected.
 #include <gmock/gmock.h>
 
 #include "test/model/test_cells.h"
@@ -10,7 +9,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-// Returns a cell whose SRDF, joint_limits.yaml and own fields are all wrong.
 CellDescription wrong_but_for_the_urdf(const ScratchFolder& folder) {
   CellDescription cell = two_arms_description();
   RobotDescription& robot = cell.robots[0];
@@ -105,7 +103,7 @@ TEST(ReportedTogether, SeveralMistakesOfOneFile) {
             HasSubstr("axis xyz '0 0 0' has no direction"), HasSubstr("mesh scale holds a 0")));
 }
 
-// The joint is meant to be fixed, so "would move an arm" must not be reported.
+// The joint is meant to be fixed.
 TEST(ReportedTogether, InvalidFixedValueSuppressesFollowOnErrors) {
   CellDescription cell = two_arms_description();
   cell.robots[0].fixed["l_slide"] = 7.0;
@@ -115,7 +113,7 @@ TEST(ReportedTogether, InvalidFixedValueSuppressesFollowOnErrors) {
             "0.7]\n");
 }
 
-// A fixed joint needs no limits; its missing limits would be reported in addition.
+// A fixed joint needs no limits.
 TEST(ReportedTogether, SharedJointSuppressesFollowOnErrors) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();

@@ -1,4 +1,3 @@
-// Tests of files that are no URDF, are too large, or have many mistakes at once.
 #include <gmock/gmock.h>
 
 #include "test/model/urdf_text.h"

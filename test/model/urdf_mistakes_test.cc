@@ -7,13 +7,12 @@ namespace {
 
 using testing::HasSubstr;
 
-// One mistake, made by replacing a piece of two_arms.urdf: its place and a part of its message.
 struct Mistake {
   const char* from;
   const char* to;
   const char* place;
   const char* sentence;
-  int line = 0;  // line that the place must name; 0 for the changed line
+  int line = 0;  // of the mistake; 0 for the changed line
 };
 
 void PrintTo(const Mistake& mistake, std::ostream* out) {
@@ -156,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<robot name=\"two_arms\"", "<robot", "twin.urdf: robot",
                 "robot name is missing"}));
 
-// A misspelled element would be lost silently: a link without its shape, a joint without its mimic.
+// A misspelled element would lose a shape or a mimic silently.
 INSTANTIATE_TEST_SUITE_P(
     Spelling, UrdfMistake,
     testing::Values(
@@ -194,7 +193,6 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><Link name=\"table\"/>",
                 "twin.urdf: robot", "<Link> is not known; did you mean <link>?"}));
 
-// Element names of other tools are no misspellings.
 TEST(UrdfElements, OfOtherToolsCauseNoWarning) {
   const ScratchFolder folder;
   const std::string others =
@@ -219,7 +217,6 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"</robot>", "", "twin.urdf:5", "the XML is malformed", 5},
         Mistake{"</robot>", "</robot><robot/>", "twin.urdf:67", "more than one XML element"}));
 
-// Mistakes that the cell does not use, or mere oddities.
 class UrdfOddity : public testing::TestWithParam<Mistake> {};
 
 TEST_P(UrdfOddity, IsOnlyAWarning) {

@@ -57,7 +57,6 @@ void expect_same_joint(const urdf::Joint& joint, const RobotTree& tree) {
   EXPECT_EQ(link.joint.mimic->offset, joint.mimic->offset);
 }
 
-// The numbers of a shape, in the same order for both types.
 std::vector<double> numbers_of(const urdf::Geometry& geometry) {
   if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry))
     return {box->dim.x, box->dim.y, box->dim.z};
@@ -100,8 +99,7 @@ RobotTree tree_of(const std::string& text, const std::string& path) {
   return tree.value();
 }
 
-// Compares with urdfdom on the original file, not on the repaired file that read_urdf gives to
-// urdfdom.
+// Gives urdfdom the original file, not the file repaired by read_urdf.
 void expect_what_urdfdom_reads(const std::string& path, int links, int shapes) {
   const auto model = urdf::parseURDFFile(path);
   ASSERT_NE(model, nullptr) << path;
@@ -178,7 +176,7 @@ TEST(Urdfdom, ErrorsAreReportedWithItsMessage) {
       testing::HasSubstr("Unknown geometry type 'capsule'"));
 }
 
-// A joint that connects a link with itself, below a joint with missing links.
+// Joint k connects c with itself; joint l has no links.
 TEST(UrdfTree, BrokenTreeIsReportedAndPatchedWithEveryName) {
   Diagnostics diagnostics;
   const auto tree = read_urdf(

@@ -11,7 +11,6 @@ namespace {
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
-// Installs a fake program `xacro` in front of the PATH.
 class Xacro : public testing::Test {
  protected:
   ~Xacro() override { setenv("PATH", path_.c_str(), 1); }

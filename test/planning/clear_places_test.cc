@@ -1,4 +1,3 @@
-// Tests the search for poses at which an arm is out of the way of a motion.
 #include "core/planning/clear_places.h"
 
 #include "core/collision/check/motion_checker.h"
@@ -12,7 +11,7 @@ namespace {
 
 using testing::WallCell;
 
-// The left arm rests in the middle, at the goal of the right arm.
+// The left arm rests at the goal of the right arm.
 struct Middle {
   Middle() {
     Eigen::VectorXd stands(7), reaches(7);

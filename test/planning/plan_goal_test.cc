@@ -1,4 +1,3 @@
-// Tests goals in the form that clients give.
 #include "core/planning/plan_goal.h"
 
 #include <gtest/gtest.h>

@@ -111,8 +111,7 @@ TEST(Planner, ReportsWhyThereIsNoPlan) {
   EXPECT_EQ(planner.plan(request).error().reason, Reason::cancelled);
 }
 
-// With one joint the trees grow so many nodes that comparing them takes longer than the
-// evaluations.
+// With one joint, comparing the many nodes takes longer than the evaluations.
 TEST(Planner, CountsNodeComparisonsInItsBudget) {
   rails::Rails rails;
   rails.question.rest[1] = 0.0;  // y, on x's rail
@@ -131,7 +130,6 @@ TEST(Planner, ThrowsOnSizeMismatch) {
   EXPECT_THROW((void)Planner(wall.scene).plan(request), std::invalid_argument);
 }
 
-// The audit shares no code with the engine: plain FCL at every millisecond.
 TEST(PlanMotion, KeepsTheClearanceAccordingToTheAudit) {
   const WallCell wall;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {

@@ -72,7 +72,6 @@ TEST(PoseGoal, RejectsALinkThatTheArmDoesNotMove) {
   }
 }
 
-// Base away from the origin, several joint types, a mimic below: test/model/data/two_arms.
 TEST(PoseGoal, SolvesForOtherArmsThanPandas) {
   const CellPtr cell = build_or_fail(two_arms_description());
   LinkPoses X_WL;

@@ -1,5 +1,3 @@
-// Tests the reasons for a missing plan: cause, required clearance, and the nearest feasible
-// alternative.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +33,6 @@ class Refusals : public ::testing::Test {
     q[1] = 1.7;
     return q;
   }
-  // Returns a straight line of the left arm's last link.
   [[nodiscard]] MotionGoal line_from(const Configuration& at, const Eigen::Vector3d& goes) const {
     const LinkId link = *wall.cell->find_link("left_panda_link8");
     LinkPoses X_WL;
@@ -47,7 +44,7 @@ class Refusals : public ::testing::Test {
   WallCell wall;
 };
 
-// A continuous joint had no limits, and FCL aborted the process.
+// FCL aborted the process for unlimited continuous joints.
 TEST(RefusalsOfContinuousJoints, GoalTooFarIsReportedWithItsLimit) {
   const CellPtr cell = build_or_fail(two_arms_description());
   const PlanningScenePtr scene = *PlanningScene::build(cell);
@@ -71,7 +68,7 @@ TEST_F(Refusals, GoalInCollisionSuggestsTheNearestFreeGoal) {
   EXPECT_FALSE(why.is_of_start());
   ASSERT_TRUE(why.nearest);
   EXPECT_TRUE(is_free(*why.nearest));
-  // The suggestion is at the edge: a little closer to the goal is not free.
+  // The suggestion is at the edge.
   EXPECT_FALSE(is_free(*why.nearest + 0.01 * (wanted - *why.nearest)));
   EXPECT_LT((*why.nearest - wanted).norm(), 1.0);
   EXPECT_LE((why.nearest->array() != wanted.array()).count(), 3) << "by few joints";
@@ -143,7 +140,7 @@ TEST_F(Refusals, MessageStatesTheRequiredClearance) {
   EXPECT_THAT(in_words(near), Not(HasSubstr("0 mm are asked")));
 }
 
-// The closest pair need not be the pair at fault, because an arm's own links are close by design.
+// The closest pair may be an arm's own links, close by design.
 TEST_F(Refusals, ReportsThePairTooCloseForTheTrackingError) {
   Eigen::VectorXd q = wall.before();
   LineChecker lines(wall.scene, wall.left, wall.cell->home(),

@@ -1,4 +1,3 @@
-// Tests straight lines of a link: kept at every instant, or rejected with the place.
 #include "core/planning/tool_line.h"
 
 #include <gtest/gtest.h>
@@ -77,8 +76,6 @@ TEST_F(ToolLines, LinkRotatesEvenlyAlongTheLine) {
   expect_on_line(at, to, *plan->timed.trajectory);
 }
 
-// Starts at random poses, in random directions: each line is kept, or rejected with the distance
-// that it can be followed.
 TEST_F(ToolLines, RandomLinesAreKeptOrRejectedWithThePlace) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -117,7 +114,6 @@ TEST_F(ToolLines, LineBeyondTheReachReportsHowFarItGoes) {
       << plan.error().detail;
 }
 
-// The straight line goes through the board; the path that plan_motion() finds does not.
 TEST_F(ToolLines, LineThroughAnObjectReportsObjectAndPlace) {
   const Configuration at = standing(WallCell::reach(1.2));
   const LinkId of = link("left_panda_link8");

@@ -1,4 +1,3 @@
-// Tests when a job is checked, and the consequences of its verdict.
 #include <gmock/gmock.h>
 
 #include "core/coordination/effort.h"
@@ -9,8 +8,7 @@ namespace armloom {
 namespace {
 
 TEST(Admission,
-     ReservesTheMotionInTheAdmittingStep) {  // T1: of two jobs submitted together, one runs and
-                                             // one waits
+     ReservesTheMotionInTheAdmittingStep) {  // T1: one runs, one waits
   Bench bench(2);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId second = bench.submit(move({1}, 0, 1, 2s), at(0ms));
@@ -42,7 +40,7 @@ TEST(Admission, ChecksAgainstTheRemainingMeasuredMotion) {  // T2
   EXPECT_EQ(bench.question->candidates.front().progress, 0ms);
 }
 
-// For questions about candidates in a cell that already moves.
+// For questions in a cell that already moves.
 TEST(Admission, ChecksAgainstMotionsUnderWayFromTheirProgress) {
   const CellPtr cell = one_joint_arms(2);
   for (const Duration progress : {Duration{}, Duration{1200ms}}) {

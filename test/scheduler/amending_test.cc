@@ -1,4 +1,3 @@
-// Tests changes to a job's terms while it waits or moves.
 #include "core/scheduler/amending.h"
 
 #include <gmock/gmock.h>
@@ -8,7 +7,6 @@
 namespace armloom {
 namespace {
 
-// Two jobs of other arms wait for the motion of the first arm.
 struct TwoWait : Bench {
   TwoWait() : Bench(3, "certified") {
     runs = submit(move({0}, 0, 1, 40s), at(0ms));
@@ -90,8 +88,7 @@ TEST(Amending, IgnoresEndedAndUnknownJobs) {
       << "the answer on " << version << " still applies";
 }
 
-// Admitted motions that wait for each other pass in order of priority until one of them has
-// authority in the region.
+// Admitted motions pass in order of priority until one has authority in the region.
 TEST(Amending, RaisedPriorityReversesAPassingOrder) {
   Bench bench(2, "coordinated");
   const JobId first = bench.submit(move({0}, 0, 1, 10s), at(0ms));

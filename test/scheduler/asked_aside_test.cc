@@ -1,4 +1,3 @@
-// Tests that the search for retreats ends.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
@@ -16,7 +15,6 @@ struct Chain : Bench {
     way = asides.at(0).job;
     answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{2});
   }
-  // Returns true if the open question is about a retreat of arm 2.
   bool asks_for_arm_2() const {
     return question && question->candidates.front().job == JobId{0} &&
            question->candidates.front().trajectory->arms() == std::vector{ArmId{2}};
@@ -35,8 +33,7 @@ TEST(Retreat, SearchForAHelperEndsWithTheHelpedJob) {
   EXPECT_EQ(bench.state(bench.way), JobState::backlogged);
 }
 
-// The client returns arm 1 again and again, and arm 1 retreats each time. Each retreat finds that
-// arm 2 was already asked on behalf of a.
+// The client returns arm 1 again and again; each retreat finds that arm 2 was already asked.
 TEST(Retreat, AttemptsForHelpersCountForTheHelpedJob) {
   Chain bench;
   int asked = 0;

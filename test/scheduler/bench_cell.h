@@ -15,8 +15,7 @@ namespace armloom {
 
 using namespace std::chrono_literals;
 
-// Returns a quintic from rest to rest of the joints with these indices, each from its start to its
-// goal.
+// Returns a quintic from rest to rest, each joint from its start to its goal.
 inline TrajectoryPtr move(const std::vector<std::uint32_t>& arms, const std::vector<double>& from,
                           const std::vector<double>& to, Duration duration) {
   std::vector<JointId> joints;
@@ -34,14 +33,12 @@ inline TrajectoryPtr move(const std::vector<std::uint32_t>& arms, const std::vec
   return std::make_shared<const Trajectory>(joints, arm_ids, std::vector<Segment>{segment});
 }
 
-// Returns the same motion with all joints from `from` to `to`.
 inline TrajectoryPtr move(const std::vector<std::uint32_t>& arms, double from, double to,
                           Duration duration) {
   return move(arms, std::vector<double>(arms.size(), from), std::vector<double>(arms.size(), to),
               duration);
 }
 
-// Returns a motion of one arm from `home` to `there` and back.
 inline TrajectoryPtr visit(std::uint32_t arm, double home, double there, Duration duration) {
   const auto out = move({arm}, home, there, duration / 2),
              back = move({arm}, there, home, duration / 2);
@@ -50,14 +47,12 @@ inline TrajectoryPtr visit(std::uint32_t arm, double home, double there, Duratio
   return std::make_shared<const Trajectory>(out->joints(), out->arms(), std::move(segments));
 }
 
-// Returns one handmade conflict region of these boxes (times of the first motion, then of the
-// second).
+// Returns a region of these boxes (times of the first motion, then of the second).
 template <typename... Boxes>
 ConflictRegion region(const Boxes&... boxes) {
   return {{boxes...}, Proximity{.body_a = "a", .body_b = "b", .clearance_m = 0.01}, 1s, 2s};
 }
 
-// Drives a Scheduler manually and records its effects.
 class Bench {
  public:
   virtual ~Bench() = default;
@@ -90,14 +85,12 @@ class Bench {
   JobId submit(TrajectoryPtr trajectory, TimePoint now, Duration timeout = 60s, int priority = 0) {
     return submit(Submit{JobId{0}, std::move(trajectory), {priority, timeout}}, now);
   }
-  // Submits the job under the next id.
   JobId submit(Submit submitted, TimePoint now) {
     submitted.job = next_id();
     step(submitted, now);
     return submitted.job;
   }
 
-  // Answers the open question: free.
   void answer_free(TimePoint now) {
     ASSERT_TRUE(question) << "nothing was asked";
     const Version version = question->version;
@@ -129,7 +122,7 @@ class Bench {
     step(Judged{std::move(verdict)}, now);
   }
 
-  // Answers: undecided, because the evaluation budget was exhausted.
+  // Answers: undecided, evaluation budget exhausted.
   void answer_exhausted(TimePoint now, Conflict::With with) {
     ASSERT_TRUE(question) << "nothing was asked";
     Verdict verdict{Verdict::Kind::undecided, question->version, {}, {}, 1};
@@ -163,7 +156,6 @@ class Bench {
   [[nodiscard]] JobId next_id() const { return scheduler.next_job(); }
   JobState state(JobId job) const { return scheduler.find(job)->state(); }
   const Job& job(JobId id) const { return *scheduler.find(id); }
-  // Returns the authority that the job's arms were granted last.
   Duration authority(JobId id) const {
     Duration told{};
     for (const Dispatch& d : dispatched) told = d.job == id ? std::max(told, d.authority) : told;
@@ -186,8 +178,7 @@ class Bench {
   virtual void heard(const Effect& /*effect*/) {}
 };
 
-// Under certified: one arm half a second into its motion, and a second arm with this region of
-// both.
+// An arm half a second into its motion, and a second arm with this region of both.
 struct OneBehindAnother {
   explicit OneBehindAnother(const ProgressBox& box) {
     first = bench.submit(move({0}, 0, 1, 2s), at(0ms));

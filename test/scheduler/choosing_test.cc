@@ -1,4 +1,3 @@
-// Tests the choice among an arm's jobs that may run in any order.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
@@ -10,7 +9,7 @@ using ::testing::ElementsAre;
 
 constexpr TimePoint kAged = TimePoint{} + 2min;  // longer than scheduling.aging
 
-// The job whose turn it is waits for another arm's motion; the jobs behind it are free.
+// The job whose turn it is waits for another arm; the jobs behind it are free.
 struct AnyOrder : ::testing::Test {
   AnyOrder() {
     moves = bench.submit(move({1}, 0, 1, 300s), at(0ms), 600s);
@@ -31,7 +30,6 @@ struct AnyOrder : ::testing::Test {
     EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::order);
     EXPECT_EQ(bench.job(job).waits_on.front().job, before);
   }
-  // Answers the question about job `turn`, which comes first: it still has to wait.
   void answer_that_it_waits(TimePoint now) {
     ASSERT_TRUE(bench.question);
     ASSERT_EQ(bench.question->candidates.front().job, turn);
@@ -74,9 +72,8 @@ TEST_F(AnyOrder, AgedJobIsNotOvertaken) {
   expect_behind(bench.submit(visit_from(0.0), kAged + 2ms), turn);
 }
 
-// A job whose order is still open is not admitted ahead, whatever the policy's horizon.
+// Jobs whose order is still open are not admitted ahead.
 struct AheadOfTheirTurns : ::testing::Test {
-  // Submits three visits of one arm; all answers are free.
   void submit_three(JobOrder order) {
     for (JobId& job : jobs) {
       Submit visit = AnyOrder::visit_from(0.0);

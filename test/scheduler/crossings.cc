@@ -36,7 +36,7 @@ bool Crossings::meet(ArmId a, Stretch of_a, ArmId b, Stretch of_b) const {
   });
 }
 
-// Joins connected boxes to one region; the evidence is that of one of its boxes.
+// Joins connected boxes; the evidence is that of one box.
 std::vector<ConflictRegion> Crossings::regions_of(std::vector<Box> boxes) {
   std::vector<ConflictRegion> regions;
   while (!boxes.empty()) {
@@ -97,7 +97,7 @@ bool Crossings::meets_object(const Motion& motion) const {
   });
 }
 
-// Compares equal progress only, because the motion's arms always move in step.
+// The motion's arms always move in step.
 bool Crossings::meets_itself(const Motion& motion) const {
   return std::ranges::any_of(boxes(motion, motion), [](const Box& box) {
     return box.from_a <= box.to_b && box.from_b <= box.to_a;
@@ -116,9 +116,8 @@ bool Crossings::free_beside(const Trajectory& motion, const Configuration& rest)
 
 // ---- Answers ----
 
-// Returns the arms that rest relative to the candidate. An arm that no motion moves is at its rest
-// position. An arm whose neighboring motion shares an arm with the candidate is where that motion
-// leaves or finds the arm.
+// Returns arms that rest relative to the candidate. An arm whose neighboring motion shares an arm
+// with the candidate is where that motion leaves or finds it.
 std::vector<Crossings::Standing> Crossings::standing_beside(const Question& question,
                                                             const Motion& candidate) const {
   std::vector<const Motion*> in_order;

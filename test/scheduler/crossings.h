@@ -9,8 +9,7 @@
 
 namespace armloom {
 
-// Two one-joint arms are too close while `a` and `b` are both within these intervals (rad). `a` and
-// `b` must differ.
+// Two one-joint arms are too close while both are within these intervals (rad); `a` and `b` differ.
 struct Crossing {
   ArmId a;
   double from_a, to_a;
@@ -18,15 +17,13 @@ struct Crossing {
   double from_b, to_b;
 };
 
-// An object in the way of an arm.
 struct Object {
   ArmId arm;
   double from, to;
 };
 
-// The geometry of a cell of one-joint arms as a table. Answers the questions of every method by the
-// rules of core/collision: exact, except that boxes are a microsecond too large. Motions must be
-// straight lines (`move` and `visit` of bench_cell.h).
+// The geometry of one-joint arms as a table. Answers questions by the rules of core/collision;
+// boxes are a microsecond too large. Motions must be straight lines (bench_cell.h).
 class Crossings {
  public:
   explicit Crossings(std::vector<Crossing> table = {}) : table_(std::move(table)) {}
@@ -34,10 +31,9 @@ class Crossings {
 
   [[nodiscard]] Verdict answer(const Question& question) const;
 
-  // Returns true if both may be too close while each is somewhere on its stretch; touching edges
-  // are free.
+  // Returns true if both may be too close on their stretches; touching edges are free.
   [[nodiscard]] bool meet(ArmId a, Stretch of_a, ArmId b, Stretch of_b) const;
-  // Returns true if the motion is free of all objects and of all other arms at `rest`.
+  // Returns true if the motion is free of all objects and of other arms at `rest`.
   [[nodiscard]] bool free_beside(const Trajectory& motion, const Configuration& rest) const;
 
  private:

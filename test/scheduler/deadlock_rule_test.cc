@@ -1,4 +1,3 @@
-// Tests that a deadlock costs each arm one job, and keeps the jobs behind the failed job.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -8,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Two arms at 0. Each is in the way of the other if the other moves beyond 0.3.
+// Each arm is in the way of the other beyond 0.3.
 class Blockage : public ::testing::Test {
  protected:
   static std::vector<Crossing> table() {
@@ -21,7 +20,6 @@ class Blockage : public ::testing::Test {
   }
 
   Submit blocked() const { return {JobId{0}, move({0}, 0.0, 1.0, 2s), {0, 60s}}; }
-  // Returns the i-th job of a chain of trajectories, each starting at the end of the previous one.
   static Submit link(int i) { return {JobId{0}, move({1}, 0.5 * i, 0.5 * (i + 1), 1s), {0, 60s}}; }
   static Submit goal(int i) {
     Submit job = link(i);
@@ -89,8 +87,7 @@ TEST_F(Blockage, OfTwoLongQueuesFailsOneJobEachAndTheRestExpires) {
             2);
 }
 
-// Job a is paused on its path under `sequential`. Job b's arm is in a's way, and b cannot get
-// capacity before a.
+// Job a is paused under `sequential`. b's arm is in a's way, and b cannot get capacity before a.
 TEST(DeadlockRule, WaitForCapacityIsPartOfTheCycle) {
   Bench bench(2, "sequential");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));

@@ -1,4 +1,3 @@
-// Tests the search for wait cycles, and what is inherited along waits, on handmade graphs.
 #include <gmock/gmock.h>
 
 #include <random>
@@ -97,7 +96,6 @@ TEST(Deadlock, IsIndependentOfEdgeOrder) {
   }
 }
 
-// By definition, a job is in a cycle if it waits for itself through other jobs.
 TEST(Deadlock, MatchesTheDefinitionOnRandomGraphs) {
   std::mt19937_64 random(4);
   int with = 0;

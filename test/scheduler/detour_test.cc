@@ -1,5 +1,3 @@
-// Tests that, of several paths to a goal, the earliest arrival is chosen, within a number of tries
-// and a budget for each.
 #include "core/scheduler/ways/detour.h"
 
 #include <gmock/gmock.h>
@@ -9,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Arm 1 blocks arm 0's shortest path, of 3 s, for about 40 s more.
+// Arm 1 blocks arm 0's shortest path, of 3 s, for about 40 s.
 class DetoursByHand : public ::testing::Test, protected Bench {
  protected:
   DetoursByHand() : Bench(2, "earliest_start") {}
@@ -36,12 +34,11 @@ class DetoursByHand : public ::testing::Test, protected Bench {
     const PlanMotion asked = plans_[answered_++];
     step(PlanMade{.job = asked.job, .question = asked.number, .trajectory = way_of(lasts)}, now());
   }
-  // Answers that the shortest path meets arm 1 from 1 to 2 s, until 40 s of arm 1's motion.
+  // The shortest path meets arm 1 from 1 to 2 s, until 40 s of arm 1's motion.
   void answer_that_it_waits() {
     answer_regions(now(), {{goes_, holds_, {region(ProgressBox{1s, 2s, 0s, 40s})}}});
   }
-  // Offers paths of these durations, each free of all others. A path that cannot arrive earlier is
-  // not checked.
+  // Offers free paths of these durations; later arrivals are not checked.
   void offer(std::vector<Duration> ways) {
     for (const Duration lasts : ways) {
       answer_plan(lasts);
@@ -76,7 +73,7 @@ TEST_F(DetoursByHand, PathThatHardlyWaitsEndsTheSearch) {
   EXPECT_EQ(asked_around(), 2U);
 }
 
-// The shortest path arrives earlier than the alternatives although it waits.
+// It arrives earlier although it waits.
 TEST_F(DetoursByHand, ShortestPathIsKeptIfNoneArrivesEarlier) {
   answer_plan(50s);  // too late in any case: it is not even checked
   for (int i = 1; i < kDetoursMax && answered_ < plans_.size(); ++i) answer_plan(55s);

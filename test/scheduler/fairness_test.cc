@@ -1,4 +1,3 @@
-// Tests turns: how long a job can be overtaken, and priorities without inversion.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
@@ -10,7 +9,7 @@ using ::testing::IsEmpty;
 
 constexpr Duration kAging = 30s;  // the cell's
 
-// Job "old" of arm b has waited for arm a's motion since 2 ms; arm a's job runs for 40 s.
+// "old" of arm b waits for arm a since 2 ms; arm a's job runs for 40 s.
 struct Waits : Bench {
   Waits() : Bench(4, "certified") {
     runs = submit(move({0}, 0, 1, 40s), at(0ms));

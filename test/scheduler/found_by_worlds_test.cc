@@ -1,4 +1,4 @@
-// Regression tests: faults that random worlds found, reduced to minimal cases.
+// Faults that random worlds found, as minimal cases.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace armloom {
 namespace {
 
-// x ends in b's way, and y, the next job of x's arm, moves the arm away: both are admitted with b.
+// x ends in b's way; y, the next job of x's arm, moves it away. Both are admitted with b.
 TEST(Admission, JobAdmittedBehindAnotherReportsThatItWaits) {
   Bench bench(2, "coordinated");
   const JobId x = bench.submit(move({0}, 0, 1, 2s), at(0ms));
@@ -28,7 +28,7 @@ TEST(Admission, JobAdmittedBehindAnotherReportsThatItWaits) {
   EXPECT_EQ(bench.job(y).waits_on.front().job, x);
 }
 
-// The last progress report before the end is from before the region.
+// The last report before the end is from before the region.
 TEST(Authority, GrowsWhenTheFirstMotionEnds) {
   OneBehindAnother two(ProgressBox{1500ms, 1600ms, 1700ms, 1800ms});
   Bench& bench = two.bench;
@@ -41,7 +41,7 @@ TEST(Authority, GrowsWhenTheFirstMotionEnds) {
   EXPECT_GT(bench.authority(second), 1500ms) << "its way is free";
 }
 
-// The second motion sends no new report: it rests, and has reported that already.
+// The second motion rests and has reported that already.
 TEST(Authority, GrowsInTheStepInWhichTheFirstMotionLeaves) {
   OneBehindAnother two(ProgressBox{1500ms, 1600ms, 1300ms, 1400ms});
   Bench& bench = two.bench;
@@ -56,7 +56,6 @@ TEST(Authority, GrowsInTheStepInWhichTheFirstMotionLeaves) {
   EXPECT_GT(bench.authority(second), 1500ms);
 }
 
-// Stopped before the first progress report.
 TEST(Stop, PausesAJobThatHasNotReportedProgress) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
@@ -70,8 +69,7 @@ TEST(Stop, PausesAJobThatHasNotReportedProgress) {
   EXPECT_EQ(bench.dispatched.back().from_progress, 400ms);
 }
 
-// `blocked` waits for an arm that no job moves, and is asked about as well. `blocked` cannot run, x
-// can.
+// `blocked`, which waits for an arm without jobs, is a candidate too. Only x can run.
 TEST(Admission, FreeJobIsNotDeferredForABlockedJob) {
   Bench bench(3, "coordinated");
   const JobId blocked = bench.submit(move({1}, 0, 1, 2s), at(0ms));
@@ -86,8 +84,7 @@ TEST(Admission, FreeJobIsNotDeferredForABlockedJob) {
   EXPECT_EQ(bench.state(x), JobState::scheduled);
 }
 
-// `waits` was admitted to pass after `leaves` has left its start; `leaves` is stopped before it
-// moves.
+// `waits` may pass after `leaves` has left its start; `leaves` is stopped before it moves.
 TEST(Resume, OfAnUnstartedJobUnblocksJobsThatWaitForItsStart) {
   for (const char* policy : {"lockstep", "certified", "earliest_start"}) {
     Bench bench(2, policy);
@@ -135,7 +132,7 @@ TEST(Lockstep, NextJobOfABlockingArmJoinsTheRound) {
   EXPECT_EQ(bench.question->candidates.front().job, next);
 }
 
-// The job behind the canceled one ends in the step in which the canceled motion comes to rest.
+// The job behind the canceled one ends when the canceled motion comes to rest.
 TEST(Cancel, OfABlockingArmsLastJobStartsTheTimeoutOfWaitingJobs) {
   OneBehindAnother two(ProgressBox{1500ms, 1800ms, 0ms, 1200ms});
   Bench& bench = two.bench;
@@ -156,7 +153,7 @@ TEST(Cancel, OfABlockingArmsLastJobStartsTheTimeoutOfWaitingJobs) {
   EXPECT_EQ(bench.job(two.second).reason(), Reason::backlog_timeout);
 }
 
-// Canceled in b's way, where either arm of the team may be the blocking one; then one arm leaves.
+// Canceled in b's way; then one arm of the team leaves.
 TEST(Blockades, TeamBlocksUntilAllOfItsArmsHaveLeft) {
   const JobId both{1}, b{2}, next{3};
   PrecedenceGraph graph(3);
@@ -177,9 +174,8 @@ TEST(Blockades, TeamBlocksUntilAllOfItsArmsHaveLeft) {
   EXPECT_LE(graph.limit(b), 2s) << "arm 1 has not moved";
 }
 
-// Arm a's `in` blocks b's path, b's `half` blocks a's: at first only `in` is in a sequence. Then
-// `on` is submitted, which moves b out of the way of `in`. Now b goes first, although `half` was
-// told to wait for `in`.
+// `in` blocks b's path and `half` a's: at first only `in` is in a sequence. Then `on` moves b out
+// of the way of `in`, so that b goes first, although `half` waits for `in`.
 class InTurn : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(InTurn, WaitingJobIsCheckedAgainWhenTheSequenceChanges) {
@@ -202,8 +198,8 @@ TEST_P(InTurn, WaitingJobIsCheckedAgainWhenTheSequenceChanges) {
   }
 }
 
-// Arm a could do `either` sooner, behind `before`. But `stays` comes to rest in that path
-// permanently, and then b moves to where `either` could not start.
+// Arm a could do `either` sooner, behind `before`. But `stays` blocks that path permanently, and b
+// moves to where `either` cannot start.
 TEST_P(InTurn, RemainingArmTakesAJobThatAnotherCannotDo) {
   constexpr ArmId a{0}, c{2};
   IdealArms arms(one_joint_arms(3), std::move(*make_policy(GetParam(), *one_joint_arms(3))),

@@ -1,5 +1,3 @@
-// Tests that the next motions of every arm queue are admitted ahead and their passing orders
-// reoptimized.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
@@ -20,7 +18,6 @@ struct Horizon : ::testing::Test {
   void answer_all_free() {
     while (bench.question) bench.answer_free(now += 1ms);
   }
-  // Submits motions that alternate between 0 and 1.
   std::vector<JobId> submit_legs(std::uint32_t arm, std::size_t count) {
     std::vector<JobId> jobs;
     for (std::size_t i = 0; i < count; ++i) {
@@ -29,7 +26,7 @@ struct Horizon : ::testing::Test {
     }
     return jobs;
   }
-  // Submits a motion that starts, and a second motion that meets the first from 4 to 4.2 s of both.
+  // Two motions that meet from 4 to 4.2 s of both; the first has started.
   std::pair<JobId, JobId> meet() {
     const JobId first = bench.submit(move({0}, 0, 1, 6s), now += 1ms);
     answer_all_free();
@@ -92,8 +89,7 @@ TEST_F(Horizon, StalledMotionLosesItsPassingOrder) {
   EXPECT_LT(bench.authority(first), 4s);
 }
 
-// The first motion is nearer to the region and moves slowly. If the stalled motion continued now,
-// it would be there first.
+// The first motion is nearer but slow; the stalled motion would pass first if it continued now.
 TEST_F(Horizon, StalledMotionIsExpectedToKeepStalling) {
   const auto [first, second] = meet();
   for (Duration progress = 100ms; progress <= 1600ms; progress += 100ms) {
@@ -110,7 +106,7 @@ TEST_F(Horizon, StalledMotionIsExpectedToKeepStalling) {
   EXPECT_GT(bench.authority(second), 4s);
 }
 
-// The first motion is always nearer to the region, but at two fifths of its speed it arrives later.
+// Nearer to the region, but at two fifths of its speed the first motion arrives later.
 TEST_F(Horizon, SlowMotionIsExpectedToStaySlow) {
   const auto [first, second] = meet();
   for (Duration step = 1ms; step <= 10ms; step += 1ms) {

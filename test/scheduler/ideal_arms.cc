@@ -94,7 +94,7 @@ bool IdealArms::answer_now() {
   return true;
 }
 
-// Answers the first planning question that is due; returns false if none is.
+// Returns false if no planning question is due.
 bool IdealArms::answer_plan_now() {
   const auto due =
       std::ranges::find_if(plans_, [&](const OpenPlan& plan) { return plan.answer_at <= now_; });
@@ -105,7 +105,7 @@ bool IdealArms::answer_plan_now() {
   return true;
 }
 
-// Returns a path past all arms at rest, otherwise past the arms that cannot move.
+// Avoids all arms at rest, otherwise those that cannot move.
 PlanMade IdealArms::answer_to(const PlanMotion& asked) const {
   const MotionGoal& goal = asked.question.goal;
   const auto arm = static_cast<std::uint32_t>(goal.arm.index());
@@ -170,7 +170,7 @@ void IdealArms::advance(Moving& arm, TimePoint to) const {
   }
 }
 
-// Sets the time of the next report, after a report or an effect of the scheduler.
+// Sets the time of the next report.
 void IdealArms::plan_report(Moving& arm) {
   if (arm.braking) {
     arm.report_at = std::max(now_, arm.report_at);

@@ -11,7 +11,7 @@
 
 namespace armloom {
 
-// How an arm executes one motion: exactly to its authority, but with its own timing.
+// An arm executes a motion exactly to its authority, but with its own timing.
 struct Habits {
   Duration starts_late{};
   double speed = 1.0;  // of trajectory time
@@ -21,38 +21,35 @@ struct Habits {
   Duration brakes_for{};    // how long it continues after Brake, at most to its authority
 };
 
-// A Scheduler with arms that obey it and answers from a table of crossings. Runs from event to
-// event on its own clock. A plan is the straight path to its goal (a link target's x is the joint's
-// position), or none. Checks after every step:
-// - Every arm may be anywhere between its measured position and its authority, in any combination
-//   with the other arms, and no two arms meet. (Not under timed_discrete, which guarantees
-//   nothing.)
-// - Motions of an arm start one after the other in order of submission, at the arm's position,
-//   never before their predecessors, and never on a stopped arm.
-// - Authority never shrinks, and does not grow while the arm brakes. Moving arms belong to jobs
-//   that have not ended.
+// A Scheduler with arms that obey it, answered from a table of crossings, with its own clock. A
+// plan is the straight path to its goal (a link target's x is the joint's position), or none.
+// Checks after every step:
+// - Arms anywhere between measured position and authority do not meet (except under
+//   timed_discrete).
+// - Motions of an arm start in order of submission, at the arm's position, after their
+//   predecessors, and never on a stopped arm.
+// - Authority never shrinks, and does not grow while the arm brakes.
 // - Measured progress <= actual progress <= authority <= duration.
-// - Arms that move, brake or pause belong to jobs in the matching state, and other arms do not.
-// - A job at rest reports what it waits for. Admitted jobs that wait form no cycle.
+// - Job states match whether their arms move, brake or pause.
+// - A job at rest reports what it waits for. Admitted jobs form no cycle.
 class IdealArms : public Bench {
  public:
   using HabitsOf = std::function<Habits(JobId)>;
   IdealArms(const CellPtr& description, std::unique_ptr<const Policy> policy, Crossings table,
             HabitsOf habits_of, std::uint64_t seed = 1);
 
-  // Processes the next event if it is not after `until`. Otherwise advances to `until` and returns
+  // Processes the next event unless it is after `until`; then advances to `until` and returns
   // false.
   bool go_on(TimePoint until);
   void run_until(TimePoint until) {
     while (go_on(until)) {
     }
   }
-  // Runs until nothing will happen without input. Fails after `events_max` events, because that is
-  // a livelock.
+  // Runs until nothing happens without input; more than `events_max` events are a livelock.
   void run(std::size_t events_max = 200'000);
 
   void input(const Input& input) { take(input); }
-  // Answers the open question now; returns false if there is none.
+  // Returns false if there is no open question.
   bool answer_now();
   JobId submit(Submit submitted);
   [[nodiscard]] TimePoint now() const { return now_; }

@@ -1,4 +1,3 @@
-// Checks of what must be true after every step.
 #include <algorithm>
 
 #include "test/scheduler/ideal_arms.h"
@@ -14,8 +13,6 @@ void IdealArms::check() {
   check_explained();
 }
 
-// Checks that the arm is between its measured progress and its authority, and moves for an admitted
-// job.
 void IdealArms::check_moving(const Moving& arm) const {
   const Job& job = this->job(arm.job);
   const std::string what = "job " + std::to_string(arm.job.value()) + ", " + to_string(job.state());
@@ -30,7 +27,6 @@ void IdealArms::check_moving(const Moving& arm) const {
   for (const ArmId moved : arm.motion->arms()) EXPECT_EQ(scheduler.occupant(moved), arm.job);
 }
 
-// Checks that the job's times and reasons match its state.
 void IdealArms::check_phase(const Job& job) const {
   const std::string what = "job " + std::to_string(job.id.value()) + ", " + to_string(job.state());
   const bool admitted = job.state() == JobState::scheduled || job.state() == JobState::running;
@@ -47,8 +43,7 @@ void IdealArms::check_phase(const Job& job) const {
       << what;
 }
 
-// Checks that no admitted job that rests, according to its reports, waits for itself through
-// others.
+// No admitted job that rests waits for itself.
 void IdealArms::check_orders() const {
   const auto next = [this](JobId id) -> std::optional<JobId> {
     const Job& job = this->job(id);
@@ -68,7 +63,7 @@ void IdealArms::check_orders() const {
   }
 }
 
-// Returns where the arm may be, and its job; the job is 0 if the arm rests.
+// The job is 0 if the arm rests.
 std::pair<Stretch, JobId> IdealArms::stretch_of(ArmId arm) const {
   for (const Moving& moving : moving_) {
     const auto& arms = moving.motion->arms();

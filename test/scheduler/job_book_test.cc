@@ -10,8 +10,8 @@
 namespace armloom {
 namespace {
 
-// A server-initiated job must stay before its job even if another job is ahead of both. The wrong
-// order put the scheduler into an endless loop (soak, certified, seed 21000112).
+// A server-initiated job stays before its job. The wrong order caused an endless loop (soak,
+// certified, seed 21000112).
 TEST(JobBook, SortsByTurnWithinEachArmQueue) {
   const CellPtr cell = one_joint_arms(1);
   State state(cell, std::move(*make_policy("certified", *cell)), cell->home(), JobId{1});

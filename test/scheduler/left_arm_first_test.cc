@@ -1,5 +1,4 @@
-// A custom policy is one class. Here the arm with the smaller number passes first if there is a
-// choice; a job that cannot pass in that order waits.
+// A custom policy is one class: the arm with the smaller number passes first.
 #include <gmock/gmock.h>
 
 #include <algorithm>

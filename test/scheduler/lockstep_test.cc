@@ -53,7 +53,7 @@ TEST(Lockstep, JobOfABlockingArmJoinsTheRound) {
   EXPECT_EQ(bench.question->candidates.front().job, right);
 }
 
-// Planning may take long or fail, so the rounds of other jobs continue without this job.
+// Planning may take long or fail.
 TEST(Lockstep, UnplannedJobJoinsNoRound) {
   Bench bench(2, "lockstep");
   const JobId goal = bench.submit(Submit{.job = JobId{0},

@@ -7,8 +7,7 @@
 
 namespace armloom {
 
-// Returns a cell of one-joint arms named a, b, c, ... without geometry, which the scheduler does
-// not need.
+// Returns one-joint arms named a, b, c, ... without geometry.
 inline CellPtr one_joint_arms(std::size_t count) {
   auto cell = std::make_shared<Cell>();
   cell->scheduling.on_idle_blocker = OnIdleBlocker::report;
@@ -34,7 +33,7 @@ inline CellPtr one_joint_arms(std::size_t count) {
   return cell;
 }
 
-// Returns the same cell with retreats: arms in the way move to their pose "back", at -1 rad.
+// Arms in the way retreat to their pose "back", at -1 rad.
 inline CellPtr one_joint_arms_that_park(std::size_t count) {
   auto cell = std::make_shared<Cell>(*one_joint_arms(count));
   cell->scheduling.on_idle_blocker = OnIdleBlocker::park;

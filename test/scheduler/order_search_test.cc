@@ -1,4 +1,3 @@
-// Compares branch and bound with exhaustive search.
 #include "core/precedence/order_search.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +9,7 @@
 namespace armloom {
 namespace {
 
-// Two to four arm queues of random motions, and regions between motions of different queues.
+// Random motions in two to four arm queues, and regions between queues.
 class RandomOrders {
  public:
   explicit RandomOrders(std::uint64_t seed) : random_(seed) {
@@ -36,7 +35,7 @@ class RandomOrders {
   }
   [[nodiscard]] const std::vector<Duration>& work() const { return work_; }
 
-  // Returns the cost that OrderSearch uses, for equal priorities.
+  // The cost of OrderSearch, for equal priorities.
   [[nodiscard]] double cost_of(const Prediction& prediction) const {
     std::vector<double> ends(lanes_);
     for (std::size_t m = 0; m < motions_.size(); ++m) {
@@ -106,8 +105,7 @@ TEST(OrderSearch, MatchesExhaustiveSearch) {
   EXPECT_GT(better_than_first, 50u);
 }
 
-// Two arms that meet in one region, each alone in its queue: the second waits until the first has
-// left.
+// Two arms that meet in one region: the second waits until the first has left.
 bool urgent_passes_first(Duration urgent_from, Duration urgent_to, Duration other_from,
                          Duration other_to) {
   const std::vector<CoordinatedMotion> motions = {
@@ -129,8 +127,7 @@ TEST(OrderSearch, UrgentMotionPassesFirstUnlessTooCostly) {
   EXPECT_FALSE(urgent_passes_first(4s, 8s, 4s, 5s)) << "4 s for the other against 1 s for itself";
 }
 
-// A short motion and a long one. If the short motion goes second it ends 2.9 s later; the long one
-// 0.4 s.
+// If it goes second, the short motion ends 2.9 s later, the long one 0.4 s.
 bool short_one_passes_first(Duration work_behind_long) {
   const std::vector<CoordinatedMotion> motions = {
       {.job = JobId(1), .arms = {ArmId(0)}, .duration = 1500ms},

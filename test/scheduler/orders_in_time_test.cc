@@ -1,4 +1,3 @@
-// Tests passing orders decided by time, now or with a later start, and orders_apart().
 #include <gmock/gmock.h>
 
 #include "core/precedence/motion_chains.h"
@@ -34,7 +33,7 @@ struct OrdersInTime : ::testing::Test {
   }
 };
 
-// B meets A from 1 to 2 s of B's own motion; A is there from 4 to 6 s.
+// B meets A at 1 to 2 s of B's motion; A is there from 4 to 6 s.
 const std::vector<PairRegions> kMeet{{kB, kA, {region(ProgressBox{1s, 2s, 4s, 6s})}}};
 
 TEST_F(OrdersInTime, MotionThatLeavesInTimePassesFirst) {
@@ -82,8 +81,8 @@ TEST_F(OrdersInTime, RejectsStartsAfterLatest) {
   }
 }
 
-// With `latest` zero both motions start now. Normally the second arrives when the first has just
-// left. If it would arrive exactly then, it waits kShortOf at its start.
+// With `latest` zero both start now. If the second would arrive just when the first leaves, it
+// waits kShortOf at its start.
 TEST_F(OrdersInTime, MotionThatArrivesLaterStartsNow) {
   for (const Duration comes : {Duration(6s), 6s + kShortOf}) {
     graph = PrecedenceGraph(4);
@@ -104,7 +103,7 @@ TEST_F(OrdersInTime, MotionThatArrivesLaterStartsNow) {
 TEST_F(OrdersInTime, ChoosesTheSmallestDelayThatPassesAllRegions) {
   admit(motion(kA, 0, 10s), {});
   admit(motion(kC, 2, 10s), {});
-  // A is there from 2 to 3 s, C from 6 to 8 s; B's 1 s fits in between, from 3 s on.
+  // A is there from 2 to 3 s, C from 6 to 8 s; B fits in between.
   const auto orders = admit(
       motion(kB, 1, 2s),
       {{kB, kA, {region(ProgressBox{500ms, 1500ms, 2s, 3s})}},
@@ -126,7 +125,7 @@ TEST_F(OrdersInTime, TimesFollowTheMotionThatStartsLater) {
   admit(motion(kA, 0, 4s), {});
   admit(motion(kB, 1, 2s), {{kB, kA, {region(ProgressBox{0s, 1s, 3s, 4s - 1ms})}}});
   ASSERT_EQ(graph.limit(kB), 2s) << "it leaves before A arrives";
-  // C meets B's goal from C's start on, and B ends there: C passes before B arrives.
+  // C meets B's goal, where B ends: C passes before B arrives.
   const auto orders =
       admit(motion(kC, 2, 1s), {{kC, kB, {region(ProgressBox{0s, 500ms, 1s, 2s})}}});
   ASSERT_THAT(orders.blockers, ::testing::IsEmpty());

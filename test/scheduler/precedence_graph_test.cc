@@ -1,4 +1,3 @@
-// Tests passing orders on plain data: how far each motion may go, and what orders and rests block.
 #include <gtest/gtest.h>
 
 #include "test/scheduler/passing_words.h"
@@ -22,7 +21,7 @@ struct Graph : ::testing::Test {
     if (orders.blockers.empty()) graph.admit(candidates, orders);
     return orders;
   }
-  // B meets A at A's goal, and passes there after Next has moved the arm away.
+  // B passes A's goal after Next has moved the arm away.
   void let_b_wait_until_next_has_left() {
     admit({motion(kA, 0, 5s)}, {});
     graph.granted(kA, 5s);
@@ -33,7 +32,7 @@ struct Graph : ::testing::Test {
 
 TEST_F(Graph, CandidatePassesFirstIfCheaper) {
   admit({motion(kA, 0, 10s)}, {});
-  // B leaves before A comes near: waiting for A would cost 7 s.
+  // Waiting for A would cost B 7 s.
   admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
   EXPECT_EQ(graph.limit(kB), 3s);
   EXPECT_EQ(graph.limit(kA), 6s - kShortOf);
@@ -128,8 +127,7 @@ TEST_F(Graph, CancelingTheNextMotionKeepsTheGoalBlocked) {
   EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0});
 }
 
-// B must wait for Next at the goal to which A would have brought the arm, but A never arrives
-// there.
+// B must wait for Next at A's goal, but A never arrives there.
 TEST_F(Graph, UnreachedGoalOfAnAbandonedMotionBlocksNothing) {
   let_b_wait_until_next_has_left();
   graph.progress(kA, 2s);
@@ -159,7 +157,7 @@ TEST_F(Graph, MotionThatKeepsItsPlaceIsNotOvertaken) {
   EXPECT_EQ(graph.limit(kB), 0s) << "waiting at the start costs less than stopping on the path";
 }
 
-// B must wait until Next has moved the arm from A's goal. Later motions do not matter.
+// Later motions than Next do not matter.
 TEST_F(Graph, AbandonedMotionBlocksOnlyTheStartItShouldHaveLeft) {
   const std::vector<PairRegions> regions = {{kA, kB, {region({{4s, 5s, 2s, 3s}})}},
                                             {kNext, kB, {region({{0s, 1s, 2s, 3s}})}}};
@@ -177,8 +175,7 @@ TEST_F(Graph, AbandonedMotionBlocksOnlyTheStartItShouldHaveLeft) {
   }
 }
 
-// A brings both arms of a team to the start of B and Next, which continue with one arm each. A and
-// B have no region, because they come one after the other.
+// A brings both arms to where B and Next start, with one arm each. A and B have no region.
 TEST_F(Graph, ArmLeftByATeamBlocksTheTeamsOtherArm) {
   CoordinatedMotion team = motion(kA, 0, 5s);
   team.arms.push_back(ArmId{1});
@@ -191,8 +188,7 @@ TEST_F(Graph, ArmLeftByATeamBlocksTheTeamsOtherArm) {
   EXPECT_EQ(graph.held_back(kB)->arm, ArmId{1});
 }
 
-// B should pass after kC has left its start, to which Next should have brought the arm: neither
-// arrives there.
+// B should pass after kC has left its start, but neither Next nor kC arrives there.
 TEST_F(Graph, UnreachedStartOfAnAbandonedMotionBlocksNothing) {
   admit({motion(kA, 0, 5s)}, {});
   admit({motion(kB, 1, 5s), motion(kNext, 0, 5s), motion(kC, 0, 5s)},
@@ -204,7 +200,6 @@ TEST_F(Graph, UnreachedStartOfAnAbandonedMotionBlocksNothing) {
   EXPECT_EQ(graph.limit(kB), 5s);
 }
 
-// Nor does a goal block a motion that passes before the goal is reached.
 TEST_F(Graph, UnreachedGoalDoesNotBlockTheFirstMotion) {
   admit({motion(kA, 0, 20s)}, {});
   admit({motion(kB, 1, 5s), motion(kNext, 0, 5s)}, {{kB, kA, {region({{2s, 3s, 18s, 20s}})}}});
@@ -220,7 +215,7 @@ CoordinatedMotion of_both(JobId job, Duration duration) {
   return {.job = job, .arms = {ArmId{0}, ArmId{1}}, .duration = duration};
 }
 
-// One arm rests before the region; the other arm, which is ahead, rests inside.
+// One arm rests before the region, the arm ahead inside.
 TEST_F(Graph, ArmAheadOfItsTeamBlocksToo) {
   admit({of_both(kA, 5s)}, {});
   graph.granted(kA, 5s);
@@ -230,7 +225,7 @@ TEST_F(Graph, ArmAheadOfItsTeamBlocksToo) {
   EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
 }
 
-// A ends in B's way, and the motion that moves A's arm away also moves B's, after B.
+// The motion that moves A's arm away also moves B's, after B.
 TEST(PassingOrders, MotionDoesNotWaitForADepartureThatFollowsIt) {
   PrecedenceGraph graph(2);
   graph.admit({motion(kA, 0, 5s)}, {});
@@ -243,7 +238,7 @@ TEST(PassingOrders, MotionDoesNotWaitForADepartureThatFollowsIt) {
   EXPECT_EQ(orders.blockers[0].other, kA);
 }
 
-// A brings both arms to B's start, in C's way; C starts after A has ended.
+// A brings both arms to B's start, in C's way.
 TEST(PassingOrders, StartThatIsOccupiedByThenIsNotPassedFirst) {
   PrecedenceGraph graph(2);
   graph.admit({of_both(kA, 5s)}, {});

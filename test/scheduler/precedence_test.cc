@@ -1,4 +1,3 @@
-// Tests two motions that meet: how far the second may go, and when all motions end.
 #include <gtest/gtest.h>
 
 #include "test/scheduler/passing_words.h"
@@ -15,7 +14,6 @@ using test::kB;
 using test::kC;
 using test::region;
 
-// limit(progress) is the second motion's limit while the first motion is at `progress`.
 TEST(Precedence, LimitsTheSecondToTheNearestOccupiedBox) {
   const Precedence order(kA, kB, region({{1s, 2s, 4s, 6s}, {2s, 3s, 3s, 5s}, {3s, 4s, 5s, 7s}}),
                          true);

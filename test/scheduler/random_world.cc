@@ -43,7 +43,7 @@ Duration World::up_to(Duration most) {
   return Duration(static_cast<Duration::rep>(random_() % static_cast<std::uint64_t>(most.count())));
 }
 
-// Draws some crossings for each pair of arms; both are free at home, at 0.
+// Both arms are free at home, at 0.
 std::vector<Crossing> World::table() {
   std::vector<Crossing> table;
   for (std::uint32_t a = 0; a < arms_; ++a) {
@@ -106,7 +106,6 @@ std::optional<Submit> World::draw(bool any) {
   return std::nullopt;
 }
 
-// Draws a job in any order, or for any arm that can do it.
 std::optional<Submit> World::draw_visit(const Configuration& rest, bool any) {
   const bool by_any = random_() % 2 == 0;
   const auto first = static_cast<std::uint32_t>(random_() % arms_);
@@ -123,7 +122,6 @@ std::optional<Submit> World::draw_visit(const Configuration& rest, bool any) {
   return job;
 }
 
-// Draws a goal in joints or as a link pose, for one arm or for any.
 std::optional<Submit> World::draw_goal(const Configuration& rest) {
   Submit job{JobId{0}, nullptr, {static_cast<int>(random_() % 3), 1'000'000s}};
   if (disturbances_.cancels) job.terms.backlog_timeout = 20s + up_to(100s);

@@ -24,18 +24,17 @@ struct Disturbances {
   bool crowds = false;   // jobs have any goals: some may be impossible
 };
 
-// A random workload for two to four one-joint arms, alone and in teams, that share positions by a
-// table. All jobs can be done one after the other in order of submission; disturbances are added.
-// Deterministic for equal arguments.
+// A random workload for two to four one-joint arms, alone and in teams. All jobs can be done in
+// order of submission; disturbances are added. Deterministic for equal arguments.
 class World {
  public:
   World(std::uint64_t seed, const std::string& policy, Disturbances disturbances);
 
-  // Runs from the first job until nothing happens anymore. Calls `look` at many instants.
+  // Runs until nothing happens anymore; calls `look` at many instants.
   void run(const std::function<void()>& look = [] {});
 
-  // Draws a job for now that is free after all accepted jobs have ended; with `any`, a job with any
-  // goal. Returns nullopt if none was found.
+  // Draws a job that is free after all accepted jobs have ended, or with `any` an arbitrary job;
+  // nullopt if none was found.
   [[nodiscard]] std::optional<Submit> draw(bool any = false);
   JobId submit(Submit job);
 

@@ -1,6 +1,5 @@
-// Tests complete workloads without geometry under every policy. Arms share positions by a table,
-// are late, slow and stall; jobs are canceled, arms stopped, scenes changed. IdealArms checks the
-// invariants after every step.
+// Complete workloads without geometry under every policy, with late, slow and stalling arms,
+// cancels, stops and scene changes. IdealArms checks the invariants.
 #include <gmock/gmock.h>
 
 #include "test/scenarios/seeds.h"
@@ -19,7 +18,6 @@ class RandomWorlds : public ::testing::TestWithParam<std::string> {
  protected:
   static bool is_timed() { return GetParam() == "timed_discrete"; }
 
-  // Returns the number of jobs that ended in each state, over all seeds.
   std::map<JobState, int> run(std::uint64_t usual, Disturbances disturbances, bool all_succeed) {
     std::map<JobState, int> ended;
     for (std::uint64_t seed = 1; seed <= seed_count(usual); ++seed) {
@@ -53,7 +51,7 @@ TEST_P(RandomWorlds, FeasibleJobsSucceed) {
   EXPECT_GT(run(200, {}, true)[JobState::succeeded], 1000);
 }
 
-// timed_discrete guarantees this only if arms keep their times.
+// timed_discrete guarantees this only for punctual arms.
 TEST_P(RandomWorlds, FeasibleJobsSucceedOnLateArms) {
   EXPECT_GT(run(200, {.delays = true}, !is_timed())[JobState::succeeded], 1000);
 }
@@ -96,13 +94,12 @@ TEST_P(RandomWorlds, EveryJobEndsOnceWithRetreats) {
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
-// Includes jobs in any order, and jobs that any of several arms can do.
 TEST_P(RandomWorlds, JobsWithChoicesSucceed) {
   EXPECT_GT(run(200, {.delays = true, .choices = true}, !is_timed())[JobState::succeeded], 1000);
 }
 
-// One of 3,000 worlds. A job is assigned to an arm behind a job that waits for another arm, whose
-// next job would then be blocked permanently: a cycle, which the other candidate arm resolves.
+// A job is queued behind a job that waits for another arm, whose next job would be blocked
+// permanently: a cycle that another candidate arm resolves.
 TEST(RandomWorld, JobInACycleIsDoneByAnotherArm) {
   World world(2351, "lockstep", {.delays = true, .choices = true});
   world.run();
@@ -124,8 +121,7 @@ TEST_P(RandomWorlds, EveryJobWithChoicesEndsOnceDespiteCancels) {
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
-// Jobs that may be impossible, with goals, for any arm, with move-to-starts: when nothing happens
-// anymore, no job waits.
+// When nothing happens anymore, no job waits, even if jobs are impossible.
 TEST_P(RandomWorlds, EveryWaitEnds) {
   auto ended = run(220, {.delays = true, .cancels = true, .goals = true, .crowds = true}, false);
   EXPECT_GT(ended[JobState::succeeded], 500);

@@ -1,5 +1,3 @@
-// Tests that no job waits for a stop if no arm is stopped: its waits are reported again without the
-// stop.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"

@@ -1,5 +1,3 @@
-// Tests deadlocks in the scheduler: detected when they arise, reported, and resolved by failing a
-// job.
 #include <gmock/gmock.h>
 
 #include "core/scheduler/trial.h"
@@ -49,8 +47,7 @@ TEST(Deadlock, FailsTheLastJobAndTheOtherWaitsForItsArm) {
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
 }
 
-// The answer closes a cycle whose last job, b, must fail. The trial must not resolve it: the new
-// job waits for b.
+// The trial must not resolve the cycle: the new job waits for b.
 TEST(Deadlock, IsNotResolvedWithinATrial) {
   Bench bench(3, "certified");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
@@ -72,7 +69,7 @@ TEST(Deadlock, IsNotResolvedWithinATrial) {
   EXPECT_EQ(waits.front().job, b);
 }
 
-// Two arms are stopped next to each other on their paths, so that neither can continue.
+// Stopped so that neither can continue.
 TEST(Deadlock, IncludesJobsPausedOnTheirPaths) {
   Bench bench(2, "certified");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));

@@ -1,4 +1,3 @@
-// Tests that arms of a deadlock cycle retreat (scheduling.on_idle_blocker "park").
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
@@ -9,7 +8,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// Like Swap: b's arm could retreat before b runs, and the scheduler asks about that at once.
+// Like Swap; the scheduler asks at once about a retreat of b's arm.
 struct Parking : Bench {
   explicit Parking(const char* policy = "certified") : Bench(one_joint_arms_that_park(3), policy) {
     a = submit(move({0}, 0, 1, 2s), at(0ms));
@@ -24,7 +23,6 @@ struct Parking : Bench {
     way = asides[0].job;
     back = asides[1].job;
   }
-  // b's arm retreats; afterwards nothing is decided about a.
   void go_aside() {
     answer_way_and_passing();
     ASSERT_EQ(question->candidates.front().job, way);
@@ -195,7 +193,7 @@ TEST(DeadlockUnderPark, ReturnInACycleNoLongerWaitsForTheBlockedJob) {
   EXPECT_EQ(bench.question->candidates.front().job, bench.back);
 }
 
-// The retreat no longer lets a job pass, but a client's job still relies on the return.
+// The retreat lets no job pass any more, but a client's job relies on the return.
 TEST(DeadlockUnderPark, CycleClosedAgainByTheReturnFailsTheBlockedJob) {
   Parking bench;
   bench.go_aside();
@@ -209,7 +207,7 @@ TEST(DeadlockUnderPark, CycleClosedAgainByTheReturnFailsTheBlockedJob) {
   EXPECT_FALSE(is_terminal(bench.state(bench.b)));
 }
 
-// A client has submitted a job that starts at the end of the retreat.
+// A client's job starts at the end of the retreat.
 TEST(DeadlockUnderPark, RetreatThatAClientReliesOnIsKept) {
   Bench bench(one_joint_arms_that_park(2), "certified");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));

@@ -11,12 +11,11 @@ namespace {
 
 using Jobs = std::vector<JobId>;
 
-// Arms whose positions are numbers; blocked passages are set manually.
+// Positions are numbers; blocked passages are set manually.
 class Lanes {
  public:
   explicit Lanes(std::size_t arms) : stands_(arms, 0.0), ends_(arms, 0.0) {}
 
-  // Appends a motion to the queues of these arms; each arm goes to `to`.
   JobId leg(std::vector<std::uint32_t> arms, double to, Jobs after = {}) {
     WaitingLeg leg{.job = JobId{++last_}, .arms = {}, .from = {}, .to = {}, .after = after};
     for (std::uint32_t arm : arms) {
@@ -52,7 +51,6 @@ class Lanes {
     sequence.admitted(group);
     for (JobId job : group) go(job);
   }
-  // Returns true if this motion, the first in its queues, is free now.
   [[nodiscard]] bool passes_now(JobId job) {
     const WaitingLeg& leg = of(job);
     for (std::uint32_t arm = 0; arm < stands_.size(); ++arm) {
@@ -61,7 +59,6 @@ class Lanes {
     }
     return true;
   }
-  // Returns the first motions of their queues whose predecessors are done.
   [[nodiscard]] Jobs heads() const {
     Jobs heads;
     std::set<ArmId> taken;
@@ -113,7 +110,7 @@ class Lanes {
 
 constexpr std::uint32_t kA = 0, kB = 1, kC = 2;
 
-// Otherwise answers would be known only while some object, e.g. a dry run, uses the same position.
+// Answers must stay known while no object uses the position.
 TEST(Places, KeepTheIdOfAReleasedPosition) {
   Places places;
   const auto id = [&](std::uint32_t arm, double at) {
@@ -208,8 +205,7 @@ TEST(SafeSequence, AfterACancelJobsThatStartElsewhereLeaveTheSequence) {
   EXPECT_FALSE(lanes.sequence.remove(a1)) << "the caller must call renew()";
 }
 
-// Adds `count` random motions. Each is free of the arms' positions in order of submission; other
-// positions may block it.
+// Adds motions that are free in order of submission and may be blocked otherwise.
 void add_random_legs(Lanes& lanes, std::uint32_t arms, std::size_t count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto below = [&](std::uint64_t n) { return static_cast<std::uint32_t>(random() % n); };
@@ -232,7 +228,6 @@ void add_random_legs(Lanes& lanes, std::uint32_t arms, std::size_t count, std::u
   }
 }
 
-// All motions end, whatever is admitted as long as a sequence remains.
 TEST(SafeSequence, AllMotionsEndWhicheverAreAdmitted) {
   std::size_t waits = 0, ahead = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {

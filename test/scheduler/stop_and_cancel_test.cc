@@ -7,7 +7,6 @@ namespace {
 
 using ::testing::ElementsAre;
 
-// A bench with `count` running jobs, one per arm.
 struct Running : Bench {
   explicit Running(std::size_t count) : Bench(count) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -56,8 +55,7 @@ TEST(Cancel, LaterChecksSeeTheArmAtItsRest) {
   EXPECT_NEAR(bench.question->rest[0], 0.5, 1e-9);
 }
 
-// Two other motions should pass through the canceled motion's position. Its arm now rests in the
-// way of only one.
+// The canceled arm now rests in the way of one of two other motions.
 TEST(Cancel, BlocksOnlyMotionsThatPassTheRestingArm) {
   Bench bench(3, "certified");
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
@@ -85,7 +83,7 @@ TEST(Cancel, BlocksOnlyMotionsThatPassTheRestingArm) {
   EXPECT_FALSE(bench.job(free).pausing());
 }
 
-// Only a client's decision about the blocking arm could let the waiting job continue.
+// Only a client's decision could let the waiting job continue.
 TEST(Cancel, PermanentlyBlockedJobOnItsPathExpires) {
   Bench bench(2, "certified");
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
@@ -110,7 +108,7 @@ TEST(Cancel, PermanentlyBlockedJobOnItsPathExpires) {
   EXPECT_EQ(bench.job(behind).detail(), "waited 20 s on its path");
 }
 
-// Only x, y and z together move their arm out of b's way: all are admitted with b.
+// Only together do x, y and z move their arm out of b's way.
 TEST(Cancel, UnadmitsJobsBehindTheCanceledJob) {
   Bench bench(2, "coordinated");
   const JobId x = bench.submit(move({0}, 0, 1, 2s), at(0ms));
@@ -209,7 +207,6 @@ TEST(Stop, CancelSurvivesASceneConflictDuringTheBrake) {
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);
 }
 
-// Their passing orders remain: an answer about the other job's motion does not ask for a new order.
 TEST(Resume, ContinuesPausedJobsInTheirPassingOrder) {
   OneBehindAnother two(ProgressBox{1s, 1500ms, 0ms, 1200ms});
   Bench& bench = two.bench;

@@ -13,8 +13,7 @@ Eigen::Index row_of(const Trajectory& motion, ArmId arm) {
   return std::ranges::find(motion.arms(), arm) - motion.arms().begin();
 }
 
-// Returns the share of its duration at which a quintic from rest to rest has covered `way_share` of
-// its path.
+// Returns when a quintic from rest to rest has covered `way_share`, as a share of its duration.
 double time_share(double way_share) {
   double low = 0.0, high = 1.0;
   for (int i = 0; i < 45; ++i) {
@@ -34,8 +33,7 @@ double place_of(const Trajectory& motion, ArmId arm, Duration progress) {
 
 namespace {
 
-// Returns when the arm is in the stretch, moving from `start` to `goal` from rest to rest in T;
-// nullopt if never.
+// Returns nullopt if the motion never enters the stretch.
 std::optional<Span> span_on_line(double start, double goal, Duration T, Stretch stretch) {
   if (std::max(start, goal) < stretch.from || std::min(start, goal) > stretch.to) {
     return std::nullopt;

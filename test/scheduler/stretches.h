@@ -6,7 +6,7 @@
 
 namespace armloom {
 
-// An interval of an arm's positions (rad), from <= to.
+// Positions of an arm (rad), from <= to.
 struct Stretch {
   double from, to;
 };
@@ -14,10 +14,9 @@ struct Span {
   Duration from, to;
 };
 
-// Returns the arm's position at `progress` of this motion (rad).
 [[nodiscard]] double place_of(const Trajectory& motion, ArmId arm, Duration progress);
 // Returns when the arm is in the stretch, one span per line, a microsecond longer on either side.
-// Each line of the motion must go from rest to rest (`move` and `visit` of bench_cell.h).
+// Lines go from rest to rest (bench_cell.h).
 [[nodiscard]] std::vector<Span> spans_in(const Trajectory& motion, ArmId arm, Stretch stretch);
 
 }  // namespace armloom

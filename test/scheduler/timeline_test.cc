@@ -1,4 +1,3 @@
-// Compares the scheduler's predictions for all admitted motions with what then happens.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/ideal_arms.h"
@@ -51,7 +50,6 @@ void expect_near(TimePoint told, TimePoint came) {
       << " it was";
 }
 
-// Under every policy that moves both at once, whichever job waits.
 TEST_F(Timeline, PredictsWhenAWaitingMotionContinuesAndItsBlocker) {
   for (const char* policy : {"coordinated", "earliest_start"}) {
     SCOPED_TRACE(policy);
@@ -142,7 +140,6 @@ TEST_F(Timeline, StoppedMotionAndItsDependentsHaveNoPredictedEnd) {
   EXPECT_TRUE(this->leg(first).ends && this->leg(next).ends && this->leg(other).ends);
 }
 
-// The first arm came to rest in the second one's way, and no job moves it.
 TEST_F(Timeline, PermanentlyBlockedMotionHasNoPredictedEnd) {
   start("coordinated", 2);
   const JobId first = submit(0, 0, 1);

@@ -1,6 +1,5 @@
-// Compares the outcome of a Trial of a job with what the scheduler then does with the same job at
-// the same instant, during random workloads under every policy. ARMLOOM_SEEDS=100 compares about
-// 8,000 states per policy.
+// Compares the outcome of a Trial with what the scheduler then does with the job, during random
+// workloads under every policy. ARMLOOM_SEEDS=100 compares about 8,000 states per policy.
 #include "core/scheduler/trial.h"
 
 #include <gmock/gmock.h>
@@ -26,7 +25,7 @@ std::string text(const std::vector<Wait>& waits) {
   return text.empty() ? "nothing" : text;
 }
 
-// Returns the published state of all jobs that already exist.
+// Published state of all existing jobs.
 std::string told(const Scheduler& scheduler) {
   std::string text;
   for (const JobId id : scheduler.active()) {
@@ -60,7 +59,7 @@ class Look {
  private:
   IdealArms& bench() { return world_.bench(); }
 
-  // Runs the step to which the scheduler defers resolving a deadlock.
+  // Runs the step that resolves a deadlock.
   void settle_ring(JobId id) {
     while (!bench().job(id).ring.empty() && bench().wake_at &&
            *bench().wake_at <= bench().now() + kAfterRingWasTold) {
@@ -68,8 +67,7 @@ class Look {
     }
   }
 
-  // Two of three jobs begin with an idle arm, if there is one. One of three may be blocked at its
-  // turn.
+  // Two of three jobs begin with an idle arm, if any; one of three may be blocked.
   std::optional<Submit> draw() {
     if (++looks_ % 4 != 0) wait_for_room();
     std::optional<Submit> job;

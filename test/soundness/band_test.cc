@@ -14,8 +14,7 @@ namespace {
 constexpr double kRounding_m = 1e-6;
 constexpr double kHorizonOfAttack_m = 0.06;
 
-// One set of pairs for all methods. Each pair is checked unchanged; if it is a conflict, also with
-// the delay that just makes it free.
+// Pairs for all methods; conflicts are also checked with the delay that just makes them free.
 struct Scenery {
   Scenery()
       : exact(bench::two_pandas()),
@@ -73,7 +72,7 @@ TEST(Swept, FreeMotionsKeepTheClearanceAtAnyProgress) {
   }
   std::cout << free << " free, closest " << closest_m << " m\n";
   EXPECT_GE(free, 40U);
-  // An attack that never comes close would prove nothing.
+  // An attack that never comes close proves nothing.
   EXPECT_LE(closest_m, cell.clearances.clearance_m + 0.004);
 }
 

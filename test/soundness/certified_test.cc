@@ -6,7 +6,6 @@
 namespace armloom::soundness {
 namespace {
 
-// One measurement, shared by all tests.
 const Report& report() {
   static const Report made = measure(300, 6, {0.1, 0.05, 0.01, 0.001});
   return made;

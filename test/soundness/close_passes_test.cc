@@ -11,8 +11,7 @@
 namespace armloom::soundness {
 namespace {
 
-// Two Pandas with a clearance of 1 mm and no tracking error. For pairs that stay open with a
-// tracking error see open_pairs_test.cc.
+// Two Pandas with 1 mm clearance and no tracking error (see also open_pairs_test.cc).
 TEST(ClosePasses, AreDecidedWithARaisedBudget) {
   Cell cell = *bench::two_pandas();
   cell.clearances.clearance_m = 0.001;

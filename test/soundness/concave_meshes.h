@@ -8,10 +8,9 @@
 
 namespace armloom::soundness {
 
-// A closed concave mesh of blocks in a grid with random plane distances: an L, a U, a C, a ring, a
-// frame, a box with a slot, a hollow box (a closed room) or random blocks. Corners are moved at
-// random by up to `noise` of a block. About `size_m` large, around the origin. Has pieces and
-// surface like a mesh that was read from a file.
+// A closed concave mesh of blocks, about `size_m` large, around the origin: an L, a U, a C, a ring,
+// a frame, a box with a slot, a closed hollow box or random blocks. Corners are moved by up to
+// `noise` of a block. Has pieces and surface, like a loaded mesh.
 struct MeshWish {
   double size_m = 0.3;
   double noise = 0.0;   // 0 to 0.25
@@ -19,24 +18,22 @@ struct MeshWish {
 };
 [[nodiscard]] MeshPtr concave_mesh(const MeshWish& wish, std::mt19937_64& random);
 
-// Returns a prism over a curve that goes twice around the z-axis and so intersects itself. Inside
-// its smaller turn, up to 0.12 m from the axis and 0.2 m from the origin along the axis, the
-// surface winds twice around each point. Has a surface only.
+// Returns a prism over a curve that goes twice around the z-axis. Up to 0.12 m from the axis and
+// 0.2 m from the origin along the axis, the surface winds twice around each point. Has a surface
+// only.
 [[nodiscard]] MeshPtr twice_wound_mesh();
 
-// Returns the mesh with some triangles flipped, so that their orientation no longer tells outside
-// from inside.
+// Flips some triangles, so that orientation no longer tells outside from inside.
 [[nodiscard]] MeshPtr turned_over(const MeshData& mesh, std::mt19937_64& random);
 
-// Returns for each vertex the smallest vertex number of its connected component.
+// Returns for each vertex the smallest vertex of its connected component.
 [[nodiscard]] std::vector<std::uint32_t> components_of(const MeshData& mesh);
 
-// Returns true if a component winds around the point, by solid angles, without rays or trees.
-// Precondition: consistently oriented triangles.
+// Returns true if a component winds around the point, by solid angles. Precondition: consistently
+// oriented triangles.
 [[nodiscard]] bool winds_about(const MeshData& mesh, const std::vector<std::uint32_t>& components,
                                const Eigen::Vector3d& p);
 
-// Returns a uniform value in [from, to).
 [[nodiscard]] double between(std::mt19937_64& random, double from, double to);
 
 }  // namespace armloom::soundness

@@ -10,16 +10,15 @@ struct PlaceOfPair {
   Duration own_time;
   Duration other_time;
 };
-// Search settings: each joint up to `tracking_error` off its path, from `throws` random deviations.
+// Each joint is up to `tracking_error` off its path, from `throws` random deviations.
 struct DeviationAttack {
   double tracking_error;
   int throws;
   double horizon_m;  // larger distances are not computed
 };
 
-// Returns the smallest exact distance of the pair's arms found at a place, or within 50 ms of it.
-// Steps downhill, joint by joint and time by time, from the place itself and from each random
-// deviation.
+// Returns the smallest exact distance found at a place or within 50 ms of it. Steps downhill, joint
+// by joint and time by time, from the place and from each random deviation.
 [[nodiscard]] double closest_with_deviations(bench::ExactScene& exact, const MovingPair& pair,
                                              const PlaceOfPair& place,
                                              const DeviationAttack& attack,

@@ -1,4 +1,4 @@
-// Compares the separation that the filter claims along one direction with the same capsules, moved.
+// Compares the claimed separation along one direction with capsules that really moved.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,8 +46,7 @@ class Arm {
     }
   }
 
-  // Moves every joint within its span, as far as drifts allow, mostly to an end. The first lane is
-  // at rest.
+  // Moves every joint within its span, mostly to an end; the first lane is at rest.
   void move(std::mt19937_64& random) {
     std::vector<double> q;
     std::array<double, kLanes> share;  // of all drifts
@@ -72,7 +71,6 @@ class Arm {
   [[nodiscard]] NumberedCapsule capsule(int number) const {
     return {number, linkage_.capsules[static_cast<std::size_t>(number)]};
   }
-  // A single stretch that covers all spans.
   [[nodiscard]] filter::SweptCapsule swept(int capsule) const {
     const float* at = capsules_.data() + capsule * 6 * kLanes;
     return {at, at, sweeps_.data() + capsule * filter::kSweep * kLanes, 0, 1};
@@ -102,8 +100,7 @@ struct Tally {
   double closest = 1.0;  // separation beyond the limit, as a share of the loss
 };
 
-// Returns the largest limit that the first lane's capsules are claimed to keep; -1 if not even
-// contact is excluded.
+// Returns the largest limit that the first lane's capsules are claimed to keep; -1 if none.
 double largest_kept(const Arm& a, const Arm& b, int capsule_a, int capsule_b) {
   const auto kept = [&](double limit_m) {
     const filter::Pair pair =

@@ -24,9 +24,8 @@ namespace {
 constexpr std::size_t kLanes = filter::kLanes;
 constexpr double kNear_m = 0.05;         // closer pairs are also compared with plain FCL
 constexpr double kFclRounding_m = 1e-6;  // of FCL's own distances
-constexpr float kFar_m = 1e3F;  // this limit leaves every pair open, so that all are reported
+constexpr float kFar_m = 1e3F;           // leaves every pair open
 
-// One arm in eight configurations.
 struct PlacedArm {
   explicit PlacedArm(const ArmKinematics& arm)
       : kinematics(arm),

@@ -9,8 +9,7 @@
 
 namespace armloom::soundness {
 
-// Compares the filter with exact shapes in random states of a cell: all joints, including grippers,
-// uniform within their limits.
+// Compares the filter with exact shapes; all joints are uniform within their limits.
 struct FilterReport {
   std::size_t states = 0;
   std::size_t part_pairs = 0;         // compared
@@ -21,13 +20,13 @@ struct FilterReport {
   double margin_m = 0.0;              // the largest rounding margin of any pair
   std::vector<std::string> failures;  // the first few
 };
-// For each pair of parts (arm and arm, arm and itself, arm and static), compares the smallest
-// filter distance of their capsules with body_distance(). Poses are from forward_kinematics(),
-// which shares no code with the filter. Near pairs are also compared with plain FCL (plain_fcl.h).
+// Compares the smallest filter distance of each pair of parts (arm and arm, arm and itself, arm and
+// static) with body_distance() at independent poses from forward_kinematics(). Near pairs are also
+// compared with plain FCL.
 [[nodiscard]] FilterReport check_filter(const CellPtr& cell, std::size_t states,
                                         std::uint64_t seed);
 
-// Returns a cell of this repository's config folder. Throws its problems.
+// Reads a cell of the config folder; throws its problems.
 [[nodiscard]] CellPtr cell_of_file(const std::string& name);
 
 }  // namespace armloom::soundness

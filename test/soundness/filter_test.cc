@@ -47,7 +47,6 @@ TEST(Filter, HasARoundingMarginOfAtMostTenMicrometers) {
   EXPECT_LE(report.margin_m, 1e-5);
 }
 
-// Configurations of an arm, the deviation of its joints, and what the arm is compared with.
 struct Comparison {
   const RandomLinkage& arm;
   std::vector<double> q;
@@ -57,7 +56,6 @@ struct Comparison {
   unsigned lanes = 0xFF;
 };
 
-// All results of one kernel for one arm compared with itself.
 struct Results {
   Results(const filter::Kernel& kernel, const Comparison& of) : Results(kernel, of, of.arm) {}
 
@@ -175,7 +173,6 @@ TEST(Kernels, AreBitIdenticalOnEveryInstructionSet) {
   EXPECT_GE(left_out, 10'000U);
 }
 
-// The largest motions of all joints together move no point of a capsule beyond its bound.
 TEST(Kernels, BoundEveryMotionWithinTheSpans) {
   std::mt19937_64 random(43);
   const filter::Kernel& kernel = filter::best_kernel();

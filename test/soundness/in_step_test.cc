@@ -1,5 +1,4 @@
-// Tests arms of one motion that get out of step (in_step.h): spheres on crossing rails, whose
-// smallest distance is known in closed form.
+// Spheres on crossing rails, whose smallest distance is known in closed form.
 #include "core/coordination/in_step.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +32,7 @@ CellPtr two_rails() {
   return small::shared(std::move(cell));
 }
 
-// Both move across their crossing at constant speed; the arm on y is `ahead_m` ahead.
+// Both cross at constant speed; the arm on y is `ahead_m` ahead.
 TrajectoryPtr crossing(const Cell& cell, double ahead_m) {
   Segment segment{Duration{}, 4s, {}};
   segment.coefficients.setZero(2, 6);

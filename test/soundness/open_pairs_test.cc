@@ -1,5 +1,5 @@
-// Tests pairs that no effort decides, for two Pandas with a clearance of 5 mm and a tracking error
-// of 1 mrad. With their deviations such pairs are so close that little is lost.
+// Pairs that no effort decides, with 5 mm clearance and 1 mrad tracking error, are so close that
+// little is lost.
 #include <gtest/gtest.h>
 
 #include "test/soundness/soundness.h"

@@ -7,8 +7,7 @@
 #include "test/collision/small_cell.h"
 #include "test/soundness/concave_meshes.h"
 
-// Links of one arm with each joint off its path: states certified free must keep their distance.
-// Joints that carry both links do not change the distance; joints between the links do.
+// Joints that carry both links do not change their distance; joints between the links do.
 namespace armloom::soundness {
 namespace {
 

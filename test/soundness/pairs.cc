@@ -166,7 +166,7 @@ std::vector<MovingPair> random_pairs(bench::ExactScene& exact, const Pool& pool,
   const double least_m = exact.cell().clearances.clearance_m + 0.001;
   while (pairs.size() < count) {
     const std::size_t arm = random() % 2;
-    // The arms face each other: rotations in the same direction move them apart.
+    // The arms face each other: equal rotations move them apart.
     const std::size_t turn = random() % 2;
     const std::size_t other_turn = uniform(random, 0.0, 1.0) < kSameSide ? 1 - turn : turn;
     const auto any = [&](std::size_t of, std::size_t turned) {

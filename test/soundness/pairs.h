@@ -7,31 +7,28 @@
 #include "core/coordination/motion.h"
 #include "test/bench/states.h"
 
-// Random pairs of timed motions of two arms, to attack the certified check.
 namespace armloom::soundness {
 
-// Returns a uniform value in [from, to). The standard's distributions differ between libraries.
+// Uniform in [from, to), equal for all standard libraries.
 [[nodiscard]] double uniform(std::mt19937_64& random, double from, double to);
 
-// Returns a smooth motion of one arm over `duration`. Each joint oscillates around a random middle
-// as a sum of six cosines, at rest at both ends, up to 90 % of its velocity and acceleration
-// limits. `turn_rad` moves the middle of the first joint. Has a waypoint every 0.1 s. Throws
-// std::runtime_error if validate() rejects the motion.
+// Returns a smooth motion of one arm: each joint oscillates around a random middle as a sum of six
+// cosines, at rest at both ends, up to 90 % of its velocity and acceleration limits. `turn_rad`
+// moves the first joint's middle. Waypoints every 0.1 s. Throws std::runtime_error if validate()
+// rejects the motion.
 [[nodiscard]] TrajectoryPtr swing(const Cell& cell, ArmId arm, Duration duration, double turn_rad,
                                   std::mt19937_64& random);
 
-// Motions of both arms that keep clear of themselves and of the scene (sampled every 20 ms with
-// exact shapes). A verdict on a pair is then about the two motions only. Half of them last 10 s,
-// the others 2 to 10 s.
+// Motions that keep clear of themselves and of the scene (every 20 ms, exact shapes), so that
+// verdicts are about pairs only. Half of them last 10 s, the others 2 to 10 s.
 struct Pool {
   Pool(bench::ExactScene& exact, std::size_t count, std::uint64_t seed);
 
-  std::vector<TrajectoryPtr> motions[2];  // by arm; even indices to its right, odd indices to its
-                                          // left
+  std::vector<TrajectoryPtr> motions[2];  // by arm; even indices to the right
   std::uint64_t refused = 0;
 };
 
-// Two motions at once. Either may be under way, start now or start later.
+// Either motion may be under way, start now or start later.
 struct MovingPair {
   Motion candidate;
   Motion other;
@@ -40,13 +37,11 @@ struct MovingPair {
   // Returns the time until both motions have ended.
   [[nodiscard]] double span_s() const;
   // Sets q to the state `t` after the question's time. Each motion is `ahead` of its plan (s of
-  // trajectory time), but not before its current progress nor outside of its motion. Other arms are
-  // at home.
+  // trajectory time), within its remaining range; other arms are at home.
   void state_at(double t_s, double ahead_candidate_s, double ahead_other_s, Configuration& q) const;
 };
 
-// Returns pairs that keep the cell's clearance at the question's time. (Pairs too close at that
-// time may separate, see OrientedDiagram.)
+// Returns pairs that keep the cell's clearance at the question's time.
 [[nodiscard]] std::vector<MovingPair> random_pairs(bench::ExactScene& exact, const Pool& pool,
                                                    std::size_t count, std::uint64_t seed);
 

@@ -8,15 +8,14 @@
 
 namespace armloom::soundness {
 
-// Distances of bodies by FCL alone, in double: own shapes built from the bodies' sizes, without the
-// engine's bounds and proofs. Reference for the engine's distances.
+// Reference distances by FCL alone, in double, with own shapes and without bounds and proofs.
 class PlainFcl {
  public:
   explicit PlainFcl(const PlanningScene::Bodies& bodies);
   ~PlainFcl();
 
-  // Returns the smallest distance over the bodies' shapes; zero or negative in contact, and zero if
-  // FCL throws.
+  // Returns the smallest distance over the bodies' shapes; at most zero in contact or if FCL
+  // throws.
   [[nodiscard]] double distance(std::size_t body_a, const Eigen::Isometry3d& X_WA,
                                 std::size_t body_b, const Eigen::Isometry3d& X_WB) const;
 

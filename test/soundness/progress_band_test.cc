@@ -8,8 +8,7 @@
 namespace armloom::soundness {
 namespace {
 
-// A band without width is the planned line. Every state on the line must be found despite rounding
-// of seconds, otherwise a conflict cell proves nothing.
+// Without width the band is the planned line, which must be found despite rounding of seconds.
 TEST(ProgressBand, WithoutWidthContainsEveryPlannedState) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 100'000; ++i) {
@@ -29,8 +28,7 @@ TEST(ProgressBand, WithoutWidthContainsEveryPlannedState) {
   }
 }
 
-// The time ranges of the cells that a band meets must cover the band: random states of it, with any
-// lag, lie in a time range of their cell.
+// Random states of a band, with any lag, lie in a time range of their cell.
 TEST(ProgressBand, MeetsEveryCellWithOneOfItsStates) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 100'000; ++i) {
@@ -62,7 +60,6 @@ TEST(ProgressBand, MeetsEveryCellWithOneOfItsStates) {
   }
 }
 
-// For swept bands times do not matter: the whole remaining rectangle belongs to the band.
 TEST(ProgressBand, SweptBandContainsTheRemainingRectangle) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 100'000; ++i) {

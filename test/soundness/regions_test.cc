@@ -1,5 +1,5 @@
-// Compares the regions of pairs of Pandas with exact shapes: every state outside of all boxes keeps
-// the clearance, at any progress of both arms and with their tracking error.
+// Compares the regions of pairs of Pandas with exact shapes, at any progress and with tracking
+// errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool hold(const PairRegions& pair, Duration a, Duration b) {
   });
 }
 
-// Returns the regions of the two motions with each other; nullptr if there are none.
+// Returns nullptr if the motions have no regions with each other.
 const PairRegions* between_motions_of(const Verdict& verdict) {
   const auto found = std::ranges::find_if(verdict.regions, [](const PairRegions& pair) {
     return std::holds_alternative<JobId>(pair.b);
@@ -122,7 +122,7 @@ class Attack {
         << "pair " << tally_.pairs << " at " << to_seconds(a) << " and " << to_seconds(b) << " s";
   }
 
-  // Returns the smallest distance found near q_ with each joint off its path in either direction.
+  // Returns the smallest distance near q_ with each joint off its path.
   double off_the_paths(const MovingPair& pair) {
     double distance_m = exact_.between_arms(q_, kHorizon_m);
     if (distance_m >= kHorizon_m) return distance_m;
@@ -159,7 +159,6 @@ TEST(Regions, ContainEveryStateCloserThanTheClearance) {
   EXPECT_EQ(tally().pairs, kPairs);
   EXPECT_GE(tally().with_regions, 30U);
   EXPECT_GE(tally().outside, 80'000U);
-  // An attack that never comes close would prove nothing.
   RecordProperty("closest_um", static_cast<int>(1e6 * tally().closest_m));
   EXPECT_LE(tally().closest_m, bench::two_pandas()->clearances.clearance_m + 0.010);
 }

@@ -59,14 +59,13 @@ void measure_certified(const MovingPair& pair, const Truth& truth, const Verdict
   ++report.pairs;
 }
 
-// A time range after the question's time, in seconds.
 struct Stay {
   double from_s;
   double to_s;
 };
 
-// Returns when a motion that continues as planned is between two progress values. A motion that
-// ends there stays forever. Returns nullopt if never.
+// Returns when a planned motion is between two progress values (forever if it ends there); nullopt
+// if never.
 std::optional<Stay> stay_of(const Motion& motion, Duration from, Duration to) {
   const Duration end = motion.trajectory->duration();
   const Duration now = std::clamp(motion.progress, Duration{}, end);
@@ -131,8 +130,7 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
   for (const MovingPair& pair : random_pairs(exact, pool, count, seed + 1)) {
     const Truth truth = sampler.of(pair);
     report.truth_samples += truth.looked_at;
-    // Checks the candidate against itself and static bodies first, so that these results are
-    // cached.
+    // Caches the checks of the candidate against itself and static bodies.
     Question alone = pair.question(cell, kExactly);
     alone.others.clear();
     static_cast<void>(checker.judge(alone));

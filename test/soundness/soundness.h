@@ -11,19 +11,18 @@
 
 namespace armloom::soundness {
 
-// Returns the conflict of the two motions with each other, or nullptr if there is none. Ignores
-// conflicts with rests, the scene and an arm's own links.
+// Returns the motions' conflict with each other, or nullptr; other conflicts are ignored.
 [[nodiscard]] const Conflict* between_motions(const Verdict& verdict);
 
-// Returns the time after the question's time at which the motions, both as planned, first enter a
-// region of a Coordinated verdict (seconds); nullopt if never.
+// Returns the time (s) after the question's time at which the planned motions enter a region of a
+// Coordinated verdict; nullopt if never.
 [[nodiscard]] std::optional<double> first_in_regions_s(const Verdict& regions,
                                                        const MovingPair& pair);
 
-// Result of the discrete check with one step size for pairs that truly collide (distance <= 0).
+// Discrete check of pairs that truly collide (distance <= 0).
 struct DiscreteRow {
   double step_s;
-  // With the cell's clearance, and with zero clearance as in the paper.
+  // With the cell's clearance, and with none as in the paper.
   struct Missed {
     std::size_t pairs = 0;
     double deepest_m = 0.0;  // smallest true distance among them
@@ -31,7 +30,7 @@ struct DiscreteRow {
   } with_clearance, without;
 };
 
-// Result of certified regions for all pairs, with motions as planned.
+// Certified regions of all pairs, with motions as planned.
 struct Report {
   std::size_t pairs = 0;
   std::size_t colliding = 0;  // true smallest distance <= 0
@@ -54,7 +53,7 @@ struct Report {
 };
 inline constexpr double kLoose_m = 0.05;
 
-// Measures `count` pairs of two Pandas; discrete checks with these steps.
+// Measures pairs of two Pandas, with discrete checks at these steps.
 [[nodiscard]] Report measure(std::size_t count, std::uint64_t seed,
                              const std::vector<double>& steps_s);
 void print_markdown(const Report& report, std::ostream& out);

@@ -39,7 +39,6 @@ bool filters(std::size_t states, std::uint64_t seed) {
   return sound;
 }
 
-// Checks the distances of surfaces (surface_check.h).
 bool surfaces(std::size_t count, std::uint64_t seed) {
   const SurfaceReport report = check_surfaces(count, seed);
   std::cout << "| pairs | apart | in contact | of these one inside of the other | apart though "
@@ -52,7 +51,7 @@ bool surfaces(std::size_t count, std::uint64_t seed) {
   return report.too_far == 0 && report.false_contacts == 0;
 }
 
-// Reports what stays open for two Pandas with a clearance of 5 mm and a tracking error of 1 mrad.
+// Reports pairs that stay open at 5 mm clearance and 1 mrad tracking error.
 bool open(std::size_t count, std::uint64_t seed) {
   const struct {
     const char* name;
@@ -78,8 +77,8 @@ bool open(std::size_t count, std::uint64_t seed) {
 }  // namespace
 }  // namespace armloom::soundness
 
-// soundness pairs|filter|open|surfaces [count [seed]]: prints the tables of
-// test/soundness/README.md. Fails if a claim of that README is violated.
+// soundness pairs|filter|open|surfaces [count [seed]]: prints a table of README.md; fails if a
+// claim is violated.
 int main(int argc, char** argv) {
   using namespace armloom::soundness;
   try {

@@ -1,5 +1,5 @@
-// Compares the separation that the filter claims along one direction, in every stretch of a motion,
-// with the same capsules anywhere on their paths.
+// Compares the claimed separation in every stretch of a motion with capsules anywhere on their
+// paths.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr int kLanes = filter::kLanes;
 constexpr double kMargin_m = 2e-6;
 constexpr double kLoose = 0.001;  // rad or m: deviation of each joint from its line
 
-// A line in joint space in eight stretches, and the positions of its capsules in between.
+// A line in joint space in eight stretches.
 class Passing {
  public:
   Passing(std::mt19937_64& random, double way_max) : linkage_(random) {
@@ -42,7 +42,7 @@ class Passing {
     return {at_.data() + capsule * 6 * kLanes, stretches_.data() + capsule * 6 * kLanes,
             sweeps_.data() + capsule * filter::kSweep * kLanes, 0, kLanes};
   }
-  // Returns the capsule at eight random states along the line, each off the line by up to kLoose.
+  // Returns the capsule at eight random states, off the line by up to kLoose.
   [[nodiscard]] std::vector<CenteredSegment> somewhere(int capsule, std::mt19937_64& random) const {
     std::vector<double> shares;
     for (int lane = 0; lane < kLanes; ++lane) shares.push_back(uniform(random, -1.0, 1.0));
@@ -98,7 +98,6 @@ class Passing {
   std::vector<float> at_, stretches_, sweeps_;
 };
 
-// Also checks that the claims are tight: some pair comes close to its claimed separation.
 TEST(Stretches, BoundIsSoundAndTight) {
   std::mt19937_64 random(53);
   std::size_t pairs = 0;

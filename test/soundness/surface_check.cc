@@ -21,11 +21,10 @@ using Model = fcl::BVHModel<fcl::OBBRSSd>;
 constexpr double kFclRounding_m = 1e-9;  // of FCL's distances of triangles
 constexpr double kLimit_m = 0.1;
 
-// A solid in the engine's form and as reference.
 struct Shown {
   std::vector<ConvexShape> shapes;
   CollisionBody body;
-  MeshPtr mesh;  // the reference: consistently oriented; for a primitive: inscribed
+  MeshPtr mesh;  // the reference; for a primitive: inscribed
   std::vector<std::uint32_t> components;
   std::shared_ptr<Model> model;
   bool is_mesh = true;
@@ -45,8 +44,7 @@ std::shared_ptr<Model> model_of(const MeshData& mesh) {
 // Returns points on the primitive's surface; their hull is inscribed.
 std::vector<Eigen::Vector3d> points_of(const std::vector<PlacedShape>& shapes) {
   std::vector<Eigen::Vector3d> points;
-  constexpr int kAround = 16;  // convex_hull() simplifies points with many corners, which makes the
-                               // hull too large
+  constexpr int kAround = 16;  // more corners would be simplified
   for (const PlacedShape& placed : shapes) {
     const auto add = [&](double x, double y, double z) {
       points.emplace_back(placed.X_LS * Eigen::Vector3d(x, y, z));
@@ -140,8 +138,8 @@ double surfaces_m(const Shown& a, const Eigen::Isometry3d& X_WA, const Shown& b,
   return std::max(0.0, d);
 }
 
-// For surfaces that do not touch: returns true if a component of the inner mesh lies inside the
-// outer one, decided by any of its vertices.
+// For surfaces that do not touch: returns true if a component of the inner mesh is inside the outer
+// mesh.
 bool holds(const Shown& outer, const Shown& inner, const Eigen::Isometry3d& X_OI) {
   for (std::size_t i = 0; i < inner.components.size(); ++i) {
     if (inner.components[i] != i) continue;
@@ -167,7 +165,6 @@ class Checker {
     const Eigen::Isometry3d X_WA = random_turn(random_);
     for (int placing = 0; placing < 4; ++placing) {
       Eigen::Isometry3d X_WB = random_turn(random_);
-      // From the middle of the first solid outwards.
       const Eigen::Vector3d way(between(random_, -1, 1), between(random_, -1, 1),
                                 between(random_, -1, 1));
       X_WB.translation() = between(random_, 0.0, small_one ? 0.3 : 0.45) * way.normalized();
@@ -203,7 +200,6 @@ class Checker {
 
   static double distance(const Shown& a, const Eigen::Isometry3d& X_WA, const Shown& b,
                          const Eigen::Isometry3d& X_WB, double limit_m) {
-    // One list of shapes, as in a scene.
     std::vector<ConvexShape> shapes = a.shapes;
     shapes.insert(shapes.end(), b.shapes.begin(), b.shapes.end());
     CollisionBody body_b = b.body;

@@ -9,14 +9,12 @@
 
 namespace armloom::soundness {
 
-// Compares the distances of concave meshes with FCL's distances of the same triangles, and with
-// solid angles.
+// Compares distances of concave meshes with FCL's for the same triangles, and with solid angles.
 struct SurfaceReport {
   std::size_t pairs = 0;
   std::size_t apart = 0;  // true separations
   std::size_t in_contact = 0;
-  std::size_t inside = 0;             // of these, surfaces that do not touch: one contains the
-                                      // other
+  std::size_t inside = 0;             // of these, one contains the other
   std::size_t opened = 0;             // apart, although convex pieces are closer than 1 mm
   std::size_t too_far = 0;            // computed distances above the true distance: must be 0
   double worst_m = 0.0;               // largest excess
@@ -26,12 +24,11 @@ struct SurfaceReport {
   std::vector<std::string> failures;  // the first few
 };
 
-// Checks `pairs` random pairs near each other, or one inside the other: concave meshes, noisy
-// meshes, meshes with loose components or flipped triangles. Every fourth mesh is checked against a
-// box, cylinder, capsule or sphere, whose reference is an inscribed mesh.
+// Checks random pairs near each other or one inside the other: concave meshes, also noisy, with
+// loose components or with flipped triangles. Every fourth is against a primitive, whose reference
+// is inscribed.
 [[nodiscard]] SurfaceReport check_surfaces(std::size_t pairs, std::uint64_t seed);
 
-// Returns the distance of two triangles.
 [[nodiscard]] double triangles_by_fcl(const TrianglePoints& a, const TrianglePoints& b);
 
 }  // namespace armloom::soundness

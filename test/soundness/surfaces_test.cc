@@ -84,7 +84,6 @@ TEST(Surfaces, EnclosePointsInsideTwice) {
   EXPECT_GE(outside, 500);
 }
 
-// Pairs closer than a limit are found with and without computing the distance.
 TEST(Surfaces, CloserThanAgreesWithTheDistance) {
   std::mt19937_64 random(53);
   int closer = 0;
@@ -107,7 +106,6 @@ TEST(Surfaces, CloserThanAgreesWithTheDistance) {
   EXPECT_GE(closer, 500);
 }
 
-// A rough distance is never too large, not smaller than allowed, and exact if required.
 TEST(Surfaces, RoughDistanceIsWithinItsTolerance) {
   std::mt19937_64 random(54);
   constexpr Roughness kRough{0.02, 0.01};
@@ -139,7 +137,6 @@ TEST(Surfaces, RoughDistanceIsWithinItsTolerance) {
   EXPECT_GE(exact, 20);
 }
 
-// Overlaps that the inner balls of two solids prove without a distance.
 TEST(InnerBalls, ProveMostOverlapsAndNothingElse) {
   std::mt19937_64 random(55);
   const Eigen::Isometry3d X_WA = Eigen::Isometry3d::Identity();
@@ -176,10 +173,8 @@ TEST(InnerBalls, ProveMostOverlapsAndNothingElse) {
   EXPECT_GE(proven, overlaps / 3);
 }
 
-// Checks that the closest pair is the closest of all near pairs.
 void expect_the_closest(small::ScaledQuery& checker, const Configuration& q) {
-  constexpr double kHorizon_m = kSurfaceWithin_m;  // farther pairs may be reported by their pieces'
-                                                   // distance
+  constexpr double kHorizon_m = kSurfaceWithin_m;  // beyond, distances may be of pieces
   const std::vector<NearPair> near = checker.near(q, kHorizon_m);
   double least_m = kHorizon_m;
   for (const NearPair& pair : near) {
@@ -191,7 +186,7 @@ void expect_the_closest(small::ScaledQuery& checker, const Configuration& q) {
   EXPECT_NEAR(std::max(closest_m, 0.0), std::max(least_m, 0.0), 1e-9);
 }
 
-// Eight states at once, inner balls first, compared with the distances of all pairs.
+// Eight states at once, inner balls first.
 TEST(Surfaces, StateChecksAgreeWithDistances) {
   std::mt19937_64 random(56);
   std::size_t close = 0;
@@ -237,7 +232,7 @@ TEST(Surfaces, StateChecksAgreeWithDistances) {
   EXPECT_GE(clear, 150U);
 }
 
-// Compares with samples of both triangles, which are never closer than the triangles.
+// Compares with samples, which are never closer than the triangles.
 TEST(Triangles, DistanceIsNeverOverestimated) {
   std::mt19937_64 random(54);
   double shortfall = 0.0;

@@ -1,5 +1,5 @@
-// Compares the claimed separation of bodies and surfaces, whatever the deviations of the joints
-// that carry them, with the same shapes, moved: no claim is ever violated.
+// Compares claimed separations, for any deviation of the carrying joints, with shapes that really
+// moved.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ Isometry3d any_pose(std::mt19937_64& random, const Vector3d& at) {
   return X;
 }
 
-// Returns up to seven joints, mostly revolute, about axes up to a meter away.
+// Up to seven joints, mostly revolute.
 std::vector<MovingAxis> any_axes(std::mt19937_64& random, double span_max) {
   std::vector<MovingAxis> axes(random() % 8);
   const bool drift = random() % 2 == 0;
@@ -51,8 +51,8 @@ std::vector<MovingAxis> any_axes(std::mt19937_64& random, double span_max) {
   return axes;
 }
 
-// Returns the motion of a body that the axes carry. Each joint deviates by its share of `loose`,
-// and all joints by the last share of their drifts.
+// Returns the motion of a body whose joints deviate by their share of `loose`, and all by the last
+// share of their drifts.
 Isometry3d moved(const std::vector<MovingAxis>& axes, const std::vector<double>& share) {
   Isometry3d E = Isometry3d::Identity();
   for (std::size_t j = 0; j < axes.size(); ++j) {
@@ -95,7 +95,6 @@ std::vector<ConvexShape> any_body(std::mt19937_64& random) {
   return make_convex_shapes(shapes);
 }
 
-// Two bodies near each other, each carried by joints.
 struct Two {
   ConvexShape a, b;
   Isometry3d X_WA, X_WB;
@@ -137,7 +136,6 @@ std::vector<double> any_share(std::mt19937_64& random, std::size_t joints) {
   return share;
 }
 
-// Returns the smallest distance over many deviations, including downhill searches.
 double closest(const Two& two, std::mt19937_64& random) {
   double closest_m = 10.0;
   for (int i = 0; i < 6; ++i) {
@@ -191,7 +189,7 @@ TEST(Sweeps, AreSoundAndTightForSmallDeviations) {
   const Tally tally = attack(4000, 0.001, 41);
   EXPECT_GE(tally.claims, 2000U);
   EXPECT_EQ(tally.undercut, 0U);
-  // A bound by levers would lose about 2.5 mm: half a milliradian at 0.7 m, seven joints.
+  // A bound by levers would lose about 2.5 mm.
   EXPECT_LE(tally.loss_m / static_cast<double>(tally.claims), 0.0001);
 }
 
@@ -200,7 +198,6 @@ TEST(Sweeps, AreSoundForLargeDeviations) {
   EXPECT_GE(attack(8000, 0.3, 43).claims, 200U);
 }
 
-// The solids of the same bodies: triangles and radii, which also represent pieces of meshes.
 TEST(Sweeps, AreSoundForSurfaces) {
   std::mt19937_64 random(44);
   std::size_t said = 0;

@@ -102,7 +102,6 @@ Truth TruthSampler::of(const MovingPair& pair) {
     return one.at(t_s) + two.at(t_s);
   };
   const std::size_t count = samples(pair);
-  // Evaluates some samples first, so that most other samples can be skipped.
   double bound_m = kHorizon_m;
   std::size_t looked_at = 0;
   for (std::size_t k = 0; k <= count; k += 100, ++looked_at) {
@@ -116,7 +115,6 @@ Truth TruthSampler::of(const MovingPair& pair) {
     const double distance_m = at(pair, t_s, matters_m + 0.15);
     ++truth.looked_at;
     note(truth, distance_m, t_s, clearance_m);
-    // The first sample at which the arms can be closer than the relevant distance.
     const double room_m = distance_m - matters_m - kRounding_m + travelled(k);
     std::size_t near = k + 1;
     std::size_t far = count + 1;

@@ -8,12 +8,11 @@
 
 namespace armloom::soundness {
 
-// Random pairs of motions of two Pandas with a clearance of only kCloseClearance_m that the check
-// leaves open at the highest effort (core/coordination/effort.h). For Coordinated: pairs with a
-// region in which no conflict is proven.
+// Pairs of motions with a clearance of kCloseClearance_m that stay open at the highest effort
+// (core/coordination/effort.h). For Coordinated: with a region in which no conflict is proven.
 struct OpenPair {
   std::size_t pair;
-  double keeps_m;  // smallest distance found near the open states, with all deviations tried
+  double keeps_m;  // smallest distance found near the open states
 };
 struct OpenPairs {
   std::size_t pairs = 0;

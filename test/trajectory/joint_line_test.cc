@@ -18,7 +18,6 @@ using testing::random_spline;
 using testing::SplineScale;
 using testing::uniform;
 
-// Returns a cell without limit tolerance, and with jerk limits that matter.
 Cell strict_cell() {
   Cell cell = testing::test_cell();
   cell.checking.limit_tolerance = 0.0;
@@ -35,8 +34,7 @@ Eigen::VectorXd random_place(std::mt19937_64& random, const Cell& cell,
   return q;
 }
 
-// Returns the largest share of a limit that the motion uses. The jerk is the difference of
-// accelerations.
+// Returns the largest share of a limit that is used; jerk by differences.
 double share_of(const Cell& cell, const Trajectory& line) {
   double share = 0.0;
   const Duration step = line.duration() / 4000;
@@ -132,7 +130,6 @@ TEST(JointLine, IsValidatedLikeEveryTrajectory) {
                std::invalid_argument);
 }
 
-// Returns a random spline that is slow enough for the limits.
 TrajectoryPtr valid_spline(std::mt19937_64& random, const Cell& cell, bool quintic) {
   const SplineScale slow{.reach = 0.3, .shortest_s = 1.0, .longest_s = 2.0};
   return validate(random_spline(random, slow, quintic), cell).value();
@@ -183,8 +180,7 @@ TEST(Retraced, TwiceIsTheOriginalMotion) {
   }
 }
 
-// A motion accepted by validate() must be accepted in reverse too, as waypoints and with all
-// checks.
+// Checks the reversed motion again with validate().
 TEST(Retraced, KeepsEveryLimitOfTheCell) {
   std::mt19937_64 random(15);
   const Cell cell = strict_cell();

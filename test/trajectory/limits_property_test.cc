@@ -14,7 +14,7 @@ namespace {
 using testing::random_spline;
 using testing::uniform;
 
-// Limits of joints pair_a and pair_b, including the cell's tolerance of 0.05.
+// Limits of pair_a and pair_b, with the tolerance of 0.05.
 constexpr double kPositionMax = 2.8;
 constexpr double kVelocityMax = 2.0 * 1.05;
 constexpr double kAccelerationMax = 4.0 * 1.05;
@@ -27,7 +27,6 @@ void scale(TrajectoryRequest& request, double factor) {
   }
 }
 
-// Returns the motion without limits, to examine a motion that validate() would reject.
 TrajectoryPtr unlimited(const TrajectoryRequest& request, Cell cell) {
   for (Joint& joint : cell.joints) {
     joint.lower = -1e6;
@@ -38,7 +37,6 @@ TrajectoryPtr unlimited(const TrajectoryRequest& request, Cell cell) {
 
 struct Peak {
   double position = 0.0, velocity = 0.0, acceleration = 0.0;
-  // Returns the largest share of a limit that is used.
   [[nodiscard]] double share() const {
     return std::max(
         {position / kPositionMax, velocity / kVelocityMax, acceleration / kAccelerationMax});
@@ -66,7 +64,7 @@ Peak peak_of(const Trajectory& trajectory, Duration step) {
 constexpr Duration kCoarse = std::chrono::milliseconds(2);  // sufficient for scaling
 constexpr Duration kDense = std::chrono::microseconds(100);
 
-// Splines are scaled so that their peaks are just below, just above, or far from a limit.
+// Peaks are scaled to just below, just above, or far from a limit.
 TEST(LimitsProperty, ValidationAgreesWithDenseSampling) {
   const Cell cell = testing::test_cell();
   std::mt19937_64 random(20240611);
@@ -98,8 +96,7 @@ TEST(LimitsProperty, ValidationAgreesWithDenseSampling) {
   EXPECT_GE(refused, 250);
 }
 
-// The motion must reach the reported value at the reported place; the value must not be a mere
-// bound.
+// The reported value must be reached at the reported place.
 TEST(LimitsProperty, ReportedValueIsReachedByTheMotion) {
   const Cell cell = testing::test_cell();
   std::mt19937_64 random(7);
@@ -114,8 +111,7 @@ TEST(LimitsProperty, ReportedValueIsReachedByTheMotion) {
     const auto result = validate(request, cell);
     ASSERT_FALSE(result);
     double share = 0.0;
-    bool at_waypoint = false;  // in this case validate() does not search the adjacent segments for
-                               // their worst value
+    bool at_waypoint = false;  // then adjacent segments are not searched for their worst value
     for (const Problem& problem : result.error()) {
       const double value = std::abs(std::get<double>(problem.value));
       const double limit = problem.slug == "position-limit"   ? kPositionMax

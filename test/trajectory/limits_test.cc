@@ -6,8 +6,8 @@
 #include "core/trajectory/validate.h"
 #include "test/trajectory/test_cell.h"
 
-// Tests of rest and limits, at and between waypoints. The limits of pair_a and pair_b are 2.8 rad,
-// 2 rad/s and 4 rad/s^2; the tolerance of 0.05 makes the last two 2.1 rad/s and 4.2 rad/s^2.
+// Limits of pair_a and pair_b: 2.8 rad, 2 rad/s and 4 rad/s^2; with the tolerance of 0.05, 2.1
+// rad/s and 4.2 rad/s^2.
 namespace armloom {
 namespace {
 
@@ -20,7 +20,6 @@ TrajectoryRequest pair_request(const std::vector<Knot>& knots) {
   return request_of({"pair_a", "pair_b"}, knots);
 }
 
-// Returns the same request with accelerations, all zero.
 TrajectoryRequest quintic_request(const std::vector<Knot>& knots) {
   TrajectoryRequest request = pair_request(knots);
   for (WaypointRequest& point : request.points) point.accelerations = {0.0, 0.0};
@@ -34,8 +33,7 @@ Problems refused(const TrajectoryRequest& request, const Cell& cell = test_cell(
 }
 bool accepted(const TrajectoryRequest& request) { return refused(request).empty(); }
 
-// Expects two problems that differ only in the joint's name, because both joints of pair move
-// alike; checks the first.
+// Expects the same problem for both joints, which move alike; checks the first.
 void expect_between(const TrajectoryRequest& request, const std::string& slug,
                     const std::string& pointer, double value, const std::string& detail) {
   const Problems problems = refused(request);
@@ -57,7 +55,7 @@ TEST(Limits, TooFastWaypointIsReportedWithPlaceAndValue) {
   EXPECT_EQ(problems[0].pointer, "/points/14/velocities/3");
   EXPECT_EQ(problems[0].value, decltype(Problem::value){3.41});
   EXPECT_EQ(problems[0].detail, "waypoint 14, left_panda_joint4: 3.41 rad/s exceeds 2.175");
-  // Only accelerations of the segments on both sides remain; the speed is reported once.
+  // The remaining problems are accelerations of the adjacent segments.
   for (std::size_t i = 1; i < problems.size(); ++i) {
     EXPECT_EQ(problems[i].slug, "acceleration-limit");
   }
@@ -75,10 +73,10 @@ TEST(Limits, PositionsMayExceedALimitByAMicroradian) {
 }
 
 TEST(Limits, VelocityAndAccelerationMayExceedALimitByTheTolerance) {
-  // A cubic from rest to rest reaches its largest speed, 1.5 D / T, in the middle.
+  // Largest speed 1.5 D / T, in the middle.
   EXPECT_TRUE(accepted(pair_request({{0, -2, 0}, {3, -2 + 4.2, 0}})));
   EXPECT_FALSE(accepted(pair_request({{0, -2, 0}, {3, -2 + 4.2 + 1e-6, 0}})));
-  // Its largest acceleration, 6 D / T^2, is at both ends.
+  // Largest acceleration 6 D / T^2, at both ends.
   EXPECT_TRUE(accepted(pair_request({{0, 0, 0}, {1, 0.7, 0}})));
   EXPECT_FALSE(accepted(pair_request({{0, 0, 0}, {1, 0.7 + 1e-6, 0}})));
 
@@ -107,12 +105,11 @@ TEST(Limits, FindsExcessVelocityInsideACubic) {
 }
 
 TEST(Limits, FindsExcessPositionInsideACubic) {
-  // From 2.79 rad at 0.2 rad/s to 2.79 rad at -0.2 rad/s in 1 s: overshoots by 0.05 rad in between.
+  // From 0.2 rad/s to -0.2 rad/s in 1 s: overshoots 2.79 rad by 0.05 rad.
   const TrajectoryRequest request =
       pair_request({{0, 1.5, 0}, {3, 2.79, 0.2}, {4, 2.79, -0.2}, {7, 1.5, 0}});
   expect_between(request, "position-limit", "/points/2", 2.84,
                  "between waypoints 1 and 2 (t = 3.5 s), pair_a: 2.84 rad exceeds 2.8");
-  // An overshoot of 0.00009 is accepted, 0.00011 is not.
   const auto swing = [](double rad) {
     return pair_request({{0, 2, 0}, {3, 2.8, 4 * rad}, {4, 2.8, -4 * rad}, {7, 2, 0}});
   };
@@ -121,7 +118,7 @@ TEST(Limits, FindsExcessPositionInsideACubic) {
 }
 
 TEST(Limits, ChecksAccelerationOnBothSidesOfAWaypoint) {
-  // 6 D / T^2 = 4.5 at the start of the second segment and -4.5 at its end; 0 in the others.
+  // 6 D / T^2 = 4.5 at the start of the second segment, -4.5 at its end.
   const Problems problems =
       refused(pair_request({{0, 0, 0}, {1, 0, 0}, {2, 0.75, 0}, {3, 0.75, 0}}));
   ASSERT_EQ(problems.size(), 2u);
@@ -132,10 +129,10 @@ TEST(Limits, ChecksAccelerationOnBothSidesOfAWaypoint) {
 }
 
 TEST(Limits, FindsExcessInsideAQuintic) {
-  // Minimum-jerk motion: the largest speed, 1.875 D / T, is in the middle.
+  // Minimum jerk: largest speed 1.875 D / T, in the middle.
   expect_between(quintic_request({{0, -1.5, 0}, {3, 2.0, 0}}), "velocity-limit", "/points/1",
                  2.1875, "between waypoints 0 and 1 (t = 1.5 s), pair_a: 2.1875 rad/s exceeds 2");
-  // The largest acceleration, 10 / sqrt(3) D / T^2, is at (1/2 -+ sqrt(3)/6) T.
+  // Largest acceleration 10 / sqrt(3) D / T^2 at (1/2 -+ sqrt(3)/6) T.
   const Problems problems = refused(quintic_request({{0, 0, 0}, {1, 0.75, 0}}));
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_EQ(problems[0].slug, "acceleration-limit");

@@ -99,7 +99,7 @@ TEST(Polynomial, WorstOutsideReturnsTimeAndValue) {
   ASSERT_TRUE(below);
   EXPECT_DOUBLE_EQ(below->t_s, 1.0);
   EXPECT_NEAR(below->value, 0.51, 1e-12);
-  // Exceeds both limits: the larger excess is returned.
+  // Exceeds both limits: the larger excess counts.
   EXPECT_NEAR(worst_outside(hill, 1.0, {0.6, 0.9})->value, 1.0, 2e-9);
   EXPECT_NEAR(worst_outside(hill, 1.0, {0.7, 0.9})->value, 0.51, 1e-12);
 }
@@ -107,7 +107,6 @@ TEST(Polynomial, WorstOutsideReturnsTimeAndValue) {
 TEST(Polynomial, AcceptsALimitThatIsTouchedExactly) {
   const Polynomial constant = {2.175, 0.0, 0.0, 0.0, 0.0, 0.0};
   EXPECT_FALSE(worst_outside(constant, 3.0, {-2.175, 2.175}));
-  // Rounding noise is no excess either; a larger excess is.
   EXPECT_FALSE(worst_outside({2.1750000000000003, 0.0, 0.0, 0.0, 0.0, 0.0}, 3.0, {-2.175, 2.175}));
   EXPECT_TRUE(worst_outside(constant, 3.0, {-2.175, 2.17499}));
 }
@@ -127,7 +126,6 @@ TEST(Polynomial, WorstOutsideAgreesWithDenseSamples) {
     }
     if (!found) continue;
     ++broken;
-    // The reported value is reached at the reported time, and no sample is worse.
     EXPECT_GT(std::abs(found->value), limit);
     EXPECT_NEAR(evaluate(p, found->t_s), found->value, 1e-9 * std::abs(found->value)) << i;
     EXPECT_GE(std::abs(found->value), worst - 1e-8 * worst) << i;

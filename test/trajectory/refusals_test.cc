@@ -7,7 +7,7 @@
 #include "core/trajectory/validate.h"
 #include "test/trajectory/test_cell.h"
 
-// Tests names and shape: every rejection with its slug, pointer and value (defect T12 among them).
+// Every rejection with its slug, pointer and value (defect T12 among them).
 namespace armloom {
 namespace {
 
@@ -25,7 +25,6 @@ Problems refused(const TrajectoryRequest& request) {
   return result.error();
 }
 
-// Expects exactly one problem.
 void expect_only(const TrajectoryRequest& request, const std::string& slug,
                  const std::string& pointer, const Value& value,
                  ProblemKind kind = ProblemKind::invalid) {

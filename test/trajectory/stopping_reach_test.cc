@@ -8,8 +8,7 @@
 #include "core/trajectory/validate.h"
 #include "test/trajectory/test_cell.h"
 
-// Compares stopping_reach_s() with a brake simulated step by step from every instant of a motion.
-// The joints of `pair` brake with 8 rad/s^2.
+// Compares stopping_reach_s() with simulated brakes. The joints of `pair` brake with 8 rad/s^2.
 namespace armloom {
 namespace {
 

@@ -11,7 +11,6 @@
 #include "core/model/cell.h"
 #include "core/trajectory/validate.h"
 
-// A handmade cell, so that these tests need no robot files.
 namespace armloom::testing {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -29,7 +28,7 @@ inline JointId add_joint(Cell& cell, const std::string& name, std::optional<ArmI
   return JointId(static_cast<std::uint32_t>(cell.joints.size() - 1));
 }
 
-// Adds seven joints with a Panda's limits (accelerations as in the scenario's cell) and one finger.
+// Adds seven joints with a Panda's limits and one finger.
 inline void add_panda(Cell& cell, const std::string& name) {
   const Limits panda[] = {{-2.8973, 2.8973, 2.175}, {-1.7628, 1.7628, 2.175},
                           {-2.8973, 2.8973, 2.175}, {-3.0718, -0.0698, 2.175},
@@ -56,9 +55,8 @@ inline void add_pair_arm(Cell& cell) {
   cell.arms.push_back(arm);
 }
 
-// Returns a cell with arms left, right (Pandas, ids 0 and 1), pair (2), wheel (3: one continuous
-// joint), lift (4: one prismatic joint, 0..1 m, 0.5 m/s, 2 m/s^2), and a joint "loose_hinge" of no
-// arm.
+// Arms left, right (Pandas, ids 0 and 1), pair (2), wheel (3: one continuous joint), lift (4: one
+// prismatic joint, 0..1 m, 0.5 m/s, 2 m/s^2), and a joint "loose_hinge" of no arm.
 inline Cell test_cell() {
   Cell cell;
   cell.name = "test";
@@ -84,8 +82,8 @@ inline std::vector<std::string> panda_joint_names(const std::string& arm) {
   return names;
 }
 
-// Returns a motion of `count` waypoints, 0.1 s apart, within every limit and without accelerations.
-// All joints of a Panda at the scenario's home move there and back by up to 0.05 rad.
+// Returns a valid motion of a Panda near home: `count` waypoints, 0.1 s apart, without
+// accelerations; all joints move up to 0.05 rad and back.
 inline TrajectoryRequest quiet_panda_request(const std::string& arm, std::size_t count = 20) {
   const std::vector<double> home = {0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785};
   TrajectoryRequest request{panda_joint_names(arm), {}};
@@ -105,7 +103,6 @@ inline TrajectoryRequest quiet_panda_request(const std::string& arm, std::size_t
   return request;
 }
 
-// A waypoint {time, position, velocity}, the same for all joints.
 struct Knot {
   double time_s;
   double position;

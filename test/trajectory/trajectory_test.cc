@@ -15,8 +15,8 @@ namespace {
 using namespace std::chrono_literals;
 using testing::test_cell;
 
-// The interpolation documented by ROS's joint_trajectory_controller, written independently of
-// core/trajectory: Hermite basis functions of u = t / T, for p and its first two derivatives.
+// The interpolation of ROS's joint_trajectory_controller, written independently: Hermite basis
+// functions of u = t / T, with two derivatives.
 struct Reference {
   double position, velocity, acceleration;
 };
@@ -59,7 +59,6 @@ Reference hermite_quintic(const WaypointRequest& a, const WaypointRequest& b, st
   return r;
 }
 
-// Returns four waypoints at uneven times, different for both joints of "pair".
 TrajectoryRequest uneven_request(bool with_accelerations) {
   TrajectoryRequest request{{"pair_a", "pair_b"},
                             {{{0.0, 1.0}, {0.0, 0.0}, {0.3, -0.2}, 0.0},
@@ -78,7 +77,7 @@ TrajectoryPtr accepted(const TrajectoryRequest& request) {
   return *result;
 }
 
-// Returns the largest difference to the reference over 1000 instants of each segment.
+// Largest difference over 1000 instants of each segment.
 Reference largest_difference(const TrajectoryRequest& request, bool quintic) {
   const TrajectoryPtr trajectory = accepted(request);
   Reference worst{0.0, 0.0, 0.0};
@@ -188,8 +187,7 @@ TEST(Trajectory, SamplePositionsAgreesWithSample) {
 TEST(Trajectory, FindsTheSegmentForAnyNumberOfSegments) {
   for (std::size_t count = 2; count < 40; ++count) {
     const TrajectoryRequest request = testing::quiet_panda_request("left", 40);
-    TrajectoryRequest part{request.joint_names, {}};  // at rest at all waypoints, each at another
-                                                      // position
+    TrajectoryRequest part{request.joint_names, {}};  // at rest at all waypoints
     for (std::size_t k = 0; k < count; ++k) {
       part.points.push_back(
           {request.points[k].positions, std::vector<double>(7, 0.0), {}, static_cast<double>(k)});

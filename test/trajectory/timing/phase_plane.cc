@@ -23,8 +23,7 @@ double acceleration(const Slope& q, const JointRates& rates, double x, double si
   return sign * most;
 }
 
-// Returns the largest x at which the range of accelerations is not empty and no velocity limit is
-// exceeded.
+// Returns the largest x with a non-empty range of accelerations within the velocity limits.
 double fastest(const Slope& q, const JointRates& rates) {
   double x = 1e6;
   for (Eigen::Index j = 0; j < q.first.size(); ++j) {

@@ -5,12 +5,11 @@
 
 namespace armloom::testing {
 
-// Returns the least time along a path from rest to rest within velocity and acceleration limits.
-// Uses the phase plane (Bobrow, Dubowsky and Gibson 1985; Shin and McKay 1985) at `steps` even
-// steps of s. The speed is bounded by the maximum velocity curve, by the largest acceleration from
-// the start, and by the largest deceleration to the end. Path derivatives are differences of
-// positions; no code is shared with the code under test. With more steps the result decreases to
-// the true time, or rises to it if the maximum velocity curve itself cannot be followed.
+// Returns the least time along a path from rest to rest within velocity and acceleration limits, at
+// `steps` even steps of s. Phase plane (Bobrow, Dubowsky and Gibson 1985; Shin and McKay 1985): the
+// speed is bounded by the maximum velocity curve, and by the largest acceleration and deceleration.
+// Shares no code with the code under test. With more steps the result decreases to the true time,
+// or rises to it if the curve itself cannot be followed.
 [[nodiscard]] double least_time_s(const JointPath& path, const JointRates& rates,
                                   std::size_t steps);
 

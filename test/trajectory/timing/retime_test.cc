@@ -1,4 +1,3 @@
-// Tests "retime": true, from a client's waypoints to a motion.
 #include "core/trajectory/timing/retime.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +15,6 @@ namespace {
 using ::testing::HasSubstr;
 using testing::random_posture;
 
-// A path of the test cell's left Panda through `points` random postures.
 struct Way {
   explicit Way(std::size_t points, std::uint64_t seed = 1) : cell(testing::test_cell()) {
     std::mt19937_64 random(seed);
@@ -70,8 +68,7 @@ TEST(Retime, PassesEveryWaypointWithinItsTolerance) {
       (*made)->sample(t, state);
       nearest = std::min(nearest, (state.position - at).norm());
     }
-    EXPECT_LT(nearest, kRetimeWithin + 3e-3);  // path deviation, plus the distance between two
-                                               // samples
+    EXPECT_LT(nearest, kRetimeWithin + 3e-3);  // path deviation and sampling
   }
 }
 
@@ -98,7 +95,7 @@ TEST(Retime, UsesTheCellsVelocityFactorUnlessTheRequestOverridesIt) {
   EXPECT_EQ((*way.read())->duration(), fast);
 }
 
-// Recorded every few milliseconds: most waypoints are no corners.
+// Recorded every few milliseconds.
 TEST(Retime, AcceptsDenselySampledPaths) {
   Way way(2);
   Eigen::VectorXd middle(7);
@@ -130,7 +127,7 @@ TEST(Retime, AcceptsDenselySampledPaths) {
   EXPECT_LT(to_seconds((*made)->duration()), 30.0);
 }
 
-// A path back and forth must be kept even if it is shorter than the thinning distance.
+// Shorter than the thinning distance.
 TEST(Retime, KeepsPathsShorterThanTheThinningDistance) {
   Way way(3);
   way.request.points[1] = way.request.points[2] = way.request.points[0];

@@ -18,7 +18,6 @@ using testing::Points;
 using testing::random_posture;
 using testing::wander;
 
-// The test cell's left Panda, with this jerk limit for each joint.
 struct Panda {
   explicit Panda(double jerk) : cell(testing::test_cell()), joints(cell.arms[0].joints) {
     for (Joint& joint : cell.joints) joint.jerk_max = jerk;
@@ -30,8 +29,7 @@ struct Panda {
   std::vector<JointId> joints;
 };
 
-// Samples states every millisecond, as a controller would; the jerk is the difference of two
-// states.
+// Samples every millisecond, as a controller would; the jerk is the difference of two states.
 LimitShares sampled(const Trajectory& trajectory, const JointRates& rates) {
   LimitShares used;
   JointState state, next;
@@ -74,8 +72,7 @@ void expect_at_rest(const TimedMotion& timed, const Eigen::VectorXd& from,
   }
 }
 
-// Returns the duration of the straight line without jerk limit: the triangle or trapezoid of the
-// slowest joint.
+// Returns the duration of the straight line without jerk limit: triangle or trapezoid.
 double trapezoid_s(const JointRates& rates, const Eigen::VectorXd& way) {
   const double v = (rates.velocity.array() / way.array().abs()).minCoeff();
   const double a = (rates.acceleration.array() / way.array().abs()).minCoeff();
@@ -116,7 +113,6 @@ TEST(TimedLine, KeepsJerkLimitsForPathsOfAnyLength) {
   }
 }
 
-// All states are on the straight line, whatever the timing.
 TEST(TimedLine, IsStraight) {
   const Panda panda(200.0);
   std::mt19937_64 random(5);
@@ -181,7 +177,6 @@ TEST(TimedPath, KeepsJerkLimitsAndStaysNearThePath) {
       ASSERT_TRUE(timed) << timed.error().front().detail;
       expect_within(*timed, panda.rates());
       expect_at_rest(*timed, points.front(), points.back());
-      // The motion passes close to every point of the path.
       JointState state;
       Points passed;
       for (Duration t{}; t <= timed->trajectory->duration(); t += 1ms) {
