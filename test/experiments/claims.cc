@@ -39,9 +39,9 @@ class Claims {
     if (!ran(workload, other) || !ran(workload, best_)) return;
     const double share = realised(mean_s(workload, other), mean_s(workload, best_),
                                   mean_bound_s(rows_of(rows_, workload, best_)));
-    say(share >= wanted, workload + ": " + best_ + " realises " + percent(share) + " of what " +
-                             other + " leaves above the lower bound (wanted " + percent(wanted) +
-                             ")");
+    say(share >= wanted, workload + ": " + best_ + " saves " + percent(share) +
+                             " of the time that " + other +
+                             " takes above the lower bound (wanted " + percent(wanted) + ")");
   }
   void shorter(const std::string& workload) {
     if (!ran(workload, "lockstep") || !ran(workload, best_)) return;
@@ -110,8 +110,8 @@ class Claims {
   void turning_pays(const std::string& workload) {
     if (!ran(workload, kFixedOrders) || !ran(workload, "coordinated")) return;
     const double saved = 1.0 - mean_s(workload, "coordinated") / mean_s(workload, kFixedOrders);
-    say(saved >= kTurningSaves, workload + ": orders that may turn save " + percent(saved) +
-                                    " of what orders fixed at admission take (wanted " +
+    say(saved >= kTurningSaves, workload + ": reversible orders save " + percent(saved) +
+                                    " of the makespan with orders fixed at admission (wanted " +
                                     percent(kTurningSaves) + ")");
   }
   void optimum_is_one(const std::string& workload) {

@@ -165,22 +165,22 @@ void print_markdown(const Report& r, std::ostream& out) {
     return text.str();
   };
   out << "| pairs of timed motions | " << r.pairs << " |\n|---|---|\n"
-      << "| truly collide | " << r.colliding << " (" << share(r.colliding, r.pairs) << ") |\n"
+      << "| collide | " << r.colliding << " (" << share(r.colliding, r.pairs) << ") |\n"
       << "| closer than the clearance of 20 mm | " << r.below << " |\n"
       << "| from there to 100 mm | " << r.close << " |\n"
-      << "| exact samples of 0.5 ms that could not be skipped, a pair | "
+      << "| exact samples of 0.5 ms per pair that could not be skipped | "
       << r.truth_samples / std::max<std::size_t>(r.pairs, 1) << " |\n"
       << "| **certified: collisions missed** | " << r.missed_collisions << " |\n"
-      << "| certified: pairs below the clearance called free | " << r.missed << " |\n"
+      << "| certified: pairs below the clearance reported free | " << r.missed << " |\n"
       << "| certified: false alarms among " << r.above << " pairs above clearance + 50 mm | "
       << r.false_alarms << " (" << share(r.false_alarms, r.above) << ") |\n"
-      << "| certified: first state of a region later than the truth's, at most | "
+      << "| certified: first state of a region later than the true one, at most | "
       << milli(r.first_conflict_late_max_s) << " ms |\n"
       << "| certified: evaluations of the two motions, mean / most | "
       << r.evaluations_total / std::max<std::size_t>(r.pairs, 1) << " / " << r.evaluations_max
       << " |\n\n";
   out << "| of the " << r.colliding
-      << " pairs that collide, called free | at clearance 0 | deepest | longest contact | at 20 mm "
+      << " colliding pairs, reported free | at clearance 0 | deepest | longest contact | at 20 mm "
          "| deepest |\n|---|---|---|---|---|---|\n";
   for (const DiscreteRow& row : r.discrete) {
     out << "| every " << row.step_s << " s | " << row.without.pairs << " | "

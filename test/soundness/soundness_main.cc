@@ -41,8 +41,9 @@ bool filters(std::size_t states, std::uint64_t seed) {
 
 bool surfaces(std::size_t count, std::uint64_t seed) {
   const SurfaceReport report = check_surfaces(count, seed);
-  std::cout << "| pairs | apart | in contact | of these one inside of the other | apart though "
-               "pieces are closer than 1 mm | said too far | false contacts | shortfall |\n"
+  std::cout << "| pairs | apart | in contact | of these, one inside the other | apart "
+               "although pieces are closer than 1 mm | distance too large | false contacts | "
+               "shortfall |\n"
                "|---|---|---|---|---|---|---|---|\n| "
             << report.pairs << " | " << report.apart << " | " << report.in_contact << " | "
             << report.inside << " | " << report.opened << " | " << report.too_far << " | "
@@ -58,8 +59,8 @@ bool open(std::size_t count, std::uint64_t seed) {
     CheckMethod method;
   } methods[] = {{"swept", Swept{0.001}}, {"coordinated", Coordinated{0.001}}};
   bool kept = true;
-  std::cout << "| method | pairs | free | conflict | open | each keeps (mm) | evaluations, mean / "
-               "most |\n|---|---|---|---|---|---|---|\n";
+  std::cout << "| method | pairs | free | conflict | open | smallest distance (mm) | evaluations, "
+               "mean / most |\n|---|---|---|---|---|---|---|\n";
   for (const auto& [name, method] : methods) {
     const OpenPairs found = find_open(count, seed, method);
     std::cout << "| " << name << " | " << found.pairs << " | " << found.free << " | "
