@@ -119,10 +119,10 @@ void Executive::Impl::carry_out(const Effect& effect) {
 void Executive::Impl::note_aside(const YieldMove& aside) {
   const std::string arm = cell_->arm(aside.arm).name;
   const std::string blocked = jobs_.key(aside.blocked_job);
-  const OwnJob kind = aside.to_start ? OwnJob::approach : OwnJob::aside;
-  const std::string name = aside.to_start  ? arm + " goes to the start of " + blocked
-                           : aside.returns ? arm + " returns to where it stood"
-                                           : arm + " moves aside for " + blocked;
+  const OwnJob kind = aside.to_start ? OwnJob::move_to_start : OwnJob::retreat;
+  const std::string name = aside.to_start  ? arm + " moves to the start of " + blocked
+                           : aside.returns ? arm + " returns to where it rested"
+                                           : arm + " retreats for " + blocked;
   jobs_.add(aside.job, {jobs_.own_key(kind), name});
   if (aside.to_start) {
     intake_.forget_way_back(aside.arm);
@@ -287,7 +287,7 @@ void Executive::Impl::refused(JobId job, const GuardRefusal& refusal) {
   publisher_.tell(std::move(event), clock_.now);
   publisher_.tell(
       Alert{Alert::Level::error, "job " + jobs_.key(job) + ": " + sentence(refusal, *cell_) +
-                                     "; it goes no farther than before"},
+                                     "; the arm moves no farther than before"},
       clock_.now);
   publisher_.tell_job(publisher_.view(job), clock_.now);
 }

@@ -41,11 +41,11 @@ TrajectoryPtr estimate(const Cell& cell, const MotionGoal& goal, const Configura
 }  // namespace
 
 std::vector<MotionGoal> JobIntake::read_goals(const JobRequest& request, Problems& problems) const {
-  if (request.terms.order == JobOrder::any) {
-    problems.push_back({ProblemKind::invalid, "not-served", "/order",
-                        "a goal's job keeps its place: whether it ends where it begins is not "
-                        "known before it is planned",
-                        to_string(request.terms.order)});
+  if (request.terms.reorderable) {
+    problems.push_back({ProblemKind::invalid, "not-served", "/reorderable",
+                        "a job with a goal cannot be reordered, because its end is not known "
+                        "before it is planned: leave out \"reorderable\"",
+                        "true"});
   }
   auto goals = goals_of(*cell_, {request.arm, request.arms}, *request.move_to, "/move_to");
   if (!goals) {

@@ -50,8 +50,8 @@ Result<JobView> Executive::Impl::replan(const std::string& key) {
   const auto id = jobs_.not_ended(key);
   if (!id) return failure(id.error());
   if (const auto why = why_not_replanned(*scheduler_.find(*id))) {
-    return failure(Problem{ProblemKind::conflict, "no-other-way", "",
-                           "job \"" + key + "\" can be given no other way: " + *why, key});
+    return failure(Problem{ProblemKind::conflict, "no-alternative-path", "",
+                           "job \"" + key + "\" cannot be replanned: " + *why, key});
   }
   step(Replan{*id});
   return publisher_.view(*id);

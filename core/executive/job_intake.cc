@@ -83,12 +83,13 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
                         "an arm is named with move_to; a trajectory's joints say which arms move",
                         request.arm.empty() ? request.arms.front() : request.arm});
   }
-  if (request.terms.approach == Approach::plan &&
+  if (request.terms.move_to_start == MoveToStart::plan &&
       (request.move_to || request.motions().size() > 1)) {
-    problems.push_back({ProblemKind::invalid, "not-served", "/approach",
-                        "a goal's way begins where the arm stands, and alternatives end where they "
-                        "begin: neither has an approach",
-                        to_string(request.terms.approach)});
+    problems.push_back(
+        {ProblemKind::invalid, "not-served", "/move_to_start",
+         "\"move_to_start\" applies only to a job with one trajectory: the path to a "
+         "goal begins where the arm is, and alternatives must begin where it is",
+         to_string(request.terms.move_to_start)});
   }
   if (request.move_to) {
     goals = read_goals(request, problems);
@@ -137,7 +138,7 @@ std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ah
       begin_where_open(**motion, ahead);
       for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
       const bool begins_anywhere =
-          ahead.begins_anywhere || request.terms.approach == Approach::plan;
+          ahead.begins_anywhere || request.terms.move_to_start == MoveToStart::plan;
       if (!begins_anywhere) find_start_elsewhere(*cell_, **motion, ahead.rest, found);
       motions.push_back(std::move(*motion));
     }

@@ -57,7 +57,7 @@ std::string JobRegister::free_key(JobId id) const {
 }
 
 std::string JobRegister::own_key(OwnJob kind) {
-  const std::string begins = kind == OwnJob::approach ? "approach-" : "aside-";
+  const std::string begins = kind == OwnJob::move_to_start ? "move-to-start-" : "retreat-";
   std::uint64_t& next = next_own_[static_cast<std::size_t>(kind)];
   std::string own;
   do {

@@ -27,7 +27,7 @@ std::optional<double> entry(const DiagramPlace& from, const DiagramPlace& to,
   return enters < leaves ? std::optional(enters) : std::nullopt;
 }
 
-std::optional<DiagramMeeting> first_of(DiagramCell::State state,
+std::optional<DiagramContact> first_of(DiagramCell::State state,
                                        const std::vector<DiagramCell>& cells,
                                        const std::array<DiagramPlace, 3>& way) {
   double passed_s = 0.0;
@@ -42,7 +42,7 @@ std::optional<DiagramMeeting> first_of(DiagramCell::State state,
     }
     const double length_s = std::max(to.a_s - from.a_s, to.b_s - from.b_s);
     if (first) {
-      return DiagramMeeting{state, from_seconds(passed_s + *first * length_s),
+      return DiagramContact{state, from_seconds(passed_s + *first * length_s),
                             from_seconds(from.a_s + *first * (to.a_s - from.a_s)),
                             from_seconds(from.b_s + *first * (to.b_s - from.b_s))};
     }
@@ -53,7 +53,7 @@ std::optional<DiagramMeeting> first_of(DiagramCell::State state,
 
 }  // namespace
 
-std::optional<DiagramMeeting> first_met(const std::vector<DiagramCell>& cells, Duration at_a,
+std::optional<DiagramContact> first_met(const std::vector<DiagramCell>& cells, Duration at_a,
                                         Duration at_b, Duration end_a, Duration end_b) {
   const Duration together = std::min(end_a - at_a, end_b - at_b);
   const std::array<DiagramPlace, 3> way{{{to_seconds(at_a), to_seconds(at_b)},

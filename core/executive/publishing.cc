@@ -204,9 +204,9 @@ ArmState Publisher::state_of(ArmId arm) const {
   const bool moves = shown_.motions.moving(arm) && !is_told_of_a_start(arm);
   if (shown_.scheduler.stopped(arm) && !moves) return ArmState::stopped;
   const auto job = shown_.scheduler.occupant(arm);
-  if (job && shown_.scheduler.find(*job)->pausing()) return ArmState::holding;
+  if (job && shown_.scheduler.find(*job)->pausing()) return ArmState::paused;
   if (moves) return ArmState::moving;
-  return job && phase == Phase::stopped ? ArmState::holding : ArmState::idle;
+  return job && phase == Phase::stopped ? ArmState::paused : ArmState::idle;
 }
 
 ArmStatus Publisher::status_of(ArmId arm) const {

@@ -54,7 +54,7 @@ JobView Executive::Impl::accept(PreparedJob prepared) {
     std::string name = cell_->arm(back->arms().front()).name + " returns to where it was left";
     Submit way = intake_.return_of(std::move(back), prepared.terms.priority);
     way.job = scheduler_.next_job();
-    enter(std::move(way), {jobs_.own_key(OwnJob::aside), std::move(name)});
+    enter(std::move(way), {jobs_.own_key(OwnJob::retreat), std::move(name)});
   }
   const JobId id = scheduler_.next_job();
   JobLabel label{std::move(prepared.key), std::move(prepared.name)};

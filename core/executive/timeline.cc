@@ -55,8 +55,8 @@ TimelineLanes lanes_of(const TimelineView& timeline, const Cell& cell) {
   const Status& status = timeline.status;
   const StatusNames names(status, cell);
   TimelineLanes view{
-      .now = timeline.predicted.now, .horizon_legs = timeline.horizon_legs, .lanes = {}};
-  for (const Arm& arm : cell.arms) view.lanes.push_back({.arm = arm.name, .legs = {}});
+      .now = timeline.predicted.now, .horizon_steps = timeline.horizon_steps, .lanes = {}};
+  for (const Arm& arm : cell.arms) view.lanes.push_back({.arm = arm.name, .steps = {}});
   const auto in_lanes_of = [&](const JobView& job, auto change) {
     for (const std::string& arm : job.arms) change(view.lanes[cell.find_arm(arm)->index()]);
   };
@@ -66,7 +66,7 @@ TimelineLanes lanes_of(const TimelineView& timeline, const Cell& cell) {
     if (!job) continue;
     legs.insert(leg.job);
     const TimelineLanes::Leg told = leg_of(leg, status.with_progress(job), cell, names);
-    in_lanes_of(*job, [&](TimelineLanes::Lane& lane) { lane.legs.push_back(told); });
+    in_lanes_of(*job, [&](TimelineLanes::Lane& lane) { lane.steps.push_back(told); });
   }
   status.jobs.each([&](const JobSheet::JobPtr& job) {
     if (is_terminal(job->state) || legs.contains(job->id)) return;

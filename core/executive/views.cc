@@ -10,67 +10,66 @@
 namespace armloom {
 namespace {
 
-// The setting with which the server itself would send `whom` aside.
+// The setting with which `whom` would retreat.
 std::string to_send_aside(const std::string& whom) {
-  return "\"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, which send " +
-         whom + " aside where there is a free way";
+  return "set \"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, so that " +
+         whom + " retreats if a path is free";
 }
 
-// By which an arm may go out of the way.
+// The retreats that are tried.
 std::string ways_aside(const Cell& cell) {
   const std::string known = "back along its last motion, home, ";
   const bool plans = cell.scheduling.on_idle_blocker == OnIdleBlocker::replan;
-  return known + (plans ? "to a named pose of its group, or to a place planned beside the way"
+  return known + (plans ? "to a named pose of its group, or to a planned position clear of the path"
                         : "or to a named pose of its group");
 }
 
-// What would open the way past an arm that stays where it is; nothing while its jobs move it.
+// Hint on how to unblock a job that waits for a resting arm; nullopt if the arm's own jobs will
+// move it.
 std::optional<std::string> opens(const Wait& wait, bool in_vain, const Cell& cell,
                                  const JobNames& names) {
   const std::string arm = "arm " + cell.arm(*wait.arm).name;
   const bool stopped = names.is_stopped(*wait.arm);
   if (names.has_job(*wait.arm)) {
     if (!stopped) return std::nullopt;
-    return arm + " is stopped: resuming it would let its own job move it on";
+    return arm + " is stopped: resume it, and its own job will move it away";
   }
   const std::string begins = arm + (stopped ? " is stopped and has no job: " : " has no job: ");
   const OnIdleBlocker setting = cell.scheduling.on_idle_blocker;
   if (setting == OnIdleBlocker::report) {
-    return begins + (stopped ? "resuming it, and a job" : "one") +
-           " that moves it away would open the way, or " + to_send_aside("it") +
-           (stopped ? " when it is resumed" : "");
+    return begins + (stopped ? "resume it and " : "") + "move it away with another job, or " +
+           to_send_aside("it") + (stopped ? " when it is resumed" : "");
   }
-  const std::string none = "no free way aside was found (" + ways_aside(cell) + "); ";
+  const std::string none = "no free retreat was found (" + ways_aside(cell) + "); ";
   if (in_vain && !stopped)
-    return begins + none + "a job that moves it away would have opened this one";
+    return begins + none + "moving it away with another job would have unblocked this one";
   if (wait.has_no_way_aside && !stopped) {
-    return begins + none + "a job that moves it away would open this one" +
+    return begins + none + "move it away with another job to unblock this one" +
            (setting == OnIdleBlocker::park
-                ? ", or \"on_idle_blocker\": \"replan\", by which ways aside are planned"
+                ? ", or set \"on_idle_blocker\": \"replan\", so that retreats are planned"
                 : "");
   }
-  return begins + (stopped ? "when it is resumed " : "") +
-         "it goes aside where it has a free way (" + ways_aside(cell) +
-         "), else a job that moves it away would open this one";
+  return begins + (stopped ? "when it is resumed " : "") + "it retreats if a path is free (" +
+         ways_aside(cell) + "); otherwise move it away with another job to unblock this one";
 }
 
-// What would open the way past what stands still.
+// Hint on how to unblock a job that waits for an object or a fixed link.
 std::string opens(const Proximity& proximity, const Cell& cell) {
   const bool link = cell.find_link(proximity.body_b).has_value();
-  return proximity.body_b + " stands still: another trajectory" +
-         (link ? "" : ", or the object moved or deleted,") + " would open the way";
+  return proximity.body_b + " does not move: change the trajectory" +
+         (link ? "" : ", or move or delete the object,") + " to unblock this job";
 }
 
-// "a -> b -> a: none of them can move before the next one does", and what would open it.
-std::string deadlock_text(const std::vector<std::string>& ring, const Cell& cell) {
+// "a -> b -> a: each waits for the next one, so none can move", and how to avoid it.
+std::string deadlock_text(const std::vector<std::string>& cycle, const Cell& cell) {
   std::string text;
-  for (const std::string& key : ring) text += key + " -> ";
-  text += ring.front() + ": none of them can move before the next one does; a job before them " +
-          "that moves an arm out of the others' way would open the ring, or ";
+  for (const std::string& key : cycle) text += key + " -> ";
+  text += cycle.front() + ": each waits for the next one, so none can move; submit a job before " +
+          "them that moves an arm out of the others' paths, or ";
   if (cell.scheduling.on_idle_blocker == OnIdleBlocker::report) {
-    return text + to_send_aside("one");
+    return text + to_send_aside("an arm");
   }
-  return text + "a free way aside for one (" + ways_aside(cell) + "), of which none was found";
+  return text + "clear a retreat for one of the arms: none was free (" + ways_aside(cell) + ")";
 }
 
 }  // namespace
@@ -95,43 +94,44 @@ WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names, bool
 namespace {
 
 const char* why_first(const Job& job, std::size_t among) {
-  if (among == 1) return "no other one can";
-  return job.goal ? "no other one arrives sooner" : "no other one makes the plan shorter";
+  if (among == 1) return "no other candidate is possible";
+  return job.goal ? "no other candidate arrives sooner"
+                  : "no other candidate makes the plan shorter";
 }
 
 ChoiceView view_of(const Job& job, const Choice& choice, const Cell& cell, const JobNames& names) {
   ChoiceView view;
-  for (JobId other : choice.jobs) view.among.push_back(names.key(other));
-  for (ArmId arm : choice.arms) view.among.push_back(cell.arm(arm).name);
+  for (JobId other : choice.jobs) view.candidates.push_back(names.key(other));
+  for (ArmId arm : choice.arms) view.candidates.push_back(cell.arm(arm).name);
   const bool by_arm = !choice.arms.empty();
-  view.taken = by_arm ? cell.arm(job.trajectory->arms().front()).name : names.key(job.id);
-  const std::string& first = view.among.front();
-  if (view.taken == first) {
-    view.detail = why_first(job, view.among.size());
+  view.selected = by_arm ? cell.arm(job.trajectory->arms().front()).name : names.key(job.id);
+  const std::string& first = view.candidates.front();
+  if (view.selected == first) {
+    view.detail = why_first(job, view.candidates.size());
   } else if (!choice.saves) {
-    view.detail = first + " could not go as things stood";
+    view.detail = first + " was not possible at the time";
   } else {
-    view.saves_s = to_seconds(*choice.saves);
+    view.time_saved_s = to_seconds(*choice.saves);
     char text[64];
     std::snprintf(
         text, sizeof text,
         job.goal ? "it arrives %.2f s sooner than " : "the plan costs %.2f s less than with ",
-        *view.saves_s);
+        *view.time_saved_s);
     view.detail = text + first;
   }
   for (const Choice::Without& other : choice.without) {
     const std::string& name = cell.arm(other.arm).name;
-    view.among.push_back(name);
+    view.candidates.push_back(name);
     view.detail += "; " + name + " cannot: " + other.why;
   }
   return view;
 }
 
 DetourView view_of(const Detour& detour) {
-  DetourView view{.weighed = static_cast<std::uint64_t>(detour.tries),
-                  .is_taken = detour.is_taken,
-                  .saves_s = {}};
-  if (detour.saves > Duration{}) view.saves_s = to_seconds(detour.saves);
+  DetourView view{.candidates_evaluated = static_cast<std::uint64_t>(detour.tries),
+                  .is_selected = detour.is_taken,
+                  .time_saved_s = {}};
+  if (detour.saves > Duration{}) view.time_saved_s = to_seconds(detour.saves);
   return view;
 }
 
@@ -172,12 +172,12 @@ JobWaysView ways_of(const Job& job, const Cell& cell, const JobNames& names) {
 }
 
 std::vector<std::string> ring_of(const Job& job, const JobNames& names) {
-  std::vector<std::string> ring;
+  std::vector<std::string> cycle;
   for (JobId on_it : job.ring) {
     const std::string key = names.key(on_it);
-    ring.push_back(key.empty() ? "this job" : key);  // that is only asked about
+    cycle.push_back(key.empty() ? "this job" : key);  // that is only asked about
   }
-  return ring;
+  return cycle;
 }
 
 // Of one that has ended. `waits`: as they are told.
@@ -199,7 +199,7 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   JobView view{.id = job.id,
                .key = names.key(job.id),
                .name = names.name(job.id),
-               .state = job.pausing() ? JobState::holding : job.state(),
+               .state = job.pausing() ? JobState::paused : job.state(),
                .terms = job.terms,
                .system_job = job.system_job,
                .times = times_of(job),
@@ -210,14 +210,14 @@ JobView view_of(const Job& job, const Cell& cell, const JobNames& names) {
   for (const Wait& wait : job.waits_on) {
     view.waits_on.push_back(view_of(wait, cell, names, in_vain));
   }
-  view.ring = ring_of(job, names);
+  view.cycle = ring_of(job, names);
   if (job.reason()) view.result = result_of(job, view.waits_on, cell, names);
   return view;
 }
 
 CheckView view_of(const Trial::Outcome& outcome, const Cell& cell, const JobNames& names) {
   CheckView view{.kind = outcome.kind, .scene_version = 0};
-  if (outcome.approach) view.approach_s = to_seconds(*outcome.approach);
+  if (outcome.approach) view.move_to_start_s = to_seconds(*outcome.approach);
   const Job& job = outcome.job;
   if (job.goal && job.choice) view.choice = view_of(job, *job.choice, cell, names);
   if (outcome.starts_in) view.earliest_start_s = to_seconds(*outcome.starts_in);

@@ -12,7 +12,7 @@ JobState Job::state() const {
     return queued->in_backlog ? JobState::backlogged : JobState::queued;
   }
   if (const auto* ended = in<Ended>()) return ended->state;
-  if (in<Held>() != nullptr) return JobState::holding;
+  if (in<Held>() != nullptr) return JobState::paused;
   if (const auto* braking = in<Braking>()) return braking->state;
   const auto* moving = in<Moving>();
   return moving != nullptr && moving->is_under_way ? JobState::running : JobState::scheduled;

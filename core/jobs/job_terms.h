@@ -6,10 +6,10 @@
 
 namespace armloom {
 
-// What becomes of a job when its time in the backlog is over.
+// Handling of a job whose backlog timeout is over.
 enum class OnTimeout {
   abort,   // it expires
-  replan,  // it is planned anew, before it expires (replanning.h)
+  replan,  // it is replanned before it expires (replanning.h)
 };
 [[nodiscard]] constexpr const char* to_string(OnTimeout what) {
   switch (what) {
@@ -21,49 +21,37 @@ enum class OnTimeout {
   return nullptr;
 }
 
-// How an arm comes to where a job begins.
-enum class Approach {
-  none,  // it stands there by then
-  plan,  // one that stands elsewhere at the job's turn is brought there first (approach.h)
+// How an arm gets to a job's start.
+enum class MoveToStart {
+  none,  // the arm must be there at the job's turn
+  plan,  // the server moves it there at the job's turn (approach.h)
 };
-[[nodiscard]] constexpr const char* to_string(Approach how) {
+[[nodiscard]] constexpr const char* to_string(MoveToStart how) {
   switch (how) {
-    case Approach::none:
+    case MoveToStart::none:
       return "none";
-    case Approach::plan:
+    case MoveToStart::plan:
       return "plan";
   }
   return nullptr;
 }
 
-// Whether jobs of one arm that begin and end at one place have to run in the order in which they
-// came. They may change places with each other where each of them says `any`.
-enum class JobOrder { as_given, any };
-[[nodiscard]] constexpr const char* to_string(JobOrder order) {
-  switch (order) {
-    case JobOrder::as_given:
-      return "as_given";
-    case JobOrder::any:
-      return "any";
-  }
-  return nullptr;
-}
-
-// What a job's turn goes by, as its client asks for it: it stands in the request, stays with the
-// job, and is told of it. server/messages/job_terms.h says how each of these is written.
+// A client's terms for a job's turn. server/messages/job_terms.h defines the JSON.
 struct JobTerms {
   int priority = 0;  // larger goes first
-  // In the backlog. Absent: the cell's; of a job of the scheduler it is never absent.
+  // nullopt: the cell's value; always set in the scheduler's jobs.
   std::optional<Duration> backlog_timeout = {};
   OnTimeout on_timeout = OnTimeout::abort;
-  Approach approach = Approach::none;
-  JobOrder order = JobOrder::as_given;
+  MoveToStart move_to_start = MoveToStart::none;
+  // The job may change places with other reorderable jobs of its arm that begin and end where it
+  // does.
+  bool reorderable = false;
 };
 
-// Of these, what can still be changed while the job has not ended; what is absent stays.
+// The terms that can change while the job has not ended; nullopt: unchanged.
 struct AmendedTerms {
   std::optional<int> priority = {};
-  // It counts from when the job first was in conflict: it may be over at once.
+  // Measured from the time of the first conflict, so it may be over at once.
   std::optional<Duration> backlog_timeout = {};
   std::optional<OnTimeout> on_timeout = {};
 };
@@ -73,7 +61,6 @@ inline void apply(const AmendedTerms& amended, JobTerms& terms) {
   if (amended.backlog_timeout) terms.backlog_timeout = amended.backlog_timeout;
   if (amended.on_timeout) terms.on_timeout = *amended.on_timeout;
 }
-// As they are.
 [[nodiscard]] inline AmendedTerms amendable(const JobTerms& terms) {
   return {terms.priority, terms.backlog_timeout, terms.on_timeout};
 }

@@ -43,7 +43,7 @@ void end_as(State& state, Record& record, const AfterStop& after, const char* ca
 // Its arms stand: where it began, or on its path with the motion still told to them.
 void end_at_rest(State& state, Record& record, const AfterStop& after) {
   const bool held = record.job.has_started();
-  end_as(state, record, after, held ? "canceled while holding" : "canceled before it moved");
+  end_as(state, record, after, held ? "canceled while paused" : "canceled before it moved");
   if (held) release(state, record.job.id);
 }
 
@@ -165,7 +165,7 @@ void brake(State& state, Record& record, AfterStop after) {
     ++state.version;
     state.decided.effects.push_back(Brake{job.id});
   }
-  if (next.after.then == Then::hold && job.has_started()) next.state = JobState::holding;
+  if (next.after.then == Then::hold && job.has_started()) next.state = JobState::paused;
   enter(state, record, std::move(next));
   state.jobs.changed(record);
 }

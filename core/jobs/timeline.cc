@@ -95,7 +95,8 @@ class Timetable {
   // The motion before it on an arm never ends.
   [[nodiscard]] std::optional<Wait> behind(std::size_t m) const {
     for (const std::size_t before : chains_.before(m)) {
-      if (is_stuck(before)) return Wait{.kind = Wait::Kind::order, .job = motions_[before].job};
+      if (is_stuck(before))
+        return Wait{.kind = Wait::Kind::predecessor, .job = motions_[before].job};
     }
     return std::nullopt;
   }

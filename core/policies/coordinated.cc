@@ -12,7 +12,7 @@ class CoordinatedPolicy final : public Policy {
  public:
   explicit CoordinatedPolicy(const Cell& cell)
       : tracking_error_(cell.checking.tracking_error_rad),
-        horizon_(static_cast<std::size_t>(cell.scheduling.horizon_legs)) {}
+        horizon_(static_cast<std::size_t>(cell.scheduling.horizon_steps)) {}
 
   std::string_view name() const override { return "coordinated"; }
   std::size_t horizon() const override { return horizon_; }

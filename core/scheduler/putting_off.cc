@@ -95,12 +95,13 @@ bool put_off_where_it_stands(State& state, Record& record) {
 }
 
 void wait_behind(State& state, Record& record, JobId first) {
-  stay_queued(state, record, {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}});
+  stay_queued(state, record,
+              {state.version, {Wait{.kind = Wait::Kind::predecessor, .job = first}}});
 }
 
 void wait_in_turn(State& state, Record& record, JobId first) {
   stay_queued(state, record,
-              {state.version, {Wait{.kind = Wait::Kind::order, .job = first}}, first});
+              {state.version, {Wait{.kind = Wait::Kind::predecessor, .job = first}}, first});
 }
 
 void refuse(State& state, Record& record, const Verdict& verdict) {

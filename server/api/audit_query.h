@@ -7,7 +7,7 @@
 
 namespace armloom {
 
-// The query of GET /audit.
+// The query of GET /audit-log.
 struct AuditQuery : AuditFilter {
   std::size_t limit = query::kPage;
 };

@@ -49,8 +49,8 @@ void get_audit(Call call) {
 std::vector<Route> audit_routes() {
   return {
       {.method = "GET",
-       .path = api_path("/audit"),
-       .id = "listAudit",
+       .path = api_path("/audit-log"),
+       .id = "listAuditLog",
        .tag = "service",
        .summary = "Who did what, when, from where; newest first",
        .text =

@@ -1,4 +1,4 @@
-// Who may move arms by hand, and moves that go on only as long as a button is held.
+// Control, and jogging (hold-to-run): motions that continue only while a client renews a lease.
 #include <chrono>
 #include <memory>
 #include <utility>
@@ -29,7 +29,7 @@ void tell_all(const ApiParts& parts, const std::string& what) {
   parts.loop.post([what](Executive& executive) { executive.alert({Alert::Level::info, what}); });
 }
 
-// What somebody held, who does not any more.
+// Cancels the jog of a client that has lost or given back control.
 void let_go(const ApiParts& parts, const std::optional<Control::Move>& move) {
   if (!move) return;
   parts.loop.post_urgent([job = move->job](Executive& executive) {
@@ -37,12 +37,12 @@ void let_go(const ApiParts& parts, const std::optional<Control::Move>& move) {
   });
 }
 
-// Whose token was withdrawn holds nothing any more. That may be at any time: to be asked once by a
-// verb, which works with what it got.
+// Returns the control after checking its holder: control ends when the holder's token was revoked.
+// Call it once in a request and keep the result, because a token can be revoked at any time.
 Control& control_of(const ApiParts& parts) {
   const auto& holder = parts.control.holder();
   if (holder && holder->token && !parts.guard.caller(holder->token)) {
-    tell_all(parts, "nobody has control: the token of " + holder->who + " was withdrawn");
+    tell_all(parts, "nobody has control: the token of " + holder->who + " was revoked");
     let_go(parts, parts.control.end());
   }
   return parts.control;
@@ -86,7 +86,7 @@ void release_control(Call call) {
   read_body(parts, call.request, call.respond, read_control_key, give_back);
 }
 
-// As the lease is renewed, in the cell's time: until then the job goes on.
+// Returns the cell time at which the job is canceled unless the lease is renewed.
 TimePoint lease_from(const Executive& executive, double lease_s, double speed) {
   return executive.now() + from_seconds(lease_s * speed);
 }
@@ -94,25 +94,25 @@ TimePoint lease_from(const Executive& executive, double lease_s, double speed) {
 Control::Time now() { return std::chrono::steady_clock::now(); }
 
 double lease_s(const ApiParts& parts) {
-  return std::chrono::duration<double>(parts.hold_lease).count();
+  return std::chrono::duration<double>(parts.jog_lease).count();
 }
 
-Response hold_response(int status, const Result<JobView>& job, const ApiParts& parts) {
+Response jog_response(int status, const Result<JobView>& job, const ApiParts& parts) {
   if (!job) return problem_response(job.error());
-  Response response = answer(status, hold_format(), HoldView{*job, lease_s(parts)}, &parts.clock);
+  Response response = answer(status, jog_format(), JogView{*job, lease_s(parts)}, &parts.clock);
   response.is_routine = status == 200;
   return response;
 }
 
-// The job that such a move is: as if it had come by POST /jobs.
-Result<JobRequest> job_of(const HoldRequest& hold, const std::string& arm) {
+// Returns the jog as a job, read like a body of POST /jobs.
+Result<JobRequest> job_of(const JogRequest& hold, const std::string& arm) {
   auto read = read_job_submission(job_text_of(hold, arm));
   if (!read) return failure(std::move(read.error()));
   read->request.body = std::make_shared<const std::string>(std::move(read->canonical));
   return std::move(read->request);
 }
 
-Problems in_words_of_hold(Problems problems) {
+Problems in_words_of_jog(Problems problems) {
   static const std::string kGoal = "/move_to";
   for (Problem& problem : problems) {
     if (problem.pointer.starts_with(kGoal)) {
@@ -122,59 +122,60 @@ Problems in_words_of_hold(Problems problems) {
   return problems;
 }
 
-// Submitted and held in one go: there is no instant at which it could move and nobody held it. It
-// is not kept for another run of the server.
-void begin_hold(Call call) {
+// Submits the job and starts its lease in one step, so that the arm can never move without a lease.
+// Jog jobs are not stored.
+void begin_jog(Call call) {
   const ApiParts& parts = call.parts;
   const std::string arm = call.arguments.front();
-  const auto begin = [&parts, arm, respond = call.respond](const HoldRequest& hold) {
+  const auto begin = [&parts, arm, respond = call.respond](const JogRequest& hold) {
     if (!parts.cell->find_arm(arm)) return respond(no_such("arm", arm));
     Control& control = control_of(parts);
-    if (const auto held = control.check(hold.control); !held) {
-      return respond(problem_response(held.error()));
+    if (const auto is_holder = control.check(hold.control); !is_holder) {
+      return respond(problem_response(is_holder.error()));
     }
     auto asked = job_of(hold, arm);
-    if (!asked) return respond(problem_response(in_words_of_hold(std::move(asked.error()))));
+    if (!asked) return respond(problem_response(in_words_of_jog(std::move(asked.error()))));
     if (const auto& move = control.holder()->move) let_go(parts, move);
     ask(
         parts,
         [job = std::make_shared<JobRequest>(std::move(*asked)), speed = parts.loop.speed(),
          lease = lease_s(parts)](Executive& executive) -> Result<JobView> {
           auto accepted = executive.submit(std::move(*job));
-          if (!accepted) return failure(in_words_of_hold(std::move(accepted.error())));
+          if (!accepted) return failure(in_words_of_jog(std::move(accepted.error())));
           return executive.cancel(accepted->key, lease_from(executive, lease, speed));
         },
         [&parts, arm, respond, key = hold.control](const Result<JobView>& job) {
-          // Somebody else may have taken control meanwhile.
+          // Another client may have taken control meanwhile.
           Control& control_now = control_of(parts);
           const bool is_still = control_now.check(key).has_value();
           if (job && is_still) control_now.begin({arm, job->key, now()});
           if (job && !is_still) let_go(parts, Control::Move{arm, job->key});
-          respond(hold_response(202, job, parts));
+          respond(jog_response(202, job, parts));
         });
   };
-  read_body(parts, call.request, call.respond, read_hold_request, begin);
+  read_body(parts, call.request, call.respond, read_jog_request, begin);
 }
 
-void renew_hold(Call call) {
+void renew_jog(Call call) {
   const ApiParts& parts = call.parts;
   const std::string arm = call.arguments.front();
   const auto renew = [&parts, arm, respond = call.respond](const ControlKey& shown) {
     if (!parts.cell->find_arm(arm)) return respond(no_such("arm", arm));
     Control& control = control_of(parts);
-    if (const auto held = control.check(shown.control); !held) {
-      return respond(problem_response(held.error()));
+    if (const auto is_holder = control.check(shown.control); !is_holder) {
+      return respond(problem_response(is_holder.error()));
     }
     const auto& move = control.holder()->move;
     if (!move || move->arm != arm) {
-      return respond(problem_response({Problem{ProblemKind::conflict, "not-held", "",
-                                               "arm " + arm + " is not moved by hand", arm}}));
+      return respond(
+          problem_response({Problem{ProblemKind::conflict, "not-jogging", "",
+                                    "arm " + arm + " is not being jogged: begin with POST", arm}}));
     }
-    if (!control.renew(parts.hold_lease, now())) {
+    if (!control.renew(parts.jog_lease, now())) {
       let_go(parts, move);
       return respond(problem_response({Problem{
-          ProblemKind::conflict, "held-too-late", "",
-          "nobody said within the lease that " + arm + " is still held: it brakes", arm}}));
+          ProblemKind::conflict, "jog-lease-expired", "",
+          "the jog lease of arm " + arm + " expired before this renewal: the arm brakes", arm}}));
     }
     ask_urgently(
         parts,
@@ -182,7 +183,7 @@ void renew_hold(Call call) {
          lease = lease_s(parts)](Executive& executive) {
           return executive.cancel(job, lease_from(executive, lease, speed));
         },
-        [&parts, respond](const Result<JobView>& job) { respond(hold_response(200, job, parts)); });
+        [&parts, respond](const Result<JobView>& job) { respond(jog_response(200, job, parts)); });
   };
   read_body(parts, call.request, call.respond, read_control_key, renew);
 }
@@ -204,43 +205,44 @@ std::vector<Route> control_routes() {
             .path = api_path("/control"),
             .id = "getControl",
             .tag = "arms",
-            .summary = "Who may move arms by hand"};
+            .summary = "Who may jog arms"};
   get.outcomes = {outcome(200, "Who has control", control_format())};
   get.run = get_control;
-  Route take = command("POST", "/control", "takeControl", "Take control, to move arms by hand");
+  Route take = command("POST", "/control", "takeControl", "Take control, to jog arms");
   take.text =
-      "One client at a time. 409 while somebody else has it, unless `take` says to take it from "
-      "them: what they hold brakes on its path. Jobs of programs need no control.";
+      "One client at a time has control. While another client has it, the answer is 409, unless "
+      "`take` is true: then that client's jog motion brakes on its path. Jobs need no control.";
   take.reads = body(control_request_format(), {{"ada", R"({"who": "Ada", "take": true})"}});
-  take.outcomes = {outcome(200, "It is whose key this is", control_taken_format())};
+  take.outcomes = {
+      outcome(200, "The caller has control; the answer has its key", control_taken_format())};
   take.refuses = {409, 422};
   take.run = post_control;
   Route release = command("POST", "/control/release", "releaseControl", "Give control back");
   release.reads = body(control_key_format(), {{"key", R"({"control": "0f1e-2d3c"})"}});
-  release.outcomes = {outcome(200, "Nobody has it", control_format())};
+  release.outcomes = {outcome(200, "Nobody has control", control_format())};
   release.refuses = {409, 422};
   release.run = release_control;
-  Route begin = command("POST", "/arms/{name}/hold", "holdToRun", "Move an arm by hand");
+  Route begin = command("POST", "/arms/{name}/jog", "jogArm", "Jog an arm (hold-to-run)");
   begin.text =
-      "A job like any other, planned, judged beside all that moves, slow; but it goes on only as "
-      "long as PUT renews it within `lease_s`. Else it is cancelled, and the arm brakes on its "
-      "path: the control cycle sees to that itself. DELETE /jobs/{id} lets go at once. With --data "
-      "it is not kept for the next run of the server.";
+      "Submits a slow job that is planned and checked like any other. It continues only while PUT "
+      "renews it within `lease_s`. Otherwise the control cycle cancels it and the arm brakes on "
+      "its "
+      "path. DELETE /jobs/{id} stops it at once. Jog jobs are not stored, with --data neither.";
   begin.reads = body(
-      hold_request_format(),
+      jog_request_format(),
       {{"ready",
         R"({"control": "0f1e-2d3c", "to": {"named": "ready"}, "velocity_scaling_factor": 0.1})"}});
-  begin.outcomes = {outcome(202, "It is held from now on", hold_format())};
+  begin.outcomes = {outcome(202, "The lease runs from now on", jog_format())};
   begin.refuses = {404, 409, 422};
-  begin.run = begin_hold;
-  Route renew = command("PUT", "/arms/{name}/hold", "renewHold", "Go on moving an arm by hand");
+  begin.run = begin_jog;
+  Route renew = command("PUT", "/arms/{name}/jog", "renewJog", "Renew the lease of a jog");
   renew.text =
-      "409 when the move has ended, who asks is not in control, or the last word came longer than "
-      "`lease_s` ago, whatever held it up: the move is over then.";
+      "409 if the motion has ended, if the caller does not have control, or if the last renewal is "
+      "older than `lease_s`: then the motion has been canceled.";
   renew.reads = body(control_key_format(), {{"key", R"({"control": "0f1e-2d3c"})"}});
-  renew.outcomes = {outcome(200, "It goes on", hold_format())};
+  renew.outcomes = {outcome(200, "The motion continues", jog_format())};
   renew.refuses = {404, 409, 422};
-  renew.run = renew_hold;
+  renew.run = renew_jog;
   return {get, take, release, begin, renew};
 }
 

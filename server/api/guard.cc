@@ -25,7 +25,7 @@ std::optional<Refusal> Guard::refusal(const Request& request, Role needed) {
   if (!who) {
     return Refusal{401,
                    "not-authenticated",
-                   request.token ? "the token is none of this server's, or was withdrawn"
+                   request.token ? "the token is none of this server's, or was revoked"
                                  : "a token is needed: Authorization: Bearer <token>, or log in at "
                                    "/login; `armloom token add` makes one",
                    "Authorization",

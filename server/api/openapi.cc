@@ -26,7 +26,7 @@ const std::map<int, RefusalText>& refusal_texts() {
       {400, {"BadRequest", "The request, its target or its JSON cannot be read"}},
       {401,
        {"NotAuthenticated",
-        "No token was shown, or none of this server's, or one that was withdrawn"}},
+        "No token was shown, or none of this server's, or one that was revoked"}},
       {403,
        {"ForeignOrigin",
         "A page of another site may not command this server, nor may a Host that is neither an IP "

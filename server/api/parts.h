@@ -55,7 +55,7 @@ struct ApiParts {
   Comparison& comparison;
   Control& control;
   std::optional<std::filesystem::path> data;  // where recordings lie; absent: nowhere
-  std::chrono::milliseconds hold_lease;       // a move by hand goes on for so long without word
+  std::chrono::milliseconds jog_lease;       // a move by hand goes on for so long without word
   // Readers of events that wait for a snapshot: all that wait when it is begun share it.
   struct Newcomer {
     bool gap;

@@ -85,7 +85,7 @@ struct Route {
 [[nodiscard]] std::vector<Route> simulation_routes();  // /sim
 [[nodiscard]] std::vector<Route> event_routes();       // /events, /ws
 [[nodiscard]] std::vector<Route> alert_routes();       // /alerts
-[[nodiscard]] std::vector<Route> audit_routes();       // /audit
+[[nodiscard]] std::vector<Route> audit_routes();       // /audit-log
 [[nodiscard]] std::vector<Route> state_routes();       // /states
 [[nodiscard]] std::vector<Route> recording_routes();   // /recordings
 [[nodiscard]] std::vector<Route> session_routes();     // /session, /login

@@ -37,16 +37,16 @@ void get_session(Call call) {
 void log_in(Call call) {
   const auto enter = [&parts = call.parts, respond = call.respond](const LogIn& read) {
     const Session session = session_of(parts.guard, read.token);
-    if (!session.role || (session.asks_for_token && !may_stand_in_a_cookie(read.token))) {
+    if (!session.role || (session.auth_required && !may_stand_in_a_cookie(read.token))) {
       return respond(refusal_response({401,
                                        "not-authenticated",
-                                       "the token is none of this server's, or was withdrawn",
+                                       "the token is none of this server's, or was revoked",
                                        "/token",
                                        std::nullopt,
                                        {kHowToShowAToken}}));
     }
     Response response = answer(200, session_format(), session);
-    if (session.asks_for_token) {
+    if (session.auth_required) {
       response.headers.emplace_back("Set-Cookie", cookie(parts.guard, read.token, ""));
     }
     respond(std::move(response));

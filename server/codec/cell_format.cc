@@ -47,7 +47,7 @@ FormatPtr<SchedulingSettings> scheduling_format() {
             "an arm aside, replan plans another way to where the job ends (what its trajectory was "
             "to do on the way is lost) and parks where there is none, report only tells of it."),
       field(
-          "horizon_legs", &Scheduling::horizon_legs, integer(Scheduling::horizon_legs_range),
+          "horizon_steps", &Scheduling::horizon_steps, integer(Scheduling::horizon_steps_range),
           "Of each arm so many jobs are admitted together, the one under way included; who passes "
           "first is chosen for all of them (coordinated only). Decisions take longer with the "
           "square of it: above 12 tens of milliseconds."),

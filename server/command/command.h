@@ -28,7 +28,7 @@ struct ServeOptions {
   std::size_t keep_recordings = 0;
   std::size_t keep_recording_days = 0;
   std::size_t keep_recording_mb = 0;
-  double hold_lease_s = 0.5;  // of wall time
+  double jog_lease_s = 0.5;  // of wall time
   std::string log_format = "text";
   std::string log_requests = "none";
   std::string tokens;           // file; empty: everybody may everything
@@ -49,7 +49,7 @@ int serve(const ServeOptions& options);
 
 // The tokens of a server: a new one, which is printed this once, all of them, or one less.
 struct TokenOptions {
-  enum class What { add, list, withdraw };
+  enum class What { add, list, revoke };
   What what = What::list;
   std::string file;
   std::string name;

@@ -218,7 +218,7 @@ Command token_command(CLI::App& app) {
   };
   add(TokenOptions::What::add, "add", "make one, which is printed this once");
   add(TokenOptions::What::list, "list", "names and roles");
-  add(TokenOptions::What::withdraw, "withdraw", "it is worth nothing from now on");
+  add(TokenOptions::What::revoke, "revoke", "it is worth nothing from now on");
   return {command, [options] { return change_tokens(*options); }};
 }
 

@@ -52,7 +52,7 @@ void say(const std::vector<RefusedArm>& refused) {
   }
   if (first.proximity) {
     out.field("clearance_m", first.proximity->clearance_m);
-    out.field("asked_m", first.proximity->limit_m);
+    out.field("required_clearance_m", first.proximity->limit_m);
   }
   if (first.nearest) {
     out.key("nearest").begin_array();

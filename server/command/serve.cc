@@ -204,7 +204,7 @@ int serve(const ServeOptions& options) {
   service_options.connections_max = connections_within_descriptors(service_options.connections_max);
   limit_clients(options, service_options);
   service_options.log = log;
-  service_options.hold_lease = std::chrono::milliseconds(std::lround(1e3 * options.hold_lease_s));
+  service_options.jog_lease = std::chrono::milliseconds(std::lround(1e3 * options.jog_lease_s));
   service_options.logged_requests = logged_requests(options.log_requests);
   service_options.kept_recordings = recording_bounds(options);
   std::signal(SIGPIPE, SIG_IGN);

@@ -100,9 +100,8 @@ Command serve_command(CLI::App& app) {
   command->add_option("--web", options->web, "folder of the dashboard's files");
   command->add_option("--policy", options->policy, "instead of the cell's");
   command
-      ->add_option("--hold-lease", options->hold_lease_s,
-                   "seconds after which an arm that is moved by hand brakes, when nobody says that "
-                   "the button is still held")
+      ->add_option("--jog-lease", options->jog_lease_s,
+                   "seconds after which a jogged arm brakes if the client does not renew its lease")
       ->check(CLI::Range(0.05, 10.0))
       ->capture_default_str();
   add_data(*command, *options);

@@ -1,4 +1,4 @@
-// Who may use a server: `armloom token add`, `list` and `withdraw`.
+// Who may use a server: `armloom token add`, `list` and `revoke`.
 #include <iostream>
 
 #include "core/base/enumeration.h"
@@ -39,11 +39,11 @@ int change_tokens(const TokenOptions& options) {
       return add(file, options);
     case TokenOptions::What::list:
       return list(file);
-    case TokenOptions::What::withdraw:
+    case TokenOptions::What::revoke:
       break;
   }
-  const auto withdrawn = file.withdraw(options.name);
-  return withdrawn ? kExitDone : refuse("", withdrawn.error());
+  const auto revoked = file.revoke(options.name);
+  return revoked ? kExitDone : refuse("", revoked.error());
 }
 
 }  // namespace armloom

@@ -18,7 +18,7 @@ FormatPtr<ArmView> arm_format() {
                      told("name", &ArmView::name, text()),
                      told("robot", &ArmView::robot, text()),
                      told("state", &ArmView::state, state),
-                     told("job", &ArmView::job, text_or_null(), "In motion or holding"),
+                     told("job", &ArmView::job, text_or_null(), "In motion or paused"),
                      told("progress", &ArmView::progress, number({0.0, 1.0})),
                      told("joints", &ArmView::joints, list(text())),
                      told("q", &ArmView::q, number_list(), "Measured, rad or m"),

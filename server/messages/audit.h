@@ -19,7 +19,7 @@ struct AuditRecord {
   int status = 0;
 };
 
-// The answer to GET /audit.
+// The answer to GET /audit-log.
 struct AuditPage {
   std::vector<AuditRecord> entries;  // newest first
   std::uint64_t damaged = 0;

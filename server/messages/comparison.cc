@@ -62,7 +62,7 @@ FormatPtr<PolicyRun> policy_run_format() {
           told("backlogged", &Run::backlogged, count(), "Waited in the backlog, at least once"),
           told("makespan_s", &Run::makespan, nullable(seconds({0.0})),
                "From the first submission to the last end; null: not all ended, or none started"),
-          told("of_sequential", &Run::of_sequential, nullable(number({0.0})),
+          told("makespan_ratio", &Run::makespan_ratio, nullable(number({0.0})),
                "makespan_s, divided by that of `sequential`; null: not known"),
           told("wait_mean_s", &Run::wait_mean, seconds({0.0}), "From submission to start"),
           told("wait_max_s", &Run::wait_max, seconds({0.0})),

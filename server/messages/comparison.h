@@ -32,9 +32,9 @@ struct PolicyRun {
   std::uint64_t refused = 0;     // at their time: they did not begin where their arm would stand
   std::uint64_t unfinished = 0;  // when nothing could happen any more, or the run was given up
   std::uint64_t backlogged = 0;  // waited in the backlog, at least once
-  std::optional<Duration> makespan = {};     // absent: not all ended, or none started
-  std::optional<double> of_sequential = {};  // makespan, of that of `sequential`
-  Duration wait_mean{};                      // from submission to start
+  std::optional<Duration> makespan = {};      // absent: not all ended, or none started
+  std::optional<double> makespan_ratio = {};  // makespan, of that of `sequential`
+  Duration wait_mean{};                       // from submission to start
   Duration wait_max{};
   std::optional<double> min_clearance_m = {};  // absent: never near
   std::uint64_t monitor_stops = 0;

@@ -22,9 +22,9 @@ FormatPtr<ControlRequest> control_request_format() {
       named("ControlRequest", "",
             object<Asked>({
                 field("who", &Asked::who, who_format(),
-                      "Whoever asks; where tokens are asked for, the token's name counts instead"),
+                      "Name shown for the caller; with tokens, the token's name applies instead"),
                 field("take", &Asked::take, flag(),
-                      "From whoever holds it: what they hold to run brakes on its path"),
+                      "Take control from its present holder: their jog motion brakes on its path"),
             }));
   return format;
 }
@@ -42,8 +42,8 @@ FormatPtr<ControlView::Holder> holder_format() {
             object<Holder>({
                 told("who", &Holder::who, text()),
                 told("since_at", &Holder::since_at, text(), "RFC 3339, UTC"),
-                told("arm", &Holder::arm, nullable(text()), "That they moved by hand last"),
-                told("job", &Holder::job, nullable(job_id_format()), "By this job"),
+                told("arm", &Holder::arm, nullable(text()), "The arm that the holder jogged last"),
+                told("job", &Holder::job, nullable(job_id_format()), "The job of that jog"),
             }));
   return format;
 }
@@ -52,9 +52,10 @@ FormatPtr<ControlView::Holder> holder_format() {
 
 FormatPtr<ControlView> control_format() {
   static const auto format =
-      named("Control", "Who may move arms by hand.",
+      named("Control", "Who may jog arms: one client at a time.",
             object<ControlView>({
-                told("holder", &ControlView::holder, nullable(holder_format()), "null: nobody"),
+                told("holder", &ControlView::holder, nullable(holder_format()),
+                     "null if nobody has control"),
             }));
   return format;
 }
@@ -65,7 +66,7 @@ FormatPtr<ControlView> control_taken_format() {
             object<ControlView>({
                 told("holder", &ControlView::holder, nullable(holder_format())),
                 told_if("key", &ControlView::key, text(),
-                        "To be shown with every move by hand; told this once"),
+                        "Secret, required by every jog request; returned only here"),
             }));
   return format;
 }
@@ -82,38 +83,38 @@ Result<ControlKey> read_control_key(std::string_view text) {
   return read_text(*control_key_format(), text);
 }
 
-FormatPtr<HoldRequest> hold_request_format() {
-  using Hold = HoldRequest;
+FormatPtr<JogRequest> jog_request_format() {
+  using Jog = JogRequest;
   static const auto format =
-      named("HoldRequest", "",
-            object<Hold>({
-                required("control", &Hold::control, name(), "The key that POST /control answered"),
-                required("to", &Hold::to, plan_goal_format(), "Where the arm is to go"),
-                field("velocity_scaling_factor", &Hold::speed, number({0.001, kHoldSpeedMax}),
-                      "The share of its speed at which it goes"),
+      named("JogRequest", "",
+            object<Jog>({
+                required("control", &Jog::control, name(), "The key that POST /control answered"),
+                required("to", &Jog::to, plan_goal_format(), "The goal of the motion"),
+                field("velocity_scaling_factor", &Jog::speed, number({0.001, kJogSpeedMax}),
+                      "Share of the joints' speed limits"),
             }));
   return format;
 }
 
-Result<HoldRequest> read_hold_request(std::string_view text) {
-  return read_text(*hold_request_format(), text);
+Result<JogRequest> read_jog_request(std::string_view text) {
+  return read_text(*jog_request_format(), text);
 }
 
-std::string job_text_of(const HoldRequest& hold, const std::string& arm) {
+std::string job_text_of(const JogRequest& hold, const std::string& arm) {
   return nlohmann::json{{"arm", arm},
                         {"move_to", nlohmann::json::parse(text_of(*plan_goal_format(), hold.to))},
                         {"velocity_scaling_factor", hold.speed},
-                        {"name", arm + " by hand"}}
+                        {"name", "jog " + arm}}
       .dump();
 }
 
-FormatPtr<HoldView> hold_format() {
+FormatPtr<JogView> jog_format() {
   static const auto format =
-      named("Hold", "A move by hand, as it is now.",
-            object<HoldView>({
-                told("job", &HoldView::job, job_format()),
-                told("lease_s", &HoldView::lease_s, number(kPositive),
-                     "The arm brakes when it is not renewed for so long, in wall time"),
+      named("Jog", "A jog motion in its present state.",
+            object<JogView>({
+                told("job", &JogView::job, job_format()),
+                told("lease_s", &JogView::lease_s, number(kPositive),
+                     "The arm brakes if no renewal arrives for this long (wall time)"),
             }));
   return format;
 }

@@ -11,20 +11,20 @@
 
 namespace armloom {
 
-// The body of POST /control.
+// Body of POST /control.
 struct ControlRequest {
-  std::optional<std::string> who = {};  // for people; a token's name counts instead
-  bool take = false;                    // from whoever holds it
+  std::optional<std::string> who = {};  // shown to people; a token's name applies instead
+  bool take = false;                    // from its present holder
 };
 [[nodiscard]] FormatPtr<ControlRequest> control_request_format();
 [[nodiscard]] Result<ControlRequest> read_control_request(std::string_view text);
 
-// Who holds it; the answer to GET /control has no key.
+// Who has control. Answers to GET /control have no key.
 struct ControlView {
   struct Holder {
     std::string who;
     std::string since_at;            // RFC 3339, UTC
-    std::optional<std::string> arm;  // that was moved by hand last
+    std::optional<std::string> arm;  // that the holder jogged last
     std::optional<std::string> job;
   };
   std::optional<Holder> holder;
@@ -33,31 +33,31 @@ struct ControlView {
 [[nodiscard]] FormatPtr<ControlView> control_format();
 [[nodiscard]] FormatPtr<ControlView> control_taken_format();
 
-// The bodies of POST /control/release and PUT /arms/{name}/hold.
+// Body of POST /control/release and of PUT /arms/{name}/jog.
 struct ControlKey {
   std::string control;
 };
 [[nodiscard]] FormatPtr<ControlKey> control_key_format();
 [[nodiscard]] Result<ControlKey> read_control_key(std::string_view text);
 
-// The body of POST /arms/{name}/hold.
-struct HoldRequest {
+// Body of POST /arms/{name}/jog.
+struct JogRequest {
   std::string control;
   PlanGoal to;
   double speed = 0.1;
 };
-inline constexpr double kHoldSpeedMax = 0.25;
-[[nodiscard]] FormatPtr<HoldRequest> hold_request_format();
-[[nodiscard]] Result<HoldRequest> read_hold_request(std::string_view text);
+inline constexpr double kJogSpeedMax = 0.25;
+[[nodiscard]] FormatPtr<JogRequest> jog_request_format();
+[[nodiscard]] Result<JogRequest> read_jog_request(std::string_view text);
 
-// The body of POST /jobs that is such a move of this arm.
-[[nodiscard]] std::string job_text_of(const HoldRequest& hold, const std::string& arm);
+// Returns the equivalent body of POST /jobs for this arm.
+[[nodiscard]] std::string job_text_of(const JogRequest& hold, const std::string& arm);
 
-// The answer to both.
-struct HoldView {
+// Answer to POST and PUT /arms/{name}/jog.
+struct JogView {
   JobView job;
-  double lease_s;  // of wall time
+  double lease_s;  // wall time
 };
-[[nodiscard]] FormatPtr<HoldView> hold_format();
+[[nodiscard]] FormatPtr<JogView> jog_format();
 
 }  // namespace armloom

@@ -35,9 +35,9 @@ FormatPtr<DiagramCell::State> cell_state_format() {
   return choice<State>();
 }
 
-FormatPtr<DiagramMeeting> met_format() {
-  using Met = DiagramMeeting;
-  return named("DiagramMeeting", "",
+FormatPtr<DiagramContact> met_format() {
+  using Met = DiagramContact;
+  return named("DiagramContact", "",
                object<Met>({
                    told("state", &Met::state, cell_state_format()),
                    told("in_s", &Met::after, seconds({0.0}), "After t_s"),
@@ -68,7 +68,7 @@ FormatPtr<DiagramView::Layer> layer_format() {
           "cells", [](const Layer& layer) { return layer.cells.empty() ? nullptr : &layer.cells; },
           list(cell_format(), {.fewest = 1}),
           "Cover the rectangle of both durations and do not overlap; not with cells=false"),
-      told("met", &Layer::met, nullable(met_format()),
+      told("first_contact", &Layer::met, nullable(met_format()),
            "The first conflict, else the first undecided cell, if both go on from where they are, "
            "and "
            "who ends first rests; null: through free cells only"),

@@ -31,10 +31,10 @@ FormatPtr<JobResultView> result_format() {
 
 FormatPtr<ChoiceView> choice_format() {
   return object<ChoiceView>({
-      told("among", &ChoiceView::among, list(text()),
+      told("candidates", &ChoiceView::candidates, list(text()),
            "Jobs that could have taken the turn, or arms that could have done it: as it was first"),
-      told("taken", &ChoiceView::taken, text(), "One of these"),
-      told("saves_s", &ChoiceView::saves_s, nullable(number(kAnyNumber)),
+      told("selected", &ChoiceView::selected, text(), "One of these"),
+      told("time_saved_s", &ChoiceView::time_saved_s, nullable(number(kAnyNumber)),
            "By so much the plan costs less than with the first, or a goal's job arrives sooner; "
            "null: that is taken, or could not go"),
       told("detail", &ChoiceView::detail, text()),
@@ -53,9 +53,10 @@ FormatPtr<AnotherWayView> another_way_format() {
 }
 FormatPtr<DetourView> detour_format() {
   return object<DetourView>({
-      told("weighed", &DetourView::weighed, count(), "So many ways around"),
-      told("taken", &DetourView::is_taken, flag(), "It goes by one of them"),
-      told("saves_s", &DetourView::saves_s, nullable(number(kPositive)),
+      told("candidates_evaluated", &DetourView::candidates_evaluated, count(),
+           "So many ways around"),
+      told("selected", &DetourView::is_selected, flag(), "It goes by one of them"),
+      told("time_saved_s", &DetourView::time_saved_s, nullable(number(kPositive)),
            "By so much sooner it arrives by that, as it was predicted; null: none is taken, or the "
            "shortest way could not go as things stood"),
   });
@@ -87,7 +88,7 @@ PartPtr<CheckView> make_verdict_part() {
       told("scene_version", &View::scene_version, count()),
       told_if("choice", &View::choice, choice_format(),
               "Of a goal that several arms could go to: which one would"),
-      told_if("approach_s", &View::approach_s, number({0.0}),
+      told_if("move_to_start_s", &View::move_to_start_s, number({0.0}),
               "Of a job that asks for an approach: so long its arms would take to where it begins. "
               "The verdict is of that motion; where it would not be admitted together with it, the "
               "job is judged again when it is there"),
@@ -181,7 +182,7 @@ FormatPtr<JobView> job_format() {
           inlined(&View::motion, motion_part()),
           told("waits_on", &View::waits_on, list(wait_format()), "Empty when it does not wait"),
           inlined(&View::ways, ways_part()),
-          told("ring", &View::ring, list(text()),
+          told("cycle", &View::cycle, list(text()),
                "The deadlock that it is part of, itself first: each waits for the next one, the "
                "last for the first. Else empty"),
           told("result", &View::result, nullable(result_format()), "null until terminal"),

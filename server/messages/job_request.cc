@@ -43,8 +43,8 @@ void slow_down(TrajectoryRequest& trajectory, double factor) {
   }
 }
 
-// The jobs of a batch, read after "atomic" and "order": alone each has its own answer, with places
-// in its own body.
+// The jobs of a batch, read after "atomic" and "reorderable": alone each has its own answer, with
+// places in its own body.
 class BatchJobs final : public CustomPart<BatchRequest> {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("jobs"); }
@@ -63,14 +63,13 @@ class BatchJobs final : public CustomPart<BatchRequest> {
  private:
   static BatchRequest::Entry entry(const JsonNode& node, const BatchRequest& batch) {
     nlohmann::json body = node.raw();
-    const bool adds_order =
-        batch.order != JobOrder::as_given && body.is_object() && !body.contains("order");
-    if (adds_order) body["order"] = to_string(batch.order);
+    const bool adds_it = batch.reorderable && body.is_object() && !body.contains("reorderable");
+    if (adds_it) body["reorderable"] = true;
     std::string text = body.dump();
     if (!batch.atomic) return {read_job(body), std::move(text)};
     JobRequest job;
     job_request_format()->read(node, job);
-    if (adds_order) job.terms.order = batch.order;
+    if (adds_it) job.terms.reorderable = true;
     return {std::move(job), std::move(text)};
   }
 
@@ -201,8 +200,8 @@ FormatPtr<BatchRequest> batch_request_format() {
       named("BatchRequest", "",
             object<BatchRequest>({
                 field("atomic", &BatchRequest::atomic, flag(), "All admitted or none"),
-                field("order", &BatchRequest::order, job_order_format(),
-                      "Of every job that does not say it itself"),
+                field("reorderable", &BatchRequest::reorderable, flag(),
+                      "Default of every job in the batch that does not set it"),
                 make_part<BatchJobs>(),
             }));
   return format;

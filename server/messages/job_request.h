@@ -53,7 +53,7 @@ struct BatchRequest {
     std::string text;  // the body of this job
   };
   bool atomic = true;
-  JobOrder order = JobOrder::as_given;
+  bool reorderable = false;  // of every job that does not set it
   std::vector<Entry> jobs;
 };
 [[nodiscard]] FormatPtr<BatchRequest> batch_request_format();

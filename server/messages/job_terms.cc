@@ -19,25 +19,23 @@ FormatPtr<Duration> backlog_timeout_format() { return seconds({0.0, kTimeMax_s})
 
 }  // namespace
 
-FormatPtr<JobOrder> job_order_format() { return choice<JobOrder>(); }
-
 PartPtr<JobTerms> job_terms_part() {
   using Terms = JobTerms;
   return parts<Terms>({
       field("priority", &Terms::priority, priority_format(), "Larger goes first"),
       field("backlog_timeout_s", &Terms::backlog_timeout, backlog_timeout_format(),
-            "How long it may wait in the backlog. Default: the cell's"),
-      later(field("on_timeout", &Terms::on_timeout, choice<OnTimeout>(),
-                  "What becomes of it then. \"replan\": another way is planned to where it ends, "
-                  "from where its arm stands and past what rests there; it expires when there is "
-                  "none, and after the third")),
-      unless_usual("approach", &Terms::approach, Approach::none, choice<Approach>(),
-                   "\"plan\": its arms need not stand where it begins; each that stands elsewhere "
-                   "at its turn is brought there first, slowly, by a planned motion of the "
-                   "server's own"),
-      unless_usual("order", &Terms::order, JobOrder::as_given, job_order_format(),
-                   "\"any\": jobs of one arm that begin and end at one place, and say so, may be "
-                   "taken in another order"),
+            "Longest time in the backlog. Default: the cell's"),
+      later(field(
+          "on_timeout", &Terms::on_timeout, choice<OnTimeout>(),
+          "Action on backlog timeout. \"abort\": the job expires. \"replan\": the server plans "
+          "another path from the arm's position to the job's end, around what rests in "
+          "its way; the job expires if there is no path, and after the third replan")),
+      unless_usual("move_to_start", &Terms::move_to_start, MoveToStart::none, choice<MoveToStart>(),
+                   "\"plan\": the arms need not be where the trajectory begins. The server first "
+                   "moves each arm that is elsewhere to the start, slowly, on a planned path"),
+      unless_usual("reorderable", &Terms::reorderable, false, flag(),
+                   "Allows the scheduler to reorder this job among reorderable jobs of the same "
+                   "arm that begin and end at the same configuration"),
   });
 }
 
@@ -46,8 +44,8 @@ PartPtr<AmendedTerms> amended_terms_part() {
   return parts<Terms>({
       field("priority", &Terms::priority, priority_format(), "Larger goes first"),
       field("backlog_timeout_s", &Terms::backlog_timeout, backlog_timeout_format(),
-            "Counts from when the job first was in conflict: it may be over at once"),
-      field("on_timeout", &Terms::on_timeout, choice<OnTimeout>(), "What becomes of it then"),
+            "Measured from the job's first conflict, so a short timeout can end the job at once"),
+      field("on_timeout", &Terms::on_timeout, choice<OnTimeout>(), "Action on backlog timeout"),
   });
 }
 

@@ -10,7 +10,5 @@ namespace armloom {
 [[nodiscard]] formats::PartPtr<JobTerms> job_terms_part();
 // Those that PATCH /jobs/{id} changes.
 [[nodiscard]] formats::PartPtr<AmendedTerms> amended_terms_part();
-// "order" of a batch is that of each of its jobs.
-[[nodiscard]] FormatPtr<JobOrder> job_order_format();
 
 }  // namespace armloom

@@ -72,7 +72,8 @@ FormatPtr<PlanView> plan_format() {
               [](const View& plan) { return plan.motion.timed.trajectory->duration(); },
               seconds(kPositive)),
           told("length", &View::length, number({0.0}), "Of the way in joint space, rad or m"),
-          told("straight", &View::straight, number({0.0}), "The same of the straight line"),
+          told("straight_line_length", &View::straight_line_length, number({0.0}),
+               "The same of the straight line"),
           told(
               "evaluations", [](const View& plan) { return plan.motion.way.evaluations; }, count(),
               "Stretches of lines that were looked at"),
@@ -83,7 +84,7 @@ FormatPtr<PlanView> plan_format() {
               },
               verdict_format(), "What POST /check says of it now"),
           told_if(
-              "not_judged",
+              "not_checked_reason",
               [](const View& plan) {
                 return plan.verdict ? std::nullopt
                                     : std::optional(document_of(plan.verdict.error()));
@@ -116,7 +117,7 @@ ProblemDocument document_of(const RefusedInquiry& refused) {
   if (auto links = links_of(refusal); !links.empty()) document.links = std::move(links);
   if (refusal.proximity) {
     document.clearance_m = refusal.proximity->clearance_m;
-    document.asked_m = refusal.proximity->limit_m;
+    document.required_clearance_m = refusal.proximity->limit_m;
   }
   if (refusal.nearest) document.nearest = {refusal.nearest->begin(), refusal.nearest->end()};
   return document;

@@ -31,7 +31,7 @@ struct ProblemDocument {
   // Why there is no plan; absent for all other problems.
   std::optional<std::vector<std::string>> links = {};  // that come too close, or do not get there
   std::optional<double> clearance_m = {};              // of these
-  std::optional<double> asked_m = {};                  // what they were to keep
+  std::optional<double> required_clearance_m = {};     // what they were to keep
   std::optional<std::vector<double>> nearest = {};     // joint positions that come nearest
   std::optional<std::uint64_t> evaluations = {};
 };

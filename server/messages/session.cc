@@ -23,7 +23,7 @@ FormatPtr<Session> session_format() {
   static const auto format = named(
       "Session", "Who asks, and what they may.",
       object<Session>({
-          told("asks_for_token", &Session::asks_for_token, flag(), "Else everybody may everything"),
+          told("auth_required", &Session::auth_required, flag(), "Else everybody may everything"),
           told("name", &Session::name, nullable(text()), "Of the token; null: there is none"),
           told("role", &Session::role, nullable(choice<Role>()), "null: may nothing but log in"),
       }));

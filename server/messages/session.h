@@ -19,7 +19,7 @@ struct LogIn {
 
 // Who asks.
 struct Session {
-  bool asks_for_token = false;      // of this server
+  bool auth_required = false;       // of this server
   std::optional<std::string> name;  // of the token; nothing: none was shown, or none is asked for
   std::optional<Role> role;         // nothing: may nothing
 };

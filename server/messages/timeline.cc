@@ -38,7 +38,7 @@ FormatPtr<TimelineLanes::Pause> pause_format() {
 FormatPtr<TimelineLanes::Leg> leg_format() {
   using Leg = TimelineLanes::Leg;
   return named(
-      "TimelineLeg",
+      "TimelineStep",
       "A motion that is admitted. It follows the one before it on its arms; that wait is no pause.",
       object<Leg>({
           told("id", of_job(&JobView::key), job_id_format()),
@@ -59,10 +59,10 @@ FormatPtr<TimelineLanes::Leg> leg_format() {
 FormatPtr<TimelineLanes::Lane> lane_format() {
   using Lane = TimelineLanes::Lane;
   return named(
-      "TimelineLane", "",
+      "TimelineArm", "",
       object<Lane>({
           told("name", &Lane::arm, text(), "The arm"),
-          told("legs", &Lane::legs, list(leg_format()), "In the order in which they go"),
+          told("steps", &Lane::steps, list(leg_format()), "In the order in which they go"),
           told("waiting", &Lane::waiting, count(),
                "Jobs of the arm (of their `arms`) that have not ended and are no leg: not "
                "admitted, behind the horizon or for other reasons. They have no times yet"),
@@ -77,7 +77,7 @@ FormatPtr<TimelineLanes> timeline_format() {
       named("Timeline", "Times are cell time, if not said otherwise.",
             object<View>({
                 told("now_s", &View::now, cell_time()),
-                told("horizon_legs", &View::horizon_legs, count(),
+                told("horizon_steps", &View::horizon_steps, count(),
                      "So many legs of a lane are admitted at most, the one under way included"),
                 told("arms", &View::lanes, list(lane_format()), "In the cell's order"),
             }));

@@ -40,12 +40,12 @@ constexpr std::size_t kDecisions = 300, kDecisionsOfGrowth = 100;
 struct Load {
   double spacing_m = 1.2;
   std::size_t waiting = 200;
-  int horizon_legs = SchedulingSettings{}.horizon_legs;
+  int horizon_steps = SchedulingSettings{}.horizon_steps;
 };
 
 CellPtr hall_of(const Load& load) {
   Cell cell = *grid_of_pandas(kColumns, kRows, load.spacing_m);
-  cell.scheduling.horizon_legs = load.horizon_legs;
+  cell.scheduling.horizon_steps = load.horizon_steps;
   return std::make_shared<const Cell>(std::move(cell));
 }
 
@@ -233,7 +233,7 @@ void decision(benchmark::State& state, const std::string& policy, double share, 
   state.counters["questions"] = questions / count;
   state.counters["in_reach"] = hall.in_reach();
   state.counters["waiting"] = static_cast<double>(load.waiting);
-  state.counters["horizon_legs"] = static_cast<double>(load.horizon_legs);
+  state.counters["horizon_steps"] = static_cast<double>(load.horizon_steps);
 }
 
 // Rows "growth/": one of three parameters grows (growth.py makes the README's table).
@@ -260,7 +260,7 @@ const bool kRegistered = [] {
   }
   for (const int legs : {1, 2, 3, 4, 6, 8, 12}) {
     register_growth("coordinated", kShare, "horizon:" + std::to_string(legs),
-                    {.horizon_legs = legs});
+                    {.horizon_steps = legs});
   }
   for (const std::size_t waiting : {0, 50, 100, 200, 400, 800}) {
     register_growth("coordinated", kShare, "waiting:" + std::to_string(waiting),

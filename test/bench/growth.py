@@ -13,7 +13,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 BEGIN, END = "<!-- growth.py begins -->\n", "<!-- growth.py ends -->\n"
 # Row of the benchmark: its counter and its caption.
 ROWS = {
-    "horizon": ("horizon_legs", "motions per arm in the horizon"),
+    "horizon": ("horizon_steps", "motions per arm in the horizon"),
     "waiting": ("waiting", "waiting jobs"),
     "spacing_cm": ("in_reach", "arms in reach"),
 }

@@ -1,4 +1,4 @@
-// A server that asks for tokens: logging in and out, and a token that is withdrawn while the page is open.
+// A server that asks for tokens: logging in and out, and a token that is revoked while the page is open.
 //
 //   node --test test/browser/login.test.mjs      (after the server and web/dist were built; see harness.mjs)
 
@@ -70,11 +70,11 @@ test('logging out leads to the login page, and back only with a token', { timeou
   await address_like(page, /\/#\/arm\/right$/);  // the page that was asked for
 });
 
-test('a page whose token is withdrawn goes to the login page', { timeout: 300_000 }, async () => {
-  token_command('withdraw', '--name', 'ada');
+test('a page whose token is revoked goes to the login page', { timeout: 300_000 }, async () => {
+  token_command('revoke', '--name', 'ada');
   await address_like(page, /\/login#\/arm\/right$/);
   await log_in(token);
-  await page.locator('[role=alert]', { hasText: 'withdrawn' }).waitFor();
+  await page.locator('[role=alert]', { hasText: 'revoked' }).waitFor();
 });
 
 test('who may only look is told so before, not by a refusal', { timeout: 300_000 }, async () => {

@@ -11,7 +11,7 @@ const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
 // A busy machine gets the time to say that a button is still held.
 let page;
-const { server, chromium } = with_dashboard('config/two_pandas.json', 'certified', { more: ['--hold-lease', '3'] }, (opened) => { ({ page } = opened); });
+const { server, chromium } = with_dashboard('config/two_pandas.json', 'certified', { more: ['--jog-lease', '3'] }, (opened) => { ({ page } = opened); });
 
 const go = (hash) => go_to(page, hash);
 const speed = (value) => ask(page, 'PUT', '/sim/speed', { speed: value });
@@ -23,19 +23,19 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   await page.locator('[data-test=control-person]').fill('Ada');
   await page.locator('[data-test=take-control]').click();
   await page.locator('[data-test=in-control]', { hasText: 'you (Ada)' }).waitFor();
-  const by_hand = async () => (await ask(page, 'GET', '/jobs?arm=left&limit=100')).value.jobs.filter((job) => job.name === 'left by hand');
+  const jogs = async () => (await ask(page, 'GET', '/jobs?arm=left&limit=100')).value.jobs.filter((job) => job.name === 'jog left');
   const canceled = async (count) => {
     for (;;) {
-      const jobs = await by_hand();
+      const jobs = await jogs();
       if (jobs.length === count && jobs.every((job) => job.result !== null)) return jobs[0];
       await page.waitForTimeout(50);
     }
   };
-  const button = page.locator('[data-test=hold-ready]');
-  const is_held = (yes) => page.locator(`[data-test=hold-ready][aria-pressed=${yes}]`).waitFor();
+  const button = page.locator('[data-test=jog-ready]');
+  const is_held = (yes) => page.locator(`[data-test=jog-ready][aria-pressed=${yes}]`).waitFor();
   await button.hover();
   await page.mouse.down();
-  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor();
+  await page.locator('[data-test=jog-state]', { hasText: /running/ }).waitFor();
   await is_held(true);
   await page.screenshot(path_for('by-hand-dark'));
   await page.mouse.up();
@@ -45,7 +45,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
 
   await button.focus();
   await page.keyboard.down('Space');
-  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor();
+  await page.locator('[data-test=jog-state]', { hasText: /running/ }).waitFor();
   await page.keyboard.up('Space');
   assert.equal((await canceled(2)).state, 'canceled');
 
@@ -55,10 +55,10 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   const { x, y, width, height } = await button.boundingBox();
   const finger = (type, dx = 0) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: type === 'touchEnd' ? [] : [{ x: x + width / 2 + dx, y: y + height / 2 }] });
   await finger('touchStart');
-  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor();
+  await page.locator('[data-test=jog-state]', { hasText: /running/ }).waitFor();
   await finger('touchMove', 15);  // a finger never lies still
   await is_held(true);
-  assert.equal((await by_hand()).filter((job) => job.result === null).length, 1);
+  assert.equal((await jogs()).filter((job) => job.result === null).length, 1);
   await finger('touchEnd');
   assert.equal((await canceled(3)).state, 'canceled');
   await is_held(false);
@@ -68,7 +68,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   // Somebody else takes control: what is held is let go, and the page says by whom.
   await button.hover();
   await page.mouse.down();
-  await page.locator('[data-test=hold-state]', { hasText: /running/ }).waitFor();
+  await page.locator('[data-test=jog-state]', { hasText: /running/ }).waitFor();
   await ask(page, 'POST', '/control', { who: 'Bob', take: true });
   await page.locator('[data-test=take-control]', { hasText: 'Take control from Bob' }).waitFor();
   await page.mouse.up();
@@ -132,5 +132,5 @@ test('what is old is shown as old, with its age, and as fresh once more is heard
 
 test('nothing so far was an error in the console', () => {
   // Somebody else took control of an arm that was held here: it could be heard too late.
-  assert.deepEqual(chromium.errors.filter((text) => !/409 \(Conflict\).*\/hold$/.test(text)), []);
+  assert.deepEqual(chromium.errors.filter((text) => !/409 \(Conflict\).*\/jog$/.test(text)), []);
 });

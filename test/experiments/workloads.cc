@@ -188,7 +188,7 @@ Workload of_two_pandas(std::uint64_t seed) {
 template <Workload (*given)(std::uint64_t)>
 Workload in_any_order(std::uint64_t seed) {
   Workload workload = given(seed);
-  for (PlannedJob& job : workload.jobs) job.timed.job.terms.order = JobOrder::any;
+  for (PlannedJob& job : workload.jobs) job.timed.job.terms.reorderable = true;
   return workload;
 }
 

@@ -78,7 +78,7 @@ const ended = (id) => until(`the end of ${id}`, async () => {
 before(async () => {
   folder = fs.mkdtempSync(path.join(os.tmpdir(), 'armloom-openapi-'));
   writeCell();
-  server = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', process.env.ARMLOOM_PRISM ? '2' : '10', '--hold-lease', '5', '--web', path.join(folder, 'web')]);
+  server = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', process.env.ARMLOOM_PRISM ? '2' : '10', '--jog-lease', '5', '--web', path.join(folder, 'web')]);
   const {text} = await ask(server.port, 'GET', '/openapi.json');
   contract = new Contract(JSON.parse(text));
   if (process.env.ARMLOOM_PRISM) proxy = await startPrism(process.env.ARMLOOM_PRISM, contract.document, path.join(folder, 'openapi.json'), server.port);
@@ -141,8 +141,8 @@ test('What only reads', async () => {
   await seen(200, example(`${v1}/alerts/acknowledge`, 'POST', 'none'));
   await seen(404, {ids: ['x:1']});
   await seen(422, {ids: [], who: 'a\nb'});
-  await call(404, 'GET', `${v1}/audit`);
-  await call(422, 'GET', `${v1}/audit`, {query: '?limit=0'});
+  await call(404, 'GET', `${v1}/audit-log`);
+  await call(422, 'GET', `${v1}/audit-log`, {query: '?limit=0'});
   for (const part of ['/docs', '/docs.css', '/docs.js', '/login', '/login.js']) await call(200, 'GET', part);
   const schema = JSON.parse(fs.readFileSync(path.join(top, 'config/cell.schema.json'), 'utf8'));
   assert.deepEqual(await call(200, 'GET', '/cell.schema.json'), schema);
@@ -260,7 +260,7 @@ test('What the others would have done', async () => {
 });
 
 test('Moves by hand', async () => {
-  const hold = `${v1}/arms/{name}/hold`;
+  const hold = `${v1}/arms/{name}/jog`;
   const left = {args: {name: 'left'}};
   await call(200, 'GET', `${v1}/control`);
   const {key} = await call(200, 'POST', `${v1}/control`, {body: example(`${v1}/control`, 'POST', 'ada')});
@@ -413,7 +413,7 @@ test('A server with tokens asks for them', async () => {
     assert.equal(entered.status, 200);
     const cookie = entered.headers['set-cookie'][0].split(';')[0];
     const session = JSON.parse((await asked('GET', `${v1}/session`, {Cookie: cookie})).text);
-    assert.deepEqual(session, {asks_for_token: true, name: 'a', role: 'viewer'});
+    assert.deepEqual(session, {auth_required: true, name: 'a', role: 'viewer'});
     assert.equal((await asked('DELETE', `${v1}/session`, {Cookie: cookie})).status, 204);
     const {kept, recordings: [running]} = JSON.parse((await asked('GET', `${v1}/recordings`, {Authorization: `Bearer ${token}`})).text);
     assert.deepEqual([kept, running.name, running.running], [true, 'data', true]);
@@ -423,7 +423,7 @@ test('A server with tokens asks for them', async () => {
       assert.equal(file.status, 200, name);
     }
     await until('the audit trail', async () => {
-      const audit = await asked('GET', `${v1}/audit`, admin);
+      const audit = await asked('GET', `${v1}/audit-log`, admin);
       assert.equal(audit.status, 200, audit.text);
       const {entries} = JSON.parse(audit.text);
       return entries.some(({who, method, path: done, status}) => who === 'a' && method === 'POST' && done === `${v1}/stop` && status === 403);

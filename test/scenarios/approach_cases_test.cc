@@ -1,4 +1,4 @@
-// Jobs whose arms are brought to where they begin ("approach": "plan").
+// Jobs whose arms are brought to where they begin ("move_to_start": "plan").
 #include "core/scheduler/ways/approach.h"
 #include "test/scenarios/two_gantries.h"
 
@@ -6,7 +6,7 @@ namespace armloom {
 namespace {
 
 JobRequest approached(JobRequest request) {
-  request.terms.approach = Approach::plan;
+  request.terms.move_to_start = MoveToStart::plan;
   return request;
 }
 
@@ -25,12 +25,12 @@ TEST_P(Approaches, TheArmGoesToTheStartFirstAndSlowly) {
   ASSERT_FALSE(cell->executive().submit(far)) << "without it that is refused";
   cell->submit(approached(far));
   cell->run_until(at(10ms));
-  EXPECT_EQ(cell->job("approach-1").name, "a goes to the start of far");
+  EXPECT_EQ(cell->job("move-to-start-1").name, "a moves to the start of far");
   EXPECT_EQ(cell->job("far").state, JobState::queued);
   cell->run_to_the_end();
-  expect_succeeded("approach-1");
+  expect_succeeded("move-to-start-1");
   expect_succeeded("far");
-  EXPECT_LE(cell->job("approach-1").times.ended_at, cell->job("far").times.started_at);
+  EXPECT_LE(cell->job("move-to-start-1").times.ended_at, cell->job("far").times.started_at);
   cell->expect_at("a", {-2, 2});
   EXPECT_GT(cell->fastest_m_s(), 0.1);
   EXPECT_LT(cell->fastest_m_s(), 2.0 * kApproachSpeed + 0.05);
@@ -40,7 +40,7 @@ TEST_P(Approaches, AnArmThatStandsThereNeedsNone) {
   cell->submit(approached(go("a", {-1, 0}, {-1, 1}, 3, "here")));
   cell->run_to_the_end();
   expect_succeeded("here");
-  EXPECT_FALSE(cell->executive().job("approach-1"));
+  EXPECT_FALSE(cell->executive().job("move-to-start-1"));
 }
 
 TEST_P(Approaches, WhatFollowsACanceledJobComesToItsStart) {
@@ -50,7 +50,7 @@ TEST_P(Approaches, WhatFollowsACanceledJobComesToItsStart) {
   ASSERT_TRUE(cell->executive().cancel("canceled"));
   cell->run_to_the_end();
   expect_succeeded("then");
-  expect_succeeded("approach-1");
+  expect_succeeded("move-to-start-1");
   cell->expect_at("a", {-1, 2});
 }
 
@@ -64,8 +64,7 @@ TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
   cell->run_to_the_end();
   const JobView failed = cell->job("in the post");
   EXPECT_EQ(failed.reason(), Reason::start_mismatch);
-  EXPECT_NE(failed.detail().find("no way to where it begins: "), std::string::npos)
-      << failed.detail();
+  EXPECT_NE(failed.detail().find("no path to its start: "), std::string::npos) << failed.detail();
   EXPECT_NE(failed.detail().find("post"), std::string::npos) << failed.detail();
   cell->expect_at("a", {-1, 0});
 }
@@ -86,7 +85,7 @@ TEST_P(Approaches, ThatBlockEachOtherCostEachArmOneJob) {
       const JobView job = cell->job(arm + std::to_string(i));
       if (job.state != JobState::failed) continue;
       EXPECT_EQ(job.reason(), Reason::deadlock) << job.key;
-      EXPECT_FALSE(job.ring.empty()) << job.key;
+      EXPECT_FALSE(job.cycle.empty()) << job.key;
       ++of_arm;
     }
     EXPECT_LE(of_arm, 1) << arm;
@@ -100,11 +99,11 @@ TEST_P(Approaches, OneThatWaitsInVainIsNotTriedAgain) {
   job.terms.backlog_timeout = 5s;
   cell->submit(job);
   cell->run_to_the_end();
-  EXPECT_EQ(cell->job("approach-1").state, JobState::expired);
-  EXPECT_FALSE(cell->executive().job("approach-2"));
+  EXPECT_EQ(cell->job("move-to-start-1").state, JobState::expired);
+  EXPECT_FALSE(cell->executive().job("move-to-start-2"));
   const JobView failed = cell->job("where b stands");
   EXPECT_EQ(failed.reason(), Reason::start_mismatch);
-  EXPECT_NE(failed.detail().find("no way to where it begins: waited 5 s"), std::string::npos)
+  EXPECT_NE(failed.detail().find("no path to its start: waited 5 s"), std::string::npos)
       << failed.detail();
   EXPECT_LT(failed.times.ended_at, at(6s));
 }
@@ -115,7 +114,7 @@ TEST_P(Approaches, AnArmThatHasComeToRestOnTheWayThereIsPassed) {
   cell->executive().stop({ArmId{0}}, "operator");
   cell->submit(approached(go("a", {-1, 2}, {-1, 3}, 6, "far")));
   cell->run_until(at(1s));
-  ASSERT_EQ(cell->job("approach-1").state, JobState::queued);
+  ASSERT_EQ(cell->job("move-to-start-1").state, JobState::queued);
   cell->submit(go("b", {1, 0}, {-3, 2}, 6, "across it"));
   cell->run_until(at(4s));
   ASSERT_TRUE(cell->executive().cancel("across it"));
@@ -126,18 +125,18 @@ TEST_P(Approaches, AnArmThatHasComeToRestOnTheWayThereIsPassed) {
   cell->executive().resume({ArmId{0}});
   cell->run_to_the_end();
   expect_succeeded("far");
-  expect_succeeded("approach-1");
+  expect_succeeded("move-to-start-1");
   cell->expect_at("b", {stands[2], stands[3]});  // and not sent aside
 }
 
 TEST_P(Approaches, CancelingTheJobStopsTheArmOnItsWayThere) {
   cell->submit(approached(go("a", {-2, 2}, {-2, 3}, 6, "gone")));
   cell->run_until(at(2s));
-  ASSERT_EQ(cell->job("approach-1").state, JobState::running);
+  ASSERT_EQ(cell->job("move-to-start-1").state, JobState::running);
   ASSERT_TRUE(cell->executive().cancel("gone"));
   cell->run_to_the_end(at(5s));
   EXPECT_EQ(cell->job("gone").state, JobState::canceled);
-  EXPECT_EQ(cell->job("approach-1").state, JobState::canceled);
+  EXPECT_EQ(cell->job("move-to-start-1").state, JobState::canceled);
 }
 
 TEST_P(Approaches, AStoppedOneGoesOnWhenResumed) {
@@ -145,7 +144,7 @@ TEST_P(Approaches, AStoppedOneGoesOnWhenResumed) {
   cell->run_until(at(2s));
   stop_all(cell->executive(), "operator");
   cell->run_until(at(5s));
-  EXPECT_EQ(cell->job("approach-1").state, JobState::holding);
+  EXPECT_EQ(cell->job("move-to-start-1").state, JobState::paused);
   resume_all(cell->executive());
   cell->run_to_the_end();
   expect_succeeded("job");
@@ -156,11 +155,11 @@ TEST_P(Approaches, AfterAFaultAnotherOneFollows) {
   ASSERT_TRUE(cell->executive().faults().inject(
       {.arm = "a", .kind = ArmFault::Kind::fault, .at = at(2s), .lasting = {}}));
   cell->run_until(at(5s));
-  EXPECT_EQ(cell->job("approach-1").reason(), Reason::arm_fault);
+  EXPECT_EQ(cell->job("move-to-start-1").reason(), Reason::arm_fault);
   EXPECT_EQ(cell->job("job").state, JobState::queued);
   resume_all(cell->executive());
   cell->run_to_the_end();
-  expect_succeeded("approach-2");
+  expect_succeeded("move-to-start-2");
   expect_succeeded("job");
 }
 
@@ -179,7 +178,7 @@ TEST_P(Approaches, AGoalHasNone) {
   goal.move_to = PlanGoal{.joints = std::vector{0.0, 1.0}, .named = {}, .pose = {}};
   const auto refused = cell->executive().submit(approached(goal));
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().front().pointer, "/approach");
+  EXPECT_EQ(refused.error().front().pointer, "/move_to_start");
 }
 
 // Where they begin too close they do not part: they are not there yet.
@@ -196,7 +195,7 @@ TEST_P(Approaches, NothingMovesForAJobOfWhichTheArmsWouldHitEachOther) {
     cell->run_to_the_end();
     EXPECT_EQ(cell->job("both").reason(), Reason::self_collision) << cell->job("both").detail();
     EXPECT_LE(cell->job("both").times.ended_at, at(100ms));
-    EXPECT_FALSE(cell->executive().job("approach-1"));
+    EXPECT_FALSE(cell->executive().job("move-to-start-1"));
     cell->expect_at("a", {-1, 0});
     cell->expect_at("b", {1, 0});
   }

@@ -88,7 +88,7 @@ std::vector<TimedJob> with_approaches(std::vector<TimedJob> jobs) {
       for (std::size_t j = 0; j < points[0].positions.size(); ++j)
         points[0].positions[j] = (points[0].positions[j] + points[1].positions[j]) / 2.0;
     }
-    jobs[i].job.terms.approach = Approach::plan;
+    jobs[i].job.terms.move_to_start = MoveToStart::plan;
   }
   return jobs;
 }

@@ -10,7 +10,7 @@ using ::testing::HasSubstr;
 
 JobRequest from_elsewhere(const std::string& arm, double from_m, double to_m, std::string key) {
   JobRequest request = slide(arm, from_m, to_m, 1.0, std::move(key));
-  request.terms.approach = Approach::plan;
+  request.terms.move_to_start = MoveToStart::plan;
   return request;
 }
 
@@ -72,21 +72,21 @@ TEST_P(CheckedGoals, AnOpenArmIsChosenAsItWouldBe) {
   const CheckView said = check(request);
   EXPECT_EQ(said.kind, Verdict::Kind::free);
   ASSERT_TRUE(said.choice);
-  EXPECT_EQ(said.choice->taken, "y");
+  EXPECT_EQ(said.choice->selected, "y");
 }
 
 TEST_P(CheckedGoals, AnApproachIsPlannedAndItsTimeTold) {
   const JobRequest job = from_elsewhere("x", -0.5, 0.5, "job");
   const CheckView said = check(job);
   EXPECT_EQ(said.kind, Verdict::Kind::free) << said.conflicts.size();
-  ASSERT_TRUE(said.approach_s);
-  EXPECT_GT(*said.approach_s, 0.1);
+  ASSERT_TRUE(said.move_to_start_s);
+  EXPECT_GT(*said.move_to_start_s, 0.1);
   const TimePoint submitted = cell->simulation->now();
   cell->submit(job);
   cell->run_to_the_end();
   const JobView done = cell->job("job");
   EXPECT_EQ(done.state, JobState::succeeded) << done.detail();
-  EXPECT_NEAR(to_seconds(*done.times.started_at - submitted), *said.approach_s, 0.5);
+  EXPECT_NEAR(to_seconds(*done.times.started_at - submitted), *said.move_to_start_s, 0.5);
 }
 
 // The approach is nobody's job yet: what would be waited for is told.
@@ -105,7 +105,7 @@ TEST_P(CheckedGoals, AnApproachThatHasNoWaySaysSo) {
   EXPECT_EQ(said.kind, Verdict::Kind::conflict) << "it begins in the post";
   ASSERT_TRUE(said.result);
   EXPECT_EQ(said.result->reason, Reason::start_mismatch);
-  EXPECT_THAT(said.result->detail, HasSubstr("no way to where it begins"));
+  EXPECT_THAT(said.result->detail, HasSubstr("no path to its start"));
 }
 
 TEST_P(CheckedGoals, BehindAWayThatIsBeingPlannedItIsToldAsIfThatWereThere) {

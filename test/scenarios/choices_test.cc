@@ -35,10 +35,10 @@ JobRequest either(double x_to_m, double y_to_m, double seconds, std::string key)
 
 // y stands in the crossing for ten seconds; of x's two jobs only the second keeps out of it.
 struct OneInTheWay {
-  explicit OneInTheWay(JobOrder order) {
+  explicit OneInTheWay(bool reorderable) {
     JobRequest through = visit_job("x", -1, 1, 4, "through");
     JobRequest beside = visit_job("x", -1, -0.6, 4, "beside");
-    through.terms.order = beside.terms.order = order;
+    through.terms.reorderable = beside.terms.reorderable = reorderable;
     JobRequest stays = visit_job("y", -1, 0, 4, "stays");
     auto& points = stays.trajectory.points;
     points.insert(points.begin() + 2, points[1]);
@@ -53,21 +53,21 @@ struct OneInTheWay {
 };
 
 TEST(FreeOrder, TakesTheOneThatCanGoBesideWhatMoves) {
-  OneInTheWay free(JobOrder::any);
+  OneInTheWay free(true);
   const JobView beside = free.cell.job("beside"), through = free.cell.job("through");
   EXPECT_EQ(beside.state, JobState::succeeded);
   EXPECT_EQ(through.state, JobState::succeeded);
   EXPECT_LT(beside.times.ended_at, through.times.started_at);
-  EXPECT_EQ(beside.terms.order, JobOrder::any);
+  EXPECT_TRUE(beside.terms.reorderable);
   ASSERT_TRUE(beside.ways.choice);
-  EXPECT_THAT(beside.ways.choice->among, ElementsAre("through", "beside"));
-  EXPECT_EQ(beside.ways.choice->taken, "beside");
+  EXPECT_THAT(beside.ways.choice->candidates, ElementsAre("through", "beside"));
+  EXPECT_EQ(beside.ways.choice->selected, "beside");
   EXPECT_THAT(beside.ways.choice->detail, HasSubstr("through"));
   EXPECT_EQ(free.cell.simulation->executive().figures().monitor_stops, 0U);
 }
 
 TEST(FreeOrder, IsKeptWhereTheClientDoesNotFreeIt) {
-  OneInTheWay given(JobOrder::as_given);
+  OneInTheWay given(false);
   EXPECT_LT(given.cell.job("through").times.ended_at, given.cell.job("beside").times.started_at);
   EXPECT_FALSE(given.cell.job("beside").ways.choice);
 }
@@ -88,7 +88,7 @@ TEST_P(FreeOrderAndAlternatives, AllAreDone) {
   }
   for (JobRequest& job : jobs) {
     std::ranges::replace(job.key, ' ', '-');
-    job.terms.order = JobOrder::any;
+    job.terms.reorderable = true;
     cell.submit(job);
   }
   cell.run_to_the_end();
@@ -108,7 +108,7 @@ TEST(Alternatives, AreSharedByTheArms) {
   EXPECT_LT(two.times.started_at, one.times.ended_at);
   EXPECT_THAT(two.ways.alternatives, ElementsAre("x", "y"));
   ASSERT_TRUE(two.ways.choice);
-  EXPECT_EQ(two.ways.choice->taken, two.arms.front());
+  EXPECT_EQ(two.ways.choice->selected, two.arms.front());
 }
 
 TEST(Alternatives, OfAStoppedArmAreDoneByTheOther) {
@@ -121,7 +121,7 @@ TEST(Alternatives, OfAStoppedArmAreDoneByTheOther) {
     EXPECT_EQ(cell.job(key).state, JobState::succeeded) << key;
     EXPECT_THAT(cell.job(key).arms, ElementsAre("y")) << key;
     ASSERT_TRUE(cell.job(key).ways.choice) << key;
-    EXPECT_THAT(cell.job(key).ways.choice->among, ElementsAre("y", "x")) << key;
+    EXPECT_THAT(cell.job(key).ways.choice->candidates, ElementsAre("y", "x")) << key;
     EXPECT_THAT(cell.job(key).ways.choice->detail, HasSubstr("x cannot: it is stopped")) << key;
   }
 }
@@ -138,8 +138,8 @@ TEST(Alternatives, OfAnArmThatDoesNotComeToTheirBeginningAreDoneByTheOther) {
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("job").state, JobState::succeeded);
   ASSERT_TRUE(cell.job("job").ways.choice);
-  EXPECT_THAT(cell.job("job").ways.choice->among, ElementsAre("y", "x"));
-  EXPECT_THAT(cell.job("job").ways.choice->detail, HasSubstr("x cannot: it will not stand"));
+  EXPECT_THAT(cell.job("job").ways.choice->candidates, ElementsAre("y", "x"));
+  EXPECT_THAT(cell.job("job").ways.choice->detail, HasSubstr("x cannot: it will not be"));
 }
 
 TEST(Alternatives, ThatEndElsewhereOrMoveTheSameArmAreRefusedWithThePlace) {

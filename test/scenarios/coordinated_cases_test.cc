@@ -19,7 +19,7 @@ TEST(CoordinatedLate, GoesAsFarAsItMayAndPausesThere) {
   cell.submit(slide("y", -1, 1, 4, "second"));
   cell.run_until(at(4s));
   const JobView paused = cell.job("second");
-  EXPECT_EQ(paused.state, JobState::holding);
+  EXPECT_EQ(paused.state, JobState::paused);
   ASSERT_EQ(paused.waits_on.size(), 1U);
   EXPECT_EQ(paused.waits_on[0].job, "first");
   EXPECT_FALSE(paused.waits_on[0].links.empty());
@@ -68,7 +68,7 @@ TEST_F(Coordinated, StaysBeforeAnArmThatWasCanceledInTheWayUntilItMovesOn) {
   cell.run_until(at(12s));
   EXPECT_EQ(cell.job("canceled").state, JobState::canceled);
   const JobView waits = cell.job("follows");
-  EXPECT_EQ(waits.state, JobState::holding);
+  EXPECT_EQ(waits.state, JobState::paused);
   ASSERT_EQ(waits.waits_on.size(), 1U);
   EXPECT_EQ(waits.waits_on[0].kind, Wait::Kind::arm);
   EXPECT_EQ(waits.waits_on[0].arm, "x");
@@ -89,15 +89,15 @@ TEST_F(Coordinated, GivesUpOnItsPathWhenNothingMovesTheArmAway) {
   cell.run_until(at(1950ms));
   ASSERT_TRUE(cell.simulation->executive().cancel("canceled"));
   cell.run_until(at(20s));
-  EXPECT_EQ(cell.job("follows").state, JobState::holding);
+  EXPECT_EQ(cell.job("follows").state, JobState::paused);
   cell.run_to_the_end(at(25s));
   const JobView gave_up = cell.job("follows");
   EXPECT_EQ(gave_up.state, JobState::expired);
   EXPECT_EQ(gave_up.reason(), Reason::backlog_timeout);
   EXPECT_EQ(gave_up.detail(),
-            "waited 20 s on its path; arm x has no job: one that moves it away would open the way, "
-            "or \"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, which send "
-            "it aside where there is a free way");
+            "waited 20 s on its path; arm x has no job: move it away with another job, or set "
+            "\"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, so that it "
+            "retreats if a path is free");
   ASSERT_EQ(gave_up.waits_on.size(), 1U);
   EXPECT_EQ(gave_up.waits_on[0].arm, "x");
 }
@@ -133,8 +133,8 @@ TEST_F(Coordinated, KeepsItsOrderOverAStopAndAResume) {
   cell.run_until(at(1500ms));
   stop_all(cell.simulation->executive(), "operator");
   cell.run_until(at(4s));
-  EXPECT_EQ(cell.job("first").state, JobState::holding);
-  EXPECT_EQ(cell.job("second").state, JobState::holding);
+  EXPECT_EQ(cell.job("first").state, JobState::paused);
+  EXPECT_EQ(cell.job("second").state, JobState::paused);
   resume_all(cell.simulation->executive());
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("first").state, JobState::succeeded);

@@ -103,7 +103,7 @@ TEST(CoordinatedTeams, AMotionThatPausesBeforeAnArmIsInARingWithTheJobsBehindIt)
   cell.run_until(at(6s));
   EXPECT_EQ(cell.job("both").state, JobState::failed);
   EXPECT_EQ(cell.job("both").reason(), Reason::deadlock);
-  EXPECT_EQ(cell.job("pauses").state, JobState::holding);
+  EXPECT_EQ(cell.job("pauses").state, JobState::paused);
   cell.submit(slide("x", cell.log.last[0], -1, 3, "makes way"));
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("pauses").state, JobState::succeeded);
@@ -124,7 +124,7 @@ TEST(CoordinatedTeams, AMotionThatWasStoppedWhileItPausedIsInItsRingAgain) {
   EXPECT_EQ(cell.job("both").state, JobState::queued);
   resume_all(cell.simulation->executive());
   cell.run_until(at(7s));
-  EXPECT_EQ(cell.job("pauses").state, JobState::holding);
+  EXPECT_EQ(cell.job("pauses").state, JobState::paused);
   EXPECT_EQ(cell.job("both").reason(), Reason::deadlock);
 }
 
@@ -153,7 +153,7 @@ TEST(CoordinatedTeams, AStopBeforeTheyMoveKeepsTheirPlace) {
   executive.stop({ArmId{2}}, "operator");
   cell.submit(slide("w", -1, 1, 12, "last"));
   cell.run_until(at(10s));
-  ASSERT_EQ(cell.job("last").state, JobState::holding);
+  ASSERT_EQ(cell.job("last").state, JobState::paused);
   resume_all(executive);
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("follows").state, JobState::succeeded);

@@ -44,17 +44,17 @@ TEST_P(Detours, WhereWaitingIsDearItGoesAnotherWayRound) {
   EXPECT_GT(cell->farthest_off_m(), 0.2);
   const auto detour = cell->job("a").ways.detour;
   ASSERT_TRUE(detour);
-  EXPECT_GE(detour->weighed, 1U);
-  EXPECT_TRUE(detour->is_taken);
+  EXPECT_GE(detour->candidates_evaluated, 1U);
+  EXPECT_TRUE(detour->is_selected);
   // With a start now, or none, there is nothing that it saves against.
   const double least_s = GetParam() == "certified" ? 0.0 : 10.0;
-  EXPECT_GE(detour->saves_s.value_or(0.0), least_s) << "b stays for 30 s";
+  EXPECT_GE(detour->time_saved_s.value_or(0.0), least_s) << "b stays for 30 s";
 }
 
 TEST_P(Detours, WhereWaitingIsCheapItTakesTheShortestWay) {
   (void)arrives_s(to_place("a", {0.6, 0.0}, "a"), 0.0, at(2500ms));
   EXPECT_LT(cell->farthest_off_m(), 0.01);
-  EXPECT_FALSE(cell->job("a").ways.detour && cell->job("a").ways.detour->is_taken);
+  EXPECT_FALSE(cell->job("a").ways.detour && cell->job("a").ways.detour->is_selected);
 }
 
 // What a client gives a trajectory for goes by that.

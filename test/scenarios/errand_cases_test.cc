@@ -15,7 +15,7 @@ class Errands : public ::testing::TestWithParam<std::string> {
     cell->submit(go("a", {-1, 0}, {0, 1}, 4, "x"));
     cell->submit(go("b", {0, 1}, {-1, 0}, 4, "y"));
     run_while("x", JobState::running, true);
-    ASSERT_LT(cell->job("aside-2").state, JobState::scheduled) << "b is to return";
+    ASSERT_LT(cell->job("retreat-2").state, JobState::scheduled) << "b is to return";
     ASSERT_TRUE(cell->executive().cancel("y"));
     run_while("x", JobState::running, false);
   }
@@ -42,7 +42,7 @@ TEST_P(Errands, NobodyWaitsForAReturnOnWhichTheNextJobDoesNotCount) {
   cell->submit(goal);
   cell->run_to_the_end(at(45s));
   EXPECT_EQ(cell->job("next").state, JobState::succeeded) << cell->job("next").detail();
-  EXPECT_EQ(cell->job("aside-2").state, JobState::canceled) << cell->job("aside-2").detail();
+  EXPECT_EQ(cell->job("retreat-2").state, JobState::canceled) << cell->job("retreat-2").detail();
   cell->expect_at("b", {1, -1});
 }
 

@@ -34,7 +34,7 @@ TEST(T6, AStalledArmStopsOnlyThoseItEndangers) {
   inject(cell, {.arm = "x", .kind = ArmFault::Kind::stall, .lasting = 10s});
   cell.run_until(at(8s));
   EXPECT_EQ(cell.job("stalls").state, JobState::running) << "late, not ended";
-  EXPECT_EQ(cell.job("endangered").state, JobState::holding);
+  EXPECT_EQ(cell.job("endangered").state, JobState::paused);
   EXPECT_EQ(cell.job("endangered").waits_on.front().job, "stalls");
   EXPECT_EQ(cell.job("unconcerned").state, JobState::running);
   cell.run_to_the_end();
@@ -55,7 +55,7 @@ TEST(T6, AFaultFailsItsJobAndStopsOnlyThoseItEndangers) {
   cell.run_until(at(20s));
   EXPECT_EQ(cell.job("faults").state, JobState::failed);
   EXPECT_EQ(cell.job("faults").reason(), Reason::arm_fault);
-  EXPECT_EQ(cell.job("endangered").state, JobState::holding);
+  EXPECT_EQ(cell.job("endangered").state, JobState::paused);
   EXPECT_EQ(cell.job("endangered").waits_on.front().arm, "x");
   EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
 

@@ -214,7 +214,7 @@ TEST_P(Goals, WhatCanNeverBeIsRefusedAtOnce) {
   named.move_to = PlanGoal{.joints = {}, .named = "nowhere", .pose = {}};
   refused(named, "/move_to/named");
   JobRequest any = move_to("x", 0.0, "d");
-  any.terms.order = JobOrder::any;
+  any.terms.reorderable = true;
   refused(any, "/order");
   JobRequest both = slide("x", -1, 0, 2, "e");
   both.arm = "x";

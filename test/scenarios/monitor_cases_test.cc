@@ -36,8 +36,8 @@ TEST(Monitor, StopsTheArmsConcernedAndSaysWhichLinksWhenAndHowClose) {
   EXPECT_EQ(found.front().finding.proximity.body_b, "y_ball");
   EXPECT_LT(found.front().finding.proximity.clearance_m, 0.3);
   EXPECT_EQ(found.front().stopped, (std::vector<std::string>{"x", "y"}));
-  EXPECT_EQ(cell.job("one").state, JobState::holding);
-  EXPECT_EQ(cell.job("two").state, JobState::holding);
+  EXPECT_EQ(cell.job("one").state, JobState::paused);
+  EXPECT_EQ(cell.job("two").state, JobState::paused);
   EXPECT_EQ(cell.job("one").waits_on.front().kind, Wait::Kind::stop);
   EXPECT_GT(cell.log.closest_m, 0.0) << "no contact";
 }
@@ -77,7 +77,7 @@ TEST(Monitor, LeavesArmsAloneThatAreNotConcerned) {
   cell.submit(slide("y", -1, 1, 4, "two"));
   cell.submit(slide("far", -1, 1, 4, "three"));
   cell.run_until(at(6s));
-  EXPECT_EQ(cell.job("one").state, JobState::holding);
+  EXPECT_EQ(cell.job("one").state, JobState::paused);
   EXPECT_EQ(cell.job("three").state, JobState::succeeded);
 }
 

@@ -114,8 +114,8 @@ TEST_P(BesideAMovedArm, ASwapOfGoalsTakesOneMoveAside) {
   }
   cell.expect_at("a", {0.4, 0.6});
   cell.expect_at("b", {-0.3, 0.0});
-  EXPECT_TRUE(cell.executive().job("aside-1"));
-  EXPECT_FALSE(cell.executive().job("aside-2"));
+  EXPECT_TRUE(cell.executive().job("retreat-1"));
+  EXPECT_FALSE(cell.executive().job("retreat-2"));
 }
 
 // Two rows of three places between walls: a finds both ways to its goal shut when it is planned, by

@@ -48,9 +48,9 @@ TEST_P(OpenArms, TheNearerOneGoes) {
   EXPECT_THAT(job.arms, ElementsAre("y"));
   EXPECT_THAT(job.ways.alternatives, ElementsAre("x", "y"));
   ASSERT_TRUE(job.ways.choice);
-  EXPECT_EQ(job.ways.choice->taken, "y");
+  EXPECT_EQ(job.ways.choice->selected, "y");
   EXPECT_THAT(job.ways.choice->detail, HasSubstr("sooner than x"));
-  EXPECT_GT(job.ways.choice->saves_s.value_or(0.0), 0.1);
+  EXPECT_GT(job.ways.choice->time_saved_s.value_or(0.0), 0.1);
   EXPECT_NEAR(cell->log.last[0], -1.0, 1e-3);
   EXPECT_NEAR(cell->log.last[1], -0.5, 1e-3);
 }

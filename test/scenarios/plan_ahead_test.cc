@@ -18,12 +18,12 @@ std::vector<DiagramCell> corner() {
           cell(State::undecided, 2, 4, 0.5, 1), cell(State::conflict, 2, 4, 1, 3)};
 }
 
-std::optional<DiagramMeeting> met_from(Duration a, Duration b,
+std::optional<DiagramContact> met_from(Duration a, Duration b,
                                        const std::vector<DiagramCell>& cells = corner()) {
   return first_met(cells, a, b, 4s, 3s);
 }
 
-void expect_met(const std::optional<DiagramMeeting>& met, State state, Duration after, Duration a,
+void expect_met(const std::optional<DiagramContact>& met, State state, Duration after, Duration a,
                 Duration b) {
   ASSERT_TRUE(met);
   EXPECT_EQ(met->state, state);

@@ -38,7 +38,7 @@ TEST(APolicyIsChanged, NotWhileAJobIsHeldOnItsPath) {
   cell.run_until(at(1s));
   stop_all(cell.simulation->executive(), "operator");
   cell.run_until(at(3s));
-  ASSERT_EQ(cell.job("a").state, JobState::holding);
+  ASSERT_EQ(cell.job("a").state, JobState::paused);
   EXPECT_THAT(refused(cell, "sequential").detail, HasSubstr("a"));
 }
 

@@ -44,7 +44,7 @@ class Follower final : public Observer {
       if (job.state == JobState::queued) lists[0].push_back(job.key);
       if (job.state == JobState::backlogged) lists[1].push_back(job.key);
       if (job.state == JobState::scheduled) lists[2].push_back(job.key);
-      if (job.state == JobState::running || job.state == JobState::holding) {
+      if (job.state == JobState::running || job.state == JobState::paused) {
         lists[3].push_back(job.key);
       }
     }
@@ -57,7 +57,7 @@ class Follower final : public Observer {
  private:
   void follow(const JobView& job) {
     told_.insert_or_assign(job.id, job);
-    held += job.state == JobState::holding ? 1 : 0;
+    held += job.state == JobState::paused ? 1 : 0;
     const auto read = board->job(job.key);
     ASSERT_TRUE(read) << job.key;
     EXPECT_EQ(read->state, job.state) << job.key;
@@ -129,7 +129,7 @@ TEST(Published, EveryJobIsALegOrWaitsInTheLanesOfItsArms) {
         for (const JobView& job : executive.snapshot(0).jobs) {
           jobs += static_cast<std::size_t>(std::ranges::count(job.arms, lane.arm));
         }
-        EXPECT_EQ(lane.legs.size() + lane.waiting, jobs) << lane.arm << ", seed " << seed;
+        EXPECT_EQ(lane.steps.size() + lane.waiting, jobs) << lane.arm << ", seed " << seed;
         waited += lane.waiting;
       }
     });

@@ -40,7 +40,7 @@ TEST_P(Replans, WhereThereIsNoWayAroundTheArmGoesAside) {
   cell->submit(go("a", {-1, 0}, {0, 0}, 3, "into its place"));
   cell->run_to_the_end();
   expect_succeeded("into its place");
-  expect_succeeded("aside-1");
+  expect_succeeded("retreat-1");
   const auto other = cell->job("into its place").ways.another_way;
   ASSERT_TRUE(other && other->refusal);
   EXPECT_EQ(other->done, 0U);
@@ -61,8 +61,8 @@ TEST_P(Replans, WhereThereIsNoStraightWayAsideOneIsPlanned) {
       continue;
     }
     expect_succeeded("into its home");
-    expect_succeeded("aside-1");
-    EXPECT_EQ(cell->job("aside-1").name, "b moves aside for into its home");
+    expect_succeeded("retreat-1");
+    EXPECT_EQ(cell->job("retreat-1").name, "b retreats for into its home");
     cell->expect_at("a", {1, 0});
     expect_apart();
   }
@@ -113,7 +113,7 @@ TEST_P(Replans, WhereThereIsNoneItExpiresAndSaysSo) {
   const JobView expired = cell->job("into b");
   EXPECT_EQ(expired.state, JobState::expired);
   EXPECT_EQ(expired.reason(), Reason::backlog_timeout);
-  EXPECT_EQ(expired.detail().rfind("waited 5 s in the backlog; no other way: ", 0), 0U)
+  EXPECT_EQ(expired.detail().rfind("waited 5 s in the backlog; no other path: ", 0), 0U)
       << expired.detail();
   cell->expect_at("a", {-1, 0});
 }
@@ -160,7 +160,7 @@ TEST_P(Replans, OneThatAnObjectStoppedGoesAroundIt) {
   post.X_WO.translation() = Eigen::Vector3d(-0.2, 1.6, 0.0);
   ASSERT_TRUE(cell->executive().scene().add(std::move(post)));
   cell->run_until(at(5s));
-  ASSERT_EQ(cell->job("stopped").state, JobState::holding);
+  ASSERT_EQ(cell->job("stopped").state, JobState::paused);
   ASSERT_TRUE(cell->executive().replan("stopped"));
   cell->run_to_the_end();
   expect_succeeded("stopped");
@@ -207,7 +207,7 @@ TEST_P(Replans, WhatCanBeGivenNoneIsRefused) {
   cell->submit(std::move(loop));
   const auto refused = cell->executive().replan("loop");
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().front().slug, "no-other-way");
+  EXPECT_EQ(refused.error().front().slug, "no-alternative-path");
   EXPECT_EQ(cell->executive().replan("nobody").error().front().kind, ProblemKind::not_found);
   cell->run_to_the_end();
   EXPECT_EQ(cell->executive().replan("loop").error().front().slug, "job-has-ended");

@@ -62,7 +62,7 @@ class Client {
       request.move_to =
           PlanGoal{.joints = std::vector{to.first, to.second}, .named = {}, .pose = {}};
     } else {
-      request.terms.approach = Approach::plan;
+      request.terms.move_to_start = MoveToStart::plan;
     }
     request.terms.backlog_timeout = 4s;
     if (below(2) == 0) request.terms.on_timeout = OnTimeout::replan;

@@ -131,7 +131,7 @@ Outcome run(Workload load, Way way) {
   scheduling.backlog_timeout = 15s;
   for (TimedJob& job : load.jobs) {
     if (way == Way::replan) job.job.terms.on_timeout = OnTimeout::replan;
-    job.job.terms.approach = Approach::plan;
+    job.job.terms.move_to_start = MoveToStart::plan;
   }
   Closest seen;
   const std::size_t count = load.jobs.size();

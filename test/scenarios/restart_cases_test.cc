@@ -182,12 +182,12 @@ TEST(Restore, JobsOfTheServersOwnTakeNoNumberOfAFormerRun) {
   Restarted cell(nullptr, "earliest_start", JobId{20});
   std::vector<RestoredJob> jobs;
   jobs.push_back({JobId{7}, slide("x", 0.2, -1, 2, "elsewhere"), at(-2s)});
-  jobs.back().request.terms.approach = Approach::plan;
+  jobs.back().request.terms.move_to_start = MoveToStart::plan;
   jobs.push_back({JobId{8}, slide("y", -1, 0, 2, "next"), at(-1s)});
   jobs.back().request.after = {"elsewhere"};
   for (const auto& answer : cell.executive().restore(std::move(jobs))) ASSERT_TRUE(answer);
   cell.run_to_the_end();
-  EXPECT_EQ(cell.job("approach-1").id, JobId{20});
+  EXPECT_EQ(cell.job("move-to-start-1").id, JobId{20});
   EXPECT_EQ(cell.job("elsewhere").id, JobId{7});
   EXPECT_EQ(cell.job("elsewhere").state, JobState::succeeded);
   EXPECT_EQ(cell.job("next").id, JobId{8});

@@ -31,11 +31,11 @@ TEST_P(InARing, OneOfTwoThatSwapTheirPlacesMovesAsideAndComesBack) {
   cell.run_to_the_end(at(60s));
   EXPECT_EQ(cell.job("one").state, JobState::succeeded);
   EXPECT_EQ(cell.job("two").state, JobState::succeeded);
-  EXPECT_EQ(cell.job("aside-1").name, "b moves aside for one");
-  EXPECT_EQ(cell.job("aside-2").name, "b returns to where it stood");
-  EXPECT_EQ(cell.job("aside-1").state, JobState::succeeded);
-  EXPECT_EQ(cell.job("aside-2").state, JobState::succeeded);
-  EXPECT_LT(*cell.job("one").times.started_at, *cell.job("aside-2").times.started_at)
+  EXPECT_EQ(cell.job("retreat-1").name, "b retreats for one");
+  EXPECT_EQ(cell.job("retreat-2").name, "b returns to where it rested");
+  EXPECT_EQ(cell.job("retreat-1").state, JobState::succeeded);
+  EXPECT_EQ(cell.job("retreat-2").state, JobState::succeeded);
+  EXPECT_LT(*cell.job("one").times.started_at, *cell.job("retreat-2").times.started_at)
       << "b lets it pass";
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
 }
@@ -67,19 +67,19 @@ TEST_P(InARing, EveryJobIsToldBeforeOthersWaitForIt) {
     }
     told.insert(job->key);
   }
-  EXPECT_TRUE(told.contains("aside-2"));
+  EXPECT_TRUE(told.contains("retreat-2"));
 }
 
 TEST_P(InARing, NoArmGoesAsideForOneThatIsCanceledBefore) {
   Crossing cell(parking_polygon(2), GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.submit(slide("b", -1, 1, 4, "two"));
-  while (!cell.simulation->executive().job("aside-1")) cell.simulation->tick();
+  while (!cell.simulation->executive().job("retreat-1")) cell.simulation->tick();
   ASSERT_TRUE(cell.simulation->executive().cancel("one"));
   cell.submit(slide("a", -1, -2, 3, "leaves"));
   cell.run_to_the_end(at(60s));
-  EXPECT_EQ(cell.job("aside-1").state, JobState::canceled);
-  EXPECT_EQ(cell.job("aside-2").state, JobState::canceled);
+  EXPECT_EQ(cell.job("retreat-1").state, JobState::canceled);
+  EXPECT_EQ(cell.job("retreat-2").state, JobState::canceled);
   EXPECT_EQ(cell.job("two").state, JobState::succeeded);
 }
 
@@ -91,8 +91,9 @@ TEST_P(InARing, WithNowhereToGoTheLastJobFailsAtOnce) {
   cell.submit(slide("b", -1, 1, 4, "two"));
   cell.run_until(at(100ms));
   EXPECT_EQ(cell.job("two").reason(), Reason::deadlock);
-  EXPECT_NE(cell.job("two").detail().find("or a free way aside for one"), std::string::npos);
-  EXPECT_FALSE(cell.simulation->executive().job("aside-1"));
+  EXPECT_NE(cell.job("two").detail().find("or clear a retreat for one of the arms: none was free"),
+            std::string::npos);
+  EXPECT_FALSE(cell.simulation->executive().job("retreat-1"));
 }
 
 }  // namespace

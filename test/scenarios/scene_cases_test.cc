@@ -20,7 +20,7 @@ TEST(Scene, AnObjectSetInTheWayHoldsTheMotionUntilItIsTakenAway) {
   ASSERT_TRUE(cell.simulation->executive().scene().add(ball_at(0.8)));
   EXPECT_TRUE(std::holds_alternative<SceneView>(cell.log.events.back().body));
   cell.run_until(at(10s));
-  EXPECT_EQ(cell.job("moves").state, JobState::holding);
+  EXPECT_EQ(cell.job("moves").state, JobState::paused);
   EXPECT_EQ(cell.job("moves").waits_on.front().kind, Wait::Kind::object);
   EXPECT_EQ(cell.job("moves").waits_on.front().links.back(), "ball");
   ASSERT_TRUE(cell.simulation->executive().scene().remove("ball"));
@@ -65,7 +65,7 @@ TEST(After, AJobWaitsForTheOnesItNames) {
   cell.submit(second);
   cell.run_until(at(1s));
   EXPECT_EQ(cell.job("second").state, JobState::queued);
-  EXPECT_EQ(cell.job("second").waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(cell.job("second").waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(cell.job("second").waits_on.front().job, "first");
   cell.run_to_the_end();
   EXPECT_EQ(cell.job("second").state, JobState::succeeded);
@@ -160,7 +160,7 @@ TEST(Check, AnswersWithEvidenceAndChangesNothing) {
 
   cell.simulation->executive().check(slide("x", 1, -1, 4), keep);
   EXPECT_EQ(answer->kind, Verdict::Kind::conflict);
-  EXPECT_EQ(answer->conflicts.front().kind, Wait::Kind::order);
+  EXPECT_EQ(answer->conflicts.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(cell.log.events.size(), events);
   EXPECT_EQ(cell.simulation->executive().snapshot().jobs.size(), 1u);
 }

@@ -151,7 +151,7 @@ JobRequest Soak::motion(const std::vector<std::size_t>& arms) {
   const std::vector<double> zero(from.size(), 0.0);
   const double takes_s = random_.uniform(1.1, 3.0) * std::max(0.5, farthest);
   request.trajectory.points = {{from, zero, zero, 0.0}, {to, zero, zero, takes_s}};
-  if (random_.chance(0.3)) request.terms.approach = Approach::plan;
+  if (random_.chance(0.3)) request.terms.move_to_start = MoveToStart::plan;
   return request;
 }
 
@@ -189,7 +189,7 @@ JobRequest Soak::any_request() {
   request.key = "s" + std::to_string(next_++);
   if (random_.chance(0.3)) request.terms.priority = static_cast<int>(random_.index(3)) - 1;
   if (random_.chance(0.2)) request.terms.on_timeout = OnTimeout::replan;
-  if (random_.chance(0.2)) request.terms.order = JobOrder::any;
+  if (random_.chance(0.2)) request.terms.reorderable = true;
   if (random_.chance(0.1)) {
     const std::string before = any_job();
     if (!before.empty()) request.after = {before};

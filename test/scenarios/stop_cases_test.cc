@@ -13,7 +13,7 @@ TEST(Stop, HoldsAllMotionsAndResumeFinishesThem) {
   cell.run_until(at(2s));
   stop_all(cell.simulation->executive(), "operator");
   cell.run_until(at(3s));
-  EXPECT_EQ(cell.job("one").state, JobState::holding);
+  EXPECT_EQ(cell.job("one").state, JobState::paused);
   EXPECT_FALSE(cell.job("one").motion.stopping);
   EXPECT_EQ(cell.job("one").waits_on.front().kind, Wait::Kind::stop);
   const Configuration stands = cell.log.last;
@@ -116,7 +116,7 @@ TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatStopsInItsWay) 
       << "by the clock it passes behind the other";
   cell.simulation->executive().stop({kX}, "operator");
   cell.run_until(at(8s));
-  EXPECT_EQ(cell.job("behind").state, JobState::holding);
+  EXPECT_EQ(cell.job("behind").state, JobState::paused);
   EXPECT_GT(cell.log.closest_m, 0.0);
   resume_all(cell.simulation->executive());
   cell.run_to_the_end();
@@ -132,7 +132,7 @@ TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatStallsInItsWay)
   cell.run_until(at(1500ms));
   ASSERT_EQ(cell.job("behind").state, JobState::running);
   cell.run_until(at(8s));
-  EXPECT_EQ(cell.job("behind").state, JobState::holding);
+  EXPECT_EQ(cell.job("behind").state, JobState::paused);
   EXPECT_GT(cell.log.closest_m, 0.0);
 }
 
@@ -142,7 +142,7 @@ TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatWasCanceledInIt
   cell.run_until(at(1500ms));
   ASSERT_TRUE(cell.simulation->executive().cancel("ahead"));
   cell.run_until(at(8s));
-  EXPECT_EQ(cell.job("behind").state, JobState::holding);
+  EXPECT_EQ(cell.job("behind").state, JobState::paused);
   EXPECT_GT(cell.log.closest_m, 0.0);
 }
 

@@ -20,14 +20,14 @@ struct AnyOrder : ::testing::Test {
   static Submit visit_from(double place, int priority = 0) {
     return {.job = JobId{0},
             .trajectory = visit(0, place, place + 0.5, 2s),
-            .terms = {.priority = priority, .backlog_timeout = 600s, .order = JobOrder::any}};
+            .terms = {.priority = priority, .backlog_timeout = 600s, .reorderable = true}};
   }
   void expect_behind(JobId job, JobId before) {
     EXPECT_FALSE(bench.question) << "it is not its turn";
     EXPECT_EQ(bench.state(turn), JobState::backlogged);
     EXPECT_EQ(bench.state(job), JobState::queued);
     ASSERT_EQ(bench.job(job).waits_on.size(), 1u);
-    EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::order);
+    EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::predecessor);
     EXPECT_EQ(bench.job(job).waits_on.front().job, before);
   }
   void answer_that_it_waits(TimePoint now) {
@@ -74,10 +74,10 @@ TEST_F(AnyOrder, AgedJobIsNotOvertaken) {
 
 // Jobs whose order is still open are not admitted ahead.
 struct AheadOfTheirTurns : ::testing::Test {
-  void submit_three(JobOrder order) {
+  void submit_three(bool reorderable) {
     for (JobId& job : jobs) {
       Submit visit = AnyOrder::visit_from(0.0);
-      visit.terms.order = order;
+      visit.terms.reorderable = reorderable;
       job = bench.submit(std::move(visit), now += 1ms);
     }
     while (bench.question) bench.answer_free(now += 1ms);
@@ -85,7 +85,7 @@ struct AheadOfTheirTurns : ::testing::Test {
 
   static CellPtr cell_that_looks_ahead() {
     auto cell = std::make_shared<Cell>(*one_joint_arms(2));
-    cell->scheduling.horizon_legs = 3;
+    cell->scheduling.horizon_steps = 3;
     return cell;
   }
 
@@ -95,12 +95,12 @@ struct AheadOfTheirTurns : ::testing::Test {
 };
 
 TEST_F(AheadOfTheirTurns, JobsInGivenOrderAreAdmittedTogether) {
-  submit_three(JobOrder::as_given);
+  submit_three(false);
   for (const JobId job : jobs) EXPECT_EQ(bench.state(job), JobState::scheduled);
 }
 
 TEST_F(AheadOfTheirTurns, JobsInAnyOrderAreLeftOpenUntilOneMustStart) {
-  submit_three(JobOrder::any);
+  submit_three(true);
   EXPECT_EQ(bench.state(jobs[0]), JobState::scheduled);
   EXPECT_EQ(bench.state(jobs[2]), JobState::queued);
   bench.progressed(jobs[0], 1s, now += 1s);

@@ -34,7 +34,7 @@ TEST(Aging, AgedJobDefersLaterJobsOfOtherArms) {
   EXPECT_FALSE(bench.question) << "not even with a larger priority";
   EXPECT_EQ(bench.state(after), JobState::queued);
   ASSERT_EQ(bench.job(after).waits_on.size(), 1u);
-  EXPECT_EQ(bench.job(after).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(after).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(bench.job(after).waits_on.front().job, bench.old);
 }
 
@@ -123,7 +123,7 @@ TEST(Aging, PausedJobIsNeverDeferred) {
   ASSERT_EQ(bench.candidate(), bench.old);
   bench.answer_conflict(at(31102ms), Conflict::With::motion, bench.runs, ArmId{0});
   bench.on_plan(at(32s));
-  ASSERT_EQ(bench.state(held), JobState::holding);
+  ASSERT_EQ(bench.state(held), JobState::paused);
   bench.step(Resume{{ArmId{2}}}, at(32s));
   ASSERT_TRUE(bench.question);
   EXPECT_EQ(bench.candidate(), held);

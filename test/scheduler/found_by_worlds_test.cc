@@ -24,7 +24,7 @@ TEST(Admission, JobAdmittedBehindAnotherReportsThatItWaits) {
   bench.answer_regions(at(5ms), {at_goal, {b, y, {region(ProgressBox{1s, 1200ms, 0s, 200ms})}}});
   ASSERT_EQ(bench.state(y), JobState::scheduled);
   ASSERT_EQ(bench.job(y).waits_on.size(), 1u);
-  EXPECT_EQ(bench.job(y).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(y).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(bench.job(y).waits_on.front().job, x);
 }
 
@@ -62,9 +62,9 @@ TEST(Stop, PausesAJobThatHasNotReportedProgress) {
   bench.answer_free(at(1ms));
   bench.step(Stop{{ArmId{0}}, "operator"}, at(300ms));
   bench.stopped(job, 400ms, at(500ms));
-  EXPECT_EQ(bench.state(job), JobState::holding);
+  EXPECT_EQ(bench.state(job), JobState::paused);
   bench.step(Resume{{ArmId{0}}}, at(1s));
-  EXPECT_EQ(bench.state(job), JobState::holding) << bench.job(job).detail();
+  EXPECT_EQ(bench.state(job), JobState::paused) << bench.job(job).detail();
   bench.answer_free(at(1001ms));
   EXPECT_EQ(bench.dispatched.back().from_progress, 400ms);
 }

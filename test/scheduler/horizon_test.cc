@@ -7,7 +7,7 @@ namespace {
 
 CellPtr cell_with_horizon(std::size_t arms, int legs) {
   auto cell = std::make_shared<Cell>(*one_joint_arms(arms));
-  cell->scheduling.horizon_legs = legs;
+  cell->scheduling.horizon_steps = legs;
   return cell;
 }
 

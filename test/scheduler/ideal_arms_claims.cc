@@ -34,9 +34,9 @@ void IdealArms::check_phase(const Job& job) const {
   EXPECT_TRUE(!admitted || job.times.scheduled_at) << what;
   EXPECT_TRUE(job.state() != JobState::backlogged || job.times.backlogged_at) << what;
   EXPECT_TRUE(job.state() != JobState::running || moves(job.id)) << what << " does not move";
-  EXPECT_TRUE(job.state() != JobState::holding || job.stopping() || !moves(job.id)) << what;
+  EXPECT_TRUE(job.state() != JobState::paused || job.stopping() || !moves(job.id)) << what;
   EXPECT_TRUE(!job.stopping() || moves(job.id)) << what << " brakes";
-  const bool on_its_way = job.state() == JobState::running || job.state() == JobState::holding;
+  const bool on_its_way = job.state() == JobState::running || job.state() == JobState::paused;
   EXPECT_TRUE(!on_its_way || job.times.started_at) << what << " has not begun";
   const bool in_queue = job.state() == JobState::queued || job.state() == JobState::backlogged;
   EXPECT_FALSE(in_queue && (job.times.started_at || job.times.scheduled_at || job.pausing()))

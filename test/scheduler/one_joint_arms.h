@@ -11,7 +11,7 @@ namespace armloom {
 inline CellPtr one_joint_arms(std::size_t count) {
   auto cell = std::make_shared<Cell>();
   cell->scheduling.on_idle_blocker = OnIdleBlocker::report;
-  cell->scheduling.horizon_legs = 1;  // one job per arm at a time, easier to follow
+  cell->scheduling.horizon_steps = 1;  // one job per arm at a time, easier to follow
   cell->robots.emplace_back();
   for (std::size_t i = 0; i < count; ++i) {
     const std::string name(1, static_cast<char>('a' + i));

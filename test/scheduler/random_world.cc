@@ -35,7 +35,7 @@ CellPtr World::cell() {
       *(disturbances_.parks ? one_joint_arms_that_park(arms_) : one_joint_arms(arms_)));
   made->execution.duration_margin = 1h;  // stalls must not cause overruns here
   made->execution.start_tolerance_rad = 1e-7;
-  made->scheduling.horizon_legs = 1 + static_cast<int>(arms_ + random_() % 5) % 6;
+  made->scheduling.horizon_steps = 1 + static_cast<int>(arms_ + random_() % 5) % 6;
   return cell_ = made;
 }
 
@@ -96,7 +96,7 @@ std::optional<Submit> World::draw(bool any) {
     if (!any && !bench_.crossings.free_beside(*motion, rest)) continue;
     Submit job{JobId{0}, motion, {static_cast<int>(random_() % 3), 1'000'000s}};
     if (disturbances_.cancels) job.terms.backlog_timeout = 20s + up_to(100s);
-    if (is_brought) job.terms.approach = Approach::plan;
+    if (is_brought) job.terms.move_to_start = MoveToStart::plan;
     const auto active = bench_.scheduler.active();
     if (!active.empty() && random_() % 5 == 0) {
       job.after.push_back(active[random_() % active.size()]);
@@ -118,7 +118,7 @@ std::optional<Submit> World::draw_visit(const Configuration& rest, bool any) {
   if (job.alternatives.empty()) return std::nullopt;
   job.trajectory = job.alternatives.front();
   if (job.alternatives.size() == 1) job.alternatives.clear();
-  job.terms.order = JobOrder::any;
+  job.terms.reorderable = true;
   return job;
 }
 

@@ -104,7 +104,7 @@ TEST(DeadlockUnderPark, RetreatAndReturnComeBeforeTheJob) {
   EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
   EXPECT_THAT(bench.job(bench.b).ring, IsEmpty());
   ASSERT_FALSE(bench.job(bench.b).waits_on.empty());
-  EXPECT_EQ(bench.job(bench.b).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(bench.b).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(bench.job(bench.b).waits_on.front().job, bench.back);
   ASSERT_FALSE(bench.job(bench.back).waits_on.empty());
   EXPECT_EQ(bench.job(bench.back).waits_on.front().job, bench.way);
@@ -131,7 +131,7 @@ TEST(DeadlockUnderPark, ReturnWaitsForTheBlockedJob) {
   EXPECT_EQ(bench.state(bench.way), JobState::succeeded);
   ASSERT_TRUE(bench.question);
   ASSERT_EQ(bench.question->candidates.front().job, bench.a);
-  EXPECT_EQ(bench.job(bench.back).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(bench.back).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(bench.job(bench.back).waits_on.front().job, bench.a);
   bench.answer_conflict(at(2001ms), Conflict::With::scene);  // something else blocks a for now
   EXPECT_FALSE(bench.question) << "no other job may be checked";

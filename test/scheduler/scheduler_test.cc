@@ -63,7 +63,7 @@ TEST(Backlog, TimeoutStartsWhenTheJobIsFirstChecked) {
   bench.answer_free(at(1ms));
   const JobId behind = bench.submit(move({0}, 1, 0, 2s), at(2ms), 100ms);
   EXPECT_EQ(bench.state(behind), JobState::queued);
-  EXPECT_EQ(bench.job(behind).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(behind).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(bench.job(behind).waits_on.front().job, first);
   bench.finished(first, at(2s));
   EXPECT_EQ(bench.state(behind), JobState::queued);

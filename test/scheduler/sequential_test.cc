@@ -42,7 +42,7 @@ TEST(Sequential, PausedJobKeepsTheCell) {
   bench.progressed(first, 500ms, at(503ms));
   bench.step(Stop{{ArmId{0}}, "operator"}, at(503ms));
   bench.stopped(first, 600ms, at(700ms));
-  EXPECT_EQ(bench.state(first), JobState::holding);
+  EXPECT_EQ(bench.state(first), JobState::paused);
   EXPECT_FALSE(bench.question);
   EXPECT_EQ(bench.job(second).waits_on.front().kind, Wait::Kind::capacity);
 }

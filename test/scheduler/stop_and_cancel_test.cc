@@ -146,13 +146,13 @@ TEST(Stop, PausesMotionsAndKeepsTheQueue) {
   Running bench(1);
   const JobId waits = bench.submit(move({0}, 1, 0, 2s), at(100ms));
   bench.step(Stop{{ArmId{0}}, "operator"}, at(500ms));
-  EXPECT_EQ(bench.state(bench.jobs[0]), JobState::holding);
+  EXPECT_EQ(bench.state(bench.jobs[0]), JobState::paused);
   EXPECT_TRUE(bench.job(bench.jobs[0]).stopping());
   bench.stopped(bench.jobs[0], 700ms, at(800ms));
   EXPECT_FALSE(bench.job(bench.jobs[0]).stopping());
   EXPECT_EQ(bench.job(bench.jobs[0]).waits_on.front().kind, Wait::Kind::stop);
   EXPECT_EQ(bench.job(bench.jobs[0]).waits_on.front().detail, "operator");
-  EXPECT_EQ(bench.job(waits).waits_on.front().kind, Wait::Kind::order);
+  EXPECT_EQ(bench.job(waits).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_FALSE(bench.question);
 
   bench.step(Resume{{ArmId{0}}}, at(5s));
@@ -239,7 +239,7 @@ TEST(Resume, DoesNotContinueAPausedJobIntoARestingArm) {
   bench.step(Resume{{ArmId{0}}}, at(1s));
   bench.answer_regions(at(1001ms),
                        {{bench.jobs[0], ArmId{0}, {region(ProgressBox{1s, 2s, 0s, 0s})}}});
-  EXPECT_EQ(bench.state(bench.jobs[0]), JobState::holding);
+  EXPECT_EQ(bench.state(bench.jobs[0]), JobState::paused);
   EXPECT_EQ(bench.job(bench.jobs[0]).waits_on.front().kind, Wait::Kind::arm);
 }
 

@@ -14,16 +14,16 @@ constexpr Duration kMoves = 10s;
 // They cross in the middle of their paths.
 const Crossing kCross{ArmId{0}, 0.4, 0.6, ArmId{1}, 0.4, 0.6};
 
-CellPtr cell_with(std::size_t arms, int horizon_legs) {
+CellPtr cell_with(std::size_t arms, int horizon_steps) {
   auto cell = std::make_shared<Cell>(*one_joint_arms(arms));
-  cell->scheduling.horizon_legs = horizon_legs;
+  cell->scheduling.horizon_steps = horizon_steps;
   return cell;
 }
 
 struct Timeline : ::testing::Test {
-  void start(const char* policy, int horizon_legs, std::map<JobId, Habits> habits = {},
+  void start(const char* policy, int horizon_steps, std::map<JobId, Habits> habits = {},
              std::vector<Crossing> crossings = {kCross}) {
-    const CellPtr cell = cell_with(2, horizon_legs);
+    const CellPtr cell = cell_with(2, horizon_steps);
     arms = std::make_unique<IdealArms>(cell, std::move(*make_policy(policy, *cell)),
                                        Crossings(std::move(crossings)), [habits](JobId job) {
                                          const auto own = habits.find(job);
@@ -159,7 +159,7 @@ TEST_F(Timeline, PermanentlyBlockedMotionHasNoPredictedEnd) {
   EXPECT_EQ(behind.starts, std::nullopt);
   EXPECT_EQ(behind.ends, std::nullopt);
   ASSERT_THAT(behind.pauses, SizeIs(1));
-  EXPECT_EQ(behind.pauses[0].waits_on->kind, Wait::Kind::order);
+  EXPECT_EQ(behind.pauses[0].waits_on->kind, Wait::Kind::predecessor);
   EXPECT_EQ(behind.pauses[0].waits_on->job, second);
 }
 

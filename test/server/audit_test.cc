@@ -26,7 +26,7 @@ class Audit : public test::TokenServer {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     for (;;) {
       test::Wire wire(port());
-      wire.send("GET /api/v1/audit" + query + " HTTP/1.1\r\nHost: 127.0.0.1\r\n" +
+      wire.send("GET /api/v1/audit-log" + query + " HTTP/1.1\r\nHost: 127.0.0.1\r\n" +
                 bearer(tokens_["admin"]) + "\r\n");
       const auto answer = test::read_answer(wire);
       const auto page = answer.json();
@@ -133,7 +133,7 @@ TEST_F(Audit, IsAskedByWhoWhatAndWhen) {
   for (const char* wrong :
        {"?since=yesterday", "?before=1", "?status=1", "?status=x", "?cursor=x", "?limit=1001"}) {
     test::Wire wire(port());
-    wire.send(std::string("GET /api/v1/audit") + wrong + " HTTP/1.1\r\nHost: 127.0.0.1\r\n" +
+    wire.send(std::string("GET /api/v1/audit-log") + wrong + " HTTP/1.1\r\nHost: 127.0.0.1\r\n" +
               bearer(tokens_["admin"]) + "\r\n");
     const auto refused = test::read_answer(wire);
     EXPECT_EQ(refused.status, 422) << wrong;

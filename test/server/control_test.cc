@@ -21,19 +21,19 @@ using nlohmann::json;
 class ByHand : public test::RunningServer {
  protected:
   // A busy machine gets the time to say that the button is still held.
-  ByHand() { options_.hold_lease = 2s; }
+  ByHand() { options_.jog_lease = 2s; }
   std::string take(const std::string& who, bool from_another = false) {
     const auto taken = post("/api/v1/control", json{{"who", who}, {"take", from_another}}.dump());
     EXPECT_EQ(taken.status, 200) << taken.body;
     return taken.json()["key"];
   }
-  test::Answer hold(const std::string& key, const std::string& arm = "left",
-                    const json& to = {{"joints", test::kMiddle}}) {
-    return post("/api/v1/arms/" + arm + "/hold",
+  test::Answer jog(const std::string& key, const std::string& arm = "left",
+                   const json& to = {{"joints", test::kMiddle}}) {
+    return post("/api/v1/arms/" + arm + "/jog",
                 json{{"control", key}, {"to", to}, {"velocity_scaling_factor", 0.05}}.dump());
   }
   test::Answer renew(const std::string& key, const std::string& arm = "left") {
-    return put("/api/v1/arms/" + arm + "/hold", json{{"control", key}}.dump());
+    return put("/api/v1/arms/" + arm + "/jog", json{{"control", key}}.dump());
   }
   json arm(const std::string& name) { return get("/api/v1/arms/" + name).json(); }
   // Holds on until `is` says of the job that it is enough.
@@ -59,7 +59,7 @@ class ByHand : public test::RunningServer {
 TEST_F(ByHand, AnArmGoesAsLongAsItIsHeldAndBrakesOnItsPathWhenItIsNot) {
   start(1.0);
   const std::string key = take("Ada");
-  const auto begun = hold(key);
+  const auto begun = jog(key);
   ASSERT_EQ(begun.status, 202) << begun.body;
   const std::string id = begun.json()["job"]["id"];
   EXPECT_EQ(begun.json()["lease_s"], 2.0);
@@ -79,7 +79,7 @@ TEST_F(ByHand, ItGoesToItsEndWhenItIsHeldAllTheWay) {
   start(20.0);
   const std::string key = take("Ada");
   // 20 s of the cell's time are one of the wall's: the lease is of the wall's.
-  const std::string id = hold(key, "left", {{"named", "ready"}}).json()["job"]["id"];
+  const std::string id = jog(key, "left", {{"named", "ready"}}).json()["job"]["id"];
   for (;;) {
     const auto renewed = renew(key);
     if (renewed.status != 200) break;
@@ -91,19 +91,19 @@ TEST_F(ByHand, ItGoesToItsEndWhenItIsHeldAllTheWay) {
 TEST_F(ByHand, OneClientAtATimeAndAForeignKeyIsRefused) {
   start(1.0);
   EXPECT_TRUE(get("/api/v1/control").json()["holder"].is_null());
-  EXPECT_EQ(hold("nobody").status, 409);
+  EXPECT_EQ(jog("nobody").status, 409);
   const std::string ada = take("Ada");
   EXPECT_EQ(get("/api/v1/control").json()["holder"]["who"], "Ada");
   EXPECT_EQ(get("/api/v1/control").body.find(ada), std::string::npos) << "the key is secret";
   const auto second = post("/api/v1/control", R"({"who": "Bob"})");
   EXPECT_EQ(second.status, 409);
   EXPECT_EQ(second.json()["value"], "Ada");
-  const std::string id = hold(ada).json()["job"]["id"];
+  const std::string id = jog(ada).json()["job"]["id"];
   renew_until(ada, [](const json& job) { return job["progress"] > 0.0; });
   const auto foreign = renew("0000");
   EXPECT_EQ(foreign.status, 409);
   EXPECT_EQ(foreign.json()["type"], "urn:armloom:problem:not-in-control");
-  EXPECT_EQ(put("/api/v1/arms/right/hold", json{{"control", ada}}.dump()).status, 409);
+  EXPECT_EQ(put("/api/v1/arms/right/jog", json{{"control", ada}}.dump()).status, 409);
 
   // Somebody takes it: what was held brakes at once, and its beats are no longer heard.
   const std::string bob = take("Bob", true);
@@ -117,12 +117,12 @@ TEST_F(ByHand, OneClientAtATimeAndAForeignKeyIsRefused) {
 TEST_F(ByHand, SaysWhereTheGoalIsWrongAndHowFastIsTooFast) {
   start(1.0);
   const std::string key = take("Ada");
-  const auto nowhere = hold(key, "left", {{"named", "nowhere"}});
+  const auto nowhere = jog(key, "left", {{"named", "nowhere"}});
   EXPECT_EQ(nowhere.status, 422);
   EXPECT_EQ(nowhere.json()["pointer"], "/to/named") << nowhere.body;
-  EXPECT_EQ(hold(key, "third").status, 404);
+  EXPECT_EQ(jog(key, "third").status, 404);
   const auto fast =
-      post("/api/v1/arms/left/hold",
+      post("/api/v1/arms/left/jog",
            json{{"control", key}, {"to", {{"named", "ready"}}}, {"velocity_scaling_factor", 0.5}}
                .dump());
   EXPECT_EQ(fast.status, 422);
@@ -138,7 +138,7 @@ TEST_F(ByHand, ItWaitsForWhatIsInItsWayAndIsGivenUpThere) {
   ASSERT_EQ(post("/api/v1/jobs", other.dump()).status, 202);
   until(listener, "other", "running");
   const std::string key = take("Ada");
-  const std::string id = hold(key).json()["job"]["id"];
+  const std::string id = jog(key).json()["job"]["id"];
   renew_until(key, [](const json& job) { return job["state"] == "backlogged"; });
   const json last = ended(id);
   EXPECT_EQ(last["state"], "canceled");
@@ -153,7 +153,7 @@ TEST_F(ByHand, IsNeverBegunByAServerThatIsStartedAgain) {
   start(1.0);
   const std::string key = take("Ada");
   post("/api/v1/arms/left/stop", "");
-  const std::string id = hold(key).json()["job"]["id"];
+  const std::string id = jog(key).json()["job"]["id"];
   test::Listener listener(port());
   end();
   start(1.0);

@@ -83,14 +83,14 @@ TEST_F(DiagramOverHttp, OfTwoThatCrossIsFreeAtTheirBeginningsAndAConflictAtTheir
   const json& layer = diagram["layers"][0];
   EXPECT_EQ(layer["arms"], json({"left", "right"}));
   // What lies ahead is in the cells where it says so; asked again, nothing is drawn anew.
-  const json met = layer["met"];
+  const json met = layer["first_contact"];
   EXPECT_EQ(met["state"], "conflict");
   EXPECT_EQ(state_at(layer, std::min(3.0, met["a_s"].get<double>() + 1e-6),
                      std::min(4.0, met["b_s"].get<double>() + 1e-6)),
             "conflict");
   const json again = get("/api/v1/jobs/l/diagram?with=r&cells=0").json();
   EXPECT_FALSE(again["layers"][0].contains("cells"));
-  EXPECT_EQ(again["layers"][0]["met"]["state"], "conflict");
+  EXPECT_EQ(again["layers"][0]["first_contact"]["state"], "conflict");
   EXPECT_EQ(again["evaluations"], diagram["evaluations"]);
   auto area = areas(layer, 3.0, 4.0);
   EXPECT_GT(area["free"], 1.0);

@@ -14,7 +14,7 @@ TEST_F(Durable, WhatWaitedWaitsAgainUnderAStopAndGoesOnWhenResumed) {
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   const std::string submitted = submit("a").json()["submitted_at"];
   EXPECT_EQ(submit("b", "left", {{"after", {"a"}}, {"priority", 3}}).status, 202);
-  EXPECT_EQ(submit("", "right", {{"id", "c"}, {"order", "any"}}).status, 202);
+  EXPECT_EQ(submit("", "right", {{"id", "c"}, {"reorderable", true}}).status, 202);
   json nameless = swing("x", "right");
   nameless.erase("id");
   const std::string given = post("/api/v1/jobs", nameless.dump()).json()["id"];
@@ -23,7 +23,7 @@ TEST_F(Durable, WhatWaitedWaitsAgainUnderAStopAndGoesOnWhenResumed) {
   EXPECT_EQ(job("a")["state"], "queued");
   EXPECT_EQ(job("a")["submitted_at"], submitted);
   EXPECT_EQ(job("b")["priority"], 3);
-  EXPECT_EQ(job("c")["order"], "any");
+  EXPECT_EQ(job("c")["reorderable"], true);
   EXPECT_EQ(job(given)["state"], "queued");
   std::vector<std::string> ids;
   const json page = get("/api/v1/jobs").json();

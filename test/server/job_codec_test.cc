@@ -19,12 +19,12 @@ double job_time_s(const json& trajectory) {
 
 TEST(JobCodec, ReadsWhatBecomesOfOneThatWaitsTooLongOrBeginsElsewhere) {
   const auto job = read_job_text(
-      R"({"on_timeout": "replan", "approach": "plan",
+      R"({"on_timeout": "replan", "move_to_start": "plan",
           "trajectory": {"joint_names": ["a"], "points": [
             {"positions": [1], "velocities": [0], "time_from_start": 0}]}})");
   ASSERT_TRUE(job) << job.error().front().detail;
   EXPECT_EQ(job->terms.on_timeout, OnTimeout::replan);
-  EXPECT_EQ(job->terms.approach, Approach::plan);
+  EXPECT_EQ(job->terms.move_to_start, MoveToStart::plan);
   const auto bad =
       read_job_text(R"({"on_timeout": "retry", "arm": "a", "move_to": {"named": "b"}})");
   ASSERT_FALSE(bad);
@@ -192,17 +192,17 @@ TEST(JobCodec, ReadsAlternativesInsteadOfATrajectory) {
 TEST(BatchCodec, GivesItsOrderToTheJobsThatDoNotSayTheirs) {
   json free = test::move("left", test::kHome, test::kMiddle);
   json given = free;
-  given["order"] = "as_given";
+  given["reorderable"] = false;
   for (const bool atomic : {true, false}) {
-    const json body = {{"jobs", {free, given}}, {"order", "any"}, {"atomic", atomic}};
+    const json body = {{"jobs", {free, given}}, {"reorderable", true}, {"atomic", atomic}};
     const auto batch = read_batch_text(body.dump());
     ASSERT_TRUE(batch) << batch.error().front().detail;
-    EXPECT_EQ(batch->jobs[0].job->terms.order, JobOrder::any);
-    EXPECT_EQ(batch->jobs[1].job->terms.order, JobOrder::as_given);
-    EXPECT_EQ(json::parse(batch->jobs[0].text)["order"], "any") << "as it is recorded";
+    EXPECT_TRUE(batch->jobs[0].job->terms.reorderable);
+    EXPECT_FALSE(batch->jobs[1].job->terms.reorderable);
+    EXPECT_EQ(json::parse(batch->jobs[0].text)["reorderable"], true) << "as it is recorded";
   }
   json wrong = free;
-  wrong["order"] = "random";
+  wrong["reorderable"] = "random";
   const auto refused = read_job_text(wrong.dump());
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().front().pointer, "/order");

@@ -33,8 +33,8 @@ TEST(JobTermsAreDescribedOnce, WhatIsAskedForIsTold) {
   const json asked = {{"priority", -3},
                       {"backlog_timeout_s", 1.5},
                       {"on_timeout", "replan"},
-                      {"approach", "plan"},
-                      {"order", "any"}};
+                      {"move_to_start", "plan"},
+                      {"reorderable", true}};
   std::string text = asked.dump();
   const auto job = asked_for(text.substr(1, text.size() - 2));
   ASSERT_TRUE(job) << job.error().front().detail;
@@ -50,8 +50,8 @@ TEST(JobTermsAreDescribedOnce, WhatIsUsualIsToldOnlyWhereItAlwaysWas) {
   const json is_told = told(job->terms);
   EXPECT_EQ(is_told["priority"], 0);
   EXPECT_EQ(is_told["on_timeout"], "abort");
-  EXPECT_FALSE(is_told.contains("approach"));
-  EXPECT_FALSE(is_told.contains("order"));
+  EXPECT_FALSE(is_told.contains("move_to_start"));
+  EXPECT_FALSE(is_told.contains("reorderable"));
   EXPECT_FALSE(is_told.contains("backlog_timeout_s"));
 }
 
@@ -62,16 +62,16 @@ TEST(JobTermsAreDescribedOnce, WhatTheyMayNotBeIsRefusedByNameWithWhatTheyMay) {
       {R"("backlog_timeout_s": -1)", "/backlog_timeout_s"},
       {R"("backlog_timeout_s": 1e7)", "/backlog_timeout_s"},
       {R"("on_timeout": "retry")", "/on_timeout"},
-      {R"("approach": "fast")", "/approach"},
-      {R"("order": "random")", "/order"},
-      {R"("order": null)", "/order"}};
+      {R"("move_to_start": "fast")", "/move_to_start"},
+      {R"("reorderable": "random")", "/reorderable"},
+      {R"("reorderable": null)", "/reorderable"}};
   for (const auto& [terms, pointer] : cases) {
     const auto job = asked_for(terms);
     ASSERT_FALSE(job) << terms;
     ASSERT_EQ(job.error().size(), 1U) << terms;
     EXPECT_EQ(job.error().front().pointer, pointer);
   }
-  EXPECT_NE(asked_for(R"("order": "random")").error().front().detail.find("as_given"),
+  EXPECT_NE(asked_for(R"("reorderable": "random")").error().front().detail.find("boolean"),
             std::string::npos);
 }
 
@@ -80,8 +80,8 @@ TEST(JobTermsAreDescribedOnce, TheSchemaStatesWhatAnAbsentOneMeans) {
   const Schema& properties = in["$of"]["properties"];
   EXPECT_EQ(properties["priority"]["default"], 0);
   EXPECT_EQ(properties["on_timeout"]["default"], "abort");
-  EXPECT_EQ(properties["approach"]["default"], "none");
-  EXPECT_EQ(properties["order"]["default"], "as_given");
+  EXPECT_EQ(properties["move_to_start"]["default"], "none");
+  EXPECT_EQ(properties["reorderable"]["default"], false);
   const Schema out = job_format()->schema(Way::out);
   const auto& required = out["$of"]["required"];
   const auto is_required = [&](const char* key) {
@@ -89,12 +89,12 @@ TEST(JobTermsAreDescribedOnce, TheSchemaStatesWhatAnAbsentOneMeans) {
   };
   EXPECT_TRUE(is_required("priority"));
   EXPECT_FALSE(is_required("on_timeout")) << "older versions did not tell it";
-  EXPECT_FALSE(is_required("approach"));
-  EXPECT_FALSE(is_required("order"));
+  EXPECT_FALSE(is_required("move_to_start"));
+  EXPECT_FALSE(is_required("reorderable"));
 }
 
 TEST(JobTermsAreDescribedOnce, AnAmendmentChangesWhatItNamesAndNothingElse) {
-  JobTerms terms{.priority = 3, .backlog_timeout = 60s, .order = JobOrder::any};
+  JobTerms terms{.priority = 3, .backlog_timeout = 60s, .reorderable = true};
   apply(AmendedTerms{.backlog_timeout = 5s}, terms);
   EXPECT_EQ(terms.priority, 3);
   EXPECT_EQ(terms.backlog_timeout, 5s);
@@ -102,18 +102,19 @@ TEST(JobTermsAreDescribedOnce, AnAmendmentChangesWhatItNamesAndNothingElse) {
   EXPECT_EQ(terms.priority, -1);
   EXPECT_EQ(terms.backlog_timeout, 5s);
   EXPECT_EQ(terms.on_timeout, OnTimeout::replan);
-  EXPECT_EQ(terms.order, JobOrder::any);
+  EXPECT_TRUE(terms.reorderable);
 
   JobTerms other;
   apply(amendable(terms), other);
   EXPECT_EQ(other.priority, -1);
   EXPECT_EQ(other.backlog_timeout, 5s);
   EXPECT_EQ(other.on_timeout, OnTimeout::replan);
-  EXPECT_EQ(other.order, JobOrder::as_given) << "that cannot be changed later";
+  EXPECT_FALSE(other.reorderable) << "that cannot be changed later";
 }
 
 TEST(JobTermsAreDescribedOnce, AnAmendmentOfWhatCannotBeChangedIsRefused) {
-  for (const char* text : {R"({"order": "any"})", R"({"approach": "plan"})", R"({"id": "b"})"}) {
+  for (const char* text :
+       {R"({"reorderable": true})", R"({"move_to_start": "plan"})", R"({"id": "b"})"}) {
     EXPECT_FALSE(read_job_amendment(text)) << text;
   }
   const auto amendment = read_job_amendment(R"({"priority": 4, "name": "b"})");

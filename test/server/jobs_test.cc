@@ -76,7 +76,7 @@ TEST_F(Jobs, StopHoldsThemAndResumeLetsThemEnd) {
   const auto stopped = post("/api/v1/stop", "");
   EXPECT_EQ(stopped.status, 202);
   EXPECT_EQ(stopped.json()["stopped"], true);
-  while (listener.next_of("job")["data"]["state"] != "holding") {
+  while (listener.next_of("job")["data"]["state"] != "paused") {
   }
   EXPECT_EQ(get("/api/v1/queue").json()["stopped"], true);
   EXPECT_EQ(get("/api/v1/queue").json()["running"][0]["id"], "go");

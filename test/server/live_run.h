@@ -154,8 +154,8 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
     }
     job["priority"] = random_() % 3;
     job["backlog_timeout_s"] = 0.5 + 0.25 * static_cast<double>(random_() % 8);
-    if (random_() % 3 == 0) job["approach"] = "plan";
-    if (random_() % 4 == 0) job["order"] = "any";
+    if (random_() % 3 == 0) job["move_to_start"] = "plan";
+    if (random_() % 4 == 0) job["reorderable"] = true;
     if (random_() % 4 == 0) job["on_timeout"] = "replan";
     return job;
   }

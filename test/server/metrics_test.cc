@@ -57,7 +57,7 @@ TEST_F(MetricsRoute, CountsJobsWaitsAndDecisions) {
     if (name.starts_with("armloom_job_waits_total")) waits += value;
   }
   EXPECT_GE(waits, 1);
-  EXPECT_EQ(after.at("armloom_event_readers"), 1);
+  EXPECT_EQ(after.at("armloom_event_subscribers"), 1);
 }
 
 TEST_F(MetricsRoute, WatchesLoopsClearanceAndStops) {

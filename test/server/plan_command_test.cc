@@ -49,7 +49,7 @@ TEST_F(PlanCommand, SaysWhyThereIsNoPlan) {
   EXPECT_EQ(in_the_table.exit_code, 1);
   EXPECT_EQ(in_the_table.last_line()["result"], "goal-in-collision");
   EXPECT_EQ(in_the_table.last_line()["links"].size(), 2u);
-  EXPECT_EQ(in_the_table.last_line()["asked_m"], 0.02);
+  EXPECT_EQ(in_the_table.last_line()["required_clearance_m"], 0.02);
   EXPECT_EQ(in_the_table.last_line()["nearest"].size(), 7u);
   const Outcome too_far = plan("--to '{\"pose\": {\"xyz\": [3, 0, 0.5]}}'");
   EXPECT_EQ(too_far.exit_code, 1);

@@ -30,7 +30,7 @@ TEST_F(PlanOverHttp, AnswersATrajectoryThatPostJobsTakesAsItIs) {
   start(20.0);
   const json plan = planned({{"arm", "left"}, {"to", {{"named", "ready"}}}});
   EXPECT_EQ(plan["verdict"]["verdict"], "free") << plan["verdict"];
-  EXPECT_GE(plan["length"].get<double>(), plan["straight"].get<double>() - 1e-9);
+  EXPECT_GE(plan["length"].get<double>(), plan["straight_line_length"].get<double>() - 1e-9);
   EXPECT_GT(plan["evaluations"], 0);
   EXPECT_EQ(get("/api/v1/jobs").json()["jobs"].size(), 0U) << "it is not executed";
   test::Listener listener(port());
@@ -56,7 +56,7 @@ TEST_F(PlanOverHttp, OfAnotherStartIsPlannedAndSaidNotToBeJudged) {
   const json plan =
       planned({{"arm", "left"}, {"to", {{"named", "home"}}}, {"start", {{"named", "ready"}}}});
   EXPECT_FALSE(plan.contains("verdict"));
-  EXPECT_EQ(plan["not_judged"]["type"], "urn:armloom:problem:start-mismatch");
+  EXPECT_EQ(plan["not_checked_reason"]["type"], "urn:armloom:problem:start-mismatch");
 }
 
 TEST_F(PlanOverHttp, SaysWhatOfTheRequestIsAtFaultAndTheNearestThatWouldDo) {
@@ -73,7 +73,7 @@ TEST_F(PlanOverHttp, SaysWhatOfTheRequestIsAtFaultAndTheNearestThatWouldDo) {
   EXPECT_EQ(begins["pointer"], "/start/joints/3");
   const json collides = plan({{"arm", "left"}, {"to", {{"joints", table}}}}).json();
   EXPECT_EQ(collides["pointer"], "/to/joints");
-  EXPECT_EQ(collides["asked_m"], 0.02);
+  EXPECT_EQ(collides["required_clearance_m"], 0.02);
   const json nearest = collides["nearest"];
   ASSERT_EQ(nearest.size(), 7U) << collides;
   EXPECT_EQ(plan({{"arm", "left"}, {"to", {{"joints", nearest}}}}).status, 200);

@@ -119,7 +119,7 @@ TEST_F(ReplayCommand, SaysWhatIsOtherwise) {
   std::string events = read_text_file(file_of("events.jsonl")).value();
   const std::size_t at = events.find("\"running\"");
   ASSERT_NE(at, std::string::npos);
-  std::ofstream(file_of("events.jsonl")) << events.replace(at, 9, "\"holding\"");
+  std::ofstream(file_of("events.jsonl")) << events.replace(at, 9, "\"paused\"");
   const auto replayed = run("replay --data " + data());
   EXPECT_EQ(replayed.exit_code, 1);
   EXPECT_EQ(replayed.last_line()["same"], false);

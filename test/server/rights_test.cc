@@ -21,10 +21,10 @@ TEST_F(Rights, AreThoseOfTheTableForEveryVerbAndRole) {
   std::size_t denied = 0, permitted = 0;
   for (const Route& route : all_routes()) {
     const std::string verb = route.method + " " + route.path;
-    for (const char* nobody : {"", "withdrawn", "wrong"}) {
+    for (const char* nobody : {"", "revoked", "wrong"}) {
       const std::string token = *nobody == '\0' ? "" : bearer(tokens_[nobody] + "x");
       const std::string shown =
-          std::string(nobody) == "withdrawn" ? bearer(tokens_[nobody]) : token;
+          std::string(nobody) == "revoked" ? bearer(tokens_[nobody]) : token;
       const test::Answered answer = ask(route, shown);
       EXPECT_EQ(answer.status == 401, route.role.has_value())
           << verb << " by nobody: " << answer.head;
@@ -88,9 +88,9 @@ TEST_F(Rights, TokensCountAsSoonAsTheyAreMadeAndNoLongerThanTheyAre) {
   test::Wire events(port());
   events.send("GET /api/v1/events HTTP/1.1\r\nHost: 127.0.0.1\r\n" + bearer(fresh) + "\r\n");
   EXPECT_NE(events.take_until("\r\n\r\n").find("200 OK"), std::string::npos);
-  ASSERT_TRUE(TokenFile(file_).withdraw("fresh"));
+  ASSERT_TRUE(TokenFile(file_).revoke("fresh"));
   EXPECT_EQ(ask("GET", "/api/v1/arms", bearer(fresh)).status, 401);
-  EXPECT_NE(events.take_all().find(": the token was withdrawn"), std::string::npos);
+  EXPECT_NE(events.take_all().find(": the token was revoked"), std::string::npos);
   fs::remove(file_);
   EXPECT_EQ(ask("GET", "/api/v1/arms", bearer(tokens_["admin"])).status, 401) << "nobody's";
 }
@@ -101,7 +101,7 @@ TEST_F(Rights, AFileWithAMistakeIsToldAndLeavesTheTokensOfBefore) {
   EXPECT_EQ(ask("GET", "/readyz", "").status, 200);
   std::ofstream(file_, std::ios::app) << "a slip\n";
   EXPECT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
-  EXPECT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["withdrawn"])).status, 401);
+  EXPECT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["revoked"])).status, 401);
   const auto ready = get("/readyz");
   EXPECT_EQ(ready.status, 503);
   EXPECT_EQ(ready.json()["type"], "urn:armloom:problem:tokens-unreadable");
@@ -116,7 +116,7 @@ TEST_F(Rights, ControlEndsWithTheTokenThatTookIt) {
   const std::string admin = bearer(tokens_["admin"]);
   EXPECT_EQ(ask("POST", "/api/v1/control", bearer(fresh) + as_json, "{}").status, 200);
   EXPECT_EQ(ask("POST", "/api/v1/control", admin + as_json, "{}").status, 409);
-  ASSERT_TRUE(TokenFile(file_).withdraw("fresh"));
+  ASSERT_TRUE(TokenFile(file_).revoke("fresh"));
   EXPECT_EQ(ask("POST", "/api/v1/control", admin + as_json, "{}").status, 200);
 }
 
@@ -153,8 +153,8 @@ TEST_F(Rights, AWebSocketIsClosedWhenItsTokenIsWithdrawn) {
       "Sec-WebSocket-Version: 13\r\n" +
       bearer(tokens_["viewer"]) + "\r\n");
   EXPECT_NE(socket.take_until("\r\n\r\n").find("101"), std::string::npos);
-  ASSERT_TRUE(TokenFile(file_).withdraw("viewer"));
-  (void)socket.take_until(std::string("\x03\xf0", 2) + "the token was withdrawn");
+  ASSERT_TRUE(TokenFile(file_).revoke("viewer"));
+  (void)socket.take_until(std::string("\x03\xf0", 2) + "the token was revoked");
 }
 
 TEST_F(Rights, TheDashboardAsksPeopleToLogInAndKeepsTheTokenFromScripts) {
@@ -193,7 +193,7 @@ TEST(Tokens, HaveNamesOfTheirOwnAndAFileThatIsOneIsReadWhole) {
   EXPECT_TRUE(file.add("a", Role::viewer));
   EXPECT_EQ(file.add("a", Role::admin).error().front().slug, "name-in-use");
   EXPECT_EQ(file.add("a b", Role::admin).error().front().slug, "bad-name");
-  EXPECT_EQ(file.withdraw("b").error().front().slug, "no-such-token");
+  EXPECT_EQ(file.revoke("b").error().front().slug, "no-such-token");
   EXPECT_EQ(file.read()->size(), 1U);
   std::ofstream(path, std::ios::app) << "b admin 1234\n";
   EXPECT_NE(file.read().error().front().detail.find("line 3"), std::string::npos);

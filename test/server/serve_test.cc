@@ -101,8 +101,8 @@ TEST_F(Serve, AnEndStopsNoArmForTheNextRunAndIsNoAlert) {
     told += alert["text"].get<std::string>() + "\n";
   }
   EXPECT_EQ(told,
-            "stopped: left, right (the server was started again: 1 job waits; "
-            "resume to go on)\nstopped: right (operator)\n");
+            "stopped: left, right (the server was restarted: 1 job waits; "
+            "resume to continue)\nstopped: right (operator)\n");
   end(third);
 }
 
@@ -135,18 +135,18 @@ TEST_F(Serve, EventsAreOnTheirWayToTheDiskWhenTheyAreTold) {
 
 // As under a debugger: who held the button has let it go for all that the server knows.
 TEST_F(Serve, AMoveByHandIsOverAfterTheProcessWasStopped) {
-  test::ServeProcess server({"--cell", test::kCell, "--hold-lease", "0.3"}, log());
+  test::ServeProcess server({"--cell", test::kCell, "--jog-lease", "0.3"}, log());
   const auto ask = [&](const char* method, const std::string& path, const json& body) {
     return test::request(server.port(), method, "/api/v1" + path, body.dump());
   };
   const json key{{"control", ask("POST", "/control", {{"who", "Ada"}}).json()["key"]}};
   json hold = key;
   hold["to"] = {{"named", "ready"}};
-  ASSERT_EQ(ask("POST", "/arms/left/hold", hold).status, 202);
+  ASSERT_EQ(ask("POST", "/arms/left/jog", hold).status, 202);
   server.signal(SIGSTOP);
   std::this_thread::sleep_for(std::chrono::milliseconds(400));
   server.signal(SIGCONT);
-  const auto late = ask("PUT", "/arms/left/hold", key);
+  const auto late = ask("PUT", "/arms/left/jog", key);
   EXPECT_EQ(late.status, 409) << late.body;
 }
 

@@ -35,7 +35,7 @@ TEST_F(TimelineOverHttp, OfACellAtRestHasEveryArmAndNoLeg) {
   ASSERT_EQ(told["arms"].size(), 2U);
   for (const std::size_t arm : {0U, 1U}) {
     EXPECT_EQ(told["arms"][arm]["name"], arm == 0 ? "left" : "right");
-    EXPECT_TRUE(told["arms"][arm]["legs"].empty());
+    EXPECT_TRUE(told["arms"][arm]["steps"].empty());
     EXPECT_EQ(told["arms"][arm]["waiting"], 0);
   }
 }
@@ -50,8 +50,8 @@ TEST_F(TimelineOverHttp, TellsAheadWhenTheSecondGoesAndForWhomItWaits) {
   until(listener, "l", "running");
   submit("r", test::move("right", test::kHome, test::kMiddle, 3.0));
   json told = timeline();
-  while (told["arms"][1]["legs"].empty()) told = timeline();  // judged, and in its place
-  const json leg = told["arms"][1]["legs"][0];
+  while (told["arms"][1]["steps"].empty()) told = timeline();  // judged, and in its place
+  const json leg = told["arms"][1]["steps"][0];
   EXPECT_EQ(leg["id"], "r");
   EXPECT_EQ(leg["arms"], json::array({"right"}));
   ASSERT_FALSE(leg["pauses"].empty()) << told;
@@ -66,7 +66,7 @@ TEST_F(TimelineOverHttp, TellsAheadWhenTheSecondGoesAndForWhomItWaits) {
   const double late_s = leg["ends_s"].get<double>() - came["ended_s"].get<double>();
   EXPECT_GE(late_s, -kAtMost_s);
   EXPECT_LE(late_s, (pause["at_s"] > 0.0 ? kPauseLoss_s : 0.0) + kAtMost_s);
-  const json first = told["arms"][0]["legs"].back();
+  const json first = told["arms"][0]["steps"].back();
   const json back = get("/api/v1/jobs/l-back").json();
   EXPECT_EQ(first["id"], "l-back");
   EXPECT_NEAR(first["starts_s"], back["started_s"], kAtMost_s);

@@ -30,9 +30,9 @@ TEST_F(Token, IsMadeListedAndWithdrawn) {
   const auto listed = run("token list --tokens " + tokens());
   EXPECT_TRUE(listed.out.starts_with("cell-7 operator 20")) << listed.out;
   EXPECT_EQ(listed.out.find(token), listed.out.npos);
-  EXPECT_EQ(run("token withdraw --tokens " + tokens() + " --name cell-7").exit_code, 0);
+  EXPECT_EQ(run("token revoke --tokens " + tokens() + " --name cell-7").exit_code, 0);
   EXPECT_EQ(run("token list --tokens " + tokens()).out, "");
-  EXPECT_EQ(run("token withdraw --tokens " + tokens() + " --name cell-7").exit_code, 2);
+  EXPECT_EQ(run("token revoke --tokens " + tokens() + " --name cell-7").exit_code, 2);
   EXPECT_EQ(run("token add --tokens " + tokens() + " --name a --role root").exit_code, 2);
 }
 

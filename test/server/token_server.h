@@ -18,7 +18,7 @@ struct Answered {
   std::string head;
 };
 
-// A server that asks for tokens, of which there is one for each role and one that was withdrawn.
+// A server that asks for tokens, of which there is one for each role and one that was revoked.
 class TokenServer : public RunningServer {
  protected:
   void SetUp() override {
@@ -28,11 +28,11 @@ class TokenServer : public RunningServer {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     file_ = folder / "tokens";
-    for (const char* name : {"viewer", "operator", "admin", "withdrawn"}) {
+    for (const char* name : {"viewer", "operator", "admin", "revoked"}) {
       const auto role = value_named<Role>(name).value_or(Role::admin);
       tokens_[name] = TokenFile(file_).add(name, role).value();
     }
-    ASSERT_TRUE(TokenFile(file_).withdraw("withdrawn"));
+    ASSERT_TRUE(TokenFile(file_).revoke("revoked"));
     options_.tokens = file_;
     start(1);
   }

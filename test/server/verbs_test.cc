@@ -20,14 +20,14 @@ TEST_F(Verbs, OneArmStopsAndResumesAlone) {
   const auto stopped = post("/api/v1/arms/left/stop", "");
   EXPECT_EQ(stopped.status, 202) << stopped.body;
   EXPECT_EQ(stopped.json()["name"], "left");
-  until(listener, "l", "holding");
+  until(listener, "l", "paused");
   EXPECT_EQ(get("/api/v1/queue").json()["stopped"], false);
   until(listener, "r", "succeeded");
-  EXPECT_EQ(get("/api/v1/jobs/l").json()["state"], "holding");
+  EXPECT_EQ(get("/api/v1/jobs/l").json()["state"], "paused");
   const json arm = get("/api/v1/arms/left").json();
   EXPECT_EQ(arm["state"], "stopped") << "not as if it went on by itself";
   EXPECT_EQ(arm["job"], "l");
-  const json leg = get("/api/v1/timeline").json()["arms"][0]["legs"][0];
+  const json leg = get("/api/v1/timeline").json()["arms"][0]["steps"][0];
   EXPECT_TRUE(leg["ends_s"].is_null()) << leg;
   EXPECT_EQ(leg["pauses"][0]["waits_on"]["kind"], "stop");
   EXPECT_EQ(post("/api/v1/arms/left/resume", "").status, 202);

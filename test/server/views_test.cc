@@ -41,13 +41,13 @@ TEST(Views, AJobThatWaitsSaysForWhat) {
                          {"links", {"r7", "l7"}}, {"own_time_s", 1.25}, {"other_time_s", 0.5},
                          {"clearance_m", 0.004}};
   EXPECT_EQ(job["waits_on"], json::array({expected}));
-  EXPECT_EQ(job["ring"], json::array());
+  EXPECT_EQ(job["cycle"], json::array());
 }
 
 TEST(Views, AJobOfADeadlockTellsItsRing) {
   JobView job = waiting_job();
-  job.ring = {"b", "a"};
-  EXPECT_EQ(json::parse(text_of(*job_format(), job))["ring"], json({"b", "a"}));
+  job.cycle = {"b", "a"};
+  EXPECT_EQ(json::parse(text_of(*job_format(), job))["cycle"], json({"b", "a"}));
 }
 
 TEST(Views, AnEndedJobSaysWhy) {

@@ -14,7 +14,7 @@ const kWeb = resolve(dirname(fileURLToPath(import.meta.url)), '..');
 const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kWeb, '../build/armloom'));
 const kHead = '// Written by `npm run contract`: change the descriptions in server/messages, not this file.\n';
 // What the page reads, with all that these refer to.
-const kRead = ['Message', 'Cell', 'Job', 'Diagram', 'Timeline', 'Problem', 'Verdict', 'JobMotion', 'Plan', 'AlertList', 'Session', 'Comparison', 'Control', 'ControlTaken', 'Hold', 'JobPage', 'MeasuredStates', 'RecordingList'];
+const kRead = ['Message', 'Cell', 'Job', 'Diagram', 'Timeline', 'Problem', 'Verdict', 'JobMotion', 'Plan', 'AlertList', 'Session', 'Comparison', 'Control', 'ControlTaken', 'Jog', 'JobPage', 'MeasuredStates', 'RecordingList'];
 // What a schema says beyond the shape. A newer server may say more than this page knows.
 const kDropped = new Set(['description', 'additionalProperties', 'minimum', 'maximum', 'exclusiveMinimum', 'exclusiveMaximum', 'pattern', 'format', 'dependentRequired']);
 // Long, and read number by number where it is used (src/motion, src/state/trace): to check it here, too, would hold the page up.

@@ -101,7 +101,7 @@ function shelf(): Storage | null {
   }
 }
 
-/** Whose token was withdrawn, or who has logged out in another window, may nothing any more but log in. */
+/** Whose token was revoked, or who has logged out in another window, may nothing any more but log in. */
 async function know_who(): Promise<void> {
   const answer = await api.session();
   if (!answer.ok) return;

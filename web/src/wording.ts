@@ -49,7 +49,7 @@ export function clock(t_s: number): string {
 
 /** Why a job waits, one sentence; empty when it waits on nothing. */
 export function reason_in_words(job: Job): string {
-  if (job.ring.length) return `deadlock: ${[...job.ring, ...job.ring.slice(0, 1)].map(short_id).join(' -> ')}`;
+  if (job.cycle.length) return `deadlock: ${[...job.cycle, ...job.cycle.slice(0, 1)].map(short_id).join(' -> ')}`;
   const [first, ...rest] = job.waits_on;
   if (!first) return job.state === 'backlogged' ? 'waits to be tried again' : '';
   const more = rest.length ? ` (and ${rest.length} more)` : '';
@@ -63,7 +63,7 @@ export function wait_in_words(w: WaitsOn): string {
     case 'job': return how ? `waits for ${who}: ${how}` : `waits for ${who} to end`;
     case 'arm': return `waits for ${who} to move away${how ? `: ${how}` : ''}${w.detail ? ` (${w.detail})` : ''}`;
     case 'object': return how ? `waits for ${who} to be clear: ${how}` : `waits for ${who} to be clear`;
-    case 'order': return w.id ? `waits its turn: ${short_id(w.id)}${w.arm ? ` of ${w.arm}` : ''} comes first` : `waits its turn${w.arm ? ` on ${w.arm}` : ''}`;
+    case 'predecessor': return w.id ? `waits its turn: ${short_id(w.id)}${w.arm ? ` of ${w.arm}` : ''} comes first` : `waits its turn${w.arm ? ` on ${w.arm}` : ''}`;
     case 'capacity': return w.id ? `waits until ${who} has ended: one at a time` : 'waits for a free place';
     case 'plan': return 'waits until the way to its goal is planned';
     case 'check': return `is being checked: ${Math.round(100 * (w.progress ?? 0))} %`;
@@ -105,7 +105,7 @@ export function figure_in_words(job: Job, now_s: number, progress: number, ends_
   if (job.stopping) return { text: 'stopping', title: 'Brakes on its path' };
   switch (job.state) {
     case 'running': return { text: `${seconds(ends_s === null ? (1 - progress) * (job.duration_s ?? 0) : Math.max(0, ends_s - now_s))} left`, title: ends_s === null ? 'Time until its motion ends' : 'Time until its motion ends, with the pauses that are expected' };
-    case 'holding': return is_stopped(job) ? { text: 'stopped', title: 'Stands on its path until its arm is resumed' } : { text: 'holding', title: 'Stands still on its path' };
+    case 'paused': return is_stopped(job) ? { text: 'stopped', title: 'Stands on its path until its arm is resumed' } : { text: 'paused', title: 'Stands still on its path' };
     case 'queued': case 'backlogged': case 'scheduled': return waited(job, now_s);
     default: break;
   }
@@ -135,7 +135,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
     case 'plan': return 'waits for its plan';
     case 'check': return 'is being checked';
     case 'capacity': return 'waits for a free place';
-    case 'order': return 'waits its turn';
+    case 'predecessor': return 'waits its turn';
     case 'guard': return 'kept back by the authority guard';
   }
 }
@@ -212,11 +212,11 @@ export function monitor_in_words(event: MonitorData): string {
 export function ways_in_words(job: Job): string[] {
   const said: string[] = [];
   const { choice, detour, replan } = job;
-  if (choice) said.push(choice.among.length > 1 ? `${choice.taken} was taken of ${choice.among.join(', ')}: ${choice.detail}` : `${choice.taken} was taken: ${choice.detail}`);
+  if (choice) said.push(choice.candidates.length > 1 ? `${choice.selected} was taken of ${choice.candidates.join(', ')}: ${choice.detail}` : `${choice.selected} was taken: ${choice.detail}`);
   if (detour) {
-    const ways = detour.weighed === 1 ? 'one way around what others hold was weighed' : `${detour.weighed} ways around what others hold were weighed`;
-    const gain = detour.saves_s === null ? 'the shortest one could not go' : `by this one it arrives ${seconds(detour.saves_s)} sooner`;
-    said.push(detour.taken ? `goes around: ${ways}, ${gain}` : `${ways}; the shortest one is as good`);
+    const ways = detour.candidates_evaluated === 1 ? 'one way around what others hold was weighed' : `${detour.candidates_evaluated} ways around what others hold were weighed`;
+    const gain = detour.time_saved_s === null ? 'the shortest one could not go' : `by this one it arrives ${seconds(detour.time_saved_s)} sooner`;
+    said.push(detour.selected ? `goes around: ${ways}, ${gain}` : `${ways}; the shortest one is as good`);
   }
   if (replan) {
     const why = { client: 'as a client asked', timeout: 'when its time in the backlog was over', blocked: 'past what rested in its way' }[replan.cause];

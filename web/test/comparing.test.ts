@@ -6,7 +6,7 @@ import type { Comparison, PolicyRun } from '../src/server/messages';
 
 const run = (over: Partial<PolicyRun> = {}): PolicyRun => ({
   policy: 'sequential', succeeded: 2, expired: 0, failed: 0, canceled: 0, refused: 0, unfinished: 0, backlogged: 1,
-  makespan_s: 12, of_sequential: 1, wait_mean_s: 3, wait_max_s: 6, min_clearance_m: 0.04, monitor_stops: 0,
+  makespan_s: 12, makespan_ratio: 1, wait_mean_s: 3, wait_max_s: 6, min_clearance_m: 0.04, monitor_stops: 0,
   evaluations: 100, given_up: false, ...over,
 });
 const comparison = (state: Comparison['state'], runs: PolicyRun[]): Comparison => ({

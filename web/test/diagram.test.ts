@@ -3,7 +3,7 @@ import { Api } from '../src/server/api';
 import { ahead_of } from '../src/diagram/ahead';
 import { OneAtATime } from '../src/diagram/one_at_a_time';
 import { evidence_in_words, evidence_of, kept_in_words, plan_from, plan_in_words, shares, type Point } from '../src/diagram/reading';
-import { parse_diagram, parse_job, type Diagram, type DiagramMeeting, type Job } from '../src/server/messages';
+import { parse_diagram, parse_job, type Diagram, type DiagramContact, type Job } from '../src/server/messages';
 import { diagram_json, job_json, wait_json } from './samples';
 
 type Cells = Parameters<typeof diagram_json>[0];
@@ -37,7 +37,7 @@ describe('a diagram', () => {
   it('is refused with the place of what is wrong in it', () => {
     const wrong = parse_diagram(diagram_json([['perhaps', 0, 1, 0, 1]]));
     expect(!wrong.ok && wrong.fault).toMatch(/^\/layers\/0\/cells\/0\/state: .*"free"/);
-    const bent = parse_diagram(diagram_json([], { layers: [{ arms: ['left', 'right'], met: null, cells: [{ state: 'free', a_s: [1], b_s: [0, 1] }] }] }));
+    const bent = parse_diagram(diagram_json([], { layers: [{ arms: ['left', 'right'], first_contact: null, cells: [{ state: 'free', a_s: [1], b_s: [0, 1] }] }] }));
     expect(!bent.ok && bent.fault).toMatch(/^\/layers\/0\/cells\/0\/a_s: .*too few items/);
   });
   it('is asked for by both ids, whatever characters they hold', async () => {
@@ -66,7 +66,7 @@ describe('the plan', () => {
     expect(plan_from({ a_s: 4, b_s: 0 }, diagram())).toEqual([{ a_s: 4, b_s: 0 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }]);
   });
   it('is no alarm while one of them may not go that far, nor at the border of a conflict', () => {
-    const met: DiagramMeeting = { state: 'conflict', in_s: 1, a_s: 2, b_s: 2 };
+    const met: DiagramContact = { state: 'conflict', in_s: 1, a_s: 2, b_s: 2 };
     const ahead = (now: Point, authority: Point | null) => ahead_of(met, now, authority, diagram())?.kind;
     expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 1 })).toBe('held');
     expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 2, b_s: 3 })).toBe('held');
@@ -79,13 +79,13 @@ describe('the plan', () => {
     expect(ahead_of({ ...met, a_s: 4 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }, diagram())?.kind).toBe('allowed');
   });
   it('says what is left of the way by now, and nothing of what lies behind', () => {
-    const met: DiagramMeeting = { state: 'undecided', in_s: 0.5, a_s: 2, b_s: 1.5 };
+    const met: DiagramContact = { state: 'undecided', in_s: 0.5, a_s: 2, b_s: 1.5 };
     expect(ahead_of(met, { a_s: 1.75, b_s: 1.25 }, null, diagram())).toMatchObject({ met: { in_s: 0.25 } });
     expect(ahead_of(met, { a_s: 2.1, b_s: 1.6 }, null, diagram())).toBeNull();
   });
   it('is put into words, which are red where nothing makes one of them wait', () => {
-    const conflict: DiagramMeeting = { state: 'conflict', in_s: 2, a_s: 2, b_s: 2 };
-    const undecided: DiagramMeeting = { state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 };
+    const conflict: DiagramContact = { state: 'conflict', in_s: 2, a_s: 2, b_s: 2 };
+    const undecided: DiagramContact = { state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 };
     expect(plan_in_words({ kind: 'held', met: conflict }, 'right')).toEqual({ tone: 'calm', words: 'If right started now, they would come to a conflict in 2.00 s. One of them is not allowed that far (authority): it waits before that.' });
     expect(plan_in_words({ kind: 'held', met: undecided }, null)).toMatchObject({ tone: 'calm', words: expect.stringMatching(/^If both went on from here, they would come to what is not proven free in 0.25 s\./) as unknown });
     expect(plan_in_words({ kind: 'allowed', met: undecided }, null).tone).toBe('calm');

@@ -3,7 +3,7 @@ import type { Forecast } from '../src/server/messages';
 import { follow_timeline } from '../src/server/follow_timeline';
 import type { Store } from '../src/state/store';
 
-const kForecast = { now_s: 1, horizon_legs: 6, arms: [] } as unknown as Forecast;
+const kForecast = { now_s: 1, horizon_steps: 6, arms: [] } as unknown as Forecast;
 const settled = () => new Promise((done) => setTimeout(done));
 
 function page() {

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { Hand } from '../src/control/hand';
 import type { Answer } from '../src/server/api';
-import type { Control, ControlTaken, Hold, Job } from '../src/server/messages';
+import type { Control, ControlTaken, Jog, Job } from '../src/server/messages';
 import { job_json } from './samples';
 
 const holder = (who: string) => ({ who, since_at: '2026-11-23T15:00:00Z', arm: null, job: null });
@@ -15,16 +15,16 @@ function bench() {
   const said: string[] = [];
   const timers: (() => void)[] = [];
   const server = { refusal: 'not-in-control', renews: true, has_ended: false, holder: holder('Ada') as Control['holder'] };
-  let answer_hold: (answer: Answer<Hold>) => void = () => undefined;
+  let answer_jog: (answer: Answer<Jog>) => void = () => undefined;
   const hand = new Hand({
     control: () => fine<Control>({ holder: server.holder }),
     take_control: (who) => { said.push(`take ${who}`); return fine<ControlTaken>({ holder: holder(who), key: 'k' }); },
     release_control: (key) => { said.push(`release ${key}`); server.holder = null; return fine<Control>({ holder: null }); },
-    hold: (arm, state, key) => { said.push(`hold ${arm} ${state} ${key}`); return new Promise((done) => { answer_hold = done; }); },
-    renew_hold: (arm) => { said.push(`renew ${arm}`); return server.renews ? fine<Hold>({ job, lease_s: 0.5 }) : refused(server.refusal); },
+    jog: (arm, state, key) => { said.push(`jog ${arm} ${state} ${key}`); return new Promise((done) => { answer_jog = done; }); },
+    renew_jog: (arm) => { said.push(`renew ${arm}`); return server.renews ? fine<Jog>({ job, lease_s: 0.5 }) : refused(server.refusal); },
     cancel_job: (id) => { said.push(`cancel ${id}`); return fine(null); },
   }, { set: (callback) => timers.push(callback), clear: () => undefined }, () => server.has_ended);
-  return { hand, said, timers, server, accept: () => answer_hold({ ok: true, value: { job, lease_s: 0.5 } }) };
+  return { hand, said, timers, server, accept: () => answer_jog({ ok: true, value: { job, lease_s: 0.5 } }) };
 }
 
 /** Held, and then refused when the server is told of it again. */
@@ -54,7 +54,7 @@ describe('moves by hand', () => {
     hand.let_go();
     timers.shift()?.();
     await settled();
-    expect(said).toEqual(['take Ada', 'hold left ready k', 'renew left', 'cancel h']);
+    expect(said).toEqual(['take Ada', 'jog left ready k', 'renew left', 'cancel h']);
     expect(timers).toEqual([]);
   });
 
@@ -81,7 +81,7 @@ describe('moves by hand', () => {
   it('say so when the server was told too late', async () => {
     const held = bench();
     const { hand } = held;
-    await refuse_held(held, 'held-too-late');
+    await refuse_held(held, 'jog-lease-expired');
     expect([hand.held.value, hand.key.value]).toEqual([null, 'k']);
     expect(hand.refusal.value).toMatch(/^The move has ended by itself.*press again/);
   });
@@ -96,7 +96,7 @@ describe('moves by hand', () => {
     timers.shift()?.();
     await settled();
     hand.let_go();
-    expect(said).toEqual(['take Ada', 'hold left ready k']);
+    expect(said).toEqual(['take Ada', 'jog left ready k']);
     expect([hand.held.value, hand.refusal.value, timers.length]).toEqual([null, null, 0]);
   });
 

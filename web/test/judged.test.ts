@@ -8,10 +8,10 @@ const wait = (kind: string) => wait_json({ kind }) as WaitsOn;
 
 describe('a job that was asked about', () => {
   it('merely comes after others where nothing but their order is in its way', () => {
-    expect(only_in_turn({ verdict: 'conflict', waits_on: [wait('order'), wait('order')] })).toBe(true);
-    expect(only_in_turn({ verdict: 'conflict', waits_on: [wait('order'), wait('job')] })).toBe(false);
+    expect(only_in_turn({ verdict: 'conflict', waits_on: [wait('predecessor'), wait('predecessor')] })).toBe(true);
+    expect(only_in_turn({ verdict: 'conflict', waits_on: [wait('predecessor'), wait('job')] })).toBe(false);
     expect(only_in_turn({ verdict: 'conflict', waits_on: [] })).toBe(false);
-    expect(only_in_turn({ verdict: 'undecided', waits_on: [wait('order')] })).toBe(false);
+    expect(only_in_turn({ verdict: 'undecided', waits_on: [wait('predecessor')] })).toBe(false);
   });
 });
 

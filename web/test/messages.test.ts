@@ -75,7 +75,7 @@ describe('the cell', () => {
   const cell = {
     name: 'two_pandas', policy: 'sequential', speed: 1, simulated: true, self_clearance_m: 0.005,
     checking: { time_step_s: 0.05, tracking_error_rad: 0.001, delay_s: 0.1, limit_tolerance: 0.05 },
-    scheduling: { policy: 'sequential', backlog_timeout_s: 60, aging_s: 30, horizon_legs: 6, on_restart: 'ask', on_idle_blocker: 'park' },
+    scheduling: { policy: 'sequential', backlog_timeout_s: 60, aging_s: 30, horizon_steps: 6, on_restart: 'ask', on_idle_blocker: 'park' },
     monitor: { rate_hz: 100, reaction_s: 0.02, stop_clearance_m: 0.01 },
     execution: { start_tolerance_rad: 0.01, duration_scaling: 1.1, duration_margin_s: 0.5, velocity_scaling_factor: 1 },
     robots: [{

@@ -8,13 +8,13 @@ describe('a command', () => {
   const store = new Store();
   store.set_link({ status: 'open' });
   const why = (session: Session | null) => why_no_command({ store, session: signal(session) });
-  const with_role = (role: Session['role']): Session => ({ asks_for_token: true, name: 'vic', role });
+  const with_role = (role: Session['role']): Session => ({ auth_required: true, name: 'vic', role });
 
   it('is for whoever may operate the cell', () => {
     expect(why(with_role('viewer'))).toMatch(/takes the role operator/);
     store.set_link({ status: 'recording', name: 'r' });
     expect([why(with_role('operator')), why_not_permitted(with_role('operator'))]).toEqual(['A recording is shown, not the present', null]);
     store.set_link({ status: 'open' });
-    expect([with_role('operator'), with_role('admin'), { asks_for_token: false, name: null, role: 'admin' as const }, null].map(why)).toEqual([null, null, null, null]);
+    expect([with_role('operator'), with_role('admin'), { auth_required: false, name: null, role: 'admin' as const }, null].map(why)).toEqual([null, null, null, null]);
   });
 });

@@ -34,6 +34,6 @@ describe('after a stop', () => {
     expect(need_of(arm({ state: 'idle' }), null, pose(0.5, -1.2))).toMatchObject({ resume: false, home: true });
     expect(need_of(arm({ state: 'idle' }), null, pose(0, -1.2))).toMatchObject({ resume: false, home: false });
     expect(need_of(arm({ state: 'idle' }), null, null)).toMatchObject({ resume: false, home: false, words: expect.stringMatching(/not known/) });
-    expect(need_of(arm({ state: 'holding' }), job, pose(0, 0)).words).toMatch(/pick 7/);
+    expect(need_of(arm({ state: 'paused' }), job, pose(0, 0)).words).toMatch(/pick 7/);
   });
 });

@@ -15,7 +15,7 @@ export function job_json(id: string, over: object = {}): Record<string, unknown>
     id, name: '', state: 'queued', arms: ['left'], priority: 0,
     submitted_s: 1, scheduled_s: null, started_s: null, ended_s: null,
     submitted_at: '2026-01-01T00:00:00.000Z', scheduled_at: null, started_at: null, ended_at: null,
-    progress: 0, duration_s: 4, stopping: false, waits_on: [], ring: [], result: null, ...over,
+    progress: 0, duration_s: 4, stopping: false, waits_on: [], cycle: [], result: null, ...over,
   };
 }
 
@@ -51,7 +51,7 @@ export function diagram_json(cells: Ranges[], over: object = {}): Record<string,
   return {
     t_s: 7, a: { id: 'left', state: 'running', duration_s: 4, progress_s: 1 },
     b: { id: 'right', state: 'backlogged', duration_s: 3, progress_s: 0 },
-    layers: [{ arms: ['left', 'right'], met: null, cells: cells.map(([state, a0, a1, b0, b1]) => ({ state, a_s: [a0, a1], b_s: [b0, b1] })) }],
+    layers: [{ arms: ['left', 'right'], first_contact: null, cells: cells.map(([state, a0, a1, b0, b1]) => ({ state, a_s: [a0, a1], b_s: [b0, b1] })) }],
     evaluations: 12, scene_version: 1, ...over,
   };
 }

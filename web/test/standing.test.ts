@@ -11,8 +11,8 @@ import { figure_in_words } from '../src/wording';
 import { arm_json, envelope, job_json, snapshot, wait_json } from './samples';
 
 const kStop = wait_json({ kind: 'stop', id: null, arm: 'left', links: [], own_time_s: null, other_time_s: null, clearance_m: null, detail: 'operator' });
-const stopped_job = (over: object = {}) => job_json('pick', { state: 'holding', started_s: 2, progress: 0.25, waits_on: [kStop], ...over }) as Job;
-const arm = (over: object = {}) => arm_json('left', { state: 'holding', job: 'pick', ...over }) as Arm;
+const stopped_job = (over: object = {}) => job_json('pick', { state: 'paused', started_s: 2, progress: 0.25, waits_on: [kStop], ...over }) as Job;
+const arm = (over: object = {}) => arm_json('left', { state: 'paused', job: 'pick', ...over }) as Arm;
 
 function told(store: Store, text: string): void {
   const parsed = parse_message(text);
@@ -23,7 +23,7 @@ function told(store: Store, text: string): void {
 describe('an arm that was stopped', () => {
   it('is told as stopped: by its job, which the server says holds, and by what it needs', () => {
     expect(figure_in_words(stopped_job(), 9, 0.25).text).toBe('stopped');
-    expect(figure_in_words(stopped_job({ waits_on: [wait_json()] }), 9, 0.25).text).toBe('holding');
+    expect(figure_in_words(stopped_job({ waits_on: [wait_json()] }), 9, 0.25).text).toBe('paused');
     expect(need_of(arm({ state: 'stopped' }), stopped_job(), null)).toMatchObject({ resume: true });
     expect(need_of(arm({ state: 'moving' }), stopped_job(), null).words).toBe('Brakes on its path.');
     // Of a motion of several arms only one was stopped: the others hold for it.
@@ -41,14 +41,14 @@ describe('an arm that was stopped', () => {
     expect(store.book.stands('pick')).toMatchObject([{ from_s: 3, to_s: 4, stopped: false }, { from_s: 4, to_s: null, stopped: true }]);
     told(store, envelope('job', 7, stopped_job({ state: 'running', waits_on: [] })));
     expect(store.book.stands('pick').at(-1)).toMatchObject({ from_s: 4, to_s: 7, stopped: true });
-    expect(states_of(store.job('pick') as Job, store.book.changes('pick')).map(([name]) => name)).toEqual(['submitted', 'running', 'holding', 'stopped', 'running', 'ended']);
+    expect(states_of(store.job('pick') as Job, store.book.changes('pick')).map(([name]) => name)).toEqual(['submitted', 'running', 'paused', 'stopped', 'running', 'ended']);
     expect(known_lanes({ store })[0]?.marks.filter(({ kind }) => kind === 'pause').map(({ stopped }) => stopped)).toEqual([false, true]);
   });
 
   it('that stands and goes on for hours is remembered for the last times only', () => {
     const store = new Store(() => 0);
     told(store, snapshot(1));
-    for (let i = 0; i < 3000; i++) told(store, envelope('job', 2 + i, stopped_job({ state: i % 2 ? 'running' : 'holding', waits_on: [] })));
+    for (let i = 0; i < 3000; i++) told(store, envelope('job', 2 + i, stopped_job({ state: i % 2 ? 'running' : 'paused', waits_on: [] })));
     expect(store.book.stands('pick').length).toBeLessThanOrEqual(400);
     expect(store.book.changes('pick').length).toBeLessThanOrEqual(400);
   });
@@ -58,15 +58,15 @@ describe('an arm that was stopped', () => {
 const forecast = (now_s: number) => {
   const stands = (at_s: number, waits_on: unknown) => [{ from_s: now_s, to_s: null, at_s, waits_on }];
   return {
-    now_s, horizon_legs: 6, arms: [
+    now_s, horizon_steps: 6, arms: [
       {
-        name: 'left', waiting: 1, legs: [
-          { id: 'pick', name: '', arms: ['left'], state: 'holding', progress: 0.25, starts_s: 2, ends_s: null, pauses: stands(3, kStop) },
-          { id: 'behind', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ kind: 'order', id: 'pick' })) },
+        name: 'left', waiting: 1, steps: [
+          { id: 'pick', name: '', arms: ['left'], state: 'paused', progress: 0.25, starts_s: 2, ends_s: null, pauses: stands(3, kStop) },
+          { id: 'behind', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ kind: 'predecessor', id: 'pick' })) },
         ],
       },
       {
-        name: 'right', waiting: 0, legs: [
+        name: 'right', waiting: 0, steps: [
           { id: 'other', name: '', arms: ['right'], state: 'running', progress: 0.5, starts_s: 1, ends_s: now_s + 4, pauses: [] },
           { id: 'waits', name: '', arms: ['right'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ id: 'pick', arm: 'left' })) },
         ],

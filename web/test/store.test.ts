@@ -33,7 +33,7 @@ beforeEach(() => {
 
 describe('the store', () => {
   it('moves a job from list to list as its state changes', () => {
-    const seen = ['queued', 'backlogged', 'scheduled', 'running', 'holding', 'running', 'succeeded'].map((state, i) => {
+    const seen = ['queued', 'backlogged', 'scheduled', 'running', 'paused', 'running', 'succeeded'].map((state, i) => {
       take(envelope('job', 2 + i, job_json('a', { state })));
       return (['queued', 'backlog', 'scheduled', 'running', 'finished'] as const).filter((list) => ids(list).includes('a'));
     });
@@ -60,14 +60,14 @@ describe('the store', () => {
   it('remembers when a job stood on its path, and since when it is blocked', () => {
     const book = new JobBook();
     book.take(job('a', { state: 'running' }), 1);
-    book.take(job('a', { state: 'holding' }), 2);
+    book.take(job('a', { state: 'paused' }), 2);
     expect(book.stands('a')).toMatchObject([{ from_s: 2, to_s: null, stopped: false }]);
     book.take(job('a', { state: 'running' }), 3.5);
     expect(book.stands('a')).toMatchObject([{ from_s: 2, to_s: 3.5, stopped: false }]);
     book.take(job('b', { state: 'backlogged' }), 4);
     book.take(job('b', { state: 'backlogged' }), 5);
     expect(book.since('b')).toBe(4);
-    expect(book.changes('a').map((change) => change.state)).toEqual(['running', 'holding', 'running']);
+    expect(book.changes('a').map((change) => change.state)).toEqual(['running', 'paused', 'running']);
   });
 
   it('carries progress on between reports, never beyond the end, and not while an arm holds', () => {
@@ -77,7 +77,7 @@ describe('the store', () => {
     expect(progress()).toBeCloseTo(0.25);
     take(frame(99, {}));
     expect(progress()).toBe(1);
-    take(envelope('job', 100, job_json('a', { state: 'holding', started_s: 10, progress: 0.3, duration_s: 4 })));
+    take(envelope('job', 100, job_json('a', { state: 'paused', started_s: 10, progress: 0.3, duration_s: 4 })));
     take(frame(105, {}));
     expect(progress()).toBe(0.3);
   });

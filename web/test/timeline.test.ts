@@ -9,9 +9,9 @@ import { job_json, wait_json } from './samples';
 const job = (id: string, over: object) => job_json(id, over) as unknown as Job;
 
 const kForecast = {
-  now_s: 10, horizon_legs: 6,
+  now_s: 10, horizon_steps: 6,
   arms: [{
-    name: 'left', waiting: 2, legs: [
+    name: 'left', waiting: 2, steps: [
       { id: 'now', name: 'now', arms: ['left'], state: 'running', progress: 0.5, starts_s: 8, ends_s: 12, pauses: [] },
       {
         id: 'next', name: 'place', arms: ['left'], state: 'scheduled', progress: 0, starts_s: 13, ends_s: 20, pauses: [

@@ -35,7 +35,7 @@ describe('an arm whose next job waits', () => {
     const store = store_of([blocked]);
     expect(told(store, 'left')).toEqual(['waiting', 'waits for crate']);
     expect(told(store, 'right')).toEqual(['idle', 'idle']);
-    expect(kStateColours.waiting).toBe('var(--holding)');
+    expect(kStateColours.waiting).toBe('var(--paused)');
     expect(when_in_words(store.waiting_of('left') as Job, store)).toMatch(/^blocked for/);
   });
   it('does what it does while it moves or is stopped', () => {
@@ -59,12 +59,12 @@ describe('the figure of a job that moves', () => {
   const job = store_of([job_json('r', { state: 'running', started_s: 1, duration_s: 4 })]).job('r') as Job;
 
   it('is until when the server expects it to end, pauses with it, where that is known', () => {
-    const forecast = { arms: [{ name: 'left', waiting: 0, legs: [{ id: 'r', ends_s: 30 }] }] } as unknown as Forecast;
+    const forecast = { arms: [{ name: 'left', waiting: 0, steps: [{ id: 'r', ends_s: 30 }] }] } as unknown as Forecast;
     expect(figure_in_words(job, 3.4, 0.5, leg_of(job, forecast)?.ends_s ?? null).text).toBe('26.6 s left');
     expect(figure_in_words(job, 3.4, 0.5, leg_of({ ...job, id: 'other' }, forecast)?.ends_s ?? null).text).toBe('2.0 s left');
   });
   it('is told as past when nothing is heard any more', () => {
-    expect(['17.4 s left', 'waited 2.0 s', 'holding', ''].map(as_last_heard)).toEqual(['had 17.4 s left', 'had waited 2.0 s', 'was holding', '']);
+    expect(['17.4 s left', 'waited 2.0 s', 'paused', ''].map(as_last_heard)).toEqual(['had 17.4 s left', 'had waited 2.0 s', 'was paused', '']);
     expect([true, false].map(now_in_words)).toEqual(['last heard', 'now']);
   });
 });
@@ -72,7 +72,7 @@ describe('the figure of a job that moves', () => {
 describe('why a job stood on its path', () => {
   it('is remembered when it has gone on', () => {
     const at = (state: string, waits_on: object[]) => job_json('h', { state, started_s: 1, waits_on });
-    const store = store_of([at('running', []), at('holding', []), at('holding', [crate]), at('running', [])]);
+    const store = store_of([at('running', []), at('paused', []), at('paused', [crate]), at('running', [])]);
     const [stand] = store.book.stands('h');
     expect(stand).toMatchObject({ from_s: 3, to_s: 5, why: { kind: 'object', id: 'crate' } });
     expect(stand && stood_in_words(stand)).toMatch(/^waited for crate to be clear.*, 2\.0 s long$/);

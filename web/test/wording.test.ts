@@ -33,7 +33,7 @@ describe('the reason why a job waits', () => {
   it('tells an arm at rest, an object, the order, the capacity and a stop apart', () => {
     expect(reason({ kind: 'arm', id: null })).toMatch(/^waits for arm right to move away: left_panda_hand would/);
     expect(reason({ kind: 'object', id: 'crate', arm: null, ...kBare })).toBe('waits for crate to be clear');
-    expect(reason({ kind: 'order', id: 'pick-6', arm: 'left', ...kBare })).toBe('waits its turn: pick-6 of left comes first');
+    expect(reason({ kind: 'predecessor', id: 'pick-6', arm: 'left', ...kBare })).toBe('waits its turn: pick-6 of left comes first');
     expect(reason({ kind: 'capacity', ...kBare })).toBe('waits until job place-6 of right has ended: one at a time');
     expect(reason({ kind: 'object', id: null, arm: null, links: ['left_panda_hand', 'table'] })).toMatch(
       /^waits for table to be clear: left_panda_hand would come within 12 mm of table/);
@@ -45,7 +45,7 @@ describe('the reason why a job waits', () => {
     expect(reason(kBare, {}, {})).toBe('waits for job place-6 of right to end (and 2 more)');
   });
   it('is the ring where jobs wait for each other', () => {
-    expect(reason_in_words(job({ state: 'backlogged', waits_on: [wait_json()], ring: ['a', 'b', 'c'] }))).toBe(
+    expect(reason_in_words(job({ state: 'backlogged', waits_on: [wait_json()], cycle: ['a', 'b', 'c'] }))).toBe(
       'deadlock: a -> b -> c -> a');
   });
   it('is empty for a job that waits on nothing', () => {
@@ -76,7 +76,7 @@ describe('the figure of a job', () => {
     expect(figure({ state: 'expired', ended_s: 2 })).toBe('waited 1.0 s');
   });
   it('is a word while no time is known', () => {
-    expect(figure({ state: 'holding', started_s: 1 })).toBe('holding');
+    expect(figure({ state: 'paused', started_s: 1 })).toBe('paused');
     expect(figure({ state: 'running', started_s: 1, stopping: true })).toBe('stopping');
   });
 });
@@ -137,11 +137,11 @@ describe('a conflict that was only asked about', () => {
 describe('how a job came by its way', () => {
   it('says who was taken, what goes around, and who was given another way', () => {
     expect(ways_in_words(job({}))).toEqual([]);
-    expect(ways_in_words(job({ choice: { among: ['left', 'right'], taken: 'right', saves_s: 1.2, detail: 'it arrives 1.20 s sooner than left' } })))
+    expect(ways_in_words(job({ choice: { candidates: ['left', 'right'], selected: 'right', time_saved_s: 1.2, detail: 'it arrives 1.20 s sooner than left' } })))
       .toEqual(['right was taken of left, right: it arrives 1.20 s sooner than left']);
-    expect(ways_in_words(job({ detour: { weighed: 2, taken: true, saves_s: 3.04 } })))
+    expect(ways_in_words(job({ detour: { candidates_evaluated: 2, selected: true, time_saved_s: 3.04 } })))
       .toEqual(['goes around: 2 ways around what others hold were weighed, by this one it arrives 3.0 s sooner']);
-    expect(ways_in_words(job({ detour: { weighed: 1, taken: false, saves_s: null } })))
+    expect(ways_in_words(job({ detour: { candidates_evaluated: 1, selected: false, time_saved_s: null } })))
       .toEqual(['one way around what others hold was weighed; the shortest one is as good']);
     expect(ways_in_words(job({ replan: { done: 2, planning: false, cause: 'timeout', refused: 'no way was found' } }))).toEqual([
       'was given another way 2 times, the last time when its time in the backlog was over',

@@ -17,7 +17,7 @@ using Closed = std::optional<FoundWaits>;  // nothing: open
 using Edges = std::vector<WaitsForEdge>;
 
 Closed order(JobId first, std::optional<ArmId> arm = {}) {
-  return FoundWaits(Wait{.kind = Wait::Kind::order, .job = first, .arm = arm});
+  return FoundWaits(Wait{.kind = Wait::Kind::predecessor, .job = first, .arm = arm});
 }
 
 // It is one of the arm's first jobs, as many as the policy looks ahead, and those before it are
@@ -159,7 +159,7 @@ void add_conflict(const State& state, const Record& record, Edges& edges) {
   const FoundWaits found = found_in_the_way(state, record);
   const bool may_pass = may_have_another_way(state, record);
   for (const Wait& wait : found.all()) {
-    if (may_pass && wait.kind != Wait::Kind::order) continue;
+    if (may_pass && wait.kind != Wait::Kind::predecessor) continue;
     const auto first = has_to_move_first(state, wait);
     if (!first) continue;
     if (wait.kind == Wait::Kind::arm) {
@@ -254,7 +254,7 @@ WaitsFor waits_for(const State& state, std::vector<JobId> jobs) {
 bool is_found_in_the_way(const State& state, const Record& record, JobId first) {
   const FoundWaits found = found_in_the_way(state, record);
   return std::ranges::any_of(found.all(), [&](const Wait& wait) {
-    return wait.kind != Wait::Kind::order && has_to_move_first(state, wait) == first;
+    return wait.kind != Wait::Kind::predecessor && has_to_move_first(state, wait) == first;
   });
 }
 
@@ -269,7 +269,7 @@ FoundWaits found_in_the_way(const State& state, const Record& record) {
 // What is undecided counts as a conflict: it stays so while nothing moves.
 std::optional<JobId> has_to_move_first(const State& state, const Wait& wait) {
   const JobBook& jobs = state.jobs;
-  if (wait.kind == Wait::Kind::order) {  // it shall be done before, lest it never can be
+  if (wait.kind == Wait::Kind::predecessor) {  // it shall be done before, lest it never can be
     const bool still = jobs.is_active(*wait.job) && stands(state, jobs.at(*wait.job));
     return still ? wait.job : std::nullopt;
   }

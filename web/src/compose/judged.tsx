@@ -39,7 +39,7 @@ const kWords: Record<Verdict['verdict'], string> = {
 
 /** Nothing is in its way but those that its arm does first. */
 export function only_in_turn({ verdict, waits_on }: Pick<Verdict, 'verdict' | 'waits_on'>): boolean {
-  return verdict === 'conflict' && waits_on.length > 0 && waits_on.every(({ kind }) => kind === 'order');
+  return verdict === 'conflict' && waits_on.length > 0 && waits_on.every(({ kind }) => kind === 'predecessor');
 }
 
 function Said({ title, verdict, show }: { title: string; verdict: Verdict; show: ((t_s: number) => void) | null }) {

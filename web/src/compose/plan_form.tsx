@@ -132,14 +132,14 @@ function Drag({ form, app, drag }: { form: GoalForm; app: App; drag(part: Partia
 }
 
 function Planned({ plan }: { plan: Plan }) {
-  const { verdict, not_judged } = plan;
-  const words = verdict === undefined ? `As a job it would be refused now: ${not_judged?.detail ?? ''}`
+  const { verdict, not_checked_reason } = plan;
+  const words = verdict === undefined ? `As a job it would be refused now: ${not_checked_reason?.detail ?? ''}`
     : verdict.verdict === 'free' && !verdict.earliest_start_s ? '✓ As a job it could start now.'
     : verdict.earliest_start_s === null ? 'As a job it would wait, as things are.' : `As a job it ${verdict.verdict === 'free' ? 'would' : 'could'} start in ${seconds(verdict.earliest_start_s)}.`;
   if (plan.duration_s < kAlready_s) return <p class="planned-words" role="status" data-test="planned">The arm will be there already.</p>;
   return (
     <p class="planned-words" role="status" data-test="planned">
-      <b>{seconds(plan.duration_s)}</b>, proven beside all that stands still{plan.straight > 0 && `, ${Math.max(0, Math.round(100 * (plan.length / plan.straight - 1)))} % longer than the straight way`}. {words}
+      <b>{seconds(plan.duration_s)}</b>, proven beside all that stands still{plan.straight_line_length > 0 && `, ${Math.max(0, Math.round(100 * (plan.length / plan.straight_line_length - 1)))} % longer than the straight way`}. {words}
     </p>
   );
 }

@@ -50,7 +50,7 @@ export interface components {
                  */
                 on_idle_blocker: "report" | "park" | "replan";
                 /** @description Of each arm so many jobs are admitted together, the one under way included; who passes first is chosen for all of them (coordinated only). Decisions take longer with the square of it: above 12 tens of milliseconds. */
-                horizon_legs: number;
+                horizon_steps: number;
                 /**
                  * @description What a server with `--data` that is started again does with jobs that had not ended: ask stops all arms until they are resumed, continue goes on with those that had not begun.
                  * @enum {string}
@@ -170,7 +170,7 @@ export interface components {
                 /** @description It goes by one of them */
                 taken: boolean;
                 /** @description By so much sooner it arrives by that, as it was predicted; null: none is taken, or the shortest way could not go as things stood */
-                saves_s: number | null;
+                time_saved_s: number | null;
             };
             /** @description Why it was taken before others, or by this arm */
             choice?: {
@@ -179,7 +179,7 @@ export interface components {
                 /** @description One of these */
                 taken: string;
                 /** @description By so much the plan costs less than with the first, or a goal's job arrives sooner; null: that is taken, or could not go */
-                saves_s: number | null;
+                time_saved_s: number | null;
                 detail: string;
             };
             /** @description The deadlock that it is part of, itself first: each waits for the next one, the last for the first. Else empty */
@@ -206,7 +206,7 @@ export interface components {
                 /** @description Cover the rectangle of both durations and do not overlap; not with cells=false */
                 cells?: components["schemas"]["DiagramCell"][];
                 /** @description The first conflict, else the first undecided cell, if both go on from where they are, and who ends first rests; null: through free cells only */
-                met: components["schemas"]["DiagramMeeting"] | null;
+                met: components["schemas"]["DiagramContact"] | null;
             }[];
             evaluations: number;
             scene_version: number;
@@ -215,9 +215,9 @@ export interface components {
         Timeline: {
             now_s: number;
             /** @description So many legs of a lane are admitted at most, the one under way included */
-            horizon_legs: number;
+            horizon_steps: number;
             /** @description In the cell's order */
-            arms: components["schemas"]["TimelineLane"][];
+            arms: components["schemas"]["TimelineArm"][];
         };
         /** @description RFC 9457. */
         Problem: {
@@ -242,7 +242,7 @@ export interface components {
             /** @description How close the two come; zero or less in contact */
             clearance_m?: number;
             /** @description How far apart they are to be */
-            asked_m?: number;
+            required_clearance_m?: number;
             /** @description Joint positions that would do, the nearest that were found: free ones; of a pose that is not reached those that come nearest to it; of a straight line as far as it goes */
             nearest?: number[];
             /** @description What planning took */
@@ -271,7 +271,7 @@ export interface components {
                 /** @description One of these */
                 taken: string;
                 /** @description By so much the plan costs less than with the first, or a goal's job arrives sooner; null: that is taken, or could not go */
-                saves_s: number | null;
+                time_saved_s: number | null;
                 detail: string;
             };
             /** @description Of a job that asks for an approach: so long its arms would take to where it begins. The verdict is of that motion; where it would not be admitted together with it, the job is judged again when it is there */
@@ -313,7 +313,7 @@ export interface components {
             /** @description What POST /check says of it now */
             verdict?: components["schemas"]["Verdict"];
             /** @description Instead: why POST /jobs would refuse it now */
-            not_judged?: components["schemas"]["Problem"];
+            not_checked_reason?: components["schemas"]["Problem"];
         };
         AlertList: {
             /** @description Newest first */
@@ -322,7 +322,7 @@ export interface components {
         /** @description Who asks, and what they may. */
         Session: {
             /** @description Else everybody may everything */
-            asks_for_token: boolean;
+            auth_required: boolean;
             /** @description Of the token; null: there is none */
             name: string | null;
             /** @description null: may nothing but log in */
@@ -358,7 +358,7 @@ export interface components {
             key?: string;
         };
         /** @description A move by hand, as it is now. */
-        Hold: {
+        Jog: {
             job: components["schemas"]["Job"];
             /** @description The arm brakes when it is not renewed for so long, in wall time */
             lease_s: number;
@@ -674,7 +674,7 @@ export interface components {
          * @description The last five are terminal: a job reaches exactly one of them.
          * @enum {string}
          */
-        JobState: "queued" | "backlogged" | "scheduled" | "running" | "holding" | "succeeded" | "canceled" | "expired" | "failed" | "interrupted";
+        JobState: "queued" | "backlogged" | "scheduled" | "running" | "paused" | "succeeded" | "canceled" | "expired" | "failed" | "interrupted";
         /** @description What a job waits for, with the evidence. */
         Wait: {
             /** @enum {string} */
@@ -724,7 +724,7 @@ export interface components {
                 number
             ];
         };
-        DiagramMeeting: {
+        DiagramContact: {
             /** @enum {string} */
             state: "free" | "conflict" | "undecided";
             /** @description After t_s */
@@ -732,11 +732,11 @@ export interface components {
             a_s: number;
             b_s: number;
         };
-        TimelineLane: {
+        TimelineArm: {
             /** @description The arm */
             name: string;
             /** @description In the order in which they go */
-            legs: components["schemas"]["TimelineLeg"][];
+            legs: components["schemas"]["TimelineStep"][];
             /** @description Jobs of the arm (of their `arms`) that have not ended and are no leg: not admitted, behind the horizon or for other reasons. They have no times yet */
             waiting: number;
         };
@@ -786,7 +786,7 @@ export interface components {
             /** @description From the first submission to the last end; null: not all ended, or none started */
             makespan_s: number | null;
             /** @description makespan_s, divided by that of `sequential`; null: not known */
-            of_sequential: number | null;
+            makespan_ratio: number | null;
             /** @description From submission to start */
             wait_mean_s: number;
             wait_max_s: number;
@@ -839,7 +839,7 @@ export interface components {
             name: string;
             robot: string;
             state: components["schemas"]["ArmState"];
-            /** @description In motion or holding */
+            /** @description In motion or paused */
             job: string | null;
             progress: number;
             joints: string[];
@@ -923,7 +923,7 @@ export interface components {
             };
         };
         /** @description A motion that is admitted. It follows the one before it on its arms; that wait is no pause. */
-        TimelineLeg: {
+        TimelineStep: {
             id: components["schemas"]["JobId"];
             /** @description For people; may be empty */
             name: string;
@@ -965,7 +965,7 @@ export interface components {
             bytes: number;
         };
         /** @enum {string} */
-        ArmState: "idle" | "moving" | "holding" | "stopped" | "fault";
+        ArmState: "idle" | "moving" | "paused" | "stopped" | "fault";
         /** @description Two stretches of two motions. Trajectory time. */
         ProgressBox: {
             /** @description Of the arm's own motion */

@@ -24,14 +24,14 @@ export function ByHand({ arm, app }: { arm: Arm; app: App }) {
   }, [hand]);
   const states = store.cell ? states_of(arm_of(store.cell, arm.name)) : [];
   return (
-    <section class="by-hand" aria-label={`${arm.name} by hand`} data-test="by-hand">
+    <section class="by-hand" aria-label={`Jog ${arm.name}`} data-test="by-hand">
       <h3>By hand</h3>
       <Control app={app} />
       {hand.key.value !== null && (
         <div class="line wrap">{states.map((state) => <HoldButton key={state} arm={arm.name} state={state} app={app} />)}</div>
       )}
-      {hand.key.value !== null && <p class="hint" role="status" data-test="hold-state">{held_in_words(arm, app)}</p>}
-      <InSight answer={hand.refusal.value}>{hand.refusal.value !== null && <p class="refused" role="alert" data-test="hold-refused">{hand.refusal.value}</p>}</InSight>
+      {hand.key.value !== null && <p class="hint" role="status" data-test="jog-state">{held_in_words(arm, app)}</p>}
+      <InSight answer={hand.refusal.value}>{hand.refusal.value !== null && <p class="refused" role="alert" data-test="jog-refused">{hand.refusal.value}</p>}</InSight>
     </section>
   );
 }
@@ -51,11 +51,11 @@ function Control({ app }: { app: App }) {
   }
   return (
     <div class="line wrap">
-      <span class="grow dim">{holder ? <><b>{shown_name(holder.who)}</b> has control.</> : 'Nobody has control.'} One person at a time moves arms by hand.</span>
+      <span class="grow dim">{holder ? <><b>{shown_name(holder.who)}</b> has control.</> : 'Nobody has control.'} One person at a time can jog arms.</span>
       {!session.value?.name && (
         <label class="line">Your name <input class="name" type="text" value={settings.person.value} maxLength={100} autocomplete="name" data-test="control-person" onInput={(event) => settings.set_person(event.currentTarget.value)} /></label>
       )}
-      <button class="small" data-test="take-control" disabled={mute !== null} title={mute ?? (holder ? 'What they hold brakes on its path' : 'To move arms by hand')}
+      <button class="small" data-test="take-control" disabled={mute !== null} title={mute ?? (holder ? 'Their jog motion brakes on its path' : 'Required to jog arms')}
         onClick={() => void hand.take(who)}>{holder ? `Take control from ${shown_name(holder.who)}` : 'Take control'}</button>
     </div>
   );
@@ -68,7 +68,7 @@ function HoldButton({ arm, state, app }: { arm: string; state: string; app: App 
   const held = hand.held.value;
   const is_held = held?.arm === arm && held.state === state;
   return (
-    <button class={`hold${is_held ? ' held' : ''}`} data-test={`hold-${state}`} aria-pressed={is_held}
+    <button class={`hold${is_held ? ' held' : ''}`} data-test={`jog-${state}`} aria-pressed={is_held}
       title="Hold to move, slowly; let go to brake on the path"
       onPointerDown={(event) => {
         if (event.button !== 0) return;

@@ -6,13 +6,13 @@ import { signal } from '@preact/signals';
 import { shown_name } from '../names';
 import type { Answer, Api } from '../server/api';
 import type { Timers } from '../server/connection';
-import type { ControlHolder, Hold } from '../server/messages';
+import type { ControlHolder, Jog } from '../server/messages';
 
 const kBeats = 4;  // in the time of a lease
 const kFirst_ms = 100;
 const kTooLate = 'The move has ended by itself: the server has to hear several times a second that the button is held. Let go and press again; where this comes again, the network or this computer is too slow for it.';
 
-type HandApi = Pick<Api, 'control' | 'take_control' | 'release_control' | 'hold' | 'renew_hold' | 'cancel_job'>;
+type HandApi = Pick<Api, 'control' | 'take_control' | 'release_control' | 'jog' | 'renew_jog' | 'cancel_job'>;
 
 /** What is held: from when the button is pressed until it is let go, or the move has ended. */
 export interface Held { arm: string; state: string; job: string | null }
@@ -67,7 +67,7 @@ export class Hand {
     if (key === null || this.held.value) return;
     const asked = ++this.asked_;
     this.held.value = { arm, state, job: null };
-    const answer = await this.api_.hold(arm, state, key);
+    const answer = await this.api_.jog(arm, state, key);
     const is_held = this.asked_ === asked && this.held.value !== null;
     if (!this.told(answer)) {
       if (is_held) this.held.value = null;
@@ -97,17 +97,17 @@ export class Hand {
         this.held.value = null;  // it is there
         return;
       }
-      void this.api_.renew_hold(held.arm, key).then((answer) => {
+      void this.api_.renew_jog(held.arm, key).then((answer) => {
         if (answer.ok || this.asked_ !== asked) return;
         this.held.value = null;  // it is there, it was told too late, or somebody else has taken control
-        if (answer.problem.type.endsWith('held-too-late')) this.refusal.value = `${kTooLate} ${answer.problem.detail ?? ''}`.trim();
+        if (answer.problem.type.endsWith('jog-lease-expired')) this.refusal.value = `${kTooLate} ${answer.problem.detail ?? ''}`.trim();
         this.lost(answer);
       });
       this.beat(asked, lease_s);
     }, every_ms);
   }
 
-  private lost(answer: Answer<Hold>): void {
+  private lost(answer: Answer<Jog>): void {
     if (answer.ok || !answer.problem.type.endsWith('not-in-control')) return;
     this.key.value = null;
     this.refusal.value = answer.problem.detail ?? answer.problem.title;

@@ -4,17 +4,17 @@
 // Authority is how far a controller goes by itself; beyond it the server lets an arm go only where what both may
 // then do is certified free. So what lies beyond the authority of one of them is not going to happen as things are.
 
-import type { Diagram, DiagramMeeting } from '../server/messages';
+import type { Diagram, DiagramContact } from '../server/messages';
 import type { Point } from './reading';
 
 /** `allowed`: both may go until there and on. `held`: one of them may not. */
-export type Ahead = { kind: 'free' } | { kind: 'allowed' | 'held'; met: DiagramMeeting };
+export type Ahead = { kind: 'free' } | { kind: 'allowed' | 'held'; met: DiagramContact };
 
 // Cells are as fine as 10 ms; who waits at the border of a conflict stands a little before or behind it.
 const kBorder_s = 0.05;
 
 /** `met`: as the server answered some time ago; null: nothing. `authority`: null: none was told of. The answer is null where what was met lies behind by now. */
-export function ahead_of(met: DiagramMeeting | null, now: Point, authority: Point | null, { a, b }: Pick<Diagram, 'a' | 'b'>): Ahead | null {
+export function ahead_of(met: DiagramContact | null, now: Point, authority: Point | null, { a, b }: Pick<Diagram, 'a' | 'b'>): Ahead | null {
   if (!met) return { kind: 'free' };
   const left = { a_s: met.a_s - now.a_s, b_s: met.b_s - now.b_s };
   if (Math.min(left.a_s, left.b_s) < -kBorder_s) return null;

@@ -140,7 +140,7 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
   const plans = is_open(jobs, store) && held_s === null && !is_kept;
   const authority = () => (held_s === null && !is_kept ? authority_of(store, diagram) : null);
   const latest = use_latest(diagram, plans, app.api);
-  const ahead = (at: Point) => (plans ? ahead_of(latest.layers[index]?.met ?? null, at, authority(), diagram) : null);
+  const ahead = (at: Point) => (plans ? ahead_of(latest.layers[index]?.first_contact ?? null, at, authority(), diagram) : null);
   const evidence = evidence_of(jobs.a, jobs.b);
   const names = [...store.arms.keys()];
   scene.current = () => {

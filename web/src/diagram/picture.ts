@@ -2,7 +2,7 @@
 // moves over them. A runs across, B up, in seconds of each one's own trajectory.
 
 import type { Evidence, Point } from './reading';
-import type { Diagram, DiagramLayer, DiagramMeeting } from '../server/messages';
+import type { Diagram, DiagramLayer, DiagramContact } from '../server/messages';
 import { ink, kCellColours, kUndecidedStripes } from '../state/palette';
 import { millimetres, short_id } from '../wording';
 
@@ -13,7 +13,7 @@ export interface Scene {
   /** Empty: no plan. */
   way: Point[];
   trail: Point[];
-  met: DiagramMeeting | null;
+  met: DiagramContact | null;
   evidence: Evidence | null;
   /** How far each may go, whatever the other does; null: neither has been told to move. */
   authority: Point | null;
@@ -235,7 +235,7 @@ function ring(g: CanvasRenderingContext2D, x: number, y: number): void {
   g.stroke();
 }
 
-function up_to(way: Point[], met: DiagramMeeting): Point[] {
+function up_to(way: Point[], met: DiagramContact): Point[] {
   return [...way.filter((point) => point.a_s <= met.a_s && point.b_s <= met.b_s), met];
 }
 

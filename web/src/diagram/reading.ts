@@ -1,7 +1,7 @@
 // What a coordination diagram says about two jobs from where they are now. Pure: times in seconds of
 // each one's own trajectory, A across and B up.
 
-import { pair_of, type CellState, type Diagram, type DiagramLayer, type DiagramMeeting, type Job, type WaitsOn } from '../server/messages';
+import { pair_of, type CellState, type Diagram, type DiagramLayer, type DiagramContact, type Job, type WaitsOn } from '../server/messages';
 import { progress_at, type Course } from '../state/progress_book';
 import { clock, millimetres, short_id } from '../wording';
 import type { Ahead } from './ahead';
@@ -84,7 +84,7 @@ export function plan_in_words(ahead: Ahead, waiting: string | null, resting: str
   }
 }
 
-function met_in_words({ state, in_s }: DiagramMeeting): string {
+function met_in_words({ state, in_s }: DiagramContact): string {
   const what = state === 'conflict' ? 'a conflict' : 'what is not proven free';
   return in_s < 0.005 ? `${what} at once` : `${what} in ${in_s.toFixed(2)} s`;
 }

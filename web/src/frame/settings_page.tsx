@@ -35,7 +35,7 @@ export function SettingsPage({ app }: { app: App }) {
             </label>
           ))}
         </fieldset>
-        {session?.asks_for_token && (
+        {session?.auth_required && (
           <>
             <h2>You</h2>
             <p data-test="session"><b>{session.name}</b>, {session.role} <button class="small" data-test="log-out" onClick={() => void log_out()}>Log out</button></p>
@@ -61,7 +61,7 @@ export function SettingsPage({ app }: { app: App }) {
               ['Monitor stops below', `${(1000 * cell.monitor.stop_clearance_m).toFixed(0)} mm`],
               ['Backlog timeout', seconds(cell.scheduling.backlog_timeout_s)],
               ['A waiting job is overtaken for at most', seconds(cell.scheduling.aging_s)],
-              ['Admitted ahead', `${cell.scheduling.horizon_legs} jobs of each arm`],
+              ['Admitted ahead', `${cell.scheduling.horizon_steps} jobs of each arm`],
               ['An idle arm in the way', kIdleBlockers[cell.scheduling.on_idle_blocker]],
             ] as const).map(([what, value]) => <div key={what}><dt>{what}</dt><dd>{value}</dd></div>)}
           </dl>

@@ -45,7 +45,7 @@ export function Cancel({ job, app, words }: Props & { words?: string }) {
         aria-label={`Cancel ${job.id}`} onClick={question.ask}>{words ?? '×'}</button>
     );
   }
-  const moves = job.state === 'running' || job.state === 'holding';
+  const moves = job.state === 'running' || job.state === 'paused';
   return (
     <div class="confirm" role="alertdialog" aria-label={`Cancel ${job.id}?`} onKeyDown={(event) => { if (event.key === 'Escape') { event.stopPropagation(); question.take_back(); } }}>
       <span>{moves ? `${title_of(job)} brakes on its path.` : `Cancel ${title_of(job)}?`}</span>
@@ -59,7 +59,7 @@ export function Cancel({ job, app, words }: Props & { words?: string }) {
 function AnotherWay({ job, app }: Props) {
   const { asked, ...question } = use_question();
   const mute = why_no_command(app);
-  const moves = job.state === 'running' || job.state === 'holding';
+  const moves = job.state === 'running' || job.state === 'paused';
   const ask = () => {
     if (moves && !asked) return question.ask();
     question.end();

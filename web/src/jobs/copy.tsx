@@ -21,7 +21,7 @@ export function Copy({ what, text }: { what: string; text(): string | Promise<st
 
 /** As programs would ask the server of this page. */
 export function asked_of(app: App): Asked {
-  return { origin: location.origin, with_token: app.session.value?.asks_for_token ?? false };
+  return { origin: location.origin, with_token: app.session.value?.auth_required ?? false };
 }
 
 /** Browsers give the clipboard to pages of a secure origin only; a cell's panel is often none. */

@@ -34,8 +34,8 @@ export function JobPage({ id, app }: { id: string; app: App }) {
   useEffect(() => (goes_on ? app.actions.follow_job(id) : undefined), [app, id, goes_on]);
   if (!job) return <><h2 class="ellipsis">{shown_name(id)}</h2><p class="hint">{looks_back ? 'There was no such job at that time, or this page does not know of it.' : app.store.stream === null ? 'Not connected yet.' : 'The server has no job with this id, or does not keep it any more.'}</p></>;
   const former = known === null;
-  // What it waits for stands below with its evidence, but for a ring of jobs.
-  const words = job.result ? result_in_words(job) : job.ring.length > 0 || job.waits_on.length === 0 ? reason_in_words(job) : '';
+  // What it waits for stands below with its evidence, but for a deadlock cycle.
+  const words = job.result ? result_in_words(job) : job.cycle.length > 0 || job.waits_on.length === 0 ? reason_in_words(job) : '';
   const arms = [...app.store.arms.keys()];
   return (
     <div class="page">

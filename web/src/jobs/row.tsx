@@ -67,7 +67,7 @@ function reason_place(job: Job): Extract<Place, { page: 'pair' | 'scene' }> | nu
 
 function Progress({ job, app }: Props) {
   use_beats(app.store);
-  return job.state === 'running' || job.state === 'holding' ? <Bar share={app.store.progress(job)} /> : null;
+  return job.state === 'running' || job.state === 'paused' ? <Bar share={app.store.progress(job)} /> : null;
 }
 
 function Figure({ job, app }: Props) {
@@ -79,7 +79,7 @@ function Figure({ job, app }: Props) {
 
 /** That others of its arm come first is said with its times, in one line. */
 function only_waits_its_turn(job: Job): boolean {
-  return job.waits_on[0]?.kind === 'order' && job.ring.length === 0 && !job.result;
+  return job.waits_on[0]?.kind === 'predecessor' && job.cycle.length === 0 && !job.result;
 }
 
 function Reason({ job }: { job: Job }) {

@@ -8,7 +8,7 @@ import { seconds } from '../wording';
 
 /** What the server expects of a job; null: nothing is known. */
 export function leg_of({ id }: Pick<Job, 'id'>, forecast: Forecast | null): ForecastLeg | null {
-  return forecast?.arms.flatMap((lane) => lane.legs).find((known) => known.id === id) ?? null;
+  return forecast?.arms.flatMap((lane) => lane.steps).find((known) => known.id === id) ?? null;
 }
 
 export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'forecast'>): string {
@@ -17,14 +17,14 @@ export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'for
   const parts: string[] = [];
   const since_s = store.book.since(job.id);
   if (job.state === 'backlogged') parts.push(`blocked for ${seconds(Math.max(0, now_s - (job.backlogged_s ?? since_s ?? now_s)))}`);
-  if (job.state === 'holding' && since_s !== null) parts.push(`holding for ${seconds(Math.max(0, now_s - since_s))}`);
+  if (job.state === 'paused' && since_s !== null) parts.push(`paused for ${seconds(Math.max(0, now_s - since_s))}`);
   const starts_s = leg ? leg.starts_s : job.scheduled_s;
   const stopped = is_stopped(job);  // its reason says so, and until when
   if (!stopped && job.started_s === null && starts_s !== null) {
     parts.push(starts_s > now_s + 0.05 ? `starts in about ${seconds(starts_s - now_s)}` : 'about to start');
   }
   if (!stopped && leg && leg.starts_s === null) parts.push('no start as things are');
-  if (!stopped && leg && job.state === 'holding') parts.push(leg.ends_s === null ? 'no end as things are' : `ends in about ${seconds(Math.max(0, leg.ends_s - now_s))}`);
+  if (!stopped && leg && job.state === 'paused') parts.push(leg.ends_s === null ? 'no end as things are' : `ends in about ${seconds(Math.max(0, leg.ends_s - now_s))}`);
   if (job.expires_s !== undefined) parts.push(`expires in ${seconds(Math.max(0, job.expires_s - now_s))}`);
   return parts.join(' · ');
 }

@@ -96,7 +96,7 @@ function Run({ run, jobs, longest_s, app }: { run: PolicyRun; jobs: number; long
         {run.makespan_s === null ? 'did not end' : seconds(run.makespan_s)}
         <span class="share" aria-hidden="true"><span style={{ width: `${(100 * (run.makespan_s ?? 0)) / longest_s}%` }} /></span>
       </td>
-      <td class="mono">{share_in_words(run.of_sequential)}</td>
+      <td class="mono">{share_in_words(run.makespan_ratio)}</td>
       <td class="mono">{seconds(run.wait_mean_s)}</td>
       <td class="mono">{run.min_clearance_m === null ? 'never near' : millimetres(run.min_clearance_m)}</td>
       <td>{is_in_force

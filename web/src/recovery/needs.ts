@@ -30,7 +30,7 @@ export function need_of(arm: Arm, job: Job | null, pose: Readonly<Record<string,
       return job
         ? { words: `Resume: ${name} goes on from ${Math.round(100 * job.progress)} % of its path as soon as that is free. Cancel it first if it should not.`, resume: true, home: false }
         : { words: next ? `Resume: ${title_of(next)} begins as soon as that is free. Cancel it first if it should not.` : 'Resume: then it takes jobs again; none waits for it.', resume: true, home: false };
-    case 'holding':
+    case 'paused':
       return { words: `Stands on its path until the way of ${name || 'its job'} is free. Nothing to do.`, resume: false, home: false };
     case 'moving':
       return { words: is_stopped(job, arm.name) ? 'Brakes on its path.' : `Moves: ${name || 'its job'}.`, resume: false, home: false };

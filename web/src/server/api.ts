@@ -2,8 +2,8 @@
 
 import { cut_text } from '../names';
 import {
-  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_hold, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_measured_states, parse_plan, parse_problem, parse_recording_list, parse_session, parse_verdict,
-  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Forecast, type Hold, type Job, type JobAmendment, type JobMotion, type JobPage, type MeasuredStates, type Parsed, type Plan, type Problem, type RecordingList, type SceneObject, type Session, type Verdict,
+  parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_jog, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_measured_states, parse_plan, parse_problem, parse_recording_list, parse_session, parse_verdict,
+  type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Forecast, type Jog, type Job, type JobAmendment, type JobMotion, type JobPage, type MeasuredStates, type Parsed, type Plan, type Problem, type RecordingList, type SceneObject, type Session, type Verdict,
 } from './messages';
 
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
@@ -119,13 +119,13 @@ export class Api {
   }
 
   /** Goes on only as long as it is renewed. */
-  async hold(arm: string, state: string, key: string): Promise<Answer<Hold>> {
+  async jog(arm: string, state: string, key: string): Promise<Answer<Jog>> {
     const asked = { control: key, to: { named: state } };
-    return checked('move', await this.ask('POST', `/arms/${encodeURIComponent(arm)}/hold`, JSON.stringify(asked)), parse_hold);
+    return checked('move', await this.ask('POST', `/arms/${encodeURIComponent(arm)}/jog`, JSON.stringify(asked)), parse_jog);
   }
 
-  async renew_hold(arm: string, key: string): Promise<Answer<Hold>> {
-    return checked('move', await this.ask('PUT', `/arms/${encodeURIComponent(arm)}/hold`, JSON.stringify({ control: key })), parse_hold);
+  async renew_jog(arm: string, key: string): Promise<Answer<Jog>> {
+    return checked('move', await this.ask('PUT', `/arms/${encodeURIComponent(arm)}/jog`, JSON.stringify({ control: key })), parse_jog);
   }
 
   stop(): Promise<Answer<unknown>> {

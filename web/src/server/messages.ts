@@ -26,11 +26,11 @@ export type Diagram = Schemas['Diagram'];
 /** What one arm of A and one arm of B do to each other, wherever each is on its way. */
 export type DiagramLayer = Diagram['layers'][number];
 /** What the two meet if both go on from where they are. */
-export type DiagramMeeting = Schemas['DiagramMeeting'];
+export type DiagramContact = Schemas['DiagramContact'];
 export type CellState = Schemas['DiagramCell']['state'];
 /** When each arm is expected to move. */
 export type Forecast = Schemas['Timeline'];
-export type ForecastLeg = Schemas['TimelineLeg'];
+export type ForecastLeg = Schemas['TimelineStep'];
 /** What the admission code says of a job that was only asked about. */
 export type Verdict = Schemas['Verdict'];
 /** What of a job can be changed. */
@@ -47,12 +47,12 @@ export type Session = Schemas['Session'];
 /** The same jobs under several policies, simulated. */
 export type Comparison = Schemas['Comparison'];
 export type PolicyRun = Schemas['PolicyRun'];
-/** Who may move arms by hand. */
+/** Who may jog arms. */
 export type Control = Schemas['Control'];
 export type ControlTaken = Schemas['ControlTaken'];
 export type ControlHolder = Schemas['ControlHolder'];
-/** A move by hand. */
-export type Hold = Schemas['Hold'];
+/** A jog motion. */
+export type Jog = Schemas['Jog'];
 /** Of all jobs that the server has, newest first. */
 export type JobPage = Schemas['JobPage'];
 /** Where every joint was measured over the last minutes. */
@@ -144,7 +144,7 @@ export const parse_session = (value: unknown): Parsed<Session> => check('Session
 export const parse_comparison = (value: unknown): Parsed<Comparison> => check('Comparison', value);
 export const parse_control = (value: unknown): Parsed<Control> => check('Control', value);
 export const parse_control_taken = (value: unknown): Parsed<ControlTaken> => check('ControlTaken', value);
-export const parse_hold = (value: unknown): Parsed<Hold> => check('Hold', value);
+export const parse_jog = (value: unknown): Parsed<Jog> => check('Jog', value);
 export const parse_verdict = (value: unknown): Parsed<Verdict> => check('Verdict', value);
 export const parse_measured_states = (value: unknown): Parsed<MeasuredStates> => check('MeasuredStates', value);
 export const parse_recording_list = (value: unknown): Parsed<RecordingList> => check('RecordingList', value);

@@ -12,7 +12,7 @@ import type { ToldState } from './standing';
 /** `at`: wall time of the first that was heard of its next run; `lost`: jobs that had not ended, of which that one does not tell. */
 export interface Restart { at: string; lost: readonly Job[] }
 
-const kStands: ReadonlySet<Arm['state']> = new Set(['holding', 'stopped', 'fault'] as const);
+const kStands: ReadonlySet<Arm['state']> = new Set(['paused', 'stopped', 'fault'] as const);
 
 export class Facts {
   stream: string | null = null;

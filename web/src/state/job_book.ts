@@ -8,7 +8,7 @@ import { is_stopped, told_state } from './standing';
 export type JobList = 'running' | 'scheduled' | 'queued' | 'backlog' | 'finished';
 
 const kListOfState: Record<JobState, JobList> = {
-  running: 'running', holding: 'running', scheduled: 'scheduled', queued: 'queued', backlogged: 'backlog',
+  running: 'running', paused: 'running', scheduled: 'scheduled', queued: 'queued', backlogged: 'backlog',
   succeeded: 'finished', canceled: 'finished', expired: 'finished', failed: 'finished', interrupted: 'finished',
 };
 const kMaxFinished = 10_000;
@@ -209,12 +209,12 @@ function stand(stands: Stand[], job: Job, t_s: number): void {
   const open = last && last.to_s === null ? last : null;
   const stopped = is_stopped(job);
   const why = job.waits_on[0] ?? null;
-  if (open && job.state === 'holding' && open.stopped === stopped) {
+  if (open && job.state === 'paused' && open.stopped === stopped) {
     open.why = why ?? open.why;
     return;
   }
   if (open) open.to_s = t_s;
-  if (job.state === 'holding') remember(stands, { from_s: t_s, to_s: null, stopped, why });
+  if (job.state === 'paused') remember(stands, { from_s: t_s, to_s: null, stopped, why });
 }
 
 export function remember<T>(list: T[], one: T): void {

@@ -10,8 +10,8 @@ const kArmColours = 8;
 export const kStateColours: Record<ToldState, string> = {
   idle: 'var(--idle)',
   moving: 'var(--moving)',
-  holding: 'var(--holding)',
-  waiting: 'var(--holding)',
+  paused: 'var(--paused)',
+  waiting: 'var(--paused)',
   stopped: 'var(--alarm)',
   fault: 'var(--alarm)',
   'not known': 'var(--dim)',
@@ -19,7 +19,7 @@ export const kStateColours: Record<ToldState, string> = {
 
 /** A state is never told by colour alone. */
 export const kStateGlyphs: Record<ToldState, string> = {
-  idle: '○', moving: '▶', holding: '❚❚', waiting: '◔', stopped: '■', fault: '✕', 'not known': '?',
+  idle: '○', moving: '▶', paused: '❚❚', waiting: '◔', stopped: '■', fault: '✕', 'not known': '?',
 };
 
 /** An arm's own colour, by its place in the cell. */

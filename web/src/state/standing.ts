@@ -1,4 +1,4 @@
-// Why a job stands. Pure. The server says `holding` of every job that stands on its path; that its arm was
+// Why a job stands. Pure. The server says `paused` of every job that stands on its path; that its arm was
 // stopped, and goes on only when somebody resumes it, is what the job waits for.
 
 import type { ArmState, Job, JobState } from '../server/messages';
@@ -13,5 +13,5 @@ export function is_stopped(job: Pick<Job, 'waits_on'> | null, arm: string | null
 
 /** As people are told of it, everywhere. */
 export function told_state(job: Pick<Job, 'state' | 'waits_on'>): JobState | 'stopped' {
-  return job.state === 'holding' && is_stopped(job) ? 'stopped' : job.state;
+  return job.state === 'paused' && is_stopped(job) ? 'stopped' : job.state;
 }

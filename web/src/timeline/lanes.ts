@@ -60,7 +60,7 @@ export function lanes_of(known: Known): Lane[] {
     const expected = known.forecast?.arms.find((lane) => lane.name === arm);
     const jobs = of_arm.get(arm) ?? [];
     const done = done_of(jobs, pasts.get(arm) ?? kNoPast, now_s, stands);
-    const legs = (expected?.legs ?? []).filter((leg) => !known.has_ended(leg.id));
+    const legs = (expected?.steps ?? []).filter((leg) => !known.has_ended(leg.id));
     const timed = until_endless(legs);
     return {
       arm,
@@ -144,7 +144,7 @@ export function drawn_of(marks: readonly Mark[], from_s: number, to_s: number, l
     return true;
   });
 }
-const kAlways: ReadonlySet<Mark['state']> = new Set(['failed', 'interrupted', 'expired', 'running', 'holding']);
+const kAlways: ReadonlySet<Mark['state']> = new Set(['failed', 'interrupted', 'expired', 'running', 'paused']);
 
 /** The mark on top at a time. */
 export function mark_at(lane: Lane, t_s: number): Mark | null {

@@ -186,7 +186,7 @@ const kFade_px = 2 * kHatch_px;
 
 function draw_motion(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, dim: boolean, hover: boolean): void {
   const failed = mark.state === 'failed' || mark.state === 'interrupted' || mark.state === 'expired';
-  const live = mark.state === 'running' || mark.state === 'holding';
+  const live = mark.state === 'running' || mark.state === 'paused';
   const strength = live || hover ? 1 : mark.state === 'canceled' ? 0.22 : 0.4;
   g.globalAlpha = (dim ? 0.3 : 1) * strength;
   g.fillStyle = failed ? ink('--alarm') : row.colour;
@@ -212,7 +212,7 @@ function draw_expected(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: 
 function draw_pause(g: CanvasRenderingContext2D, row: Row, left: number, width: number, stopped: boolean, hover: boolean): void {
   g.fillStyle = ink('--panel');
   g.fillRect(left, row.bar_top, width, row.bar_height);
-  hatch(g, { left, top: row.bar_top + 1, width, height: row.bar_height - 2, falls: true }, ink(stopped ? '--alarm' : '--holding'), hover || stopped);
+  hatch(g, { left, top: row.bar_top + 1, width, height: row.bar_height - 2, falls: true }, ink(stopped ? '--alarm' : '--paused'), hover || stopped);
 }
 
 function bar(g: CanvasRenderingContext2D, left: number, top: number, width: number, height: number): void {

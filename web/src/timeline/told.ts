@@ -15,7 +15,7 @@ export function mark_in_words(mark: Mark, now_s: number): string {
 
 function expectation(mark: Mark): string {
   if (!mark.expected) return '';
-  return mark.state === 'running' || mark.state === 'holding' ? 'runs on, ' : 'expected ';
+  return mark.state === 'running' || mark.state === 'paused' ? 'runs on, ' : 'expected ';
 }
 
 /** What an arm is expected to do, a sentence for each motion and each wait, soonest first. */

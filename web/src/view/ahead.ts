@@ -92,7 +92,7 @@ export class Ahead {
   /** Of each arm the motions that are admitted, the one under way first. */
   private legs(): { arm: string; job: Job }[] {
     const { store } = this.app_;
-    return (store.forecast?.arms ?? []).flatMap(({ name, legs }) => legs
+    return (store.forecast?.arms ?? []).flatMap(({ name, steps }) => steps
       .flatMap((leg) => {
         const job = store.job(leg.id);
         return job && job.result === null ? [{ arm: name, job }] : [];
