@@ -12,7 +12,7 @@ namespace armloom {
 // each with the number of control cycles begun before it: {"ticks": 1204, "input": "cancel", "job":
 // "a"}. Values read back the same to the last bit (replay.h).
 struct InputLogHead {
-  static constexpr int kVersion = 1;
+  static constexpr int kVersion = 2;  // 1: armloom 0.1
   std::string policy;           // at the start
   std::uint64_t seed = 1;       // of the simulated arms
   std::uint64_t first_job = 1;  // ExecutiveOptions::first_job

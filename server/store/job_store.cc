@@ -147,7 +147,7 @@ class JobStore::Impl {
       return false;
     }
     files_.log_has_grown();
-    mark_.written(tables_->commits().value_or(0),
+    mark_.written(tables_->commits(),
                   batch.stops ? std::optional(batch.stops->number) : std::nullopt);
     if (options_.on_written) options_.on_written(Wall::now() - begun);
     bool was_faulty = false;

@@ -17,7 +17,7 @@ Database opened(const std::filesystem::path& file, const std::string& vfs) {
   Database database(file, Database::Access::write, vfs);
   if (database.is_read_only()) throw SqlFault(SqlFault::kNoAccess, "it is read-only");
   database.keep_log(true);  // keeps the log if the file is unusable
-  bring_up_to_date(database);
+  check_store(database);
   database.know_checksum();
   if (database.text("PRAGMA journal_mode = WAL") != "wal") {
     throw SqlFault(SqlFault::kNoAccess,
@@ -41,12 +41,6 @@ constexpr const char* kIsRefusal = "(status BETWEEN 400 AND 499)";
 
 std::int64_t as_stored(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 std::uint64_t as_number(std::int64_t stored) { return static_cast<std::uint64_t>(stored); }
-
-std::optional<std::uint64_t> counted(const Database& database) {
-  Statement row = database.prepare("SELECT max(commits) FROM written");
-  if (!row.step() || row.is_null(0)) return std::nullopt;
-  return as_number(row.number(0));
-}
 
 }  // namespace
 
@@ -94,7 +88,7 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
       seal_answer_(database_.prepare(std::string("UPDATE request SET sum = ") + kSumOfRequest +
                                      " WHERE key = ?1 AND place = ?2")),
       count_(database_.prepare("UPDATE written SET commits = ?1")),
-      commits_(counted(database_)) {
+      commits_(as_number(database_.number("SELECT commits FROM written"))) {
   database_.run("DELETE FROM job WHERE view = ''");  // never acknowledged
   database_.keep_log(false);
 }
@@ -105,9 +99,9 @@ Leftover JobTables::leftover() const {
   Statement jobs = database_.prepare(
       std::string(
           "SELECT job.number, id, state, submitted_ms, arms, view, may_have_moved, body.text, "
-          "body.amended, coalesce(job.sum != ") +
-      kSumOfJob + ", 0) OR coalesce(body.sum != " + kSumOfBody +
-      ", digest IS NOT NULL AND body.number IS NULL) FROM job LEFT JOIN body USING(number) WHERE "
+          "body.amended, job.sum IS NOT ") +
+      kSumOfJob + " OR iif(body.number IS NULL, digest IS NOT NULL, body.sum IS NOT " + kSumOfBody +
+      ") FROM job LEFT JOIN body USING(number) WHERE "
       "has_ended = 0 ORDER BY job.number");
   while (jobs.step()) {
     LeftJob& found = left.jobs.emplace_back();
@@ -123,8 +117,8 @@ Leftover JobTables::leftover() const {
     found.is_damaged = jobs.number(9) != 0;
   }
   left.lost_jobs = static_cast<std::size_t>(database_.number(kLostJobs));
-  Statement arms = database_.prepare(std::string("SELECT name, coalesce(sum != ") + kSumOfStop +
-                                     ", 0) FROM stopped_arm ORDER BY name");
+  Statement arms = database_.prepare(std::string("SELECT name, sum IS NOT ") + kSumOfStop +
+                                     " FROM stopped_arm ORDER BY name");
   while (arms.step()) {
     if (arms.number(1) != 0) {
       left.stops_are_damaged = true;
@@ -132,8 +126,8 @@ Leftover JobTables::leftover() const {
       left.stopped_arms.push_back(arms.text(0));
     }
   }
-  Statement objects = database_.prepare(std::string("SELECT name, text, coalesce(sum != ") +
-                                        kSumOfObject + ", 1) FROM scene_object ORDER BY number");
+  Statement objects = database_.prepare(std::string("SELECT name, text, sum IS NOT ") +
+                                        kSumOfObject + " FROM scene_object ORDER BY number");
   while (objects.step()) {
     LeftObject& found = left.objects.emplace_back();
     found.object.name = objects.text(0);
@@ -142,8 +136,8 @@ Leftover JobTables::leftover() const {
   }
   Statement alerts = database_.prepare(
       std::string("SELECT id, at_ms, level, text, who, acknowledged_ms FROM (SELECT * FROM alert "
-                  "WHERE coalesce(sum = ") +
-      kSumOfAlert + ", 1) ORDER BY " + kNeededFirst + " LIMIT ?1) ORDER BY number");
+                  "WHERE sum IS ") +
+      kSumOfAlert + " ORDER BY " + kNeededFirst + " LIMIT ?1) ORDER BY number");
   alerts.bind_all(std::int64_t{kAlertsKept});
   while (alerts.step()) {
     left.alerts.push_back({alerts.text(0), alerts.number(1), alerts.text(2), alerts.text(3)});
@@ -179,7 +173,7 @@ void JobTables::write(const Pending& changes) {
     answer_.bind_all(key, place, std::string_view(request.key_digest), as_stored(job)).run();
     seal_answer_.bind_all(key, place).run();
   }
-  const std::uint64_t commits = commits_.value_or(0) + 1;
+  const std::uint64_t commits = commits_ + 1;
   count_.bind_all(as_stored(commits)).run();
   transaction.commit();
   commits_ = commits;

@@ -17,13 +17,12 @@ class JobTables {
   // The log is not truncated below this size.
   static constexpr std::uintmax_t kLogKept = std::uintmax_t{16} << 20U;
 
-  // Opens the file, upgrades its tables and checks its integrity.
+  // Opens the file, and checks its version and integrity.
   JobTables(const std::filesystem::path& file, const std::string& vfs);
 
   [[nodiscard]] Leftover leftover() const;  // without what StoreMark knows
-  // Returns the commits of all sessions; nullopt from an upgrade, of a version that did not count,
-  // to the first write.
-  [[nodiscard]] std::optional<std::uint64_t> commits() const { return commits_; }
+  // Returns the commits of all sessions.
+  [[nodiscard]] std::uint64_t commits() const { return commits_; }
   // Writes and syncs all changes, or none.
   void write(const Pending& changes);
   // Keeps the log out of the file at the end, because it is not what was written.
@@ -39,7 +38,7 @@ class JobTables {
   Statement see_, expect_, move_, come_, seal_, put_body_, amend_, drop_body_, seal_body_, stop_,
       seal_stops_, forget_stops_, set_object_, seal_object_, forget_object_, note_, seal_note_,
       keep_alert_, seal_alert_, answer_, seal_answer_, count_;
-  std::optional<std::uint64_t> commits_;
+  std::uint64_t commits_;
 };
 
 }  // namespace armloom

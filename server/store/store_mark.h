@@ -23,9 +23,9 @@ class StoreMark {
     bool stops_are_ahead = false;  // the store's stopped arms may be out of date
   };
 
-  // `commits`: of the store, over all sessions; nullopt if the store does not exist yet, or is of a
-  // version without marks. Creates a missing mark. The mark is created before the store, so that a
-  // store without a mark has lost it. Throws std::system_error.
+  // `commits`: of the store, over all sessions; nullopt if the store does not exist yet. Creates a
+  // missing mark. The mark is created before the store, so that a store without a mark has lost it.
+  // Throws std::system_error.
   StoreMark(const std::filesystem::path& folder, std::optional<std::uint64_t> commits);
 
   [[nodiscard]] const Found& found() const { return found_; }

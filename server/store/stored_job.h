@@ -9,7 +9,7 @@ namespace armloom {
 
 // The request that created a job, to recognize it when repeated. Digests are of canonical JSON.
 struct RequestOrigin {
-  std::string digest;           // of the job's body; "" if unknown (older versions)
+  std::string digest;           // of the job's body; "" for jobs of the server
   std::string key = {};         // Idempotency-Key, or empty
   std::string key_digest = {};  // of the whole request's body
   std::size_t place = 0;        // in a batch

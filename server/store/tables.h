@@ -27,17 +27,15 @@ inline constexpr const char* kSumOfObject =
     "checksum(scene_object.number, scene_object.name, scene_object.text)";
 inline constexpr const char* kSumOfRequest =
     "checksum(request.key, request.place, request.digest, request.job)";
-inline constexpr std::int64_t kVersionWithSums = 5;     // of jobs
-inline constexpr std::int64_t kVersionWithAllSums = 6;  // of alerts and audit entries, too
-inline constexpr std::int64_t kVersionWithRequests = 10;
 
 // Creates a store with empty tables under another name, then renames it: thus a file in this place,
 // even an empty file, has held jobs. `vfs` as in Database. Throws SqlFault, std::system_error.
 void make_store(const std::filesystem::path& file, const std::string& vfs);
 
-// Checks the file's integrity, then upgrades its tables, all or nothing; on an exception the file
-// is unchanged. Throws SqlFault, or std::runtime_error if the file is another program's, a newer
-// version's, has lost its tables or is damaged.
-void bring_up_to_date(Database& database);
+// Checks that this version of Armloom wrote the file. Throws SqlFault, or std::runtime_error if the
+// file is another program's, an older or newer version's, or has lost its tables.
+void check_version(const Database& database);
+// Checks the version and the integrity of the whole file. Throws like check_version.
+void check_store(const Database& database);
 
 }  // namespace armloom
