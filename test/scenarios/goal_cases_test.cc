@@ -215,7 +215,7 @@ TEST_P(Goals, AreRefusedAtOnceIfImpossible) {
   refused(named, "/move_to/named");
   JobRequest any = move_to("x", 0.0, "d");
   any.terms.reorderable = true;
-  refused(any, "/order");
+  refused(any, "/reorderable");
   JobRequest both = slide("x", -1, 0, 2, "e");
   both.arm = "x";
   refused(both, "/arm");

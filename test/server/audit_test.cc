@@ -1,4 +1,4 @@
-// What is put down of who did what, and who was not let.
+// The audit log: commands and refused requests, with the token's name.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -13,8 +13,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// With a data folder.
-class Audit : public test::TokenServer {
+// Runs the server with a data folder.
+class AuditLog : public test::TokenServer {
  protected:
   void SetUp() override {
     options_.data = fs::path(::testing::TempDir()) / "armloom-audit" /
@@ -37,7 +37,7 @@ class Audit : public test::TokenServer {
   }
 };
 
-TEST_F(Audit, KnowsWhoWasRefusedBeforeTheBodyWasRead) {
+TEST_F(AuditLog, RecordsARefusalBeforeTheBodyIsRead) {
   test::Wire wire(port());
   wire.send(
       "POST /api/v1/jobs HTTP/1.1\r\nHost: 127.0.0.1\r\nExpect: 100-continue\r\n"
@@ -50,7 +50,7 @@ TEST_F(Audit, KnowsWhoWasRefusedBeforeTheBodyWasRead) {
   EXPECT_EQ(entry["status"], 403);
 }
 
-TEST_F(Audit, AnAlertIsAcknowledgedByTheTokensNameWhateverTheClientSays) {
+TEST_F(AuditLog, RecordsTheTokensNameForAcknowledgements) {
   ASSERT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
   test::Wire wire(port());
   wire.send("GET /api/v1/alerts HTTP/1.1\r\nHost: 127.0.0.1\r\n" + bearer(tokens_["viewer"]) +
@@ -73,7 +73,7 @@ TEST_F(Audit, AnAlertIsAcknowledgedByTheTokensNameWhateverTheClientSays) {
   EXPECT_EQ(entry["path"], "/api/v1/alerts/acknowledge");
 }
 
-TEST_F(Audit, SaysWhoDidWhatAndWhoWasNotLet) {
+TEST_F(AuditLog, RecordsCommandsAndRefusalsButNotReads) {
   ASSERT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
   ASSERT_EQ(ask("GET", "/api/v1/arms", bearer(tokens_["viewer"])).status, 200);
   ASSERT_EQ(ask("POST", "/api/v1/resume", bearer(tokens_["viewer"])).status, 403);
@@ -101,7 +101,7 @@ TEST_F(Audit, SaysWhoDidWhatAndWhoWasNotLet) {
   EXPECT_EQ(entries("", 3)["entries"], page["entries"]) << "kept";
 }
 
-TEST_F(Audit, IsAskedByWhoWhatAndWhen) {
+TEST_F(AuditLog, CanBeFilteredByClientRequestAndTime) {
   ask("POST", "/api/v1/stop", bearer(tokens_["operator"]));
   ask("POST", "/api/v1/resume", bearer(tokens_["viewer"]));
   ask("DELETE", "/api/v1/jobs/none", bearer(tokens_["operator"]));

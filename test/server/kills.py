@@ -27,7 +27,7 @@ from killed_server import API, Kill, NotUp, Server, swing
 from power_cut import SyncedCopy
 
 ENDED = {"succeeded", "canceled", "expired", "failed", "interrupted"}
-ONE_LIFE = 50  # kills of one data folder, then another one is begun
+ONE_LIFE = 50  # number of kills before a new data folder
 
 
 class Trial:
@@ -35,8 +35,8 @@ class Trial:
 
     def __init__(self, rng):
         self.rng = rng
-        self.order = []     # ids, as acknowledged one after the other on one connection
-        self.ended = {}     # id: the state in which it was seen to end
+        self.order = []  # ids in the order of acknowledgement on one connection
+        self.ended = {}  # id: terminal state seen
         self.next = 0
 
     def one(self, server):
@@ -115,7 +115,7 @@ def moved_in(folder):
     with open(folder / "events.jsonl", encoding="utf-8") as events:
         for line in events:
             if not line.endswith("\n"):
-                break  # the kill came in the middle of it
+                break  # cut off by the kill
             event = json.loads(line)
             if event["type"] == "job" and event["data"]["started_at"] is not None:
                 moved.add(event["data"]["id"])
@@ -155,7 +155,7 @@ class Lives:
                 raise AssertionError(f"kill {number} of this folder, the one at {kill}: {found}") from found
             if kill.cuts_power():
                 self.synced.cut(self.rng)
-        server = Server(self.program, data, self.log)  # what the last one left
+        server = Server(self.program, data, self.log)  # checks the state after the last kill
         try:
             self.look_through(trial, server)
         finally:
@@ -175,7 +175,7 @@ class Lives:
         server = Server(self.program, data, self.log, kill.tracer(), environment)
         done = threading.Event()
         try:
-            # A server that is killed as it starts, or whose disk fails, is looked through by the next one.
+            # A server that is killed while it starts, or whose disk fails, is checked by the next session.
             if not kill.may_hinder_start():
                 self.look_through(trial, server)
             load = threading.Thread(target=trial.load, args=(server, done))
@@ -204,7 +204,7 @@ def possible_kinds(library):
 
 def run(program, kills, seed, folder, kinds, library):
     lives = Lives(program, folder, seed, kinds, library)
-    # Where other work leaves the machine little time, few jobs are acknowledged before a kill.
+    # On a busy machine few jobs are acknowledged before a kill.
     while lives.kills < kills or (not lives.saw_enough() and lives.kills < 5 * kills):
         lives.live(min(ONE_LIFE, max(kills - lives.kills, 6)))
     print(f"{lives.kills} kills, seed {seed}: {lives.acknowledged} jobs acknowledged, {lives.moved_jobs} moved, "

@@ -1,5 +1,5 @@
-// Lists are written from what the control loop publishes: a read shows every command that was
-// answered before, and what did not change is not written again.
+// GET requests read what the control loop publishes: they show every earlier acknowledged command,
+// and unchanged jobs are not serialized again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ JobSheet::JobPtr job_of(std::uint64_t id, const std::string& key) {
   return std::make_shared<const JobView>(JobView{.id = JobId{id}, .key = key});
 }
 
-TEST(JobTexts, WritesAJobAgainOnlyWhenItChanged) {
+TEST(JobTexts, SerializesAJobOnlyWhenItChanged) {
   const WallClock clock(std::chrono::system_clock::now(), 1.0);
   JobTexts texts;
   const auto one = job_of(1, "one"), two = job_of(2, "two");
@@ -36,7 +36,7 @@ class Reads : public test::VerbsFixture {
   }
 };
 
-TEST_F(Reads, ShowWhatWasAnsweredBefore) {
+TEST_F(Reads, ShowAllAcknowledgedCommands) {
   start(1.0);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   EXPECT_EQ(get("/api/v1/queue").json()["stopped"], true);
@@ -56,7 +56,7 @@ TEST_F(Reads, ShowWhatWasAnsweredBefore) {
       29U);
 }
 
-TEST_F(Reads, ASnapshotHasEveryJobOfTheQueue) {
+TEST_F(Reads, SnapshotHasEveryQueuedJob) {
   start(1.0);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   for (const char* id : {"a", "b"}) {

@@ -1,5 +1,4 @@
-// Jobs on disk: what was said to be written is there in the next run, in its order, as long as it
-// is to be kept.
+// Acknowledged jobs are there in the next session, in order, within the retention bounds.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -18,7 +17,7 @@ using test::job;
 using test::start;
 using test::Store;
 
-TEST_F(Store, WhatHadNotEndedIsThereAgainInItsOrder) {
+TEST_F(Store, RestoresUnfinishedJobsInOrder) {
   {
     const auto store = open();
     EXPECT_TRUE(store->leftover().jobs.empty());
@@ -44,7 +43,7 @@ TEST_F(Store, WhatHadNotEndedIsThereAgainInItsOrder) {
   EXPECT_TRUE(left.jobs[2].may_have_moved);
 }
 
-TEST_F(Store, ManyThatWaitShareOneSync) {
+TEST_F(Store, SharesOneSyncAmongConcurrentWrites) {
   const auto store = open();
   EXPECT_TRUE(accept(*store, 1).get());
   std::promise<void> go_on;
@@ -61,12 +60,12 @@ TEST_F(Store, ManyThatWaitShareOneSync) {
   EXPECT_EQ(FailingDisk::syncs(), before + 1) << "one that is alone costs one";
 }
 
-TEST_F(Store, OneServerForEachFolder) {
+TEST_F(Store, RefusesAFolderInUse) {
   const auto store = open();
   EXPECT_NE(why_not().find("is in use by process " + std::to_string(getpid())), std::string::npos);
 }
 
-TEST_F(Store, WhatIsNotOursOrNotWholeIsLeftAsItIs) {
+TEST_F(Store, DoesNotTouchForeignOrNewerFiles) {
   const auto holds = [&](const std::string& text) {
     const std::string why = why_not();
     EXPECT_NE(why.find(text), std::string::npos) << why;
@@ -88,7 +87,7 @@ TEST_F(Store, WhatIsNotOursOrNotWholeIsLeftAsItIs) {
   holds("it is corrupt: tables of version -5");
 }
 
-TEST_F(Store, ACorruptFileIsSaidToBeAndNotMended) {
+TEST_F(Store, ReportsACorruptFileWithoutRepair) {
   {
     const auto store = open();
     for (std::uint64_t number = 1; number <= 200; ++number) accept(*store, number).get();
@@ -104,8 +103,8 @@ TEST_F(Store, ACorruptFileIsSaidToBeAndNotMended) {
   EXPECT_EQ(fs::file_size(file()), size);
 }
 
-// Jobs would come in the index's order, or not at all.
-TEST_F(Store, AnIndexThatIsNotTheTablesIsSaidToBeCorrupt) {
+// Otherwise jobs would be listed in the index's order, or not at all.
+TEST_F(Store, ReportsAMismatchedIndexAsCorrupt) {
   {
     const auto store = open();
     for (std::uint64_t number = 1; number <= 3; ++number) accept(*store, number).get();
@@ -116,8 +115,7 @@ TEST_F(Store, AnIndexThatIsNotTheTablesIsSaidToBeCorrupt) {
   EXPECT_NE(why_not().find("it is corrupt: "), std::string::npos) << why_not();
 }
 
-// Of an old version: its jobs are kept.
-TEST_F(Store, TablesAreBroughtUpToDateWhole) {
+TEST_F(Store, CreatesItsTablesAtomically) {
   fs::create_directories(folder_);
   {
     const auto store = open();
@@ -125,7 +123,7 @@ TEST_F(Store, TablesAreBroughtUpToDateWhole) {
   }
   const std::uint64_t operations = FailingDisk::operations();
   fs::remove_all(folder_);
-  // A process that ends anywhere in the making of the tables leaves what can be opened.
+  // A process that ends at any point while it creates the tables leaves a usable folder.
   for (std::uint64_t nth = 1; nth < operations; ++nth) {
     fs::remove_all(folder_);
     const pid_t child = fork();
@@ -140,7 +138,7 @@ TEST_F(Store, TablesAreBroughtUpToDateWhole) {
   }
 }
 
-TEST_F(Store, OfAlertsThoseThatNobodyHasSeenAreKeptAndErrorsLongest) {
+TEST_F(Store, KeepsErrorsAndUnacknowledgedAlertsLongest) {
   const auto alert = [](std::size_t number, const char* level) {
     return StoredAlert{.id = "s:" + std::to_string(number), .level = level, .text = "x"};
   };
@@ -159,7 +157,7 @@ TEST_F(Store, OfAlertsThoseThatNobodyHasSeenAreKeptAndErrorsLongest) {
   EXPECT_EQ(left.back().id, "s:" + std::to_string(told - 1));
 }
 
-TEST_F(Store, OldJobsThatHaveEndedAreDeleted) {
+TEST_F(Store, DeletesOldEndedJobs) {
   StoreOptions few = options();
   few.retention.jobs_max = 10;
   {
@@ -186,7 +184,7 @@ TEST_F(Store, OldJobsThatHaveEndedAreDeleted) {
   EXPECT_EQ(numbers(), last) << "one that waits is never deleted";
 }
 
-// As the first version of the program wrote them.
+// Tables as written by the first version of the program.
 constexpr const char* kFirstTables = R"(
     CREATE TABLE job(number INTEGER PRIMARY KEY, id TEXT NOT NULL, state TEXT NOT NULL,
       has_ended INTEGER NOT NULL, may_have_moved INTEGER NOT NULL, submitted_ms INTEGER,
@@ -199,11 +197,11 @@ constexpr const char* kFirstTables = R"(
     PRAGMA user_version = 1;
   )";
 
-// As on a medium that is only read, or a colleague's folder.
-TEST_F(Store, AFolderThatMayNotBeWrittenIsReadAsItLies) {
+// As on a read-only medium, or in another user's folder.
+TEST_F(Store, ReadsHistoryFromAReadOnlyFolder) {
   { EXPECT_TRUE(accept(*open(), 1).get()); }
   std::filesystem::permissions(folder_, std::filesystem::perms{0555});
-  const bool is_root = geteuid() == 0;  // who may write all the same
+  const bool is_root = geteuid() == 0;  // root may write nevertheless
   if (is_root) {
     ASSERT_EQ(setresuid(65534, 65534, 0), 0);
   }
@@ -220,8 +218,8 @@ TEST_F(Store, AFolderThatMayNotBeWrittenIsReadAsItLies) {
   std::filesystem::permissions(folder_, std::filesystem::perms{0755});
 }
 
-// The number of the version may be what is damaged: then some of the steps up would succeed.
-TEST_F(Store, TablesThatAreNotWhatTheirVersionSaysAreLeftAsTheyAre) {
+// The version number itself may be damaged; then some of the migrations would succeed.
+TEST_F(Store, DoesNotMigrateTablesOfAWrongVersion) {
   { EXPECT_TRUE(accept(*open(), 1).get()); }
   sql("PRAGMA user_version = 2");
   const auto read = [&] {
@@ -233,7 +231,7 @@ TEST_F(Store, TablesThatAreNotWhatTheirVersionSaysAreLeftAsTheyAre) {
   EXPECT_EQ(read(), before);
 }
 
-TEST_F(Store, TablesOfTheFirstVersionAreReadAndBroughtUpToDate) {
+TEST_F(Store, ReadsAndMigratesTablesOfTheFirstVersion) {
   std::filesystem::create_directories(folder_);
   sql(kFirstTables);
   {
@@ -261,7 +259,7 @@ TEST_F(Store, TablesOfTheFirstVersionAreReadAndBroughtUpToDate) {
   EXPECT_EQ((*history)->find("j4").value()->origin.digest, "");
 }
 
-TEST_F(Store, HistoryIsReadByStateArmAndPage) {
+TEST_F(Store, FiltersHistoryByStateArmAndPage) {
   const auto store = open();
   for (std::uint64_t number = 1; number <= 30; ++number) {
     accept(*store, number).get();
@@ -282,8 +280,6 @@ TEST_F(Store, HistoryIsReadByStateArmAndPage) {
   EXPECT_EQ((*history)->find("j24").value()->state, "succeeded");
   EXPECT_FALSE((*history)->find("none").value());
 }
-
-// ---- A disk that fails ----
 
 }  // namespace
 }  // namespace armloom
