@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the seed corpora of the fuzz targets, made small from config/ and models/.
+"""Writes small seed corpora of the fuzz targets, made from config/ and models/.
 
     seeds.py FOLDER      writes FOLDER/cell, FOLDER/job, FOLDER/robot, FOLDER/http, FOLDER/store
 """

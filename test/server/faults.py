@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """faults.py [--tree DIR] [--only NAME] [--patterns]: puts faults into a copy of the server, the monitor, the arms and the
-dashboard, all in one build, and switches them on one at a time. Prints which test finds each fault first, and after how many
-seconds; exit 1 if a fault is not found. With --patterns only looks whether each fault has something to change."""
+dashboard, all in one build, and switches them on one at a time. Prints the first test that finds each fault, and its time in
+seconds; exit 1 if a fault is not found. --patterns only checks that each fault still matches its source."""
 import argparse, os, re, subprocess, sys, tempfile, time
 from pathlib import Path
 
@@ -103,7 +103,7 @@ PROGRAMS = [name for name in FAULTS if name != 'dashboard'] + ['server_command_t
 
 
 def in_dashboard(tree, number):
-    """The dashboard's units; then, if they find nothing, its browser suites one by one."""
+    """Runs the dashboard's unit tests; if they find nothing, its browser suites one by one."""
     env = dict(os.environ, ARMLOOM_FAULT=str(number), ARMLOOM_BINARY=str(tree / 'build/armloom'))
     done = subprocess.run(['npx', 'vitest', 'run', '--bail=1', '--reporter=verbose'], cwd=tree / 'web', env=env, capture_output=True, text=True)
     found = re.findall(r'(?:FAIL|×)\s+(test/\S+)', done.stdout + done.stderr)
@@ -122,7 +122,7 @@ def find(tree, number, first):
     for program in [first] + [other for other in PROGRAMS if other != first]:
         begun = time.monotonic()
         code, out = run(tree, program, number, '--gtest_fail_fast', timeout=300)
-        if code != 0: return f'{program}: {(failed_in(out) or ["it does not end" if code is None else "it crashes"])[0]}', time.monotonic() - begun
+        if code != 0: return f'{program}: {(failed_in(out) or ["timeout" if code is None else "crash"])[0]}', time.monotonic() - begun
     return None, 0.0
 
 
@@ -136,7 +136,7 @@ def main():
         if not (tree / 'build').exists():
             copy(tree)
             missing = put_in(tree, [fault for _, fault in faults])
-            for one in missing: print('NOTHING TO CHANGE:', one)
+            for one in missing: print('PATTERN NOT FOUND:', one)
             if missing: return 1
         if asked.patterns: return 0
         build(tree, 'armloom', *PROGRAMS)
@@ -148,7 +148,7 @@ def main():
             if not re.search(asked.only, name): continue
             by, seconds = find(tree, number, first)
             missed += by is None
-            print(f'| {name} | {by or "NOBODY"} | {seconds:.0f} s |', flush=True)
+            print(f'| {name} | {by or "NO TEST"} | {seconds:.0f} s |', flush=True)
     return 1 if missed else 0
 
 
