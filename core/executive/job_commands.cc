@@ -51,7 +51,7 @@ Result<JobView> Executive::Impl::replan(const std::string& key) {
   if (!id) return failure(id.error());
   if (const auto why = why_not_replanned(*scheduler_.find(*id))) {
     return failure(Problem{ProblemKind::conflict, "no-alternative-path", "",
-                           "job \"" + key + "\" can be given no other way: " + *why, key});
+                           "job \"" + key + "\" cannot be replanned: " + *why, key});
   }
   step(Replan{*id});
   return publisher_.view(*id);

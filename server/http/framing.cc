@@ -102,7 +102,7 @@ std::optional<AbsoluteTarget> split_absolute_target(std::string_view target) {
   return split;
 }
 
-// 128 bits are 22 digits of which the last one has four bits to spare, and two for padding.
+// 128 bits are 22 base64 digits, the last with four spare bits, and two padding characters.
 bool is_websocket_key(std::string_view key) {
   static constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

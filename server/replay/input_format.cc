@@ -25,7 +25,7 @@ namespace {
 
 using In = ExecutiveInput;
 
-// All that the type can hold, where count() ends with what clients may say.
+// All values of T, while count() only allows values for clients.
 template <class T>
 class WholeFormat final : public CustomFormat<T> {
  public:
@@ -45,7 +45,7 @@ FormatPtr<T> whole() {
   return make_format<WholeFormat<T>>();
 }
 
-// In the client's words, as everything is validated anew.
+// The client's text, which is validated again.
 class BodyFormat final : public CustomFormat<std::shared_ptr<const std::string>> {
  public:
   using Body = std::shared_ptr<const std::string>;
@@ -95,7 +95,7 @@ FormatPtr<In::FormerJob> former_job_format() {
   });
 }
 
-// Angles do not read back to the same matrix: that stands beside them, row by row.
+// Angles do not read back to the same matrix, so the matrix is stored, too, row by row.
 template <class Input>
 PartPtr<Input> object_part() {
   using Rows = std::array<double, 12>;
@@ -128,7 +128,7 @@ PartPtr<Alert> alert_part() {
   });
 }
 
-// What an input is called, and what belongs to it.
+// Name and fields of an input.
 template <class Input>
 struct Kind {
   const char* name;
@@ -141,7 +141,7 @@ struct KindOfEach<std::variant<Inputs...>> {
   using Table = std::tuple<Kind<Inputs>...>;
 };
 
-// The one table of inputs, in their order.
+// The table of inputs, in the order of the variant.
 KindOfEach<decltype(In::what)>::Table kinds() {
   using Waiting = Executive::Waiting;
   return {

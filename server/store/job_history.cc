@@ -11,7 +11,7 @@ namespace {
 
 constexpr auto kAny = std::uint64_t{1} << 62U;
 
-// Of a file that no server has brought up to date yet, too.
+// Returns the columns to select, also for a file of an older version.
 std::string columns_of(const Database& database) {
   const std::int64_t version = database.number("PRAGMA user_version");
   const bool has_origins = version >= 2;
@@ -41,7 +41,7 @@ bool is_damaged(const Statement& row) { return row.number(12) != 0; }
 
 StoredJob whole_row_of(const Statement& row) {
   if (!is_damaged(row)) return row_of(row);
-  throw SqlFault(0, "job \"" + row.text(1) + "\" is not as it was written");
+  throw SqlFault(0, "job \"" + row.text(1) + "\" is damaged (wrong checksum)");
 }
 
 }  // namespace
@@ -51,7 +51,8 @@ class JobHistory::Impl {
   explicit Impl(const std::filesystem::path& file)
       : file_(file), database_(file, Database::Access::read), columns_(columns_of(database_)) {
     database_.know_checksum();
-    (void)database_.number("SELECT count(*) FROM job WHERE number = 0");  // it is one of ours
+    // throws if it is not a store
+    (void)database_.number("SELECT count(*) FROM job WHERE number = 0");
   }
 
   template <class Read>
@@ -136,7 +137,7 @@ class JobHistory::Impl {
     return found;
   }
 
-  // How many that are damaged were passed over.
+  // Returns the number of damaged jobs passed over.
   std::size_t each(const HistoryFilter& filter, const char* order,
                    const std::function<bool(StoredJob)>& take) const {
     Statement rows = database_.prepare(
@@ -216,7 +217,7 @@ Result<void> JobHistory::oldest_first(const HistoryFilter& filter,
   });
   if (!read) return failure(std::move(read.error()));
   if (*read == 0) return {};
-  return impl_->cannot_read(std::to_string(*read) + " jobs are not as they were written");
+  return impl_->cannot_read(std::to_string(*read) + " jobs are damaged (wrong checksum)");
 }
 
 Result<Damage> JobHistory::damage() const {

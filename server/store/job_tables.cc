@@ -10,33 +10,33 @@ namespace {
 constexpr std::int64_t kCleanedAtOnce = 1000;
 
 Database opened(const std::filesystem::path& file, const std::string& vfs) {
-  // Not even opened: SQLite would remove the log of one that is empty, and that may hold jobs.
+  // Not even opened, because SQLite would delete an empty file's log, which may hold jobs.
   if (std::filesystem::file_size(file) == 0) {
-    throw std::runtime_error("it is corrupt: it is empty, which none of armloom's ever is");
+    throw std::runtime_error("it is corrupt: it is empty, but a store never is");
   }
   Database database(file, Database::Access::write, vfs);
   if (database.is_read_only()) throw SqlFault(SqlFault::kNoAccess, "it is read-only");
-  database.keep_log(true);  // as it is, where the file turns out to be of no use
+  database.keep_log(true);  // keeps the log if the file is unusable
   bring_up_to_date(database);
   database.know_checksum();
   if (database.text("PRAGMA journal_mode = WAL") != "wal") {
     throw SqlFault(SqlFault::kNoAccess,
-                   "it cannot be written ahead (WAL), as on a network's file system");
+                   "write-ahead logging (WAL) does not work there, as on a network file system");
   }
   database.run("PRAGMA synchronous = FULL; PRAGMA journal_size_limit = " +
                std::to_string(JobTables::kLogKept));
   return database;
 }
 
-// Of jobs that are gone what their clients had sent.
+// Requests whose jobs are lost.
 constexpr const char* kLostJobs =
     "SELECT count(*) FROM body WHERE number NOT IN (SELECT number FROM job)";
 constexpr const char* kForgetLostJobs =
     "DELETE FROM body WHERE number NOT IN (SELECT number FROM job)";
-// Of alerts, as AlertBook has it.
+// Order of alerts, most needed first, as in AlertBook.
 constexpr const char* kNeededFirst =
     "who IS NULL DESC, (who IS NULL AND level = 'error') DESC, number DESC";
-// Of an audit row, as was_refused() has it.
+// As was_refused().
 constexpr const char* kIsRefusal = "(status BETWEEN 400 AND 499)";
 
 std::int64_t as_stored(std::uint64_t number) { return static_cast<std::int64_t>(number); }
@@ -95,8 +95,7 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
                                      " WHERE key = ?1 AND place = ?2")),
       count_(database_.prepare("UPDATE written SET commits = ?1")),
       commits_(counted(database_)) {
-  database_.run(
-      "DELETE FROM job WHERE view = ''");  // never acknowledged, and nothing is known of it
+  database_.run("DELETE FROM job WHERE view = ''");  // never acknowledged
   database_.keep_log(false);
 }
 
@@ -235,9 +234,10 @@ bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::
   Transaction transaction(database_);
   database_.run(kForgetLostJobs);
   const auto remove = [&](const char* which, std::int64_t bound) {
-    Statement statement = database_.prepare(
-        std::string("DELETE FROM job WHERE number IN (") + which +
-        ") AND number < (SELECT max(number) FROM job)");  // numbers are never given again
+    Statement statement =
+        database_.prepare(std::string("DELETE FROM job WHERE number IN (") + which +
+                          // keeps the last number, so that none is reused
+                          ") AND number < (SELECT max(number) FROM job)");
     statement.bind_all(bound, kCleanedAtOnce).run();
     deleted = std::max(deleted, database_.number("SELECT changes()"));
   };

@@ -11,11 +11,11 @@ namespace {
 
 constexpr int kApplication = 0x41726d6c;  // "Arml"
 
-// What each version adds to the one before. Never changed once released: a new one is added.
+// Migrations to each version. Never change a released migration; add a new version.
 constexpr const char* kVersions[] = {
-    // A job as it was told last (`view`, JSON); `number` is the order of acceptance over all runs.
-    // `may_have_moved` is set before it moves. `body`, as the client sent it, is needed to run it,
-    // and dropped when it has ended.
+    // A job as last published (`view`, JSON); `number` is the order of acceptance over all
+    // sessions. `may_have_moved` is set before the job moves. `body`, as the client sent it, is
+    // needed to run the job and deleted when it has ended.
     R"(
     CREATE TABLE job(
       number INTEGER PRIMARY KEY,
@@ -34,8 +34,7 @@ constexpr const char* kVersions[] = {
     CREATE TABLE body(number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT;
     CREATE TABLE stopped_arm(name TEXT PRIMARY KEY) STRICT;
     )",
-    // By which request a job came (RequestOrigin): one that is sent again is answered with it. And
-    // who did what.
+    // The request that created a job (RequestOrigin), for repeated requests; the audit trail.
     R"(
     ALTER TABLE job ADD COLUMN digest TEXT;
     ALTER TABLE job ADD COLUMN request_key TEXT;
@@ -52,11 +51,11 @@ constexpr const char* kVersions[] = {
       status INTEGER NOT NULL
     ) STRICT;
     )",
-    // What was changed of a job after it was accepted (JSON); it lives as long as the body.
+    // Amendments of a job (JSON), kept as long as the body.
     R"(
     ALTER TABLE body ADD COLUMN amended TEXT;
     )",
-    // What somebody had to see to, and who has (StoredAlert).
+    // Alerts and acknowledgements (StoredAlert).
     R"(
     CREATE TABLE alert(
       number INTEGER PRIMARY KEY,
@@ -68,21 +67,21 @@ constexpr const char* kVersions[] = {
       acknowledged_ms INTEGER
     ) STRICT;
     )",
-    // By which a row that was damaged is known (kSumOfJob, kSumOfBody); null: an older version's.
+    // Checksums (kSumOfJob, kSumOfBody); NULL in rows of older versions.
     R"(
     ALTER TABLE job ADD COLUMN sum INTEGER;
     ALTER TABLE body ADD COLUMN sum INTEGER;
     )",
-    // The same of what people are told and of what they did (kSumOfAlert, kSumOfAudit).
+    // Checksums (kSumOfAlert, kSumOfAudit).
     R"(
     ALTER TABLE alert ADD COLUMN sum INTEGER;
     ALTER TABLE audit ADD COLUMN sum INTEGER;
     )",
-    // And of which arms are stopped (kSumOfStop).
+    // Checksum (kSumOfStop).
     R"(
     ALTER TABLE stopped_arm ADD COLUMN sum INTEGER;
     )",
-    // What clients made of the scene's objects (StoredObject), in the order in which they came.
+    // Clients' changes of scene objects (StoredObject), in order of arrival.
     R"(
     CREATE TABLE scene_object(
       number INTEGER PRIMARY KEY,
@@ -91,13 +90,12 @@ constexpr const char* kVersions[] = {
       sum INTEGER
     ) STRICT;
     )",
-    // How often it was written (StoreMark); null: not since an older version had it.
+    // Number of commits (StoreMark); NULL from an upgrade to the first write.
     R"(
     CREATE TABLE written(commits INTEGER) STRICT;
     INSERT INTO written VALUES(NULL);
     )",
-    // Other requests than the one by which it came that were answered with a job, as it was known
-    // by its id (RequestOrigin).
+    // Further requests answered with an existing job, known by its id (RequestOrigin).
     R"(
     CREATE TABLE request(
       key TEXT NOT NULL,
@@ -115,7 +113,7 @@ constexpr const char* kVersions[] = {
 };
 constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
 
-// All versions or none: a file that is not what its version says is left as it is.
+// Applies all migrations or none, so that a file that does not fit its version stays as it is.
 void upgrade(Database& database, std::int64_t version) {
   if (version == kNewest) return;
   Transaction transaction(database);
@@ -149,7 +147,7 @@ void bring_up_to_date(Database& database) {
   const std::int64_t version = database.number("PRAGMA user_version");
   const std::int64_t application = database.number("PRAGMA application_id");
   if (database.number("SELECT count(*) FROM sqlite_schema") == 0) {
-    throw std::runtime_error("it is corrupt: it has no tables, which none of armloom's is without");
+    throw std::runtime_error("it is corrupt: it has no tables");
   }
   if (application != kApplication) throw std::runtime_error("it is another program's database");
   if (version < 1) {

@@ -46,7 +46,7 @@ TEST(CheckHome, IsQuietWhenHomesAreFreeAndNamesEveryPairThatIsNot) {
   EXPECT_EQ(
       problems[0].detail,
       "left_link1 and right_link1: 0.0300 m apart at home, clearance_m is 0.0310 (give another "
-      "\"home\", or place one of them elsewhere)");
+      "\"home\" or move one of them)");
   EXPECT_THAT(problems[2].detail, ::testing::StartsWith("right_link1 and shelf: 0.0200 m"));
 }
 
@@ -58,11 +58,11 @@ TEST(CheckHome, SaysThatAPairIsCheckedAlthoughTheSrdfDisablesIt) {
       "dual.srdf:17";
   const Problems problems = check_home(scene_of(small::shared(cell)));
   ASSERT_EQ(problems.size(), 1U);
-  EXPECT_THAT(
-      problems[0].detail,
-      ::testing::EndsWith(
-          "; where these two may touch, add [\"left_link1\", \"right_link1\"] to the cell's "
-          "\"allowed_collisions\"; dual.srdf:17 disables the pair, which proves nothing)"));
+  EXPECT_THAT(problems[0].detail,
+              ::testing::EndsWith(
+                  "; if these two may touch, add [\"left_link1\", \"right_link1\"] to the cell's "
+                  "\"allowed_collisions\"; dual.srdf:17 disables the pair without proof, so it is "
+                  "checked)"));
 }
 
 }  // namespace

@@ -274,9 +274,9 @@ TEST(SceneLinks, NearAHomeAreRefusedAsTheSameObjectIs) {
     const Problems problems = check_home(scene_of(small::shared(cell)));
     ASSERT_EQ(problems.size(), 1U);
     const std::string remedy =
-        " (wall carries the arm: where only this link stands so close to it, add [\"a_link2\", "
-        "\"wall\"] to the cell's \"allowed_collisions\"; where all of the arm passes it so closely "
-        "by design, and it is no table, add \"mount_clearance_m\": 0.01";
+        " (wall carries the arm: if only this link is so close to it, add [\"a_link2\", "
+        "\"wall\"] to the cell's \"allowed_collisions\"; if the whole arm passes it so closely "
+        "by design, and it is not a table, add \"mount_clearance_m\": 0.01";
     EXPECT_THAT(problems[0].detail,
                 testing::StartsWith("a_link2 and wall: 0.0120 m apart at home, clearance_m is "
                                     "0.0200" +

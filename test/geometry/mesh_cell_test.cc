@@ -63,7 +63,7 @@ TEST_F(MeshCell, RefusesAMeshThatALinkLeadsOutOfItsPackage) {
   std::filesystem::create_symlink(folder_.path() / "secret.stl",
                                   folder_.path() / "package/part.stl");
   EXPECT_THAT(problems_of(description()),
-              testing::AllOf(HasSubstr("r.urdf:4: link l"), HasSubstr("through a link")));
+              testing::AllOf(HasSubstr("r.urdf:4: link l"), HasSubstr("through a symbolic link")));
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ TEST_F(MeshFile, MayLeaveOutTheZeroBeforeAPoint) {
 TEST_F(MeshFile, OfOnePointIsRefusedAndAFlatOneIsKnown) {
   const Problem point = refusal("a.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
   EXPECT_EQ(point.slug, "mesh-without-extent");
-  EXPECT_THAT(point.detail, HasSubstr("1 triangles is the one point 1 2 3"));
+  EXPECT_THAT(point.detail, HasSubstr("1 triangles is the same point 1 2 3"));
   EXPECT_TRUE(is_flat(*load("b.obj", "v 0 0 0\nv 1 0 1\nv 0 1 1\nf 1 2 3\n")));
   EXPECT_TRUE(is_flat(*load("c.obj", "v 0 0 0\nv 1 0 1\nv 2 0 2\nf 1 2 3\n")));
   EXPECT_FALSE(is_flat(*load("d.stl", small::stl_bytes(box_))));
@@ -92,19 +92,21 @@ TEST_F(MeshFile, SaysWhyItCannotBeRead) {
   says(refusal("empty.stl", ""), "mesh-empty", "the file is empty");
   says(refusal("none.stl", "solid a\nendsolid a\n"), "mesh-empty", "it holds no triangle");
   says(refusal("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "mesh-empty", "it holds no triangle");
-  says(refusal("broken.dae", "<COLLADA><asset>"), "mesh-unreadable", "it is no XML");
+  says(refusal("broken.dae", "<COLLADA><asset>"), "mesh-unreadable", "it is not well-formed XML");
   says(refusal("other.dae", "<robot/>"), "mesh-unreadable", "not <COLLADA>");
   const std::string dae = small::dae_text(box_, "", kPlaced);
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = dae;
     return refusal("changed.dae", changed.replace(changed.find(from), from.size(), to));
   };
-  says(with("<p>0 2 3", "<p>0 x 3"), "mesh-unreadable", "<p> holds 'x', which is no index");
+  says(with("<p>0 2 3", "<p>0 x 3"), "mesh-unreadable",
+       "<p> holds 'x', which is not a valid index");
   says(with("<p>0 2 3", "<p>0 2 8"), "mesh-unreadable",
        "<p> holds index 8, the sources have 8 elements");
-  says(with("<p>0 2 3", "<p>"), "mesh-unreadable", "<triangles> holds other than it says");
+  says(with("<p>0 2 3", "<p>"), "mesh-unreadable",
+       "<triangles>: its count does not match its content");
   says(with("count=\"24\"", "count=\"25\""), "mesh-unreadable",
-       "says that it holds 25 numbers and holds 24");
+       "states a count of 25 but holds 24 numbers");
   says(with("count=\"8\"", "count=\"9\""), "mesh-unreadable", "asks for more than its array holds");
   says(with("stride=\"3\"", "stride=\"2\""), "mesh-unreadable",
        "asks for more than its array holds");
@@ -168,7 +170,7 @@ TEST_F(MeshFile, RefusesNodesThatMultiplyOrPlaceThemselves) {
   EXPECT_THAT(refusal("ring.dae",
                       small::dae_text(box_, "", R"(<node><instance_node url="#a"/></node>)", ring))
                   .detail,
-              HasSubstr("its nodes place themselves"));
+              HasSubstr("its nodes instance each other in a cycle"));
 }
 
 // Cut, overwritten and doubled at random places: read or refused with a reason, never worse.

@@ -51,11 +51,11 @@ TEST_F(WholeMesh, OfAnStlInTextThatWasCutOffIsRefusedWhereverThatWas) {
     const auto mesh = load("cut.stl", whole.substr(0, size));
     ASSERT_FALSE(mesh.has_value()) << size;
     ASSERT_THAT(mesh.error().front().detail,
-                testing::AnyOf(HasSubstr("line "), HasSubstr("no STL")));
+                testing::AnyOf(HasSubstr("line "), HasSubstr("not an STL")));
   }
   expect_box("name_cut.stl", whole.substr(0, end + 3));
   expect_refused("cut.stl", whole.substr(0, whole.find("endfacet") + 9),
-                 "line 9: the file ends where 'facet' or 'endsolid' is due: it was cut off");
+                 "line 9: expected 'facet' or 'endsolid', but the file ends: it was cut off");
 }
 
 TEST_F(WholeMesh, OfAnStlInTextKnowsEveryWord) {
@@ -75,12 +75,12 @@ TEST_F(WholeMesh, OfAnStlInTextKnowsEveryWord) {
     expect_refused("odd.stl", replaced(whole, word, other), ": line ");
   }
   expect_refused("odd.stl", replaced(whole, "facet normal", "facte normal"),
-                 "line 2: 'facte' stands where 'facet' or 'endsolid' is due");
+                 "line 2: expected 'facet' or 'endsolid', found 'facte'");
   expect_refused("odd.stl", replaced(whole, "0.5\n", "0,5\n"),
-                 "line 4: '0,5' stands where a number is due");
+                 "line 4: expected a number, found '0,5'");
   expect_refused("odd.stl", replaced(whole, " endloop", "  vertex 0 0 0\n endloop"),
                  "line 7: a facet has more than three corners");
-  expect_refused("odd.stl", whole + "facet", "'facet' stands where 'solid' is due");
+  expect_refused("odd.stl", whole + "facet", "expected 'solid', found 'facet'");
 }
 
 TEST_F(WholeMesh, OfAnStlInTextMayBeWrittenInManyWays) {
@@ -106,12 +106,12 @@ TEST_F(WholeMesh, OfABinaryStlHasTheLengthThatItsCountMakes) {
   expect_box("a.stl", whole);
   expect_box("solid.stl", "solid" + whole.substr(5));
   for (const std::size_t size : {83U, 84U, 134U, 683U}) {
-    expect_refused("cut.stl", whole.substr(0, size), "no STL");
+    expect_refused("cut.stl", whole.substr(0, size), "not an STL");
     expect_refused("cut.stl", "solid" + whole.substr(5, size - 5), "");
   }
   expect_refused("cut.stl", whole.substr(0, 634),
-                 "its header announces 12 triangles, which are 684 bytes, and it has 634 bytes: it "
-                 "was cut off");
+                 "its header announces 12 triangles (684 bytes), but it has 634 bytes: it was cut "
+                 "off");
   expect_refused("more.stl", whole + std::string(50, '\0'), "it holds more than it says");
 }
 
@@ -127,7 +127,7 @@ TEST_F(WholeMesh, OfAnObjKnowsEveryWordAndCorner) {
     expect_refused("odd.obj", replaced(whole, word, other), ": line ");
   }
   expect_refused("odd.obj", replaced(whole, "f 1 3 4", "f 1 3 9"),
-                 "line 10: a face names vertex 9, and the file has 8: was it cut off?");
+                 "line 10: a face names vertex 9, but the file has 8 vertices: was it cut off?");
   expect_refused("cut.obj", whole.substr(0, whole.size() - 4), "not 3 or more");
 }
 

@@ -185,9 +185,9 @@ TEST(SharedJoints, AreRefusedWhenTheTorsoBelongsToOneOfTheArms) {
   const ScratchFolder folder;
   EXPECT_THAT(
       problems_of(torso_cell(folder, "revolute", "<joint name='waist'/><joint name='ja'/>")),
-      HasSubstr("/robots/0/arms | robot r: arms A, B share the movable joints waist, so that "
-                "each moves the other; hold what they share (add to the robot \"fixed\": "
-                "{\"waist\": 0}) or make them one arm"));
+      HasSubstr("/robots/0/arms | robot r: arms A, B share the movable joints waist, so each moves "
+                "the other; hold the shared joints (add to the robot \"fixed\": {\"waist\": 0}) or "
+                "make them one arm"));
 }
 
 TEST(SharedJoints, AreRefusedWhenTheTorsoBelongsToNoArm) {

@@ -40,10 +40,10 @@ TEST(Mimic, InARingIsToldOfEach) {
       file_with(data_file("two_arms.urdf"), "name=\"l_grip\" type=\"prismatic\">",
                 "name=\"l_grip\" type=\"prismatic\"><mimic joint=\"l_grip_mirror\"/>"));
   const std::string problems = problems_of(description);
-  EXPECT_THAT(problems, HasSubstr("twin.urdf:36: joint l_grip: mimic joint l_grip_mirror and those "
-                                  "that it follows go in a ring"));
-  EXPECT_THAT(problems, HasSubstr("twin.urdf:40: joint l_grip_mirror: mimic joint l_grip and those "
-                                  "that it follows go in a ring"));
+  EXPECT_THAT(problems, HasSubstr("twin.urdf:36: joint l_grip: mimic joint l_grip_mirror and the "
+                                  "joints that it follows form a cycle"));
+  EXPECT_THAT(problems, HasSubstr("twin.urdf:40: joint l_grip_mirror: mimic joint l_grip and the "
+                                  "joints that it follows form a cycle"));
 }
 
 TEST(CellLimits, AreNeverWiderThanTheUrdfs) {
@@ -69,7 +69,7 @@ TEST(Homes, MayNameAStateOfTheGroup) {
   EXPECT_EQ(build_or_fail(cell)->arms[0].home, Eigen::Vector2d(0.2, 1.5));
   cell.robots[0].arms[0].home_state = "ready";
   EXPECT_THAT(problems_of(cell),
-              HasSubstr("/robots/0/arms/0/home | arm left: home 'ready' is no state of group "
+              HasSubstr("/robots/0/arms/0/home | arm left: home 'ready' is not a state of group "
                         "'left_arm' in two_arms.srdf; its states: out"));
 }
 
@@ -132,8 +132,9 @@ TEST(HeldJoints, AreRefusedByNameAndValue) {
   const std::string problems = problems_of(cell);
   EXPECT_THAT(problems, HasSubstr("/robots/0/fixed/l_slide | robot twin: joint l_slide is held at "
                                   "0.05, outside [0.1, 0.7]"));
-  EXPECT_THAT(problems, HasSubstr("joint l_grip_mirror follows joint l_grip: hold that one"));
-  EXPECT_THAT(problems, HasSubstr("joint base_post is fixed in two_arms.urdf"));
+  EXPECT_THAT(problems,
+              HasSubstr("joint l_grip_mirror follows joint l_grip: hold that joint instead"));
+  EXPECT_THAT(problems, HasSubstr("joint base_post is already fixed in two_arms.urdf"));
   EXPECT_THAT(problems, HasSubstr("fixed joint waist is not in two_arms.urdf"));
   EXPECT_THAT(problems, HasSubstr("joint r_spin is held at nan"));
 }
@@ -178,11 +179,10 @@ TEST(StandingJoints, ThatWouldMoveAnArmHaveToBeHeld) {
   const ScratchFolder folder;
   CellDescription cell = with_srdf(folder, "<joint name=\"l_turn\"/><joint name=\"l_slide\"/>",
                                    "<joint name=\"l_turn\"/>");
-  EXPECT_THAT(
-      problems_of(cell),
-      HasSubstr("/robots/0 | robot twin: joint l_slide would move an arm and is in no arm's "
-                "group, so where it stands has to be said: add to the robot \"fixed\": "
-                "{\"l_slide\": 0}, with its value"));
+  EXPECT_THAT(problems_of(cell),
+              HasSubstr("/robots/0 | robot twin: joint l_slide would move an arm but is in no "
+                        "arm's group, so its position must be given: add to the robot \"fixed\": "
+                        "{\"l_slide\": 0}, with its value"));
   cell.robots[0].fixed = {{"l_slide", 0.3}};
   EXPECT_EQ(problems_of(cell), "");
 }
@@ -191,25 +191,23 @@ TEST(StandingJoints, BesideTheArmsAreWarnedOf) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms.pop_back();
   EXPECT_THAT(warnings_of(cell),
-              HasSubstr("/robots/0 | robot twin: joint r_spin, r_bend in no arm's group, so what "
-                        "hangs there is checked where it stands at 0"));
+              HasSubstr("/robots/0 | robot twin: joint r_spin, r_bend in no arm's group, so the "
+                        "links that it moves are checked only at its position 0"));
 }
 
 TEST(StandingJoints, BetweenThoseOfAGroupAreWarnedOf) {
   const ScratchFolder folder;
   const CellDescription cell = with_srdf(folder, "<chain base_link=\"post\" tip_link=\"r_tip\"/>",
                                          "<joint name=\"r_spin\"/><joint name=\"r_last\"/>");
-  EXPECT_THAT(
-      warnings_of(cell),
-      HasSubstr("/robots/0/arms/1/group | arm right: joint r_bend is between joints of group "
-                "'right_arm' and not in it"));
+  EXPECT_THAT(warnings_of(cell), HasSubstr("/robots/0/arms/1/group | arm right: joint r_bend is "
+                                           "between joints of group 'right_arm' but not in it"));
 }
 
 TEST(HeldJoints, CountWhereAHomeSaysOtherwiseWithAWarning) {
   CellDescription cell = two_arms_description();
   cell.robots[0].fixed = {{"l_slide", 0.3}};
   cell.robots[0].arms[0].home = {0.2, -0.5};
-  const char* told = "arm left: home has joint l_slide at 0.2, and \"fixed\" holds it at 0.3";
+  const char* told = "arm left: home has joint l_slide at 0.2, but \"fixed\" holds it at 0.3";
   EXPECT_THAT(warnings_of(cell), HasSubstr(told));
   cell.robots[0].arms[0].home.clear();
   cell.robots[0].arms[0].home_state = "out";

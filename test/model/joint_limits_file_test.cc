@@ -40,10 +40,9 @@ TEST(JointLimitsFile, IsTakenBelowTheCellsOwnLimitsAndNeverAboveTheUrdfs) {
   EXPECT_EQ(turn.upper, 2.5);  // the URDF's
   EXPECT_FALSE(turn.assumed.acceleration);
   EXPECT_TRUE(turn.assumed.jerk);
-  EXPECT_THAT(
-      warnings_of(description),
-      HasSubstr("joint_limits.yaml:3: joint l_turn: max_position is 9, wider than the URDF's "
-                "2.5, which counts"));
+  EXPECT_THAT(warnings_of(description),
+              HasSubstr("joint_limits.yaml:3: joint l_turn: max_position is 9, wider than the "
+                        "URDF's 2.5; the URDF's value applies"));
 }
 
 TEST(JointLimitsFile, IsFoundUnderTheNamesOfRos2Parameters) {
@@ -69,18 +68,17 @@ TEST(JointLimitsFile, MayHaveAnglesInDegrees) {
   EXPECT_EQ(turn.jerk_max, 7.0);
   EXPECT_THAT(
       problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: {max_velocity: !rpm 10}\n")),
-      HasSubstr("joint_limits.yaml:2: joint l_turn: max_velocity has the tag !rpm, known here are "
-                "!degrees and !radians"));
+      HasSubstr("joint_limits.yaml:2: joint l_turn: max_velocity has the unknown tag !rpm; use "
+                "!degrees or !radians"));
 }
 
 TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
   const ScratchFolder folder;
   EXPECT_THAT(problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: [\n")),
               HasSubstr("joint_limits.yaml:3: the YAML is malformed"));
-  EXPECT_THAT(
-      problems_of(with_limits_file(folder, "limits: {}\n")),
-      HasSubstr("joint_limits.yaml: there is no joint_limits with joints in it; it has to hold "
-                "joint_limits: and below it"));
+  EXPECT_THAT(problems_of(with_limits_file(folder, "limits: {}\n")),
+              HasSubstr("joint_limits.yaml: there is no joint_limits with joints in it; it must "
+                        "contain joint_limits: and below it"));
   const std::string problems = problems_of(with_limits_file(
       folder,
       "joint_limits:\n  l_turn:\n    has_velocity_limits: true\n    max_velocity: fast\n"
@@ -95,11 +93,10 @@ TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
   EXPECT_THAT(
       problems,
       HasSubstr("joint_limits.yaml:7: joint l_turn: has_jerk_limits is 'perhaps', not true or"));
-  EXPECT_THAT(problems, HasSubstr("min_position is missing, and has_position_limits is true"));
+  EXPECT_THAT(problems, HasSubstr("min_position is missing, but has_position_limits is true"));
   EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:9: joint l_turn: max_position is '.nan'"));
-  EXPECT_THAT(
-      problems,
-      HasSubstr("joint_limits.yaml:12: joint r_spin: has_velocity_limits stands there twice"));
+  EXPECT_THAT(problems,
+              HasSubstr("joint_limits.yaml:12: joint r_spin: has_velocity_limits is given twice"));
   EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:14: joint r_spin: more than one joint has"));
   EXPECT_THAT(
       problems_of(with_limits_file(folder,
@@ -154,12 +151,12 @@ TEST(JointLimitsFile, GivesTheBrakeAsItsDeceleration) {
     EXPECT_EQ(joint_of(*cell, "t_l_turn").brake, 0.5);
   }
   const ScratchFolder folder;
-  EXPECT_THAT(
-      problems_of(with_limits_file(folder,
-                                   "joint_limits:\n  l_turn:\n"
-                                   "    has_deceleration_limits: true\n"
-                                   "    max_deceleration: 0\n")),
-      HasSubstr("joint_limits.yaml:4: joint l_turn: max_deceleration is 0, so nothing could stop"));
+  EXPECT_THAT(problems_of(with_limits_file(folder,
+                                           "joint_limits:\n  l_turn:\n"
+                                           "    has_deceleration_limits: true\n"
+                                           "    max_deceleration: 0\n")),
+              HasSubstr("joint_limits.yaml:4: joint l_turn: max_deceleration is 0, so the joint "
+                        "could never stop"));
 }
 
 }  // namespace

@@ -56,8 +56,8 @@ TEST_F(MeshPath, StaysInsideItsFolderAsWritten) {
 }
 
 TEST_F(MeshPath, StaysInsideItsFolderThroughLinks) {
-  EXPECT_THAT(refusal("package://p/meshes/link.stl"), HasSubstr("through a link"));
-  EXPECT_THAT(refusal("package://p/up/secret.stl"), HasSubstr("through a link"));
+  EXPECT_THAT(refusal("package://p/meshes/link.stl"), HasSubstr("through a symbolic link"));
+  EXPECT_THAT(refusal("package://p/up/secret.stl"), HasSubstr("through a symbolic link"));
 }
 
 TEST_F(MeshPath, TakesAbsolutePathsBelowTheFoldersThatTheCellNames) {
@@ -102,14 +102,14 @@ TEST_F(MeshPath, AnswersTheSameOfWhatIsElsewhereWhetherOrNotItIsThere) {
 
 TEST_F(MeshPath, SaysOfAnAbsolutePathBelowThemWhatIsWrongWithTheFile) {
   EXPECT_THAT(refusal("file://" + (folder_.path() / "package/meshes/B.stl").string()),
-              AllOf(HasSubstr("does not exist"), HasSubstr("; there is b.stl")));
+              AllOf(HasSubstr("does not exist"), HasSubstr("; did you mean b.stl?")));
   EXPECT_THAT(refusal("file://" + (folder_.path() / "package/meshes").string()),
               HasSubstr("is not a regular file"));
 }
 
 TEST_F(MeshPath, RefusesOtherSchemesAndWhatIsNoFile) {
   EXPECT_THAT(refusal("http://127.0.0.1/a.stl"),
-              AllOf(HasSubstr("neither package://"), HasSubstr("save the file beside the URDF")));
+              AllOf(HasSubstr("neither package://"), HasSubstr("save the file next to the URDF")));
   EXPECT_THAT(refusal("package://q/a.stl"), HasSubstr("package 'q'"));
   EXPECT_THAT(refusal("package://p"), HasSubstr("names no file"));
   EXPECT_THAT(refusal("package://p/meshes"), HasSubstr("not a regular file"));

@@ -46,7 +46,7 @@ TEST_F(Xacro, IsToldWholeWhenItFails) {
             "xacro says: XML parsing error: no element found: line 2; Check that:; - Your XML is "
             "well-formed");
   install("exit 3");
-  EXPECT_EQ(expand_xacro(file_).error(), "xacro fails and says nothing");
+  EXPECT_EQ(expand_xacro(file_).error(), "xacro failed without a message");
 }
 
 TEST_F(Xacro, WithoutItsPackagesSaysWhatPythonSaysLast) {

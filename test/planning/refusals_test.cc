@@ -107,7 +107,7 @@ TEST_F(Refusals, OfALineThroughAnObjectSayWhatWasAskedAndHowFarItIsFree) {
   ASSERT_EQ(why.reason, Reason::line_blocked) << why.detail;
   ASSERT_TRUE(why.proximity);
   EXPECT_EQ(why.proximity->limit_m, wall.cell->clearances.clearance_m);
-  EXPECT_THAT(why.detail, HasSubstr("20 mm are asked"));
+  EXPECT_THAT(why.detail, HasSubstr("20 mm are required"));
   ASSERT_TRUE(why.nearest);
   EXPECT_TRUE(is_free(*why.nearest));
 }
@@ -129,17 +129,16 @@ TEST_F(Refusals, TellWhatWasAskedWhateverIsThere) {
   Proximity near{.body_a = "hand", .body_b = "table", .arm_a = wall.left, .arm_b = {}};
   near.limit_m = 0.02;
   near.clearance_m = 0.003;
-  EXPECT_EQ(in_words(near), "hand is 3 mm from table; 20 mm are asked");
+  EXPECT_EQ(in_words(near), "hand is 3 mm from table; 20 mm are required");
   near.clearance_m = -0.001;
-  EXPECT_EQ(in_words(near), "hand touches table; 20 mm are asked");
+  EXPECT_EQ(in_words(near), "hand touches table; 20 mm are required");
   near.clearance_m = 0.0205;
-  EXPECT_EQ(
-      in_words(near, 0.0012),
-      "hand is 20.5 mm from table; 20 mm are asked, and 1.2 mm on top for the tracking error");
-  EXPECT_THAT(in_words(near), HasSubstr("20 mm are asked, which is not proven"));
+  EXPECT_EQ(in_words(near, 0.0012),
+            "hand is 20.5 mm from table; 20 mm are required, plus 1.2 mm for the tracking error");
+  EXPECT_THAT(in_words(near), HasSubstr("20 mm are required, which could not be certified"));
   near.limit_m = 0.0;
   near.clearance_m = 0.0;
-  EXPECT_THAT(in_words(near), Not(HasSubstr("0 mm are asked")));
+  EXPECT_THAT(in_words(near), Not(HasSubstr("0 mm are required")));
 }
 
 // The closest pair need not be the one that lacks something: an arm's own links are close by

@@ -64,8 +64,7 @@ TEST_P(MovesToStart, FailTheJobWithTheReasonIfThereIsNoPath) {
   cell->run_to_the_end();
   const JobView failed = cell->job("in the post");
   EXPECT_EQ(failed.reason(), Reason::start_mismatch);
-  EXPECT_NE(failed.detail().find("no way to where it begins: "), std::string::npos)
-      << failed.detail();
+  EXPECT_NE(failed.detail().find("no path to its start: "), std::string::npos) << failed.detail();
   EXPECT_NE(failed.detail().find("post"), std::string::npos) << failed.detail();
   cell->expect_at("a", {-1, 0});
 }
@@ -86,7 +85,7 @@ TEST_P(MovesToStart, CostEachArmAtMostOneJobIfTheyBlockEachOther) {
       const JobView job = cell->job(arm + std::to_string(i));
       if (job.state != JobState::failed) continue;
       EXPECT_EQ(job.reason(), Reason::deadlock) << job.key;
-      EXPECT_FALSE(job.ring.empty()) << job.key;
+      EXPECT_FALSE(job.cycle.empty()) << job.key;
       ++of_arm;
     }
     EXPECT_LE(of_arm, 1) << arm;
@@ -104,7 +103,7 @@ TEST_P(MovesToStart, AreNotRetriedAfterTheBacklogTimeout) {
   EXPECT_FALSE(cell->executive().job("move-to-start-2"));
   const JobView failed = cell->job("where b stands");
   EXPECT_EQ(failed.reason(), Reason::start_mismatch);
-  EXPECT_NE(failed.detail().find("no way to where it begins: waited 5 s"), std::string::npos)
+  EXPECT_NE(failed.detail().find("no path to its start: waited 5 s"), std::string::npos)
       << failed.detail();
   EXPECT_LT(failed.times.ended_at, at(6s));
 }

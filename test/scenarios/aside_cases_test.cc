@@ -35,10 +35,10 @@ TEST_P(Retreat, IsSuggestedIfAnIdleArmBlocksAJob) {
   ASSERT_FALSE(waits.waits_on.empty());
   EXPECT_EQ(waits.waits_on[0].kind, Wait::Kind::arm);
   EXPECT_EQ(waits.waits_on[0].arm, "x");
-  EXPECT_EQ(waits.waits_on[0].detail,
-            "arm x has no job: one that moves it away would open the way, or \"on_idle_blocker\": "
-            "\"park\" or \"replan\" in the cell's scheduling, which send it aside where there is a "
-            "free way");
+  EXPECT_EQ(
+      waits.waits_on[0].detail,
+      "arm x has no job: move it away with another job, or set \"on_idle_blocker\": \"park\" or "
+      "\"replan\" in the cell's scheduling, so that it retreats if a path is free");
 }
 
 TEST_P(Retreat, IsSuggestedInTheReasonOfAnExpiredJob) {
@@ -126,17 +126,16 @@ TEST_P(Retreat, IsReportedAsImpossibleWithoutAFreePose) {
   EXPECT_EQ(waits.state, JobState::backlogged);
   EXPECT_FALSE(cell->simulation->executive().job("retreat-1"));
   ASSERT_FALSE(waits.waits_on.empty());
-  EXPECT_EQ(
-      waits.waits_on[0].detail,
-      "arm x has no job: no free way aside was found (back along its last motion, home, or to "
-      "a named pose of its group); a job that moves it away would open this one, or "
-      "\"on_idle_blocker\": \"replan\", by which ways aside are planned");
+  EXPECT_EQ(waits.waits_on[0].detail,
+            "arm x has no job: no free retreat was found (back along its last motion, home, or to "
+            "a named pose of its group); move it away with another job to unblock this one, or set "
+            "\"on_idle_blocker\": \"replan\", so that retreats are planned");
   cell->run_to_the_end(at(600s));
   const JobView expired = cell->job("passes");
   EXPECT_EQ(expired.reason(), Reason::backlog_timeout);
   EXPECT_TRUE(expired.detail().ends_with(
-      "; arm x has no job: no free way aside was found (back along its last motion, home, or to a "
-      "named pose of its group); a job that moves it away would have opened this one"))
+      "; arm x has no job: no free retreat was found (back along its last motion, home, or to a "
+      "named pose of its group); moving it away with another job would have unblocked this one"))
       << expired.detail();
 }
 
@@ -146,10 +145,9 @@ TEST_P(Retreat, WaitsForTheResumeOfAStoppedArm) {
   cell->simulation->executive().stop({ArmId{0}}, "operator");
   cell->run_until(at(10s));
   EXPECT_EQ(cell->job("passes").waits_on.at(0).detail,
-            "arm x is stopped and has no job: resuming it, and a job that moves it away would open "
-            "the way, or \"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, "
-            "which send it "
-            "aside where there is a free way when it is resumed");
+            "arm x is stopped and has no job: resume it and move it away with another job, or set "
+            "\"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, so that it "
+            "retreats if a path is free when it is resumed");
 
   cell.emplace(parking(OnIdleBlocker::park), GetParam());
   cell->submit(slide("x", -1, 0, 2, "in the middle"));
@@ -159,13 +157,13 @@ TEST_P(Retreat, WaitsForTheResumeOfAStoppedArm) {
   cell->run_until(at(10s));
   EXPECT_EQ(cell->job("passes").state, JobState::backlogged);
   EXPECT_EQ(cell->job("passes").waits_on.at(0).detail,
-            "arm x is stopped and has no job: when it is resumed it goes aside where it has a free "
-            "way (back along its last motion, home, or to a named pose of its group), else a job "
-            "that moves it away would open this one");
+            "arm x is stopped and has no job: when it is resumed it retreats if a path is free "
+            "(back along its last motion, home, or to a named pose of its group); otherwise move "
+            "it away with another job to unblock this one");
   cell->submit(slide("x", 0, 1, 2, "leaves"));
   for (const WaitView& wait : cell->job("passes").waits_on) {
     if (wait.arm != "x" || wait.kind != Wait::Kind::arm) continue;
-    EXPECT_EQ(wait.detail, "arm x is stopped: resuming it would let its own job move it on");
+    EXPECT_EQ(wait.detail, "arm x is stopped: resume it, and its own job will move it away");
   }
   ASSERT_TRUE(cell->simulation->executive().cancel("leaves"));
   cell->simulation->executive().resume({ArmId{0}});

@@ -105,7 +105,7 @@ TEST_P(CheckedGoals, ReportThatNoPathToTheStartExists) {
   EXPECT_EQ(said.kind, Verdict::Kind::conflict) << "it begins in the post";
   ASSERT_TRUE(said.result);
   EXPECT_EQ(said.result->reason, Reason::start_mismatch);
-  EXPECT_THAT(said.result->detail, HasSubstr("no way to where it begins"));
+  EXPECT_THAT(said.result->detail, HasSubstr("no path to its start"));
 }
 
 TEST_P(CheckedGoals, AssumeThatPlansOfEarlierJobsSucceed) {

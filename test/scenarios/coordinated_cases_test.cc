@@ -94,9 +94,9 @@ TEST_F(Coordinated, ExpiresOnItsPathBehindAnArmWithoutAJob) {
   EXPECT_EQ(gave_up.state, JobState::expired);
   EXPECT_EQ(gave_up.reason(), Reason::backlog_timeout);
   EXPECT_EQ(gave_up.detail(),
-            "waited 20 s on its path; arm x has no job: one that moves it away would open the way, "
-            "or \"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, which send "
-            "it aside where there is a free way");
+            "waited 20 s on its path; arm x has no job: move it away with another job, or set "
+            "\"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, so that it "
+            "retreats if a path is free");
   ASSERT_EQ(gave_up.waits_on.size(), 1U);
   EXPECT_EQ(gave_up.waits_on[0].arm, "x");
 }

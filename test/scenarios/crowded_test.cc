@@ -62,7 +62,7 @@ void count(const SimulationResult& result, Tally& tally) {
       continue;
     }
     bool& before = failed[job.arms.front()];
-    if (job.reason() == Reason::deadlock && job.ring.size() >= 2) {
+    if (job.reason() == Reason::deadlock && job.cycle.size() >= 2) {
       ++tally.deadlocks;
     } else if (job.reason() == Reason::backlog_timeout && !job.waits_on.empty()) {
       ++tally.waits;

@@ -17,21 +17,20 @@ TEST_P(GoalSwap, ReportsTheCycleAtOnceAndFailsTheLastJob) {
   cell.run_until(at(1100ms));
   const auto one = deadlock_of(cell, "one"), two = deadlock_of(cell, "two");
   ASSERT_TRUE(one && two) << "within 0.1 s";
-  EXPECT_EQ(one->ring, (Keys{"one", "two"}));
-  EXPECT_EQ(two->ring, (Keys{"two", "one"}));
+  EXPECT_EQ(one->cycle, (Keys{"one", "two"}));
+  EXPECT_EQ(two->cycle, (Keys{"two", "one"}));
 
   const JobView failed = cell.job("two");
   EXPECT_EQ(failed.state, JobState::failed);
   EXPECT_EQ(failed.reason(), Reason::deadlock);
   EXPECT_EQ(
       failed.detail(),
-      "two -> one -> two: none of them can move before the next one does; a job before them that "
-      "moves an arm out of the others' way would open the ring, or \"on_idle_blocker\": "
-      "\"park\" or \"replan\" in the cell's scheduling, which send one aside where there is a free "
-      "way");
+      "two -> one -> two: each waits for the next one, so none can move; submit a job before them "
+      "that moves an arm out of the others' paths, or set \"on_idle_blocker\": \"park\" or "
+      "\"replan\" in the cell's scheduling, so that an arm retreats if a path is free");
   const JobView stays = cell.job("one");
   EXPECT_EQ(stays.state, JobState::backlogged);
-  EXPECT_TRUE(stays.ring.empty());
+  EXPECT_TRUE(stays.cycle.empty());
   ASSERT_EQ(stays.waits_on.size(), 1u);
   EXPECT_EQ(stays.waits_on.front().kind, Wait::Kind::arm);
   EXPECT_EQ(stays.waits_on.front().arm, "b");

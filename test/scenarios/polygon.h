@@ -40,7 +40,7 @@ struct Told {
 inline std::optional<Told> deadlock_of(const Crossing& cell, const std::string& key) {
   for (const Event& event : cell.log.events) {
     const auto* job = std::get_if<JobView>(&event.body);
-    if (job && job->key == key && !job->ring.empty()) return Told{event.time, job->ring};
+    if (job && job->key == key && !job->cycle.empty()) return Told{event.time, job->cycle};
   }
   return std::nullopt;
 }

@@ -69,8 +69,8 @@ inline std::string told(const JobView& job) {
     if (wait.other_time_s) line += " / " + std::to_string(*wait.other_time_s);
     if (!wait.detail.empty()) line += " [" + wait.detail + "]";
   }
-  for (const std::string& key : job.ring)
-    line += (&key == &job.ring.front() ? "; ring " : " ") + key;
+  for (const std::string& key : job.cycle)
+    line += (&key == &job.cycle.front() ? "; cycle " : " ") + key;
   return line;
 }
 

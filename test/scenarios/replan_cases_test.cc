@@ -113,7 +113,7 @@ TEST_P(Replans, LetTheJobExpireIfThereIsNoAlternativePath) {
   const JobView expired = cell->job("into b");
   EXPECT_EQ(expired.state, JobState::expired);
   EXPECT_EQ(expired.reason(), Reason::backlog_timeout);
-  EXPECT_EQ(expired.detail().rfind("waited 5 s in the backlog; no other way: ", 0), 0U)
+  EXPECT_EQ(expired.detail().rfind("waited 5 s in the backlog; no other path: ", 0), 0U)
       << expired.detail();
   cell->expect_at("a", {-1, 0});
 }

@@ -91,7 +91,8 @@ TEST_P(InADeadlock, LastJobFailsAtOnceWithoutARetreat) {
   cell.submit(slide("b", -1, 1, 4, "two"));
   cell.run_until(at(100ms));
   EXPECT_EQ(cell.job("two").reason(), Reason::deadlock);
-  EXPECT_NE(cell.job("two").detail().find("or a free way aside for one"), std::string::npos);
+  EXPECT_NE(cell.job("two").detail().find("or clear a retreat for one of the arms: none was free"),
+            std::string::npos);
   EXPECT_FALSE(cell.simulation->executive().job("retreat-1"));
 }
 

@@ -28,7 +28,7 @@ JobId IdealArms::submit(Submit submitted) {
   const std::vector<ArmId> arms = submitted.trajectory->arms();
   submitted.job = next_id();
   after_[submitted.job] = after;
-  const bool is_given = submitted.alternatives.empty() && submitted.!terms.reorderable;
+  const bool is_given = submitted.alternatives.empty() && !submitted.terms.reorderable;
   for (const ArmId arm : arms) {
     if (is_given) of_arm_[arm].push_back(submitted.job);
   }

@@ -43,10 +43,10 @@ TEST_F(ArmGroups, AreChainsAndListsOfJoints) {
   EXPECT_EQ(why("right_hand"), "it is moved by right_arm");
   EXPECT_EQ(why("torso"), "it moves left_arm, right_arm, head");
   EXPECT_EQ(why("left_wrist"), "it is a part of left_arm");
-  EXPECT_EQ(why("left_arm_and_torso"), "it is left_arm and joints above or below it");
-  EXPECT_EQ(why("left_again"), "it holds the same joints as left_arm");
+  EXPECT_EQ(why("left_arm_and_torso"), "it contains left_arm and joints above or below it");
+  EXPECT_EQ(why("left_again"), "it has the same joints as left_arm");
   EXPECT_EQ(why("head"), "it has only 1 joint");
-  EXPECT_EQ(why("tool"), "it holds no movable joint");
+  EXPECT_EQ(why("tool"), "it has no movable joint");
 }
 
 // The group "all" has no subgroups: only its joints show that it consists of two arms.

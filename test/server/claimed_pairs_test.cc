@@ -79,8 +79,8 @@ TEST_F(DisabledPairsCommand, ValidateReportsProvenAndCheckedPairs) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err,
               HasSubstr("cell.json: the SRDF disables 8 pairs of links of different arms, or of an "
-                        "arm and what stands beside it: 3 proven out of reach and skipped, 1 "
-                        "allowed by the cell file, 4 checked all the same (arm0_1_link and "
+                        "arm and its surroundings: 3 proven out of reach and skipped, 1 "
+                        "allowed by the cell file, 4 checked nevertheless (arm0_1_link and "
                         "arm1_2_link at row.srdf:3, arm0_2_link and arm1_1_link at row.srdf:4, "
                         "arm0_2_link and arm1_2_link at row.srdf:5, ...); add a pair to the cell's "
                         "\"allowed_collisions\" to skip it, too\n"));

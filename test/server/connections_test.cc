@@ -47,7 +47,7 @@ TEST_F(Connections, BeyondTheLimitAreRefusedExceptForStops) {
   const auto refused = get("/healthz");
   EXPECT_EQ(refused.status, 503);
   EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:too-many-connections");
-  EXPECT_EQ(refused.json()["detail"], "5 connections are open, more are not served at once");
+  EXPECT_EQ(refused.json()["detail"], "5 connections are open, which is the limit");
   EXPECT_EQ(refused.headers.at("retry-after"), "1");
   EXPECT_EQ(refused.headers.at("connection"), "close");
   for (const auto& wire : held) {

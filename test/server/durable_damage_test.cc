@@ -38,7 +38,8 @@ TEST_F(DamagedFolder, SceneThatCannotBeRestoredKeepsArmsStopped) {
   damage("UPDATE scene_object SET text = replace(text, '0.1,', '0.2,')");
   start(1);
   EXPECT_TRUE(get("/api/v1/queue").json()["stopped"]);
-  EXPECT_TRUE(is_told("object \"crate\" is not as it was: it is damaged"));
+  EXPECT_TRUE(
+      is_told("object \"crate\" cannot be restored: its record in the data folder is damaged"));
 }
 
 // A damaged job is neither started nor lost silently.
@@ -64,7 +65,7 @@ TEST_F(DamagedFolder, UnknownStopsKeepAllArmsStoppedWithAnAlert) {
   end();
   damage("UPDATE stopped_arm SET name = 'lefu'");
   start(1);
-  wait_until([&] { return is_told("which arms were stopped is not as it was written"); });
+  wait_until([&] { return is_told("the list of stopped arms is damaged"); });
   EXPECT_EQ(state_of("left"), "stopped");
   EXPECT_EQ(state_of("right"), "stopped");
   ASSERT_EQ(post("/api/v1/resume", "").status, 202);
@@ -105,13 +106,13 @@ TEST_F(DamagedFolder, LostCommitsStopAllArmsWithAnAlert) {
   end();
   damage("UPDATE written SET commits = commits - 1");
   start(1);
-  wait_until([&] { return is_told("it holds less than the former run had written"); });
+  wait_until([&] { return is_told("it holds less than the previous session wrote"); });
   EXPECT_EQ(state_of("right"), "stopped");
   ASSERT_EQ(post("/api/v1/resume", "").status, 202);
   end();
   std::filesystem::remove(data_ / "armloom.mark");
   start(1);
-  wait_until([&] { return is_told("armloom.mark beside armloom.db is gone"); });
+  wait_until([&] { return is_told("armloom.mark is missing"); });
   EXPECT_EQ(state_of("right"), "stopped");
 }
 

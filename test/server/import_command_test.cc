@@ -44,7 +44,7 @@ TEST_F(Import, MakesACellWithTwoRobotsFromOneUrdf) {
   ASSERT_EQ(right["arms"].size(), 1U);
   EXPECT_EQ(right["arms"][0]["name"], "right");
   EXPECT_EQ(right["arms"][0]["group"], "panda_arm");
-  EXPECT_THAT(made.err, HasSubstr("The group hand is no arm here: it is an end effector."));
+  EXPECT_THAT(made.err, HasSubstr("The group hand is not used as an arm: it is an end effector."));
   EXPECT_EQ(file["clearance_m"], 0.02);
   EXPECT_EQ(file["execution"]["duration_scaling"], 1.1);
   const std::string text = read_text_file(cell).value();
@@ -98,8 +98,9 @@ TEST_F(Import, GuessesMissingLimitsAndFixesTheTorso) {
   EXPECT_EQ(robot["arms"][0]["limits"], json({{"left_1", {{"velocity_rad_s", 0.5}}}}));
   EXPECT_EQ(robot["arms"][1]["limits"], json({{"right_2", {{"velocity_m_s", 0.05}}}}));
   EXPECT_THAT(made.err, HasSubstr("torso.urdf does not give all limits of left_1"));
-  EXPECT_THAT(made.err, HasSubstr("torso_lift moves arms and is no single one's: held where the "
-                                  "state home has it."));
+  EXPECT_THAT(made.err,
+              HasSubstr("torso_lift moves arms and belongs to no single arm: fixed at its "
+                        "value in the state home."));
   // With MoveIt's joint limits file nothing has to be guessed.
   const fs::path limits = file("joint_limits.yaml",
                                "joint_limits:\n"
@@ -156,7 +157,7 @@ TEST_F(Import, WritesACellThatDoesNotLoadAndExitsWithTwo) {
   const test::Outcome made = run("import" + files("panda") + " --robot a --robot b");
   EXPECT_EQ(made.exit_code, 2);
   EXPECT_TRUE(parse_json(made.out, JsonComments::allowed));
-  EXPECT_THAT(made.err, HasSubstr("No homes were found in which all arms stand free"));
+  EXPECT_THAT(made.err, HasSubstr("No homes were found at which all arms keep their clearance"));
   EXPECT_THAT(made.err, HasSubstr("apart at home"));
 }
 
@@ -173,12 +174,12 @@ TEST_F(Import, NamesTheInvalidOption) {
       {files("panda") + " --srdf x.srdf", "--srdf: there are 1 --urdf and 2 --srdf"},
       {files("panda") + files("ur5e") + " --robot a", "--urdf: there are 2 and 1 --robot"},
       {files("panda") + " --joint-limits a --joint-limits b", "--joint-limits: there are 1 --urdf"},
-      {files("panda") + " --robot a:yaw=3", "--robot: in \"a:yaw=3\": \"yaw\" is not known"},
+      {files("panda") + " --robot a:yaw=3", "--robot: in \"a:yaw=3\": \"yaw\" is an unknown key"},
       {files("panda") + " --robot a --robot b --prefix c_", "--prefix: several robots"},
       {files("panda") + " --package x", "--package: in \"x\": expected NAME=FOLDER"},
       {files("panda") + " --package x=/nowhere", "there is no such folder"},
       {" --urdf /nowhere.urdf --srdf /nowhere.srdf", "/nowhere.srdf"},
-      {" --urdf " + panda + " --srdf " + no_arm.string(), "no group of it is an arm"},
+      {" --urdf " + panda + " --srdf " + no_arm.string(), "no group is an arm"},
       {" --urdf " + meshed.string() + " --srdf " + no_arm.string(), "--package far_away=FOLDER"},
       {files("panda") + " --out /nowhere/cell.json", "--out: /nowhere/cell.json cannot be written"},
   };
@@ -196,9 +197,10 @@ TEST_F(Import, ReportsAnSrdfOfAnotherRobot) {
   const test::Outcome outcome =
       run("import --urdf " + models + "/panda.urdf --srdf " + models + "/ur5e.srdf");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("no group of it is an arm"),
-                                 HasSubstr("the SRDF is of robot ur5e, panda.urdf of robot panda"),
-                                 HasSubstr("is not in panda.urdf; the group is without it")));
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("no group of it is an arm"),
+                    HasSubstr("the SRDF is for robot ur5e, but panda.urdf for robot panda"),
+                    HasSubstr("is not in panda.urdf; it is left out of the group")));
 }
 
 TEST_F(Import, SchemaCommandPrintsTheFilesInConfig) {

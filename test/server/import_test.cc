@@ -72,15 +72,15 @@ TEST(Placement, IsReadInMetersAndDegrees) {
 TEST(Placement, IsRefusedWithAReason) {
   for (const auto& [text, says] :
        {std::pair{":x=1", "the name is missing"},
-        {"a:w=1", "\"w\" is not known"},
-        {"a:yaw=90", "\"yaw\" is not known"},
-        {"a:x", "\"x\" gives no number"},
-        {"a:x=1m", "\"x=1m\" gives no number"},
-        {"a:x=nan", "\"x=nan\" gives no number"},
-        {"a:x=1,,y=2", "\"\" is not known"},
+        {"a:w=1", "\"w\" is an unknown key"},
+        {"a:yaw=90", "\"yaw\" is an unknown key"},
+        {"a:x", "\"x\" is not KEY=NUMBER"},
+        {"a:x=1m", "\"x=1m\" is not KEY=NUMBER"},
+        {"a:x=nan", "\"x=nan\" is not KEY=NUMBER"},
+        {"a:x=1,,y=2", "\"\" is an unknown key"},
         {":x=abc,foo=1,yaw_deg=nan",
-         "the name is missing; \"x=abc\" gives no number; \"foo\" is not "
-         "known; \"yaw_deg=nan\" gives no number; expected"}}) {
+         "the name is missing; \"x=abc\" is not KEY=NUMBER; \"foo\" is an "
+         "unknown key; \"yaw_deg=nan\" is not KEY=NUMBER; expected"}}) {
     const auto placed = read_placement(text);
     ASSERT_FALSE(placed) << text;
     EXPECT_EQ(placed.error().front().pointer, "--robot");

@@ -47,7 +47,7 @@ TEST_F(Serve, FullDiskIsReportedAtOnceAndAtTheEnd) {
   EXPECT_EQ(ready.json()["type"], "urn:armloom:problem:recording-lost");
   EXPECT_NE(ready.json()["detail"].get<std::string>().find("File too large"), std::string::npos);
   EXPECT_EQ(test::request(server.port(), "GET", "/healthz").status, 200);
-  while (server.log().find("the recording is no longer whole") == std::string::npos) {
+  while (server.log().find("the recording is incomplete") == std::string::npos) {
     ASSERT_LT(Clock::now(), deadline) << server.log();
   }
   EXPECT_NE(ready.json()["detail"].get<std::string>().find("until the server is started again"),
@@ -55,7 +55,7 @@ TEST_F(Serve, FullDiskIsReportedAtOnceAndAtTheEnd) {
   // The alert must be acknowledged by an operator.
   const auto alerts = test::request(server.port(), "GET", "/api/v1/alerts").json()["alerts"];
   const auto lost = std::ranges::find_if(alerts, [](const json& alert) {
-    return alert["text"].get<std::string>().starts_with("the recording is no longer whole");
+    return alert["text"].get<std::string>().starts_with("the recording is incomplete");
   });
   ASSERT_NE(lost, alerts.end()) << alerts;
   EXPECT_EQ((*lost)["level"], "error");

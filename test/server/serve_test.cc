@@ -101,8 +101,8 @@ TEST_F(Serve, ShutdownIsNoStopAndNoAlertForTheNextSession) {
     told += alert["text"].get<std::string>() + "\n";
   }
   EXPECT_EQ(told,
-            "stopped: left, right (the server was started again: 1 job waits; "
-            "resume to go on)\nstopped: right (operator)\n");
+            "stopped: left, right (the server was restarted: 1 job waits; "
+            "resume to continue)\nstopped: right (operator)\n");
   end(third);
 }
 

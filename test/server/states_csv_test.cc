@@ -60,8 +60,8 @@ TEST(StatesCsv, ReadsBackWhatItWrote) {
     EXPECT_EQ(begun->size(), 2U);
     EXPECT_EQ(
         warnings.back(),
-        "states.csv:4: the last row has no end of line: the run was cut off there, the row is "
-        "left out");
+        "states.csv:4: the last row has no line end: the recording was cut off there, the row is "
+        "ignored");
   }
 }
 
@@ -172,7 +172,7 @@ TEST(IdleStretches, DoNotHideLostRows) {
   EXPECT_EQ(warnings_of(hole).size(), 1U) << "the motion has a hole";
   const std::string cut = text.substr(0, from_row("0.300"));
   EXPECT_EQ(warnings_of(cut),
-            Warnings{"states.csv:102: rows are missing: states_idle.csv goes on"});
+            Warnings{"states.csv:102: rows are missing: states_idle.csv continues"});
   const std::string no_begin = text.substr(0, from_row("0.200")) + text.substr(from_row("0.230"));
   EXPECT_EQ(warnings_of(no_begin).size(), 2U) << "the rest has no end, and there is a hole";
 
@@ -184,7 +184,7 @@ TEST(IdleStretches, DoNotHideLostRows) {
   Warnings warnings;
   std::ofstream(file) << text.substr(0, from_row("0.211")) + text.substr(from_row("0.400"));
   ASSERT_TRUE(read_states(file, *cell, &warnings));
-  EXPECT_NE(warnings.at(0).find("arms have moved in what was to be a rest"), std::string::npos);
+  EXPECT_NE(warnings.at(0).find("arms moved in a stretch recorded as idle"), std::string::npos);
 }
 
 struct BadRecording {

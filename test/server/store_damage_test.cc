@@ -92,7 +92,7 @@ TEST_F(Store, DetectsDamagedJobRows) {
   EXPECT_EQ((*history)->damage().value().jobs, (std::vector<std::string>{"j1", "j3"}));
   const auto found = (*history)->find("j3");
   ASSERT_FALSE(found) << "neither there as it is, nor unknown, so that it would be run again";
-  EXPECT_NE(found.error().front().detail.find("not as it was written"), std::string::npos);
+  EXPECT_NE(found.error().front().detail.find("is damaged (wrong checksum)"), std::string::npos);
   std::vector<std::string> ids;
   const auto read =
       (*history)->oldest_first({}, [&](const StoredJob& one) { ids.push_back(one.id); });
@@ -134,7 +134,7 @@ TEST_F(Store, DoesNotTouchALogWithoutItsFile) {
   }
   fs::remove(file());
   std::ofstream(file().string() + "-wal") << "what may be jobs";
-  EXPECT_NE(why_not().find("it is gone"), std::string::npos) << why_not();
+  EXPECT_NE(why_not().find("it is missing"), std::string::npos) << why_not();
   EXPECT_FALSE(fs::exists(file()));
   EXPECT_EQ(fs::file_size(file().string() + "-wal"), 16U);
 }

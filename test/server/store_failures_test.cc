@@ -50,7 +50,7 @@ TEST_F(Store, ReportsARemedyIfItCannotBeOpened) {
   FailingDisk::fail(FailingDisk::Fault::full, 0);
   EXPECT_NE(why_not().find("nothing was changed: make room on the disk"), std::string::npos);
   FailingDisk::fail(FailingDisk::Fault::broken, 0);
-  EXPECT_NE(why_not().find("see to it that it can be read and written"), std::string::npos);
+  EXPECT_NE(why_not().find("make it readable and writable"), std::string::npos);
   FailingDisk::reset();
   std::ofstream(file()) << "no database, but a text that is long enough for one";
   EXPECT_NE(why_not().find("repair it"), std::string::npos) << why_not();
@@ -88,7 +88,7 @@ TEST_F(Store, ReportsATruncatedLogAndDoesNotCheckpointIt) {
     EXPECT_TRUE(accept(*store, 1).get());
     fs::resize_file(log, 0);
     EXPECT_FALSE(accept(*store, 2).get());
-    EXPECT_NE(store->fault()->text.find("armloom.db-wal was cut off"), std::string::npos);
+    EXPECT_NE(store->fault()->text.find("armloom.db-wal was truncated"), std::string::npos);
   }
   const auto store = open();
   EXPECT_TRUE(store->leftover().is_behind);

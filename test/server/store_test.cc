@@ -99,7 +99,7 @@ TEST_F(Store, ReportsACorruptFileWithoutRepair) {
     damage << std::string(4096, '\x5a');
   }
   const std::string why = why_not();
-  EXPECT_NE(why.find("put back a copy"), std::string::npos) << why;
+  EXPECT_NE(why.find("restore a copy"), std::string::npos) << why;
   EXPECT_EQ(fs::file_size(file()), size);
 }
 

@@ -102,7 +102,7 @@ TEST(Strand, ReportsADelayedLoopOnce) {
   });
   const auto texts = told.get_future().get();
   ASSERT_EQ(texts.size(), 1U) << "of a busy machine it is said once in a minute";
-  EXPECT_TRUE(texts[0].starts_with("the control loop was held up for ")) << texts[0];
+  EXPECT_TRUE(texts[0].starts_with("the control loop was delayed by ")) << texts[0];
 }
 
 TEST(Strand, PublishesALongQueueRarelyButAStopAtOnce) {

@@ -55,13 +55,12 @@ TEST_F(ValidateCommand, WarnsIfABrakeIsWeakerThanTheAcceleration) {
   EXPECT_EQ(outcome.err,
             "armloom: warning: " + limits +
                 "panda_finger_joint1/brake_m_s2: joint right_panda_finger_joint1: brake_m_s2 is "
-                "0.5, less than its acceleration_m_s2 of 3.75: a stop takes longer than the motion "
-                "took to begin\n"
-                "armloom: warning: " +
+                "0.5, less than its acceleration_m_s2 of 3.75: the joint takes longer to stop than "
+                "to reach its speed; check the value\narmloom: warning: " +
                 limits +
                 "panda_joint1/brake_rad_s2: joint right_panda_joint1: brake_rad_s2 is 1.5, less "
-                "than its acceleration_rad_s2 of 3.75: a stop takes longer than the motion took to "
-                "begin\n");
+                "than its acceleration_rad_s2 of 3.75: the joint takes longer to stop than to "
+                "reach its speed; check the value\n");
 }
 
 TEST_F(ValidateCommand, NeverPrintsMinusZero) {

@@ -9,15 +9,15 @@
 
 namespace armloom {
 
-// From where to go to when: times for a way of joints within the cell's limits of velocity,
-// acceleration and jerk (without tolerance), at rest, acceleration included, at both ends.
+// Time parameterization: times for a path of joints within the cell's velocity, acceleration and
+// jerk limits (without tolerance), at rest, acceleration included, at both ends.
 //
-// What comes out has waypoints with positions, velocities and accelerations, as `POST /jobs` takes
-// them, and no limit is exceeded at any instant of the quintics between them; by bounds, as
-// validate() (core/trajectory/validate.h), not by samples. Problems: those of validate() (a
-// position outside its limits, a joint of the arm that is missing), of the motion that was made:
-// pointers go into `request`. Throws std::invalid_argument where sizes do not fit, a way has no
-// length, or a share is not in (0, 1]. Pure and thread-safe.
+// The result has waypoints with positions, velocities and accelerations, as `POST /jobs` takes
+// them. No limit is exceeded at any instant of the quintics between them: by bounds, as in
+// validate() (core/trajectory/validate.h), not by samples. Problems are those of validate(), with
+// pointers into the resulting `request`: a position outside its limits, a missing joint of the arm.
+// Throws std::invalid_argument if sizes do not match, a path has no length, or a share is not in
+// (0, 1]. Pure and thread-safe.
 struct TimedMotion {
   TrajectoryRequest request;
   TrajectoryPtr trajectory;
@@ -25,31 +25,31 @@ struct TimedMotion {
 
 struct TimingOptions {
   RateShares shares = {};
-  // Soft motions cut corners of the path (soft_motion.h); no joint leaves it by more (rad or m).
+  // Maximum distance of a joint from the path after softening (soft_motion.h); rad or m.
   double off_path = 1e-3;
 };
 
-// Straight in joint space, all joints in step, by one jerk-limited profile: the fastest such motion
-// (rest_to_rest.h). Takes 10 ms where it goes nowhere. Some 10 us.
+// Times a straight line in joint space, all joints in step, by the fastest jerk-limited profile
+// (rest_to_rest.h). Takes 10 ms without a distance. Some 10 us to compute.
 [[nodiscard]] Result<TimedMotion> time_line(const Cell& cell, const std::vector<JointId>& joints,
                                             const Eigen::VectorXd& from, const Eigen::VectorXd& to,
                                             const TimingOptions& options = {});
-// The same from point to point, at rest at each.
+// Times straight lines from point to point, at rest at each.
 [[nodiscard]] Result<TimedMotion> time_lines(const Cell& cell, const std::vector<JointId>& joints,
                                              const std::vector<Eigen::VectorXd>& points,
                                              const TimingOptions& options = {});
-// Along a path without a stop: the fastest way within velocities and accelerations (path_speed.h),
-// softened within jerks (soft_motion.h) by a window of 2 a/j, at least kWindowMin_s; where that
-// would leave the path by more than options.off_path, accelerations are lowered. A millisecond for
-// a path through 100 points.
+// Times a path without a stop: the fastest speeds within velocities and accelerations
+// (path_speed.h), softened within jerks (soft_motion.h) by a window of 2 a/j, at least
+// kWindowMin_s. Lowers accelerations if it would leave the path by more than options.off_path. A
+// millisecond for 100 points.
 inline constexpr double kWindowMin_s = 0.004;
 [[nodiscard]] Result<TimedMotion> time_path(const Cell& cell, const std::vector<JointId>& joints,
                                             const JointPath& path,
                                             const TimingOptions& options = {});
 
-// The largest share of a limit that a motion uses at any instant of the quintics between its
-// waypoints (positions, velocities, accelerations, ascending times), exactly but for velocities
-// below the limit, which are bounded: 1 is the limit.
+// Largest shares of the limits at any instant of the quintics between waypoints (positions,
+// velocities, accelerations, ascending times); 1 is the limit. Exact, except that velocities below
+// the limit are bounds.
 struct LimitShares {
   double velocity = 0.0;
   double acceleration = 0.0;
