@@ -163,7 +163,6 @@ TEST_P(MovesToStart, AreRepeatedAfterAFault) {
   expect_succeeded("job");
 }
 
-// A move-to-start waits for another arm like any motion.
 TEST_P(MovesToStart, NeverTouchAnotherArm) {
   cell->submit(go("b", {1, 0}, {-3, 0}, 8, "b"));
   cell->submit(approached(go("a", {1, 1}, {1, 2}, 6, "a")));

@@ -75,7 +75,6 @@ TEST_P(Retreat, IsNotRepeatedForAJobThatStartsElsewhere) {
   EXPECT_LE(retreats.size(), 1U);
 }
 
-// A job that moves the arm away makes the hint obsolete.
 TEST_P(Retreat, IsNotSuggestedIfAJobWillMoveTheArm) {
   start(OnIdleBlocker::report);
   cell->run_until(at(10s));
@@ -115,7 +114,6 @@ TEST_P(Retreat, IsNotReversedForAJobThatStartsAtTheNewPosition) {
   EXPECT_FALSE(cell->simulation->executive().job("retreat-2"));
 }
 
-// Without a retreat pose the hint stays, and the server does not try for ever.
 TEST_P(Retreat, IsReportedAsImpossibleWithoutAFreePose) {
   CellDescription description = parking(OnIdleBlocker::park);
   description.robots[0].arms[0].home = {0.0};
@@ -139,7 +137,6 @@ TEST_P(Retreat, IsReportedAsImpossibleWithoutAFreePose) {
       << expired.detail();
 }
 
-// A stopped arm cannot retreat. The hint says how to unblock the job, and following the hint works.
 TEST_P(Retreat, WaitsForTheResumeOfAStoppedArm) {
   start(OnIdleBlocker::report);
   cell->simulation->executive().stop({ArmId{0}}, "operator");
@@ -176,7 +173,6 @@ TEST(RetreatByDefault, IsOn) {
   EXPECT_EQ(CellDescription{}.scheduling.on_idle_blocker, OnIdleBlocker::park);
 }
 
-// x is canceled in the crossing and cannot return home: it continues to the end of its path.
 TEST_P(Retreat, ContinuesToTheEndOfThePathIfTheWayBackIsBlocked) {
   cell.emplace(parking(OnIdleBlocker::park), GetParam());
   CollisionObject behind{.name = "behind", .shape = Sphere{0.1}};

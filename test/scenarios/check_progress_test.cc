@@ -1,4 +1,3 @@
-// A job reports the progress of its check; canceling the job interrupts the check.
 #include <gtest/gtest.h>
 
 #include "core/executive/own_checker.h"

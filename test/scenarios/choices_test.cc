@@ -1,4 +1,3 @@
-// Reorderable jobs and jobs with alternatives, through the executive: selection, report, refusals.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -72,7 +71,6 @@ TEST(ReorderableJobs, OtherJobsKeepTheirOrder) {
   EXPECT_FALSE(given.cell.job("beside").ways.choice);
 }
 
-// A job with alternatives keeps its place; reorderable jobs may overtake it.
 class ReorderableAndAlternatives : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Policies, ReorderableAndAlternatives,
                          ::testing::ValuesIn(known_policies()));

@@ -1,5 +1,5 @@
-// Motions that pause on their path at the end of their authority: they pass each other in the
-// agreed order and keep clear whatever happens to the motion that passes first.
+// Motions pass each other in the agreed order, pause at the end of their authority, and keep clear
+// whatever happens to the first motion.
 #include "test/scenarios/crossing.h"
 #include "test/scenarios/star.h"
 
@@ -44,7 +44,7 @@ TEST_F(Coordinated, LetsAShortJobPassBeforeADistantLongJob) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-// T5: the first arm stalls in the crossing; the second one stays out until the first has left.
+// T5: the first arm stalls in the crossing.
 TEST(CoordinatedLate, WaitsForALeaderThatStalls) {
   Crossing cell(crossing_description(), "coordinated");
   ASSERT_TRUE(cell.simulation->executive().faults().inject(
@@ -59,7 +59,7 @@ TEST(CoordinatedLate, WaitsForALeaderThatStalls) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-// T7: a canceled arm rests in the crossing. The second arm may not pass until a job moves it away.
+// T7: a canceled arm rests in the crossing.
 TEST_F(Coordinated, WaitsForACanceledArmToLeaveTheCrossing) {
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   cell.submit(slide("y", -1, 1, 4, "follows"));
@@ -79,7 +79,6 @@ TEST_F(Coordinated, WaitsForACanceledArmToLeaveTheCrossing) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-// A job that is paused behind an arm without a job expires like a job in the backlog.
 TEST_F(Coordinated, ExpiresOnItsPathBehindAnArmWithoutAJob) {
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   JobRequest follows = slide("y", -1, 1, 4, "follows");
@@ -114,7 +113,6 @@ TEST_F(Coordinated, DoesNotRelyOnAJobWhoseStartIsNotReached) {
   EXPECT_NE(cell.job("waits").state, JobState::succeeded) << "x rests in the crossing";
   EXPECT_GT(cell.log.closest_m, 0.015);
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
-  // A resume does not lead y there either.
   stop_all(cell.simulation->executive(), "operator");
   cell.run_until(at(21s));
   resume_all(cell.simulation->executive());
@@ -169,7 +167,7 @@ TEST(ExecutiveDeath, LeavesEveryArmAtRestWithoutContact) {
   }
 }
 
-// One motion of x and y. In the next two tests x is in the crossing at one end of it.
+// Returns a motion of x and y. In the next two tests x is in the crossing at one end of it.
 JobRequest both(double x_from_m, double x_to_m, double y_from_m, double y_to_m, std::string key) {
   JobRequest request = slide("x", x_from_m, x_to_m, 2, std::move(key));
   request.trajectory.joint_names.push_back("y_slide");

@@ -1,5 +1,4 @@
-// Multi-arm jobs under `coordinated`: arms out of step, and deadlock cycles through paused motions.
-// Most cases were found by random_teams_test.cc.
+// Found by random_teams_test.cc for the most part.
 #include "test/scenarios/crossing.h"
 
 namespace armloom {
@@ -10,7 +9,6 @@ struct Way {
   double from_m, to_m;
 };
 
-// Returns one motion of several arms.
 JobRequest together(const std::vector<Way>& ways, double duration_s, std::string key) {
   JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
   const std::vector<double> zero(ways.size(), 0.0);
@@ -111,7 +109,6 @@ TEST(CoordinatedMultiArm, PausedMotionClosesADeadlockCycle) {
   EXPECT_EQ(cell.job("between").state, JobState::succeeded);
 }
 
-// A stop of y, too, must not hide the deadlock.
 TEST(CoordinatedMultiArm, StopOfAPausedMotionKeepsTheDeadlockCycle) {
   Crossing cell(crossing_description(), "coordinated");
   cell.submit(slide("x", -1, 1, 4, "canceled"));
@@ -130,8 +127,7 @@ TEST(CoordinatedMultiArm, StopOfAPausedMotionKeepsTheDeadlockCycle) {
 }
 
 // x leaves the crossing together with z. y is paused before x, and w before y's path, where w
-// blocks z. A stop of z before their motion starts must not cost the motion its place between y and
-// w.
+// blocks z.
 TEST(CoordinatedMultiArm, StopBeforeTheStartKeepsTheOrder) {
   CellDescription description = crossing_description();
   description.robots.push_back(moved(description.robots[1], "z", {-0.3, 0, 0}));

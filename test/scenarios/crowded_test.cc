@@ -1,7 +1,7 @@
 // Crowded worlds that have a solution. Under `coordinated` nearly every job succeeds. Under any
-// policy every other job ends with the blocker named, retreats do not go on for ever, and nothing
-// ever touches. Runs 100 worlds of `coordinated` and 20 of each other policy; ARMLOOM_SEEDS=1000
-// runs 1,000 and 200. ARMLOOM_TOLD=1 prints every unsolved world.
+// policy every other job ends with the blocker named, retreats do not repeat without end, and
+// nothing ever touches. Runs 100 worlds of `coordinated` and 20 of each other policy;
+// ARMLOOM_SEEDS=1000 runs 1,000 and 200. ARMLOOM_TOLD=1 prints every unsolved world.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -251,8 +251,7 @@ TEST(CrowdedWorlds, ParkedArmsRetreat) {
   EXPECT_GE(share(tally.succeeded, tally.jobs), 0.99);
 }
 
-// Once four idle arms waited for each other, each with a retreat that waited for the next arm's.
-// Whenever a retreat expired the server requested another one.
+// Found with four idle arms, each with a retreat that waited for the next arm's retreat.
 TEST(CrowdedWorlds, RetreatsThatWaitForEachOtherEnd) {
   Tally tally;
   run({.policy = "lockstep"}, Crowd::ring4, 310, tally);

@@ -57,7 +57,6 @@ TEST_P(Detours, AreNotTakenIfWaitingIsShort) {
   EXPECT_FALSE(cell->job("a").ways.detour && cell->job("a").ways.detour->is_selected);
 }
 
-// A job with a trajectory follows exactly that trajectory.
 TEST_P(Detours, AreNotTakenByTrajectories) {
   EXPECT_GT(arrives_s(go("a", {-1, 0}, {0.6, 0}, 3.0, "a"), 30.0), 30.0);
 }

@@ -1,4 +1,3 @@
-// Jobs that are checked against each other without execution.
 #include <gtest/gtest.h>
 
 #include "core/executive/dry_run.h"

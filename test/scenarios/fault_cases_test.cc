@@ -1,5 +1,4 @@
-// Defect cases T6 and T7 of DESIGN.md, section 1, on simulated time: arms that fault, stall, run
-// slowly or start late; jobs that are canceled in motion.
+// Defect cases T6 and T7 of DESIGN.md, section 1, on simulated time.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"
@@ -67,8 +66,6 @@ TEST(FaultyArm, FaultFailsItsJobAndStopsOnlyEndangeredArms) {
   EXPECT_EQ(cell.job("endangered").state, JobState::succeeded);
 }
 
-// Around the end of one job and the start of the next a fault is never lost: it fails the motion
-// that moves, or else the next one.
 TEST(FaultyArm, FaultBetweenTwoJobsIsNotLost) {
   for (Duration from = 1990ms; from < 2200ms; from += 1ms) {
     CellDescription description = crossing_description();

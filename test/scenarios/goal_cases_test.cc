@@ -1,4 +1,3 @@
-// Jobs with a goal: planned first, then executed like any other job.
 #include "test/scenarios/crossing.h"
 
 namespace armloom {
@@ -99,7 +98,6 @@ TEST_P(Goals, ExpireIfAnObjectKeepsTouchingTheArm) {
   EXPECT_LT(cell->simulation->now(), at(6s));
 }
 
-// Scene changes that do not affect the wait use up no planning attempts.
 TEST_P(Goals, KeepWaitingThroughUnrelatedSceneChanges) {
   ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -1.0, 0.165)));
   cell->submit(move_to("x", 0.5, "goal"));
@@ -114,7 +112,7 @@ TEST_P(Goals, KeepWaitingThroughUnrelatedSceneChanges) {
   EXPECT_EQ(cell->job("goal").state, JobState::succeeded) << cell->job("goal").detail();
 }
 
-// The first plan was made without the object; the second one includes it.
+// The first plan was made without the object; the second plan includes it.
 TEST_P(Goals, AreReplannedIfTheSceneChanged) {
   cell->submit(move_to("x", 0.5, "late"));
   ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("post", 0.5, 0.0)));
@@ -146,7 +144,6 @@ TEST_P(Goals, FailTheNextTrajectoryAtOnceIfTheyFail) {
   expect_at(0.0, -1.0);
 }
 
-// A job ends if its scene changes during every planning attempt.
 TEST_P(Goals, FailIfTheSceneChangesDuringEveryAttempt) {
   cell->submit(move_to("x", 0.5, "restless"));
   for (int i = 0; i < 20 && !cell->simulation->executive().all_ended(); ++i) {

@@ -1,5 +1,4 @@
-// Defect case T12 and other unusable trajectories: the executive refuses them with place and value,
-// stores nothing and moves no arm.
+// Defect case T12 and other unusable trajectories.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Trajectories dominate the memory of jobs. One bound refuses new jobs, another forgets ended jobs.
+// Trajectories dominate the memory of jobs.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"

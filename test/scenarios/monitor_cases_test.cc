@@ -1,4 +1,3 @@
-// The monitor stops motions whose conflict a coarse time step misses.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"

@@ -1,4 +1,3 @@
-// Goals that were planned around an arm that has retreated since.
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {
@@ -100,7 +99,6 @@ TEST_P(AfterARetreat, GoalIsReplannedForEachArmInItsWay) {
       << cell.job("a comes back").detail();
 }
 
-// A goal can start anywhere, so no arm returns for it onto the other arm's goal.
 TEST_P(AfterARetreat, GoalSwapTakesOneRetreat) {
   TwoGantries cell(gantries(OnIdleBlocker::park), GetParam());
   cell.submit(to_place("a", {-0.3, 0.0}, "a comes"));
@@ -119,8 +117,7 @@ TEST_P(AfterARetreat, GoalSwapTakesOneRetreat) {
 }
 
 // Two rows of three places between walls. When a is planned, b and c, which is about to leave,
-// block both paths to its goal. Once the plan led through b and was kept after c had left: together
-// with the waiting jobs that closed a deadlock cycle, and jobs failed.
+// block both paths to its goal. Once the plan led through b and was kept after c had left.
 TEST(AfterADeparture, GoalWithoutAPathIsReplanned) {
   CellDescription description =
       gantries(OnIdleBlocker::report, {{-0.4, -0.4}, {0.12, -0.14}, {-0.14, -0.4}});

@@ -1,4 +1,3 @@
-// Goals with several candidate arms: the arm that arrives first takes the job.
 #include <gmock/gmock.h>
 
 #include "test/scenarios/crossing.h"
@@ -176,7 +175,6 @@ TEST_P(CandidateArms, ImpossibleJobsAreRefusedAtOnce) {
   refused(trajectory, "/arms");
 }
 
-// The pose is one of the selected arm's own link, whatever the prefix.
 TEST_P(CandidateArms, PoseIsOneOfTheArmsOwnLink) {
   for (const auto& link : {std::optional<std::string>(), std::optional<std::string>("ball")}) {
     JobRequest request = either(0.0, link ? "named" : "last");

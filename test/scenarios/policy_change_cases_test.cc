@@ -1,5 +1,3 @@
-// Changing the policy of a running cell: possible while no job is admitted; waiting jobs then
-// follow the new policy.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +30,6 @@ TEST(PolicyChange, IsRefusedWhileAJobRuns) {
   EXPECT_EQ(policy_of(cell), "coordinated");
 }
 
-// A job that is paused by a stop keeps its passing orders.
 TEST(PolicyChange, IsRefusedWhileAJobIsPaused) {
   Crossing cell(crossing_description(), "coordinated");
   cell.submit(slide("x", -1.0, 1.0, 4.0, "a"));

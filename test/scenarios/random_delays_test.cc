@@ -1,5 +1,4 @@
-// Arms start late, run slowly, stall and report late at random: they never touch, and every job
-// succeeds. The measured distance is recorded at every tick. ARMLOOM_SEEDS=500 runs more.
+// Arms start late, run slowly, stall and report late at random. ARMLOOM_SEEDS=500 runs more.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/random_faults.h"

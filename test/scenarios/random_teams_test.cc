@@ -1,7 +1,6 @@
 // Jobs of one to three arms in cells of three and four arms, with random delays, commands and
-// faults: nothing touches, every job ends exactly once, and a job that waits for ever waits for an
-// arm that no job moves. The measured distance is recorded at every tick. ARMLOOM_SEEDS=500 runs
-// more; ARMLOOM_TOLD=<seed> runs that seed only and prints its events.
+// faults. A job that never ends must wait for an arm without a job. ARMLOOM_SEEDS=500 runs more;
+// ARMLOOM_TOLD=<seed> runs that seed only and prints its events.
 #include <gtest/gtest.h>
 
 #include <iostream>

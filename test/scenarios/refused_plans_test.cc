@@ -39,7 +39,6 @@ TEST_F(FailedPlans, CostNothingTheSecondTime) {
   EXPECT_EQ(cell.job("second").detail(), why);
 }
 
-// The query ignored the other arm, so that arm's new position changes nothing.
 TEST_F(FailedPlans, CostNothingIfOnlyAnIgnoredArmMoved) {
   shut_in(cell, {-1, 2});
   EXPECT_GT(fails("first"), 100'000U);
@@ -63,7 +62,6 @@ TEST_F(FailedPlans, AreRetriedFromANewStartOrInANewScene) {
   EXPECT_EQ(cell.job("open").state, JobState::succeeded) << cell.job("open").detail();
 }
 
-// The first plan succeeded; the replan is one more plan and not repeated.
 TEST_F(FailedPlans, ReplanOfAGoalIsPlannedOnce) {
   cell.submit(to_place("a", {-1, 3}, "goal"));
   cell.run_until(at(1s));

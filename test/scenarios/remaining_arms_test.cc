@@ -1,4 +1,3 @@
-// Jobs with alternatives for two arms, when other jobs block one of the arms for good.
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {

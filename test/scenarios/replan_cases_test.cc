@@ -1,4 +1,3 @@
-// Replanned jobs: on request, after the backlog timeout, and around arms at rest.
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {
@@ -118,7 +117,6 @@ TEST_P(Replans, LetTheJobExpireIfThereIsNoAlternativePath) {
   cell->expect_at("a", {-1, 0});
 }
 
-// The arm brakes and continues on a new path under the same job id.
 TEST_P(Replans, BrakeAMovingJobAndContinueIt) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "moves"));
@@ -151,7 +149,6 @@ TEST_P(Replans, KeepAWaitingJobFromItsOldPath) {
   cell->expect_at("a", {0, 2});
 }
 
-// The new object is on the job's old path.
 TEST_P(Replans, LeadAroundANewObject) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "stopped"));
@@ -167,7 +164,6 @@ TEST_P(Replans, LeadAroundANewObject) {
   cell->expect_at("a", {0, 2});
 }
 
-// Nothing starts on a stopped arm; the new path is followed after the resume.
 TEST_P(Replans, ContinueAStoppedJobAfterTheResume) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "stopped"));

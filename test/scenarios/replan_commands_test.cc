@@ -1,5 +1,4 @@
-// Random commands on jobs that may be replanned: nothing touches, each job ends once, and no
-// scheduler invariant breaks (a broken invariant throws).
+// A broken scheduler invariant throws.
 #include <map>
 #include <random>
 

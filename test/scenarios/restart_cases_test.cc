@@ -1,4 +1,3 @@
-// Data that a server session leaves for the next session, and restores.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -98,7 +97,6 @@ TEST(StartLog, JobCanceledMeanwhileNeverMoves) {
   EXPECT_EQ(cell.x(), -1.0);
 }
 
-// Late answers in any order act like late arms: nothing touches, and all jobs end.
 TEST(StartLog, LateAnswersCauseNoContact) {
   int jobs = 0;
   for (const std::string& policy : known_policies()) {

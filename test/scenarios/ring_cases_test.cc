@@ -1,4 +1,3 @@
-// Arms in a deadlock cycle: one arm retreats and returns (on_idle_blocker).
 #include <set>
 
 #include "test/scenarios/polygon.h"
@@ -52,7 +51,6 @@ TEST_P(InADeadlock, OneOfThreeArmsRetreatsAndReturns) {
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
 }
 
-// A subscriber must see every job before another job is reported to wait for it.
 TEST_P(InADeadlock, EveryJobIsPublishedBeforeOthersWaitForIt) {
   Crossing cell(parking_polygon(2), GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));

@@ -1,4 +1,3 @@
-// Objects that are added, moved and removed while jobs run and wait; batches, checks, predecessors.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/polygon.h"
@@ -164,7 +163,7 @@ TEST(Check, AnswersWithEvidenceAndChangesNothing) {
   EXPECT_EQ(cell.simulation->executive().snapshot().jobs.size(), 1u);
 }
 
-// Each of three arms moves to the next arm's place: none can go alone, but all together can.
+// Each arm moves to the next arm's place: none can go alone, but all together can.
 TEST(Check, UnderCoordinatedIncludesJobsThatCanStartTogether) {
   Crossing cell(polygon(3), "coordinated");
   cell.submit(slide("a", -1, 1, 4, "one"));

@@ -1,4 +1,3 @@
-// Simulation::settled(): true no sooner than nothing can happen any more; then a simulation ends.
 #include "test/scenarios/crossing.h"
 
 namespace armloom {
@@ -56,7 +55,6 @@ TEST_P(Settled, WhileAllArmsAreStopped) {
             GetParam() == "reservation" ? JobState::expired : JobState::succeeded);
 }
 
-// The arm moves again by itself, so the cell is not settled.
 TEST_P(Settled, NotDuringAStallThatEnds) {
   inject(fault("x", ArmFault::Kind::stall, 500ms, 5s));
   cell->submit(slide("x", -1, 1, 2, "one"));
@@ -100,7 +98,6 @@ TEST_P(Settled, EndsASimulationBeforeItsTimeLimit) {
   EXPECT_LT(result->ended_at, at(70s));
 }
 
-// A blocked job waits as long as the client specified; the simulation skips that time.
 TEST_P(Settled, LongWaitOfABlockedJobIsSkipped) {
   struct Cycles final : Observer {
     void on_event(const Event&) override {}

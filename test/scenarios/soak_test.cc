@@ -1,6 +1,4 @@
-// Random sequences of all ordinary commands: no arm comes too close to another, the guard refuses
-// nothing, and every wait ends. ARMLOOM_SEEDS=10000 sets the number of runs; ARMLOOM_FIRST_SEED=77
-// the first seed.
+// ARMLOOM_SEEDS=10000 sets the number of runs; ARMLOOM_FIRST_SEED=77 the first seed.
 #include "test/scenarios/soak.h"
 
 #include <gtest/gtest.h>

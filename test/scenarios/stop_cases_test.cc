@@ -1,4 +1,3 @@
-// Stop, resume and cancel of moving jobs, through the whole executive.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"

@@ -1,4 +1,3 @@
-// Promises that a finished random world must have kept, and the printout of its events.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// Alerts stay open until they are acknowledged; the server records by whom and when.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// PATCH /jobs/{id} changes the terms of a job; If-Match protects against concurrent changes.
+// PATCH /jobs/{id}.
 #include "test/server/verbs_fixture.h"
 
 namespace armloom {
@@ -80,7 +80,6 @@ TEST_F(Amending, IfMatchRequiresTheLastChange) {
   EXPECT_EQ(patch("a", {{"priority", 7}}, "*").status, 200);
 }
 
-// A new wait or motion of the job does not invalidate If-Match for PATCH, but does change the ETag.
 TEST_F(Amending, IfMatchIgnoresProgressOfTheJob) {
   start(1.0);
   submit("a");

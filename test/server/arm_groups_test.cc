@@ -1,4 +1,3 @@
-// Selection of the SRDF groups that `armloom import` turns into arms.
 #include "server/import/arm_groups.h"
 
 #include <gtest/gtest.h>
@@ -80,7 +79,6 @@ TEST_F(ArmGroups, MayShareATorsoThatBecomesFixed) {
   EXPECT_EQ(tree_->links[*above.begin()].joint.name, "torso_lift");
 }
 
-// Upper arm and forearm are separate groups, combined by name or by a chain.
 TEST_F(ArmGroups, MayBeCombinedFromConsecutiveGroups) {
   const std::string parts = R"(<robot name="torso_robot">
     <group name="lo"><joint name="left_1"/><joint name="left_2"/></group>
@@ -140,7 +138,6 @@ TEST_F(ArmGroups, IncludeARailButNoGripper) {
   EXPECT_EQ(why("hand"), "it is moved by arm");
 }
 
-// A joint that moves several arms belongs to the torso, whatever group names it.
 TEST_F(ArmGroups, DoNotIncludeASharedTorso) {
   choose(R"(<robot name="torso_robot">
     <group name="torso"><joint name="torso_lift"/></group>

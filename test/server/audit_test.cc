@@ -1,4 +1,3 @@
-// The audit log: commands and refused requests, with the token's name.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -13,7 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Runs the server with a data folder.
 class AuditLog : public test::TokenServer {
  protected:
   void SetUp() override {

@@ -1,5 +1,3 @@
-// One bad job for each kind of problem: refused over HTTP with place and value; nothing is stored,
-// and no arm moves.
 #include <gtest/gtest.h>
 
 #include <functional>

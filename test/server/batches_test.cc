@@ -1,4 +1,3 @@
-// Batches, predecessors and checks.
 #include "test/server/verbs_fixture.h"
 
 namespace armloom {

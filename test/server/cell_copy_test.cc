@@ -1,4 +1,3 @@
-// A recording is self-contained: it has a copy of every file that its cell names.
 #include "server/recording/cell_copy.h"
 
 #include <gmock/gmock.h>
@@ -68,7 +67,6 @@ TEST_F(CellCopy, OfACopyIntoItsOwnFolderChangesNothing) {
   EXPECT_EQ(files(), before);
 }
 
-// Two packages contain meshes of the same name.
 TEST_F(CellCopy, KeepsFilesOfOneNameApart) {
   write("a/meshes/arm.stl", "solid of a");
   write("b/meshes/arm.stl", "solid of b");

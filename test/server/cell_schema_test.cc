@@ -1,4 +1,3 @@
-// Texts generated from the description of the cell file: schema, reference, written cells.
 #include "server/codec/cell_schema.h"
 
 #include <gmock/gmock.h>

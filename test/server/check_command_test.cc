@@ -1,4 +1,3 @@
-// `armloom check`: checks jobs against each other.
 #include <sstream>
 #include <vector>
 

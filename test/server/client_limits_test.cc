@@ -1,4 +1,3 @@
-// Rate limits of one client and of all clients together.
 #include "server/http/client_limits.h"
 
 #include "server/access/token_file.h"

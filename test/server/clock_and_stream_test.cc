@@ -1,4 +1,3 @@
-// Conversion of cell time to wall time, and stream ids of sessions.
 #include <gtest/gtest.h>
 
 #include <regex>

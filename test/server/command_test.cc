@@ -131,7 +131,6 @@ TEST_F(Command, ExitsWithOneIfAJobIsRefused) {
       << outcome.err;
 }
 
-// Reads the address that the server prints through a pipe.
 TEST_F(Command, ServePrintsItsAddressAndEndsCleanlyOnSigterm) {
   int pipe_ends[2];
   ASSERT_EQ(pipe(pipe_ends), 0);

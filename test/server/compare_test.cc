@@ -1,4 +1,3 @@
-// `armloom compare`: table, files, and errors.
 #include <map>
 #include <sstream>
 

@@ -1,4 +1,3 @@
-// Connections beyond the limits: refused with a reason, but a stop is always served.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -15,7 +14,6 @@ using Clock = std::chrono::steady_clock;
 
 class Connections : public test::RunningServer {};
 
-// A stop is answered before its body has arrived.
 TEST_F(Connections, StopDoesNotWaitForItsBody) {
   for (const char* path : {"/api/v1/stop", "/api/v1/arms/left/stop"}) {
     for (const char* length : {"Content-Length: 30", "Transfer-Encoding: chunked",
@@ -62,7 +60,6 @@ TEST_F(Connections, BeyondTheLimitAreRefusedExceptForStops) {
   const auto stopped = test::read_answer(stop);
   EXPECT_EQ(stopped.status, 202);
   EXPECT_EQ(stopped.headers.at("connection"), "close");
-  // When a connection ends, a new one is served.
   held.back()->send("GET /healthz HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
   (void)held.back()->take_all();
   held.pop_back();
@@ -89,8 +86,6 @@ TEST_F(Connections, StopIsServedWhenTheReserveIsFull) {
   EXPECT_TRUE(test::read_answer(*held[0]).json()["stopped"].get<bool>());
 }
 
-// A client that opens many connections cannot push other clients out of the reserve, even if these
-// send their request late.
 TEST_F(Connections, StopIsServedDuringAFloodFromAnotherClient) {
   options_.connections_max = 16;  // plus 4 in the reserve
   start(1.0);

@@ -1,4 +1,3 @@
-// Exclusive control, and jogging: an arm moves only as long as its client renews the lease.
 #include "server/control/control.h"
 
 #include <gtest/gtest.h>
@@ -129,8 +128,6 @@ TEST_F(Jogging, ReportsBadGoalsAndExcessiveSpeed) {
   EXPECT_EQ(fast.json()["pointer"], "/velocity_scaling_factor");
 }
 
-// A jog motion waits for other jobs like any job, and is canceled while it waits when its lease
-// expires.
 TEST_F(Jogging, ExpiresWhileWaitingForAnotherArm) {
   start(1.0);
   test::Listener listener(port());

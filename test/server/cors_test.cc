@@ -1,4 +1,3 @@
-// Access from pages of other origins: allowed origins only (CORS).
 #include <gtest/gtest.h>
 
 #include "test/server/running_server.h"

@@ -1,4 +1,3 @@
-// A damaged log of inputs is refused, or replayed as far as it is readable; nothing throws.
 #include <gtest/gtest.h>
 
 #include "server/replay/replay.h"

@@ -1,4 +1,3 @@
-// Start of a session with a damaged or incomplete data folder.
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -42,7 +41,6 @@ TEST_F(DamagedFolder, SceneThatCannotBeRestoredKeepsArmsStopped) {
       is_told("object \"crate\" cannot be restored: its record in the data folder is damaged"));
 }
 
-// A damaged job is neither started nor lost silently.
 TEST_F(DamagedFolder, JobIsReportedAndNotStarted) {
   start(1);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
@@ -58,7 +56,6 @@ TEST_F(DamagedFolder, JobIsReportedAndNotStarted) {
   wait_until([&] { return is_told("\"damaged\""); });
 }
 
-// The conservative side: more arms are stopped than before, and no arm moves that was stopped.
 TEST_F(DamagedFolder, UnknownStopsKeepAllArmsStoppedWithAnAlert) {
   start(1);
   ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);

@@ -1,4 +1,3 @@
-// The server with a data folder on a disk that is full or broken.
 #include "test/server/durable_server.h"
 
 namespace armloom {

@@ -1,5 +1,4 @@
-// State that the server restores from the data folder, tested in one process. kills.py tests kills
-// of the server.
+// kills.py tests kills of the server.
 #include "test/server/durable_server.h"
 #include "test/source_dir.h"
 

@@ -1,4 +1,3 @@
-// Static files over HTTP: shared in memory, with ETags, compressed on request.
 #include <gtest/gtest.h>
 #include <zlib.h>
 

@@ -25,7 +25,7 @@ class Framing : public test::RunningServer {
   }
 };
 
-// A second request smuggled behind a first one with ambiguous framing.
+// A second request smuggled behind a request with ambiguous framing.
 const std::string kHidden = "5\r\nhello\r\n0\r\n\r\nGET /healthz HTTP/1.1\r\nHost: x\r\n\r\n";
 
 TEST_F(Framing, RefusesAmbiguousRequestsThatBeastAccepts) {

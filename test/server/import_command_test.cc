@@ -1,4 +1,3 @@
-// `armloom import`: one command makes a cell that runs.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -113,7 +112,6 @@ TEST_F(Import, GuessesMissingLimitsAndFixesTheTorso) {
   EXPECT_EQ(written("told.json")["robots"][0]["joint_limits"], "joint_limits.yaml");
 }
 
-// The lift above both arms has no velocity limit, but becomes fixed, so none is guessed.
 TEST_F(Import, GuessesNoLimitsOfFixedJoints) {
   std::string urdf = test::torso_urdf();
   for (const std::string joint : {"torso_lift", "left_1"}) {
@@ -191,7 +189,6 @@ TEST_F(Import, NamesTheInvalidOption) {
   EXPECT_EQ(run("import --urdf " + panda).exit_code, 2);
 }
 
-// The joints missing in the URDF are the reason why no group is an arm.
 TEST_F(Import, ReportsAnSrdfOfAnotherRobot) {
   const std::string models = (test::kSource / "models").string();
   const test::Outcome outcome =

@@ -1,4 +1,3 @@
-// Choices of `armloom import`: package folders, placements, homes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -58,8 +57,6 @@ TEST_F(PackageFolders, AreFoundByTheirContents) {
               ElementsAre(Pair("table_description", (top_ / "ws/renamed").string())));
 }
 
-// ---- Placements ----
-
 TEST(Placement, IsReadInMetersAndDegrees) {
   const auto placed = read_placement("right:x=0.75,z=-1e-1,yaw_deg=180");
   ASSERT_TRUE(placed);
@@ -87,8 +84,6 @@ TEST(Placement, IsRefusedWithAReason) {
     EXPECT_THAT(placed.error().front().detail, HasSubstr(says));
   }
 }
-
-// ---- Homes ----
 
 CellDescription facing_pandas(double apart_m) {
   const fs::path folder = fs::path(source_dir()) / "config";

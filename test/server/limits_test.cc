@@ -1,5 +1,3 @@
-// Misbehaving clients: bodies that are too large or too deep, slow senders, too many connections.
-// Each is refused with a reason, and other clients are not affected.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -146,7 +144,6 @@ TEST_F(Limits, IdleConnectionsDoNotAffectOthers) {
   }
 }
 
-// Sends pongs to stay alive, but never reads.
 TEST_F(Limits, SubscriberThatNeverReadsIsDisconnected) {
   options_.send_buffer = 4096;
   options_.send_time = std::chrono::milliseconds(300);

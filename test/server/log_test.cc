@@ -1,4 +1,3 @@
-// The server's log: clients cannot forge lines, and requests can be found by their id.
 #include <gtest/gtest.h>
 
 #include <mutex>

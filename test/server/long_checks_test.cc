@@ -1,4 +1,3 @@
-// Checks that clients request must not delay jobs.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -1,4 +1,3 @@
-// Values of /metrics after known events; the Grafana dashboard uses existing metrics only.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,5 +1,3 @@
-// Old recordings in a data folder are removed, the oldest first. The running recording and all
-// other files stay.
 #include "server/recording/old_recordings.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// `armloom plan`: output, exit codes, messages.
 #include "test/server/command_fixture.h"
 
 namespace armloom {

@@ -1,4 +1,3 @@
-// POST /plan over HTTP.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -209,7 +208,6 @@ TEST_F(GoalsOverHttp, ReplanKeepsTheJobId) {
   EXPECT_EQ(post("/api/v1/jobs/nobody/replan", "").status, 404);
 }
 
-// A handler that never answers can see that its client has disconnected.
 TEST(Http, RequestIsMarkedWhenItsClientDisconnects) {
   auto http = HttpServer::listen("127.0.0.1", 0, 4);
   ASSERT_TRUE(http);

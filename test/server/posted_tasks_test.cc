@@ -1,4 +1,3 @@
-// Tasks posted by the executive must not keep the connection thread from serving sockets.
 #include "server/http/posted_tasks.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// Query parameters: one description defines their parsing and their documentation.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,3 @@
-// GET requests read what the control loop publishes: they show every earlier acknowledged command,
-// and unchanged jobs are not serialized again.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// The recent states that are kept for clients that connect later.
 #include "server/hub/recent_states.h"
 
 #include <gtest/gtest.h>

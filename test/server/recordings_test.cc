@@ -1,5 +1,3 @@
-// Download of recordings: no other files, byte for byte, of any size, and a recording in progress
-// up to its last complete line.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,3 @@
-// `armloom replay`: a data folder is a complete bug report.
 #include <chrono>
 #include <csignal>
 #include <fstream>

@@ -1,4 +1,3 @@
-// The logged inputs of an executive reproduce its events byte for byte.
 #include "server/replay/replay.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,3 @@
-// Requests repeated after a lost response (idempotency): the same jobs, and no duplicates.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -87,7 +86,6 @@ TEST_P(Idempotency, KeyIdentifiesOneRequest) {
   EXPECT_EQ(jobs_known(), 3U);
 }
 
-// The first response binds a key, even if the job was already known by its id.
 TEST_P(Idempotency, KeySentAfterItsJobIdentifiesOneRequest) {
   start(1);
   ASSERT_EQ(send(job("n1")).status, 202);

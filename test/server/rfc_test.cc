@@ -1,4 +1,3 @@
-// Details of RFC 9110, 9112 and 6455 that clients rely on.
 #include <gtest/gtest.h>
 
 #include "test/server/running_server.h"
@@ -21,14 +20,14 @@ class Rfc : public test::RunningServer {
   }
 };
 
-// RFC 9110, 10.1.1: the expectation 100-continue of an HTTP/1.0 request is ignored.
+// RFC 9110, 10.1.1.
 TEST_F(Rfc, Http10NeverGets100Continue) {
   const std::string answer = answers_to(
       "POST /api/v1/resume HTTP/1.0\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n{}");
   EXPECT_TRUE(answer.starts_with("HTTP/1.0 202 ")) << answer;
 }
 
-// RFC 9110, 10.1.1: a request that will be refused gets its final status instead of 100.
+// RFC 9110, 10.1.1.
 TEST_F(Rfc, RefusedRequestsGetNo100Continue) {
   const std::string rest = "Expect: 100-continue\r\nContent-Length: 2\r\n\r\n";
   const std::string post = "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\n";
@@ -42,7 +41,7 @@ TEST_F(Rfc, RefusedRequestsGetNo100Continue) {
                   .starts_with("HTTP/1.1 405 "));
 }
 
-// RFC 9112, 3.2.2: absolute-form is accepted, and its authority replaces Host.
+// RFC 9112, 3.2.2: the authority of an absolute-form target replaces Host.
 TEST_F(Rfc, AbsoluteTargetsAreServed) {
   EXPECT_EQ(answer_to("GET http://localhost:80/api/v1/queue?  HTTP/1.1\r\nHost: x\r\n\r\n").status,
             400);
@@ -60,7 +59,7 @@ TEST_F(Rfc, AbsoluteTargetsAreServed) {
   }
 }
 
-// RFC 9112, 2.2: an empty line before the request line is ignored; many are refused.
+// RFC 9112, 2.2; many empty lines are refused.
 TEST_F(Rfc, EmptyLineBeforeARequestIsIgnored) {
   const std::string get = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n";
   test::Wire wire(port());
@@ -74,7 +73,7 @@ TEST_F(Rfc, EmptyLineBeforeARequestIsIgnored) {
   EXPECT_EQ(answer_to(many + get).status, 400);
 }
 
-// RFC 9110, 9.3.7: for the whole server, and for one resource.
+// RFC 9110, 9.3.7.
 TEST_F(Rfc, OptionsListsTheMethods) {
   const auto all = answer_to("OPTIONS * HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_EQ(all.status, 204);
@@ -87,7 +86,7 @@ TEST_F(Rfc, OptionsListsTheMethods) {
   EXPECT_EQ(answer_to("GET * HTTP/1.1\r\nHost: localhost\r\n\r\n").status, 400);
 }
 
-// RFC 9110, 2.5: a higher minor version is read as the highest known; another major one is refused.
+// RFC 9110, 2.5.
 TEST_F(Rfc, HigherMinorVersionsAreServedOtherMajorsAreNot) {
   EXPECT_TRUE(answers_to("GET /healthz HTTP/1.2\r\nHost: localhost\r\nConnection: close\r\n\r\n")
                   .starts_with("HTTP/1.1 200 "));
@@ -98,7 +97,7 @@ TEST_F(Rfc, HigherMinorVersionsAreServedOtherMajorsAreNot) {
       answers_to("GET /healthz HTTP/1.x\r\nHost: localhost\r\n\r\n").starts_with("HTTP/1.1 400 "));
 }
 
-// RFC 9112, 3.2: a request target has no fragment.
+// RFC 9112, 3.2.
 TEST_F(Rfc, FragmentsAreRefused) {
   for (const char* target : {"/healthz#", "/healthz#x", "/api/v1/jobs?limit=1#x",
                              "http://localhost/healthz#x", "http://localhost#x"}) {
@@ -119,7 +118,7 @@ TEST_F(Rfc, HeadOfEventsHasNoLength) {
   EXPECT_NE(head.find("Content-Type: text/event-stream\r\n"), head.npos) << head;
 }
 
-// RFC 9110, 8.8.3 and 13.1.1: an entity tag is quoted.
+// RFC 9110, 8.8.3 and 13.1.1.
 TEST_F(Rfc, MalformedEntityTagsAreRefused) {
   const auto patch = [&](const std::string& if_match) {
     return answer_to(
@@ -137,7 +136,7 @@ TEST_F(Rfc, MalformedEntityTagsAreRefused) {
   }
 }
 
-// RFC 6455, 7.4: reserved codes are a protocol error.
+// RFC 6455, 7.4.
 TEST_F(Rfc, ReservedCloseCodesAreAProtocolError) {
   const auto answer_to_close = [&](int code) {
     test::Wire wire(port());

@@ -16,8 +16,8 @@
 
 namespace armloom::test {
 
-// The real server on a free loopback port, with the two-Panda cell (or the cell of `file`), started
-// anew for each test.
+// The real server on a free loopback port, with the two-Panda cell (or the cell of `file`); a new
+// one for each test.
 class RunningServer : public ::testing::Test {
  protected:
   void start(double speed, std::filesystem::path web = {}, std::filesystem::path file = {}) {

@@ -1,4 +1,3 @@
-// The server as a process with scarce resources.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -66,7 +65,6 @@ TEST_F(Serve, FullDiskIsReportedAtOnceAndAtTheEnd) {
   EXPECT_NE(server.log().find("not all is written: "), std::string::npos) << server.log();
 }
 
-// All 64 descriptors are in use.
 TEST_F(Serve, StopIsServedWithoutFreeDescriptors) {
   test::ServeProcess server({"--cell", test::kCell}, log(),
                             [] { test::set_limit(RLIMIT_NOFILE, 64); });

@@ -1,4 +1,3 @@
-// Scene objects over HTTP: add, move, remove, refuse.
 #include "test/server/verbs_fixture.h"
 
 namespace armloom {

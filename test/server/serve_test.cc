@@ -1,4 +1,3 @@
-// The server as a process: signals, kills, suspension.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 

@@ -1,4 +1,3 @@
-// `armloom simulate`: summary line and faults.
 #include <gtest/gtest.h>
 
 #include <fstream>

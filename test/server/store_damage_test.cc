@@ -1,5 +1,3 @@
-// Damage of the store is detected and reported, and refused requests never displace audit entries
-// of executed requests.
 #include <array>
 #include <fstream>
 
@@ -15,7 +13,6 @@ using test::job;
 using test::start;
 using test::Store;
 
-// A client can be refused any number of times without displacing entries of executed requests.
 TEST_F(Store, KeepsAuditEntriesOfExecutedRequestsOverRefusals) {
   StoreOptions few = options();
   few.retention.audit_max = 5;
@@ -139,7 +136,6 @@ TEST_F(Store, DoesNotTouchALogWithoutItsFile) {
   EXPECT_EQ(fs::file_size(file().string() + "-wal"), 16U);
 }
 
-// A job with missing rows is neither forgotten nor treated as never acknowledged.
 TEST_F(Store, DetectsJobsWithMissingRows) {
   {
     const auto store = open();
@@ -207,7 +203,6 @@ TEST_F(Store, RestoresStopsOfOlderVersions) {
   EXPECT_FALSE(store->leftover().is_unmarked);
 }
 
-// A damaged alert or audit entry must not be shown as genuine.
 TEST_F(Store, OmitsAndCountsDamagedAlertsAndAuditEntries) {
   {
     const auto store = open();

@@ -1,4 +1,3 @@
-// Acknowledged writes survive disk failures and the end of the process at any point.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -56,7 +55,7 @@ TEST_F(Store, ReportsARemedyIfItCannotBeOpened) {
   EXPECT_NE(why_not().find("repair it"), std::string::npos) << why_not();
 }
 
-// Otherwise another server could use the folder, or not find what this one writes.
+// Otherwise another server could use the folder, or not find what this server writes.
 TEST_F(Store, StopsWritingIfItsFilesAreReplaced) {
   for (const char* name : {"armloom.lock", "armloom.db", "armloom.mark", "armloom.db-wal"}) {
     SCOPED_TRACE(name);
@@ -115,7 +114,6 @@ TEST_F(Store, NeverWritesARefusedJob) {
   EXPECT_FALSE(JobHistory::open(folder_).value()->find("j1").value());
 }
 
-// Also while nothing can be written.
 TEST_F(Store, KeepsRoomForExecutedRequestsAmongRefusals) {
   const auto store = open();
   FailingDisk::fail(FailingDisk::Fault::full, 0);
@@ -182,7 +180,6 @@ void expect_kept(const fs::path& folder, const std::string& acknowledged, const 
 
 class Cut : public Store, public ::testing::WithParamInterface<const char*> {};
 
-// For every N, the process or the power fails at the Nth write.
 TEST_P(Cut, LosesNoAcknowledgedRecordAtAnyWrite) {
   const bool is_power = std::string(GetParam()) == "power";
   const fs::path said = folder_.string() + "-said";
@@ -216,7 +213,6 @@ TEST_P(Cut, LosesNoAcknowledgedRecordAtAnyWrite) {
 }
 INSTANTIATE_TEST_SUITE_P(Store, Cut, ::testing::Values("process", "power"));
 
-// For every N, the Nth write fails, alone or with the next ones.
 TEST_F(Store, LosesNoAcknowledgedRecordIfAnyWriteFails) {
   std::uint64_t faults = 0;
   for (const auto fault : {FailingDisk::Fault::full, FailingDisk::Fault::broken}) {

@@ -1,5 +1,4 @@
-// The mark (high-water mark) beside the store detects that the store lacks records of an earlier
-// session.
+// The mark (high-water mark) detects that the store beside it lacks records.
 #include <fstream>
 #include <functional>
 
@@ -13,7 +12,6 @@ using test::accept;
 using test::FailingDisk;
 using test::Store;
 
-// Also with a full disk: after a restart stopped arms must stay stopped.
 TEST_F(Store, ReportsUnwrittenStopsUntilStopsAreWritten) {
   {
     const auto store = open();

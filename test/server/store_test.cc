@@ -1,4 +1,3 @@
-// Acknowledged jobs are there in the next session, in order, within the retention bounds.
 #include <unistd.h>
 
 #include <cstdlib>

@@ -1,4 +1,3 @@
-// The control loop never waits for long tasks: they run in parts, and stops run first.
 #include <gtest/gtest.h>
 
 #include <filesystem>

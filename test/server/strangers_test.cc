@@ -1,4 +1,3 @@
-// Pages of other origins: framing, DNS rebinding, embedding.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -1,4 +1,3 @@
-// The server with TLS, tested with an OpenSSL client.
 #include <gtest/gtest.h>
 #include <openssl/bio.h>
 #include <openssl/evp.h>

@@ -1,4 +1,3 @@
-// `armloom token`, and the conditions under which `armloom serve` listens beyond loopback.
 #include <gtest/gtest.h>
 
 #include <csignal>

@@ -1,4 +1,3 @@
-// `armloom validate`: contents of a cell, and its faults.
 #include <sstream>
 
 #include "test/server/command_fixture.h"

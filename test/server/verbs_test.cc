@@ -1,4 +1,3 @@
-// Routes of single arms and of the simulation: stop and resume, speed, faults.
 #include "test/server/verbs_fixture.h"
 
 namespace armloom {
@@ -8,8 +7,6 @@ using nlohmann::json;
 using test::kAside;
 
 class Verbs : public test::VerbsFixture {};
-
-// ---- Single arms ----
 
 TEST_F(Verbs, OneArmStopsAndResumesAlone) {
   start(5.0);
@@ -35,8 +32,6 @@ TEST_F(Verbs, OneArmStopsAndResumesAlone) {
   expect_refused(post("/api/v1/arms/middle/stop", ""), 404, "request target", "middle");
   expect_refused(post("/api/v1/arms/middle/resume", ""), 404, "request target", "middle");
 }
-
-// ---- The simulation ----
 
 TEST_F(Verbs, SpeedChangeKeepsWallTimesRight) {
   start(1.0);
