@@ -1,4 +1,3 @@
-// What a cell must have for a planning scene, and what is asked of its homes.
 #include <gmock/gmock.h>
 
 #include "core/collision/state/check_home.h"
@@ -9,7 +8,7 @@ namespace {
 
 using namespace busy;
 
-TEST(PlanningScene, RefusesMeshesThatWereNotLoadedAndNamesThemAll) {
+TEST(PlanningScene, RejectsAndListsAllUnloadedMeshes) {
   Cell cell = busy_cell();
   small::add_shape(cell.links[2], Mesh{"hand.stl"}, Eigen::Isometry3d::Identity());
   cell.objects.push_back({"part", Mesh{"part.stl"}});
@@ -21,7 +20,7 @@ TEST(PlanningScene, RefusesMeshesThatWereNotLoadedAndNamesThemAll) {
   EXPECT_EQ(scene.error()[1].pointer, "/objects/4/mesh");
 }
 
-TEST(PlanningScene, RefusesANameUsedTwiceAndAnAllowedNameThatIsNone) {
+TEST(PlanningScene, RejectsDuplicateAndUnknownNames) {
   Cell cell = busy_cell();
   cell.objects.push_back({"rod", Sphere{0.1}});
   cell.allowed.link_objects.insert({LinkId{1}, "tabel"});
@@ -32,7 +31,7 @@ TEST(PlanningScene, RefusesANameUsedTwiceAndAnAllowedNameThatIsNone) {
   EXPECT_THAT(scene.error()[1].detail, ::testing::HasSubstr("tabel"));
 }
 
-TEST(CheckHome, IsQuietWhenHomesAreFreeAndNamesEveryPairThatIsNot) {
+TEST(CheckHome, ReportsEveryPairTooCloseAtHome) {
   Cell cell;
   cell.clearances.clearance_m = 0.02;
   small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ}, {0.3, 0.05});
@@ -50,7 +49,7 @@ TEST(CheckHome, IsQuietWhenHomesAreFreeAndNamesEveryPairThatIsNot) {
   EXPECT_THAT(problems[2].detail, ::testing::StartsWith("right_link1 and shelf: 0.0200 m"));
 }
 
-TEST(CheckHome, SaysThatAPairIsCheckedAlthoughTheSrdfDisablesIt) {
+TEST(CheckHome, ReportsPairsThatTheSrdfDisables) {
   Cell cell;
   small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ}, {0.3, 0.05});
   small::add_robot(cell, "right", small::at_xyz(0, 0.11, 0), {kZ}, {0.3, 0.05});

@@ -5,7 +5,7 @@
 
 #include "test/geometry/mesh_file.h"
 
-// assimp 5.2 loses about a kilobyte for each file that it refuses; none for those that it reads.
+// assimp 5.2 leaks about a kilobyte per file that it rejects.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }
 
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 constexpr const char* kPlaced = R"(<node><instance_geometry url="#g"/></node>)";
 
-TEST_F(MeshFile, IsTheSameBoxFromEachFormat) {
+TEST_F(MeshFile, LoadsTheSameBoxFromEachFormat) {
   for (const auto& mesh :
        {load("a.stl", small::stl_text(box_)), load("b.STL", small::stl_bytes(box_)),
         load("c.obj", small::obj_text(box_)), load("d.dae", small::dae_text(box_, "", kPlaced))}) {
@@ -32,42 +32,43 @@ TEST_F(MeshFile, IsScaledAndMirroredAlongEachAxis) {
   expect_bounds(*mesh, {-0.2, -0.4, 0.0005}, {0.6, 0.2, 0.00075});
 }
 
-TEST_F(MeshFile, IsInMetresWhateverTheUnitOfItsDocument) {
+TEST_F(MeshFile, ConvertsColladaUnitsToMeters) {
   const MeshPtr mesh =
       load("a.dae", small::dae_text(box_, R"(<unit name="centimeter" meter="0.01"/>)", kPlaced));
   expect_bounds(*mesh, {-0.001, -0.002, 0.005}, {0.003, 0.004, 0.0075});
 }
 
-TEST_F(MeshFile, StandsWhereTheNodesOfItsDocumentPlaceIt) {
+TEST_F(MeshFile, AppliesColladaNodeTransforms) {
   const std::string scene = R"(<node><translate>1 0 0</translate>
     <node><rotate>0 0 1 90</rotate><instance_geometry url="#g"/></node>
     <node><translate>0 0 -2</translate><instance_node url="#n"/></node></node>)";
   const std::string nodes = R"(<node id="n"><instance_geometry url="#g"/></node>)";
   const MeshPtr mesh = load("a.dae", small::dae_text(box_, "", scene, nodes));
   EXPECT_EQ(mesh->triangles.size(), 24U);
-  // Turned: x from -0.4 to 0.2, y from -0.1 to 0.3, moved by 1 along x; the other 2 m lower.
+  // Rotated instance: x from -0.4 to 0.2, y from -0.1 to 0.3, moved by 1 along x. Other instance: 2
+  // m lower.
   expect_bounds(*mesh, {0.6, -0.2, -1.5}, {1.3, 0.4, 0.75});
 }
 
-TEST_F(MeshFile, KeepsItsAxesWhateverItsDocumentCallsUp) {
+TEST_F(MeshFile, IgnoresTheColladaUpAxis) {
   for (const char* up : {"X_UP", "Y_UP", "Z_UP"}) {
     expect_bounds(*load("a.dae", small::dae_text(box_, "", kPlaced, "", up)), {-0.1, -0.2, 0.5},
                   {0.3, 0.4, 0.75});
   }
 }
 
-TEST_F(MeshFile, FacesWithManyCornersBecomeTriangles) {
+TEST_F(MeshFile, TriangulatesPolygons) {
   const MeshPtr mesh =
       load("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 2 5\n");
   EXPECT_EQ(mesh->triangles.size(), 3U);
 }
 
-TEST_F(MeshFile, MayLeaveOutTheZeroBeforeAPoint) {
+TEST_F(MeshFile, AcceptsNumbersWithoutLeadingZero) {
   const MeshPtr mesh = load("a.obj", "v .1 0 -.2\nv\t.3 1. 0\n v 0 .5 .25\nf 1 2 3\n");
   expect_bounds(*mesh, {0.0, 0.0, -0.2}, {0.3, 1.0, 0.25});
 }
 
-TEST_F(MeshFile, OfOnePointIsRefusedAndAFlatOneIsKnown) {
+TEST_F(MeshFile, RejectsASinglePointAndDetectsFlatMeshes) {
   const Problem point = refusal("a.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
   EXPECT_EQ(point.slug, "mesh-without-extent");
   EXPECT_THAT(point.detail, HasSubstr("1 triangles is the same point 1 2 3"));
@@ -76,7 +77,7 @@ TEST_F(MeshFile, OfOnePointIsRefusedAndAFlatOneIsKnown) {
   EXPECT_FALSE(is_flat(*load("d.stl", small::stl_bytes(box_))));
 }
 
-TEST_F(MeshFile, SaysWhyItCannotBeRead) {
+TEST_F(MeshFile, ReportsWhyItCannotBeRead) {
   const auto says = [&](const Problem& problem, const char* slug, const std::string& why) {
     EXPECT_EQ(problem.slug, slug);
     EXPECT_EQ(problem.pointer, "/here");
@@ -118,7 +119,7 @@ TEST_F(MeshFile, SaysWhyItCannotBeRead) {
   says(refusal("short.stl", small::stl_bytes(box_).substr(0, 200)), "mesh-unreadable", "stl");
 }
 
-TEST_F(MeshFile, NamesTheVertexThatIsNotFinite) {
+TEST_F(MeshFile, ReportsVerticesThatAreNotFinite) {
   small::Surface bad = box_;
   bad.vertices[3].y() = std::nan("");
   EXPECT_THAT(refusal("nan.stl", small::stl_bytes(bad)).detail, HasSubstr(": y is nan"));
@@ -130,7 +131,7 @@ TEST_F(MeshFile, NamesTheVertexThatIsNotFinite) {
               HasSubstr("y is -2000 m, at most 1000 m"));
 }
 
-TEST_F(MeshFile, RefusesAMillionTrianglesWithoutBuildingThem) {
+TEST_F(MeshFile, RejectsAMillionTrianglesQuickly) {
   const auto start = std::chrono::steady_clock::now();
   std::string stl(84 + 50'000'000, '\0');
   const std::uint32_t million = 1'000'000;
@@ -151,13 +152,13 @@ TEST_F(MeshFile, RefusesAMillionTrianglesWithoutBuildingThem) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
-TEST_F(MeshFile, RefusesAFileOver64MebibytesWithoutReadingIt) {
+TEST_F(MeshFile, RejectsFilesOver64MebibytesUnread) {
   const std::string path = folder_.write("big.stl", "solid");
   std::filesystem::resize_file(path, kMaxMeshBytes + 1);
   EXPECT_THAT(refusal(path).detail, HasSubstr("67108865 bytes, at most 67108864"));
 }
 
-TEST_F(MeshFile, RefusesNodesThatMultiplyOrPlaceThemselves) {
+TEST_F(MeshFile, RejectsExponentialAndCyclicNodeInstances) {
   std::string nodes = R"(<node id="n0"><instance_geometry url="#g"/></node>)";
   for (int i = 1; i <= 60; ++i) {
     const std::string below = R"(<instance_node url="#n)" + std::to_string(i - 1) + R"("/>)";
@@ -173,7 +174,7 @@ TEST_F(MeshFile, RefusesNodesThatMultiplyOrPlaceThemselves) {
               HasSubstr("its nodes instance each other in a cycle"));
 }
 
-// Cut, overwritten and doubled at random places: read or refused with a reason, never worse.
+// Truncated, overwritten and duplicated files are read or rejected with a reason.
 TEST_F(MeshFile, SurvivesBrokenBytes) {
   std::mt19937_64 random(3);
   const auto below = [&](std::size_t n) {

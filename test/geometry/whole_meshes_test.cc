@@ -1,4 +1,3 @@
-// What a mesh file says is loaded whole, or refused with its line; what does not close is told.
 #include <gmock/gmock.h>
 
 #include <map>
@@ -20,7 +19,6 @@ class WholeMesh : public testing::Test {
   Result<MeshPtr> load(const std::string& name, const std::string& bytes) {
     return load_mesh(folder_.write(name, bytes), Eigen::Vector3d::Ones(), "/here", "robot a");
   }
-  // A closed box, and nothing less.
   void expect_box(const std::string& name, const std::string& bytes) {
     const auto mesh = load(name, bytes);
     ASSERT_TRUE(mesh.has_value()) << mesh.error().front().detail;
@@ -44,7 +42,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-TEST_F(WholeMesh, OfAnStlInTextThatWasCutOffIsRefusedWhereverThatWas) {
+TEST_F(WholeMesh, RejectsTruncatedTextStl) {
   const std::string whole = small::stl_text(kBox);
   const std::size_t end = whole.find("endsolid") + 8;
   for (std::size_t size = 1; size < end; size += 3) {
@@ -58,7 +56,7 @@ TEST_F(WholeMesh, OfAnStlInTextThatWasCutOffIsRefusedWhereverThatWas) {
                  "line 9: expected 'facet' or 'endsolid', but the file ends: it was cut off");
 }
 
-TEST_F(WholeMesh, OfAnStlInTextKnowsEveryWord) {
+TEST_F(WholeMesh, RejectsMisspelledWordsInTextStl) {
   const std::string whole = small::stl_text(kBox);
   const std::map<std::string, std::string> words{{"facet normal", "facte normal"},
                                                  {"normal", "nomal"},
@@ -83,7 +81,7 @@ TEST_F(WholeMesh, OfAnStlInTextKnowsEveryWord) {
   expect_refused("odd.stl", whole + "facet", "expected 'solid', found 'facet'");
 }
 
-TEST_F(WholeMesh, OfAnStlInTextMayBeWrittenInManyWays) {
+TEST_F(WholeMesh, AcceptsVariantsOfTextStl) {
   const std::string whole = small::stl_text(kBox);
   std::string upper = whole;
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -101,7 +99,7 @@ TEST_F(WholeMesh, OfAnStlInTextMayBeWrittenInManyWays) {
   EXPECT_EQ((*mesh)->triangles.size(), 24U);
 }
 
-TEST_F(WholeMesh, OfABinaryStlHasTheLengthThatItsCountMakes) {
+TEST_F(WholeMesh, RequiresBinaryStlLengthToMatchItsCount) {
   const std::string whole = small::stl_bytes(kBox);
   expect_box("a.stl", whole);
   expect_box("solid.stl", "solid" + whole.substr(5));
@@ -115,7 +113,7 @@ TEST_F(WholeMesh, OfABinaryStlHasTheLengthThatItsCountMakes) {
   expect_refused("more.stl", whole + std::string(50, '\0'), "it holds more than it says");
 }
 
-TEST_F(WholeMesh, OfAnObjKnowsEveryWordAndCorner) {
+TEST_F(WholeMesh, RejectsUnknownWordsAndCornersInObj) {
   const std::string whole = small::obj_text(kBox);
   expect_box("a.obj", whole);
   const std::map<std::string, std::string> words{
@@ -131,7 +129,7 @@ TEST_F(WholeMesh, OfAnObjKnowsEveryWordAndCorner) {
   expect_refused("cut.obj", whole.substr(0, whole.size() - 4), "not 3 or more");
 }
 
-TEST_F(WholeMesh, OfAnObjMayBeWrittenInManyWays) {
+TEST_F(WholeMesh, AcceptsVariantsOfObj) {
   const std::string whole = small::obj_text(kBox);
   expect_box("slashes.obj", replaced(replaced(whole, "f 1 3 4", "f 1//1 3/2/ 4/5/6"), "f ", "f  "));
   expect_box("back.obj", replaced(whole, "f 1 3 4", "f -8 -6 -5"));
@@ -139,7 +137,7 @@ TEST_F(WholeMesh, OfAnObjMayBeWrittenInManyWays) {
   expect_box("colour.obj", replaced(whole, "0.5\n", "5e-1 1 0 0.3 # 9\n"));
   expect_box("long.obj", replaced(whole, "f 1 3 4",
                                   "o part\ng x y\nusemtl z\nvt 0 0\nvn 0 0 1\ns off\nf 1 3\\\n 4"));
-  // A pentagon of 3 mm, as small parts have them.
+  // A 3 mm pentagon, as in small parts.
   std::string nut =
       "v 0.003 0 0\nv 0.001 0.003 0\nv -0.002 0.002 0\nv -0.002 -0.002 0\nv 0.001 -0.003 0\n"
       "v 0 0 0.001\nf 1 2 3 4 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 5 4 6\nf 1 5 6\n";
@@ -149,9 +147,9 @@ TEST_F(WholeMesh, OfAnObjMayBeWrittenInManyWays) {
   EXPECT_EQ((*mesh)->open_edges, 0U);
 }
 
-// ---- What does not close ----
+// ---- Open meshes ----
 
-TEST_F(WholeMesh, ThatDoesNotCloseIsItsHullAndTold) {
+TEST_F(WholeMesh, OpenMeshIsReplacedByItsHullWithAWarning) {
   small::Surface open = kBox;
   open.triangles.pop_back();
   const std::string path = folder_.write("open.stl", small::stl_text(open));
@@ -173,14 +171,14 @@ TEST_F(WholeMesh, ThatDoesNotCloseIsItsHullAndTold) {
                              HasSubstr("its convex hull is checked")));
 }
 
-// ---- Faces from both sides ----
+// ---- Two-sided faces ----
 
 small::Surface turned(small::Surface surface) {
   for (Triangle& t : surface.triangles) std::swap(t[1], t[2]);
   return surface;
 }
 
-TEST_F(WholeMesh, OfASolidWithBothSidesOfEachFaceHasThemOnce) {
+TEST_F(WholeMesh, RemovesDuplicateFacesOfATwoSidedSolid) {
   expect_box("two.stl", small::stl_text(small::joined(kBox, turned(kBox))));
   expect_box("four.stl", small::stl_text(small::joined(small::joined(kBox, turned(kBox)),
                                                        small::joined(turned(kBox), kBox))));
@@ -200,7 +198,7 @@ TEST_F(WholeMesh, OfASolidWithBothSidesOfEachFaceHasThemOnce) {
   EXPECT_EQ((*beside)->triangles.size(), 24U);
 }
 
-TEST_F(WholeMesh, OfSheetsAndWallsKeepsBothSides) {
+TEST_F(WholeMesh, KeepsBothSidesOfSheetsAndWalls) {
   small::Surface bin = kBox;
   bin.triangles.resize(10);  // one face is open
   const auto sheets = load("bin.stl", small::stl_text(small::joined(bin, turned(bin))));
@@ -216,7 +214,7 @@ TEST_F(WholeMesh, OfSheetsAndWallsKeepsBothSides) {
   EXPECT_NE((*boxes)->surface, nullptr);
 }
 
-TEST_F(WholeMesh, OfWhichNobodyCanSayWhatItEnclosesIsItsPieces) {
+TEST_F(WholeMesh, AmbiguousSolidUsesItsPieces) {
   small::Surface fin = small::joined(kBox, turned(kBox));
   fin.vertices.emplace_back(1, 1, 1);
   fin.vertices.emplace_back(1, 1, 0);

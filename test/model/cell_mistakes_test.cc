@@ -15,7 +15,6 @@ using namespace std::chrono_literals;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// One mistake in the description of two_arms: where it must be found and what is said.
 struct Mistake {
   const char* name;
   std::function<void(CellDescription&)> make;
@@ -27,7 +26,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; 
 
 class CellMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(CellMistake, IsTheOnlyProblemAndNamedByPointerAndValue) {
+TEST_P(CellMistake, IsTheOnlyProblemReportedWithPointerAndValue) {
   CellDescription description = two_arms_description();
   GetParam().make(description);
   const auto cell = build_cell(description);
@@ -156,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(
                     MISTAKE(cell.objects[0].shape = Mesh{"missing.stl"}, "/objects/0/mesh",
                             "mesh missing.stl is not a file that exists")));
 
-TEST(CellNames, OfTwoRobotsWithoutPrefixesAreToldOncePerKind) {
+TEST(CellNames, DuplicatesOfTwoRobotsAreReportedOncePerKind) {
   CellDescription cell = two_pandas_description();
   cell.allowed_collisions.clear();
   cell.robots[1].prefix = "left_";
@@ -169,7 +168,7 @@ TEST(CellNames, OfTwoRobotsWithoutPrefixesAreToldOncePerKind) {
   EXPECT_THAT(built.error()[1].detail, HasSubstr("robot right: joint left_panda_finger_joint1"));
 }
 
-TEST(CellProblems, OfDifferentKindsAreAllTold) {
+TEST(CellProblems, ProblemsOfDifferentKindsAreAllReported) {
   CellDescription cell = two_arms_description();
   cell.monitor.rate_hz = -5;
   left(cell).home = {0, 0, 0};

@@ -4,9 +4,6 @@
 
 #include "test/model/test_cells.h"
 
-// What a cell may say and hardly means, and what a robot's files say that would make it less safe:
-// nothing of it passes without a word.
-
 namespace armloom {
 namespace {
 
@@ -15,7 +12,6 @@ using testing::HasSubstr;
 using testing::Not;
 using namespace std::chrono_literals;
 
-// One setting of two_arms, where it is warned of and what follows from it.
 struct Doubt {
   const char* name;
   std::function<void(CellDescription&)> make;
@@ -27,7 +23,7 @@ void PrintTo(const Doubt& doubt, std::ostream* out) { *out << doubt.name; }
 
 class DoubtfulSetting : public testing::TestWithParam<Doubt> {};
 
-TEST_P(DoubtfulSetting, IsToldWithItsConsequenceAndRefusesNothing) {
+TEST_P(DoubtfulSetting, CausesAWarningWithItsConsequence) {
   CellDescription description = two_arms_description();
   GetParam().make(description);
   EXPECT_THAT(warnings_of(description), AllOf(HasSubstr(std::string(GetParam().pointer) + " | "),
@@ -92,7 +88,7 @@ constexpr const char* kTurnLimit =
 
 const Joint& turn_of(const Cell& cell) { return cell.joint(*cell.find_joint("t_l_turn")); }
 
-TEST(SoftLimits, CountWhereTheyAreNarrowerAsForMoveIt) {
+TEST(SoftLimits, ApplyIfTheyAreNarrowerAsInMoveIt) {
   const ScratchFolder folder;
   const auto with_soft = [&](const std::string& attributes) {
     return with_urdf(folder, kTurnLimit,
@@ -110,7 +106,7 @@ TEST(SoftLimits, CountWhereTheyAreNarrowerAsForMoveIt) {
                                             "<limit>: from 0 to 0; the <limit> applies"));
 }
 
-TEST(JointLimitsFile, CountsWhatStandsThereUnlessItSaysFalse) {
+TEST(JointLimitsFile, AppliesLimitsUnlessTheirFlagIsFalse) {
   const ScratchFolder folder;
   CellDescription description = two_arms_description();
   description.robots[0].joint_limits = folder.write(
@@ -125,7 +121,7 @@ TEST(JointLimitsFile, CountsWhatStandsThereUnlessItSaysFalse) {
   EXPECT_EQ(cell->joint(*cell->find_joint("t_r_bend")).velocity_max, 1.0);
 }
 
-TEST(LimitsInDegrees, AreToldOf) {
+TEST(LimitsInDegrees, CauseAWarning) {
   const ScratchFolder folder;
   EXPECT_THAT(
       warnings_of(
@@ -138,7 +134,7 @@ TEST(LimitsInDegrees, AreToldOf) {
               "joint l_turn: its velocity limit is 180 rad/s, probably a unit error (degrees?)")));
 }
 
-TEST(Axes, OfAnotherLengthThanOneAreDirectionsAndToldOf) {
+TEST(Axes, OfNonUnitLengthAreNormalizedWithAWarning) {
   const ScratchFolder folder;
   const CellDescription cell =
       with_urdf(folder, "<axis xyz=\"0 0.6 0.8\"/>", "<axis xyz=\"0 1.2 1.6\"/>");
@@ -151,13 +147,13 @@ TEST(Axes, OfAnotherLengthThanOneAreDirectionsAndToldOf) {
   EXPECT_EQ(warnings_of(rounded), "");
 }
 
-TEST(Meshes, ThatAreAsGoodAsNothingAreToldOf) {
+TEST(Meshes, TooSmallForTheirUnitCauseAWarning) {
   const ScratchFolder folder;
   EXPECT_THAT(warnings_of(with_urdf(folder, "scale=\"0.5 0.5 2\"", "scale=\"0.001 0.001 0.001\"")),
               HasSubstr("probably a unit error (scale applied to a file already in meters?)"));
 }
 
-TEST(Shapes, InTheWrongPlaceAreRefused) {
+TEST(Shapes, OutsideCollisionElementsAreRejected) {
   const ScratchFolder folder;
   const std::string geometry = "<geometry><box size=\"1 1 1\"/></geometry>";
   EXPECT_THAT(problems_of(with_urdf(folder, "<link name=\"r1\"/>",
@@ -169,7 +165,7 @@ TEST(Shapes, InTheWrongPlaceAreRefused) {
       HasSubstr("joint l_turn: <collision> would be left out here: it must be in a <link>"));
 }
 
-TEST(HeldJoints, MisspeltAreHeldAsTheyAreMeantSoThatNothingElseFollows) {
+TEST(FixedJoints, MisspelledNameSuppressesFollowOnErrors) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf =
@@ -183,7 +179,7 @@ TEST(HeldJoints, MisspeltAreHeldAsTheyAreMeantSoThatNothingElseFollows) {
             "did you mean l_slide?\n");
 }
 
-TEST(NamedStates, WithAValueThatIsNoneAreToldOnce) {
+TEST(NamedStates, WithAnInvalidValueAreReportedOnce) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf = folder.write(
@@ -195,7 +191,7 @@ TEST(NamedStates, WithAValueThatIsNoneAreToldOnce) {
             "left_arm: joint l_turn: joint value is 'x', not a finite number\n");
 }
 
-TEST(CrossedLimits, AreToldWithoutHomesThatLieOutside) {
+TEST(CrossedLimits, SuppressProblemsOfHomesOutside) {
   const ScratchFolder folder;
   EXPECT_THAT(
       problems_of(with_urdf(folder, kTurnLimit,
@@ -203,7 +199,7 @@ TEST(CrossedLimits, AreToldWithoutHomesThatLieOutside) {
       AllOf(HasSubstr("limit lower 2 is above upper -2"), Not(HasSubstr("outside"))));
 }
 
-TEST(LimitsInTheCell, OfNoJointSayWhichIsMeant) {
+TEST(LimitsInTheCell, OfUnknownJointsSuggestAName) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms[0].limits["l_tern"].velocity = 1;
   cell.robots[0].arms[0].limits["r_bend"].velocity = 1;

@@ -1,4 +1,3 @@
-// Limits from a joint_limits.yaml as MoveIt has it.
 #include <gmock/gmock.h>
 
 #include <numbers>
@@ -27,7 +26,7 @@ constexpr const char* kTurnLimits =
     "    min_position: -1.5\n"
     "    max_position: 9\n";
 
-TEST(JointLimitsFile, IsTakenBelowTheCellsOwnLimitsAndNeverAboveTheUrdfs) {
+TEST(JointLimitsFile, YieldsToTheCellAndNeverExceedsTheUrdf) {
   const ScratchFolder folder;
   CellDescription description = with_limits_file(folder, kTurnLimits);
   description.robots[0].arms[0].limits["l_turn"].acceleration = 3.0;
@@ -45,7 +44,7 @@ TEST(JointLimitsFile, IsTakenBelowTheCellsOwnLimitsAndNeverAboveTheUrdfs) {
                         "URDF's 2.5; the URDF's value applies"));
 }
 
-TEST(JointLimitsFile, IsFoundUnderTheNamesOfRos2Parameters) {
+TEST(JointLimitsFile, IsFoundUnderRos2ParameterNames) {
   const ScratchFolder folder;
   const CellPtr cell = build_or_fail(with_limits_file(
       folder,
@@ -54,7 +53,7 @@ TEST(JointLimitsFile, IsFoundUnderTheNamesOfRos2Parameters) {
   EXPECT_EQ(joint_of(*cell, "t_l_turn").velocity_max, 1.0);
 }
 
-TEST(JointLimitsFile, MayHaveAnglesInDegrees) {
+TEST(JointLimitsFile, AcceptsAnglesInDegrees) {
   const ScratchFolder folder;
   const CellPtr cell = build_or_fail(with_limits_file(
       folder,
@@ -72,7 +71,7 @@ TEST(JointLimitsFile, MayHaveAnglesInDegrees) {
                 "!degrees or !radians"));
 }
 
-TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
+TEST(JointLimitsFile, ReportsMistakesWithLineAndValue) {
   const ScratchFolder folder;
   EXPECT_THAT(problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: [\n")),
               HasSubstr("joint_limits.yaml:3: the YAML is malformed"));
@@ -107,8 +106,8 @@ TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
             HasSubstr("r_bend: min_position 2 is above max_position 1")));
 }
 
-// What it would have said is not known: nobody has to give it in the cell instead.
-TEST(JointLimitsFile, ThatCannotBeReadHasNoFollowUp) {
+// The broken file's content is unknown, so missing limits are not reported.
+TEST(JointLimitsFile, ParseErrorSuppressesFollowOnErrors) {
   const ScratchFolder folder;
   for (const char* text : {"joint_limits:\n  l_turn: [\n", "limits: {}\n"}) {
     CellDescription cell = with_limits_file(folder, text);
@@ -122,7 +121,7 @@ TEST(JointLimitsFile, ThatCannotBeReadHasNoFollowUp) {
   }
 }
 
-TEST(JointLimitsFile, OfOtherJointsWarns) {
+TEST(JointLimitsFile, WarnsOfUnknownJoints) {
   const ScratchFolder folder;
   const std::string warnings = warnings_of(with_limits_file(
       folder, "joint_limits:\n  elbow: {}\n  l_turn: {max_speed: 3}\n  l_grip_mirror: 5\n"));
@@ -131,7 +130,7 @@ TEST(JointLimitsFile, OfOtherJointsWarns) {
               HasSubstr("joint_limits.yaml:3: joint l_turn: max_speed is not known here"));
 }
 
-TEST(JointLimitsFile, AKeyThatNearlyIsOneIsNoWarning) {
+TEST(JointLimitsFile, RejectsMisspelledKeys) {
   const ScratchFolder folder;
   EXPECT_THAT(
       problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: {max_velocty: 3}\n")),
@@ -140,7 +139,7 @@ TEST(JointLimitsFile, AKeyThatNearlyIsOneIsNoWarning) {
           "nothing; did you mean max_velocity?"));
 }
 
-TEST(JointLimitsFile, GivesTheBrakeAsItsDeceleration) {
+TEST(JointLimitsFile, DecelerationLimitBecomesTheBrake) {
   for (const char* sign : {"-", ""}) {
     const ScratchFolder folder;
     const CellPtr cell = build_or_fail(with_limits_file(

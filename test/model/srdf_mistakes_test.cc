@@ -7,7 +7,6 @@ namespace {
 
 using testing::HasSubstr;
 
-// One mistake, made by replacing a piece of two_arms.srdf: where it must be found and what is said.
 struct Mistake {
   const char* from;
   const char* to;
@@ -28,7 +27,7 @@ CellDescription cell_with_srdf(const ScratchFolder& folder, const Mistake& mista
 
 class SrdfMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(SrdfMistake, InWhatAnArmNeedsIsAProblem) {
+TEST_P(SrdfMistake, InAnArmsDefinitionIsAProblem) {
   const ScratchFolder folder;
   EXPECT_THAT(
       without_lines(problems_of(cell_with_srdf(folder, GetParam()))),
@@ -64,10 +63,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<?xml version=\"1.0\"?>", "<!DOCTYPE robot>", "twin.srdf:1",
                 "twin.srdf:1: a DOCTYPE or entity declaration is not allowed"}));
 
-// What names things that are not there, or what no arm of the cell uses.
 class SrdfOddity : public testing::TestWithParam<Mistake> {};
 
-TEST_P(SrdfOddity, IsAWarningAndRefusesNothing) {
+TEST_P(SrdfOddity, IsOnlyAWarning) {
   const ScratchFolder folder;
   EXPECT_THAT(without_lines(warnings_of(cell_with_srdf(folder, GetParam()))),
               testing::AllOf(HasSubstr(std::string(GetParam().place) + " | "),
@@ -139,7 +137,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "the SRDF is for robot three_arms, but two_arms.urdf for robot two_arms; its "
                 "groups and disabled pairs of links are used all the same"}));
 
-TEST(SrdfStates, ThatAreAnArmsHomeHaveToBeWhole) {
+TEST(SrdfStates, UsedAsHomeMustBeValid) {
   const ScratchFolder folder;
   CellDescription cell = cell_with_srdf(folder, {"value=\"1.5\"", "value=\"2.6\"", "", ""});
   cell.robots[0].arms[0].home.clear();
@@ -150,7 +148,7 @@ TEST(SrdfStates, ThatAreAnArmsHomeHaveToBeWhole) {
       "l_turn is at 2.6, outside [-2, 2.5]\n");
 }
 
-TEST(SrdfGroups, ThatHoldEachOtherAreToldAsACycle) {
+TEST(SrdfGroups, CycleIsReported) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf = folder.write("twin.srdf",
@@ -169,7 +167,7 @@ TEST(SrdfGroups, MayReferToLaterGroups) {
   EXPECT_EQ(build_or_fail(cell)->arms[0].joints.size(), 5u);
 }
 
-TEST(SrdfFile, ThatIsMissingIsAProblemAndNoReasonToGuess) {
+TEST(SrdfFile, MissingFileIsAProblem) {
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf = data_file("missing.srdf");
   EXPECT_THAT(problems_of(cell), testing::StartsWith("/robots/0/srdf | robot twin: cannot read"));

@@ -1,4 +1,3 @@
-// What is wrong with a cell's files is told in one go, as far as it can be known.
 #include <gmock/gmock.h>
 
 #include "test/model/test_cells.h"
@@ -10,7 +9,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-// A cell whose SRDF, joint_limits.yaml and own fields are all wrong.
 CellDescription wrong_but_for_the_urdf(const ScratchFolder& folder) {
   CellDescription cell = two_arms_description();
   RobotDescription& robot = cell.robots[0];
@@ -38,14 +36,14 @@ void expect_all_told(const std::string& problems) {
       << problems;
 }
 
-TEST(ToldAtOnce, AreTheOtherFilesWhereTheUrdfIsSound) {
+TEST(ReportedTogether, OtherFilesWithAValidUrdf) {
   const ScratchFolder folder;
   const std::string problems = problems_of(wrong_but_for_the_urdf(folder));
   expect_all_told(problems);
   EXPECT_THAT(problems, HasSubstr("arm left has no joint l_torn to limit"));
 }
 
-TEST(ToldAtOnce, AreTheOtherFilesWhereTheUrdfIsNotXml) {
+TEST(ReportedTogether, OtherFilesWithAMalformedUrdf) {
   const ScratchFolder folder;
   CellDescription cell = wrong_but_for_the_urdf(folder);
   cell.robots[0].urdf =
@@ -58,14 +56,14 @@ TEST(ToldAtOnce, AreTheOtherFilesWhereTheUrdfIsNotXml) {
                     Not(HasSubstr("is not in twin.urdf"))));
 }
 
-TEST(ToldAtOnce, AreTheOtherFilesWhereTheUrdfIsMissing) {
+TEST(ReportedTogether, OtherFilesWithAMissingUrdf) {
   const ScratchFolder folder;
   CellDescription cell = wrong_but_for_the_urdf(folder);
   cell.robots[0].urdf = data_file("gone.urdf");
   expect_all_told(problems_of(cell));
 }
 
-TEST(ToldAtOnce, AreTheOtherFilesWhereTheUrdfsTreeIsBroken) {
+TEST(ReportedTogether, OtherFilesWithABrokenUrdfTree) {
   const ScratchFolder folder;
   CellDescription cell = wrong_but_for_the_urdf(folder);
   cell.robots[0].urdf = folder.write(
@@ -77,7 +75,7 @@ TEST(ToldAtOnce, AreTheOtherFilesWhereTheUrdfsTreeIsBroken) {
                               HasSubstr("arm left has no joint l_torn to limit")));
 }
 
-TEST(ToldAtOnce, AreTheCellsNamesWhereTheSrdfIsNotXml) {
+TEST(ReportedTogether, CellNamesWithAMalformedSrdf) {
   const ScratchFolder folder;
   CellDescription cell = wrong_but_for_the_urdf(folder);
   cell.robots[0].srdf = folder.write("twin.srdf", "<robot");
@@ -89,7 +87,7 @@ TEST(ToldAtOnce, AreTheCellsNamesWhereTheSrdfIsNotXml) {
                     HasSubstr("rate_hz is 0")));
 }
 
-TEST(ToldAtOnce, AreSeveralMistakesOfOneFile) {
+TEST(ReportedTogether, SeveralMistakesOfOneFile) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   std::string urdf = file_with(data_file("two_arms.urdf"), "radius=\"0.08\"", "radius=\"0\"");
@@ -106,8 +104,8 @@ TEST(ToldAtOnce, AreSeveralMistakesOfOneFile) {
             HasSubstr("axis xyz '0 0 0' has no direction"), HasSubstr("mesh scale holds a 0")));
 }
 
-// The joint is meant to be held: that it would move an arm is not what is wrong.
-TEST(ToldAtOnce, AValueThatCannotBeHeldHasNoFollowUp) {
+// The joint is meant to be fixed.
+TEST(ReportedTogether, InvalidFixedValueSuppressesFollowOnErrors) {
   CellDescription cell = two_arms_description();
   cell.robots[0].fixed["l_slide"] = 7.0;
   cell.robots[0].arms[0].home = {0.0};
@@ -116,8 +114,8 @@ TEST(ToldAtOnce, AValueThatCannotBeHeldHasNoFollowUp) {
             "0.7]\n");
 }
 
-// Held, it needs no limits; they would only be told a second time.
-TEST(ToldAtOnce, AJointThatArmsShareHasNoFollowUp) {
+// A fixed joint needs no limits.
+TEST(ReportedTogether, SharedJointSuppressesFollowOnErrors) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].urdf =
@@ -138,7 +136,7 @@ TEST(ToldAtOnce, AJointThatArmsShareHasNoFollowUp) {
             "{\"base_post\": 0}) or make them one arm\n");
 }
 
-TEST(Remedies, AreToldOfWhatIsMissing) {
+TEST(Remedies, ListValidNamesForMissingElements) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].urdf =
@@ -161,7 +159,7 @@ TEST(Remedies, AreToldOfWhatIsMissing) {
                               "value for each of r_spin, r_bend, r_last, or the name of a state")));
 }
 
-TEST(LimitUnits, HaveToFitHowTheJointMoves) {
+TEST(LimitUnits, MustMatchTheJointType) {
   CellDescription cell = two_arms_description();
   auto& limits = cell.robots[0].arms[0].limits;
   limits["l_turn"] = {.velocity = 0.1, .keys = {"velocity_m_s"}};
@@ -173,7 +171,7 @@ TEST(LimitUnits, HaveToFitHowTheJointMoves) {
             "for prismatic joints, but this joint rotates: give velocity_rad_s\n");
 }
 
-TEST(Grippers, StartWhereTheCellHasThem) {
+TEST(Grippers, StartAtThePositionInTheCellFile) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms[0].gripper["l_grip"] = 0.03;
   const CellPtr built = build_or_fail(cell);
@@ -183,7 +181,7 @@ TEST(Grippers, StartWhereTheCellHasThem) {
       build_or_fail(two_arms_description())->home()[static_cast<Eigen::Index>(grip.index())], 0.0);
 }
 
-TEST(Grippers, HaveStartsThatAreTheirsAndWithinTheirLimits) {
+TEST(Grippers, RejectInvalidStartPositions) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms[0].gripper = {
       {"l_grip", 0.5}, {"l_turn", 0.0}, {"l_grip_mirror", 0.0}, {"thumb", 0.0}};
@@ -197,7 +195,7 @@ TEST(Grippers, HaveStartsThatAreTheirsAndWithinTheirLimits) {
             "in two_arms.urdf\n");
 }
 
-TEST(Mimics, BeyondTheirOwnLimitsAreToldOf) {
+TEST(Mimics, BeyondTheirOwnLimitsCauseAWarning) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].urdf = folder.write(
@@ -209,7 +207,7 @@ TEST(Mimics, BeyondTheirOwnLimitsAreToldOf) {
   EXPECT_EQ(warnings_of(two_arms_description()), "");
 }
 
-TEST(VirtualJoints, OfAnotherChildThanTheRootAreToldOf) {
+TEST(VirtualJoints, WithAChildOtherThanTheRootCauseAWarning) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf = folder.write(

@@ -7,13 +7,12 @@ namespace {
 
 using testing::HasSubstr;
 
-// One mistake, made by replacing a piece of two_arms.urdf: where it must be found and what is said.
 struct Mistake {
   const char* from;
   const char* to;
   const char* place;
   const char* sentence;
-  int line = 0;  // that has to be named, if any is; 0: that of the change
+  int line = 0;  // of the mistake; 0 for the changed line
 };
 
 void PrintTo(const Mistake& mistake, std::ostream* out) {
@@ -22,7 +21,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out) {
 
 class UrdfMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(UrdfMistake, IsTheOnlyProblemAndNamedByPlaceAndValue) {
+TEST_P(UrdfMistake, IsTheOnlyProblemReportedWithPlaceAndValue) {
   const Mistake& mistake = GetParam();
   const ScratchFolder folder;
   const std::string sound = file_with(data_file("two_arms.urdf"), "</robot>", "</robot>");
@@ -155,8 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<robot name=\"two_arms\"", "<robot", "twin.urdf: robot",
                 "robot name is missing"}));
 
-// What is misspelt would vanish without a word: a link without its shape, a joint without its
-// mimic.
+// A misspelled element would lose a shape or a mimic silently.
 INSTANTIATE_TEST_SUITE_P(
     Spelling, UrdfMistake,
     testing::Values(
@@ -194,8 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><Link name=\"table\"/>",
                 "twin.urdf: robot", "<Link> is not known; did you mean <link>?"}));
 
-// Names that other tools give their elements are no misspellings.
-TEST(UrdfElements, OfOtherToolsPassWithoutAWord) {
+TEST(UrdfElements, OfOtherToolsCauseNoWarning) {
   const ScratchFolder folder;
   const std::string others =
       "<gazebo reference='r1'><kp>1</kp></gazebo><transmission name='t'><joint name='r_spin'/>"
@@ -219,10 +216,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"</robot>", "", "twin.urdf:5", "the XML is malformed", 5},
         Mistake{"</robot>", "</robot><robot/>", "twin.urdf:67", "more than one XML element"}));
 
-// What the cell does not use, or what is only odd.
 class UrdfOddity : public testing::TestWithParam<Mistake> {};
 
-TEST_P(UrdfOddity, IsAWarningAndRefusesNothing) {
+TEST_P(UrdfOddity, IsOnlyAWarning) {
   const Mistake& oddity = GetParam();
   const ScratchFolder folder;
   EXPECT_THAT(

@@ -74,7 +74,7 @@ std::vector<Incoming> all_incoming() {
           incoming("ComparisonRequest", *comparison_inquiry_format()),
           incoming("ControlRequest", *control_request_format()),
           incoming("ControlKey", *control_key_format()),
-          incoming("HoldRequest", *hold_request_format())};
+          incoming("JogRequest", *jog_request_format())};
 }
 
 // Throws if a route's body is not among the formats.

@@ -1,6 +1,5 @@
-"""What MoveIt overlooks: unknown elements, numbers that nobody uses, a head whose joint has velocity 0,
-wheels without limits, a floating root. And one elbow with velocity 0, which an arm needs: the one
-line.
+"""Oddities that MoveIt ignores: unknown elements, unused numbers, a head whose joint has velocity 0, wheels
+without limits, a floating root. One elbow that an arm needs has velocity 0: the cell must set its limit.
 """
 import small_robots as small
 

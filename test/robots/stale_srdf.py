@@ -1,5 +1,5 @@
-"""An SRDF that its URDF has left behind: links, joints and groups that are not there any more, and a
-name of another robot. It loads as it is, and each is said in a warning.
+"""An outdated SRDF: links, joints and groups that are no longer in the URDF, and another robot's name. Loads
+without changes, with a warning for each.
 """
 import small_robots as small
 

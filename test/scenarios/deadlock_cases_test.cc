@@ -17,8 +17,8 @@ TEST_P(GoalSwap, ReportsTheCycleAtOnceAndFailsTheLastJob) {
   cell.run_until(at(1100ms));
   const auto one = deadlock_of(cell, "one"), two = deadlock_of(cell, "two");
   ASSERT_TRUE(one && two) << "within 0.1 s";
-  EXPECT_EQ(one->cycle, (Keys{"one", "two"}));
-  EXPECT_EQ(two->cycle, (Keys{"two", "one"}));
+  EXPECT_EQ(one->ring, (Keys{"one", "two"}));
+  EXPECT_EQ(two->ring, (Keys{"two", "one"}));
 
   const JobView failed = cell.job("two");
   EXPECT_EQ(failed.state, JobState::failed);
