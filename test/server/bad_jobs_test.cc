@@ -1,5 +1,3 @@
-// Bad jobs of each kind of problem: refused over HTTP with place and value; afterwards nothing is
-// stored and no arm has moved.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -23,7 +21,7 @@ struct BadJobCase {
 
 json good() { return test::move("left", test::kHome, test::kMiddle); }
 
-// The good job with one place changed.
+// Returns a valid job with one value replaced.
 std::function<std::string()> with(const char* pointer, json value) {
   return [=] {
     json body = good();
@@ -68,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class BadJobs : public test::RunningServer {};
 
-TEST_F(BadJobs, UnknownIdsAndReusedIdsAreSaid) {
+TEST_F(BadJobs, ReportUnknownAndReusedIds) {
   start(1.0);
   const auto missing = get("/api/v1/jobs/nothing");
   EXPECT_EQ(missing.status, 404);

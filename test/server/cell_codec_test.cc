@@ -31,7 +31,7 @@ TEST(CellCodec, ReadsTheTwoPandaCell) {
   EXPECT_EQ(right.prefix, "right_");
   EXPECT_EQ(fs::path(right.urdf), (kConfig / "../models/panda.urdf").lexically_normal());
   EXPECT_NEAR(right.X_WB.translation().x(), 0.4, 1e-12);
-  EXPECT_NEAR((right.X_WB * Eigen::Vector3d::UnitX()).x(), -0.6, 1e-12);  // turned to the other
+  EXPECT_NEAR((right.X_WB * Eigen::Vector3d::UnitX()).x(), -0.6, 1e-12);  // faces the left robot
   EXPECT_EQ(right.arms.front().home.size(), 7U);
   EXPECT_EQ(right.arms.front().limits.at("panda_joint1").brake, 7.5);
   EXPECT_EQ(right.controller.lag, std::chrono::milliseconds(20));
@@ -51,7 +51,7 @@ void PrintTo(const BadCell& bad, std::ostream* out) { *out << bad.name; }
 
 class BadCellFile : public ::testing::TestWithParam<BadCell> {};
 
-TEST_P(BadCellFile, IsRefusedWithItsPlace) {
+TEST_P(BadCellFile, IsRefusedWithPlaceAndReason) {
   json file = two_pandas();
   const json::json_pointer place(GetParam().at);
   if (GetParam().value == nullptr) {
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCell{"Clearance", "/clearance_m", "-0.1", "not within"}),
     [](const auto& tested) { return tested.param.name; });
 
-TEST(CellCodec, ReadsWhatMoveItUsersBring) {
+TEST(CellCodec, ReadsJointLimitsFilesFixedJointsAndNamedStates) {
   json file = two_pandas();
   file["$schema"] = "cell.schema.json";
   json& robot = file["robots"][0];
@@ -127,7 +127,7 @@ TEST(CellCodec, ReadsWhatMoveItUsersBring) {
   EXPECT_FALSE(limits.at("panda_joint1").acceleration);
 }
 
-TEST(CellCodec, TellsEveryFaultAtOnce) {
+TEST(CellCodec, ReportsAllFaultsAtOnce) {
   json file = two_pandas();
   file["clearance_m"] = -1;
   file["robots"][0]["urfd"] = "x";
@@ -143,7 +143,7 @@ TEST(CellCodec, TellsEveryFaultAtOnce) {
                                             "/monitor/rate_hz", "/objects/0/box"));
 }
 
-TEST(CellCodec, WritesTheCellAsTheDashboardNeedsIt) {
+TEST(CellCodec, WritesTheViewForTheDashboard) {
   const auto description = read_cell_text(two_pandas().dump(), kConfig);
   ASSERT_TRUE(description);
   const auto cell = build_cell(*description);
