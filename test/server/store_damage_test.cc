@@ -188,21 +188,6 @@ TEST_F(Store, DoesNotTouchTheLogOfACorruptFile) {
   }
 }
 
-TEST_F(Store, RestoresStopsOfOlderVersions) {
-  {
-    const auto store = open();
-    store->stopped({"left"});
-    EXPECT_TRUE(store->flush());
-  }
-  fs::remove(folder_ / "armloom.mark");  // older versions wrote no mark
-  sql("DROP TRIGGER request_goes; DROP TABLE request; DROP TABLE written");
-  sql("DROP TABLE scene_object; ALTER TABLE stopped_arm DROP COLUMN sum; PRAGMA user_version = 6");
-  const auto store = open();
-  EXPECT_EQ(store->leftover().stopped_arms, std::vector<std::string>{"left"});
-  EXPECT_FALSE(store->leftover().stops_are_damaged);
-  EXPECT_FALSE(store->leftover().is_unmarked);
-}
-
 TEST_F(Store, OmitsAndCountsDamagedAlertsAndAuditEntries) {
   {
     const auto store = open();

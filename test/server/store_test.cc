@@ -183,19 +183,6 @@ TEST_F(Store, DeletesOldEndedJobs) {
   EXPECT_EQ(numbers(), last) << "one that waits is never deleted";
 }
 
-// Tables as written by the first version of the program.
-constexpr const char* kFirstTables = R"(
-    CREATE TABLE job(number INTEGER PRIMARY KEY, id TEXT NOT NULL, state TEXT NOT NULL,
-      has_ended INTEGER NOT NULL, may_have_moved INTEGER NOT NULL, submitted_ms INTEGER,
-      ended_ms INTEGER, arms TEXT NOT NULL, view TEXT NOT NULL) STRICT;
-    CREATE TABLE body(number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT;
-    CREATE TABLE stopped_arm(name TEXT PRIMARY KEY) STRICT;
-    INSERT INTO job VALUES(4, 'j4', 'queued', 0, 0, 4, NULL, '["left"]', '{"id":"j4"}');
-    INSERT INTO body VALUES(4, 'body of 4');
-    PRAGMA application_id = 0x41726d6c;
-    PRAGMA user_version = 1;
-  )";
-
 // As on a read-only medium, or in another user's folder.
 TEST_F(Store, ReadsHistoryFromAReadOnlyFolder) {
   { EXPECT_TRUE(accept(*open(), 1).get()); }
@@ -217,8 +204,7 @@ TEST_F(Store, ReadsHistoryFromAReadOnlyFolder) {
   std::filesystem::permissions(folder_, std::filesystem::perms{0755});
 }
 
-// The version number itself may be damaged; then some of the migrations would succeed.
-TEST_F(Store, DoesNotMigrateTablesOfAWrongVersion) {
+TEST_F(Store, RefusesTablesOfAnOlderVersionAndLeavesThemUnchanged) {
   { EXPECT_TRUE(accept(*open(), 1).get()); }
   sql("PRAGMA user_version = 10");
   const auto read = [&] {
@@ -226,29 +212,8 @@ TEST_F(Store, DoesNotMigrateTablesOfAWrongVersion) {
     return std::string(std::istreambuf_iterator<char>(in), {});
   };
   const std::string before = read();
-  EXPECT_NE(why_not().find("nothing was changed"), std::string::npos) << why_not();
-  EXPECT_EQ(read(), before);
-}
-
-TEST_F(Store, ReadsAndMigratesTablesOfTheFirstVersion) {
-  std::filesystem::create_directories(folder_);
-  sql(kFirstTables);
-  {
-    const auto history = JobHistory::open(folder_);
-    ASSERT_TRUE(history) << history.error().front().detail;
-    EXPECT_EQ((*history)->find("j4").value()->state, "queued");
-    EXPECT_TRUE((*history)->of_request("k").value().empty());
-  }
-  const auto store = open();
-  ASSERT_EQ(store->leftover().jobs.size(), 1U);
-  EXPECT_EQ(store->leftover().jobs[0].body, "body of 4");
-  StoredJob next = job(5);
-  next.origin = {"digest", "k", "whole", 0};
-  auto promise = std::make_shared<std::promise<bool>>();
-  store->accept({{next, "body"}}, [promise](bool is_written) { promise->set_value(is_written); });
-  store->see(job(5, "backlogged"));
-  ASSERT_TRUE(promise->get_future().get());
-  ASSERT_TRUE(store->flush());
+  EXPECT_NE(why_not().find("armloom 0.1 (tables of version 10)"), std::string::npos) << why_not();
+  EXPECT_NE(why_not().find("give --data a new folder"), std::string::npos) << why_not();
   const auto history = JobHistory::open(folder_);
   ASSERT_FALSE(history);
   EXPECT_NE(history.error().front().detail.find("armloom 0.1"), std::string::npos);
