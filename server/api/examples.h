@@ -4,12 +4,12 @@
 
 namespace armloom {
 
-// Bodies for people to try on the two-Panda cell.
+// Example bodies for the two-Panda cell.
 
-// A motion of an arm that stands at home, times as ROS 2 has them. `head`: members before it, with
-// a comma behind each.
+// Returns a job whose motion begins at home, with ROS 2 times. `head`: members to put before the
+// trajectory, each followed by a comma.
 [[nodiscard]] std::string example_job(const std::string& head, const std::string& arm);
-// The same for ROS 1 and nested as MoveIt prints it.
+// Returns a job with ROS 1 times, nested as MoveIt prints trajectories.
 [[nodiscard]] std::string example_moveit_job();
 [[nodiscard]] std::string example_batch();
 

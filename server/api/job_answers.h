@@ -10,31 +10,32 @@
 
 namespace armloom {
 
-// A job that the executive has no more: as the store has it, where there is one.
+// Returns a job from the store, for jobs that the executive no longer knows; nullopt without a
+// store.
 [[nodiscard]] Result<std::optional<StoredJob>> stored_job(const ApiParts& parts,
                                                           const std::string& key);
 
-// The job with its ETag: the first part of that is of what PATCH can change, the second of all that
-// is told.
+// Answers with the job and its ETag. The first part of the tag covers what PATCH can change, the
+// second part the whole body.
 [[nodiscard]] Response job_answer(int status, const JobView& job, const WallClock& clock);
 [[nodiscard]] Response job_answer(const StoredJob& job);
 
-// If-Match of a command to one job: it holds while what can be changed is as it was when one of
-// these tags was given. Of one that has ended it does not matter how it was.
+// If-Match of a command to one job. It matches if the members that PATCH can change are as in one
+// of these tags. It always matches a job that has ended.
 using IfMatch = std::optional<std::string>;
-// A command to one job: nothing where If-Match does not hold.
+// Result of a command to one job; nullopt if If-Match does not match.
 using Commanded = Result<std::optional<JobView>>;
 [[nodiscard]] bool is_as_tagged(const IfMatch& if_match, const std::optional<JobView>& job);
-// Why the request's is none.
+// Returns the refusal of a malformed If-Match, or nullopt.
 [[nodiscard]] std::optional<Response> bad_if_match(const Request& request);
 [[nodiscard]] Parameter if_match_parameter();
 
-// Why a command to one job was not carried out. One of a former run has ended.
+// Answers a command that was not carried out. Jobs of earlier sessions are reported as ended.
 [[nodiscard]] Response refused_command(const ApiParts& parts, const std::string& key,
                                        const Problems& problems);
 [[nodiscard]] Response was_changed_since(const std::string& key, const IfMatch& if_match);
 
-// `command(executive, key)`, a Result<JobView>.
+// `command(executive, key)` must return a Result<JobView>.
 template <class Command>
 [[nodiscard]] Commanded commanded(Executive& executive, const std::string& key,
                                   const IfMatch& if_match, const Command& command) {

@@ -13,7 +13,8 @@ namespace {
 constexpr int kNice = 10;
 constexpr std::size_t kKeptAnyway = 1024;  // texts
 
-// An instant that is still to come may be told with another wall time later.
+// A scheduled start in the future may get another wall time later (WallClock), so its text is not
+// reused.
 bool is_written_for_good(const JobView& job) {
   return !job.times.scheduled_at || is_terminal(job.state);
 }
