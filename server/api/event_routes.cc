@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-constexpr std::size_t kSnapshotEnded = 200;
+constexpr std::size_t kSnapshotEnded = 200;  // ended jobs in a snapshot
 
 // The position at which a subscriber resumes, and the frames that it wants.
 struct StreamQuery {

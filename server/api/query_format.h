@@ -15,24 +15,24 @@
 
 namespace armloom {
 
-// A parameter of a query, described once: how it is read into a T, and what /openapi.json says.
+// A query parameter, described once: how to read it into a T, and its entry in /openapi.json.
 template <class T>
 struct QueryPart {
   Parameter told;
-  // Takes its value; or says what is wrong with it.
+  // Stores the value in `out`; returns what is wrong with the value, or nullopt.
   std::function<std::optional<std::string>(const std::string& value, T& out)> take;
 };
 
-// The query of one verb.
+// The query of one route.
 template <class T>
 class QueryFormat {
  public:
-  // `bad`: what a value is that cannot be read: `invalid` (422) or `malformed` (400).
+  // `bad`: kind of problem for an unreadable value, `invalid` (422) or `malformed` (400).
   QueryFormat(std::vector<QueryPart<T>> parts, ProblemKind bad)
       : parts_(std::move(parts)), bad_(bad) {}
 
-  // Problems, one for each parameter that cannot be read, or is missing (malformed). Those that no
-  // part knows are the router's to refuse.
+  // Problems: one for each parameter that is unreadable, or required and missing (malformed). The
+  // router refuses unknown parameters.
   [[nodiscard]] Result<T> read(const Target& target) const {
     T query{};
     Problems problems;
@@ -40,7 +40,8 @@ class QueryFormat {
       const std::string& name = part.told.name;
       const auto value = target.parameter(name);
       if (!value && !part.told.required) continue;
-      auto fault = value ? part.take(*value, query) : std::optional(name + " is missing");
+      auto fault = value ? part.take(*value, query)
+                         : std::optional(name + " is missing: add it to the query");
       if (!fault) continue;
       const bool is_missing = part.told.required && value.value_or("").empty();
       problems.push_back({is_missing ? ProblemKind::malformed : bad_,
@@ -64,7 +65,7 @@ class QueryFormat {
 
 namespace query {
 
-// Whether all of it is a whole number within these bounds, which `out` is then.
+// Returns true and sets `out` if the whole text is an integer within these bounds.
 template <class Number>
 [[nodiscard]] bool read_between(const std::string& text, Number lowest, Number highest,
                                 Number& out) {
@@ -76,9 +77,9 @@ template <class Number>
   return true;
 }
 
-// T is named, so that members of what it derives from can be given, too: text<AuditQuery>(...).
+// T must be given explicitly, so that members of its base class can be used, too:
+// text<AuditQuery>(...).
 
-// Any text.
 template <class T, class Of, class Text>
 [[nodiscard]] QueryPart<T> text(std::string name, Text Of::*where, std::string told) {
   return {{std::move(name), std::move(told), {{"type", "string"}}},
@@ -88,21 +89,21 @@ template <class T, class Of, class Text>
           }};
 }
 
-// A text that has to be there.
+// A text that must be given and not empty.
 template <class T>
 [[nodiscard]] QueryPart<T> required_text(std::string name, std::string T::*where,
                                          std::string told) {
   return {{name, std::move(told), {{"type", "string"}, {"minLength", 1}}, true},
           [name, where](const std::string& value, T& out) {
             out.*where = value;
-            return value.empty() ? std::optional(name + " is empty") : std::nullopt;
+            return value.empty() ? std::optional(name + " must not be empty") : std::nullopt;
           }};
 }
 
 template <class T, class Of, class Number, class Value>
 [[nodiscard]] QueryPart<T> whole_number(std::string name, Number Of::*where, Value lowest,
                                         Value highest, std::string told) {
-  const std::string rule = name + " is an integer within " + std::to_string(lowest) + ".." +
+  const std::string rule = name + " must be an integer within " + std::to_string(lowest) + ".." +
                            std::to_string(highest) + ", found \"";
   return {{std::move(name),
            std::move(told),
@@ -115,11 +116,11 @@ template <class T, class Of, class Number, class Value>
           }};
 }
 
-// One of an enumeration, by its name.
+// A value of an enumeration, given by its name.
 template <class T, class E>
 [[nodiscard]] QueryPart<T> one_of(std::string name, std::optional<E> T::*where, Schema schema,
                                   std::string told) {
-  const std::string rule = "no " + name + " is called \"";
+  const std::string rule = "unknown " + name + " \"";
   return {{std::move(name), std::move(told), std::move(schema)},
           [where, rule](const std::string& value, T& out) {
             out.*where = value_named<E>(value);
@@ -127,33 +128,34 @@ template <class T, class E>
           }};
 }
 
-// Of a list: so many entries make a page, at most.
-inline constexpr std::size_t kPage = 100;  // when none is asked for
+// Entries of a page.
+inline constexpr std::size_t kPage = 100;  // default
 inline constexpr std::size_t kPageMax = 1000;
 template <class T>
 [[nodiscard]] QueryPart<T> limit(std::size_t T::*where) {
   return whole_number<T>("limit", where, std::size_t{1}, kPageMax,
-                         "At most so many, " + std::to_string(kPage) + " unless given");
+                         "Number of entries per page; default " + std::to_string(kPage) + "");
 }
 
-// Where the page before ended, in the server's own words.
+// The position after the previous page, as the server encoded it.
 template <class T, class Of>
 [[nodiscard]] QueryPart<T> cursor(std::optional<std::uint64_t> Of::*where) {
-  return {{"cursor", "next_cursor of the page before", {{"type", "string"}}},
+  return {{"cursor", "`next_cursor` of the previous page", {{"type", "string"}}},
           [where](const std::string& value, T& out) -> std::optional<std::string> {
             std::uint64_t number = 0;
             if (!read_between<std::uint64_t>(value, 0, ~std::uint64_t{0}, number)) {
-              return "this is no cursor that the server gave: \"" + value + "\"";
+              return "not a cursor of this server (use next_cursor of the previous page): \"" +
+                     value + "\"";
             }
             out.*where = number;
             return std::nullopt;
           }};
 }
 
-// 0 or 1.
+// A flag: 0 or 1.
 template <class T>
 [[nodiscard]] QueryPart<T> flag(std::string name, bool T::*where, std::string told) {
-  const std::string rule = name + " is 0 or 1, found \"";
+  const std::string rule = name + " must be 0 or 1, found \"";
   return {{std::move(name), std::move(told), {{"type", "string"}, {"enum", {"0", "1"}}}},
           [where, rule](const std::string& value, T& out) {
             out.*where = value == "1";

@@ -14,15 +14,17 @@
 
 namespace armloom {
 
-// The recordings in a data folder, for who reads them over HTTP. A request holds the name of a
-// recording and of one of its files, never a path. Thread-safe: asked aside, as disks are slow.
+// Gives HTTP clients access to the recordings in a data folder. A request contains the name of a
+// recording and of one of its files, never a path. Thread-safe; call it on a worker thread, because
+// disks are slow.
 class RecordingFiles {
  public:
-  // At once; one more is busy: each holds a file descriptor for as long as its reader takes.
+  // Number of files open at once; more are refused as busy, because each holds a file descriptor as
+  // long as its client reads.
   inline static constexpr std::size_t kOpenMax = 32;
 
-  // `data`: absent: there are none. `running`: the one that is being written, if any; outlives
-  // this.
+  // `data`: nullopt if there are no recordings. `running`: the recording being written, or null;
+  // must outlive this object.
   RecordingFiles(std::optional<std::filesystem::path> data, const Recording* running)
       : data_(std::move(data)), running_(running) {}
 
@@ -31,10 +33,10 @@ class RecordingFiles {
 
   struct Opened {
     std::shared_ptr<const OpenFile> file;
-    std::size_t size = 0;  // so much of it is handed out
+    std::size_t size = 0;  // bytes to hand out
   };
-  // A file that is no link, in a folder of the data folder that is none. Of one that is being
-  // written so much as is there, in whole lines.
+  // Opens a file of a recording; symbolic links are refused. Of a recording in progress, only
+  // complete lines are handed out.
   [[nodiscard]] tl::expected<Opened, NoFile> open(const std::string& name,
                                                   const std::string& file) const;
 
