@@ -13,7 +13,10 @@
 
 namespace armloom {
 
-// Objects of the planning scene, as they come and go over HTTP.
+// Objects of the planning scene over HTTP.
+// Bodies of POST /scene/objects and of PUT. In a PUT the name is in the path; a name in the body
+// must agree. Objects are as in a cell file, but without meshes, because a client cannot name files
+// of the server.
 
 // The body of POST /scene/objects, and with a name of the URL, which one in the body has to agree
 // with, of PUT: an object as in a cell file, but no mesh: a client names no file of the server.
@@ -24,12 +27,12 @@ namespace armloom {
 
 [[nodiscard]] bool has_object(const std::vector<CollisionObject>& objects, std::string_view name);
 
-// An object as the server tells it: with the address of its mesh, not the file. Others read back,
-// to the digits of their angles.
+// An object with the path of its mesh instead of the file. Objects without a mesh read back
+// exactly, except for rounding of angles.
 [[nodiscard]] FormatPtr<CollisionObject> object_format();
 [[nodiscard]] FormatPtr<SceneView> scene_format();
 
-// The answers to changes.
+// Answers to changes of the scene.
 struct SceneChange {
   std::uint64_t version;
   CollisionObject object;

@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// Who does something, as they say themselves: a name for people, or nothing. What is blank would be
-// told as nobody.
+// A person's name as given by the client; may be empty. A blank name is refused, because it would
+// be shown as nobody.
 [[nodiscard]] FormatPtr<std::string> who_format();
 
 }  // namespace armloom
