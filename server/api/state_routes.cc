@@ -8,7 +8,6 @@
 namespace armloom {
 namespace {
 
-// The frames are only pointed to here; to write down a hundred thousand numbers is done aside.
 void get_states(Call call) {
   const ApiParts& parts = call.parts;
   parts.aside([&parts, frames = parts.states.frames(), respond = std::move(call.respond)] {

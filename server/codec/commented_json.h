@@ -8,12 +8,12 @@
 
 namespace armloom {
 
-// Comments of a document's own: JSON pointer -> sentences; "" is the document's head.
+// Additional comments: JSON pointer -> sentences; "" is the head of the document.
 using JsonNotes = std::map<std::string, std::vector<std::string>>;
 
-// A JSON value as a person would write it: two spaces deep, what fits on one line on one line,
-// and above each member the description that the schema has of it, the first time that it is met.
-// Notes stand below the description. The text reads back as the same value (JsonComments::allowed).
+// Returns the value as readable JSON: indented by two spaces, short values on one line, and above
+// the first occurrence of each member its description from the schema, followed by its notes. The
+// text reads back as the same value (JsonComments::allowed).
 [[nodiscard]] std::string commented_json(const Schema& value, const Schema& schema,
                                          const JsonNotes& notes);
 

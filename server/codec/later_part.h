@@ -4,8 +4,8 @@
 
 namespace armloom::formats {
 
-// Members that came later: this version tells them always, but what older ones stored and recorded
-// lacks them and is read, too.
+// Makes members optional for reading because older versions did not store or record them. This
+// version always writes them.
 [[nodiscard]] AnyPartPtr later(const AnyPartPtr& part);
 template <class T>
 [[nodiscard]] PartPtr<T> later(const PartPtr<T>& part) {

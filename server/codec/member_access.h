@@ -54,11 +54,12 @@ class Access {
  public:
   // Calls use(object's value), unless the object has none.
   using Use = void (*)(const Access&, const void* object, const UseValue& use);
-  // Calls fill(a place to read into), then stores in the object what was read.
+  // Calls fill(storage for the value), then stores the value read in the object.
   using Fill = void (*)(const Access&, void* object, const FillValue& fill);
 
   explicit Access(std::ptrdiff_t offset) : Access(offset, nullptr, nullptr) {}
-  // `state`: the functions get it by state(). If a function is null, `state` must be the offset.
+  // `state` is available to the functions by state(). If a function is null, `state` must be the
+  // offset.
   template <class State>
   Access(const State& state, Use use, Fill fill) : use_(use), fill_(fill) {
     static_assert(std::is_trivially_copyable_v<State> && sizeof(State) <= sizeof state_);
@@ -109,7 +110,7 @@ template <class T, class M>
         fill(maybe ? &*maybe : &maybe.emplace(fresh<M>()));
       });
 }
-// Access to a list, dictionary or text; an empty one counts as no value.
+// Access to a list, dictionary or text; an empty one means no value.
 template <class T, class M>
 [[nodiscard]] Access unless_empty(M T::*where) {
   return Access(

@@ -14,19 +14,19 @@ namespace armloom::formats {
 
 enum class Need { required, optional };
 
-// What the schema says of a member besides its format.
+// Text of a member in the schema, besides its format.
 struct MemberText {
   std::string key;
-  std::string text;  // one sentence or two
+  std::string text;  // one or two sentences
   Need need = Need::optional;
-  std::optional<Schema> stated;  // default, where the value itself has none
+  std::optional<Schema> stated;  // default, if the object with defaults does not show it
 };
 
-// `fallback`: what an absent one means; none: it is then simply not there.
+// `fallback`: default of an absent member; nullopt if absent members have no value.
 void describe_member(Schema& object, const MemberText& member, Schema schema,
                      const std::optional<Schema>& fallback, Way way);
 
-// One member of the object.
+// Returns a part that describes one member.
 [[nodiscard]] AnyPartPtr member_part(MemberText text, const AnyFormatPtr& format,
                                      const Access& access);
 [[nodiscard]] AnyPartPtr member_part(Need need, std::string_view key, std::string_view text,
@@ -59,7 +59,7 @@ template <class T, class M, class Get, class Put>
   return PartPtr<T>(member_part(std::move(text), format->any(), computed_access<T, M>(get, put)));
 }
 
-// The usual ones: key, member, format, what it means.
+// Common forms: key, member, format, description.
 template <class T, class Where, class M>
 [[nodiscard]] PartPtr<T> required(std::string_view key, Where T::*where, const FormatPtr<M>& format,
                                   std::string_view text) {
@@ -77,15 +77,15 @@ template <class T, class Where, class M>
                 format);
 }
 
-// A member that is always there, empty or not.
+// A member that is always written, even if empty.
 template <class T, class M>
 [[nodiscard]] PartPtr<T> always(std::string_view key, M T::*where,
                                 const std::type_identity_t<FormatPtr<M>>& format,
                                 std::string_view text = "") {
   return PartPtr<T>(member_part(Need::required, key, text, format->any(), offset_of(where)));
 }
-// As above, converted: `spell` makes the written value of the member, `mean` the member of the
-// value that was read.
+// Like above, converted: `spell` turns the member into the written value, `mean` turns the value
+// read into the member.
 template <class T, class Where, class M, class Spell, class Mean>
 [[nodiscard]] PartPtr<T> always(std::string_view key, Where T::*where, const FormatPtr<M>& format,
                                 std::string_view text, Spell spell, Mean mean) {
@@ -95,7 +95,7 @@ template <class T, class Where, class M, class Spell, class Mean>
       [where, mean](T& to, M value) { to.*where = mean(std::move(value)); });
 }
 
-// A value that is told only where it is not the usual one.
+// A member that is written only if its value is not `usual`, its default.
 template <class T, class M>
 [[nodiscard]] PartPtr<T> unless_usual(std::string_view key, M T::*where,
                                       std::type_identity_t<M> usual, const FormatPtr<M>& format,
@@ -109,7 +109,7 @@ template <class T, class M>
       [where](T& to, M value) { to.*where = std::move(value); });
 }
 
-// A member that is allowed and means nothing here.
+// A member that is allowed and ignored.
 template <class T, class M>
 [[nodiscard]] PartPtr<T> ignored(std::string_view key, const FormatPtr<M>& format,
                                  std::string_view text) {
@@ -118,7 +118,7 @@ template <class T, class M>
       [](const T&) { return std::optional<M>(); }, [](T&, const M&) {});
 }
 
-// A part that is read, described as what may come in, and never written.
+// A part that is read and described as input, and never written.
 [[nodiscard]] AnyPartPtr read_only(const AnyPartPtr& part);
 template <class T>
 [[nodiscard]] PartPtr<T> read_only(const PartPtr<T>& part) {

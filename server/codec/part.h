@@ -21,14 +21,14 @@ class AnyPart {
   virtual void read_any(const JsonNode& object, void* out) const = 0;
   // Writes keys and values.
   virtual void write_any(JsonWriter& /*out*/, const void* /*value*/) const {}
-  // Adds "properties" and "required" to the schema of the object. `defaults` holds the values that
-  // absent members stand for.
+  // Adds "properties" and "required" to the schema of the object. `defaults` holds the defaults of
+  // absent members.
   virtual void describe_any(Schema& object, const void* defaults, Way way) const = 0;
   virtual void map_paths(nlohmann::json& /*object*/, const PathMap& /*map*/) const {}
 };
 using AnyPartPtr = SharedAny<AnyPart>;
 
-// A part of objects that stand for a T.
+// A part of the description of a T.
 template <class T>
 class PartPtr {
  public:
@@ -41,7 +41,7 @@ class PartPtr {
   AnyPartPtr any_;
 };
 
-// The base class of parts that are written by hand for a T.
+// Base class of handwritten parts.
 template <class T>
 class CustomPart : public AnyPart {
  public:
@@ -56,7 +56,7 @@ class CustomPart : public AnyPart {
   }
 };
 
-// Kind: a CustomPart.
+// `Kind` must be a CustomPart.
 template <class Kind, class... Arguments>
 [[nodiscard]] PartPtr<typename Kind::Value> make_part(Arguments&&... arguments) {
   return PartPtr<typename Kind::Value>(AnyPartPtr(new Kind(std::forward<Arguments>(arguments)...)));
@@ -65,7 +65,7 @@ template <class Kind, class... Arguments>
 using AnyParts = std::vector<AnyPartPtr>;
 void add_part(AnyParts& parts, const AnyPartPtr& part);
 
-// Parts of objects that stand for a T.
+// Parts of the description of a T.
 template <class T>
 class PartList {
  public:

@@ -6,9 +6,9 @@
 
 namespace armloom {
 
-// The schema with {"$ref": place + name} in the place of each named part (formats::named), whose
-// own schema goes to `parts`, by name. Throws std::logic_error when two different schemas have one
-// name.
+// Returns the schema with {"$ref": place + name} instead of each named part (formats::named), and
+// adds the schemas of the named parts to `parts`. Throws std::logic_error if two different schemas
+// have the same name.
 [[nodiscard]] Schema refer_to_names(const Schema& schema, const std::string& place, Schema& parts);
 
 }  // namespace armloom

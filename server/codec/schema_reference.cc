@@ -121,7 +121,7 @@ class ReferenceWriter {
     }
   }
   std::string take() {
-    text_.pop_back();  // the empty line behind the last section
+    text_.pop_back();  // the empty line after the last section
     return std::move(text_);
   }
 

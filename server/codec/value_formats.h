@@ -13,22 +13,22 @@
 
 namespace armloom::formats {
 
-// More small formats, of what travels over HTTP.
+// More small formats, for values in HTTP messages.
 
 [[nodiscard]] FormatPtr<bool> flag();
 [[nodiscard]] FormatPtr<int> integer(int lowest, int highest);
-[[nodiscard]] FormatPtr<int> integer(const NumberRange& range);  // of whole ends
-[[nodiscard]] FormatPtr<std::uint64_t> count();                  // from zero on
-// As number(kAnyNumber) in a list, quicker: trajectories hold ten thousands.
+[[nodiscard]] FormatPtr<int> integer(const NumberRange& range);  // bounds must be whole
+[[nodiscard]] FormatPtr<std::uint64_t> count();                  // zero or more
+// Like list(number(kAnyNumber)), but faster: trajectories have tens of thousands of numbers.
 [[nodiscard]] FormatPtr<std::vector<double>> number_list();
 // Cell time in seconds.
 [[nodiscard]] FormatPtr<TimePoint> cell_time();
 [[nodiscard]] FormatPtr<TimePoint> cell_time(double highest_s);
-// An empty text is null.
+// A text; an empty text is written as null.
 [[nodiscard]] FormatPtr<std::string> text_or_null();
 
-// A text with a rule. What breaks it is told by `slug` and `sentence`; `said` is what a schema can
-// say of the rule.
+// A text with a rule. A text that breaks the rule is the fault `slug` with `sentence`; `said`
+// describes the rule in the schema.
 struct TextRule {
   bool (*holds)(std::string_view);
   std::string slug;
@@ -37,7 +37,7 @@ struct TextRule {
 };
 [[nodiscard]] FormatPtr<std::string> text(TextRule rule);
 
-// What is read over or stands for itself: any value of a JSON type; empty: of any.
+// An ignored value of a JSON type; of any type if `type` is empty.
 struct Anything {};
 [[nodiscard]] FormatPtr<Anything> anything(std::string type);
 
@@ -64,12 +64,12 @@ template <class T>
   return FormatPtr<std::optional<T>>(nullable(format->any(), kOptionalOperations<T>));
 }
 
-// Says that `found` is none of the names that are known.
+// Reports that `found` is not one of the `known` names.
 void refuse_choice(const JsonNode& node, const std::string& found,
                    const std::vector<std::string>& known);
 
 // Operations on an enumeration (core/base/enumeration.h) whose type is erased, for choice formats.
-// Its values count from zero.
+// Its values must be numbered from zero.
 struct ChoiceOperations {
   const char* (*name)(std::size_t value);  // null if the number is no value
   std::size_t (*value)(const void* choice);
@@ -86,8 +86,8 @@ template <class E>
   return FormatPtr<E>(choice(kChoiceOperations<E>));
 }
 
-// What other descriptions refer to by name: "Job". In the schema it stands as {"$name", "$of"}
-// until references are made of that (schema_names.h). `text` may be empty.
+// A format with a name, by which schemas refer to it: "Job". The schema contains {"$name", "$of"}
+// until refer_to_names() (schema_names.h) replaces it. `text` may be empty.
 [[nodiscard]] Schema named_schema(std::string_view name, std::string_view text, Schema schema);
 [[nodiscard]] AnyFormatPtr named(std::string_view name, std::string_view text,
                                  const AnyFormatPtr& format);
