@@ -6,15 +6,15 @@
 
 namespace armloom {
 
-// A command of the program, and what does it when it was asked for: its exit code.
+// A command of the program: its parser, and the function that runs it and returns the exit code.
 struct Command {
   CLI::App* parser;
   std::function<int()> run;
 };
 
-// `serve`, which has the most options.
+// Adds `serve`, which has the most options.
 [[nodiscard]] Command serve_command(CLI::App& app);
-// All of them, with their options.
+// Adds all commands with their options.
 [[nodiscard]] std::vector<Command> add_commands(CLI::App& app);
 
 }  // namespace armloom

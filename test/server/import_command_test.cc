@@ -170,13 +170,13 @@ TEST_F(Import, NamesTheOptionThatIsWrong) {
     std::string arguments;
     std::string says;
   } cases[] = {
-      {files("panda") + " --srdf x.srdf", "--srdf: there are 1 --urdf and 2 --srdf"},
+      {files("panda") + " --srdf x.srdf", "--srdf: 1 --urdf but 2 --srdf: give one --srdf for each --urdf"},
       {files("panda") + files("ur5e") + " --robot a", "--urdf: there are 2 and 1 --robot"},
-      {files("panda") + " --joint-limits a --joint-limits b", "--joint-limits: there are 1 --urdf"},
+      {files("panda") + " --joint-limits a --joint-limits b", "--joint-limits: 1 --urdf but 2"},
       {files("panda") + " --robot a:yaw=3", "--robot: in \"a:yaw=3\": \"yaw\" is not known"},
       {files("panda") + " --robot a --robot b --prefix c_", "--prefix: several robots"},
       {files("panda") + " --package x", "--package: in \"x\": expected NAME=FOLDER"},
-      {files("panda") + " --package x=/nowhere", "there is no such folder"},
+      {files("panda") + " --package x=/nowhere", "no such folder"},
       {" --urdf /nowhere.urdf --srdf /nowhere.srdf", "/nowhere.srdf"},
       {" --urdf " + panda + " --srdf " + no_arm.string(), "no group of it is an arm"},
       {" --urdf " + meshed.string() + " --srdf " + no_arm.string(), "--package far_away=FOLDER"},
