@@ -72,8 +72,8 @@ void limit_clients(const ServeOptions& options, ServiceOptions& service) {
   service.connections_per_client_max = options.connections_per_client;
 }
 
-// Checks access: an address that other machines can reach requires tokens, and TLS so that nobody
-// can read them.
+// Checks access: an address that other machines can reach requires tokens, and TLS to protect the
+// tokens from eavesdropping.
 void find_faults_of_access(const ServeOptions& options, const std::string& address,
                            const Result<std::vector<KeptToken>>& tokens, Problems& problems) {
   if (options.tls_certificate.empty() != options.tls_key.empty()) {

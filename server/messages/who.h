@@ -7,7 +7,7 @@
 namespace armloom {
 
 // A person's name as given by the client; may be empty. A blank name is refused, because it would
-// be shown as nobody.
+// be displayed as no name.
 [[nodiscard]] FormatPtr<std::string> who_format();
 
 }  // namespace armloom
