@@ -1,4 +1,3 @@
-// GET /alerts and POST /alerts/acknowledge.
 #include <algorithm>
 #include <iterator>
 #include <ranges>
@@ -37,7 +36,6 @@ std::optional<Refusal> unknown_of(const AlertBook& book, const AlertsSeen& seen)
   return std::nullopt;
 }
 
-// Returns the ids whose alerts are not acknowledged yet.
 std::vector<std::string> unseen_of(const AlertBook& book, const AlertsSeen& seen) {
   std::vector<std::string> unseen;
   std::ranges::copy_if(seen.ids, std::back_inserter(unseen),

@@ -8,13 +8,12 @@
 
 namespace armloom {
 
-// Makes HTTP responses from messages.
 [[nodiscard]] Response json_response(int status, std::string body);
 [[nodiscard]] Response problem_response(const Problems& problems);
 [[nodiscard]] Response refusal_response(const Refusal& refusal);
-// Returns the answer to a command that took effect but could not be stored because of `refusal`.
+// Answer to a command that took effect but was not stored, because of `refusal`.
 [[nodiscard]] Response done_but_not_stored(Refusal refusal);
-// 404: no `what` (for example "arm") has this name.
+// 404: no `what` ("arm") has this name.
 [[nodiscard]] Response no_such(const char* what, const std::string& name);
 
 // `clock`: required by formats that write wall time.
@@ -24,7 +23,7 @@ template <class T>
   return json_response(status, text_of(*format, value, clock));
 }
 
-// Adds a Location header; `path` is given without the prefix ("/jobs/pick-7").
+// `path` is without the prefix: "/jobs/pick-7".
 [[nodiscard]] Response located(Response response, const std::string& path);
 
 }  // namespace armloom

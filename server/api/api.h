@@ -7,8 +7,8 @@
 
 namespace armloom {
 
-// The HTTP interface of one server session: every route of all_routes(). All parts must outlive the
-// API, and the API must outlive the router's calls.
+// The HTTP interface of one server session. The parts must outlive it, and it must outlive the
+// router's calls.
 class Api {
  public:
   explicit Api(ApiParts parts)

@@ -16,7 +16,7 @@ AuditRecord record_of(const AuditEntry& entry) {
 AuditPage page_of(const AuditEntries& found, std::size_t limit) {
   AuditPage page{.entries = {}, .damaged = found.damaged, .next_cursor = {}};
   for (const AuditEntry& entry : found.entries) {
-    if (page.entries.size() == limit) {  // one entry beyond the page: a next page exists
+    if (page.entries.size() == limit) {  // there is a next page
       page.next_cursor = std::to_string(entry.number + 1);
       break;
     }
@@ -46,21 +46,21 @@ void get_audit(Call call) {
 }  // namespace
 
 std::vector<Route> audit_routes() {
-  return {
-      {.method = "GET",
-       .path = api_path("/audit-log"),
-       .id = "listAuditLog",
-       .tag = "service",
-       .summary = "List the audit log, newest first",
-       .text = "Records who sent each request that changes something, and each request that was "
+  return {{.method = "GET",
+           .path = api_path("/audit-log"),
+           .id = "listAuditLog",
+           .tag = "service",
+           .summary = "List the audit log, newest first",
+           .text =
+               "Records who sent each request that changes something, and each request that was "
                "refused for a missing token or role, with time, address and status. Kept only with "
                "`--data`: the last 100,000 successful entries and, separately, the last 100,000 "
                "refused ones (4xx), so that refused requests cannot displace successful ones.",
-       .parameters = audit_query().parameters(),
-       .outcomes = {outcome(200, "A page of the audit log", audit_page_format())},
-       .refuses = {404, 422},
-       .role = Role::admin,
-       .run = get_audit}};
+           .parameters = audit_query().parameters(),
+           .outcomes = {outcome(200, "A page of the audit log", audit_page_format())},
+           .refuses = {404, 422},
+           .role = Role::admin,
+           .run = get_audit}};
 }
 
 }  // namespace armloom

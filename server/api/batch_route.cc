@@ -23,7 +23,7 @@ using Results = std::vector<Result<ListedJob>>;  // one for each job of the batc
 struct Batch {
   BatchRequest request;
   SentRequestPtr sent;
-  KnownJobs known;  // ids of jobs that were accepted before
+  KnownJobs known;  // jobs accepted before
 
   [[nodiscard]] bool is_new(std::size_t place) const {
     return request.jobs[place].job.has_value() && known[place].empty();
@@ -46,7 +46,7 @@ Response batch_response(bool atomic, const Results& results, const WallClock& cl
   return answer(202, batch_accepted_format(), jobs, &clock);
 }
 
-// Asks the store. Returns the answer if the store refuses the batch, or nullopt.
+// Returns the answer if the store refuses the batch.
 std::optional<Response> refused_by_store(const ApiParts& parts, Batch& batch) {
   Problems problems;
   if (parts.keeper == nullptr) return std::nullopt;
@@ -66,7 +66,6 @@ std::optional<Response> refused_by_store(const ApiParts& parts, Batch& batch) {
   return problem_response(problems);
 }
 
-// Answers a batch whose jobs were all accepted before.
 void answer_known_batch(const ApiParts& parts, const BatchPtr& batch, const Respond& respond) {
   look_at(parts, batch->known, [&parts, batch, respond](const Results& results) {
     std::vector<ListedJob> jobs;
@@ -79,8 +78,8 @@ void answer_known_batch(const ApiParts& parts, const BatchPtr& batch, const Resp
   });
 }
 
-// Merges the results into one per job, in the order of the batch: new jobs, jobs accepted before,
-// and jobs that could not be read.
+// Merges the results of new jobs, jobs accepted before and unreadable jobs, in the order of the
+// batch.
 Results merged(const Batch& batch, const std::vector<Result<JobView>>& submitted, Results before) {
   Results results;
   auto next_new = submitted.begin();
@@ -98,10 +97,10 @@ Results merged(const Batch& batch, const std::vector<Result<JobView>>& submitted
   return results;
 }
 
-// The jobs to store and the answer to send for a batch that the executive has taken.
+// The jobs to store and the answer, for a batch taken by the executive.
 struct Taken {
   std::vector<JobKeeper::AcceptedJob> accepted = {};
-  KnownJobs ids;  // ids of accepted jobs, by position in the batch
+  KnownJobs ids;  // ids of accepted jobs by position
   Response response = {};
 };
 
@@ -122,7 +121,7 @@ Taken taken(const Batch& batch, const std::vector<Result<JobView>>& submitted, R
   return all;
 }
 
-// Writes the answer and the stored rows on another thread, because a thousand jobs take long.
+// Writes on another thread, because a thousand jobs take long.
 void tell(const ApiParts& parts, const BatchPtr& batch,
           const std::shared_ptr<const Executive::BatchAnswers>& submitted, const Respond& respond) {
   look_at(parts, batch->known, [&parts, batch, submitted, respond](const Results& before) {
@@ -141,8 +140,8 @@ void tell(const ApiParts& parts, const BatchPtr& batch,
   });
 }
 
-// Submits the jobs in chunks, so that control cycles and stops run in between. Calls `then` on the
-// server's thread.
+// Submits the jobs in chunks, between control cycles and stops. Calls `then` on the server's
+// thread.
 void take(const ApiParts& parts, std::vector<JobRequest> jobs, bool atomic,
           std::function<void(const std::shared_ptr<const Executive::BatchAnswers>&)> then) {
   struct Taking {
@@ -203,7 +202,7 @@ void post_batch(Call call) {
       submit_batch(parts, batch, ending);
     });
   };
-  // Validates motions here, because the strand has no time for it.
+  // Validate here: the strand has no time.
   const auto read = [cell = parts.cell](std::string_view text) {
     auto batch = read_batch_submission(text);
     if (!batch) return batch;

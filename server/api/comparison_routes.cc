@@ -1,4 +1,3 @@
-// Routes of /comparison: simulates the submitted jobs under other policies.
 #include <memory>
 #include <utility>
 

@@ -1,4 +1,3 @@
-// Control, and jogging (hold-to-run): motions that continue only while a client renews a lease.
 #include <chrono>
 #include <memory>
 #include <utility>
@@ -37,8 +36,8 @@ void let_go(const ApiParts& parts, const std::optional<Control::Move>& move) {
   });
 }
 
-// Returns the control after checking its holder: control ends if the holder's token was revoked.
-// Call this once per request and keep the result, because a token can be revoked at any time.
+// Returns the control; ends it if the holder's token was revoked. Call it once per request and keep
+// the result, because a token can be revoked at any time.
 Control& control_of(const ApiParts& parts) {
   const auto& holder = parts.control.holder();
   if (holder && holder->token && !parts.guard.caller(holder->token)) {
@@ -104,7 +103,7 @@ Response jog_response(int status, const Result<JobView>& job, const ApiParts& pa
   return response;
 }
 
-// Returns the jog as a job, read like a body of POST /jobs.
+// Returns the job of a jog.
 Result<JobRequest> job_of(const JogRequest& hold, const std::string& arm) {
   auto read = read_job_submission(job_text_of(hold, arm));
   if (!read) return failure(std::move(read.error()));
@@ -122,8 +121,8 @@ Problems in_words_of_jog(Problems problems) {
   return problems;
 }
 
-// Submits the job and starts its lease in one step, so that the arm can never move without a lease.
-// Jog jobs are not stored.
+// Submits the job and starts its lease in one step, so that the arm never moves without a lease.
+// Jogs are not stored.
 void begin_jog(Call call) {
   const ApiParts& parts = call.parts;
   const std::string arm = call.arguments.front();

@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::size_t kSnapshotEnded = 200;  // ended jobs in a snapshot
 
-// The position at which a subscriber resumes, and the frames that it wants.
 struct StreamQuery {
   std::optional<std::string> stream;
   std::optional<std::string> since;
@@ -47,8 +46,8 @@ const QueryFormat<StreamQuery>& events_query() {
   return format;
 }
 
-// A `Last-Event-ID: <stream>:<seq>` takes precedence over the query, because a browser repeats the
-// original query when it reconnects.
+// A `Last-Event-ID: <stream>:<seq>` takes precedence, because a reconnecting browser repeats the
+// original query.
 StreamQuery place_of(const Request& request, StreamQuery asked) {
   if (!request.last_event_id) return asked;
   const std::string& id = *request.last_event_id;
@@ -72,9 +71,8 @@ std::string snapshot_text(const ApiParts& parts, const Status& status, const Wal
 
 void write_snapshot(const ApiParts& parts);
 
-// All events up to `seq` were posted to this thread before the text, so the hub's events after
-// `seq` complete the snapshot. Newcomers wait for another snapshot if the hub no longer has these
-// events.
+// All events up to `seq` were posted to this thread before the text, so later events complete the
+// snapshot. If the hub has dropped them, newcomers wait again.
 void welcome(const ApiParts& parts, const std::vector<ApiParts::Newcomer>& newcomers,
              std::uint64_t seq, const Hub::Text& text) {
   for (const ApiParts::Newcomer& newcomer : newcomers) {
@@ -88,7 +86,7 @@ void welcome(const ApiParts& parts, const std::vector<ApiParts::Newcomer>& newco
   if (!parts.newcomers->waiting.empty()) write_snapshot(parts);
 }
 
-// Writes one snapshot for all waiting newcomers with the same `gap` as the first.
+// Writes a snapshot for all newcomers with the same `gap` as the first.
 void write_snapshot(const ApiParts& parts) {
   parts.newcomers->is_one_written = true;
   std::vector<ApiParts::Newcomer>& waiting = parts.newcomers->waiting;
@@ -107,8 +105,8 @@ void write_snapshot(const ApiParts& parts) {
       });
 }
 
-// Calls then(subscription). Resumes at `place` if those events are still there; otherwise begins
-// with a snapshot, whose "gap" is true if `place` was given.
+// Resumes at `place` if its events are still kept, else begins with a snapshot ("gap" if `place`
+// was given).
 void subscribe(const ApiParts& parts, const StreamQuery& place,
                std::function<void(SubscriptionPtr)> then) {
   if (place.since) {

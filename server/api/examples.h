@@ -6,10 +6,9 @@ namespace armloom {
 
 // Example bodies for the two-Panda cell.
 
-// Returns a job whose motion begins at home, with ROS 2 times. `head`: members to put before the
-// trajectory, each followed by a comma.
+// A motion from home, with ROS 2 times. `head`: members before the trajectory, each with a comma.
 [[nodiscard]] std::string example_job(const std::string& head, const std::string& arm);
-// Returns a job with ROS 1 times, nested as MoveIt prints trajectories.
+// A job with ROS 1 times and MoveIt's nesting.
 [[nodiscard]] std::string example_moveit_job();
 [[nodiscard]] std::string example_batch();
 

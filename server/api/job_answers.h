@@ -10,32 +10,29 @@
 
 namespace armloom {
 
-// Returns a job from the store, for jobs that the executive no longer knows; nullopt without a
-// store.
+// Returns a job that only the store knows; nullopt without a store.
 [[nodiscard]] Result<std::optional<StoredJob>> stored_job(const ApiParts& parts,
                                                           const std::string& key);
 
-// Answers with the job and its ETag. The first part of the tag covers what PATCH can change, the
-// second part the whole body.
+// The ETag's first part covers what PATCH can change, its second part the whole body.
 [[nodiscard]] Response job_answer(int status, const JobView& job, const WallClock& clock);
 [[nodiscard]] Response job_answer(const StoredJob& job);
 
-// If-Match of a command to one job. It matches if the members that PATCH can change are as in one
-// of these tags. It always matches a job that has ended.
+// If-Match holds if a tag matches what PATCH can change, and always for ended jobs.
 using IfMatch = std::optional<std::string>;
-// Result of a command to one job; nullopt if If-Match does not match.
+// nullopt if If-Match does not hold
 using Commanded = Result<std::optional<JobView>>;
 [[nodiscard]] bool is_as_tagged(const IfMatch& if_match, const std::optional<JobView>& job);
-// Returns the refusal of a malformed If-Match, or nullopt.
+// Refuses a malformed If-Match.
 [[nodiscard]] std::optional<Response> bad_if_match(const Request& request);
 [[nodiscard]] Parameter if_match_parameter();
 
-// Answers a command that was not carried out. Jobs of earlier sessions are reported as ended.
+// Answers a failed command. Jobs of earlier sessions have ended.
 [[nodiscard]] Response refused_command(const ApiParts& parts, const std::string& key,
                                        const Problems& problems);
 [[nodiscard]] Response was_changed_since(const std::string& key, const IfMatch& if_match);
 
-// `command(executive, key)` must return a Result<JobView>.
+// `command(executive, key)` returns a Result<JobView>.
 template <class Command>
 [[nodiscard]] Commanded commanded(Executive& executive, const std::string& key,
                                   const IfMatch& if_match, const Command& command) {

@@ -17,7 +17,7 @@
 namespace armloom {
 namespace {
 
-// Returns the jobs that only the store has: at most one more than a page.
+// Returns jobs that only the store has, one more than a page at most.
 Result<std::vector<StoredJob>> stored_jobs(const JobHistory& history, const JobFilter& filter,
                                            const JobSheet& known) {
   std::vector<StoredJob> jobs;
@@ -66,7 +66,6 @@ void get_job(Call call) {
   call.respond(*stored ? job_answer(**stored) : no_such("job", key));
 }
 
-// Carries out `command(executive, key)` on one job and answers.
 template <class Command>
 void command_job(Call call, Command command) {
   if (const auto bad = bad_if_match(call.request)) return call.respond(*bad);
@@ -81,7 +80,7 @@ void command_job(Call call, Command command) {
        if_match = call.request.if_match](const Commanded& done) {
         if (!done) return respond(refused_command(parts, key, done.error()));
         if (!*done) return respond(was_changed_since(key, if_match));
-        // Answer only when stored, so that a restart cannot lose the command.
+        // stored first, because clients rely on the answer
         const auto tell = [&parts, respond, job = **done](std::optional<Refusal> refusal) {
           if (!refusal) return respond(answer(202, job_format(), job, &parts.clock));
           respond(done_but_not_stored(*std::move(refusal)));
@@ -161,7 +160,7 @@ void get_queue(Call call) {
 
 void get_timeline(Call call) {
   const ApiParts& parts = call.parts;
-  // Ask the strand only for the admitted jobs, which are few.
+  // The strand provides only the few admitted jobs.
   const auto write = [&parts, respond = call.respond](const TimelineView& timeline) {
     parts.listings.write(
         [cell = parts.cell, timeline](JobTexts&) {

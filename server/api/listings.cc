@@ -13,8 +13,7 @@ namespace {
 constexpr int kNice = 10;
 constexpr std::size_t kKeptAnyway = 1024;  // texts
 
-// A scheduled start in the future may get another wall time later (WallClock), so its text is not
-// reused.
+// The wall time of a future start may still change (WallClock).
 bool is_written_for_good(const JobView& job) {
   return !job.times.scheduled_at || is_terminal(job.state);
 }

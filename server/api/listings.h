@@ -14,13 +14,13 @@
 
 namespace armloom {
 
-// Caches the JSON of jobs: written once per change of a job. Not thread-safe.
+// Caches the JSON of jobs until they change. Not thread-safe.
 class JobTexts {
  public:
   [[nodiscard]] ListedJob of(const JobSheet::JobPtr& job, const WallClock& clock);
   [[nodiscard]] std::vector<ListedJob> of(const std::vector<JobSheet::JobPtr>& jobs,
                                           const WallClock& clock);
-  // Drops texts that were not used since the previous call, if they are the majority.
+  // Drops texts unused since the previous call, if they are the majority.
   void end_list();
 
  private:
@@ -34,11 +34,11 @@ class JobTexts {
   std::size_t used_ = 0;  // entries used by the present list
 };
 
-// Writes long job lists on a low-priority thread, to unload the strand and the server's thread.
+// Writes long lists on a low-priority thread of its own.
 class Listings {
  public:
   using Post = std::function<void(std::function<void()>)>;
-  // `post` hands a task to the server's thread.
+  // `post` runs a task on the server's thread.
   explicit Listings(Post post);
 
   using Write = std::function<std::string(JobTexts&)>;

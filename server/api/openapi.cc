@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kSchemas = "#/components/schemas/";
 
-// The responses for refused requests: by status, the component's name and its description.
+// Responses of refusals: component name and description by status.
 struct RefusalText {
   const char* name;
   const char* text;
@@ -188,8 +188,7 @@ Schema refusals() {
   return responses;
 }
 
-// Tokens are required if the server was started with `--tokens`. `x-role` of an operation is the
-// lowest role that may call it.
+// `x-role` of an operation is the lowest role that may call it.
 Schema security_schemes() {
   return {
       {"token",
@@ -204,7 +203,6 @@ Schema security_schemes() {
         {"description", "The same token as a cookie, set by POST /session for browsers"}}}};
 }
 
-// Lets clients tell message types apart.
 void add_discriminator(Schema& message) {
   Schema mapping = Schema::object();
   for (const auto& [type, name] : message_types()) mapping[type] = kSchemas + name;

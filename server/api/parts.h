@@ -31,9 +31,8 @@ class Comparison;
 class Control;
 class Listings;
 
-// Everything that the routes of a server session use; all of it outlives them. Route functions run
-// on the server's thread. Commands are posted to the executive's strand and answered when the
-// result comes back, so no thread waits. Reads use the loop's board.
+// Parts used by all routes, which outlive them. Routes run on the server's thread. Commands go to
+// the executive's strand and return asynchronously; reads use the loop's board.
 struct ApiParts {
   CellPtr cell;
   std::string stream;
@@ -47,17 +46,16 @@ struct ApiParts {
   std::function<void(std::function<void()>)> post;  // runs a task on the server's thread, in order
   std::function<void(std::function<void()>)> post_urgent;  // ahead of tasks from `post`
   Guard& guard;
-  // Runs a long task on a worker thread; the task must not use the parts.
+  // Runs a long task on a worker thread; it must not use the parts.
   std::function<void(std::function<void()>)> aside;
   Listings& listings;
   Metrics& metrics;
   ClientLimits& limits;
   Comparison& comparison;
   Control& control;
-  std::optional<std::filesystem::path> data;  // folder of recordings; nullopt if nothing is stored
-  std::chrono::milliseconds jog_lease;        // a jog is canceled after this time without renewal
-  // Event subscribers that wait for a snapshot. All that wait when writing begins share one
-  // snapshot.
+  std::optional<std::filesystem::path> data;  // folder of recordings, if any
+  std::chrono::milliseconds jog_lease;        // jogs are canceled after this time without renewal
+  // Subscribers that wait for a snapshot share the next one.
   struct Newcomer {
     bool gap;
     std::function<void(SubscriptionPtr)> then;
@@ -66,12 +64,12 @@ struct ApiParts {
   std::shared_ptr<JobsAtHand> at_hand = std::make_shared<JobsAtHand>();
   struct Newcomers {
     std::vector<Newcomer> waiting = {};
-    bool is_one_written = false;  // true while a snapshot is written for earlier newcomers
+    bool is_one_written = false;
   };
   std::shared_ptr<Newcomers> newcomers = std::make_shared<Newcomers>();
 };
 
-// Runs ask(executive) on the strand, then calls then(result) on the server's thread.
+// Runs ask(executive) on the strand, then then(result) on the server's thread.
 template <class Ask, class Then>
 void ask(const ApiParts& parts, Ask ask, Then then) {
   parts.loop.post([&parts, ask = std::move(ask), then = std::move(then)](Executive& executive) {
@@ -80,7 +78,7 @@ void ask(const ApiParts& parts, Ask ask, Then then) {
   });
 }
 
-// Like ask(), but ahead of everything that waits for the strand and for the server's thread.
+// Like ask(), but ahead of everything that waits on both.
 template <class Ask, class Then>
 void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
   parts.loop.post_urgent([&parts, ask = std::move(ask),
@@ -90,21 +88,21 @@ void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
   });
 }
 
-// Returns why the store refuses writes; nullopt if it accepts them or there is no store.
+// Returns why the store refuses writes, if it does.
 [[nodiscard]] std::optional<Refusal> refusal_of_store(const ApiParts& parts);
 
-// Counts `jobs` against the client's limit. If they exceed it, answers 429 and returns true.
+// Counts `jobs` against the client's limit; answers 429 and returns true beyond it.
 [[nodiscard]] bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jobs,
                               const Respond& respond);
 
-// Problem (unsupported): the Content-Type is not JSON in UTF-8, or the body is encoded.
+// Problem (unsupported): not JSON in UTF-8, or encoded.
 [[nodiscard]] Result<void> check_content_type(const Request& request);
 
-// Larger bodies are read on a worker thread, so that other requests are served meanwhile.
+// Larger bodies are read on a worker thread.
 inline constexpr std::size_t kReadAtOnceMax = 64 * 1024;
 
-// Reads the body with read(text), which returns a Result, and calls then(value) on the server's
-// thread. Answers the problems if reading fails.
+// Reads the body with read(text) -> Result and calls then(value) on the server's thread, or answers
+// the problems.
 template <class Read, class Then>
 void read_body(const ApiParts& parts, const Request& request, const Respond& respond, Read read,
                Then then) {

@@ -15,24 +15,22 @@
 
 namespace armloom {
 
-// A query parameter, described once: how to read it into a T, and its entry in /openapi.json.
+// A query parameter: how to read it, and its entry in /openapi.json.
 template <class T>
 struct QueryPart {
   Parameter told;
-  // Stores the value in `out`; returns what is wrong with the value, or nullopt.
+  // Stores the value; returns what is wrong with it, or nullopt.
   std::function<std::optional<std::string>(const std::string& value, T& out)> take;
 };
 
-// The query of one route.
 template <class T>
 class QueryFormat {
  public:
-  // `bad`: kind of problem for an unreadable value, `invalid` (422) or `malformed` (400).
+  // `bad`: `invalid` (422) or `malformed` (400).
   QueryFormat(std::vector<QueryPart<T>> parts, ProblemKind bad)
       : parts_(std::move(parts)), bad_(bad) {}
 
-  // Problems: one for each parameter that is unreadable, or required and missing (malformed). The
-  // router refuses unknown parameters.
+  // Problems: unreadable or missing parameters. The router refuses unknown parameters.
   [[nodiscard]] Result<T> read(const Target& target) const {
     T query{};
     Problems problems;
@@ -65,7 +63,7 @@ class QueryFormat {
 
 namespace query {
 
-// Returns true and sets `out` if the whole text is an integer within these bounds.
+// Sets `out` and returns true if the text is an integer within the bounds.
 template <class Number>
 [[nodiscard]] bool read_between(const std::string& text, Number lowest, Number highest,
                                 Number& out) {
@@ -77,8 +75,7 @@ template <class Number>
   return true;
 }
 
-// T must be given explicitly, so that members of its base class can be used, too:
-// text<AuditQuery>(...).
+// Name T explicitly if the member is of its base class: text<AuditQuery>(...).
 
 template <class T, class Of, class Text>
 [[nodiscard]] QueryPart<T> text(std::string name, Text Of::*where, std::string told) {
@@ -89,7 +86,7 @@ template <class T, class Of, class Text>
           }};
 }
 
-// A text that must be given and not empty.
+// A non-empty text.
 template <class T>
 [[nodiscard]] QueryPart<T> required_text(std::string name, std::string T::*where,
                                          std::string told) {
@@ -116,7 +113,6 @@ template <class T, class Of, class Number, class Value>
           }};
 }
 
-// A value of an enumeration, given by its name.
 template <class T, class E>
 [[nodiscard]] QueryPart<T> one_of(std::string name, std::optional<E> T::*where, Schema schema,
                                   std::string told) {
@@ -137,7 +133,7 @@ template <class T>
                          "Number of entries per page; default " + std::to_string(kPage) + "");
 }
 
-// The position after the previous page, as the server encoded it.
+// The end of the previous page, encoded by the server.
 template <class T, class Of>
 [[nodiscard]] QueryPart<T> cursor(std::optional<std::uint64_t> Of::*where) {
   return {{"cursor", "`next_cursor` of the previous page", {{"type", "string"}}},
@@ -152,7 +148,6 @@ template <class T, class Of>
           }};
 }
 
-// A flag: 0 or 1.
 template <class T>
 [[nodiscard]] QueryPart<T> flag(std::string name, bool T::*where, std::string told) {
   const std::string rule = name + " must be 0 or 1, found \"";

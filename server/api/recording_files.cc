@@ -31,7 +31,7 @@ RecordingView view_of(const KeptRecording& kept, bool is_running) {
   return view;
 }
 
-// Returns the size of the file up to its last complete line.
+// Returns the size up to the last complete line.
 tl::expected<std::size_t, NoFile> whole_lines(const OpenFile& file) {
   constexpr std::size_t kPiece = std::size_t{64} * 1024;
   for (std::size_t end = file.size(); end > 0;) {
@@ -53,7 +53,7 @@ struct Counted {
   Counted& operator=(const Counted&) = delete;
 
   std::shared_ptr<std::atomic<std::size_t>> open;
-  std::size_t others;  // number of files open before this one
+  std::size_t others;
   std::optional<OpenFile> file = {};
 };
 

@@ -14,17 +14,14 @@
 
 namespace armloom {
 
-// Gives HTTP clients access to the recordings in a data folder. A request contains the name of a
-// recording and of one of its files, never a path. Thread-safe; call it on a worker thread, because
-// disks are slow.
+// Recordings for HTTP clients. A request contains the names of a recording and of its file, never a
+// path. Thread-safe; call it on a worker thread.
 class RecordingFiles {
  public:
-  // Number of files open at once; more are refused as busy, because each holds a file descriptor as
-  // long as its client reads.
+  // Files open at once; each holds a descriptor while its client reads.
   inline static constexpr std::size_t kOpenMax = 32;
 
-  // `data`: nullopt if there are no recordings. `running`: the recording being written, or null;
-  // must outlive this object.
+  // `running`: the recording being written, or null; must outlive this object.
   RecordingFiles(std::optional<std::filesystem::path> data, const Recording* running)
       : data_(std::move(data)), running_(running) {}
 
@@ -35,8 +32,7 @@ class RecordingFiles {
     std::shared_ptr<const OpenFile> file;
     std::size_t size = 0;  // bytes to hand out
   };
-  // Opens a file of a recording; symbolic links are refused. Of a recording in progress, only
-  // complete lines are handed out.
+  // Refuses symbolic links. Of a recording in progress only complete lines are available.
   [[nodiscard]] tl::expected<Opened, NoFile> open(const std::string& name,
                                                   const std::string& file) const;
 

@@ -13,7 +13,7 @@ Response no_such_file(const std::string& name) {
                                    "request target", "no recording has the file " + name, name}});
 }
 
-// Runs `look` on a worker thread after all states measured so far are in the recording's files.
+// Runs `look` on a worker thread when all measured states are in the files.
 void look_aside(const ApiParts& parts, std::function<void()> look) {
   if (parts.recording == nullptr) return parts.aside(std::move(look));
   ask(
@@ -34,8 +34,7 @@ void get_recordings(Call call) {
   });
 }
 
-// Reads each piece on a worker thread, so that a large file on a slow disk does not block other
-// requests.
+// Reads pieces on a worker thread, because disks are slow.
 PiecedBody body_of(const ApiParts& parts, RecordingFiles::Opened opened) {
   return {opened.size, [&parts, file = std::move(opened.file)](
                            std::uintmax_t from, std::size_t count, PiecedBody::Then then) {

@@ -26,7 +26,7 @@ Problem other_body(const std::string& key) {
           key.substr(key.find(kNameEnds) + 1)};  // the whole key if no token is required
 }
 
-// Finds jobs by the Idempotency-Key. Problem (conflict): the key was used with another body.
+// Finds jobs by the key. Problem (conflict): the key had another body.
 Result<void> recall_key(const ApiParts& parts, const SentRequest& sent, KnownJobs& known) {
   if (sent.key.empty()) return {};
   const auto put = [&](std::size_t place, const std::string& id) {
@@ -46,8 +46,7 @@ Result<void> recall_key(const ApiParts& parts, const SentRequest& sent, KnownJob
   return {};
 }
 
-// Finds a job by the client's id. An id that was used with another body is left to submit(), which
-// refuses it like any id in use.
+// Finds a job by the client's id. submit() refuses an id that had another body.
 Result<void> recall_id(const ApiParts& parts, const SentRequest::Job& job, std::string& known) {
   if (job.id.empty() || !known.empty()) return {};
   if (const auto* before = parts.accepted->find(AcceptedRequests::name_of_id(job.id))) {

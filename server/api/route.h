@@ -12,8 +12,7 @@
 
 namespace armloom {
 
-// One call of a route. `parts`, `meshes` and `recordings` outlive every answer; the request is
-// valid only during the call.
+// One call of a route. The parts outlive every answer; the request is valid only during the call.
 struct Call {
   const ApiParts& parts;
   CellMeshes& meshes;
@@ -23,7 +22,6 @@ struct Call {
   Respond respond;
 };
 
-// A query parameter or header field that the route reads.
 struct Parameter {
   std::string name;
   std::string text;
@@ -49,7 +47,7 @@ struct Outcome {
   bool has_tag = false;  // ETag
 };
 
-// A route of the API, described once: dispatch, `Allow` and /openapi.json follow from this struct.
+// A route; dispatch, `Allow` and /openapi.json follow from it.
 struct Route {
   std::string method;
   std::string path;  // full path; {id} matches any segment
@@ -64,7 +62,7 @@ struct Route {
   Who who = Who::reader;
   std::optional<Role> role = Role::viewer;  // nullopt if no token is required
   bool is_never_limited = false;            // exempt from ClientLimits
-  void (*run)(Call call);  // null for the dashboard's files, which the router does not serve
+  void (*run)(Call call);                   // null: not served by the router
 
   [[nodiscard]] Rights rights() const { return {who, role, is_never_limited}; }
 };
@@ -91,13 +89,12 @@ struct Route {
 [[nodiscard]] std::vector<Route> service_routes();     // /healthz, /docs, ...
 [[nodiscard]] const std::vector<Route>& all_routes();
 
-// Returns the refusals that apply to every route, plus 415 for a body and 403 for a command.
+// Refusals of every route, plus 415 for bodies and 403 for commands.
 [[nodiscard]] std::vector<int> common_refusals(const Route& route);
 
-// Returns the full path: "/jobs" becomes "/api/v1/jobs".
+// "/jobs" becomes "/api/v1/jobs".
 [[nodiscard]] std::string api_path(const std::string& path);
 
-// Body and outcomes of a route, from message formats.
 template <class T>
 [[nodiscard]] Body body(const FormatPtr<T>& format,
                         std::vector<std::pair<std::string, std::string>> examples) {

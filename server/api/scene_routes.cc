@@ -10,7 +10,6 @@ namespace {
 
 constexpr std::size_t kObjectsMax = 1000;  // including those of the cell file
 
-// Result of a change of the scene.
 struct Changed {
   std::uint64_t version;
   bool created;
@@ -38,8 +37,7 @@ void get_scene(Call call) {
   call.respond(answer(200, scene_format(), *call.parts.loop.board().read().scene));
 }
 
-// Answers when the change is stored, so that a restart cannot lose it. `text`: the object as the
-// client sent it, or nullopt if it was removed.
+// Answers when the change is stored. `text`: the object as sent; nullopt if removed.
 void respond_when_stored(const ApiParts& parts, const std::string& name,
                          std::optional<std::string> text, const Respond& respond,
                          Response response) {
@@ -50,7 +48,7 @@ void respond_when_stored(const ApiParts& parts, const std::string& name,
                        });
 }
 
-// `change`: add or put, run on the strand. `name`: the object's name in the path, if any.
+// `change`: add or put. `name`: from the path, if any.
 template <class Change>
 void set_object(Call& call, const std::optional<std::string>& name, Change change) {
   const auto set = [&parts = call.parts, respond = call.respond, text = call.request.body,
@@ -76,7 +74,7 @@ void set_object(Call& call, const std::optional<std::string>& name, Change chang
 void post_object(Call call) { set_object(call, std::nullopt, add); }
 void put_object(Call call) { set_object(call, call.arguments.front(), put); }
 
-// Refuses to remove an object while the removal cannot be stored, just as no arm may resume then.
+// Removes nothing while the removal cannot be stored.
 void delete_object(Call call) {
   if (const auto refusal = refusal_of_store(call.parts)) {
     return call.respond(refusal_response(*refusal));

@@ -10,7 +10,6 @@
 namespace armloom {
 namespace {
 
-// Answers with built-in content.
 Response fresh(const Request& request, const char* content_type, const ServedBytes& bytes) {
   Response response = answer_bytes(request, bytes, content_type);
   response.headers.emplace_back("Cache-Control", "no-cache");
@@ -20,7 +19,7 @@ ServedBytes served_text(std::string_view text) { return served(std::string(text)
 
 void get_health(Call call) { call.respond(answer(200, health_format(), Health{})); }
 
-// Returns why the server is not ready (storage, tokens or recording failed), or nullopt.
+// Returns why the server is not ready, or nullopt.
 std::optional<Refusal> why_not_ready(const ApiParts& parts) {
   if (auto refusal = refusal_of_store(parts)) {
     refusal->status = 503;

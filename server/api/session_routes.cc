@@ -1,4 +1,4 @@
-// Log-in for browsers: the token becomes a cookie. Programs send the token with each request.
+// Log-in for browsers. Programs send the token with each request.
 #include <string>
 #include <utility>
 
@@ -19,7 +19,7 @@ Session session_of(Guard& guard, const std::optional<std::string>& token) {
   return session;
 }
 
-// The cookie is hidden from scripts (HttpOnly) and not sent from pages of other sites (SameSite).
+// hidden from scripts, and not sent from pages of other sites
 std::string cookie(const Guard& guard, const std::string& token, const char* more) {
   return std::string(kTokenCookie) + "=" + token + "; Path=/; HttpOnly; SameSite=Strict" +
          (guard.is_tls() ? "; Secure" : "") + more;

@@ -1,5 +1,4 @@
-// GET /states: measured joint positions of the last minutes. Frames are shared, not copied; writing
-// a hundred thousand numbers happens on a worker thread.
+// Writes a hundred thousand numbers on a worker thread.
 #include <memory>
 
 #include "server/api/route.h"

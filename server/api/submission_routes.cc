@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-// Asks the store. Returns the answer if the store refuses the job, or nullopt.
+// Returns the answer if the store refuses the job.
 std::optional<Response> refused_by_store(const ApiParts& parts, JobRequest& job) {
   if (parts.keeper == nullptr) return std::nullopt;
   if (const auto refusal = parts.keeper->refusal()) return refusal_response(*refusal);
@@ -19,7 +19,6 @@ std::optional<Response> refused_by_store(const ApiParts& parts, JobRequest& job)
   return std::nullopt;
 }
 
-// Answers with the present state of a job that was accepted before.
 void answer_known_job(const ApiParts& parts, const SentRequestPtr& sent, const KnownJobs& known,
                       const Respond& respond) {
   look_at(parts, known, [&parts, sent, known, respond](const std::vector<Result<ListedJob>>& jobs) {

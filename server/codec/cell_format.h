@@ -8,15 +8,13 @@
 
 namespace armloom {
 
-// Describes the cell file: type, range, default and meaning of every field. The reader
-// (cell_codec.h), the JSON schema, config/README.md, the output of `armloom import` and the
-// settings in GET /cell follow from it. A new field needs one line here, and its use.
+// Describes every field of the cell file. The reader, the schema, config/README.md, the output of
+// `armloom import` and the settings in GET /cell follow from it.
 [[nodiscard]] const Format<CellDescription>& cell_format();
 
-// Describes the settings as members of one object, for GET /cell: clearances, checking, scheduling,
-// monitor, execution.
+// Clearances, checking, scheduling, monitor and execution as members of one object.
 [[nodiscard]] formats::PartPtr<CellDescription> settings_part();
-// Returns the settings as text, one line per group: "monitor: rate_hz 100, ...".
+// Returns "monitor: rate_hz 100, ...", one line per group.
 [[nodiscard]] std::string settings_text(const CellDescription& settings);
 
 }  // namespace armloom

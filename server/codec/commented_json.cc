@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::size_t kColumns = 100;
 
-// Writes `{"a": [1, 2]}`.
 std::string on_one_line(const Schema& value) {
   if (!value.is_structured()) return value.dump();
   std::string text(1, value.is_array() ? '[' : '{');
@@ -116,8 +115,7 @@ class CommentedWriter {
     for (const std::string& note : notes->second) write_comment(note);
   }
 
-  // Writes the text as wrapped "// " lines. Line ends become spaces, because the rest would not be
-  // a comment.
+  // Line ends become spaces, because the rest would not be a comment.
   void write_comment(const std::string& text) {
     std::istringstream words(text);
     std::string word;

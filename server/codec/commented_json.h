@@ -8,12 +8,11 @@
 
 namespace armloom {
 
-// Additional comments: JSON pointer -> sentences; "" is the head of the document.
+// JSON pointer -> additional comments; "" is the head of the document.
 using JsonNotes = std::map<std::string, std::vector<std::string>>;
 
-// Returns the value as readable JSON: indented by two spaces, short values on one line, and above
-// the first occurrence of each member its description from the schema, followed by its notes. The
-// text reads back as the same value (JsonComments::allowed).
+// Returns the value as readable JSON with comments: the description of each member at its first
+// occurrence, then its notes. Reads back as the same value (JsonComments::allowed).
 [[nodiscard]] std::string commented_json(const Schema& value, const Schema& schema,
                                          const JsonNotes& notes);
 

@@ -14,38 +14,32 @@ namespace armloom {
 // JSON Schema (draft 2020-12); keys keep their order.
 using Schema = nlohmann::ordered_json;
 
-// Direction that a schema describes: input of clients, or output of the server. In output, members
-// with defaults are always present.
+// Input of clients or output of the server. In output, members with defaults are always present.
 enum class Way { in, out };
 
-// Returns the replacement of a path.
 using PathMap = std::function<std::string(const std::string&)>;
 
-// Describes the JSON form of a value. The reader, the writer, the schema and the reference follow
-// from one description. Small formats (scalar_formats.h) combine to lists, objects
-// (object_format.h) and files (cell_format.h). Immutable, and shared by threads.
+// Describes the JSON form of a value; reader, writer, schema and reference follow from it.
+// Immutable, and shared by threads.
 //
-// The type of the value is erased, so that formats are compiled once instead of once for each T:
-// `out` and `value` are addresses. FormatPtr<T> below is the typed handle; with it the compiler
-// checks the types.
+// The value's type is erased, so that formats are compiled once: `out` and `value` are addresses.
+// FormatPtr<T> is the typed handle.
 class AnyFormat {
  public:
   AnyFormat() = default;
   AnyFormat(const AnyFormat&) = delete;
   AnyFormat& operator=(const AnyFormat&) = delete;
   virtual ~AnyFormat() = default;
-  // Reads into `out`, which holds the defaults. Faults are added to the node's list; then `out`
-  // must not be used.
+  // `out` holds the defaults. Faults are added to the node's list; then `out` must not be used.
   virtual void read_any(const JsonNode& node, void* out) const = 0;
   virtual void write_any(JsonWriter& out, const void* value) const = 0;
   [[nodiscard]] virtual Schema schema(Way way) const = 0;
-  // Replaces the paths in a JSON value before it is read. Leaves values unchanged that do not fit
-  // the format; the reader reports them.
+  // Replaces paths in a value before it is read; ignores what does not fit the format.
   virtual void map_paths(nlohmann::json& /*value*/, const PathMap& /*map*/) const {}
 };
 
-// A std::shared_ptr whose copy and destructor are in format.cc instead of inline, because message
-// descriptions create thousands of temporaries.
+// A std::shared_ptr that is copied and destroyed out of line, because descriptions create thousands
+// of temporaries.
 template <class Any>
 class SharedAny {
  public:
@@ -62,8 +56,7 @@ class SharedAny {
 };
 using AnyFormatPtr = SharedAny<AnyFormat>;
 
-// An AnyFormat for values of type T. Copy it to keep it: a reference from `*format_pointer` is
-// valid only as long as the FormatPtr.
+// Copy it to keep it: a reference from `*format_pointer` lives only as long as the FormatPtr.
 template <class T>
 class Format {
  public:
@@ -103,14 +96,13 @@ class CustomFormat : public AnyFormat {
   }
 };
 
-// `Kind` must be a CustomFormat.
 template <class Kind, class... Arguments>
 [[nodiscard]] FormatPtr<typename Kind::Value> make_format(Arguments&&... arguments) {
   return FormatPtr<typename Kind::Value>(
       AnyFormatPtr(new Kind(std::forward<Arguments>(arguments)...)));
 }
 
-// Returns a value as written in schemas; whole numbers have no decimal point.
+// Whole numbers have no decimal point.
 [[nodiscard]] Schema as_json(double number);
 [[nodiscard]] Schema as_json(const JsonWriter& written);
 [[nodiscard]] Schema as_json(const AnyFormat& format, const void* value);

@@ -14,32 +14,32 @@
 
 namespace armloom {
 
-// A JSON value with its place. Faults are added to the root's list (at most kFaultsMax) and reading
-// continues; the caller checks the list afterwards. A node refers to its value and its parent node,
-// which must outlive it. Wrong types are `malformed`; readable but impossible values are `invalid`.
+// A JSON value with its place. Faults go to the root's list and reading continues. The value and
+// the parent node must outlive the node. Wrong types are `malformed`; impossible values are
+// `invalid`.
 class JsonNode {
  public:
   inline static constexpr std::size_t kFaultsMax = 20;
 
-  // `prefix` precedes every pointer ("/3/job" for a body inside a jobs file).
+  // `prefix` precedes every pointer ("/3/job").
   JsonNode(const nlohmann::json& value, std::string_view prefix, Problems& faults)
       : value_(&value), key_(prefix), faults_(&faults) {}
 
   [[nodiscard]] std::string pointer() const;
   [[nodiscard]] const nlohmann::json& raw() const { return *value_; }
 
-  // Returns true if the node is an object. Reports each key that is not `known`.
+  // Returns true for an object; reports unknown keys.
   [[nodiscard]] bool object(std::span<const std::string_view> known) const;
   [[nodiscard]] bool object(std::initializer_list<std::string_view> known) const {
     return object(std::span(known.begin(), known.size()));
   }
   [[nodiscard]] bool has(std::string_view key) const { return value_->contains(key); }
-  // Calls read(member) if the member exists. Precondition: object() returned true.
+  // Precondition: object() returned true.
   template <class Read>
   void optional(std::string_view key, Read read) const {
     if (const auto it = value_->find(key); it != value_->end()) read(JsonNode(*it, *this, key));
   }
-  // Like optional(), but reports a missing member.
+  // Also reports a missing member.
   template <class Read>
   void required(std::string_view key, Read read) const {
     if (const auto it = value_->find(key); it != value_->end()) {
@@ -48,7 +48,7 @@ class JsonNode {
       missing(key);
     }
   }
-  // Calls read(element) for each element. Reports a value that is not an array.
+  // Reports a value that is not an array.
   template <class Read>
   void each(Read read) const {
     if (!array()) return;
@@ -62,7 +62,7 @@ class JsonNode {
     }
   }
 
-  // Reads a scalar. On a fault, returns false and leaves `out` unchanged.
+  // On a fault, these return false and leave `out` unchanged.
   bool read(double& out) const;
   bool read(std::string& out) const;
   bool read(bool& out) const;
@@ -70,9 +70,7 @@ class JsonNode {
   bool read_integer(std::int64_t& out, std::int64_t lowest, std::int64_t highest) const;
   bool read(std::vector<double>& out) const;
   bool read(std::vector<std::string>& out) const;
-  // Reads a number in a closed interval.
   bool read_within(double& out, double lowest, double highest) const;
-  // Reads exactly `size` numbers.
   bool read_numbers(double* out, std::size_t size) const;
 
   [[nodiscard]] bool array() const;

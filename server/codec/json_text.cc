@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-// Builds the value from the parser's events and keeps the path to the present place.
+// Builds the value and keeps the path to it.
 class StrictBuilder {
  public:
   explicit StrictBuilder(std::string_view text) : text_(text) {}
@@ -46,7 +46,7 @@ class StrictBuilder {
   }
 
   bool parse_error(std::size_t position, const std::string&, const json::exception& error) {
-    // The library counts from one and reports the position after the last character read.
+    // The library counts from one, after the last character read.
     const std::size_t offset = std::min(position > 0 ? position - 1 : 0, text_.size());
     const bool out_of_range = error.id == 406;
     const std::string found = token_around(offset);
@@ -103,8 +103,7 @@ class StrictBuilder {
       *parent.slot = std::move(container);
       place = parent.slot;
     }
-    // Stays valid while the container is open, because nothing is added to its parent before it is
-    // closed.
+    // Stays valid: nothing is added to the parent before this container is closed.
     levels_.push_back(Level{place, {}, nullptr});
     return true;
   }
@@ -147,7 +146,7 @@ class StrictBuilder {
     return false;
   }
 
-  // Returns the token at `offset`, up to the next delimiter, for the message.
+  // Returns the token at `offset`, for the message.
   [[nodiscard]] std::string token_around(std::size_t offset) const {
     static constexpr std::string_view kDelimiters = " \t\r\n,:[]{}";
     static constexpr std::size_t kShown = 40;

@@ -15,15 +15,13 @@ namespace armloom {
 
 class WallClock;
 
-// Writes JSON text front to back, without spaces. Numbers are written in the shortest form that
-// reads back the same. The text is always valid JSON: NaN and infinities become null, -0 becomes 0,
-// and bytes that are not UTF-8 become U+FFFD. The caller must balance begin and end and give each
-// key a value.
+// Writes JSON without spaces. Numbers read back the same. The text is always valid: NaN and
+// infinities become null, -0 becomes 0, invalid UTF-8 becomes U+FFFD. The caller must balance begin
+// and end.
 class JsonWriter {
  public:
   JsonWriter() = default;
-  // `clock` converts cell time to wall time and must outlive the writer; null if wall time is
-  // unknown.
+  // `clock` gives wall time and must outlive the writer; null if unknown.
   explicit JsonWriter(const WallClock* clock) : clock_(clock) {}
 
   JsonWriter& begin_object() { return open('{'); }
@@ -37,7 +35,7 @@ class JsonWriter {
   JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
   JsonWriter& value(double number);
   JsonWriter& value(std::nullptr_t) { return raw("null"); }
-  // Writes seconds; divides instead of multiplying, so that a whole millisecond is written exactly.
+  // Divides instead of multiplying, so that a whole millisecond is exact.
   JsonWriter& value(Duration time) { return value(static_cast<double>(time.count()) / 1e9); }
   JsonWriter& value(TimePoint time) { return value(time.time_since_epoch()); }
   template <class T>
@@ -60,12 +58,12 @@ class JsonWriter {
     for (const T& item : list) value(item);
     return end_array();
   }
-  // Writes a number rounded to `decimals` (0..9) places, for poses that are only displayed.
+  // `decimals`: 0..9.
   JsonWriter& rounded(double number, int decimals);
-  // Returns false in a simulated session; then keys ending in _at are not written.
+  // False in a simulated session: keys ending in _at are not written.
   [[nodiscard]] bool knows_wall_time() const { return clock_ != nullptr; }
   JsonWriter& wall_time(std::optional<TimePoint> time);  // nullopt is written as null
-  // Writes text that is already JSON.
+  // `json` must be valid JSON.
   JsonWriter& raw(std::string_view json);
 
   template <class T>

@@ -4,8 +4,7 @@
 
 namespace armloom::formats {
 
-// Makes members optional for reading because older versions did not store or record them. This
-// version always writes them.
+// Optional when reading, because older versions did not write these members; always written.
 [[nodiscard]] AnyPartPtr later(const AnyPartPtr& part);
 template <class T>
 [[nodiscard]] PartPtr<T> later(const PartPtr<T>& part) {

@@ -12,8 +12,7 @@
 
 namespace armloom::formats {
 
-// Allowed number of elements. A list with more than `most` is not read: the fault "too-many-<what>"
-// counts them as `noun`.
+// A list with more than `most` is not read: fault "too-many-<what>", counted as `noun`.
 struct ListSize {
   std::size_t fewest = 0;
   std::optional<std::size_t> most = {};
@@ -43,7 +42,6 @@ inline constexpr ListOperations kListOperations{
     },
     [](const void* list) { return static_cast<const std::vector<T>*>(list)->size(); }, sizeof(T)};
 
-// Returns the format of a JSON array whose elements have one format.
 [[nodiscard]] AnyFormatPtr list(const AnyFormatPtr& element, ListSize size,
                                 const ListOperations& operations);
 template <class T>
@@ -68,7 +66,7 @@ inline constexpr DictionaryOperations kDictionaryOperations{
       }
     }};
 
-// Returns the format of a JSON object with user-defined keys: {"torso_lift_joint": 0.1}.
+// An object with user-defined keys: {"torso_lift_joint": 0.1}.
 [[nodiscard]] AnyFormatPtr dictionary(const AnyFormatPtr& member,
                                       const DictionaryOperations& operations);
 template <class T>
@@ -76,7 +74,7 @@ template <class T>
   return FormatPtr<std::map<std::string, T>>(dictionary(member->any(), kDictionaryOperations<T>));
 }
 
-// Returns the format of an array of exactly two: ["table", "panda_link0"].
+// ["table", "panda_link0"]
 [[nodiscard]] AnyFormatPtr pair_of(const AnyFormatPtr& element, std::ptrdiff_t first,
                                    std::ptrdiff_t second);
 template <class T>

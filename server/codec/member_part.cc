@@ -7,8 +7,7 @@
 namespace armloom::formats {
 namespace {
 
-// Returns true if the default is worth showing: empty lists are not, and an object's defaults are
-// those of its members.
+// Empty lists and defaults of objects are not worth showing.
 bool is_telling(const Schema& fallback) {
   return !fallback.is_object() && !(fallback.is_array() && fallback.empty());
 }

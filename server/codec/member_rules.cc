@@ -87,10 +87,9 @@ class CompanionPart final : public AroundPart {
   std::vector<std::string_view> keys_;
 };
 
-// Makes the requirements that the part added to `object` hold only if `key` is absent. `before`:
-// the description without the part.
+// Makes the part's requirements apply only without `key`. `before`: the schema without the part.
 void describe_unless(Schema& object, const std::string& key, const Schema& before) {
-  // The entries of a list that `before` does not have; they are taken out.
+  // Takes out the entries that `before` does not have.
   const auto take_new = [&](const char* list) {
     const Schema all = object.value(list, Schema::array());
     const Schema old = before.value(list, Schema::array());

@@ -23,7 +23,7 @@ template <class T>
   return PartPtr<T>(count_rule(HowMany::at_most_one, std::move(keys)));
 }
 
-// Returns a part that requires the member `companion`, and is not written without it.
+// Requires the member `companion`; not written without it.
 [[nodiscard]] AnyPartPtr only_with(std::string_view companion, const Access& access,
                                    const AnyPartPtr& part);
 template <class T, class M>
@@ -32,21 +32,19 @@ template <class T, class M>
   return PartPtr<T>(only_with(companion, member_access(where), part.any()));
 }
 
-// Returns a part that applies only to objects without the member `key`. `may_be`: false if no
-// object has it.
+// Applies only to objects without the member `key`. `may_be`: false if no object has it.
 [[nodiscard]] AnyPartPtr unless(std::string_view key, const AnyPartPtr& part, bool may_be);
 template <class T>
 [[nodiscard]] PartPtr<T> unless(std::string_view key, const PartPtr<T>& part) {
   return PartPtr<T>(unless(key, part.any(), true));
 }
-// Like unless(), for a member that not_served() refuses anyway, so that only one fault is reported.
+// Like unless(), if not_served() refuses `key`, so that only one fault is reported.
 template <class T>
 [[nodiscard]] PartPtr<T> unless_refused(std::string_view key, const PartPtr<T>& part) {
   return PartPtr<T>(unless(key, part.any(), false));
 }
 
-// A known member that is not supported, or only with the value `but_for`. Anything else is the
-// fault `slug` with `sentence`.
+// A known but unsupported member, except for the value `but_for`. Fault: `slug`, `sentence`.
 struct NotServed {
   std::string key;
   std::string slug;

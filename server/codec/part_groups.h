@@ -8,7 +8,6 @@
 
 namespace armloom::formats {
 
-// Combines several parts into one.
 [[nodiscard]] AnyPartPtr parts(AnyParts of_it);
 template <class T>
 [[nodiscard]] PartPtr<T> parts(PartList<T> of_it) {
@@ -35,8 +34,7 @@ class AroundPart : public AnyPart {
   AnyPartPtr part_;
 };
 
-// Describes a T by the members of a Words: `spell` converts a T to Words (and may return a
-// reference), `mean` converts Words to a T.
+// `spell` converts a T to Words (it may return a reference), `mean` converts Words to a T.
 template <class T, class Words, class Spell>
 class SpeltPart final : public AroundPart {
  public:
@@ -66,7 +64,7 @@ template <class T, class Words, class Spell>
   return PartPtr<T>(AnyPartPtr(new SpeltPart<T, Words, Spell>(parts(words.any()), spell, mean)));
 }
 
-// Describes a member of the T by members of the same JSON object: xyz and rpy of a pose.
+// Members of the same JSON object: xyz and rpy of a pose.
 [[nodiscard]] AnyPartPtr inlined(std::ptrdiff_t offset, const AnyPartPtr& part);
 template <class T, class M>
 [[nodiscard]] PartPtr<T> inlined(M T::*where, const PartPtr<M>& part) {

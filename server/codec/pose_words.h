@@ -5,7 +5,7 @@
 
 namespace armloom {
 
-// A pose as written in files: fixed-axis roll, pitch, yaw, as in URDF.
+// Fixed-axis roll, pitch, yaw, as in URDF.
 struct PoseWords {
   Eigen::Vector3d xyz_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d rpy_rad = Eigen::Vector3d::Zero();

@@ -7,12 +7,10 @@
 
 namespace armloom {
 
-// Returns the wall time as RFC 3339 in UTC with milliseconds, "2026-11-21T09:33:00.125Z". The
-// argument is in milliseconds since 1970.
+// "2026-11-21T09:33:00.125Z", from milliseconds since 1970.
 [[nodiscard]] std::string rfc3339(std::int64_t since_1970_ms);
 
-// Reads an RFC 3339 time with any offset; drops digits beyond milliseconds. Returns nullopt if the
-// text is not such a time.
+// Accepts any offset; drops digits beyond milliseconds. nullopt if malformed.
 [[nodiscard]] std::optional<std::int64_t> read_rfc3339(std::string_view text);
 
 }  // namespace armloom

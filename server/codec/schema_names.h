@@ -6,9 +6,8 @@
 
 namespace armloom {
 
-// Returns the schema with {"$ref": place + name} instead of each named part (formats::named), and
-// adds the schemas of the named parts to `parts`. Throws std::logic_error if two different schemas
-// have the same name.
+// Replaces each named part (formats::named) by {"$ref": place + name} and adds its schema to
+// `parts`. Throws std::logic_error if a name has two schemas.
 [[nodiscard]] Schema refer_to_names(const Schema& schema, const std::string& place, Schema& parts);
 
 }  // namespace armloom

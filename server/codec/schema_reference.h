@@ -6,12 +6,11 @@
 
 namespace armloom {
 
-// Returns a JSON schema as Markdown: a section with a table of members for each object, outermost
-// first. Takes units from the keys. Supports only schemas made by formats: no references, no
-// patterns.
+// Returns a schema as Markdown: a section with a table for each object. Only for schemas made by
+// formats.
 [[nodiscard]] std::string schema_reference(const Schema& schema);
 
-// Returns "rad/s" for "velocity_rad_s"; an empty string if the key has no unit.
+// "rad/s" for "velocity_rad_s"; "" if the key has no unit.
 [[nodiscard]] std::string unit_of_key(const std::string& key);
 
 }  // namespace armloom

@@ -5,9 +5,9 @@
 
 namespace armloom {
 
-// Returns the `stream` of a simulated session: a UUID (version 8) that depends only on the seed.
+// `stream` of a simulated session: UUID version 8, from the seed.
 [[nodiscard]] std::string stream_of_seed(std::uint64_t seed);
-// Returns the `stream` of a server session: a random UUID (version 4).
+// `stream` of a server session: random UUID, version 4.
 [[nodiscard]] std::string random_stream();
 
 }  // namespace armloom

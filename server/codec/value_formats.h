@@ -13,13 +13,11 @@
 
 namespace armloom::formats {
 
-// More small formats, for values in HTTP messages.
-
 [[nodiscard]] FormatPtr<bool> flag();
 [[nodiscard]] FormatPtr<int> integer(int lowest, int highest);
 [[nodiscard]] FormatPtr<int> integer(const NumberRange& range);  // bounds must be whole
 [[nodiscard]] FormatPtr<std::uint64_t> count();                  // zero or more
-// Like list(number(kAnyNumber)), but faster: trajectories have tens of thousands of numbers.
+// Faster than list(number(kAnyNumber)): trajectories have tens of thousands of numbers.
 [[nodiscard]] FormatPtr<std::vector<double>> number_list();
 // Cell time in seconds.
 [[nodiscard]] FormatPtr<TimePoint> cell_time();
@@ -27,8 +25,7 @@ namespace armloom::formats {
 // A text; an empty text is written as null.
 [[nodiscard]] FormatPtr<std::string> text_or_null();
 
-// A text with a rule. A text that breaks the rule is the fault `slug` with `sentence`; `said`
-// describes the rule in the schema.
+// Breaking the rule is the fault `slug` with `sentence`; `said` describes it in the schema.
 struct TextRule {
   bool (*holds)(std::string_view);
   std::string slug;
@@ -37,7 +34,7 @@ struct TextRule {
 };
 [[nodiscard]] FormatPtr<std::string> text(TextRule rule);
 
-// An ignored value of a JSON type; of any type if `type` is empty.
+// An ignored value of this JSON type; of any type if "".
 struct Anything {};
 [[nodiscard]] FormatPtr<Anything> anything(std::string type);
 
@@ -56,7 +53,6 @@ inline constexpr OptionalOperations kOptionalOperations{
     [](void* maybe) -> void* { return &static_cast<std::optional<T>*>(maybe)->emplace(); },
     [](void* maybe) { static_cast<std::optional<T>*>(maybe)->reset(); }};
 
-// A value that may be null.
 [[nodiscard]] AnyFormatPtr nullable(const AnyFormatPtr& format,
                                     const OptionalOperations& operations);
 template <class T>
@@ -64,12 +60,10 @@ template <class T>
   return FormatPtr<std::optional<T>>(nullable(format->any(), kOptionalOperations<T>));
 }
 
-// Reports that `found` is not one of the `known` names.
 void refuse_choice(const JsonNode& node, const std::string& found,
                    const std::vector<std::string>& known);
 
-// Operations on an enumeration (core/base/enumeration.h) whose type is erased, for choice formats.
-// Its values must be numbered from zero.
+// Operations on an enumeration (core/base/enumeration.h), numbered from zero.
 struct ChoiceOperations {
   const char* (*name)(std::size_t value);  // null if the number is no value
   std::size_t (*value)(const void* choice);
@@ -86,8 +80,8 @@ template <class E>
   return FormatPtr<E>(choice(kChoiceOperations<E>));
 }
 
-// A format with a name, by which schemas refer to it: "Job". The schema contains {"$name", "$of"}
-// until refer_to_names() (schema_names.h) replaces it. `text` may be empty.
+// A name by which schemas refer to the format. The schema has {"$name", "$of"} until
+// refer_to_names(). `text` may be empty.
 [[nodiscard]] Schema named_schema(std::string_view name, std::string_view text, Schema schema);
 [[nodiscard]] AnyFormatPtr named(std::string_view name, std::string_view text,
                                  const AnyFormatPtr& format);

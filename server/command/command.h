@@ -20,33 +20,33 @@ inline constexpr int kExitNotWritten = 74;  // output not written completely (EX
 struct ServeOptions {
   std::string cell_file;
   std::string listen = "127.0.0.1:8080";
-  std::string data;  // empty: no recording, no stored jobs
+  std::string data;  // default: no recording, no stored jobs
   std::size_t keep_jobs = 100'000;
   std::size_t keep_days = 0;  // zero: unlimited
-  // Limits of recordings in `data`, the running one included; zero: unlimited.
+  // Recordings in `data`, the running one included; zero: unlimited.
   std::size_t keep_recordings = 0;
   std::size_t keep_recording_days = 0;
   std::size_t keep_recording_mb = 0;
   double jog_lease_s = 0.5;  // seconds of wall time
   std::string log_format = "text";
   std::string log_requests = "none";
-  std::string tokens;           // token file; empty: all requests are allowed
+  std::string tokens;           // default: all requests are allowed
   std::string tls_certificate;  // both or neither
   std::string tls_key;
   bool record = false;
   double speed = 1.0;
-  std::string web;                           // empty: searched next to the binary
-  std::vector<std::string> allowed_origins;  // other sites whose pages may send requests
-  std::vector<std::string> allowed_hosts;    // besides IP addresses and localhost
-  std::string policy;                        // empty: the cell's
-  // Limits per client; the limits for all clients are multiples (see --help).
+  std::string web;  // default: next to the binary
+  std::vector<std::string> allowed_origins;
+  std::vector<std::string> allowed_hosts;  // besides IP addresses and localhost
+  std::string policy;                      // default: the cell's
+  // Per client; for all clients see --help.
   double requests_per_s = 5'000;
   double jobs_per_s = 1'000;
   std::size_t connections_per_client = 3'500;
 };
 int serve(const ServeOptions& options);
 
-// Adds a token and prints it once, lists all tokens, or revokes one.
+// Adds, lists or revokes tokens; prints a new token once.
 struct TokenOptions {
   enum class What { add, list, revoke };
   What what = What::list;
@@ -58,13 +58,10 @@ int change_tokens(const TokenOptions& options);
 
 int validate_cell(const std::string& cell_file);
 
-// Prints the JSON schema of cell files, or the reference (config/README.md).
 int print_cell_schema(bool markdown);
-// Prints the OpenAPI document (/openapi.json).
 int print_openapi();
 
-// Writes a cell file from a robot's URDF and SRDF, to stdout or a file; notes and faults go to
-// stderr. Exit 0 if the cell can be loaded.
+// Writes a cell file to stdout or a file; notes and faults go to stderr. Exit 0 if the cell loads.
 struct ImportOptions {
   std::vector<std::string> urdf;
   std::vector<std::string> srdf;          // one per URDF
@@ -72,12 +69,12 @@ struct ImportOptions {
   std::vector<std::string> robots;        // NAME or NAME:x=0.75,yaw_deg=180
   std::vector<std::string> packages;      // NAME=FOLDER
   std::string prefix;                     // for a single robot
-  std::string name;  // name of the cell; empty: from --out, else from its robots
-  std::string out;   // empty: stdout
+  std::string name;                       // default: from --out, else the robots
+  std::string out;                        // default: stdout
 };
 int import_robots(const ImportOptions& options);
 
-// Prints a Verdict as JSON for each job of the file, one per line.
+// Prints one Verdict (JSON) per job.
 struct CheckOptions {
   std::string cell_file;
   std::string jobs_file;
@@ -85,27 +82,27 @@ struct CheckOptions {
 };
 int check_jobs_file(const CheckOptions& options);
 
-// Prints a job (a body of POST /jobs) that moves one arm to a goal, with all other arms at home, to
-// stdout or a file; exit 0. If there is no plan, prints the reason as JSON on stdout; exit 1.
+// Plans a job (body of POST /jobs) that moves an arm to a goal, all others at home; exit 0. If
+// there is no plan, prints the reason as JSON; exit 1.
 struct PlanOptions {
   std::string cell_file;
   std::string arm;
-  std::vector<std::string> arms;  // instead: candidates; the fastest arm moves
-  std::string to;                 // named state, or JSON (server/messages/plan_goal.h)
-  std::string from;               // likewise, but no pose; empty: home
+  std::vector<std::string> arms;  // candidates; the fastest arm moves
+  std::string to;                 // see server/messages/plan_goal.h
+  std::string from;               // no pose; default: home
   std::uint64_t seed = 1;
   std::optional<int> budget = {};  // PlanQuestion::budget
-  std::string out;                 // empty: stdout
+  std::string out;                 // default: stdout
 };
 int plan_way(const PlanOptions& options);
 
-// Prints the share of a grid of tool poses that each arm reaches, and the overlap of the arms'
-// reach, as tables or JSON on stdout; optionally writes a picture (SVG).
+// Prints the share of a grid of tool poses that each arm reaches, and overlaps; optionally draws an
+// SVG.
 struct ReachOptions {
   std::string cell_file;
   double step_m = 0.2;
-  std::string link;     // tool link, with or without prefix; empty: link of each arm's last joint
-  std::string picture;  // empty: no picture
+  std::string link;     // with or without prefix; default: link of the last joint
+  std::string picture;  // default: no picture
   bool json = false;
 };
 int show_reach(const ReachOptions& options);
@@ -115,19 +112,18 @@ struct SimulateOptions {
   std::string jobs_file;
   std::string policy;
   std::uint64_t seed = 1;
-  std::string out;          // empty: no recording
-  std::string faults_file;  // empty: none
+  std::string out;          // default: no recording
+  std::string faults_file;  // default: none
 };
 int simulate_jobs(const SimulateOptions& options);
 
-// Simulates the same jobs under several policies and prints a Markdown table. Exit 0 if every job
-// ended under every policy, in any state.
+// Prints a Markdown table. Exit 0 if every job ended under every policy.
 struct CompareOptions {
   std::string cell_file;
   std::string jobs_file;
-  std::string policies;  // comma-separated; empty: all of policy_names()
+  std::string policies;  // comma-separated; default: all
   std::uint64_t seed = 1;
-  std::string out;  // folder of compare.csv and compare.svg; empty: no files
+  std::string out;  // folder of compare.csv and compare.svg
 };
 int compare_policies(const CompareOptions& options);
 
@@ -138,23 +134,21 @@ struct AuditOptions {
 };
 int audit_recording(const AuditOptions& options);
 
-// Replays a recording of `serve --data` from its log of inputs. The last line of stdout is a JSON
-// object. Exit 0 if the events are the same; 1 if they differ, with the first difference on stderr,
-// or if no events were recorded.
+// Replays a recording of `serve --data`; the last line of stdout is JSON. Exit 0 if the events are
+// the same; 1 if they differ (the first difference is on stderr) or none was recorded.
 struct ReplayOptions {
-  std::string data;               // replays the newest recording in this folder ...
-  std::string recording;          // ... or this recording
-  std::optional<double> until_s;  // cell time; nullopt: the whole recording
-  std::string out;                // folder for the replayed events; empty: not written
+  std::string data;               // newest recording in this folder, or ...
+  std::string recording;          // ... this recording
+  std::optional<double> until_s;  // cell time
+  std::string out;                // folder for the replayed events
 };
 int replay_recording(const ReplayOptions& options);
 
-// Prints the jobs of a data folder, oldest first, one per line, as JSON or CSV. Works while a
-// server uses the folder.
+// Prints the jobs of a data folder, oldest first, even while a server uses it.
 struct HistoryOptions {
   std::string data;
-  std::string state;  // empty: any
-  std::string arm;    // likewise
+  std::string state;  // default: any
+  std::string arm;
   bool csv = false;
 };
 int print_history(const HistoryOptions& options);
@@ -168,24 +162,22 @@ struct LoadedCell {
   std::string text;  // text of the cell file
   Problems warnings;
 };
-// Reads the file and builds the cell. If there are problems, prints them and all warnings on stderr
-// and returns nullopt.
+// Prints problems and warnings on stderr and returns nullopt if the cell cannot be built.
 [[nodiscard]] std::optional<LoadedCell> load_cell(const std::string& cell_file);
-// Likewise, from a text that is or will be in `cell_file`.
+// `cell_file` is or will be the file of the text.
 [[nodiscard]] std::optional<LoadedCell> load_cell_text(std::string text,
                                                        const std::string& cell_file);
-// Returns true if a server would run the cell: no collision at home, known policy and controllers.
-// Prints on stderr the warnings, pairs that an SRDF disables without proof, and what is wrong.
+// Returns true if a server would run the cell. Prints warnings, pairs disabled without proof, and
+// faults on stderr.
 [[nodiscard]] bool is_fit_to_run(const LoadedCell& loaded);
 
-// Prints "armloom: config/x.json:/robots/0/urdf: ..." on stderr, one line per problem.
+// Prints "armloom: config/x.json:/robots/0/urdf: ..." on stderr.
 void complain(const std::string& file, const Problems& problems);
-// Prints "armloom: warning: ..." likewise.
 void warn(const std::string& file, const Problems& warnings);
 // Prints the problems and returns kExitBadInput.
 int refuse(const std::string& file, const Problems& problems);
 
-// Returns the problems; those with this slug are placed at a command-line option such as "--out".
+// Problems with this slug get the option ("--out") as their place.
 [[nodiscard]] Problems said_of_option(Problems problems, std::string_view slug,
                                       std::string_view option);
 

@@ -23,7 +23,7 @@ void add_policy(CLI::App& command, std::string& policy) {
   command.add_option("--policy", policy, "policy to use instead of the cell's");
 }
 
-// Checks seeds, because the parser would accept -1 as the largest unsigned number.
+// The parser would accept -1 as the largest unsigned number.
 std::string not_a_seed(const std::string& text) {
   std::uint64_t seed = 0;
   const char* end = text.data() + text.size();
@@ -254,8 +254,7 @@ Command audit_command(CLI::App& app) {
   return {command, [options] { return audit_recording(*options); }};
 }
 
-// Refuses empty option values, which unset shell variables leave behind: without its tokens a
-// server would admit every request.
+// Refuses empty values, which unset shell variables leave: `--tokens ""` would admit every request.
 void refuse_empty_values(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     if (option->get_items_expected_max() == 0) continue;  // a flag

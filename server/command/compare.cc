@@ -19,7 +19,7 @@ class Nobody final : public Observer {
   void on_state(const StateFrame&) override {}
 };
 
-// Reads "a,b". Problems: an unknown name, or a name that is listed twice.
+// "a,b". Problems: an unknown or repeated name.
 Result<std::vector<std::string>> read_policies(const std::string& text) {
   if (text.empty()) return known_policies();
   std::vector<std::string> names;
@@ -39,7 +39,7 @@ Result<std::vector<std::string>> read_policies(const std::string& text) {
   return names;
 }
 
-// Return the time in motion of each arm: for all jobs of the file, and for all jobs that succeeded.
+// Planned time in motion per arm: of all jobs of the file, and of all that succeeded.
 std::vector<Duration> work_of_file(const JobsFile& file, const Cell& cell) {
   std::vector<Duration> work(cell.arms.size());
   for (const TrajectoryPtr& trajectory : file.trajectories) {
@@ -78,7 +78,7 @@ Result<ComparedRun> run(const std::string& policy, const CellPtr& cell, const Jo
                      .wall = result->wall};
 }
 
-// The files of --out, opened before the simulation and written after it.
+// Opened before the simulation, written after it.
 struct Files {
   std::ofstream csv;
   std::ofstream svg;

@@ -17,7 +17,6 @@ std::string fixed(double number, int decimals) {
 }
 std::string seconds(Duration time, int decimals) { return fixed(to_seconds(time), decimals); }
 
-// Returns `part` divided by the makespan.
 std::optional<double> share(Duration part, const ComparedRun& run) {
   const auto whole = run.makespan();
   if (!whole) return std::nullopt;
@@ -31,7 +30,7 @@ std::size_t jobs_run(const Comparison& comparison) {
   return std::max<std::size_t>(comparison.jobs, 1);
 }
 
-// Returns, for example, "1 expired, 2 refused".
+// "1 expired, 2 refused"
 std::string other_ends(const RunSummary& summary) {
   std::string text;
   for (const auto& [state, count] : summary.jobs) {
@@ -52,7 +51,7 @@ std::string in_a_cell(const std::string& text) {
   return escaped;
 }
 
-// Returns the number of code points, roughly the width of a table cell.
+// Code points, roughly the width.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -160,11 +159,11 @@ Row csv_row(const ComparedRun& run, const Comparison& comparison) {
 // ---- SVG ----
 
 struct Picture {
-  static constexpr double kBars_x = 150.0;  // left end of the bars
-  static constexpr double kBars_w = 420.0;  // length of the longest bar
+  static constexpr double kBars_x = 150.0;
+  static constexpr double kBars_w = 420.0;
   static constexpr double kTop_y = 62.0;
   static constexpr double kRow_h = 28.0;
-  static constexpr double kWidth = 780.0;  // with room for text after the longest bar
+  static constexpr double kWidth = 780.0;  // room for text after the bars
 
   std::string text;
 

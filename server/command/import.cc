@@ -14,7 +14,6 @@ Problem at_option(std::string option, std::string why) {
   return {ProblemKind::invalid, "bad-option", std::move(option), std::move(why), {}};
 }
 
-// Checks that the option is given once for each --urdf.
 void check_number(const std::string& option, std::size_t given, std::size_t urdfs,
                   Problems& problems) {
   if (given == urdfs) return;
@@ -63,7 +62,7 @@ Result<ImportRequest> request_of(const ImportOptions& options) {
   return request;
 }
 
-// Never overwrites a file, because it may contain manual changes.
+// A file may have manual changes: never overwrite it.
 bool write_new(const fs::path& file, const std::string& text) {
   std::error_code error;
   if (fs::exists(file, error)) {

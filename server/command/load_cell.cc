@@ -12,7 +12,7 @@
 namespace armloom {
 namespace {
 
-// The executive is only created, to learn what it would refuse.
+// The executive is created only to learn what it would refuse.
 class NoJudgements final : public JudgementService {
  public:
   void ask(Question, PlanningScenePtr, std::function<void(Verdict)>) override {}
@@ -32,8 +32,7 @@ bool is_at_or_below(const std::string& pointer, const std::string& above) {
          (pointer.size() == above.size() || pointer[above.size()] == '/');
 }
 
-// Adds the problems found when building the cell, except those that may follow from a fault of the
-// cell file: problems at, above or below its place.
+// Adds problems of building the cell, except those that may follow from faults of the file.
 void add_what_is_independent(const Problems& found, Problems& problems) {
   const Problems faults = problems;
   for (const Problem& problem : found) {

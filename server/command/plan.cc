@@ -14,7 +14,7 @@
 namespace armloom {
 namespace {
 
-// Returns the option and the place in its value: "--to /pose/xyz".
+// "--to /pose/xyz"
 std::string place_in(const char* option, std::string_view pointer) {
   return std::string(option) + (pointer.empty() ? "" : " ") + std::string(pointer);
 }
@@ -26,7 +26,6 @@ tl::unexpected<Problems> at_option(const char* option, Problems problems) {
 
 using RefusedArm = std::pair<std::string, PlanRefusal>;
 
-// Prints the reasons of all arms, with the kind of the first reason.
 void say(const std::vector<RefusedArm>& refused) {
   const PlanRefusal& first = refused.front().second;
   std::string detail;
@@ -63,7 +62,6 @@ void say(const std::vector<RefusedArm>& refused) {
   std::cout << out.text() << '\n';
 }
 
-// Returns the body of POST /jobs.
 std::string job_text(const std::string& arm, const std::string& to,
                      const TrajectoryRequest& request) {
   JsonWriter out;
@@ -74,7 +72,6 @@ std::string job_text(const std::string& arm, const std::string& to,
   return out.take();
 }
 
-// Returns a question for each candidate arm.
 Result<std::vector<PlanQuestion>> questions_of(const PlanOptions& options, const Cell& cell) {
   const auto said = read_plan_goal(options.to);
   if (!said) return at_option("--to", said.error());
@@ -110,8 +107,7 @@ Result<std::vector<PlanQuestion>> questions_of(const PlanOptions& options, const
   return questions;
 }
 
-// Returns the arm with the shortest motion, or nullopt; adds the reasons of arms without a plan to
-// `refused`.
+// Returns the shortest motion, or nullopt; adds the reasons of other arms to `refused`.
 std::optional<std::pair<std::string, PlannedMotion>> first_there(
     const PlanningScenePtr& scene, const std::vector<PlanQuestion>& questions,
     std::vector<RefusedArm>& refused) {

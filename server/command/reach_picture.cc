@@ -26,7 +26,7 @@ std::string formatted(const char* format, double a, double b = 0.0, double c = 0
   return text;
 }
 
-// A view of the grid along one axis: x to the right, `up` upward.
+// A view along one axis: x to the right, `up` upward.
 class View {
  public:
   View(const ToolReach& reach, std::size_t up, double left)
@@ -52,7 +52,7 @@ class View {
   [[nodiscard]] std::size_t columns() const {
     return static_cast<std::size_t>(grid_.count[0]) * static_cast<std::size_t>(grid_.count[up_]);
   }
-  // Returns the number of positions in the column that the arm reaches.
+  // Number of reached positions in the column.
   [[nodiscard]] int reached(std::size_t arm, std::size_t column) const {
     const auto nx = static_cast<std::size_t>(grid_.count[0]);
     const auto ny = static_cast<std::size_t>(grid_.count[1]);
@@ -92,7 +92,7 @@ class View {
     }
     svg += "</g>\n";
   }
-  // Returns true if several arms reach the same position in the column.
+  // True if several arms reach the same position in the column.
   [[nodiscard]] bool is_shared(std::size_t column) const {
     const auto nx = static_cast<std::size_t>(grid_.count[0]);
     const auto ny = static_cast<std::size_t>(grid_.count[1]);

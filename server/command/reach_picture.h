@@ -6,9 +6,8 @@
 
 namespace armloom {
 
-// Returns an SVG with two views of the reach, from above (x to the right, y up) and from the side
-// (x, z). Each arm has a color, darker where it reaches more of a column. Positions reached by two
-// or more arms are framed. A circle marks each arm's first joint.
+// An SVG with two views, from above (x, y) and from the side (x, z). Arms have colors, darker where
+// they reach more of a column. Shared positions are framed; a circle marks each first joint.
 [[nodiscard]] std::string reach_picture(const ToolReach& reach, const Cell& cell);
 
 }  // namespace armloom

@@ -1,4 +1,3 @@
-// Replays a recording from its log of inputs and compares the events.
 #include "server/replay/replay.h"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// Returns the newest recording in the folder; the folder itself may be one.
+// The folder itself may be a recording.
 std::optional<fs::path> newest_recording(const fs::path& data) {
   std::error_code ec;
   std::optional<fs::path> newest;
@@ -34,7 +33,7 @@ std::optional<fs::path> newest_recording(const fs::path& data) {
   return newest;
 }
 
-// Removes wall times, which do not follow from the inputs.
+// Wall times do not follow from the inputs.
 void drop_wall_time(Json& value) {
   if (value.is_object()) {
     for (auto it = value.begin(); it != value.end();) {
@@ -55,7 +54,6 @@ std::vector<std::string> whole_lines(const fs::path& file) {
   return lines;
 }
 
-// Returns a closed stream if `folder` is empty.
 Result<std::ofstream> open_events(const std::string& folder) {
   if (folder.empty()) return std::ofstream();
   std::error_code ec;
@@ -66,7 +64,6 @@ Result<std::ofstream> open_events(const std::string& folder) {
                          "the folder " + folder + " cannot be written", folder});
 }
 
-// Compares replayed events with recorded events, one by one.
 class EventComparison final : public Observer {
  public:
   // `out`: receives the replayed events, if open.
@@ -81,13 +78,12 @@ class EventComparison final : public Observer {
   void on_tick(TimePoint, const Configuration&) override {}
   void on_state(const StateFrame&) override {}
 
-  // Returns the cell time of the last recorded event.
   [[nodiscard]] TimePoint end() const {
     if (recorded_.empty()) return TimePoint{};
     const Json last = Json::parse(recorded_.back(), nullptr, false);
     return TimePoint(from_seconds(last.value("t_s", 0.0)));
   }
-  // Reports a difference if an event recorded until `time` was not replayed.
+  // An event recorded until `time` that was not replayed is a difference.
   void expect_all_until(TimePoint time) {
     if (differs_ || events_ >= recorded_.size()) return;
     const Json next = Json::parse(recorded_[events_], nullptr, false);
@@ -99,9 +95,9 @@ class EventComparison final : public Observer {
   };
   [[nodiscard]] const std::optional<Difference>& difference() const { return differs_; }
   [[nodiscard]] std::size_t events() const { return events_; }
-  // Number of compared events; later ones were not on disk when the server ended.
+  // Later events were not on disk when the server ended.
   [[nodiscard]] std::size_t compared() const { return std::min(events_, recorded_.size()); }
-  // Returns true if there were events but none was recorded.
+  // True if no event was recorded.
   [[nodiscard]] bool is_void() const { return compared() == 0 && events_ > 0; }
   [[nodiscard]] bool is_written() const { return !out_.is_open() || out_.good(); }
 
@@ -128,7 +124,7 @@ struct Run {
   TimePoint ended{};
 };
 
-// Replays all lines until `until`. Problems: faults of the log.
+// Problems: faults of the log.
 Result<Run> run(Replay& replay, const std::vector<std::string>& lines,
                 std::optional<TimePoint> until) {
   Run done;

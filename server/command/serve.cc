@@ -35,8 +35,7 @@ bool parse_listen(const std::string& text, std::string& address, std::uint16_t& 
   return ec == std::errc{} && stop == end;
 }
 
-// Returns the dashboard's folder: web/dist of the repository, the installed folder, or `web` next
-// to the binary.
+// web/dist of the repository, the installed folder, or `web` next to the binary.
 fs::path web_folder(const std::string& asked) {
   if (!asked.empty()) return asked;
   std::error_code ec;
@@ -48,11 +47,9 @@ fs::path web_folder(const std::string& asked) {
   return folder / "web";
 }
 
-// Raises the limit of file descriptors to its maximum and returns the number of connections that it
-// allows, leaving some descriptors for files.
+// Raises the limit of file descriptors and returns the number of connections that it allows.
 std::size_t connections_within_descriptors(std::size_t wanted) {
-  // Descriptors for files and for the reserve of HttpServer, 64 each at most; half of all if there
-  // are few.
+  // For files and the reserve of HttpServer, 64 each; half of all if few.
   constexpr rlim_t kOther = 128;
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
@@ -72,8 +69,7 @@ void limit_clients(const ServeOptions& options, ServiceOptions& service) {
   service.connections_per_client_max = options.connections_per_client;
 }
 
-// Checks access: an address that other machines can reach requires tokens, and TLS to protect the
-// tokens from eavesdropping.
+// An address that other machines can reach requires tokens, and TLS to protect them.
 void find_faults_of_access(const ServeOptions& options, const std::string& address,
                            const Result<std::vector<KeptToken>>& tokens, Problems& problems) {
   if (options.tls_certificate.empty() != options.tls_key.empty()) {
@@ -103,7 +99,7 @@ std::string dashboard_address(const std::string& scheme, const std::string& addr
   return scheme + "://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port) + "/";
 }
 
-// Returns faults of the options, so that they are reported before the server listens.
+// Faults to report before the server listens.
 Problems faults_of(const ServeOptions& options) {
   Problems problems;
   std::error_code ec;
@@ -127,8 +123,8 @@ Problems faults_of(const ServeOptions& options) {
   return problems;
 }
 
-// Logs to stderr on a thread of its own: a slow stderr reader never blocks the server, and the
-// oldest lines are lost.
+// Logs on a thread of its own: a slow stderr reader never blocks the server; the oldest lines are
+// lost.
 Log log_of(const std::string& format) {
   constexpr std::size_t kLinesMax = 8192;
   spdlog::init_thread_pool(kLinesMax, 1);

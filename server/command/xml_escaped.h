@@ -4,8 +4,7 @@
 
 namespace armloom {
 
-// Escapes text for XML (SVG), also between double quotes. Control characters, which XML 1.0 cannot
-// express, become '?'.
+// Also for use between double quotes. Control characters, which XML 1.0 does not have, become '?'.
 [[nodiscard]] std::string xml_escaped(const std::string& text);
 
 }  // namespace armloom

@@ -11,13 +11,13 @@
 
 namespace armloom {
 
-// Answer to GET /alerts and POST /alerts/acknowledge.
+// GET /alerts
 struct AlertList {
   std::vector<StoredAlert> alerts;
 };
 [[nodiscard]] FormatPtr<AlertList> alert_list_format();
 
-// Body of POST /alerts/acknowledge.
+// POST /alerts/acknowledge
 struct AlertsSeen {
   std::vector<std::string> ids;
   std::optional<std::string> who = {};

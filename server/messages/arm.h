@@ -7,7 +7,6 @@
 
 namespace armloom {
 
-// Answers about arms and the server's health.
 [[nodiscard]] FormatPtr<ArmView> arm_format();
 [[nodiscard]] FormatPtr<std::vector<ArmView>> arm_list_format();
 

@@ -9,7 +9,6 @@
 
 namespace armloom {
 
-// A request that changed something or was refused.
 struct AuditRecord {
   std::string at;                  // RFC 3339
   std::optional<std::string> who;  // the token's name

@@ -84,7 +84,6 @@ bool is_simulated(const CellView& view) {
                              [](const Robot& robot) { return robot.controller.type == "sim"; });
 }
 
-// Writes null for a limit that the joint does not have.
 PartPtr<CellJointView> limit(const char* key, double Joint::*where) {
   return told(
       key,

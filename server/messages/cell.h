@@ -8,8 +8,7 @@
 
 namespace armloom {
 
-// Answer to GET /cell: the cell as the dashboard needs it, with names instead of ids. URDF and SRDF
-// are texts; meshes are paths, by the name that the URDF uses.
+// Answer to GET /cell, with names instead of ids. Meshes are paths, by their name in the URDF.
 struct CellArmView {
   const Arm* arm;
   std::vector<std::string> joints;

@@ -19,10 +19,9 @@ struct ComparisonInquiry {
   std::uint64_t seed = 1;
 };
 [[nodiscard]] FormatPtr<ComparisonInquiry> comparison_inquiry_format();
-// Problems: those of the shape, and a policy that is listed twice.
+// Problems: the shape; a repeated policy.
 [[nodiscard]] Result<ComparisonInquiry> read_comparison_inquiry(std::string_view text);
 
-// Simulated outcome of the jobs under one policy.
 struct PolicyRun {
   std::string policy;
   std::uint64_t succeeded = 0;

@@ -179,7 +179,6 @@ EventKind<T> event_kind(const char* type, const char* name, const FormatPtr<T>& 
                 }))};
 }
 
-// All kinds of events: type, schema name and format.
 struct Kinds {
   EventKind<SnapshotView> snapshot = event_kind("snapshot", "SnapshotEvent", snapshot_format());
   EventKind<JobView> job = event_kind("job", "JobEvent", job_format());

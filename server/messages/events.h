@@ -14,12 +14,10 @@
 
 namespace armloom {
 
-// Messages on WebSocket and SSE and in recordings. `clock` is null in a simulated session; then
-// `at` and keys ending in `_at` are absent.
-//
-// Returns the envelope {"stream", "seq", "type", "t_s", "at", "data"}.
+// Messages on WebSocket and SSE and in recordings. `clock`: null in a simulated session; then `at`
+// and keys ending in `_at` are absent.
 
-// One envelope {"stream", "seq", "type", "t_s", "at", "data"}.
+// Returns {"stream", "seq", "type", "t_s", "at", "data"}.
 [[nodiscard]] std::string event_json(const Event& event, const std::string& stream,
                                      const WallClock* clock);
 
@@ -34,12 +32,10 @@ struct SnapshotView {
 [[nodiscard]] std::string snapshot_json(const SnapshotView& view, const std::string& stream,
                                         const WallClock& clock);
 
-// Returns a state frame, without stream and seq; positions are rounded to 1e-6. `speed`: seconds of
-// cell time per second of wall time.
+// Positions are rounded to 1e-6. `speed`: cell seconds per wall second.
 [[nodiscard]] std::string state_json(const StateFrame& frame, const Cell& cell, double speed);
 
-// Returns one schema for all messages; and the types that distinguish them, with the names of their
-// schemas.
+// The schema of all messages; their types, with the names of their schemas.
 [[nodiscard]] Schema message_schema();
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> message_types();
 

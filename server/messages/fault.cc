@@ -22,7 +22,6 @@ using FaultKind = ArmFault::Kind;
 constexpr double kFaultTimeMax_s = 1e6;
 constexpr std::size_t kFaultsFileMax = 10'000;
 
-// All kinds of faults.
 struct KindRule {
   FaultKind kind;
   const char* name;
@@ -80,7 +79,7 @@ bool has_known_kind(const JsonNode& fault) {
   return std::ranges::any_of(kKinds, [&](const KindRule& rule) { return name == rule.name; });
 }
 
-// Members "for_s" and "value", whose rules depend on the kind. Read after the kind, if it is known.
+// "for_s" and "value" depend on the kind, so they are read after it.
 class KindsOwn final : public CustomPart<FaultRequest> {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override {
@@ -135,7 +134,7 @@ class KindsOwn final : public CustomPart<FaultRequest> {
   }
 };
 
-// Checks the value and the duration of a fault read from a log against its kind.
+// Checks a logged fault against its kind.
 class WithinKind final : public CustomPart<FaultRequest> {
  public:
   void read(const JsonNode& object, FaultRequest& fault) const override {
@@ -148,7 +147,7 @@ class WithinKind final : public CustomPart<FaultRequest> {
   void describe(Schema&, const FaultRequest&, Way) const override {}
 };
 
-// Describes a fault as the server returns it, with all members.
+// All members, as the server returns them.
 PartPtr<FaultRequest> told_members(FormatPtr<TimePoint> at, FormatPtr<Duration> lasting) {
   using Fault = FaultRequest;
   return parts<Fault>({

@@ -11,13 +11,12 @@
 
 namespace armloom {
 
-// Body of POST /sim/faults. `slow` needs a value in 0..1 (share of the speed), `late_start` a value
-// in seconds; other kinds have no value. Problem "unsupported-fault": a kind that simulated arms do
-// not implement.
+// Body of POST /sim/faults. Required values: for `slow` a share of the speed in 0..1, for
+// `late_start` seconds. Problem "unsupported-fault": a kind that simulated arms do not have.
 [[nodiscard]] FormatPtr<FaultRequest> fault_request_format();
 [[nodiscard]] Result<FaultRequest> read_fault_text(std::string_view text);
 
-// Reads a faults file: an array of such bodies, each with "at_s". Arms must be arms of `cell`.
+// An array of such bodies, each with "at_s". Arms must be in `cell`.
 [[nodiscard]] Result<std::vector<FaultRequest>> read_faults_text(std::string_view text,
                                                                  const Cell& cell);
 
@@ -27,7 +26,7 @@ struct FaultView {
   FaultRequest fault;
 };
 [[nodiscard]] FormatPtr<FaultView> fault_format();
-// Format of a fault in the input log, which has no id yet; read back as strictly as a request.
+// A fault in the input log, without id; read as strictly as a request.
 [[nodiscard]] FormatPtr<FaultRequest> logged_fault_format();
 
 // Body and answer of PUT /sim/speed.

@@ -12,15 +12,13 @@
 
 namespace armloom {
 
-// Formats of jobs and lists of jobs.
-
 [[nodiscard]] FormatPtr<JobState> job_state_format();
 [[nodiscard]] FormatPtr<WaitView> wait_format();
 [[nodiscard]] FormatPtr<JobView> job_format();
 // Ids of the jobs in each list of the queue.
 [[nodiscard]] FormatPtr<QueueView> queue_ids_format();
 
-// A job of the executive, or its JSON: cached from another list, or read from the store.
+// From the executive, or as JSON: cached, or from the store.
 using JobText = std::shared_ptr<const std::string>;
 using ListedJob = std::variant<JobView, JobText>;
 [[nodiscard]] FormatPtr<ListedJob> listed_job_format();
@@ -43,7 +41,7 @@ struct QueueJobs {
 [[nodiscard]] FormatPtr<std::vector<ListedJob>> batch_accepted_format();
 [[nodiscard]] FormatPtr<std::vector<Result<ListedJob>>> batch_results_format();
 
-// Answer to POST /check; verdict_part() has its members alone, for use within another object.
+// Answer to POST /check; verdict_part() has its members alone.
 [[nodiscard]] FormatPtr<CheckView> verdict_format();
 [[nodiscard]] const formats::PartPtr<CheckView>& verdict_part();
 

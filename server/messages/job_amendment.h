@@ -9,13 +9,12 @@
 
 namespace armloom {
 
-// Body of PATCH /jobs/{id}: the changeable members of POST /jobs; absent members keep their values.
+// Body of PATCH /jobs/{id}; absent members keep their values.
 [[nodiscard]] FormatPtr<JobAmendment> job_amendment_format();
 [[nodiscard]] Result<JobAmendment> read_job_amendment(std::string_view text);
 
 // Returns an amendment with the job's present values.
 [[nodiscard]] JobAmendment amendable_of(const JobView& job);
-// Applies a stored amendment to the original request.
 void apply(const JobAmendment& amendment, JobRequest& request);
 
 }  // namespace armloom

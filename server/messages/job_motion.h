@@ -9,8 +9,7 @@
 
 namespace armloom {
 
-// Returns a request that reproduces the trajectory: its waypoints, with accelerations if a segment
-// needs them.
+// Returns a request for the same trajectory, with accelerations if a segment needs them.
 [[nodiscard]] TrajectoryRequest request_of(const Trajectory& trajectory, const Cell& cell);
 
 // Answer to GET /jobs/{id}/trajectory.

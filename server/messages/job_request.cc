@@ -43,8 +43,8 @@ void slow_down(TrajectoryRequest& trajectory, double factor) {
   }
 }
 
-// Member "jobs" of a batch; read after "atomic" and "reorderable". If the batch is not atomic, each
-// job is read on its own, with pointers into its own body.
+// Read after "atomic" and "reorderable". In a non-atomic batch each job is read alone, with
+// pointers into its own body.
 class BatchJobs final : public CustomPart<BatchRequest> {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("jobs"); }
@@ -187,7 +187,7 @@ FormatPtr<JobRequest> job_request_format() {
                 "arm that arrives first takes the job"),
           at_most_one<Request>({"arm", "arms"}),
           at_most_one<Request>({"trajectory", "alternatives", "move_to"}),
-          // These parts modify the trajectory, so they are read after it.
+          // Read after the trajectory, which they change.
           retime_part(),
           velocity_scaling_part(),
       }));

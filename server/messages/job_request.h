@@ -14,29 +14,25 @@ namespace armloom {
 // Body of POST /jobs.
 [[nodiscard]] FormatPtr<JobRequest> job_request_format();
 [[nodiscard]] FormatPtr<std::string> job_id_format();
-// Returns true if the text can be a job's display name: at most kJobNameMax characters, no control
-// characters.
+// At most kJobNameMax characters, no control characters.
 [[nodiscard]] bool is_job_name(std::string_view name);
 [[nodiscard]] FormatPtr<std::string> job_name_format();
 
-// Maximum length of a job's id. Ids consist of [A-Za-z0-9._-], so that they fit into a URL.
+// Ids consist of [A-Za-z0-9._-], so that they fit into a URL.
 inline constexpr std::size_t kJobKeyMax = 128;
-// Maximum characters of a job's display name.
 inline constexpr std::size_t kJobNameMax = 256;
 inline constexpr std::size_t kAfterMax = 100;   // predecessors of one job
 inline constexpr std::size_t kBatchMax = 1000;  // jobs of one batch
 inline constexpr std::size_t kAlternativesMax = 8;
 
-// Reads a body of POST /jobs. Checks the shape only; validate() checks limits, names and times.
-// Returns all faults, at most JsonNode::kFaultsMax. ROS's `header` and `effort` are ignored. The
-// trajectory may be nested as in MoveIt ("trajectory": {"joint_trajectory": {...}}).
+// Reads the shape only; validate() checks limits, names and times. Returns all faults, at most
+// JsonNode::kFaultsMax. ROS's `header` and `effort` are ignored; MoveIt's nesting is accepted.
 [[nodiscard]] Result<JobRequest> read_job(const nlohmann::json& body);
 
-// Reads the same from text.
 [[nodiscard]] Result<JobRequest> read_job_text(std::string_view text);
 
-// A request and the canonical text of its body (members sorted by name, no white space), by which a
-// repeated request is recognized.
+// A request and its body in canonical form (members sorted, no white space), which identifies
+// repeated requests.
 template <class T>
 struct Submission {
   T request;
@@ -44,8 +40,8 @@ struct Submission {
 };
 [[nodiscard]] Result<Submission<JobRequest>> read_job_submission(std::string_view text);
 
-// Body of POST /batches: {"jobs": [...], "atomic": true}. In an atomic batch every job has been
-// read; otherwise each entry has its own result.
+// Body of POST /batches. In an atomic batch every job has been read; else each entry has its own
+// result.
 struct BatchRequest {
   struct Entry {
     Result<JobRequest> job;
@@ -59,7 +55,7 @@ struct BatchRequest {
 [[nodiscard]] Result<BatchRequest> read_batch_text(std::string_view text);
 [[nodiscard]] Result<Submission<BatchRequest>> read_batch_submission(std::string_view text);
 
-// Reads a jobs file: an array of {"at": seconds, "job": {...}}, in any order.
+// [{"at": seconds, "job": {...}}, ...], in any order.
 [[nodiscard]] Result<std::vector<TimedJob>> read_jobs_text(std::string_view text);
 
 }  // namespace armloom

@@ -5,9 +5,9 @@
 
 namespace armloom {
 
-// The terms of a job, each described once, for requests and for answers.
+// Terms of a job, for requests and answers.
 [[nodiscard]] formats::PartPtr<JobTerms> job_terms_part();
-// The terms that PATCH /jobs/{id} can change.
+// For PATCH /jobs/{id}.
 [[nodiscard]] formats::PartPtr<AmendedTerms> amended_terms_part();
 
 }  // namespace armloom

@@ -9,12 +9,12 @@
 
 namespace armloom {
 
-// Answer to GET /states: measured positions of the last minutes, column by column.
+// Answer to GET /states, column by column.
 struct MeasuredStates {
   std::string stream;
   std::vector<std::string> joints;
   std::vector<TimePoint> times;  // ascending
-  std::vector<Configuration> q;  // one entry per time, in the order of joints; rad or m
+  std::vector<Configuration> q;  // per time, in the order of joints; rad or m
 };
 [[nodiscard]] FormatPtr<MeasuredStates> measured_states_format();
 

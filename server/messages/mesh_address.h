@@ -8,11 +8,10 @@ namespace armloom {
 inline constexpr const char* kApiPrefix = "/api/v1";
 inline constexpr const char* kMeshFolder = "/cell/meshes/";
 
-// Returns the name under which a mesh file is served: a hash of its path and its extension in lower
-// case ("91d3c0ffee5a1b2c.stl"), so that clients never see the path.
+// Hash of the path, and its extension in lower case ("91d3c0ffee5a1b2c.stl"): clients never see the
+// path.
 [[nodiscard]] std::string mesh_name(const std::string& path);
 
-// Returns the path under which the mesh is served.
 [[nodiscard]] std::string mesh_address(const std::string& path);
 
 }  // namespace armloom

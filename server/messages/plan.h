@@ -14,10 +14,9 @@ namespace armloom {
 
 // Answer to POST /plan.
 [[nodiscard]] FormatPtr<PlanView> plan_format();
-// Returns the answer (status 422) if there is no plan.
+// The answer (422) if there is no plan.
 [[nodiscard]] ProblemDocument document_of(const RefusedInquiry& refused);
-// Returns the links that come too close, or the link that misses its pose; empty if no link is at
-// fault.
+// Links that come too close, or the link that misses its pose; may be empty.
 [[nodiscard]] std::vector<std::string> links_of(const PlanRefusal& refusal);
 
 }  // namespace armloom

@@ -10,8 +10,7 @@ namespace armloom {
 // A goal of an arm, one of
 [[nodiscard]] FormatPtr<PlanGoal> plan_goal_format();
 
-// Reads a goal: JSON if the text begins with "{", joint positions if it begins with "[", else a
-// name.
+// JSON if the text begins with "{", joint positions if with "[", else a name.
 [[nodiscard]] Result<PlanGoal> read_plan_goal(const std::string& text);
 
 }  // namespace armloom

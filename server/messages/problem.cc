@@ -17,7 +17,6 @@ namespace {
 
 using Value = decltype(Problem::value);
 
-// The value found: a text, a number, or null.
 class ValueFormat final : public CustomFormat<Value> {
  public:
   void read(const JsonNode&, Value&) const override {}

@@ -11,11 +11,9 @@
 
 namespace armloom {
 
-// Returns the HTTP status of a kind of problem.
 [[nodiscard]] int status_of(ProblemKind kind);
 
-// An RFC 9457 problem document. If there are several problems, the first is at the top and all are
-// in `errors`.
+// An RFC 9457 problem document: the first problem, and all in `errors` if there are several.
 struct ProblemDocument {
   struct Error {
     std::string pointer;  // JSON pointer, or the place in words
@@ -40,13 +38,13 @@ struct ProblemDocument {
 
 // Precondition: `problems` is not empty.
 [[nodiscard]] ProblemDocument document_of(const Problems& problems);
-// Return the `type` of a problem, and its `title` ("Limit exceeded").
+// "urn:...", and "Limit exceeded".
 [[nodiscard]] std::string problem_type(const std::string& slug);
 [[nodiscard]] std::string problem_title(const std::string& slug);
 [[nodiscard]] std::string problem_json(const Problems& problems);
 
-// Returns the problem as one sentence: "config/x.json:/robots/0/urdf: ...". A pointer that is not a
-// JSON pointer ("panda.urdf: joint panda_joint3") names its own file.
+// One sentence: "config/x.json:/robots/0/urdf: ...". A place that is not a JSON pointer
+// ("panda.urdf: joint panda_joint3") names its own file.
 [[nodiscard]] std::string problem_sentence(std::string_view file, const Problem& problem);
 
 }  // namespace armloom

@@ -13,7 +13,6 @@ using namespace formats;
 
 namespace {
 
-// Returns a function that reads a member of the step's job.
 template <class M>
 auto of_job(M JobView::*member) {
   return [member](const TimelineLanes::Leg& leg) { return leg.job.*member; };

@@ -90,7 +90,6 @@ constexpr const char* kNested = "joint_trajectory";
 
 bool is_nested(const JsonNode& node) { return node.raw().is_object() && node.has(kNested); }
 
-// The inner trajectory of a nested one.
 class OnceNested final : public CustomFormat<TrajectoryRequest> {
  public:
   void read(const JsonNode& node, TrajectoryRequest& out) const override {
@@ -106,7 +105,7 @@ class OnceNested final : public CustomFormat<TrajectoryRequest> {
   FormatPtr<TrajectoryRequest> plain_ = plain_format();
 };
 
-// The trajectory of multi-DOF joints, which no cell has; ROS prints it empty.
+// ROS prints an empty multi-DOF trajectory; no cell has such joints.
 class EmptyMultiDof final : public CustomFormat<Anything> {
  public:
   void read(const JsonNode& node, Anything&) const override {

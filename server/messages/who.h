@@ -6,8 +6,7 @@
 
 namespace armloom {
 
-// A person's name as given by the client; may be empty. A blank name is refused, because it would
-// be displayed as no name.
+// A person's name; may be empty but not blank.
 [[nodiscard]] FormatPtr<std::string> who_format();
 
 }  // namespace armloom
