@@ -19,7 +19,7 @@ void get_alerts(Call call) {
   });
 }
 
-// The token's name is proven; a name that the client sends is not.
+// Prefers the token's name, which is proven, to the name that the client sends.
 std::string who_of(const Guard& guard, const std::optional<Caller>& caller, const AlertsSeen& seen,
                    const std::string& peer) {
   if (guard.asks() && caller) return caller->name;

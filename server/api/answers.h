@@ -13,7 +13,7 @@ namespace armloom {
 [[nodiscard]] Response refusal_response(const Refusal& refusal);
 // Answer to a command that took effect but was not stored, because of `refusal`.
 [[nodiscard]] Response done_but_not_stored(Refusal refusal);
-// 404: no `what` ("arm") has this name.
+// Answers 404: no `what` ("arm") has this name.
 [[nodiscard]] Response no_such(const char* what, const std::string& name);
 
 // `clock`: required by formats that write wall time.
@@ -23,7 +23,7 @@ template <class T>
   return json_response(status, text_of(*format, value, clock));
 }
 
-// `path` is without the prefix: "/jobs/pick-7".
+// Adds a Location header. `path` is without the prefix: "/jobs/pick-7".
 [[nodiscard]] Response located(Response response, const std::string& path);
 
 }  // namespace armloom

@@ -19,8 +19,8 @@ class CellMeshes {
 
   [[nodiscard]] static std::vector<std::string> content_types();
 
-  // 404 if the name is unknown, or the file is gone or exceeds kMaxMeshBytes. 503 if no file
-  // descriptor is left. Concurrent requests share the bytes.
+  // Answers 404 if the name is unknown, or the file is gone or exceeds kMaxMeshBytes; 503 if no
+  // file descriptor is left. Concurrent requests share the bytes.
   [[nodiscard]] Response answer(const Request& request, const std::string& name);
 
  private:

@@ -32,7 +32,7 @@ void tell_all(const ApiParts& parts, const std::string& what) {
 void let_go(const ApiParts& parts, const std::optional<Control::Move>& move) {
   if (!move) return;
   parts.loop.post_urgent([job = move->job](Executive& executive) {
-    static_cast<void>(executive.cancel(job));  // it may have ended
+    static_cast<void>(executive.cancel(job));  // the job may have ended
   });
 }
 

@@ -46,8 +46,8 @@ const QueryFormat<StreamQuery>& events_query() {
   return format;
 }
 
-// A `Last-Event-ID: <stream>:<seq>` takes precedence, because a reconnecting browser repeats the
-// original query.
+// Returns where to resume. `Last-Event-ID: <stream>:<seq>` takes precedence, because a reconnecting
+// browser repeats the original query.
 StreamQuery place_of(const Request& request, StreamQuery asked) {
   if (!request.last_event_id) return asked;
   const std::string& id = *request.last_event_id;
@@ -71,8 +71,8 @@ std::string snapshot_text(const ApiParts& parts, const Status& status, const Wal
 
 void write_snapshot(const ApiParts& parts);
 
-// All events up to `seq` were posted to this thread before the text, so later events complete the
-// snapshot. If the hub has dropped them, newcomers wait again.
+// Subscribes newcomers. All events up to `seq` were posted to this thread before the text, so later
+// events complete the snapshot. If the hub has dropped them, newcomers wait again.
 void welcome(const ApiParts& parts, const std::vector<ApiParts::Newcomer>& newcomers,
              std::uint64_t seq, const Hub::Text& text) {
   for (const ApiParts::Newcomer& newcomer : newcomers) {

@@ -6,9 +6,9 @@ namespace armloom {
 
 // Example bodies for the two-Panda cell.
 
-// A motion from home, with ROS 2 times. `head`: members before the trajectory, each with a comma.
+// Returns a motion from home with ROS 2 times. `head`: members before it, each with a comma.
 [[nodiscard]] std::string example_job(const std::string& head, const std::string& arm);
-// A job with ROS 1 times and MoveIt's nesting.
+// Returns a job with ROS 1 times and MoveIt's nesting.
 [[nodiscard]] std::string example_moveit_job();
 [[nodiscard]] std::string example_batch();
 

@@ -14,7 +14,8 @@ namespace armloom {
 [[nodiscard]] Result<std::optional<StoredJob>> stored_job(const ApiParts& parts,
                                                           const std::string& key);
 
-// The ETag's first part covers what PATCH can change, its second part the whole body.
+// Answers with the job and its ETag: the first part covers what PATCH can change, the second the
+// whole body.
 [[nodiscard]] Response job_answer(int status, const JobView& job, const WallClock& clock);
 [[nodiscard]] Response job_answer(const StoredJob& job);
 

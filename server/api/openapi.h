@@ -7,7 +7,8 @@
 
 namespace armloom {
 
-// The OpenAPI 3.1 document, made from all routes. test/openapi compares it with a running server.
+// Returns the OpenAPI 3.1 document, made from all routes. test/openapi compares it with a running
+// server.
 [[nodiscard]] const Schema& openapi_document();
 [[nodiscard]] const std::string& openapi_text();
 

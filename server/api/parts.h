@@ -95,7 +95,7 @@ void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
 [[nodiscard]] bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jobs,
                               const Respond& respond);
 
-// Problem (unsupported): not JSON in UTF-8, or encoded.
+// Checks the Content-Type. Problem (unsupported): not JSON in UTF-8, or encoded.
 [[nodiscard]] Result<void> check_content_type(const Request& request);
 
 // Larger bodies are read on a worker thread.

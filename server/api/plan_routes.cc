@@ -15,7 +15,7 @@ Response plan_response(const Result<PlanOutcome>& result) {
   return refused;
 }
 
-// `gone`: the client has disconnected.
+// Plans a motion; `gone` drops the plan if the client has disconnected.
 void post_plan(Call call) {
   const auto plan = [&parts = call.parts, respond = call.respond,
                      gone = call.request.gone](PlanInquiry read) {

@@ -30,7 +30,8 @@ class QueryFormat {
   QueryFormat(std::vector<QueryPart<T>> parts, ProblemKind bad)
       : parts_(std::move(parts)), bad_(bad) {}
 
-  // Problems: unreadable or missing parameters. The router refuses unknown parameters.
+  // Reads a query. Problems: unreadable or missing parameters. The router refuses unknown
+  // parameters.
   [[nodiscard]] Result<T> read(const Target& target) const {
     T query{};
     Problems problems;

@@ -92,7 +92,7 @@ struct Route {
 // Refusals of every route, plus 415 for bodies and 403 for commands.
 [[nodiscard]] std::vector<int> common_refusals(const Route& route);
 
-// "/jobs" becomes "/api/v1/jobs".
+// Adds the prefix: "/jobs" becomes "/api/v1/jobs".
 [[nodiscard]] std::string api_path(const std::string& path);
 
 template <class T>

@@ -19,7 +19,7 @@ Session session_of(Guard& guard, const std::optional<std::string>& token) {
   return session;
 }
 
-// hidden from scripts, and not sent from pages of other sites
+// Makes a cookie that is hidden from scripts and not sent from pages of other sites.
 std::string cookie(const Guard& guard, const std::string& token, const char* more) {
   return std::string(kTokenCookie) + "=" + token + "; Path=/; HttpOnly; SameSite=Strict" +
          (guard.is_tls() ? "; Secure" : "") + more;

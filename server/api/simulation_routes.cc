@@ -8,7 +8,7 @@
 namespace armloom {
 namespace {
 
-// On the strand, where cell time and wall time are known together.
+// Changes the speed on the strand, where cell time and wall time are known together.
 void put_speed(Call call) {
   struct Change {
     TimePoint time;

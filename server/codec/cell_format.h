@@ -12,7 +12,7 @@ namespace armloom {
 // `armloom import` and the settings in GET /cell follow from it.
 [[nodiscard]] const Format<CellDescription>& cell_format();
 
-// Clearances, checking, scheduling, monitor and execution as members of one object.
+// Returns clearances, checking, scheduling, monitor and execution as members of one object.
 [[nodiscard]] formats::PartPtr<CellDescription> settings_part();
 // Returns "monitor: rate_hz 100, ...", one line per group.
 [[nodiscard]] std::string settings_text(const CellDescription& settings);

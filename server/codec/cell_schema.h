@@ -7,9 +7,9 @@
 namespace armloom {
 
 [[nodiscard]] const Schema& cell_schema();
-// The text of config/cell.schema.json.
+// Returns the text of config/cell.schema.json.
 [[nodiscard]] std::string cell_schema_text();
-// The text of config/README.md.
+// Returns the text of config/README.md.
 [[nodiscard]] std::string cell_reference_text();
 
 }  // namespace armloom

@@ -115,7 +115,7 @@ class CommentedWriter {
     for (const std::string& note : notes->second) write_comment(note);
   }
 
-  // Line ends become spaces, because the rest would not be a comment.
+  // Writes a comment; line ends become spaces, because the rest would not be a comment.
   void write_comment(const std::string& text) {
     std::istringstream words(text);
     std::string word;

@@ -30,7 +30,8 @@ class AnyFormat {
   AnyFormat(const AnyFormat&) = delete;
   AnyFormat& operator=(const AnyFormat&) = delete;
   virtual ~AnyFormat() = default;
-  // `out` holds the defaults. Faults are added to the node's list; then `out` must not be used.
+  // Reads into `out`, which holds the defaults. Faults are added to the node's list; then `out`
+  // must not be used.
   virtual void read_any(const JsonNode& node, void* out) const = 0;
   virtual void write_any(JsonWriter& out, const void* value) const = 0;
   [[nodiscard]] virtual Schema schema(Way way) const = 0;
@@ -102,7 +103,7 @@ template <class Kind, class... Arguments>
       AnyFormatPtr(new Kind(std::forward<Arguments>(arguments)...)));
 }
 
-// Whole numbers have no decimal point.
+// Returns a value for a schema; whole numbers have no decimal point.
 [[nodiscard]] Schema as_json(double number);
 [[nodiscard]] Schema as_json(const JsonWriter& written);
 [[nodiscard]] Schema as_json(const AnyFormat& format, const void* value);

@@ -27,7 +27,7 @@ bool is_whole_double(const json& value) {
   return value.is_number_float() && value.get<double>() == std::trunc(value.get<double>());
 }
 
-// nullopt if out of range. Precondition: a whole number.
+// Returns nullopt if out of range. Precondition: a whole number.
 std::optional<std::int64_t> whole_within_int64(const json& value) {
   constexpr double kBeyond = 9223372036854775808.0;  // 2^63
   if (value.is_number_float()) {

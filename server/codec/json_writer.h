@@ -58,12 +58,12 @@ class JsonWriter {
     for (const T& item : list) value(item);
     return end_array();
   }
-  // `decimals`: 0..9.
+  // Rounds to `decimals` (0..9) places.
   JsonWriter& rounded(double number, int decimals);
-  // False in a simulated session: keys ending in _at are not written.
+  // Returns false in a simulated session: keys ending in _at are not written.
   [[nodiscard]] bool knows_wall_time() const { return clock_ != nullptr; }
   JsonWriter& wall_time(std::optional<TimePoint> time);  // nullopt is written as null
-  // `json` must be valid JSON.
+  // Writes `json`, which must be valid.
   JsonWriter& raw(std::string_view json);
 
   template <class T>

@@ -4,7 +4,7 @@
 
 namespace armloom::formats {
 
-// Optional when reading, because older versions did not write these members; always written.
+// Makes members optional when reading, because older versions did not write them.
 [[nodiscard]] AnyPartPtr later(const AnyPartPtr& part);
 template <class T>
 [[nodiscard]] PartPtr<T> later(const PartPtr<T>& part) {

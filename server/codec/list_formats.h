@@ -66,7 +66,7 @@ inline constexpr DictionaryOperations kDictionaryOperations{
       }
     }};
 
-// An object with user-defined keys: {"torso_lift_joint": 0.1}.
+// Describes an object with user-defined keys: {"torso_lift_joint": 0.1}.
 [[nodiscard]] AnyFormatPtr dictionary(const AnyFormatPtr& member,
                                       const DictionaryOperations& operations);
 template <class T>
@@ -74,7 +74,7 @@ template <class T>
   return FormatPtr<std::map<std::string, T>>(dictionary(member->any(), kDictionaryOperations<T>));
 }
 
-// ["table", "panda_link0"]
+// Describes an array of two: ["table", "panda_link0"].
 [[nodiscard]] AnyFormatPtr pair_of(const AnyFormatPtr& element, std::ptrdiff_t first,
                                    std::ptrdiff_t second);
 template <class T>

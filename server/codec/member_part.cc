@@ -7,7 +7,7 @@
 namespace armloom::formats {
 namespace {
 
-// Empty lists and defaults of objects are not worth showing.
+// Returns false for empty lists and objects, whose defaults are not worth showing.
 bool is_telling(const Schema& fallback) {
   return !fallback.is_object() && !(fallback.is_array() && fallback.empty());
 }

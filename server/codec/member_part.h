@@ -112,7 +112,7 @@ template <class T, class M>
       [](const T&) { return std::optional<M>(); }, [](T&, const M&) {});
 }
 
-// Never written.
+// Makes a part that is read and never written.
 [[nodiscard]] AnyPartPtr read_only(const AnyPartPtr& part);
 template <class T>
 [[nodiscard]] PartPtr<T> read_only(const PartPtr<T>& part) {

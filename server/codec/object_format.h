@@ -9,7 +9,7 @@ namespace armloom::formats {
 // Calls use(object with the defaults).
 using WithDefaults = void (*)(const UseValue& use);
 
-// Unknown keys are faults.
+// Describes an object; unknown keys are faults.
 [[nodiscard]] AnyFormatPtr object_format(AnyParts parts, WithDefaults with_defaults);
 template <class T>
 [[nodiscard]] FormatPtr<T> object(const PartList<T>& parts) {

@@ -47,7 +47,7 @@ std::string array_words(const Schema& schema) {
   return words;
 }
 
-// "m, 0 to 1"
+// Returns, for example, "m, 0 to 1".
 std::string type_words(const Schema& schema, const std::string& key) {
   if (schema.contains("anyOf")) {
     std::vector<std::string> words;

@@ -10,7 +10,7 @@ namespace armloom {
 // formats.
 [[nodiscard]] std::string schema_reference(const Schema& schema);
 
-// "rad/s" for "velocity_rad_s"; "" if the key has no unit.
+// Returns "rad/s" for "velocity_rad_s"; "" if the key has no unit.
 [[nodiscard]] std::string unit_of_key(const std::string& key);
 
 }  // namespace armloom

@@ -72,15 +72,15 @@ template <class M, class Get>
       told_part(Need::optional, key, text, format->any(), told_access<M>(get)));
 }
 
-// "type": "job"
+// Describes a member with a constant value: "type": "job".
 [[nodiscard]] AnyPartPtr constant_part(std::string_view key, const Schema& value);
 template <class T, class Value>
 [[nodiscard]] PartPtr<T> constant(std::string_view key, Value value) {
   return PartPtr<T>(constant_part(key, value));
 }
 
-// "started_s" (cell time) and "started_at" (wall time, if known). `may_lack`: the member is a
-// std::optional<TimePoint>, written as null if empty.
+// Describes "started_s" (cell time) and "started_at" (wall time, if known). `may_lack`: the member
+// is a std::optional<TimePoint>, written as null if empty.
 [[nodiscard]] AnyPartPtr told_times(std::string_view what, std::ptrdiff_t offset, bool may_lack,
                                     std::string_view text);
 template <class T>

@@ -80,7 +80,7 @@ template <class E>
   return FormatPtr<E>(choice(kChoiceOperations<E>));
 }
 
-// A name by which schemas refer to the format. The schema has {"$name", "$of"} until
+// Names a format, so that schemas can refer to it. The schema has {"$name", "$of"} until
 // refer_to_names(). `text` may be empty.
 [[nodiscard]] Schema named_schema(std::string_view name, std::string_view text, Schema schema);
 [[nodiscard]] AnyFormatPtr named(std::string_view name, std::string_view text,

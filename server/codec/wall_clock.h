@@ -25,15 +25,17 @@ class WallClock {
 
   WallClock(Wall start, double speed) : anchors_{{TimePoint{}, start, speed}} {}
 
-  // From cell time `time`, which is `wall`, cell time runs at `speed` > 0. Times must not decrease.
+  // Sets an anchor: cell time `time` is `wall` and runs at `speed` > 0 from there. Times must not
+  // decrease.
   void anchor(TimePoint time, Wall wall, double speed);
   // Corrects a slip with a new anchor.
   void observe(TimePoint time, Wall wall);
 
   [[nodiscard]] Wall wall_at(TimePoint time) const;
-  // Cell time of a wall time before the session: negative, or zero if the wall clock was set back.
+  // Returns the cell time of a wall time before the session: negative, or zero if the wall clock
+  // was set back.
   [[nodiscard]] TimePoint time_before(Wall wall) const;
-  // cell seconds per wall second
+  // Returns the present speed: cell seconds per wall second.
   [[nodiscard]] double speed() const { return anchors_.back().speed; }
   [[nodiscard]] std::string at(TimePoint time) const;
 

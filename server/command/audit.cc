@@ -16,7 +16,7 @@ void write_finding(JsonWriter& out, const AuditFinding& finding) {
   out.field("distance_m", finding.distance_m).end_object();
 }
 
-// {"contact": null | {...}, "smallest_clearance_m", "time_s", "links", "states"}
+// Returns {"contact": null | {...}, "smallest_clearance_m", "time_s", "links", "states"}.
 std::string report_json(const AuditReport& report) {
   JsonWriter out;
   out.begin_object().key("contact");

@@ -164,7 +164,7 @@ struct LoadedCell {
 };
 // Prints problems and warnings on stderr and returns nullopt if the cell cannot be built.
 [[nodiscard]] std::optional<LoadedCell> load_cell(const std::string& cell_file);
-// `cell_file` is or will be the file of the text.
+// Loads a text that is or will be in `cell_file`.
 [[nodiscard]] std::optional<LoadedCell> load_cell_text(std::string text,
                                                        const std::string& cell_file);
 // Returns true if a server would run the cell. Prints warnings, pairs disabled without proof, and

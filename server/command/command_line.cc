@@ -23,7 +23,7 @@ void add_policy(CLI::App& command, std::string& policy) {
   command.add_option("--policy", policy, "policy to use instead of the cell's");
 }
 
-// The parser would accept -1 as the largest unsigned number.
+// Checks a seed, because the parser would accept -1 as the largest unsigned number.
 std::string not_a_seed(const std::string& text) {
   std::uint64_t seed = 0;
   const char* end = text.data() + text.size();

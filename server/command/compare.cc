@@ -19,7 +19,7 @@ class Nobody final : public Observer {
   void on_state(const StateFrame&) override {}
 };
 
-// "a,b". Problems: an unknown or repeated name.
+// Reads "a,b". Problems: an unknown or repeated name.
 Result<std::vector<std::string>> read_policies(const std::string& text) {
   if (text.empty()) return known_policies();
   std::vector<std::string> names;
@@ -39,7 +39,7 @@ Result<std::vector<std::string>> read_policies(const std::string& text) {
   return names;
 }
 
-// Planned time in motion per arm: of all jobs of the file, and of all that succeeded.
+// Return the planned time in motion per arm: of all jobs of the file, and of all that succeeded.
 std::vector<Duration> work_of_file(const JobsFile& file, const Cell& cell) {
   std::vector<Duration> work(cell.arms.size());
   for (const TrajectoryPtr& trajectory : file.trajectories) {

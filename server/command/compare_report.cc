@@ -30,7 +30,7 @@ std::size_t jobs_run(const Comparison& comparison) {
   return std::max<std::size_t>(comparison.jobs, 1);
 }
 
-// "1 expired, 2 refused"
+// Returns, for example, "1 expired, 2 refused".
 std::string other_ends(const RunSummary& summary) {
   std::string text;
   for (const auto& [state, count] : summary.jobs) {
@@ -51,7 +51,7 @@ std::string in_a_cell(const std::string& text) {
   return escaped;
 }
 
-// Code points, roughly the width.
+// Returns the number of code points, roughly the width.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));

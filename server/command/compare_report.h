@@ -20,7 +20,7 @@ struct ComparedRun {
   Duration least{};
   Duration wall{};  // wall time
 
-  // nullopt if no job started or the time limit was reached
+  // Returns nullopt if no job started or the time limit was reached.
   [[nodiscard]] std::optional<Duration> makespan() const;
 };
 
@@ -34,14 +34,15 @@ struct Comparison {
   std::vector<ComparedRun> runs;
 };
 
-// An aligned Markdown table, a row per policy. All but the last two columns depend only on the
-// seed.
+// Returns an aligned Markdown table, a row per policy. All but the last two columns, which are
+// machine times, depend only on the seed.
 [[nodiscard]] std::string comparison_markdown(const Comparison& comparison);
 
-// RFC 4180, but with "\n"; units at the end of column names, missing values empty.
+// Returns CSV as in RFC 4180, but with "\n". Units are at the end of column names; missing values
+// are empty.
 [[nodiscard]] std::string comparison_csv(const Comparison& comparison);
 
-// A bar for each makespan, and a line at the busiest arm's work.
+// Returns an SVG with a bar for each makespan and a line at the busiest arm's work.
 [[nodiscard]] std::string comparison_svg(const Comparison& comparison);
 
 }  // namespace armloom

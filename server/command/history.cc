@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// RFC 4180
+// Quotes a CSV field if necessary (RFC 4180).
 std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string quotes = "\"";
@@ -18,7 +18,7 @@ std::string csv_quoted(const std::string& text) {
   return quotes + '"';
 }
 
-// Formula injection: a spreadsheet must not take a client's text for a formula.
+// Prevents formula injection: a spreadsheet must not take a client's text for a formula.
 std::string csv_field(const std::string& text) {
   const bool may_be_formula =
       !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;

@@ -62,7 +62,7 @@ Result<ImportRequest> request_of(const ImportOptions& options) {
   return request;
 }
 
-// A file may have manual changes: never overwrite it.
+// Writes a new file; never overwrites one, because it may have manual changes.
 bool write_new(const fs::path& file, const std::string& text) {
   std::error_code error;
   if (fs::exists(file, error)) {

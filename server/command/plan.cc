@@ -14,7 +14,7 @@
 namespace armloom {
 namespace {
 
-// "--to /pose/xyz"
+// Returns, for example, "--to /pose/xyz".
 std::string place_in(const char* option, std::string_view pointer) {
   return std::string(option) + (pointer.empty() ? "" : " ") + std::string(pointer);
 }

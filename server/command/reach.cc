@@ -17,7 +17,7 @@ double share(std::size_t part, std::size_t whole) {
 struct Extent {
   Eigen::Vector3d lower, upper;
 };
-// Bounding box of the reached positions; zero if there are none.
+// Returns the bounding box of the reached positions; zero if there are none.
 Extent extent_of(const ToolReach& reach, const ArmReach& arm) {
   Extent extent{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   bool any = false;

@@ -52,7 +52,7 @@ class View {
   [[nodiscard]] std::size_t columns() const {
     return static_cast<std::size_t>(grid_.count[0]) * static_cast<std::size_t>(grid_.count[up_]);
   }
-  // Number of reached positions in the column.
+  // Returns the number of reached positions in the column.
   [[nodiscard]] int reached(std::size_t arm, std::size_t column) const {
     const auto nx = static_cast<std::size_t>(grid_.count[0]);
     const auto ny = static_cast<std::size_t>(grid_.count[1]);
@@ -92,7 +92,7 @@ class View {
     }
     svg += "</g>\n";
   }
-  // True if several arms reach the same position in the column.
+  // Returns true if several arms reach the same position in the column.
   [[nodiscard]] bool is_shared(std::size_t column) const {
     const auto nx = static_cast<std::size_t>(grid_.count[0]);
     const auto ny = static_cast<std::size_t>(grid_.count[1]);

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// The folder itself may be a recording.
+// Returns the newest recording in the folder; the folder itself may be one.
 std::optional<fs::path> newest_recording(const fs::path& data) {
   std::error_code ec;
   std::optional<fs::path> newest;
@@ -33,7 +33,7 @@ std::optional<fs::path> newest_recording(const fs::path& data) {
   return newest;
 }
 
-// Wall times do not follow from the inputs.
+// Removes wall times, which do not follow from the inputs.
 void drop_wall_time(Json& value) {
   if (value.is_object()) {
     for (auto it = value.begin(); it != value.end();) {
@@ -83,7 +83,7 @@ class EventComparison final : public Observer {
     const Json last = Json::parse(recorded_.back(), nullptr, false);
     return TimePoint(from_seconds(last.value("t_s", 0.0)));
   }
-  // An event recorded until `time` that was not replayed is a difference.
+  // Reports a difference if an event recorded until `time` was not replayed.
   void expect_all_until(TimePoint time) {
     if (differs_ || events_ >= recorded_.size()) return;
     const Json next = Json::parse(recorded_[events_], nullptr, false);
@@ -95,9 +95,9 @@ class EventComparison final : public Observer {
   };
   [[nodiscard]] const std::optional<Difference>& difference() const { return differs_; }
   [[nodiscard]] std::size_t events() const { return events_; }
-  // Later events were not on disk when the server ended.
+  // Returns the number of compared events; later ones were not on disk when the server ended.
   [[nodiscard]] std::size_t compared() const { return std::min(events_, recorded_.size()); }
-  // True if no event was recorded.
+  // Returns true if no event was recorded.
   [[nodiscard]] bool is_void() const { return compared() == 0 && events_ > 0; }
   [[nodiscard]] bool is_written() const { return !out_.is_open() || out_.good(); }
 
@@ -124,7 +124,7 @@ struct Run {
   TimePoint ended{};
 };
 
-// Problems: faults of the log.
+// Replays all lines until `until`. Problems: faults of the log.
 Result<Run> run(Replay& replay, const std::vector<std::string>& lines,
                 std::optional<TimePoint> until) {
   Run done;

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "127.0.0.1:8080", "[::1]:8080"
+// Parses "127.0.0.1:8080" or "[::1]:8080".
 bool parse_listen(const std::string& text, std::string& address, std::uint16_t& port) {
   const std::size_t colon = text.rfind(':');
   if (colon == text.npos || colon == 0) return false;
@@ -35,7 +35,7 @@ bool parse_listen(const std::string& text, std::string& address, std::uint16_t& 
   return ec == std::errc{} && stop == end;
 }
 
-// web/dist of the repository, the installed folder, or `web` next to the binary.
+// Returns web/dist of the repository, the installed folder, or `web` next to the binary.
 fs::path web_folder(const std::string& asked) {
   if (!asked.empty()) return asked;
   std::error_code ec;
@@ -69,7 +69,7 @@ void limit_clients(const ServeOptions& options, ServiceOptions& service) {
   service.connections_per_client_max = options.connections_per_client;
 }
 
-// An address that other machines can reach requires tokens, and TLS to protect them.
+// Checks that an address that other machines can reach has tokens, and TLS to protect them.
 void find_faults_of_access(const ServeOptions& options, const std::string& address,
                            const Result<std::vector<KeptToken>>& tokens, Problems& problems) {
   if (options.tls_certificate.empty() != options.tls_key.empty()) {

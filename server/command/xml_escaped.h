@@ -4,7 +4,8 @@
 
 namespace armloom {
 
-// Also for use between double quotes. Control characters, which XML 1.0 does not have, become '?'.
+// Escapes XML text, also for use between double quotes. Control characters, which XML 1.0 does not
+// have, become '?'.
 [[nodiscard]] std::string xml_escaped(const std::string& text);
 
 }  // namespace armloom

@@ -19,7 +19,7 @@ struct ComparisonInquiry {
   std::uint64_t seed = 1;
 };
 [[nodiscard]] FormatPtr<ComparisonInquiry> comparison_inquiry_format();
-// Problems: the shape; a repeated policy.
+// Reads the body. Problems: its shape; a repeated policy.
 [[nodiscard]] Result<ComparisonInquiry> read_comparison_inquiry(std::string_view text);
 
 struct PolicyRun {

@@ -35,7 +35,7 @@ struct SnapshotView {
 // Positions are rounded to 1e-6. `speed`: cell seconds per wall second.
 [[nodiscard]] std::string state_json(const StateFrame& frame, const Cell& cell, double speed);
 
-// The schema of all messages; their types, with the names of their schemas.
+// Return the schema of all messages, and their types with the names of their schemas.
 [[nodiscard]] Schema message_schema();
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> message_types();
 

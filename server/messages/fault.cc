@@ -147,7 +147,7 @@ class WithinKind final : public CustomPart<FaultRequest> {
   void describe(Schema&, const FaultRequest&, Way) const override {}
 };
 
-// All members, as the server returns them.
+// Describes all members, as the server returns them.
 PartPtr<FaultRequest> told_members(FormatPtr<TimePoint> at, FormatPtr<Duration> lasting) {
   using Fault = FaultRequest;
   return parts<Fault>({

@@ -16,7 +16,7 @@ namespace armloom {
 [[nodiscard]] FormatPtr<FaultRequest> fault_request_format();
 [[nodiscard]] Result<FaultRequest> read_fault_text(std::string_view text);
 
-// An array of such bodies, each with "at_s". Arms must be in `cell`.
+// Reads an array of such bodies, each with "at_s". Arms must be in `cell`.
 [[nodiscard]] Result<std::vector<FaultRequest>> read_faults_text(std::string_view text,
                                                                  const Cell& cell);
 
@@ -26,7 +26,7 @@ struct FaultView {
   FaultRequest fault;
 };
 [[nodiscard]] FormatPtr<FaultView> fault_format();
-// A fault in the input log, without id; read as strictly as a request.
+// Describes a fault in the input log, without id; read as strictly as a request.
 [[nodiscard]] FormatPtr<FaultRequest> logged_fault_format();
 
 // Body and answer of PUT /sim/speed.

@@ -14,7 +14,7 @@ namespace armloom {
 // Body of POST /jobs.
 [[nodiscard]] FormatPtr<JobRequest> job_request_format();
 [[nodiscard]] FormatPtr<std::string> job_id_format();
-// At most kJobNameMax characters, no control characters.
+// Returns true for at most kJobNameMax characters without control characters.
 [[nodiscard]] bool is_job_name(std::string_view name);
 [[nodiscard]] FormatPtr<std::string> job_name_format();
 
@@ -55,7 +55,7 @@ struct BatchRequest {
 [[nodiscard]] Result<BatchRequest> read_batch_text(std::string_view text);
 [[nodiscard]] Result<Submission<BatchRequest>> read_batch_submission(std::string_view text);
 
-// [{"at": seconds, "job": {...}}, ...], in any order.
+// Reads [{"at": seconds, "job": {...}}, ...], in any order of time.
 [[nodiscard]] Result<std::vector<TimedJob>> read_jobs_text(std::string_view text);
 
 }  // namespace armloom

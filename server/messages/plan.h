@@ -14,9 +14,9 @@ namespace armloom {
 
 // Answer to POST /plan.
 [[nodiscard]] FormatPtr<PlanView> plan_format();
-// The answer (422) if there is no plan.
+// Returns the answer (422) if there is no plan.
 [[nodiscard]] ProblemDocument document_of(const RefusedInquiry& refused);
-// Links that come too close, or the link that misses its pose; may be empty.
+// Returns the links that come too close, or the link that misses its pose; may be empty.
 [[nodiscard]] std::vector<std::string> links_of(const PlanRefusal& refusal);
 
 }  // namespace armloom

@@ -8,9 +8,12 @@
 namespace armloom {
 
 // A goal of an arm, one of
+//   {"joints": [...]}      rad or m, in the order of the arm's group
+//   {"named": "ready"}     a named state of the SRDF, or "home"
+//   {"pose": {"link": "left_tool0", "xyz": [...], "rpy": [...]}}   of a link, in the world
 [[nodiscard]] FormatPtr<PlanGoal> plan_goal_format();
 
-// JSON if the text begins with "{", joint positions if with "[", else a name.
+// Reads JSON if the text begins with "{", joint positions if with "[", else a name.
 [[nodiscard]] Result<PlanGoal> read_plan_goal(const std::string& text);
 
 }  // namespace armloom

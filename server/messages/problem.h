@@ -38,12 +38,12 @@ struct ProblemDocument {
 
 // Precondition: `problems` is not empty.
 [[nodiscard]] ProblemDocument document_of(const Problems& problems);
-// "urn:...", and "Limit exceeded".
+// Return "urn:armloom:problem:limit-exceeded", and "Limit exceeded".
 [[nodiscard]] std::string problem_type(const std::string& slug);
 [[nodiscard]] std::string problem_title(const std::string& slug);
 [[nodiscard]] std::string problem_json(const Problems& problems);
 
-// One sentence: "config/x.json:/robots/0/urdf: ...". A place that is not a JSON pointer
+// Returns one sentence: "config/x.json:/robots/0/urdf: ...". A place that is not a JSON pointer
 // ("panda.urdf: joint panda_joint3") names its own file.
 [[nodiscard]] std::string problem_sentence(std::string_view file, const Problem& problem);
 

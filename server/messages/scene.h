@@ -23,7 +23,8 @@ namespace armloom {
 
 [[nodiscard]] bool has_object(const std::vector<CollisionObject>& objects, std::string_view name);
 
-// With the path of its mesh instead of the file. Other objects read back, up to rounding of angles.
+// Describes an object with the path of its mesh instead of the file. Other objects read back, up to
+// rounding of angles.
 [[nodiscard]] FormatPtr<CollisionObject> object_format();
 [[nodiscard]] FormatPtr<SceneView> scene_format();
 

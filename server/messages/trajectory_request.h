@@ -5,10 +5,10 @@
 
 namespace armloom {
 
-// trajectory_msgs/JointTrajectory, or MoveIt's nesting ({"joint_trajectory": {...}}). Shape only;
-// validate() checks names, sizes, limits and times.
+// Describes trajectory_msgs/JointTrajectory, or MoveIt's nesting ({"joint_trajectory": {...}}).
+// Only the shape is checked; validate() checks names, sizes, limits and times.
 [[nodiscard]] FormatPtr<TrajectoryRequest> trajectory_request_format();
-// For answers; the schema is that of requests.
+// Describes a trajectory in an answer; the schema is that of requests.
 [[nodiscard]] FormatPtr<TrajectoryRequest> told_trajectory_format();
 
 }  // namespace armloom

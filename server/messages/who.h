@@ -6,7 +6,7 @@
 
 namespace armloom {
 
-// A person's name; may be empty but not blank.
+// Describes a person's name, which may be empty but not blank.
 [[nodiscard]] FormatPtr<std::string> who_format();
 
 }  // namespace armloom
