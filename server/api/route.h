@@ -62,7 +62,7 @@ struct Route {
   Who who = Who::reader;
   std::optional<Role> role = Role::viewer;  // nullopt if no token is required
   bool is_never_limited = false;            // exempt from ClientLimits
-  void (*run)(Call call);                   // null: not served by the router
+  void (*run)(Call call);                   // not served by the router if null
 
   [[nodiscard]] Rights rights() const { return {who, role, is_never_limited}; }
 };

@@ -177,7 +177,7 @@ FormatPtr<FaultRequest> make_fault_format(Need time_needed) {
 FormatPtr<FaultRequest> fault_request_format() {
   static const auto format =
       named("FaultRequest",
-            "A fault of a simulated arm.\n`stall`: stays where it is on its path. `slow`: follows "
+            "A fault of a simulated arm. `stall`: stays where it is on its path. `slow`: follows "
             "its path at a share of its speed. `late_start`: begins each motion late. "
             "`drop_feedback`: repeats its last feedback. `fault`: the controller fails once, from "
             "`at_s` on: during the present motion, else as soon as the next motion moves.",

@@ -62,7 +62,7 @@ TEST_F(Durable, WhatIsCanceledBesideAFullDiskIsNotSaidToBeKept) {
   FailingDisk::fail(FailingDisk::Fault::full, 0);
   const auto canceled = remove("/api/v1/jobs/waits");
   EXPECT_EQ(canceled.status, 507) << canceled.body;
-  EXPECT_NE(canceled.body.find("the next run may not know of it"), std::string::npos);
+  EXPECT_NE(canceled.body.find("done, but not stored"), std::string::npos);
   EXPECT_EQ(job("waits")["state"], "canceled") << "it is done all the same";
 }
 

@@ -48,7 +48,7 @@ TEST_F(Import, MakesACellOfTwoRobotsOfOneUrdf) {
   EXPECT_EQ(file["clearance_m"], 0.02);
   EXPECT_EQ(file["execution"]["duration_scaling"], 1.1);
   const std::string text = read_text_file(cell).value();
-  EXPECT_THAT(text, HasSubstr("// The watch over the measured state of all arms."));
+  EXPECT_THAT(text, HasSubstr("// Monitoring of the measured state of all arms."));
   EXPECT_EQ(run("validate --cell " + cell.string()).exit_code, 0);
   EXPECT_EQ(run("import" + files("panda") + " --out " + cell.string()).exit_code, 2);
   EXPECT_EQ(read_text_file(cell).value(), text);  // never over a file
@@ -170,7 +170,8 @@ TEST_F(Import, NamesTheOptionThatIsWrong) {
     std::string arguments;
     std::string says;
   } cases[] = {
-      {files("panda") + " --srdf x.srdf", "--srdf: 1 --urdf but 2 --srdf: give one --srdf for each --urdf"},
+      {files("panda") + " --srdf x.srdf",
+       "--srdf: 1 --urdf but 2 --srdf: give one --srdf for each --urdf"},
       {files("panda") + files("ur5e") + " --robot a", "--urdf: there are 2 and 1 --robot"},
       {files("panda") + " --joint-limits a --joint-limits b", "--joint-limits: 1 --urdf but 2"},
       {files("panda") + " --robot a:yaw=3", "--robot: in \"a:yaw=3\": \"yaw\" is not known"},
