@@ -19,7 +19,7 @@ namespace armloom {
 // The query of GET /jobs: ?state=&arm=&limit=&cursor=
 struct JobFilter {
   std::optional<JobState> state;
-  std::string arm;  // empty: any
+  std::string arm;  // any arm if empty
   std::size_t limit = query::kPage;
   std::optional<std::uint64_t> before;  // the cursor: only jobs submitted before this one
 };
