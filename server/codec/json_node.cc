@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// What was found, short enough for one sentence.
+// Returns the found value, shortened to fit into a sentence.
 std::variant<std::monostate, double, std::string> shown(const json& value) {
   static constexpr std::size_t kShown = 80;
   if (value.is_number()) return value.get<double>();
@@ -27,7 +27,7 @@ bool is_whole_double(const json& value) {
   return value.is_number_float() && value.get<double>() == std::trunc(value.get<double>());
 }
 
-// Precondition: a whole number. None: beyond what the type holds.
+// Returns nullopt if out of range. Precondition: a whole number.
 std::optional<std::int64_t> whole_within_int64(const json& value) {
   constexpr double kBeyond = 9223372036854775808.0;  // 2^63
   if (value.is_number_float()) {

@@ -7,7 +7,7 @@
 namespace armloom::formats {
 namespace {
 
-// A default that is worth a word: an object's are those of its members.
+// Returns false for empty lists and objects, whose defaults are not worth showing.
 bool is_telling(const Schema& fallback) {
   return !fallback.is_object() && !(fallback.is_array() && fallback.empty());
 }
@@ -182,7 +182,7 @@ void describe_member(Schema& object, const MemberText& member, Schema schema,
   if (member.need == Need::required || always_told) {
     object["required"].push_back(member.key);
   } else if (way == Way::out) {
-    // It is said, or it is not there.
+    // Optional in output.
   } else if (member.stated) {
     schema["default"] = *member.stated;
   } else if (fallback && is_telling(*fallback)) {

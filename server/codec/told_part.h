@@ -11,8 +11,7 @@
 
 namespace armloom::formats {
 
-// Members of what the server says: written and described, never read. Get is a member or a function
-// of the T. There is no default: what is told stands there always, unless it is told_if().
+// Members that are written and described, never read. Get is a member or function of T.
 [[nodiscard]] AnyPartPtr told_part(Need need, std::string_view key, std::string_view text,
                                    const AnyFormatPtr& format, const Access& access);
 [[nodiscard]] AnyPartPtr told_part(Need need, std::string_view key, std::string_view text,
@@ -39,8 +38,7 @@ template <class M, class T>
 [[nodiscard]] Access told_access(std::optional<M> T::*where) {
   return member_access(where);
 }
-// For parts that are only written. std::invoke(get, const T&) returns an M, or an optional or
-// pointer that may be empty.
+// std::invoke(get, const T&) returns an M, or an optional or pointer that may be empty.
 template <class M, class Get>
 [[nodiscard]] Access told_access(Get get) {
   using T = ObjectOf<Get>;
@@ -65,7 +63,7 @@ template <class M, class Get>
   return PartPtr<ObjectOf<Get>>(
       told_part(Need::required, key, text, format->any(), told_access<M>(get)));
 }
-// What the T may lack: Get gives an optional, or a pointer that may be null.
+// Get returns an optional or a pointer.
 template <class M, class Get>
 [[nodiscard]] PartPtr<ObjectOf<Get>> told_if(std::string_view key, Get get,
                                              const FormatPtr<M>& format,
@@ -74,16 +72,15 @@ template <class M, class Get>
       told_part(Need::optional, key, text, format->any(), told_access<M>(get)));
 }
 
-// A member that always has this value: "type": "job".
+// Describes a member with a constant value: "type": "job".
 [[nodiscard]] AnyPartPtr constant_part(std::string_view key, const Schema& value);
 template <class T, class Value>
 [[nodiscard]] PartPtr<T> constant(std::string_view key, Value value) {
   return PartPtr<T>(constant_part(key, value));
 }
 
-// "started_s", cell time, and "started_at", wall time; the latter only where the writer knows it.
-// `may_lack`: at the offset is a std::optional<TimePoint>, written as null if empty; else a
-// TimePoint.
+// Describes "started_s" (cell time) and "started_at" (wall time, if known). `may_lack`: the member
+// is a std::optional<TimePoint>, written as null if empty.
 [[nodiscard]] AnyPartPtr told_times(std::string_view what, std::ptrdiff_t offset, bool may_lack,
                                     std::string_view text);
 template <class T>

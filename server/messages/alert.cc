@@ -15,22 +15,25 @@ using namespace formats;
 
 FormatPtr<AlertList> alert_list_format() {
   using Seen = StoredAlert::Acknowledgement;
-  static const auto seen =
-      named("Acknowledgement", "",
-            object<Seen>({
-                told("who", &Seen::who, text(), "The token's name, or whoever said to be it"),
-                told(
-                    "at", [](const Seen& s) { return rfc3339(s.at_ms); }, text(), "RFC 3339, UTC"),
-            }));
+  static const auto seen = named(
+      "Acknowledgement", "",
+      object<Seen>({
+          told("who", &Seen::who, text(),
+               "The token's name; without tokens, the name that the client gave, or its address"),
+          told(
+              "at", [](const Seen& s) { return rfc3339(s.at_ms); }, text(), "RFC 3339, UTC"),
+      }));
   static const auto alert = named(
-      "KeptAlert", "What somebody has to see to, until somebody has.",
+      "KeptAlert", "A warning or error, kept until it is acknowledged.",
       object<StoredAlert>({
-          told("id", &StoredAlert::id, text(), "`<stream>:<seq>` of the event that told it"),
+          told("id", &StoredAlert::id, text(),
+               "`<stream>:<seq>` of the event that reported the alert"),
           told(
               "at", [](const StoredAlert& a) { return rfc3339(a.at_ms); }, text(), "RFC 3339, UTC"),
-          told("level", &StoredAlert::level, text(), "warning, error"),
+          told("level", &StoredAlert::level, text(), "`warning` or `error`"),
           told("text", &StoredAlert::text, text()),
-          told("acknowledged", &StoredAlert::acknowledged, nullable(seen), "null: by nobody yet"),
+          told("acknowledged", &StoredAlert::acknowledged, nullable(seen),
+               "null while nobody has acknowledged the alert"),
       }));
   static const auto format =
       named("AlertList", "",
@@ -40,11 +43,12 @@ FormatPtr<AlertList> alert_list_format() {
 
 FormatPtr<AlertsSeen> alerts_seen_format() {
   static const auto format = named(
-      "AlertsSeen", "Somebody has seen to these alerts.",
+      "AlertsSeen", "Acknowledges these alerts.",
       object<AlertsSeen>({
-          required("ids", &AlertsSeen::ids, list(text()), "Of `GET /alerts`"),
-          field("who", &AlertsSeen::who, who_format(),
-                "Whoever does it; where tokens are asked for, the token's name counts instead"),
+          required("ids", &AlertsSeen::ids, list(text()), "Ids of alerts from `GET /alerts`"),
+          field(
+              "who", &AlertsSeen::who, who_format(),
+              "Name of the person who acknowledges; with tokens, the token's name applies instead"),
       }));
   return format;
 }

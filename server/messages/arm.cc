@@ -18,13 +18,15 @@ FormatPtr<ArmView> arm_format() {
                      told("name", &ArmView::name, text()),
                      told("robot", &ArmView::robot, text()),
                      told("state", &ArmView::state, state),
-                     told("job", &ArmView::job, text_or_null(), "In motion or paused"),
+                     told("job", &ArmView::job, text_or_null(),
+                          "Id of the job that the arm executes, moving or paused; null if none"),
                      told("progress", &ArmView::progress, number({0.0, 1.0})),
                      told("joints", &ArmView::joints, list(text())),
-                     told("q", &ArmView::q, number_list(), "Measured, rad or m"),
+                     told("q", &ArmView::q, number_list(),
+                          "Measured joint positions in the order of `joints`: rad or m"),
                      told("home", &ArmView::home, number_list()),
                      told("deviation_rad", &ArmView::deviation_rad, number({0.0}),
-                          "Measured distance from its own path, largest joint"),
+                          "Measured deviation of the worst joint from the path"),
                  }));
   }();
   return format;
@@ -55,7 +57,7 @@ FormatPtr<Ready> ready_format() {
   static const auto format =
       named("Ready", "",
             object<Ready>({constant<Ready>("ready", true),
-                           told("t_s", &Ready::now, cell_time(), "Cell time")}));
+                           told("t_s", &Ready::now, cell_time(), "Present cell time")}));
   return format;
 }
 

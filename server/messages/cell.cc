@@ -40,7 +40,8 @@ FormatPtr<CellArmView> arm_view_format() {
           told(
               "name", [](const View& view) { return view.arm->name; }, text()),
           told(
-              "group", [](const View& view) { return view.arm->group; }, text(), "Of the SRDF"),
+              "group", [](const View& view) { return view.arm->group; }, text(),
+              "Group of the SRDF"),
           told("joints", &View::joints, list(text())),
           told("gripper_joints", &View::gripper_joints, list(text())),
           told(
@@ -57,25 +58,25 @@ std::map<std::string, std::string> mesh_addresses(const CellRobotView& view) {
 
 FormatPtr<CellRobotView> robot_view_format() {
   using View = CellRobotView;
-  return named(
-      "CellRobot", "",
-      object<View>({
-          told(
-              "name", [](const View& view) { return view.robot->name; }, text()),
-          told(
-              "prefix", [](const View& view) { return view.robot->prefix; }, text()),
-          told(
-              "base", [](const View& view) { return view.robot->X_WB; },
-              object<Eigen::Isometry3d>({pose_part()})),
-          told(
-              "urdf", [](const View& view) { return view.robot->urdf_text; }, text(),
-              "XML, names without prefix"),
-          told(
-              "srdf", [](const View& view) { return view.robot->srdf_text; }, text(), "XML"),
-          told("meshes", mesh_addresses, dictionary(text()),
-               "Address of each mesh that the URDF names"),
-          told("arms", &View::arms, list(arm_view_format())),
-      }));
+  return named("CellRobot", "",
+               object<View>({
+                   told(
+                       "name", [](const View& view) { return view.robot->name; }, text()),
+                   told(
+                       "prefix", [](const View& view) { return view.robot->prefix; }, text()),
+                   told(
+                       "base", [](const View& view) { return view.robot->X_WB; },
+                       object<Eigen::Isometry3d>({pose_part()})),
+                   told(
+                       "urdf", [](const View& view) { return view.robot->urdf_text; }, text(),
+                       "Text of the URDF; names without the prefix"),
+                   told(
+                       "srdf", [](const View& view) { return view.robot->srdf_text; }, text(),
+                       "Text of the SRDF"),
+                   told("meshes", mesh_addresses, dictionary(text()),
+                        "Path of each mesh file, by the name that the URDF uses"),
+                   told("arms", &View::arms, list(arm_view_format())),
+               }));
 }
 
 bool is_simulated(const CellView& view) {
@@ -83,7 +84,6 @@ bool is_simulated(const CellView& view) {
                              [](const Robot& robot) { return robot.controller.type == "sim"; });
 }
 
-// A limit that the joint does not have is null.
 PartPtr<CellJointView> limit(const char* key, double Joint::*where) {
   return told(
       key,
@@ -91,7 +91,7 @@ PartPtr<CellJointView> limit(const char* key, double Joint::*where) {
         const double limit = view.joint->*where;
         return std::abs(limit) < kFarthestPosition ? std::optional(limit) : std::nullopt;
       },
-      nullable(number(kAnyNumber)), "null: none");
+      nullable(number(kAnyNumber)), "null if the joint has no such limit");
 }
 PartPtr<CellJointView> bound(const char* key, double Joint::*where) {
   return told(
@@ -105,7 +105,7 @@ FormatPtr<CellJointView> joint_view_format() {
       object<View>({
           told(
               "name", [](const View& view) { return view.joint->name; }, text()),
-          told("arm", &View::arm, text_or_null(), "null: of none"),
+          told("arm", &View::arm, text_or_null(), "Arm of the joint; null if no arm has it"),
           limit("lower", &Joint::lower),
           limit("upper", &Joint::upper),
           bound("velocity_max", &Joint::velocity_max),
@@ -159,9 +159,11 @@ FormatPtr<CellView> cell_view_format() {
             object<View>({
                 told(
                     "name", [](const View& view) { return view.cell->name; }, text()),
-                told("policy", &View::policy, text(), "In force"),
-                told("speed", &View::speed, number(kPositive), "Cell seconds per wall second"),
-                told("simulated", is_simulated, flag(), "No drive moves: every arm is simulated"),
+                told("policy", &View::policy, text(), "Present policy"),
+                told("speed", &View::speed, number(kPositive),
+                     "Seconds of cell time per second of wall time"),
+                told("simulated", is_simulated, flag(),
+                     "true if every arm is simulated, so that no real drive moves"),
                 told("robots", &View::robots, list(robot_view_format())),
                 told(
                     "objects", [](const View& view) { return &view.cell->objects; },
@@ -176,7 +178,7 @@ FormatPtr<PolicyChoice> policy_choice_format() {
   static const auto format = named(
       "PolicyChoice", "",
       object<PolicyChoice>({required("policy", &PolicyChoice::policy, one_of(known_policies()),
-                                     "The one that decides from now on")}));
+                                     "The policy that applies from now on")}));
   return format;
 }
 

@@ -18,14 +18,14 @@ using namespace formats;
 
 FormatPtr<ControlRequest> control_request_format() {
   using Asked = ControlRequest;
-  static const auto format =
-      named("ControlRequest", "",
-            object<Asked>({
-                field("who", &Asked::who, who_format(),
-                      "Name shown for the caller; with tokens, the token's name applies instead"),
-                field("take", &Asked::take, flag(),
-                      "Take control from its present holder: their jog motion brakes on its path"),
-            }));
+  static const auto format = named(
+      "ControlRequest", "",
+      object<Asked>({
+          field("who", &Asked::who, who_format(),
+                "Name shown for the caller; with tokens, the token's name applies instead"),
+          field("take", &Asked::take, flag(),
+                "Take control from its present holder, whose jog motion then brakes on its path"),
+      }));
   return format;
 }
 
@@ -55,7 +55,7 @@ FormatPtr<ControlView> control_format() {
       named("Control", "Who may jog arms: one client at a time.",
             object<ControlView>({
                 told("holder", &ControlView::holder, nullable(holder_format()),
-                     "null if nobody has control"),
+                     "null if no client has control"),
             }));
   return format;
 }

@@ -1,4 +1,3 @@
-// Jobs in pages, queues and answers to batches.
 #include <memory>
 
 #include "server/codec/list_formats.h"
@@ -87,23 +86,23 @@ FormatPtr<JobPage> job_page_format() {
             object<JobPage>({
                 told("jobs", &JobPage::jobs, list<ListedJob>(listed_job_format())),
                 told("next_cursor", &JobPage::next_cursor, nullable(text()),
-                     "For ?cursor=; null on the last page"),
+                     "Value for `?cursor=` to get the next page; null on the last page"),
             }));
   return format;
 }
 
 FormatPtr<QueueView> queue_ids_format() {
   const auto policy = [](const QueueView& view) { return std::optional(view.policy); };
-  static const auto format = named(
-      "QueueIds", "",
-      object<QueueView>({
-          told_if("policy", policy, text(), "In force; recordings from before it was told lack it"),
-          told("stopped", &QueueView::stopped, flag(), "Every arm is stopped"),
-          ids("queued", &QueueView::queued),
-          ids("backlog", &QueueView::backlog),
-          ids("scheduled", &QueueView::scheduled),
-          ids("running", &QueueView::running),
-      }));
+  static const auto format =
+      named("QueueIds", "",
+            object<QueueView>({
+                told_if("policy", policy, text(), "Present policy; absent in old recordings"),
+                told("stopped", &QueueView::stopped, flag(), "true if every arm is stopped"),
+                ids("queued", &QueueView::queued),
+                ids("backlog", &QueueView::backlog),
+                ids("scheduled", &QueueView::scheduled),
+                ids("running", &QueueView::running),
+            }));
   return format;
 }
 
@@ -111,12 +110,12 @@ FormatPtr<QueueJobs> queue_format() {
   static const auto format =
       named("Queue", "",
             object<QueueJobs>({
-                told("policy", &QueueJobs::policy, text(), "In force"),
-                told("stopped", &QueueJobs::stopped, flag(), "Every arm is stopped"),
+                told("policy", &QueueJobs::policy, text(), "Present policy"),
+                told("stopped", &QueueJobs::stopped, flag(), "true if every arm is stopped"),
                 jobs("queued", &QueueJobs::queued),
                 jobs("backlog", &QueueJobs::backlog),
                 jobs("scheduled", &QueueJobs::scheduled),
-                jobs("running", &QueueJobs::running, "With those that hold"),
+                jobs("running", &QueueJobs::running, "Running and paused jobs"),
             }));
   return format;
 }

@@ -12,7 +12,7 @@ using namespace formats;
 
 namespace {
 
-// As those of a pose frame: they are only looked at.
+// Positions are for display only, as in state frames.
 class RoundedPositions final : public CustomFormat<Configuration> {
  public:
   void read(const JsonNode&, Configuration&) const override {}
@@ -27,15 +27,17 @@ class RoundedPositions final : public CustomFormat<Configuration> {
 }  // namespace
 
 FormatPtr<MeasuredStates> measured_states_format() {
-  static const auto format =
-      named("MeasuredStates", "",
-            object<MeasuredStates>({
-                told("stream", &MeasuredStates::stream, text(), "The run, as events name it"),
-                told("joints", &MeasuredStates::joints, list(text()), "Every joint of the cell"),
-                told("t_s", &MeasuredStates::times, list(cell_time()), "Ascending"),
-                told("q", &MeasuredStates::q, list(make_format<RoundedPositions>()),
-                     "At each of these times, in the order of the joints: rad or m"),
-            }));
+  static const auto format = named(
+      "MeasuredStates", "",
+      object<MeasuredStates>({
+          told("stream", &MeasuredStates::stream, text(),
+               "UUID of the server session, as in events"),
+          told("joints", &MeasuredStates::joints, list(text()), "Names of all joints of the cell"),
+          told("t_s", &MeasuredStates::times, list(cell_time()),
+               "Cell times of the samples, ascending"),
+          told("q", &MeasuredStates::q, list(make_format<RoundedPositions>()),
+               "Positions at each time, in the order of `joints`: rad or m"),
+      }));
   return format;
 }
 

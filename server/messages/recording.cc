@@ -17,25 +17,25 @@ FormatPtr<RecordingList> recording_list_format() {
                                      told("bytes", &RecordingFileView::bytes, count()),
                                  }));
   static const auto recording =
-      named("Recording", "What one run of a server has written down.",
+      named("Recording", "Recording of one server session.",
             object<RecordingView>({
                 told("name", &RecordingView::name, text(),
-                     "Of its folder; `data`: it stands in the data folder itself"),
+                     "Name of the folder; `data` if the recording is in the data folder itself"),
                 told("begun_at", &RecordingView::begun_at, nullable(text()),
-                     "RFC 3339, UTC; null: not known"),
-                told("written_at", &RecordingView::written_at, text(), "Last: RFC 3339, UTC"),
-                told("running", &RecordingView::is_running, flag(), "It is being written"),
+                     "Start of the session: RFC 3339, UTC; null if unknown"),
+                told("written_at", &RecordingView::written_at, text(), "Last write: RFC 3339, UTC"),
+                told("running", &RecordingView::is_running, flag(),
+                     "true while the recording is being written"),
                 told("has_states", &RecordingView::has_states, flag(),
-                     "Whether joint positions are in it, which `serve` records with `--record`"),
-                told("files", &RecordingView::files, list(file), "What GET hands out of it"),
+                     "true if the recording has joint positions (`serve --record`)"),
+                told("files", &RecordingView::files, list(file), "Files that GET returns"),
             }));
-  static const auto format =
-      named("RecordingList", "",
-            object<RecordingList>({
-                told("kept", &RecordingList::is_kept, flag(),
-                     "Whether this server records: without `--data` it does not"),
-                told("recordings", &RecordingList::recordings, list(recording), "Newest first"),
-            }));
+  static const auto format = named(
+      "RecordingList", "",
+      object<RecordingList>({
+          told("kept", &RecordingList::is_kept, flag(), "true if this server records (`--data`)"),
+          told("recordings", &RecordingList::recordings, list(recording), "Newest first"),
+      }));
   return format;
 }
 

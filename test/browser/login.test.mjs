@@ -31,7 +31,7 @@ test('who shows no token is asked for one, and a wrong one is refused', { timeou
   await page.goto(url);
   await address_like(page, /\/login$/);
   await log_in('armloom_' + '0'.repeat(64));
-  await page.locator('[role=alert]', { hasText: 'none of this server' }).waitFor();
+  await page.locator('[role=alert]', { hasText: 'token is unknown or was revoked' }).waitFor();
   await log_in(token);
   await connected();
 });

@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "/trajectory/joint_names/2", "left_panda_joint9"},
         BadJobCase{"BrokenJson",
                    [] { return std::string(R"({"trajectory": {"points": [{"positions": [0, 1)"); },
-                   400, "/trajectory/points/0/positions/2", "ends too early"},
+                   400, "/trajectory/points/0/positions/2", "ends before"},
         BadJobCase{"WrongContentType", [] { return good().dump(); }, 415, "Content-Type",
                    "text/plain", "text/plain"},
         BadJobCase{"StartElsewhere",

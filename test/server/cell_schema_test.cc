@@ -118,7 +118,8 @@ TEST_P(WrittenCell, ReadsBackAsTheSame) {
   EXPECT_EQ(written(read(commented)), once) << commented;
   EXPECT_THAT(commented, HasSubstr("{\n  // Made by a test.\n"));
   EXPECT_THAT(commented, HasSubstr("    // A ball.\n    {\n      \"name\": \"ball\""));
-  const std::string about = "// What every admitted motion keeps from other arms and the scene.\n";
+  const std::string about =
+      "// Clearance that every admitted motion keeps from other arms and the scene.\n";
   EXPECT_THAT(commented, HasSubstr(about));
   std::istringstream lines(commented);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;

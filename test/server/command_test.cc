@@ -31,7 +31,7 @@ TEST_F(Command, NamesAnInvalidOption) {
     std::string arguments;
     std::string says;
   } cases[] = {
-      {simulate + " --seed -1", "--seed: -1 is no whole number from 0 to 18446744073709551615"},
+      {simulate + " --seed -1", "--seed: -1 is not an integer from 0 to 18446744073709551615"},
       {simulate + " --seed 7.5", "--seed: 7.5 is no whole number"},
       {simulate + " --seed 18446744073709551616", "--seed: 18446744073709551616 is no"},
       {simulate + " --out " + taken.string(),
@@ -45,15 +45,15 @@ TEST_F(Command, NamesAnInvalidOption) {
        "armloom: --listen: cannot listen on elsewhere:8080: not an IP address; names are not "
        "looked up, localhost is 127.0.0.1"},
       {"serve --cell " + kCell + " --listen localhost",
-       "expected ADDRESS:PORT, as in 127.0.0.1:8080, which is this machine alone"},
+       "expected ADDRESS:PORT, for example 127.0.0.1:8080 for this machine only"},
       {"history --data /nowhere --state foo", "--state: foo not in {queued,"},
       {"replay --data /nowhere --until -1", "--until: "},
       {"serve --listen 127.0.0.1:0 --cell " + kCell + " --web /nowhere",
-       "armloom: --web: there is no folder /nowhere\n"},
+       "armloom: --web: no such folder: /nowhere\n"},
       {"serve --listen 127.0.0.1:0 --cell " + kCell + " --allow-host a/b",
-       "armloom: --allow-host: expected a host's name without a port (found \"a/b\")\n"},
+       "armloom: --allow-host: expected a host name without a port (found \"a/b\")\n"},
       {"audit --cell " + kCell + " --recording /nowhere",
-       "armloom: --recording: there is no folder /nowhere\n"},
+       "armloom: --recording: no such folder: /nowhere\n"},
       {"validate --cell /dev/zero", "armloom: /dev/zero: it is neither a file nor a pipe\n"},
       {"serve --listen 127.0.0.1:0 --cell " + kCell + " --policy hopeful", "armloom: --policy: "},
       {simulate + " --policy hopeful", "armloom: --policy: "},

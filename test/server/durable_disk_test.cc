@@ -61,7 +61,7 @@ TEST_F(Durable, CancelDuringAFullDiskIsReportedAsNotStored) {
   FailingDisk::fail(FailingDisk::Fault::full, 0);
   const auto canceled = remove("/api/v1/jobs/waits");
   EXPECT_EQ(canceled.status, 507) << canceled.body;
-  EXPECT_NE(canceled.body.find("the next run may not know of it"), std::string::npos);
+  EXPECT_NE(canceled.body.find("done, but not stored"), std::string::npos);
   EXPECT_EQ(job("waits")["state"], "canceled") << "it is done all the same";
 }
 
@@ -73,9 +73,7 @@ TEST_F(Durable, AcknowledgementDuringAFullDiskIsReportedAsNotStored) {
   const nlohmann::json seen = {{"ids", {id}}, {"who", "Ada"}};
   const auto warned = post("/api/v1/alerts/acknowledge", seen.dump());
   EXPECT_EQ(warned.status, 507);
-  EXPECT_NE(warned.body.find("this is done, but the next run may not know of it"),
-            std::string::npos)
-      << warned.body;
+  EXPECT_NE(warned.body.find("done, but not stored"), std::string::npos) << warned.body;
 }
 
 TEST_F(Durable, BrokenDiskIsReportedUnlikeAFullDisk) {

@@ -140,8 +140,7 @@ TEST_F(Durable, SceneChangeIsAcknowledgedWhenStored) {
   FailingDisk::fail(FailingDisk::Fault::broken, FailingDisk::operations() + 1);
   const auto warned = post("/api/v1/scene/objects", crate);
   EXPECT_EQ(warned.status, 503) << warned.body;
-  EXPECT_NE(warned.body.find("this is done, but the next run may not know of it"),
-            std::string::npos);
+  EXPECT_NE(warned.body.find("done, but not stored"), std::string::npos);
   EXPECT_NE(get("/api/v1/scene").body.find("crate"), std::string::npos);
   EXPECT_EQ(remove("/api/v1/scene/objects/crate").status, 503);
   EXPECT_NE(get("/api/v1/scene").body.find("crate"), std::string::npos) << "as no arm is let go";

@@ -47,7 +47,7 @@ TEST_F(Import, MakesACellWithTwoRobotsFromOneUrdf) {
   EXPECT_EQ(file["clearance_m"], 0.02);
   EXPECT_EQ(file["execution"]["duration_scaling"], 1.1);
   const std::string text = read_text_file(cell).value();
-  EXPECT_THAT(text, HasSubstr("// The watch over the measured state of all arms."));
+  EXPECT_THAT(text, HasSubstr("// Monitoring of the measured state of all arms."));
   EXPECT_EQ(run("validate --cell " + cell.string()).exit_code, 0);
   EXPECT_EQ(run("import" + files("panda") + " --out " + cell.string()).exit_code, 2);
   EXPECT_EQ(read_text_file(cell).value(), text);  // existing files are never overwritten
@@ -169,13 +169,14 @@ TEST_F(Import, NamesTheInvalidOption) {
     std::string arguments;
     std::string says;
   } cases[] = {
-      {files("panda") + " --srdf x.srdf", "--srdf: there are 1 --urdf and 2 --srdf"},
+      {files("panda") + " --srdf x.srdf",
+       "--srdf: 1 --urdf but 2 --srdf: give one --srdf for each --urdf"},
       {files("panda") + files("ur5e") + " --robot a", "--urdf: there are 2 and 1 --robot"},
-      {files("panda") + " --joint-limits a --joint-limits b", "--joint-limits: there are 1 --urdf"},
-      {files("panda") + " --robot a:yaw=3", "--robot: in \"a:yaw=3\": \"yaw\" is an unknown key"},
+      {files("panda") + " --joint-limits a --joint-limits b", "--joint-limits: 1 --urdf but 2"},
+      {files("panda") + " --robot a:yaw=3", "--robot: in \"a:yaw=3\": \"yaw\" is not known"},
       {files("panda") + " --robot a --robot b --prefix c_", "--prefix: several robots"},
       {files("panda") + " --package x", "--package: in \"x\": expected NAME=FOLDER"},
-      {files("panda") + " --package x=/nowhere", "there is no such folder"},
+      {files("panda") + " --package x=/nowhere", "no such folder"},
       {" --urdf /nowhere.urdf --srdf /nowhere.srdf", "/nowhere.srdf"},
       {" --urdf " + panda + " --srdf " + no_arm.string(), "no group is an arm"},
       {" --urdf " + meshed.string() + " --srdf " + no_arm.string(), "--package far_away=FOLDER"},

@@ -35,8 +35,8 @@ TEST_P(BadJson, IsRefusedWithPlaceAndReason) {
 INSTANTIATE_TEST_SUITE_P(
     Table, BadJson,
     ::testing::Values(
-        BadText{"Empty", "", "malformed-json", "", "ends too early"},
-        BadText{"Cut", R"({"a": [1, 2)", "malformed-json", "/a/2", "ends too early"},
+        BadText{"Empty", "", "malformed-json", "", "ends before"},
+        BadText{"Cut", R"({"a": [1, 2)", "malformed-json", "/a/2", "ends before"},
         BadText{"Nan", R"({"points": [{"positions": [0, NaN]}]})", "malformed-json",
                 "/points/0/positions/1", "line 1, column 31"},
         BadText{"Trailing", "{}\n{}", "malformed-json", "", "line 2, column 1"},

@@ -62,7 +62,7 @@ TEST_F(Serve, FullDiskIsReportedAtOnceAndAtTheEnd) {
   test::request(server.port(), "POST", "/api/v1/alerts/acknowledge", seen.dump());
   server.signal(SIGTERM);
   EXPECT_EQ(server.wait(), 74);
-  EXPECT_NE(server.log().find("not all is written: "), std::string::npos) << server.log();
+  EXPECT_NE(server.log().find("not everything was written: "), std::string::npos) << server.log();
 }
 
 TEST_F(Serve, StopIsServedWithoutFreeDescriptors) {

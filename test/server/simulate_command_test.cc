@@ -74,13 +74,13 @@ TEST_F(Simulate, EndsWhenSettledAndWritesNoIdleRows) {
       run("simulate --cell " + kCell + " --jobs " + file("stuck.json", jobs.dump()).string() +
           " --faults " + faults + " --out " + recording);
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.err.find("armloom: nothing can happen any more at "), std::string::npos)
+  EXPECT_NE(outcome.err.find("armloom: nothing can move any more at "), std::string::npos)
       << outcome.err;
-  EXPECT_NE(outcome.err.find("job j1 did not end, it is queued, waits for stop left"),
+  EXPECT_NE(outcome.err.find("job j1 did not end; its state is queued, waits for stop left"),
             std::string::npos)
       << outcome.err;
   EXPECT_LT(fs::file_size(folder_ / "recording/states.csv"), 2'000'000U);
-  EXPECT_EQ(outcome.err.find("every limit is over"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("all time limits have passed"), std::string::npos) << outcome.err;
 
   const std::string audit = "audit --cell " + kCell + " --recording " + recording;
   const Outcome whole = run(audit);

@@ -60,7 +60,7 @@ TEST_F(Token, IsRequiredWithTlsBeyondLoopback) {
   }
   const auto half = run(serve(" --listen 127.0.0.1:0 --tls-key y"));
   EXPECT_EQ(half.exit_code, 2);
-  EXPECT_NE(half.err.find("go together"), std::string::npos) << half.err;
+  EXPECT_NE(half.err.find("must be given together"), std::string::npos) << half.err;
   const auto none = run(serve(" --listen 127.0.0.1:0 --tokens " + tokens() + "x"));
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_NE(none.err.find("cannot be read"), std::string::npos) << none.err;
