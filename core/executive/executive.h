@@ -201,7 +201,7 @@ class Executive {
   // Rolls back a job whose acceptance was never acknowledged to the client, for example because it
   // could not be stored. It is canceled, then forgotten, and its key can be reused. Event
   // subscribers do see it created and canceled.
-  void withdraw(const std::string& key);
+  void roll_back(const std::string& key);
   // Changes the job's terms at once (scheduler/amending.h). Problems: those of cancel().
   [[nodiscard]] Result<JobView> amend(const std::string& key, JobAmendment amendment);
   // Replans the job (scheduler/ways/replanning.h). A moving job is first brought to rest. Problems:

@@ -192,7 +192,7 @@ void Executive::Impl::tick(TimePoint now) {
     if (!execution_.keeps_back(report)) step(report);
   }
   if (now >= clock_.shows_check_at) show_check();
-  forget_withdrawn();
+  forget_rolled_back();
   count_.motion(motions);
   if (watch_.is_due(now)) watch();
   publisher_.tell_queue(now);

@@ -42,7 +42,7 @@ class Executive::Impl {
 
   // job_commands.cc
   Result<JobView> cancel(const std::string& key, std::optional<TimePoint> at);
-  void withdraw(const std::string& key);
+  void roll_back(const std::string& key);
   Result<JobView> amend(const std::string& key, JobAmendment amendment);
   Result<JobView> replan(const std::string& key);
 
@@ -100,7 +100,7 @@ class Executive::Impl {
   void hide_checks();
   void certify(const Question& question);
   void refused(JobId job, const GuardRefusal& refusal);
-  void forget_withdrawn();
+  void forget_rolled_back();
   void watch();
   void scene_has_changed(ClearanceQuery query);
 
@@ -110,8 +110,8 @@ class Executive::Impl {
     bool keeps_waiting;
   };
 
-  std::set<JobId> checks_shown_;  // jobs that are published as being checked
-  std::vector<JobId> withdrawn_;  // not ended, or not forgotten yet
+  std::set<JobId> checks_shown_;    // jobs that are published as being checked
+  std::vector<JobId> rolled_back_;  // not ended, or not forgotten yet
   JobIntake intake_;
   StateWatch watch_;
   std::optional<WindDown> wind_down_;

@@ -43,7 +43,7 @@ struct ExecutiveInput {
   struct Canceled {
     std::string job;
   };
-  struct Withdrawn {
+  struct RolledBack {
     std::string job;
   };
   struct Held {
@@ -108,7 +108,7 @@ struct ExecutiveInput {
   struct StartWritten {
     JobId job{0};
   };
-  std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, Withdrawn,
+  std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, RolledBack,
                Held, Amended, Replanned, Stopped, Resumed, PolicyChanged, WoundDown, ObjectAdded,
                ObjectReplaced, ObjectRemoved, Injected, FaultRemoved, Alerted, Judged, Certified,
                Planned, StartWritten>

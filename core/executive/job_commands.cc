@@ -18,17 +18,17 @@ Result<JobView> Executive::Impl::cancel(const std::string& key, std::optional<Ti
   return publisher_.view(*id);
 }
 
-void Executive::Impl::withdraw(const std::string& key) {
+void Executive::Impl::roll_back(const std::string& key) {
   const auto id = jobs_.find(key);
   if (!id) return;
-  withdrawn_.push_back(*id);
+  rolled_back_.push_back(*id);
   if (jobs_.not_ended(key)) step(Cancel{*id});
-  forget_withdrawn();
+  forget_rolled_back();
 }
 
 // Not within a step, whose effects may speak of it.
-void Executive::Impl::forget_withdrawn() {
-  std::erase_if(withdrawn_, [this](JobId id) {
+void Executive::Impl::forget_rolled_back() {
+  std::erase_if(rolled_back_, [this](JobId id) {
     const Job* job = scheduler_.find(id);
     if (job != nullptr && !job->has_ended()) return false;
     publisher_.forget(id, jobs_.key(id));

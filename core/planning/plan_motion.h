@@ -5,7 +5,7 @@
 
 #include "core/collision/check/motion_checker.h"
 #include "core/planning/planner.h"
-#include "core/trajectory/timing/time_parameterisation.h"
+#include "core/trajectory/timing/time_parameterization.h"
 
 namespace armloom {
 
@@ -33,7 +33,7 @@ struct PlannedMotion {
                                                        const PlanRequest& request,
                                                        const TrajectoryPtr& trajectory);
 
-// Plans (Planner), times (time_parameterisation.h) and checks a motion as a job (Swept, everything
+// Plans (Planner), times (time_parameterization.h) and checks a motion as a job (Swept, everything
 // else at rest) over its whole length. Corners are cut as widely as the check allows; otherwise the
 // arm rests at them. Throws like Planner and time_path. Thread-safe.
 [[nodiscard]] tl::expected<PlannedMotion, PlanRefusal> plan_motion(

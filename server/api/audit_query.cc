@@ -10,9 +10,9 @@ namespace armloom {
 namespace {
 
 QueryPart<AuditQuery> time(std::string name, std::optional<std::int64_t> AuditFilter::*where,
-                           std::string told) {
+                           std::string description) {
   const std::string rule = name + " must be an RFC 3339 time, for example 2026-11-21T09:33:00Z";
-  return {{std::move(name), std::move(told), {{"type", "string"}}},
+  return {{std::move(name), std::move(description), {{"type", "string"}}},
           [where, rule](const std::string& value, AuditQuery& out) {
             out.*where = read_rfc3339(value);
             return out.*where ? std::nullopt : std::optional(rule);

@@ -18,7 +18,7 @@ namespace armloom {
 // A query parameter: how to read it, and its entry in /openapi.json.
 template <class T>
 struct QueryPart {
-  Parameter told;
+  Parameter parameter;
   // Stores the value; returns what is wrong with it, or nullopt.
   std::function<std::optional<std::string>(const std::string& value, T& out)> take;
 };
@@ -36,13 +36,13 @@ class QueryFormat {
     T query{};
     Problems problems;
     for (const QueryPart<T>& part : parts_) {
-      const std::string& name = part.told.name;
+      const std::string& name = part.parameter.name;
       const auto value = target.parameter(name);
-      if (!value && !part.told.required) continue;
+      if (!value && !part.parameter.required) continue;
       auto fault = value ? part.take(*value, query)
                          : std::optional(name + " is missing: add it to the query");
       if (!fault) continue;
-      const bool is_missing = part.told.required && value.value_or("").empty();
+      const bool is_missing = part.parameter.required && value.value_or("").empty();
       problems.push_back({is_missing ? ProblemKind::malformed : bad_,
                           is_missing ? "missing-parameter" : "bad-parameter", "?" + name,
                           *std::move(fault), value.value_or("")});
@@ -53,7 +53,7 @@ class QueryFormat {
 
   [[nodiscard]] std::vector<Parameter> parameters() const {
     std::vector<Parameter> all;
-    for (const QueryPart<T>& part : parts_) all.push_back(part.told);
+    for (const QueryPart<T>& part : parts_) all.push_back(part.parameter);
     return all;
   }
 
@@ -79,8 +79,8 @@ template <class Number>
 // Name T explicitly if the member is of its base class: text<AuditQuery>(...).
 
 template <class T, class Of, class Text>
-[[nodiscard]] QueryPart<T> text(std::string name, Text Of::*where, std::string told) {
-  return {{std::move(name), std::move(told), {{"type", "string"}}},
+[[nodiscard]] QueryPart<T> text(std::string name, Text Of::*where, std::string description) {
+  return {{std::move(name), std::move(description), {{"type", "string"}}},
           [where](const std::string& value, T& out) {
             out.*where = value;
             return std::optional<std::string>();
@@ -90,8 +90,8 @@ template <class T, class Of, class Text>
 // A non-empty text.
 template <class T>
 [[nodiscard]] QueryPart<T> required_text(std::string name, std::string T::*where,
-                                         std::string told) {
-  return {{name, std::move(told), {{"type", "string"}, {"minLength", 1}}, true},
+                                         std::string description) {
+  return {{name, std::move(description), {{"type", "string"}, {"minLength", 1}}, true},
           [name, where](const std::string& value, T& out) {
             out.*where = value;
             return value.empty() ? std::optional(name + " must not be empty") : std::nullopt;
@@ -100,11 +100,11 @@ template <class T>
 
 template <class T, class Of, class Number, class Value>
 [[nodiscard]] QueryPart<T> whole_number(std::string name, Number Of::*where, Value lowest,
-                                        Value highest, std::string told) {
+                                        Value highest, std::string description) {
   const std::string rule = name + " must be an integer within " + std::to_string(lowest) + ".." +
                            std::to_string(highest) + ", found \"";
   return {{std::move(name),
-           std::move(told),
+           std::move(description),
            {{"type", "integer"}, {"minimum", lowest}, {"maximum", highest}}},
           [where, lowest, highest, rule](const std::string& value, T& out) {
             Value number{};
@@ -116,9 +116,9 @@ template <class T, class Of, class Number, class Value>
 
 template <class T, class E>
 [[nodiscard]] QueryPart<T> one_of(std::string name, std::optional<E> T::*where, Schema schema,
-                                  std::string told) {
+                                  std::string description) {
   const std::string rule = "unknown " + name + " \"";
-  return {{std::move(name), std::move(told), std::move(schema)},
+  return {{std::move(name), std::move(description), std::move(schema)},
           [where, rule](const std::string& value, T& out) {
             out.*where = value_named<E>(value);
             return out.*where ? std::nullopt : std::optional(rule + value + "\"");
@@ -150,9 +150,9 @@ template <class T, class Of>
 }
 
 template <class T>
-[[nodiscard]] QueryPart<T> flag(std::string name, bool T::*where, std::string told) {
+[[nodiscard]] QueryPart<T> flag(std::string name, bool T::*where, std::string description) {
   const std::string rule = name + " must be 0 or 1, found \"";
-  return {{std::move(name), std::move(told), {{"type", "string"}, {"enum", {"0", "1"}}}},
+  return {{std::move(name), std::move(description), {{"type", "string"}, {"enum", {"0", "1"}}}},
           [where, rule](const std::string& value, T& out) {
             out.*where = value == "1";
             const bool is_read = value == "0" || value == "1";

@@ -48,7 +48,7 @@ void get_metrics(Call call) {
   const Metrics::Readings readings{
       .readers = parts.hub.readers(),
       .frames_dropped = parts.hub.frames_dropped(),
-      .readers_sent_away = parts.hub.readers_sent_away(),
+      .subscribers_disconnected = parts.hub.subscribers_disconnected(),
       .recording_lost = parts.recording != nullptr && parts.recording->fault(),
       .storage_failed = refusal_of_store(parts).has_value()};
   call.respond(Response{200,

@@ -1,8 +1,8 @@
 #include "server/codec/member_part.h"
 
 #include "server/codec/later_part.h"
+#include "server/codec/output_part.h"
 #include "server/codec/part_groups.h"
-#include "server/codec/told_part.h"
 
 namespace armloom::formats {
 namespace {
@@ -51,7 +51,7 @@ class MemberPart : public AnyPart {
   Access access_;
 };
 
-class ToldPart final : public MemberPart {
+class OutputPart final : public MemberPart {
  public:
   using MemberPart::MemberPart;
   void read_any(const JsonNode&, void*) const override {}
@@ -152,22 +152,23 @@ AnyPartPtr member_part(Need need, std::string_view key, std::string_view text,
   return member_part(need, key, text, format, Access(offset));
 }
 
-AnyPartPtr told_part(Need need, std::string_view key, std::string_view text,
-                     const AnyFormatPtr& format, const Access& access) {
-  return AnyPartPtr(new ToldPart({std::string(key), std::string(text), need, {}}, format, access));
+AnyPartPtr output_part(Need need, std::string_view key, std::string_view text,
+                       const AnyFormatPtr& format, const Access& access) {
+  return AnyPartPtr(
+      new OutputPart({std::string(key), std::string(text), need, {}}, format, access));
 }
 
-AnyPartPtr told_part(Need need, std::string_view key, std::string_view text,
-                     const AnyFormatPtr& format, std::ptrdiff_t offset) {
-  return told_part(need, key, text, format, Access(offset));
+AnyPartPtr output_part(Need need, std::string_view key, std::string_view text,
+                       const AnyFormatPtr& format, std::ptrdiff_t offset) {
+  return output_part(need, key, text, format, Access(offset));
 }
 
 AnyPartPtr constant_part(std::string_view key, const Schema& value) {
   return AnyPartPtr(new ConstantPart(key, value));
 }
 
-AnyPartPtr told_times(std::string_view what, std::ptrdiff_t offset, bool may_lack,
-                      std::string_view text) {
+AnyPartPtr output_times(std::string_view what, std::ptrdiff_t offset, bool may_lack,
+                        std::string_view text) {
   return AnyPartPtr(new ToldTimes(what, offset, may_lack, text));
 }
 

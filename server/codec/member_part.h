@@ -92,7 +92,7 @@ template <class T, class Where, class M, class Spell, class Mean>
 
 // Written only if different from `usual`, the default.
 template <class T, class M>
-[[nodiscard]] PartPtr<T> unless_usual(std::string_view key, M T::*where,
+[[nodiscard]] PartPtr<T> omit_default(std::string_view key, M T::*where,
                                       std::type_identity_t<M> usual, const FormatPtr<M>& format,
                                       std::string_view text) {
   return member<T>(

@@ -68,7 +68,7 @@ void JobKeeper::accept(std::vector<AcceptedJob> jobs,
                  [this, keys = std::move(keys), then = std::move(then)](bool is_written) {
                    if (!is_written) {
                      loop_->post_urgent([keys](Executive& executive) {
-                       for (const std::string& key : keys) executive.withdraw(key);
+                       for (const std::string& key : keys) executive.roll_back(key);
                      });
                    }
                    tell(is_written, then);

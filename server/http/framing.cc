@@ -111,7 +111,7 @@ bool is_websocket_key(std::string_view key) {
          kDigits.find(key[21]) % 16 == 0;
 }
 
-bool may_command(const std::string& host, const HostRule& rule) {
+bool is_allowed_host(const std::string& host, const HostRule& rule) {
   in6_addr address{};
   if (inet_pton(AF_INET, host.c_str(), &address) == 1) return true;
   if (inet_pton(AF_INET6, host.c_str(), &address) == 1) return true;

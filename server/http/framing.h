@@ -51,6 +51,6 @@ struct AbsoluteTarget {
 [[nodiscard]] bool is_websocket_key(std::string_view key);
 
 // Checks a host name (of host_of()) of any request against the allow-list.
-[[nodiscard]] bool may_command(const std::string& host, const HostRule& rule);
+[[nodiscard]] bool is_allowed_host(const std::string& host, const HostRule& rule);
 
 }  // namespace armloom

@@ -31,7 +31,7 @@ std::optional<std::string> one_of(const RequestHeader& header, beast::string_vie
 // Returns a refusal, even to read, for a host that is not allowed (DNS rebinding).
 std::optional<Refusal> foreign_host(const std::string& authority, const HostRule& hosts) {
   const std::string host = host_of(authority);
-  if (authority.empty() || may_command(host, hosts)) return std::nullopt;
+  if (authority.empty() || is_allowed_host(host, hosts)) return std::nullopt;
   return Refusal{403, "foreign-host",
                  "host \"" + host +
                      "\" is not allowed: use an IP address, localhost or a name given with "

@@ -96,7 +96,7 @@ void Hub::tell_readers() {
   for (const auto& weak : readers_) {
     const auto reader = weak.lock();
     if (!reader) continue;
-    if (reader->falls_behind()) ++readers_sent_away_;
+    if (reader->falls_behind()) ++subscribers_disconnected_;
     reader->tell();
   }
 }

@@ -38,7 +38,7 @@ class Hub {
 
   [[nodiscard]] std::size_t readers();
   [[nodiscard]] std::uint64_t frames_dropped() const { return frames_dropped_; }
-  [[nodiscard]] std::uint64_t readers_sent_away() const { return readers_sent_away_; }
+  [[nodiscard]] std::uint64_t subscribers_disconnected() const { return subscribers_disconnected_; }
 
  private:
   class Reader;
@@ -51,7 +51,7 @@ class Hub {
   std::uint64_t last_seq_ = 0;
   bool ended_ = false;
   std::uint64_t frames_dropped_ = 0;
-  std::uint64_t readers_sent_away_ = 0;
+  std::uint64_t subscribers_disconnected_ = 0;
   std::vector<std::weak_ptr<Reader>> readers_;
 };
 

@@ -6,9 +6,9 @@
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 
 namespace armloom {
@@ -216,7 +216,7 @@ FormatPtr<FaultView> fault_format() {
   static const auto format =
       named("Fault", "",
             object<View>({
-                told(
+                output_only(
                     "id", [](const View& view) { return std::to_string(view.id); }, text()),
                 inlined(&View::fault, told_members(cell_time(), seconds(kAnyNumber))),
             }));

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job_request.h"
 #include "server/messages/trajectory_request.h"
@@ -49,10 +49,11 @@ FormatPtr<JobMotion> job_motion_format() {
   static const auto format = named(
       "JobMotion", "The motion of a job.",
       object<Told>({
-          told("id", &Told::job, job_id_format(), "Id of the job"),
-          told("duration_s", &Told::duration, seconds(kPositive)),
-          told("trajectory", &Told::trajectory, told_trajectory_format(),
-               "The trajectory in the form of POST /jobs; submitting it gives the same motion"),
+          output_only("id", &Told::job, job_id_format(), "Id of the job"),
+          output_only("duration_s", &Told::duration, seconds(kPositive)),
+          output_only(
+              "trajectory", &Told::trajectory, told_trajectory_format(),
+              "The trajectory in the form of POST /jobs; submitting it gives the same motion"),
       }));
   return format;
 }

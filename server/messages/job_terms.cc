@@ -29,10 +29,10 @@ PartPtr<JobTerms> job_terms_part() {
                   "Action on backlog timeout. `abort`: the job expires. `replan`: the server plans "
                   "another path from the arm's position to the job's end, around everything at "
                   "rest; the job expires if there is no path, and after the third replan")),
-      unless_usual("move_to_start", &Terms::move_to_start, MoveToStart::none, choice<MoveToStart>(),
+      omit_default("move_to_start", &Terms::move_to_start, MoveToStart::none, choice<MoveToStart>(),
                    "`plan`: the arms need not be at the start of the trajectory; the server first "
                    "moves each of them there on a planned path, slowly"),
-      unless_usual("reorderable", &Terms::reorderable, false, flag(),
+      omit_default("reorderable", &Terms::reorderable, false, flag(),
                    "true: the scheduler may reorder this job among reorderable jobs of the same "
                    "arm that begin and end at the same configuration"),
   });

@@ -2,8 +2,8 @@
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 
 namespace armloom {
@@ -27,17 +27,18 @@ class RoundedPositions final : public CustomFormat<Configuration> {
 }  // namespace
 
 FormatPtr<MeasuredStates> measured_states_format() {
-  static const auto format = named(
-      "MeasuredStates", "",
-      object<MeasuredStates>({
-          told("stream", &MeasuredStates::stream, text(),
-               "UUID of the server session, as in events"),
-          told("joints", &MeasuredStates::joints, list(text()), "Names of all joints of the cell"),
-          told("t_s", &MeasuredStates::times, list(cell_time()),
-               "Cell times of the samples, ascending"),
-          told("q", &MeasuredStates::q, list(make_format<RoundedPositions>()),
-               "Positions at each time, in the order of `joints`: rad or m"),
-      }));
+  static const auto format =
+      named("MeasuredStates", "",
+            object<MeasuredStates>({
+                output_only("stream", &MeasuredStates::stream, text(),
+                            "UUID of the server session, as in events"),
+                output_only("joints", &MeasuredStates::joints, list(text()),
+                            "Names of all joints of the cell"),
+                output_only("t_s", &MeasuredStates::times, list(cell_time()),
+                            "Cell times of the samples, ascending"),
+                output_only("q", &MeasuredStates::q, list(make_format<RoundedPositions>()),
+                            "Positions at each time, in the order of `joints`: rad or m"),
+            }));
   return format;
 }
 

@@ -2,9 +2,9 @@
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job.h"
 #include "server/messages/job_request.h"
@@ -49,11 +49,11 @@ namespace {
 
 FormatPtr<OtherArm> other_arm_format() {
   return object<OtherArm>({
-      told("arm", &OtherArm::arm, text()),
-      told(
+      output_only("arm", &OtherArm::arm, text()),
+      output_only(
           "arrives_s", &OtherArm::arrives_s, nullable(number({0.0})),
           "Time until arrival, from now; null if the arm has no path or its start time is unknown"),
-      told("detail", &OtherArm::detail, text()),
+      output_only("detail", &OtherArm::detail, text()),
   });
 }
 
@@ -64,30 +64,30 @@ FormatPtr<PlanView> plan_format() {
   static const auto format = formats::named(
       "Plan", "A planned motion, not executed.",
       object<View>({
-          told("arm", &View::arm, text(), "Arm that moves"),
-          told("others", &View::others, list(other_arm_format()),
-               "The other candidate arms: when each would arrive, or why it cannot"),
-          told(
+          output_only("arm", &View::arm, text(), "Arm that moves"),
+          output_only("others", &View::others, list(other_arm_format()),
+                      "The other candidate arms: when each would arrive, or why it cannot"),
+          output_only(
               "trajectory", [](const View& plan) { return &plan.motion.timed.request; },
               told_trajectory_format(), "The trajectory in the form of POST /jobs"),
-          told(
+          output_only(
               "duration_s",
               [](const View& plan) { return plan.motion.timed.trajectory->duration(); },
               seconds(kPositive)),
-          told("length", &View::length, number({0.0}),
-               "Length of the path in joint space, rad or m"),
-          told("straight_line_length", &View::straight_line_length, number({0.0}),
-               "Length of the straight line to the goal in joint space"),
-          told(
+          output_only("length", &View::length, number({0.0}),
+                      "Length of the path in joint space, rad or m"),
+          output_only("straight_line_length", &View::straight_line_length, number({0.0}),
+                      "Length of the straight line to the goal in joint space"),
+          output_only(
               "evaluations", [](const View& plan) { return plan.motion.way.evaluations; }, count(),
               "Line segments checked by the search"),
-          told_if(
+          output_if(
               "verdict",
               [](const View& plan) {
                 return plan.verdict ? std::optional(*plan.verdict) : std::nullopt;
               },
               verdict_format(), "Result of POST /check for this motion now"),
-          told_if(
+          output_if(
               "not_checked_reason",
               [](const View& plan) {
                 return plan.verdict ? std::nullopt

@@ -6,10 +6,10 @@
 #include "core/base/plain_name.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/scene_format.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/mesh_address.h"
 
@@ -114,20 +114,21 @@ FormatPtr<CollisionObject> object_format() {
 }
 
 FormatPtr<SceneView> scene_format() {
-  static const auto format = named("Scene", "",
-                                   object<SceneView>({
-                                       told("version", &SceneView::version, count(),
-                                            "Version of the scene; grows with every change"),
-                                       told("objects", &SceneView::objects, list(object_format())),
-                                   }));
+  static const auto format =
+      named("Scene", "",
+            object<SceneView>({
+                output_only("version", &SceneView::version, count(),
+                            "Version of the scene; grows with every change"),
+                output_only("objects", &SceneView::objects, list(object_format())),
+            }));
   return format;
 }
 
 FormatPtr<SceneChange> scene_change_format() {
   static const auto format = named("SceneChange", "",
                                    object<SceneChange>({
-                                       told("version", &SceneChange::version, count()),
-                                       told("object", &SceneChange::object, object_format()),
+                                       output_only("version", &SceneChange::version, count()),
+                                       output_only("object", &SceneChange::object, object_format()),
                                    }));
   return format;
 }
@@ -135,7 +136,7 @@ FormatPtr<SceneChange> scene_change_format() {
 FormatPtr<std::uint64_t> scene_version_format() {
   static const auto format =
       named("SceneVersion", "",
-            object<std::uint64_t>({told(
+            object<std::uint64_t>({output_only(
                 "version", [](const std::uint64_t& version) { return version; }, count())}));
   return format;
 }

@@ -108,7 +108,7 @@ class Metrics::Impl {
   std::string text(const Readings& readings) {
     readers_.Set(static_cast<double>(readings.readers));
     raise(frames_dropped_, readings.frames_dropped);
-    raise(sent_away_, readings.readers_sent_away);
+    raise(sent_away_, readings.subscribers_disconnected);
     recording_lost_.Set(readings.recording_lost ? 1 : 0);
     storage_failed_.Set(readings.storage_failed ? 1 : 0);
     return prometheus::TextSerializer().Serialize(registry_.Collect());

@@ -39,7 +39,7 @@ class Metrics {
   struct Readings {
     std::size_t readers = 0;  // of events and poses
     std::uint64_t frames_dropped = 0;
-    std::uint64_t readers_sent_away = 0;
+    std::uint64_t subscribers_disconnected = 0;
     bool recording_lost = false;
     bool storage_failed = false;
   };

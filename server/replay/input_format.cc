@@ -9,9 +9,9 @@
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
@@ -151,7 +151,7 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"went_on", {}},
       {"restore", {always("jobs", &In::Restored::jobs, list(former_job_format()))}},
       {"cancel", {always("job", &In::Canceled::job, text())}},
-      {"withdraw", {always("job", &In::Withdrawn::job, text())}},
+      {"roll_back", {always("job", &In::RolledBack::job, text())}},
       {"hold",
        {always("job", &In::Held::job, text()), nanoseconds_part("until_ns", &In::Held::until)}},
       {"amend",
@@ -177,7 +177,7 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"alert", {inlined(&In::Alerted::alert, alert_part())}},
       {"judged",
        {always("evaluations", &In::Judged::evaluations, whole()),
-        unless_usual("interrupted", &In::Judged::interrupted, false, flag(),
+        omit_default("interrupted", &In::Judged::interrupted, false, flag(),
                      "The check was ended early: its verdict is void")}},
       {"certified", {always("evaluations", &In::Certified::evaluations, whole())}},
       {"planned",

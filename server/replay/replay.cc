@@ -130,7 +130,7 @@ class Replay::Impl final : public InputLog {
     (void)executive().restore(std::move(jobs));
   }
   void comes(const In::Canceled& in) { (void)executive().cancel(in.job); }
-  void comes(const In::Withdrawn& in) { executive().withdraw(in.job); }
+  void comes(const In::RolledBack& in) { executive().roll_back(in.job); }
   void comes(const In::Held& in) { (void)executive().cancel(in.job, in.until); }
   void comes(const In::Amended& in) { (void)executive().amend(in.job, in.amendment); }
   void comes(const In::Replanned& in) { (void)executive().replan(in.job); }

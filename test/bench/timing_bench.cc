@@ -1,7 +1,7 @@
 // Cost of time parameterization.
 #include <benchmark/benchmark.h>
 
-#include "core/trajectory/timing/time_parameterisation.h"
+#include "core/trajectory/timing/time_parameterization.h"
 #include "test/bench/run_benchmarks.h"
 #include "test/trajectory/timing/random_paths.h"
 

@@ -73,15 +73,15 @@ TEST(RolledBackJob, IsForgottenAndItsKeyCanBeReused) {
   Crossing cell;
   Executive& executive = cell.simulation->executive();
   cell.submit(slide("x", -1, 1, 4, "waits"));
-  executive.withdraw("waits");
+  executive.roll_back("waits");
   EXPECT_FALSE(executive.job("waits")) << "it had not begun";
-  executive.withdraw("nobody");
+  executive.roll_back("nobody");
   cell.submit(slide("x", -1, 1, 4, "waits"));
   JobRequest after = slide("y", -1, 1, 4, "after");
   after.after = {"waits"};
   cell.submit(after);
   cell.run_until(at(1s));
-  executive.withdraw("waits");
+  executive.roll_back("waits");
   EXPECT_TRUE(executive.job("waits")) << "it brakes";
   cell.run_until(at(2s));
   EXPECT_FALSE(executive.job("waits"));

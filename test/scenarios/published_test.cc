@@ -169,7 +169,7 @@ TEST(Published, RolledBackJobLeavesListAndLookupTogether) {
   };
   EXPECT_TRUE(executive.submit(slide("x", -1, 1, 4, "one")));
   EXPECT_TRUE(agree());
-  executive.withdraw("one");
+  executive.roll_back("one");
   agree();
   (*simulation)->run_until(executive.now() + std::chrono::seconds(1));
   EXPECT_FALSE(agree());

@@ -83,6 +83,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCell{"TwoShapes", "/objects/0", R"({"name": "x", "box": [1,1,1], "sphere": [1]})",
                 "exactly one"},
         BadCell{"ScaleOfABox", "/objects/0/scale", "[1, 1, 1]", R"("scale" requires "mesh")"},
+        BadCell{"RenamedKey", "/scheduling/horizon_legs", "5",
+                "renamed to \"horizon_steps\" in version 0.2"},
         BadCell{"MisspeltKey", "/monitor/rate_hx", "5", "did you mean \"rate_hz\"?"},
         BadCell{"HomeIsANumber", "/robots/0/arms/0/home", "7", "or the name of a state"},
         BadCell{"HomeIsNameless", "/robots/0/arms/0/home", "\"\"", "a name is required"},

@@ -139,9 +139,9 @@ TEST_F(Framing, RefusesForeignHostsAgainstDnsRebinding) {
 
 TEST(HostRule, AllowsPlainNamesIfTheServerListensOnAllAddresses) {
   const HostRule everywhere{.names = {}, .any_plain = true};
-  EXPECT_TRUE(may_command("robots", everywhere));
-  EXPECT_FALSE(may_command("evil.example", everywhere));
-  EXPECT_FALSE(may_command("127.0.0.1.evil.example", everywhere));
+  EXPECT_TRUE(is_allowed_host("robots", everywhere));
+  EXPECT_FALSE(is_allowed_host("evil.example", everywhere));
+  EXPECT_FALSE(is_allowed_host("127.0.0.1.evil.example", everywhere));
 }
 
 TEST(Authority, HasANameAndAnOptionalPort) {

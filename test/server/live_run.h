@@ -223,7 +223,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
       case 28:
         return plan();
       case 29:
-        return executive_->withdraw(some_job());
+        return executive_->roll_back(some_job());
       default:
         if (!batch_) (void)executive_->submit(request(swing(arm())));
     }

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/trajectory/polynomial.h"
-#include "core/trajectory/timing/time_parameterisation.h"
+#include "core/trajectory/timing/time_parameterization.h"
 
 namespace armloom {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/trajectory/request_checks.h"
-#include "core/trajectory/timing/time_parameterisation.h"
+#include "core/trajectory/timing/time_parameterization.h"
 
 namespace armloom {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/trajectory/timing/time_parameterisation.h"
+#include "core/trajectory/timing/time_parameterization.h"
 #include "test/trajectory/timing/phase_plane.h"
 #include "test/trajectory/timing/random_paths.h"
 

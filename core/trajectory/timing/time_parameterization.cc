@@ -1,4 +1,4 @@
-#include "core/trajectory/timing/time_parameterisation.h"
+#include "core/trajectory/timing/time_parameterization.h"
 
 #include <algorithm>
 #include <cmath>
