@@ -80,8 +80,8 @@ def run_block(name, commands, folder):
 
 def own_robots(readme, armloom, folder):
     """Imports and serves the robot of the README, and the second robot that it names, if present."""
-    section = readme.split("## Your own robot in five minutes\n")[1].split("\n## ")[0]
-    importing, serving = commands_of(readme, "Your own robot in five minutes").split(
+    section = readme.split("## Your own robot\n")[1].split("\n## ")[0]
+    importing, serving = commands_of(readme, "Your own robot").split(
         "./server/run --cell my_cell.json\n")
     if serving:
         sys.exit(f"own robot: something stands behind the last command: {serving}")
@@ -169,7 +169,7 @@ def reasons_are_explained(readme, url):
 def main():
     readme = (TOP / "README.md").read_text()
     api = (TOP / "server/README.md").read_text()
-    tour = blocks(readme, "A tour with curl") + blocks(api, "The API")
+    tour = blocks(readme, "Example: a blocked job") + blocks(api, "A tour with curl") + blocks(api, "The API")
     shown = readme.count("```sh\n") + api.count("```sh\n")
     if len(tour) + 2 != shown or shown < 14:  # two blocks have no JSON answer
         sys.exit(f"{len(tour)} of {shown} blocks found in the READMEs")
