@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCell{"Policy", "/scheduling/policy", "\"hopeful\"", "\"earliest_start\""},
         BadCell{"IdleBlocker", "/scheduling/on_idle_blocker", "\"shove\"",
                 "expected \"report\", \"park\" or \"replan\""},
-        BadCell{"PairIsSingle", "/allowed_collisions/0", "[\"table\"]", "a pair"},
+        BadCell{"PairIsSingle", "/allowed_collisions/0", "[\"table\"]", "an array of 2"},
         BadCell{"StepIsZero", "/checking/time_step_s", "0", "not within"},
         BadCell{"RateIsHigh", "/monitor/rate_hz", "5000", "not within"},
         BadCell{"Controller", "/robots/0/controller/type", "\"real\"", "sim"},

@@ -32,7 +32,7 @@ TEST_F(Command, NamesAnInvalidOption) {
     std::string says;
   } cases[] = {
       {simulate + " --seed -1", "--seed: -1 is not an integer from 0 to 18446744073709551615"},
-      {simulate + " --seed 7.5", "--seed: 7.5 is no whole number"},
+      {simulate + " --seed 7.5", "--seed: 7.5 is not an integer"},
       {simulate + " --seed 18446744073709551616", "--seed: 18446744073709551616 is no"},
       {simulate + " --out " + taken.string(),
        "armloom: --out: the folder " + taken.string() + " cannot be written\n"},
@@ -43,7 +43,7 @@ TEST_F(Command, NamesAnInvalidOption) {
        "armloom: --listen: expected ADDRESS:PORT"},
       {"serve --cell " + kCell + " --listen elsewhere:8080",
        "armloom: --listen: cannot listen on elsewhere:8080: not an IP address; names are not "
-       "looked up, localhost is 127.0.0.1"},
+       "resolved, use 127.0.0.1 for localhost"},
       {"serve --cell " + kCell + " --listen localhost",
        "expected ADDRESS:PORT, for example 127.0.0.1:8080 for this machine only"},
       {"history --data /nowhere --state foo", "--state: foo not in {queued,"},

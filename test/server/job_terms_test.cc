@@ -71,7 +71,7 @@ TEST(JobTerms, InvalidValuesAreRefusedWithTheirPointer) {
     ASSERT_EQ(job.error().size(), 1U) << terms;
     EXPECT_EQ(job.error().front().pointer, pointer);
   }
-  EXPECT_NE(asked_for(R"("reorderable": "random")").error().front().detail.find("boolean"),
+  EXPECT_NE(asked_for(R"("reorderable": "random")").error().front().detail.find("true or false"),
             std::string::npos);
 }
 

@@ -49,7 +49,7 @@ TEST_F(Serve, FullDiskIsReportedAtOnceAndAtTheEnd) {
   while (server.log().find("the recording is incomplete") == std::string::npos) {
     ASSERT_LT(Clock::now(), deadline) << server.log();
   }
-  EXPECT_NE(ready.json()["detail"].get<std::string>().find("until the server is started again"),
+  EXPECT_NE(ready.json()["detail"].get<std::string>().find("until the server is restarted"),
             std::string::npos);
   // The alert must be acknowledged by an operator.
   const auto alerts = test::request(server.port(), "GET", "/api/v1/alerts").json()["alerts"];

@@ -95,7 +95,7 @@ TEST_F(Store, DetectsDamagedJobRows) {
       (*history)->oldest_first({}, [&](const StoredJob& one) { ids.push_back(one.id); });
   EXPECT_EQ(ids, std::vector<std::string>{"j2"});
   ASSERT_FALSE(read);
-  EXPECT_NE(read.error().front().detail.find("2 jobs are not as"), std::string::npos);
+  EXPECT_NE(read.error().front().detail.find("2 jobs are damaged"), std::string::npos);
 }
 
 TEST_F(Store, DetectsDamagedStops) {

@@ -68,7 +68,7 @@ TEST_F(Token, IsRequiredWithTlsBeyondLoopback) {
       run(serve(" --listen 127.0.0.1:0 --tls-certificate " + tokens() + " --tls-key " + tokens()));
   EXPECT_EQ(bad.exit_code, 2);
   EXPECT_NE(bad.err.find("--tls-certificate"), std::string::npos) << bad.err;
-  EXPECT_NE(bad.err.find("holds no certificate in PEM"), std::string::npos) << bad.err;
+  EXPECT_NE(bad.err.find("contains no certificate in PEM"), std::string::npos) << bad.err;
   const auto missing =
       run(serve(" --listen 127.0.0.1:0 --tls-certificate nowhere --tls-key " + tokens()));
   EXPECT_EQ(missing.exit_code, 2);

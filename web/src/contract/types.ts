@@ -3,383 +3,380 @@ export type paths = Record<string, never>;
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
-        /** @description What WebSocket and SSE carry. */
+        /** @description A message on WebSocket or SSE. */
         Message: components["schemas"]["SnapshotEvent"] | components["schemas"]["JobEvent"] | components["schemas"]["ArmEvent"] | components["schemas"]["QueueEvent"] | components["schemas"]["SceneEvent"] | components["schemas"]["MonitorEvent"] | components["schemas"]["GuardEvent"] | components["schemas"]["AlertEvent"] | components["schemas"]["StateFrame"];
         Cell: {
             name: string;
-            /** @description In force */
+            /** @description Present policy */
             policy: string;
-            /** @description Cell seconds per wall second */
+            /** @description Seconds of cell time per second of wall time */
             speed: number;
-            /** @description No drive moves: every arm is simulated */
+            /** @description true if every arm is simulated, so that no real drive moves */
             simulated: boolean;
             robots: components["schemas"]["CellRobot"][];
             objects: components["schemas"]["Object"][];
             joints: components["schemas"]["CellJoint"][];
-            /** @description What every admitted motion keeps from other arms and the scene. */
+            /** @description Clearance that every admitted motion keeps from other arms and the scene. */
             clearance_m: number;
-            /** @description What an arm's own links keep from each other; at most clearance_m counts. */
+            /** @description Clearance between links of the same arm; limited to clearance_m. */
             self_clearance_m: number;
-            /** @description What an arm keeps from the link that carries it: clearance_m unless given, as that link may be a table; at most clearance_m counts. Less (0.005) where an arm folds on its own base or works beside its own body. */
+            /** @description Clearance between an arm and the link that carries it; limited to clearance_m. Default: clearance_m, because that link may be a table. Set it lower (0.005) if an arm folds onto its own base or works next to its own body. */
             mount_clearance_m?: number;
-            /** @description What the checks of motions allow for. */
+            /** @description Tolerances of the collision checks. */
             checking: {
-                /** @description Time between the instants that the policy timed_discrete compares. */
+                /** @description Time step of the policy timed_discrete, which compares motions only at these instants. */
                 time_step_s: number;
-                /** @description How far each joint may be off its path: every proof covers it. */
+                /** @description Largest deviation of a joint from its path; all certificates cover it. */
                 tracking_error_rad: number;
-                /** @description How far a motion is expected to be behind its plan: controllers with a larger lag_s are warned of. Motions go by measured progress, so nothing that is certified depends on it. */
+                /** @description Expected delay of a motion behind its plan; `validate` warns of controllers with a larger lag_s. Certificates do not depend on it, because motions are coordinated by measured progress. */
                 delay_s: number;
-                /** @description Share by which a trajectory may exceed a limit of velocity, acceleration or jerk between its waypoints. */
+                /** @description Share by which a trajectory may exceed a velocity, acceleration or jerk limit between its waypoints. */
                 limit_tolerance: number;
             };
-            /** @description Which job goes when. */
+            /** @description Scheduling of jobs. */
             scheduling: {
                 /**
-                 * @description The rule by which jobs start; `armloom compare` shows what each makes of your jobs.
+                 * @description Policy that decides when jobs start; `armloom compare` simulates your jobs under each policy.
                  * @enum {string}
                  */
                 policy: "sequential" | "lockstep" | "reservation" | "timed_discrete" | "certified" | "earliest_start" | "coordinated";
-                /** @description A job that has waited so long in the backlog expires, unless it says otherwise. */
+                /** @description Time in the backlog after which a job expires; a job can override it. */
                 backlog_timeout_s: number;
-                /** @description A job that has waited so long is overtaken no more. */
+                /** @description After waiting this long, a job can no longer be overtaken. */
                 aging_s: number;
                 /**
-                 * @description An arm without a job in the way of one, and jobs that wait for each other: park sends an arm aside, replan plans another way to where the job ends (what its trajectory was to do on the way is lost) and parks where there is none, report only tells of it.
+                 * @description Action when an idle arm or a deadlock cycle blocks a job. park: move an arm out of the way (retreat). replan: plan another path to the job's end, losing the rest of its trajectory; park if there is no path. report: only report the blockade.
                  * @enum {string}
                  */
                 on_idle_blocker: "report" | "park" | "replan";
-                /** @description Of each arm so many jobs are admitted together, the one under way included; who passes first is chosen for all of them (coordinated only). Decisions take longer with the square of it: above 12 tens of milliseconds. */
+                /** @description Number of jobs per arm that are scheduled together, including the running one (policy coordinated only). Decision time grows quadratically: tens of milliseconds above 12. */
                 horizon_steps: number;
                 /**
-                 * @description What a server with `--data` that is started again does with jobs that had not ended: ask stops all arms until they are resumed, continue goes on with those that had not begun.
+                 * @description Action after a restart of a server with `--data` for jobs that had not ended. ask: all arms stay stopped until they are resumed. continue: jobs that had not begun continue by themselves.
                  * @enum {string}
                  */
                 on_restart: "ask" | "continue";
             };
-            /** @description The watch over the measured state of all arms. */
+            /** @description Monitoring of the measured state of all arms. */
             monitor: {
-                /** @description How often the measured state is looked at. */
+                /** @description Rate at which the measured state is checked. */
                 rate_hz: number;
-                /** @description Time from a finding to the first arm that brakes. */
+                /** @description Time from a finding to the start of braking. */
                 reaction_s: number;
-                /** @description Links closer than this stop their arms. At most clearance_m. */
+                /** @description Clearance below which the monitor stops the arms. At most clearance_m. */
                 stop_clearance_m: number;
             };
-            /** @description When a motion may begin and when it has failed; the defaults are MoveIt's. */
+            /** @description Tolerances for starting and finishing motions; the defaults are MoveIt's. */
             execution: {
-                /** @description How far an arm may stand from where its job begins. */
+                /** @description Largest deviation of an arm from the start of its job. */
                 start_tolerance_rad: number;
-                /** @description A motion fails as overrun when it takes longer than this times its duration, plus the margin, and has not moved for 10 s. */
+                /** @description A motion fails as overrun if it takes longer than its duration times this factor plus duration_margin_s, and has not moved for 10 s. */
                 duration_scaling: number;
-                /** @description The margin of that; larger where arms may stall for longer. */
+                /** @description Margin added to the scaled duration; increase it if arms may stall for longer. */
                 duration_margin_s: number;
-                /** @description As MoveIt's default: the share of the joints' speeds of every motion whose times the server makes: goals, paths to be timed, other ways, ways aside. A request's own velocity_scaling_factor takes its place. Trajectories with times are run as they are given. */
+                /** @description Default velocity scaling for every motion that the server time-parameterizes: goals, `retime`, replans and retreats. As in MoveIt; a request can override it. Trajectories with times run as given. */
                 velocity_scaling_factor: number;
             };
         };
-        /** @description A job as the server gives it. */
+        /** @description A job with its present state. */
         Job: {
             id: components["schemas"]["JobId"];
-            /** @description For people; may be empty */
+            /** @description Display name; may be empty */
             name: string;
             state: components["schemas"]["JobState"];
-            /** @description That it moves */
+            /** @description Arms that the job moves */
             arms: string[];
-            /** @description Larger goes first */
+            /** @description Priority; larger goes first */
             priority: number;
-            /** @description How long it may wait in the backlog. Default: the cell's */
+            /** @description Longest time in the backlog; default: the cell's */
             backlog_timeout_s?: number;
             /**
-             * @description What becomes of it then. "replan": another way is planned to where it ends, from where its arm stands and past what rests there; it expires when there is none, and after the third
+             * @description Action on backlog timeout. `abort`: the job expires. `replan`: the server plans another path from the arm's position to the job's end, around everything at rest; the job expires if there is no path, and after the third replan
              * @enum {string}
              */
             on_timeout?: "abort" | "replan";
             /**
-             * @description "plan": its arms need not stand where it begins; each that stands elsewhere at its turn is brought there first, slowly, by a planned motion of the server's own
+             * @description `plan`: the arms need not be at the start of the trajectory; the server first moves each of them there on a planned path, slowly
              * @enum {string}
              */
-            approach?: "none" | "plan";
-            /**
-             * @description "any": jobs of one arm that begin and end at one place, and say so, may be taken in another order
-             * @enum {string}
-             */
-            order?: "as_given" | "any";
-            /** @description When it was accepted, in cell time */
+            move_to_start?: "none" | "plan";
+            /** @description true: the scheduler may reorder this job among reorderable jobs of the same arm that begin and end at the same configuration */
+            reorderable?: boolean;
+            /** @description Time of acceptance, in cell time */
             submitted_s: number;
             /**
              * Format: date-time
              * @description The same in wall time
              */
             submitted_at: string;
-            /** @description When it first was found in conflict, in cell time; absent: never */
+            /** @description Cell time of the first conflict; absent if there was none */
             backlogged_s?: number;
-            /** @description When it is given up if nothing changes, in cell time: while it waits in the backlog, or on its path for what no job moves */
+            /** @description Cell time at which the job expires if nothing changes, while it waits in the backlog, or on its path for something that no job moves */
             expires_s?: number;
-            /** @description When it starts; null: not planned, in cell time */
+            /** @description Scheduled start; null if not scheduled, in cell time */
             scheduled_s: number | null;
             /**
              * Format: date-time
              * @description The same in wall time
              */
             scheduled_at: string | null;
-            /** @description When it began to move; null: not yet, in cell time */
+            /** @description Start of motion; null before it, in cell time */
             started_s: number | null;
             /**
              * Format: date-time
              * @description The same in wall time
              */
             started_at: string | null;
-            /** @description When it ended; null: not yet, in cell time */
+            /** @description End; null before it, in cell time */
             ended_s: number | null;
             /**
              * Format: date-time
              * @description The same in wall time
              */
             ended_at: string | null;
-            /** @description Share of the trajectory's time */
+            /** @description Share of the trajectory's time, 0 to 1 */
             progress: number;
-            /** @description Of the trajectory */
+            /** @description Duration of the trajectory; an estimate until a goal is planned */
             duration_s: number;
-            /** @description Of a goal: whether its way is planned; until then duration_s is an estimate */
+            /** @description For a goal: true if the path is planned */
             planned?: boolean;
-            /** @description Brakes on its path */
+            /** @description true while the job brakes on its path */
             stopping: boolean;
-            /** @description Empty when it does not wait */
+            /** @description Reasons to wait; empty if the job does not wait */
             waits_on: components["schemas"]["Wait"][];
-            /** @description Arms of which one does it; `arms` is that one, or the likeliest while it waits */
+            /** @description Candidate arms; `arms` has the selected arm, or the most likely one while the job waits */
             alternatives?: string[];
-            /** @description Other ways that were looked for, to where its own ends */
+            /** @description Replans of the job */
             replan?: {
-                /** @description So many times it was given another way */
+                /** @description Number of successful replans */
                 done: number;
-                /** @description One is being looked for: it stays where it is */
+                /** @description true while a path is being planned; the arm waits on its path */
                 planning: boolean;
                 /**
-                 * @description Of the last time: POST /jobs/{id}/replan, on_timeout, or on_idle_blocker
+                 * @description Cause of the last replan: POST /jobs/{id}/replan, on_timeout, or on_idle_blocker
                  * @enum {string}
                  */
                 cause: "client" | "timeout" | "blocked";
-                /** @description Why it kept its own, the last time */
+                /** @description Reason why the last replan failed and the job kept its path; else null */
                 refused: string | null;
             };
-            /** @description Of a goal whose shortest way would have to wait: ways around what others hold */
+            /** @description For a goal whose shortest path would have to wait: detours around the motions of other arms */
             detour?: {
-                /** @description So many ways around */
-                weighed: number;
-                /** @description It goes by one of them */
-                taken: boolean;
-                /** @description By so much sooner it arrives by that, as it was predicted; null: none is taken, or the shortest way could not go as things stood */
+                /** @description Number of detours evaluated */
+                candidates_evaluated: number;
+                /** @description true if the job takes a detour */
+                selected: boolean;
+                /** @description Predicted earlier arrival by the detour; null if none is selected, or if the shortest path was blocked */
                 time_saved_s: number | null;
             };
-            /** @description Why it was taken before others, or by this arm */
+            /** @description Why this job went before others, or why this arm was selected */
             choice?: {
-                /** @description Jobs that could have taken the turn, or arms that could have done it: as it was first */
-                among: string[];
-                /** @description One of these */
-                taken: string;
-                /** @description By so much the plan costs less than with the first, or a goal's job arrives sooner; null: that is taken, or could not go */
+                /** @description Jobs that could have gone first, or arms that could have done the job, when the choice was first made */
+                candidates: string[];
+                /** @description The selected candidate */
+                selected: string;
+                /** @description Gain over the first candidate: lower plan cost, or for a goal earlier arrival; null if the first candidate is selected or could not go */
                 time_saved_s: number | null;
                 detail: string;
             };
-            /** @description The deadlock that it is part of, itself first: each waits for the next one, the last for the first. Else empty */
-            ring: string[];
-            /** @description null until terminal */
+            /** @description Ids of the deadlock cycle that contains the job, itself first; each job waits for the next, the last for the first. Empty if there is none */
+            cycle: string[];
+            /** @description Result of an ended job; else null */
             result: {
                 reason: components["schemas"]["Reason"];
                 detail: string;
             } | null;
         };
-        /** @description Of two motions. Times in cells, and of progress, are trajectory time. */
+        /** @description The coordination diagram of two motions. Times in cells and of progress are trajectory time. */
         Diagram: {
-            /** @description Cell time of state and progress */
+            /** @description Cell time of `state` and `progress_s` */
             t_s: number;
             a: components["schemas"]["DiagramSide"];
             b: components["schemas"]["DiagramSide"];
-            /** @description One for each arm of A and each other arm of B */
+            /** @description One layer for each pair of different arms of A and B */
             layers: {
-                /** @description Of A, of B */
+                /** @description The arm of A and the arm of B */
                 arms: [
                     string,
                     string
                 ];
-                /** @description Cover the rectangle of both durations and do not overlap; not with cells=false */
+                /** @description Cells that cover the rectangle of both durations without overlap; absent with `cells=0` */
                 cells?: components["schemas"]["DiagramCell"][];
-                /** @description The first conflict, else the first undecided cell, if both go on from where they are, and who ends first rests; null: through free cells only */
-                met: components["schemas"]["DiagramContact"] | null;
+                /** @description The first conflict, or else the first undecided cell, if both motions continue from their present progress and each rests at its end; null if only free cells follow */
+                first_contact: components["schemas"]["DiagramContact"] | null;
             }[];
             evaluations: number;
             scene_version: number;
         };
-        /** @description Times are cell time, if not said otherwise. */
+        /** @description Predicted motions. Times are cell time unless noted otherwise. */
         Timeline: {
             now_s: number;
-            /** @description So many legs of a lane are admitted at most, the one under way included */
+            /** @description Maximum number of admitted motions per arm, the running one included */
             horizon_steps: number;
-            /** @description In the cell's order */
+            /** @description Arms in the order of the cell */
             arms: components["schemas"]["TimelineArm"][];
         };
-        /** @description RFC 9457. */
+        /** @description Problem document (RFC 9457). */
         Problem: {
             type: string;
             title: string;
             status: number;
-            /** @description One sentence with numbers and units */
+            /** @description One sentence with the values found and their units */
             detail: string;
-            /** @description JSON pointer into the body; else the place in words */
+            /** @description JSON pointer into the body, or the place in words */
             pointer?: string;
-            /** @description What was found there */
+            /** @description Value found there */
             value?: string | number | null;
-            /** @description When several faults were found: all of them, the first one too */
+            /** @description All faults, if there are several */
             errors?: {
                 pointer: string;
                 detail: string;
-                /** @description What was found there */
+                /** @description Value found there */
                 value: string | number | null;
             }[];
-            /** @description Where there is no plan: the two that come too close, or the one that is not brought to its pose */
+            /** @description If planning failed: the two links that come too close, or the link that misses its pose */
             links?: string[];
-            /** @description How close the two come; zero or less in contact */
+            /** @description Distance of the two links; zero or negative in contact */
             clearance_m?: number;
-            /** @description How far apart they are to be */
+            /** @description Distance that the two links must keep */
             required_clearance_m?: number;
-            /** @description Joint positions that would do, the nearest that were found: free ones; of a pose that is not reached those that come nearest to it; of a straight line as far as it goes */
+            /** @description Nearest usable joint positions found: collision-free ones; for an unreachable pose, the closest to it; for a straight line, the farthest point on it */
             nearest?: number[];
-            /** @description What planning took */
+            /** @description Evaluations that planning took */
             evaluations?: number;
         };
-        /** @description The answer of the admission code to: what if this job came now? */
+        /** @description The result of checking a job as if it were submitted now. */
         Verdict: {
             /** @enum {string} */
             verdict: "free" | "conflict" | "undecided";
-            /** @description From now; 0 where it would start at once, null when not known */
+            /** @description Delay until the earliest start; 0 for an immediate start, null if unknown */
             earliest_start_s: number | null;
-            /** @description What is proven to be kept between arms, and by arms from what stands still: the least that any such pair was held to */
+            /** @description Certified clearance between arms and between arms and objects: the smallest one required of any such pair */
             clearance_bound_m: number | null;
-            /** @description The same of the links of one arm from each other */
+            /** @description Certified clearance between links of one arm */
             self_clearance_bound_m: number | null;
-            /** @description As the job's own would be: of a free one, what it would wait for before it starts */
+            /** @description What the job would wait for; a job with verdict `free` may still wait before it starts */
             waits_on: components["schemas"]["Wait"][];
-            /** @description The same, where it is not free */
+            /** @description Conflicts found, in the form of `waits_on`; empty if `verdict` is `free` */
             conflicts: components["schemas"]["Wait"][];
             evaluations: number;
             scene_version: number;
-            /** @description Of a goal that several arms could go to: which one would */
+            /** @description For a goal with several candidate arms: the arm that would be selected */
             choice?: {
-                /** @description Jobs that could have taken the turn, or arms that could have done it: as it was first */
-                among: string[];
-                /** @description One of these */
-                taken: string;
-                /** @description By so much the plan costs less than with the first, or a goal's job arrives sooner; null: that is taken, or could not go */
+                /** @description Jobs that could have gone first, or arms that could have done the job, when the choice was first made */
+                candidates: string[];
+                /** @description The selected candidate */
+                selected: string;
+                /** @description Gain over the first candidate: lower plan cost, or for a goal earlier arrival; null if the first candidate is selected or could not go */
                 time_saved_s: number | null;
                 detail: string;
             };
-            /** @description Of a job that asks for an approach: so long its arms would take to where it begins. The verdict is of that motion; where it would not be admitted together with it, the job is judged again when it is there */
-            approach_s?: number;
-            /** @description It would end at once, without moving */
+            /** @description For a job with `move_to_start`: duration of the motion to its start. The verdict covers that motion; if the job cannot be admitted together with it, the job is checked again at the start */
+            move_to_start_s?: number;
+            /** @description Result of a job that would end at once without moving */
             result?: {
                 reason: components["schemas"]["Reason"];
                 detail: string;
             };
         };
-        /** @description How a job moves its arms. */
+        /** @description The motion of a job. */
         JobMotion: {
-            /** @description Of the job */
+            /** @description Id of the job */
             id: components["schemas"]["JobId"];
             duration_s: number;
-            /** @description As POST /jobs takes it: it makes the same motion */
+            /** @description The trajectory in the form of POST /jobs; submitting it gives the same motion */
             trajectory: components["schemas"]["JointTrajectory"] | components["schemas"]["RobotTrajectory"];
         };
-        /** @description A motion, not executed. */
+        /** @description A planned motion, not executed. */
         Plan: {
-            /** @description That goes */
+            /** @description Arm that moves */
             arm: string;
-            /** @description Of `arms`, those that would not: when each would arrive, or why it cannot */
+            /** @description The other candidate arms: when each would arrive, or why it cannot */
             others: {
                 arm: string;
-                /** @description From now; null: it has no way, or when it could go is not known */
+                /** @description Time until arrival, from now; null if the arm has no path or its start time is unknown */
                 arrives_s: number | null;
                 detail: string;
             }[];
-            /** @description As POST /jobs takes it */
+            /** @description The trajectory in the form of POST /jobs */
             trajectory: components["schemas"]["JointTrajectory"] | components["schemas"]["RobotTrajectory"];
             duration_s: number;
-            /** @description Of the way in joint space, rad or m */
+            /** @description Length of the path in joint space, rad or m */
             length: number;
-            /** @description The same of the straight line */
-            straight: number;
-            /** @description Stretches of lines that were looked at */
+            /** @description Length of the straight line to the goal in joint space */
+            straight_line_length: number;
+            /** @description Line segments checked by the search */
             evaluations: number;
-            /** @description What POST /check says of it now */
+            /** @description Result of POST /check for this motion now */
             verdict?: components["schemas"]["Verdict"];
-            /** @description Instead: why POST /jobs would refuse it now */
+            /** @description Instead of `verdict`: why POST /jobs would refuse this motion now */
             not_checked_reason?: components["schemas"]["Problem"];
         };
         AlertList: {
             /** @description Newest first */
             alerts: components["schemas"]["KeptAlert"][];
         };
-        /** @description Who asks, and what they may. */
+        /** @description The caller and its role. */
         Session: {
-            /** @description Else everybody may everything */
+            /** @description true if the server requires a token; false if every request is allowed */
             auth_required: boolean;
-            /** @description Of the token; null: there is none */
+            /** @description Name of the token; null if there is none */
             name: string | null;
-            /** @description null: may nothing but log in */
+            /** @description Role of the caller; null if it may only log in */
             role: ("viewer" | "operator" | "admin") | null;
         };
-        /** @description The same jobs under several policies, in simulation. */
+        /** @description Simulations of the same jobs under several policies. */
         Comparison: {
             /** @enum {string} */
             state: "running" | "done" | "canceled" | "failed";
-            /** @description That are compared */
+            /** @description Number of compared jobs */
             jobs: number;
-            /** @description When the first of them was submitted */
+            /** @description Submission time of the first job */
             first_s: number;
-            /** @description And the last */
+            /** @description Submission time of the last job */
             last_s: number;
-            /** @description The policy, when the comparison was asked for */
+            /** @description The server's policy when the comparison was requested */
             in_force: string;
-            /** @description In the order of the runs */
+            /** @description Compared policies, in the order of `runs` */
             policies: string[];
-            /** @description Those that are done */
+            /** @description Finished simulations */
             runs: components["schemas"]["PolicyRun"][];
-            /** @description Why it failed; else empty */
+            /** @description Reason of the failure; empty otherwise */
             detail: string;
         };
-        /** @description Who may move arms by hand. */
+        /** @description Who may jog arms: one client at a time. */
         Control: {
-            /** @description null: nobody */
+            /** @description null if no client has control */
             holder: components["schemas"]["ControlHolder"] | null;
         };
         ControlTaken: {
             holder: components["schemas"]["ControlHolder"] | null;
-            /** @description To be shown with every move by hand; told this once */
+            /** @description Secret, required by every jog request; returned only here */
             key?: string;
         };
-        /** @description A move by hand, as it is now. */
+        /** @description A jog motion in its present state. */
         Jog: {
             job: components["schemas"]["Job"];
-            /** @description The arm brakes when it is not renewed for so long, in wall time */
+            /** @description The arm brakes if no renewal arrives for this long (wall time) */
             lease_s: number;
         };
         JobPage: {
             jobs: components["schemas"]["Job"][];
-            /** @description For ?cursor=; null on the last page */
+            /** @description Value for `?cursor=` to get the next page; null on the last page */
             next_cursor: string | null;
         };
         MeasuredStates: {
-            /** @description The run, as events name it */
+            /** @description UUID of the server session, as in events */
             stream: string;
-            /** @description Every joint of the cell */
+            /** @description Names of all joints of the cell */
             joints: string[];
-            /** @description Ascending */
+            /** @description Cell times of the samples, ascending */
             t_s: number[];
-            /** @description At each of these times, in the order of the joints: rad or m */
+            /** @description Positions at each time, in the order of `joints`: rad or m */
             q: number[][];
         };
         RecordingList: {
-            /** @description Whether this server records: without `--data` it does not */
+            /** @description true if this server records (`--data`) */
             kept: boolean;
             /** @description Newest first */
             recordings: components["schemas"]["Recording"][];
@@ -387,21 +384,21 @@ export interface components {
         SnapshotEvent: {
             /**
              * Format: uuid
-             * @description Of this run of the server
+             * @description UUID of this server session
              */
             stream: string;
-            /** @description Without holes within a stream */
+            /** @description Number of the event; consecutive within a stream */
             seq: number;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
             type: "snapshot";
-            /** @description Cell time */
+            /** @description Cell time of the event */
             t_s: number;
             /**
              * Format: date-time
-             * @description Wall time
+             * @description Wall time of the event
              */
             at: string;
             data: components["schemas"]["Snapshot"];
@@ -409,21 +406,21 @@ export interface components {
         JobEvent: {
             /**
              * Format: uuid
-             * @description Of this run of the server
+             * @description UUID of this server session
              */
             stream: string;
-            /** @description Without holes within a stream */
+            /** @description Number of the event; consecutive within a stream */
             seq: number;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
             type: "job";
-            /** @description Cell time */
+            /** @description Cell time of the event */
             t_s: number;
             /**
              * Format: date-time
-             * @description Wall time
+             * @description Wall time of the event
              */
             at: string;
             data: components["schemas"]["Job"];
@@ -431,21 +428,21 @@ export interface components {
         ArmEvent: {
             /**
              * Format: uuid
-             * @description Of this run of the server
+             * @description UUID of this server session
              */
             stream: string;
-            /** @description Without holes within a stream */
+            /** @description Number of the event; consecutive within a stream */
             seq: number;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
             type: "arm";
-            /** @description Cell time */
+            /** @description Cell time of the event */
             t_s: number;
             /**
              * Format: date-time
-             * @description Wall time
+             * @description Wall time of the event
              */
             at: string;
             data: components["schemas"]["Arm"];
@@ -453,21 +450,21 @@ export interface components {
         QueueEvent: {
             /**
              * Format: uuid
-             * @description Of this run of the server
+             * @description UUID of this server session
              */
             stream: string;
-            /** @description Without holes within a stream */
+            /** @description Number of the event; consecutive within a stream */
             seq: number;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
             type: "queue";
-            /** @description Cell time */
+            /** @description Cell time of the event */
             t_s: number;
             /**
              * Format: date-time
-             * @description Wall time
+             * @description Wall time of the event
              */
             at: string;
             data: components["schemas"]["QueueIds"];
@@ -475,21 +472,21 @@ export interface components {
         SceneEvent: {
             /**
              * Format: uuid
-             * @description Of this run of the server
+             * @description UUID of this server session
              */
             stream: string;
-            /** @description Without holes within a stream */
+            /** @description Number of the event; consecutive within a stream */
             seq: number;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
             type: "scene";
-            /** @description Cell time */
+            /** @description Cell time of the event */
             t_s: number;
             /**
              * Format: date-time
-             * @description Wall time
+             * @description Wall time of the event
              */
             at: string;
             data: components["schemas"]["Scene"];
@@ -497,21 +494,21 @@ export interface components {
         MonitorEvent: {
             /**
              * Format: uuid
-             * @description Of this run of the server
+             * @description UUID of this server session
              */
             stream: string;
-            /** @description Without holes within a stream */
+            /** @description Number of the event; consecutive within a stream */
             seq: number;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
             type: "monitor";
-            /** @description Cell time */
+            /** @description Cell time of the event */
             t_s: number;
             /**
              * Format: date-time
-             * @description Wall time
+             * @description Wall time of the event
              */
             at: string;
             data: components["schemas"]["MonitorFinding"];
@@ -519,21 +516,21 @@ export interface components {
         GuardEvent: {
             /**
              * Format: uuid
-             * @description Of this run of the server
+             * @description UUID of this server session
              */
             stream: string;
-            /** @description Without holes within a stream */
+            /** @description Number of the event; consecutive within a stream */
             seq: number;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
             type: "guard";
-            /** @description Cell time */
+            /** @description Cell time of the event */
             t_s: number;
             /**
              * Format: date-time
-             * @description Wall time
+             * @description Wall time of the event
              */
             at: string;
             data: components["schemas"]["GuardFinding"];
@@ -541,26 +538,26 @@ export interface components {
         AlertEvent: {
             /**
              * Format: uuid
-             * @description Of this run of the server
+             * @description UUID of this server session
              */
             stream: string;
-            /** @description Without holes within a stream */
+            /** @description Number of the event; consecutive within a stream */
             seq: number;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
             type: "alert";
-            /** @description Cell time */
+            /** @description Cell time of the event */
             t_s: number;
             /**
              * Format: date-time
-             * @description Wall time
+             * @description Wall time of the event
              */
             at: string;
             data: components["schemas"]["Alert"];
         };
-        /** @description Poses, about 30 Hz of wall time; dropped for slow readers. */
+        /** @description Measured positions at about 30 Hz of wall time; dropped for slow subscribers. */
         StateFrame: {
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -568,12 +565,12 @@ export interface components {
              */
             type: "state";
             t_s: number;
-            /** @description Every joint of the cell, rad or m */
+            /** @description Position of every joint of the cell, by name: rad or m */
             q: {
                 [key: string]: number;
             };
             clearance: {
-                /** @description Two, or one and the scene: an object, or a link that no arm moves */
+                /** @description Two arms; or one arm if the other body is an object or a link that no arm moves */
                 arms: string[];
                 m: number;
                 links: [
@@ -581,72 +578,72 @@ export interface components {
                     string
                 ];
             }[];
-            /** @description Of every arm that has been told to move */
+            /** @description One entry for each arm that has a motion */
             motions: components["schemas"]["ArmAuthority"][];
-            /** @description Cell seconds per wall second */
+            /** @description Seconds of cell time per second of wall time */
             speed: number;
         };
         CellRobot: {
             name: string;
             prefix: string;
             base: {
-                /** @description Position in metres. */
+                /** @description Position, in meters. */
                 xyz: [
                     number,
                     number,
                     number
                 ];
-                /** @description Roll, pitch, yaw about fixed axes, in rad, as in a URDF. */
+                /** @description Roll, pitch, yaw about fixed axes, in radians, as in a URDF. */
                 rpy: [
                     number,
                     number,
                     number
                 ];
             };
-            /** @description XML, names without prefix */
+            /** @description Text of the URDF; names without the prefix */
             urdf: string;
-            /** @description XML */
+            /** @description Text of the SRDF */
             srdf: string;
-            /** @description Address of each mesh that the URDF names */
+            /** @description Path of each mesh file, by the name that the URDF uses */
             meshes: {
                 [key: string]: string;
             };
             arms: components["schemas"]["CellArm"][];
         };
-        /** @description An object of the scene: exactly one shape. A mesh is told by its address. */
+        /** @description An object of the scene, with exactly one shape. A mesh is given by its path on this server. */
         Object: {
-            /** @description The object's name; unique in the cell, and no link's or robot's name. */
+            /** @description Name of the object; unique in the cell, and not the name of a link or robot. */
             name: string;
-            /** @description A box: its full side lengths, in metres. */
+            /** @description A box: full side lengths, in meters. */
             box?: [
                 number,
                 number,
                 number
             ];
-            /** @description A cylinder along z: radius and full length, in metres. */
+            /** @description A cylinder along z: radius and full length, in meters. */
             cylinder?: [
                 number,
                 number
             ];
-            /** @description A sphere: radius, in metres. */
+            /** @description A sphere: radius, in meters. */
             sphere?: [
                 number
             ];
-            /** @description A mesh (STL, OBJ, DAE): a file. All that it encloses counts as solid, cavities too. */
+            /** @description A mesh: path of an STL, OBJ or DAE file. Everything that it encloses is treated as solid, cavities included. */
             mesh?: string;
-            /** @description Of a mesh: factors along x, y, z of the file's lengths. */
+            /** @description Scale factors of a mesh along x, y and z. */
             scale?: [
                 number,
                 number,
                 number
             ];
-            /** @description Position in metres. */
+            /** @description Position, in meters. */
             xyz: [
                 number,
                 number,
                 number
             ];
-            /** @description Roll, pitch, yaw about fixed axes, in rad, as in a URDF. */
+            /** @description Roll, pitch, yaw about fixed axes, in radians, as in a URDF. */
             rpy: [
                 number,
                 number,
@@ -655,11 +652,11 @@ export interface components {
         } & (unknown | unknown | unknown | unknown);
         CellJoint: {
             name: string;
-            /** @description null: of none */
+            /** @description Arm of the joint; null if no arm has it */
             arm: string | null;
-            /** @description null: none */
+            /** @description null if the joint has no such limit */
             lower: number | null;
-            /** @description null: none */
+            /** @description null if the joint has no such limit */
             upper: number | null;
             velocity_max: number;
             acceleration_max: number;
@@ -668,36 +665,36 @@ export interface components {
             /** @enum {string} */
             unit: "rad" | "m";
         };
-        /** @description The client's choice, or the server's. */
+        /** @description Id of a job, chosen by the client or the server. */
         JobId: string;
         /**
-         * @description The last five are terminal: a job reaches exactly one of them.
+         * @description State of a job. The last five are terminal; every job reaches exactly one of them.
          * @enum {string}
          */
         JobState: "queued" | "backlogged" | "scheduled" | "running" | "paused" | "succeeded" | "canceled" | "expired" | "failed" | "interrupted";
-        /** @description What a job waits for, with the evidence. */
+        /** @description A reason to wait, with the evidence. */
         Wait: {
             /** @enum {string} */
-            kind: "job" | "arm" | "object" | "order" | "capacity" | "stop" | "plan" | "check" | "guard";
-            /** @description The other job */
+            kind: "job" | "arm" | "object" | "predecessor" | "capacity" | "stop" | "plan" | "check" | "guard";
+            /** @description Id of the other job */
             id: string | null;
-            /** @description The other arm */
+            /** @description Name of the other arm */
             arm: string | null;
-            /** @description Own link, then the other's, or an object; empty without evidence */
+            /** @description Link of this job's arm, then the other link or object; empty without evidence */
             links: string[];
-            /** @description From the start of this trajectory */
+            /** @description Time of the conflict from the start of this trajectory */
             own_time_s: number | null;
-            /** @description From the start of the other's */
+            /** @description Time of the conflict from the start of the other trajectory */
             other_time_s: number | null;
-            /** @description Distance found; zero or less in contact */
+            /** @description Distance found; zero or negative in contact */
             clearance_m: number | null;
-            /** @description Of a stop: its cause */
+            /** @description Details, for example the cause of a stop */
             detail?: string;
-            /** @description Of a check: the share of its budget that it has used; most end early */
+            /** @description For a running check: share of its limit of evaluations used so far; most checks end early */
             progress?: number;
         };
         /**
-         * @description A closed list; core/scheduler/README.md explains each.
+         * @description Why a job ended. core/scheduler/README.md explains each reason.
          * @enum {string}
          */
         Reason: "completed" | "canceled_by_client" | "backlog_timeout" | "start_mismatch" | "self_collision" | "predecessor_failed" | "arm_fault" | "overrun" | "server_restart" | "deadlock" | "no_plan";
@@ -709,16 +706,16 @@ export interface components {
         };
         DiagramCell: {
             /**
-             * @description free: the clearance is kept in every state of the cell; conflict: in none; undecided: in some, or neither is proven
+             * @description `free`: every state of the cell keeps the clearance; `conflict`: no state keeps it; `undecided`: some states keep it, or neither is proven
              * @enum {string}
              */
             state: "free" | "conflict" | "undecided";
-            /** @description From, to */
+            /** @description Interval [from, to] */
             a_s: [
                 number,
                 number
             ];
-            /** @description From, to */
+            /** @description Interval [from, to] */
             b_s: [
                 number,
                 number
@@ -727,99 +724,99 @@ export interface components {
         DiagramContact: {
             /** @enum {string} */
             state: "free" | "conflict" | "undecided";
-            /** @description After t_s */
+            /** @description Time until the contact, from `t_s` on */
             in_s: number;
             a_s: number;
             b_s: number;
         };
         TimelineArm: {
-            /** @description The arm */
+            /** @description Name of the arm */
             name: string;
-            /** @description In the order in which they go */
-            legs: components["schemas"]["TimelineStep"][];
-            /** @description Jobs of the arm (of their `arms`) that have not ended and are no leg: not admitted, behind the horizon or for other reasons. They have no times yet */
+            /** @description Admitted motions in order */
+            steps: components["schemas"]["TimelineStep"][];
+            /** @description Number of jobs of the arm that have not ended and are not in `steps`: not admitted yet, so without times */
             waiting: number;
         };
-        /** @description The shape of trajectory_msgs/JointTrajectory. */
+        /** @description A trajectory in the form of trajectory_msgs/JointTrajectory. */
         JointTrajectory: {
-            /** @description Prefix + URDF name; joints of several arms make one synchronous motion */
+            /** @description Names of the joints: prefix + URDF name. Joints of several arms make one synchronous motion */
             joint_names: string[];
             points: components["schemas"]["Waypoint"][];
-            /** @description Read over */
+            /** @description Ignored */
             header?: Record<string, never>;
         };
-        /** @description MoveIt's nesting. */
+        /** @description A trajectory nested as in MoveIt. */
         RobotTrajectory: {
             joint_trajectory: components["schemas"]["JointTrajectory"];
-            /** @description Must be empty */
+            /** @description Must have no joints and no points */
             multi_dof_joint_trajectory?: {
                 joint_names?: unknown[];
                 points?: unknown[];
             };
         };
-        /** @description What somebody has to see to, until somebody has. */
+        /** @description A warning or error, kept until it is acknowledged. */
         KeptAlert: {
-            /** @description `<stream>:<seq>` of the event that told it */
+            /** @description `<stream>:<seq>` of the event that reported the alert */
             id: string;
             /** @description RFC 3339, UTC */
             at: string;
-            /** @description warning, error */
+            /** @description `warning` or `error` */
             level: string;
             text: string;
-            /** @description null: by nobody yet */
+            /** @description null while nobody has acknowledged the alert */
             acknowledged: components["schemas"]["Acknowledgement"] | null;
         };
-        /** @description What would have become of the jobs under this policy: simulated. */
+        /** @description Simulated outcome of the jobs under one policy. */
         PolicyRun: {
             policy: string;
             succeeded: number;
             expired: number;
             failed: number;
-            /** @description By the server: interrupted ones, too */
+            /** @description Canceled by the server, interrupted jobs included */
             canceled: number;
-            /** @description When they came: they would not have begun where their arm would have stood */
+            /** @description Refused on submission, because the job would not begin where its arm would be */
             refused: number;
-            /** @description When nothing could happen any more, or the run was given up */
+            /** @description Not ended when nothing could move any more, or when the simulation was given up */
             unfinished: number;
-            /** @description Waited in the backlog, at least once */
+            /** @description Waited in the backlog at least once */
             backlogged: number;
-            /** @description From the first submission to the last end; null: not all ended, or none started */
+            /** @description From the first submission to the last end; null if a job did not end or no job started */
             makespan_s: number | null;
-            /** @description makespan_s, divided by that of `sequential`; null: not known */
+            /** @description `makespan_s` divided by that of `sequential`; null if unknown */
             makespan_ratio: number | null;
-            /** @description From submission to start */
+            /** @description Mean time from submission to start */
             wait_mean_s: number;
             wait_max_s: number;
-            /** @description The smallest that the monitor saw; null: never near */
+            /** @description Smallest clearance that the monitor measured; null if no pair came close */
             min_clearance_m: number | null;
             monitor_stops: number;
-            /** @description Combined states looked at to decide */
+            /** @description State checks that the decisions took */
             evaluations: number;
-            /** @description It took more evaluations than one run may: figures are of what was done by then */
+            /** @description true if the simulation exceeded its limit of evaluations; the results cover the part before */
             given_up: boolean;
         };
         ControlHolder: {
             who: string;
             /** @description RFC 3339, UTC */
             since_at: string;
-            /** @description That they moved by hand last */
+            /** @description The arm that the holder jogged last */
             arm: string | null;
-            /** @description By this job */
+            /** @description The job of that jog */
             job: components["schemas"]["JobId"] | null;
         };
-        /** @description What one run of a server has written down. */
+        /** @description Recording of one server session. */
         Recording: {
-            /** @description Of its folder; `data`: it stands in the data folder itself */
+            /** @description Name of the folder; `data` if the recording is in the data folder itself */
             name: string;
-            /** @description RFC 3339, UTC; null: not known */
+            /** @description Start of the session: RFC 3339, UTC; null if unknown */
             begun_at: string | null;
-            /** @description Last: RFC 3339, UTC */
+            /** @description Last write: RFC 3339, UTC */
             written_at: string;
-            /** @description It is being written */
+            /** @description true while the recording is being written */
             running: boolean;
-            /** @description Whether joint positions are in it, which `serve` records with `--record` */
+            /** @description true if the recording has joint positions (`serve --record`) */
             has_states: boolean;
-            /** @description What GET hands out of it */
+            /** @description Files that GET returns */
             files: components["schemas"]["RecordingFile"][];
         };
         Snapshot: {
@@ -828,31 +825,31 @@ export interface components {
             speed: number;
             stopped: boolean;
             arms: components["schemas"]["Arm"][];
-            /** @description All that have not ended, and the 200 that ended last */
+            /** @description All jobs that have not ended, and the 200 that ended last */
             jobs: components["schemas"]["Job"][];
             queue: components["schemas"]["QueueIds"];
             objects: components["schemas"]["Object"][];
-            /** @description Events are missing before this */
+            /** @description true if events before this snapshot were lost */
             gap?: boolean;
         };
         Arm: {
             name: string;
             robot: string;
             state: components["schemas"]["ArmState"];
-            /** @description In motion or paused */
+            /** @description Id of the job that the arm executes, moving or paused; null if none */
             job: string | null;
             progress: number;
             joints: string[];
-            /** @description Measured, rad or m */
+            /** @description Measured joint positions in the order of `joints`: rad or m */
             q: number[];
             home: number[];
-            /** @description Measured distance from its own path, largest joint */
+            /** @description Measured deviation of the worst joint from the path */
             deviation_rad: number;
         };
         QueueIds: {
-            /** @description In force; recordings from before it was told lack it */
+            /** @description Present policy; absent in old recordings */
             policy?: string;
-            /** @description Every arm is stopped */
+            /** @description true if every arm is stopped */
             stopped: boolean;
             queued: string[];
             backlog: string[];
@@ -860,7 +857,7 @@ export interface components {
             running: string[];
         };
         Scene: {
-            /** @description Grows with every change */
+            /** @description Version of the scene; grows with every change */
             version: number;
             objects: components["schemas"]["Object"][];
         };
@@ -872,29 +869,29 @@ export interface components {
                 string,
                 string
             ];
-            /** @description Found */
+            /** @description Clearance found */
             clearance_m: number;
-            /** @description What it should have been */
+            /** @description Clearance required */
             limit_m: number;
-            /** @description Arms that were told to stop */
+            /** @description Arms that the monitor stopped */
             stopped: string[];
         };
-        /** @description The authority guard kept an arm from what the scheduler had granted. This is a defect of the scheduler; nothing has moved */
+        /** @description The authority guard refused movement authority that the scheduler had granted. This is a defect of the scheduler; the arm has not moved. */
         GuardFinding: {
             /**
-             * @description Why: no certificate covers it, it meets a conflict region, the arm is on another motion, or the arms of one motion are too far apart on it
+             * @description Reason. `uncertified`: no certificate covers the authority; `region`: it enters a conflict region out of order; `busy`: the arm is on another motion; `out_of_step`: the arms of one motion are too far apart on it
              * @enum {string}
              */
             kind: "uncertified" | "region" | "busy" | "out_of_step";
             arm: string;
             job: string;
-            /** @description Empty: the scene, or the motion's own arms */
+            /** @description Other arm; empty for the scene or the motion's own arms */
             other_arm: string;
-            /** @description That the other arm was on last; or empty */
+            /** @description Last job of the other arm, or empty */
             other_job: string;
-            /** @description From where the arms are to their authority */
+            /** @description From the present progress of both arms to their authority */
             asked: components["schemas"]["ProgressBox"];
-            /** @description The first rectangle that is met */
+            /** @description The first rectangle of the conflict region that was entered */
             region?: components["schemas"]["ProgressBox"];
         };
         Alert: {
@@ -902,18 +899,18 @@ export interface components {
             level: "info" | "warning" | "error";
             text: string;
         };
-        /** @description What an arm may do of a motion. Trajectory time. */
+        /** @description Progress and movement authority of an arm on its motion. Times are trajectory time. */
         ArmAuthority: {
             arm: string;
             job: string;
-            /** @description Measured */
+            /** @description Measured progress */
             progress_s: number;
-            /** @description It may go so far, and stops there unless more is granted */
+            /** @description Movement authority: the arm stops here unless more is granted */
             authority_s: number;
         };
         CellArm: {
             name: string;
-            /** @description Of the SRDF */
+            /** @description Group of the SRDF */
             group: string;
             joints: string[];
             gripper_joints: string[];
@@ -922,40 +919,40 @@ export interface components {
                 [key: string]: number[];
             };
         };
-        /** @description A motion that is admitted. It follows the one before it on its arms; that wait is no pause. */
+        /** @description An admitted motion. It begins after the previous motion of its arms; waiting for that is not a pause. */
         TimelineStep: {
             id: components["schemas"]["JobId"];
-            /** @description For people; may be empty */
+            /** @description Display name; may be empty */
             name: string;
-            /** @description That it moves, each in its lane */
+            /** @description Arms that the job moves; the motion is listed under each of them */
             arms: string[];
             state: components["schemas"]["JobState"];
-            /** @description Share of the trajectory's time, at now_s */
+            /** @description Share of the trajectory's time at `now_s` */
             progress: number;
-            /** @description Leaves its start, or has left it; null: never, as things are */
+            /** @description Time of leaving its start, past or predicted; null if not predicted */
             starts_s: number | null;
-            /** @description null: it does not come to its end as things are; its last pause says what holds it, unless it is given up and brakes */
+            /** @description Predicted end; null if none is predicted: the last pause gives the reason, unless the job is canceled and brakes */
             ends_s: number | null;
-            /** @description From now on */
+            /** @description Pauses from now on */
             pauses: components["schemas"]["TimelinePause"][];
         };
         Waypoint: {
-            /** @description rad or m, in the order of joint_names */
+            /** @description Joint positions in the order of `joint_names`: rad or m */
             positions: number[];
-            /** @description Absent: refused, since the motion could not begin and end at rest */
+            /** @description Joint velocities; required unless the job has `retime`, because the motion must begin and end at rest */
             velocities?: number[];
-            /** @description In all waypoints (quintic) or in none (cubic) */
+            /** @description Joint accelerations, in all waypoints (quintic splines) or in none (cubic) */
             accelerations?: number[];
-            /** @description Read over */
+            /** @description Ignored */
             effort?: unknown[];
             /**
-             * @description Absent: refused, unless the job says "retime"
+             * @description Time from the start; required unless the job has `retime`
              * @default null
              */
             time_from_start: components["schemas"]["Time"];
         };
         Acknowledgement: {
-            /** @description The token's name, or whoever said to be it */
+            /** @description The token's name; without tokens, the name that the client gave, or its address */
             who: string;
             /** @description RFC 3339, UTC */
             at: string;
@@ -966,26 +963,26 @@ export interface components {
         };
         /** @enum {string} */
         ArmState: "idle" | "moving" | "paused" | "stopped" | "fault";
-        /** @description Two stretches of two motions. Trajectory time. */
+        /** @description A rectangle of two motions. Times are trajectory time. */
         ProgressBox: {
-            /** @description Of the arm's own motion */
+            /** @description Interval of the arm's own motion */
             from_s: number;
             to_s: number;
-            /** @description Of the other motion */
+            /** @description Interval of the other motion */
             other_from_s: number;
             other_to_s: number;
         };
-        /** @description A leg stands, at its start or on its way. */
+        /** @description A pause of a motion, at its start or on its path. */
         TimelinePause: {
             from_s: number;
-            /** @description null: for ever as things are; then it is the last one */
+            /** @description End of the pause; null if no end is predicted (only for the last pause) */
             to_s: number | null;
-            /** @description Where, in trajectory time */
+            /** @description Position of the pause in trajectory time */
             at_s: number;
-            /** @description For whom; null: for a reason of its arms' own, expected to last for as long again */
+            /** @description What the motion waits for; null if its own arms cause the pause, which is assumed to last as long again as it has lasted so far */
             waits_on: components["schemas"]["Wait"] | null;
         };
-        /** @description ROS 2's, ROS 1's, or a number of seconds. */
+        /** @description A ROS 2 time, a ROS 1 time, or a number of seconds. */
         Time: number | {
             sec: number;
             nanosec: number;
