@@ -134,7 +134,7 @@ test('a way to a goal is planned by form, looked at, and sent', { timeout: 400_0
   await page.locator('[data-test=plan-named]').selectOption('ready');
   await page.locator('[data-test=plan]').click();
   await page.locator('[data-test=planned]').waitFor();
-  await reads(page.locator('[data-test=planned]'), /proven.*could start now/);
+  await reads(page.locator('[data-test=planned]'), /certified.*could start now/);
   await holds(page.locator('[data-test=job-text]'), /left to ready[^]*left_panda_joint1/);
   await looks_different(page, before, kLeastGhost_px, 'pixels of ghosts');
   await page.screenshot(path_for('plan-dark'));
@@ -148,7 +148,7 @@ test('a pasted goal is planned and shown before it is sent', { timeout: 400_000 
   const ghost = () => page.evaluate(() => window.armloom.ghost());
   const text = page.locator('[data-test=job-text]');
   await text.fill(JSON.stringify({ id: 'by-goal', arm: 'right', move_to: { named: 'ready' } }));
-  await page.locator('[data-test=goal-way]', { hasText: 'as it would be planned now' }).waitFor();
+  await page.locator('[data-test=goal-way]', { hasText: 'as planned now' }).waitFor();
   const end = await eventually(async () => {
     const shown = await ghost();
     assert.ok(Object.keys(shown ?? {}).some((joint) => joint.startsWith('right_')), 'the arm stands at its goal, as a ghost');
@@ -182,7 +182,7 @@ test('the goal of a tool is dragged in the cell: planned, judged and shown befor
   await page.mouse.move(view.x + tool.x + 20, view.y + tool.y - 20, { steps: 6 });
   await page.mouse.up();
   await page.locator('[data-test=planned]').waitFor();
-  await reads(page.locator('[data-test=planned]'), /proven.*could start now/);
+  await reads(page.locator('[data-test=planned]'), /certified.*could start now/);
   await holds(page.locator('[data-test=plan-xyz]'), /^-?[\d.]+, -?[\d.]+, -?[\d.]+$/);
   await holds(page.locator('[data-test=job-text]'), /right_panda_joint1/);
   await looks_different(page, before, kLeastGhost_px, 'pixels of ghosts');

@@ -100,7 +100,7 @@ test('the diagram of two jobs that cross is red where they conflict', { timeout:
   const diagram = page.locator('[data-test=diagram]');
   await diagram.waitFor();
   await reads(page.locator('[data-test=evidence]'), /(right_panda|left_panda).* s into cross-left and .* s into cross-right/);
-  await reads(page.locator('[data-test=plan]'), /If cross-right started now, they would come to a conflict in .*is not allowed that far/);
+  await reads(page.locator('[data-test=plan]'), /If cross-right started now, they would reach a conflict in .*has no authority to go that far/);
   const first = await eventually(async () => {
     const shot = await diagram.screenshot();
     const red = await pixels_like(browser, shot, kConflict, 12);

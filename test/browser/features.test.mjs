@@ -128,7 +128,7 @@ test('after a stop the recovery page says why, and leads back', { timeout: 400_0
   await go('#/arm/left');
   await page.locator('[data-test=resume-arm]').click();
   await page.locator('[data-test=cause]', { hasText: /stopped: left, right \(operator\)/ }).waitFor();
-  await page.locator('[data-test=need-left]', { hasText: /goes on from \d+ %/ }).waitFor();
+  await page.locator('[data-test=need-left]', { hasText: /continues from \d+ %/ }).waitFor();
   const resume = page.locator('[data-test=resume-checked]');
   const alone = page.locator('[data-test=resume-left]');
   for (let i = 0; i < 4; i++) {
@@ -205,7 +205,7 @@ test('another policy decides from the settings on, while no job is admitted', { 
   await speed(1);
   await send('right', 'keeps-its-policy', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);
   await choose('certified');
-  await page.locator('[data-test=no-change]', { hasText: 'Only while no job is admitted: 1 is' }).waitFor();
+  await page.locator('[data-test=no-change]', { hasText: 'Only possible while no job is admitted; admitted now: 1' }).waitFor();
   await page.locator('[data-test=change-policy]:disabled').waitFor();  // what would be refused is not asked
   await page.screenshot(path_for('policy-dark'));
   await speed(10);
@@ -221,7 +221,7 @@ test('a job is given another way from its page', { timeout: 300_000 }, async () 
   await go('#/job/another-way');
   await page.waitForFunction(async () => (await (await fetch('/api/v1/jobs/another-way')).json()).state === 'running');
   await page.locator('[data-test=replan]').click();
-  await page.getByRole('button', { name: 'Brake, and plan another way' }).click();
+  await page.getByRole('button', { name: 'Brake and replan' }).click();
   await page.waitForFunction(async () => {
     const { replan } = await (await fetch('/api/v1/jobs/another-way')).json();
     return replan?.done > 0;
@@ -238,7 +238,7 @@ test('no event is missed or comes twice when the connection breaks', { timeout: 
   await page.evaluate(() => window.armloom.break_connection());
   await page.locator('[data-test=lost]').waitFor();
   await chromium.context.setOffline(false);
-  await page.getByRole('button', { name: 'Try now' }).click().catch(() => {});  // it may be back already
+  await page.getByRole('button', { name: 'Reconnect now' }).click().catch(() => {});  // it may be back already
   await page.locator('[data-test=link].open').waitFor();
   await speed(4);
   await send('right', 'after-the-break', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);

@@ -223,7 +223,7 @@ export async function resume(page, press = (locator) => locator.click()) {
   await page.locator('[data-test=resume-checked]').waitFor();
   for (let i = 0; i < 4; i++) await press(page.locator(`[data-test=check-${i}]`));
   await press(page.locator('[data-test=resume-checked]'));
-  await page.locator('[data-test=checks-left]', { hasText: 'Nothing is stopped' }).waitFor();
+  await page.locator('[data-test=checks-left]', { hasText: 'No arm is stopped' }).waitFor();
   await go_to(page, hash);
 }
 

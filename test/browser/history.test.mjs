@@ -37,9 +37,9 @@ test('jobs of a former run stand in the history, and have their pages', { timeou
     if (reload) await page.reload();
     await page.locator('[data-test=link].open').waitFor();
     await history.getByRole('link', { name: 'picked long ago' }).waitFor();
-    await page.locator('[data-test=earlier-said]', { hasText: 'all that the server has' }).waitFor();
+    await page.locator('[data-test=earlier-said]', { hasText: 'All jobs of the server are loaded' }).waitFor();
     await counts(page.locator('[data-test=list-finished] .job'), 0, 'they are none of this run');
-    await reads(page.locator('[data-test=list-finished] .none'), /No job has ended in this run of the server/);
+    await reads(page.locator('[data-test=list-finished] .none'), /No job has ended in this server session/);
     await counts(page.locator('[data-test=loaded]'), 0, 'the number is of all');
   }
   // Its times are those of the wall clock: the cell's clock began anew.

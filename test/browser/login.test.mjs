@@ -80,12 +80,12 @@ test('a page whose token is revoked goes to the login page', { timeout: 300_000 
 test('who may only look is told so before, not by a refusal', { timeout: 300_000 }, async () => {
   await log_in(viewer);
   await connected();
-  await page.locator('[data-test=only-looks]', { hasText: 'vic: may only look' }).waitFor();
-  await page.locator('[data-test=stop]', { hasText: 'not with your token' }).waitFor();
+  await page.locator('[data-test=only-looks]', { hasText: 'vic: view only' }).waitFor();
+  await page.locator('[data-test=stop]', { hasText: 'your role does not allow this' }).waitFor();
   const off = async (name) => {
     const command = page.locator(`[data-test=${name}]`);
     await command.and(page.locator(':disabled')).waitFor();
-    assert.match(await command.getAttribute('title'), /takes the role operator/, name);
+    assert.match(await command.getAttribute('title'), /needs the operator role/, name);
   };
   await off('take-control');
   await go_to(page, '#/scene');

@@ -53,7 +53,7 @@ test('the scene has the objects of that instant, and cannot be changed there', {
   const { page } = dashboard;
   await go_to(page, `#/scene/crate?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=objects]', { hasText: 'crate' }).waitFor();
-  await says_of_then(/As it was at 0:0/);
+  await says_of_then(/State at 0:0/);
   for (const change of ['object-save', 'object-remove']) await page.locator(`[data-test=${change}]:disabled`).waitFor();
   await page.screenshot(path_for('look-back-scene-dark'));
   await go_to(page, `#/scene/crate?t=${at.first.toFixed(2)}`);
@@ -64,13 +64,13 @@ test('the scene has the objects of that instant, and cannot be changed there', {
 test('recovery tells what each arm needed then, and resumes nothing', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/recovery?t=${at.stopped.toFixed(2)}`);
-  await page.getByText('2 of 2 arms stood until they would be resumed.').waitFor();
+  await page.getByText('2 of 2 arms were waiting for resume.').waitFor();
   await reads(page.locator('[data-test=cause]'), /stopped: left, right/);
   await counts(page.locator('[data-test=resume-checked]'), 0);
   await page.locator('[data-test=resume-left]:disabled').waitFor();
   await page.screenshot(path_for('look-back-recovery-dark'));
   await go_to(page, `#/recovery?t=${at.running.toFixed(2)}`);
-  await page.getByText('No arm waited to be resumed.').waitFor();
+  await page.getByText('No arm was waiting for resume.').waitFor();
 });
 
 test('alerts are those that had been told', { timeout: 300_000 }, async () => {
@@ -79,7 +79,7 @@ test('alerts are those that had been told', { timeout: 300_000 }, async () => {
   await page.locator('[data-test=alerts]', { hasText: 'stopped: left, right' }).waitFor();
   await go_to(page, `#/alerts?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=alerts]', { hasText: 'stopped: left, right' }).waitFor({ state: 'detached' });
-  await says_of_then(/as it is now/);
+  await says_of_then(/as they are now/);
 });
 
 test('the policy is the one that was in force', { timeout: 300_000 }, async () => {
@@ -87,7 +87,7 @@ test('the policy is the one that was in force', { timeout: 300_000 }, async () =
   await go_to(page, `#/policies?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=policy-form] input[value=coordinated]:checked').waitFor();
   await page.locator('[data-test=change-policy]:disabled').waitFor();
-  await says_of_then(/comparison beside it is of now/);
+  await says_of_then(/comparison uses the jobs of the live server/);
   await page.screenshot(path_for('look-back-policies-dark'));
 });
 
@@ -98,13 +98,13 @@ test('a diagram shows where both were, without what nobody knows of then', { tim
   await says_of_then(/not kept/);
   await page.locator('[data-test=measured]').waitFor();
   await counts(page.locator('[data-test=plan]'), 0);
-  await counts(page.getByText('if both go on'), 0);
+  await counts(page.getByText('if both continue'), 0);
   await counts(page.getByText('authority', { exact: true }), 0);
   await page.evaluate(() => window.armloom.drawn());
   await page.screenshot(path_for('look-back-diagram-dark'));
   await page.locator('[data-test=as-of] button').click();
   await page.locator('[data-test=as-of]').waitFor({ state: 'detached' });
-  await page.getByText('if both go on').waitFor();
+  await page.getByText('if both continue').waitFor();
 });
 
 test('nothing so far was an error in the console', () => {

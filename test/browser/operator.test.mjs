@@ -101,12 +101,12 @@ test('what the other policies would have done is asked from the page, and one of
   const rows = page.locator('[data-test=compared] tbody tr');
   await counts(rows, 7);
   await reads(page.locator('[data-test=compared-sequential]'), /\d+ of \d+.*100 %/s);
-  await counts(page.locator('[data-test=compared-certified]').getByText('in force'), 1);
+  await counts(page.locator('[data-test=compared-certified]').getByText('active', { exact: true }), 1);
   await page.screenshot(path_for('policies-dark'));
   await page.locator('[data-test=use-coordinated]').click();
-  await page.locator('[data-test=compared-coordinated]').getByText('in force').waitFor();
+  await page.locator('[data-test=compared-coordinated]').getByText('active', { exact: true }).waitFor();
   await page.locator('[data-test=use-certified]').click();
-  await page.locator('[data-test=compared-certified]').getByText('in force').waitFor();
+  await page.locator('[data-test=compared-certified]').getByText('active', { exact: true }).waitFor();
 });
 
 // The connection stays open, and nothing comes.
@@ -120,7 +120,7 @@ test('what is old is shown as old, with its age, and as fresh once more is heard
   const first_s = await age_s(stale);
   assert.ok(first_s >= 2, `${first_s} s`);
   await eventually(async () => assert.match(await saturation(), /grayscale/));
-  await reads(page.locator('[data-test=link]'), /silent for/);
+  await reads(page.locator('[data-test=link]'), /no data for/);
   await page.locator('.stale-time').waitFor();
   await page.screenshot(path_for('stale-dark'));
   await page.waitForFunction((first_s) => Number(document.querySelector('[data-test=stale]').textContent.match(/([\d.]+) s/)[1]) > first_s, first_s);

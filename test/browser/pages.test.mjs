@@ -29,7 +29,7 @@ test('the timeline shows what comes: motions, waits, and for whom', { timeout: 3
   await send('right', 'second', [kMiddle, null], 6, { name: 'behind it' });
   await page.waitForFunction(() => window.armloom.lanes().find((lane) => lane.arm === 'right')
     ?.marks.some((mark) => mark.expected && mark.kind !== 'motion' && mark.waits_on?.arm === 'left'));
-  for (const words of [/behind it waits for job first of left/, /behind it: (expected|runs on)/]) await page.locator('[data-test=told-right]', { hasText: words }).waitFor({ state: 'attached' });
+  for (const words of [/behind it waits for job first of left/, /behind it: (expected|running)/]) await page.locator('[data-test=told-right]', { hasText: words }).waitFor({ state: 'attached' });
   const row = page.locator('[data-test="job-second"]');
   await reads(row.locator('[data-test=when]'), /starts in about|ends in about|about to start/);
   await page.screenshot(path_for('timeline-dark'));
@@ -108,7 +108,7 @@ test('an address shows the same to whoever opens it: job, instant and camera', {
   assert.equal(await middle_s(), 7200);
   // What nobody heard it does not show, nor another instant in its place.
   await go_to(other, '#/?t=3&run=00000000');
-  await other.locator('[data-test=unheard]', { hasText: 'another run' }).waitFor();
+  await other.locator('[data-test=unheard]', { hasText: 'another server session' }).waitFor();
   await other.locator('[data-test=instant]').waitFor({ state: 'detached' });
   await other.waitForFunction(() => window.armloom?.is_drawn());
   await other.evaluate(() => window.armloom.drawn());
@@ -168,7 +168,7 @@ test('objects are added, moved and taken away by form', { timeout: 300_000 }, as
   await page.locator('[data-test=object-size_x]').fill('');
   await page.locator('[data-test=object-size_x]').pressSequentially('0,15');
   await page.locator('[data-test=object-save]').click();
-  await reads(page.locator('[data-test=problem]'), /size x: "0,15" is no number: the decimal sign is a point/);
+  await reads(page.locator('[data-test=problem]'), /size x: "0,15" is not a number: use a decimal point/);
   await fill({ size_x: '0.15' });
   await page.locator('[data-test=object-size_x]').press('ArrowUp');
   assert.equal(await page.locator('[data-test=object-size_x]').inputValue(), '0.16');

@@ -160,7 +160,7 @@ test('the files of one are saved as they are', { timeout: 300_000 }, async () =>
 test('one without positions is led through by its events', { timeout: 300_000 }, async () => {
   rmSync(join(data, 'states.csv'));
   await page.locator('[data-test=recordings-again]').click();
-  await kept('data').getByText('events alone').waitFor();
+  await kept('data').getByText('events only').waitFor();
   await kept('data').locator('[data-test=open-recording]').click();
   await page.locator('[data-test=opened]').waitFor();
   await page.locator('[data-test=without-positions]').waitFor();

@@ -46,7 +46,7 @@ test('a page that is opened by its address shows what it does when one comes bac
     };
     const opened = await settled();
     await go_to(other, '#/nowhere');
-    await other.getByText('No such page').waitFor();
+    await other.getByText('Page not found').waitFor();
     await go_to(other, hash);
     if (hash !== '#/') await other.locator('.pane h2').first().waitFor();
     assert.equal(opened, await settled(), hash);
@@ -234,7 +234,7 @@ test('a job that was sent is not sent again by a second press', { timeout: 300_0
 test('a name that no object may have is told at its field', { timeout: 180_000 }, async () => {
   await go('#/scene');
   await page.locator('[data-test=object-name]').fill('a/b');
-  await page.locator('[data-test=object-name-fault]', { hasText: 'this one holds /' }).waitFor();
+  await page.locator('[data-test=object-name-fault]', { hasText: 'found /' }).waitFor();
   await page.locator('[data-test=object-save]:disabled').waitFor();
   await page.screenshot(path_for('object-name'));
   await page.locator('[data-test=object-name]').fill('a b');

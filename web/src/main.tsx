@@ -42,6 +42,7 @@ import './style/touch.css';
 import { Timeline } from './timeline/timeline';
 import { CellPanel } from './view/cell_panel';
 import { shown_name } from './names';
+import { kText } from './strings';
 
 const store = new Store();
 const api = new Api(kApi, (url, init) => fetch(url, init));
@@ -134,7 +135,7 @@ function Page() {
   const { store } = app;
   const stale = use_stale(store);
   const then = seen_app(app);
-  document.title = `${place_in_words(app.router.address.value.place)} · ${shown_name(store.cell?.name ?? 'Armloom')}`;
+  document.title = `${place_in_words(app.router.address.value.place)} · ${shown_name(store.cell?.name ?? kText.frame.app)}`;
   return (
     <>
       <Header app={app} />
@@ -148,7 +149,7 @@ function Page() {
           <Timeline app={app} />
           <Notices app={app} />
         </div>
-        <aside class="side" aria-label="Arms and jobs">
+        <aside class="side" aria-label={kText.frame.arms_and_jobs}>
           <Arms app={then} />
           <Jobs app={then} />
         </aside>

@@ -2,6 +2,8 @@
 // something else. Pure. What cannot be seen is told by its code; what runs from right to left stays within
 // its own place; of marks that are piled up some are left. Strings, as canvases, titles and voices want them.
 
+import { kText } from './strings';
+
 // Controls, what turns the direction of writing, what takes no room, and what looks like blank but is not.
 const kUnseen = /[\u0000-\u001f\u007f-\u009f\u00ad\u034f\u061c\u115f\u1160\u17b4\u17b5\u180b-\u180f\u200b\u200c\u200e\u200f\u2028-\u202e\u2060-\u206f\u2800\u3164\ufeff\uffa0\ufff9-\ufffb\u{e0000}-\u{e007f}]|(?<!\p{Extended_Pictographic}|\ufe0f)\u200d/gu;
 const kPiled = /(\p{M}{2})\p{M}+/gu;
@@ -12,7 +14,7 @@ const kIsolated = '\u2069';
 
 /** A name; one of blanks alone is told as such, an empty one stays empty. */
 export function shown_name(name: string): string {
-  return name !== '' && name.trim() === '' ? '(blank)' : shown_text(name);
+  return name !== '' && name.trim() === '' ? kText.common.blank_name : shown_text(name);
 }
 
 /** A text that names may stand in. */

@@ -37,7 +37,7 @@ describe('comparing policies', () => {
 
   it('has words for what did not succeed', () => {
     expect(ends_in_words(run())).toBe('');
-    expect(ends_in_words(run({ expired: 1, unfinished: 2, given_up: true }))).toBe('1 expired, 2 unfinished, given up: too much to decide');
+    expect(ends_in_words(run({ expired: 1, unfinished: 2, given_up: true }))).toBe('1 expired, 2 unfinished, aborted: too many evaluations');
     expect([share_in_words(0.554), share_in_words(null)]).toEqual(['55 %', '–']);
   });
 });

@@ -86,12 +86,12 @@ describe('the plan', () => {
   it('is put into words, which are red where nothing makes one of them wait', () => {
     const conflict: DiagramContact = { state: 'conflict', in_s: 2, a_s: 2, b_s: 2 };
     const undecided: DiagramContact = { state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 };
-    expect(plan_in_words({ kind: 'held', met: conflict }, 'right')).toEqual({ tone: 'calm', words: 'If right started now, they would come to a conflict in 2.00 s. One of them is not allowed that far (authority): it waits before that.' });
-    expect(plan_in_words({ kind: 'held', met: undecided }, null)).toMatchObject({ tone: 'calm', words: expect.stringMatching(/^If both went on from here, they would come to what is not proven free in 0.25 s\./) as unknown });
+    expect(plan_in_words({ kind: 'held', met: conflict }, 'right')).toEqual({ tone: 'calm', words: 'If right started now, they would reach a conflict in 2.00 s. One of them has no authority to go that far and waits before it.' });
+    expect(plan_in_words({ kind: 'held', met: undecided }, null)).toMatchObject({ tone: 'calm', words: expect.stringMatching(/^If both continued from here, they would reach an area that is not certified free in 0.25 s\./) as unknown });
     expect(plan_in_words({ kind: 'allowed', met: undecided }, null).tone).toBe('calm');
     expect(plan_in_words({ kind: 'allowed', met: conflict }, null)).toMatchObject({ tone: 'alarm', words: expect.stringMatching(/nothing makes one of them wait/) as unknown });
-    expect(plan_in_words({ kind: 'free' }, null, 'left').words).toBe('While left rests at its end, the way of the other one is free.');
-    expect(plan_in_words({ kind: 'free' }, null)).toMatchObject({ tone: 'free', words: expect.stringMatching(/through free cells only/) as unknown });
+    expect(plan_in_words({ kind: 'free' }, null, 'left').words).toBe('While left rests at its end, the path of the other job is free.');
+    expect(plan_in_words({ kind: 'free' }, null)).toMatchObject({ tone: 'free', words: expect.stringMatching(/without a conflict/) as unknown });
   });
 });
 
@@ -99,7 +99,7 @@ describe('a drawing that is not there yet', () => {
   it('leaves the last one, which says of when it is', () => {
     const jobs = [job('left', { state: 'succeeded', ended_s: 73.2 }), job('right')];
     expect(kept_in_words(diagram(), jobs, { a: 'next', b: 'right' })).toBe('As of 0:01:13.2: left and right. next and right are being drawn…');
-    expect(kept_in_words(diagram(), [null, null], null)).toBe('Drawn before: left and right.');
+    expect(kept_in_words(diagram(), [null, null], null)).toBe('Earlier diagram: left and right.');
   });
   it('is asked for one at a time: each answer is told, and then the last question is asked', async () => {
     const asked: [string, (answer: string) => void][] = [];

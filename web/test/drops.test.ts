@@ -68,7 +68,7 @@ describe('what is dropped on the page', () => {
     const { drop, draft } = page();
     const [first, second] = ['a.json', 'b.json'].map((name) => new File(['{}'], name));
     await drop([first, second].map((file) => entry_of(file!)), [first!, second!]);
-    expect([draft.value, drop_fault.value]).toEqual(['{}', expect.stringContaining('Only a.json was taken')]);
+    expect([draft.value, drop_fault.value]).toEqual(['{}', expect.stringContaining('Only a.json was read')]);
     await drop([{ isFile: true, isDirectory: false }], [unreadable]);
     expect(drop_fault.value).toMatch(/cannot be read: .*NotFoundError/);
   });

@@ -19,7 +19,7 @@ describe('a goal', () => {
   it('that cannot be read says which part and what stands there', () => {
     expect(body({ kind: 'joints', joints: '1, two' })).toMatch(/Joints.*1, two/);
     expect(body({ kind: 'pose', xyz: '1 2' })).toMatch(/Position.*1 2/);
-    expect(body({ kind: 'pose', rpy: '' })).toMatch(/Turn/);
+    expect(body({ kind: 'pose', rpy: '' })).toMatch(/Rotation/);
     expect(body({ speed: '0' })).toMatch(/Speed/);
   });
 

@@ -83,7 +83,7 @@ describe('moves by hand', () => {
     const { hand } = held;
     await refuse_held(held, 'jog-lease-expired');
     expect([hand.held.value, hand.key.value]).toEqual([null, 'k']);
-    expect(hand.refusal.value).toMatch(/^The move has ended by itself.*press again/);
+    expect(hand.refusal.value).toMatch(/^The jog motion was stopped.*press it again/);
   });
 
   it('are asked for no more once the arm is there: nothing is renewed, nothing cancelled', async () => {

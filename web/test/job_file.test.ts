@@ -12,13 +12,13 @@ describe('a file that jobs are read from', () => {
   it('is not read when the server would not take it for its size', async () => {
     let reads = 0;
     const huge = { name: 'huge.json', size: 20_000_000, text: () => { reads += 1; return Promise.resolve('{}'); } };
-    expect(await read_job_file(huge)).toEqual({ ok: false, fault: 'huge.json has 20 MB, and the server takes 8.4 MB (8 MiB) in one request at most. It was not read.' });
+    expect(await read_job_file(huge)).toEqual({ ok: false, fault: 'huge.json has 20 MB; the server accepts at most 8.4 MB (8 MiB) in one request. It was not read.' });
     expect(reads).toBe(0);
     expect(await read_job_file({ ...huge, size: kBodyMax_bytes })).toEqual({ ok: true, text: '{}' });
   });
 
   it('is refused at once with its name where it is no JSON', async () => {
-    for (const [text, words] of [['', 'is empty'], ['joint_names:\n- j1', /YAML|it begins with "joint_names:"/], ['{"a": ', 'is JSON with a mistake: ']] as const) {
+    for (const [text, words] of [['', 'is empty'], ['joint_names:\n- j1', /YAML|it begins with "joint_names:"/], ['{"a": ', 'is not valid JSON: ']] as const) {
       const read = await read_job_file(file('x.json', text));
       expect(read, text).toMatchObject({ ok: false, fault: expect.stringMatching(words) as unknown });
       expect(read.ok ? '' : read.fault).toContain('x.json ');
@@ -66,7 +66,7 @@ describe('a text that jobs are made of', () => {
     const stop = new AbortController();
     const given_up = composed_beside('{}', stop.signal, make);
     stop.abort();
-    await expect(given_up).rejects.toThrow('given up');
+    await expect(given_up).rejects.toThrow('canceled');
     const done = composed_beside('[1]', new AbortController().signal, make);
     workers[1]?.onmessage?.({ data: composed('[1]') } as MessageEvent<Composed>);
     expect((await done).kind).toBe('bag');
@@ -83,7 +83,7 @@ describe('a text that jobs are made of', () => {
 
 describe('a file that is called an MCAP file', () => {
   it('is told by its beginning', async () => {
-    expect(await read_mcap(new Blob(['hello']))).toEqual({ ok: false, fault: 'It is no MCAP file: it does not begin as one.' });
-    expect(await read_mcap(new Blob([]))).toEqual({ ok: false, fault: 'It is empty.' });
+    expect(await read_mcap(new Blob(['hello']))).toEqual({ ok: false, fault: 'The file is not MCAP: its first bytes differ from those of MCAP.' });
+    expect(await read_mcap(new Blob([]))).toEqual({ ok: false, fault: 'The file is empty.' });
   });
 });

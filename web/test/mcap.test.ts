@@ -44,7 +44,7 @@ describe('an MCAP file that was exported', () => {
   });
 
   it('that is something else says so', async () => {
-    expect(await read_mcap(new Blob(['hello']))).toEqual({ ok: false, fault: expect.stringMatching(/joint_states|no MCAP/) });
-    expect(await read_mcap(new Blob(['x'.repeat(100)]))).toEqual({ ok: false, fault: expect.stringMatching(/no MCAP/) });
+    expect(await read_mcap(new Blob(['hello']))).toEqual({ ok: false, fault: expect.stringMatching(/joint_states|not MCAP/) });
+    expect(await read_mcap(new Blob(['x'.repeat(100)]))).toEqual({ ok: false, fault: expect.stringMatching(/not MCAP/) });
   });
 });

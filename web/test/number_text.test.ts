@@ -8,8 +8,8 @@ describe('one number that a person types', () => {
   });
 
   it('is said to be none with what to do', () => {
-    expect(no_number(' 2,5')).toBe('"2,5" is no number: the decimal sign is a point');
-    expect(no_number('wide')).toBe('"wide" is no number');
+    expect(no_number(' 2,5')).toBe('"2,5" is not a number: use a decimal point');
+    expect(no_number('wide')).toBe('"wide" is not a number');
   });
 
   it('is stepped without the digits of a computer, and left alone where it is none', () => {

@@ -11,9 +11,9 @@ describe('a form of an object', () => {
 
   it('takes the names that the server takes, and says what is wrong with others', () => {
     for (const name of ['rod', 'a b', '<b>crate', '拾う', '...', '😀'.repeat(64), 'x'.repeat(128)]) expect(fault_of_name(name)).toBe(null);
-    expect(fault_of_name('a/b')).toMatch(/this one holds \/$/);
-    expect(fault_of_name('a\\b')).toMatch(/this one holds \\$/);
-    expect(fault_of_name('a\u0007b')).toMatch(/holds a control character$/);
+    expect(fault_of_name('a/b')).toMatch(/found \/$/);
+    expect(fault_of_name('a\\b')).toMatch(/found \\$/);
+    expect(fault_of_name('a\u0007b')).toMatch(/found a control character$/);
     expect(fault_of_name('..')).toMatch(/no name/);
     expect(fault_of_name('  ')).toMatch(/no name/);
     expect(fault_of_name('x'.repeat(129))).toMatch(/128/);
@@ -33,7 +33,7 @@ describe('a form of an object', () => {
   });
 
   it('says which field is no number', () => {
-    expect(object_of(with_edits(form_of(kCan), { values: { x: 'wide' } }))).toEqual({ fault: 'x: "wide" is no number' });
-    expect(object_of(with_edits(form_of(kCan), { values: { x: '0,15', y: ' ' } }))).toEqual({ fault: 'x: "0,15" is no number: the decimal sign is a point; y: "" is no number' });
+    expect(object_of(with_edits(form_of(kCan), { values: { x: 'wide' } }))).toEqual({ fault: 'x: "wide" is not a number' });
+    expect(object_of(with_edits(form_of(kCan), { values: { x: '0,15', y: ' ' } }))).toEqual({ fault: 'x: "0,15" is not a number: use a decimal point; y: "" is not a number' });
   });
 });

@@ -11,9 +11,9 @@ describe('a command', () => {
   const with_role = (role: Session['role']): Session => ({ auth_required: true, name: 'vic', role });
 
   it('is for whoever may operate the cell', () => {
-    expect(why(with_role('viewer'))).toMatch(/takes the role operator/);
+    expect(why(with_role('viewer'))).toMatch(/needs the operator role/);
     store.set_link({ status: 'recording', name: 'r' });
-    expect([why(with_role('operator')), why_not_permitted(with_role('operator'))]).toEqual(['A recording is shown, not the present', null]);
+    expect([why(with_role('operator')), why_not_permitted(with_role('operator'))]).toEqual(['A recording is shown, not the live cell', null]);
     store.set_link({ status: 'open' });
     expect([with_role('operator'), with_role('admin'), { auth_required: false, name: null, role: 'admin' as const }, null].map(why)).toEqual([null, null, null, null]);
   });

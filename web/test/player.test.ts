@@ -63,12 +63,12 @@ describe('the player', () => {
       return one.fault.value;
     };
     expect(await fault(null, null)).toMatch(/neither a states.csv nor an events.jsonl/);
-    expect(await fault(null, '')).toMatch(/nothing in it/);
+    expect(await fault(null, '')).toMatch(/is empty/);
     expect(await fault('time_s,elbow\n0,1\n', '')).toMatch(/no joint elbow/);
     expect(await fault(null, envelope('arm', 1, arm_json('third')))).toMatch(/no arm third/);
     expect(await fault('hello\n', null)).toMatch(/hello/);
     await one.open_sources('run', { states: { bytes: 1, open: () => Promise.reject(new Error('cut')) }, events: null });
-    expect(one.fault.value).toMatch(/not be read to its end.*cut/);
+    expect(one.fault.value).toMatch(/cannot be read completely.*cut/);
     expect([did, store.link.status]).toEqual([[], 'connecting']);
   });
 

@@ -81,9 +81,9 @@ describe('what is expected beside an arm that was stopped', () => {
     told(store, snapshot(10, { jobs: [stopped_job(), job_json('waits', { state: 'scheduled', arms: ['right'], waits_on: [wait_json({ id: 'pick' })] })], arms: [arm({ state: 'stopped' }), arm_json('right')] }));
     store.set_forecast(forecast(10));
     expect(when_in_words(store.job('pick') as Job, store)).not.toMatch(/end/);
-    expect(when_in_words(store.job('waits') as Job, store)).toBe('no start as things are');
+    expect(when_in_words(store.job('waits') as Job, store)).toBe('not scheduled');
     const [left, right] = known_lanes({ store }).map((lane) => lane_in_words(lane, 10));
-    expect(left).toEqual(['pick waits for resume: left is stopped (operator), until it is resumed', '2 more wait without a time yet']);
-    expect(right?.at(-1)).toMatch(/^waits waits .*, with no end as things are$/);
+    expect(left).toEqual(['pick waits for resume: left is stopped (operator), until it is resumed', '2 more jobs not scheduled yet']);
+    expect(right?.at(-1)).toMatch(/^waits waits .*, end unknown \(blocked\)$/);
   });
 });

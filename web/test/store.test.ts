@@ -134,7 +134,7 @@ describe('the store', () => {
     take(envelope('job', 2, job_json('a', { state: 'running' })));
     take(snapshot(1, { gap: true }, { stream: 'another run', t_s: 0.5 }));
     expect(store.all_jobs()).toEqual([]);
-    expect(store.notices.map((notice) => notice.text)).toEqual(['The server was restarted. Jobs of its former run are in the history, if it keeps them.']);
+    expect(store.notices.map((notice) => notice.text)).toEqual(['The server was restarted. Jobs of the previous session are in the history if the server stores jobs.']);
   });
 
   it('says nothing when it first connects', () => {

@@ -62,9 +62,9 @@ describe('the lanes of the timeline', () => {
 
   it('is told in words, soonest first, those without a time last', () => {
     const words = lane_in_words(known([], kForecast), 10);
-    expect(words[0]).toMatch(/^now: runs on, 0:00:10.0 to 0:00:12.0/);
+    expect(words[0]).toMatch(/^now: running, 0:00:10.0 to 0:00:12.0/);
     expect(words[1]).toMatch(/^place waits for job place-6 of right: .* until 0:00:13.0 \(1.0 s\)/);
-    expect(words.at(-1)).toBe('2 more wait without a time yet');
+    expect(words.at(-1)).toBe('2 more jobs not scheduled yet');
     expect(lane_in_words(known([], null), 10)).toEqual(['nothing is planned']);
   });
 });

@@ -65,7 +65,7 @@ describe('the figure of a job that moves', () => {
   });
   it('is told as past when nothing is heard any more', () => {
     expect(['17.4 s left', 'waited 2.0 s', 'paused', ''].map(as_last_heard)).toEqual(['had 17.4 s left', 'had waited 2.0 s', 'was paused', '']);
-    expect([true, false].map(now_in_words)).toEqual(['last heard', 'now']);
+    expect([true, false].map(now_in_words)).toEqual(['last data', 'now']);
   });
 });
 
@@ -75,7 +75,7 @@ describe('why a job stood on its path', () => {
     const store = store_of([at('running', []), at('paused', []), at('paused', [crate]), at('running', [])]);
     const [stand] = store.book.stands('h');
     expect(stand).toMatchObject({ from_s: 3, to_s: 5, why: { kind: 'object', id: 'crate' } });
-    expect(stand && stood_in_words(stand)).toMatch(/^waited for crate to be clear.*, 2\.0 s long$/);
+    expect(stand && stood_in_words(stand)).toMatch(/^waited until crate is out of the way.* \(2\.0 s\)$/);
     const [mark] = known_lanes({ store }, 0).flatMap(({ marks }) => marks.filter(({ kind }) => kind === 'pause'));
     expect(mark?.waits_on?.id).toBe('crate');
   });

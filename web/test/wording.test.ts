@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { parse_message, type Job, type MonitorData, type WaitsOn } from '../src/server/messages';
 import {
   bytes_in_words, clearance_in_words, clock, conflict_in_words, figure_in_words, found_in_words, millimetres, monitor_in_words, reason_in_words,
-  result_in_words, seconds, short_id, ways_in_words, why_mute,
+  result_in_words, seconds, short_id, path_in_words, why_mute,
 } from '../src/wording';
 import { envelope, job_json, wait_json } from './samples';
 
@@ -32,11 +32,11 @@ describe('the reason why a job waits', () => {
   });
   it('tells an arm at rest, an object, the order, the capacity and a stop apart', () => {
     expect(reason({ kind: 'arm', id: null })).toMatch(/^waits for arm right to move away: left_panda_hand would/);
-    expect(reason({ kind: 'object', id: 'crate', arm: null, ...kBare })).toBe('waits for crate to be clear');
-    expect(reason({ kind: 'predecessor', id: 'pick-6', arm: 'left', ...kBare })).toBe('waits its turn: pick-6 of left comes first');
-    expect(reason({ kind: 'capacity', ...kBare })).toBe('waits until job place-6 of right has ended: one at a time');
+    expect(reason({ kind: 'object', id: 'crate', arm: null, ...kBare })).toBe('waits until crate is out of the way');
+    expect(reason({ kind: 'predecessor', id: 'pick-6', arm: 'left', ...kBare })).toBe('waits its turn: pick-6 of left goes first');
+    expect(reason({ kind: 'capacity', ...kBare })).toBe('waits until job place-6 of right has ended (one at a time)');
     expect(reason({ kind: 'object', id: null, arm: null, links: ['left_panda_hand', 'table'] })).toMatch(
-      /^waits for table to be clear: left_panda_hand would come within 12 mm of table/);
+      /^waits until table is out of the way: left_panda_hand would come within 12 mm of table/);
     expect(reason({ kind: 'stop', id: null, arm: 'left', ...kBare, detail: 'fault: overrun' })).toBe(
       'waits for resume: left is stopped (fault: overrun)');
     expect(reason({ kind: 'stop', id: null, arm: null, ...kBare })).toBe('waits for resume: the cell is stopped');
@@ -129,23 +129,23 @@ describe('figures', () => {
 describe('a conflict that was only asked about', () => {
   it('names whom, how close and when', () => {
     expect(conflict_in_words(wait_json({ kind: 'object', id: 'post' }) as never)).toBe(
-      'beside post, left_panda_hand would come within 12 mm of right_panda_link6, 1.24 s into its motion');
-    expect(conflict_in_words(wait_json({ kind: 'arm', id: null, arm: 'left', links: [] }) as never)).toBe('beside arm left');
+      'against post: left_panda_hand would come within 12 mm of right_panda_link6, 1.24 s into its motion');
+    expect(conflict_in_words(wait_json({ kind: 'arm', id: null, arm: 'left', links: [] }) as never)).toBe('against arm left');
   });
 });
 
 describe('how a job came by its way', () => {
   it('says who was taken, what goes around, and who was given another way', () => {
-    expect(ways_in_words(job({}))).toEqual([]);
-    expect(ways_in_words(job({ choice: { candidates: ['left', 'right'], selected: 'right', time_saved_s: 1.2, detail: 'it arrives 1.20 s sooner than left' } })))
-      .toEqual(['right was taken of left, right: it arrives 1.20 s sooner than left']);
-    expect(ways_in_words(job({ detour: { candidates_evaluated: 2, selected: true, time_saved_s: 3.04 } })))
-      .toEqual(['goes around: 2 ways around what others hold were weighed, by this one it arrives 3.0 s sooner']);
-    expect(ways_in_words(job({ detour: { candidates_evaluated: 1, selected: false, time_saved_s: null } })))
-      .toEqual(['one way around what others hold was weighed; the shortest one is as good']);
-    expect(ways_in_words(job({ replan: { done: 2, planning: false, cause: 'timeout', refused: 'no way was found' } }))).toEqual([
-      'was given another way 2 times, the last time when its time in the backlog was over',
-      'another way was looked for when its time in the backlog was over, in vain: no way was found',
+    expect(path_in_words(job({}))).toEqual([]);
+    expect(path_in_words(job({ choice: { candidates: ['left', 'right'], selected: 'right', time_saved_s: 1.2, detail: 'it arrives 1.20 s sooner than left' } })))
+      .toEqual(['right was selected from left, right: it arrives 1.20 s sooner than left']);
+    expect(path_in_words(job({ detour: { candidates_evaluated: 2, selected: true, time_saved_s: 3.04 } })))
+      .toEqual(['takes a detour: 2 paths around the space of other jobs were evaluated; this path arrives 3.0 s sooner']);
+    expect(path_in_words(job({ detour: { candidates_evaluated: 1, selected: false, time_saved_s: null } })))
+      .toEqual(['1 path around the space of other jobs was evaluated; the shortest path is as good']);
+    expect(path_in_words(job({ replan: { done: 2, planning: false, cause: 'timeout', refused: 'no way was found' } }))).toEqual([
+      'replanned 2 times (last cause: backlog timeout)',
+      'replanning failed (backlog timeout): no way was found',
     ]);
   });
 });

@@ -9,12 +9,13 @@ import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
 import { use_beats } from '../state/seen';
 import { shown_name } from '../names';
 import { reason_in_words, short_id, title_of, waited_for } from '../wording';
+import { kText } from '../strings';
 import { Bar } from './bar';
 
 export function Arms({ app }: { app: App }) {
   const arms = [...app.store.arms.values()];
   return (
-    <section class={`arms${arms.length > 4 ? ' many' : ''}`} aria-label="Arms">
+    <section class={`arms${arms.length > 4 ? ' many' : ''}`} aria-label={kText.arm.arms}>
       <div class="cards">
         {arms.map((arm) => <ArmCard key={arm.name} arm={arm} app={app} />)}
       </div>
@@ -32,14 +33,14 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
   return (
     <div class={`card${lit ? ' lit' : ''}`} data-test={`arm-${arm.name}`}
       style={{ '--arm': arm_colour([...store.arms.keys()], arm.name), '--state': kStateColours[store.arm_state(arm)] }}>
-      <Link app={app} to={{ page: 'arm', name: arm.name }} class="card-link" title={`All about the arm ${shown_name(arm.name)}`}>
+      <Link app={app} to={{ page: 'arm', name: arm.name }} class="card-link" title={kText.arm.details_of(shown_name(arm.name))}>
         <span class="line">
           <span class="swatch" aria-hidden="true" />
           <b class="grow ellipsis">{shown_name(arm.name)}</b>
           <StatePill arm={arm} app={app} />
         </span>
         <span class="line dim job-of-arm">
-          {waiting ? <Waiting job={waiting} app={app} /> : <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : store.arm_state(arm) === 'not known' ? 'not known then' : 'no job'}</span>}
+          {waiting ? <Waiting job={waiting} app={app} /> : <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : store.arm_state(arm) === 'not known' ? kText.arm.unknown_then : kText.arm.no_job}</span>}
           <span class="mono">{job ? `${Math.round(100 * progress)} %` : ''}</span>
         </span>
         <Bar share={progress} />

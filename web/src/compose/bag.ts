@@ -2,6 +2,7 @@
 // seen how many there are.
 
 import { shown_name } from '../names';
+import { kText } from '../strings';
 
 export type Bag =
   | { kind: 'one'; text: string }
@@ -34,10 +35,10 @@ function is_trajectory(value: unknown): boolean {
 export interface Body { title: string; body: Blob }
 
 export function bodies_of(bag: Bag): Body[] {
-  if (bag.kind === 'one') return [{ title: 'This job', body: new Blob([bag.text]) }];
+  if (bag.kind === 'one') return [{ title: kText.compose.this_job, body: new Blob([bag.text]) }];
   return bag.jobs.map((job, i) => {
     const { id, name } = (job ?? {}) as { id?: unknown; name?: unknown };
     const title = [id, name].find((one): one is string => typeof one === 'string' && one !== '');
-    return { title: title === undefined ? `job ${i + 1}` : shown_name(title), body: new Blob([JSON.stringify(job)]) };
+    return { title: title === undefined ? kText.compose.job_number(i + 1) : shown_name(title), body: new Blob([JSON.stringify(job)]) };
   });
 }

@@ -3,6 +3,7 @@
 
 import { cut_text } from '../names';
 import { parts_of, thinned, type Part } from '../motion/pasted';
+import { kText } from '../strings';
 import { bodies_of, read_bag, type Body } from './bag';
 
 export interface Composed {
@@ -29,12 +30,12 @@ export function composed(text: string): Composed {
 
 /** Why a text is no JSON of a job; it stands behind the name of its file. */
 function fault_in(text: string): string | null {
-  if (text.trim() === '') return 'is empty';
-  if (!/^\s*[[{]/.test(text)) return `is no JSON, which jobs are written in: it begins with "${cut_text(text.trim().split('\n', 1)[0] ?? '', 40)}"`;
+  if (text.trim() === '') return kText.compose.empty;
+  if (!/^\s*[[{]/.test(text)) return kText.compose.not_json(cut_text(text.trim().split('\n', 1)[0] ?? '', 40));
   try {
     JSON.parse(text);
     return null;
   } catch (error) {
-    return `is JSON with a mistake: ${error instanceof Error ? cut_text(error.message, 160) : String(error)}`;
+    return kText.compose.bad_json(error instanceof Error ? cut_text(error.message, 160) : String(error));
   }
 }

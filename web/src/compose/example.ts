@@ -4,6 +4,7 @@
 // velocity 1.875 d/T, acceleration 5.7735 d/T² (10/√3) and jerk 60 d/T³; T is chosen so that each
 // stays below half of its limit.
 
+import { kText } from '../strings';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
 
 const kSwing_rad = 0.35;
@@ -50,7 +51,7 @@ export function example_job(arm: Arm, q: readonly number[], joints: readonly Cel
     positions, velocities: rest, accelerations: rest, time_from_start: split(t_s),
   });
   return {
-    name: `${arm.name} waves`,
+    name: kText.compose.example_name(arm.name),
     trajectory: {
       joint_names: arm.joints,
       points: [point(start, 0), point(there, duration_s), point(start, 2 * duration_s)],

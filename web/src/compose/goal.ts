@@ -2,7 +2,10 @@
 
 import { no_number, number_in } from '../frame/number_text';
 import type { Cell, CellArm } from '../server/messages';
+import { kText } from '../strings';
 import type { ToolPose } from '../view/tool_in_hand';
+
+const kWords = kText.plan;
 
 export type GoalKind = 'named' | 'joints' | 'pose';
 export interface GoalForm { arm: string; kind: GoalKind; named: string; joints: string; xyz: string; rpy: string; link: string; speed: string }
@@ -19,8 +22,8 @@ export function states_of(arm: CellArm | undefined): string[] {
 /** The body of POST /plan, or what cannot be read. */
 export function plan_request(form: GoalForm): { ok: true; text: string } | { ok: false; fault: string } {
   const speed = number_in(form.speed);
-  if (speed === null) return { ok: false, fault: `Speed: ${no_number(form.speed)}` };
-  if (!(speed > 0 && speed <= 100)) return { ok: false, fault: `Speed: more than 0, at most 100 %; found ${form.speed}` };
+  if (speed === null) return { ok: false, fault: kWords.speed_fault(no_number(form.speed)) };
+  if (!(speed > 0 && speed <= 100)) return { ok: false, fault: kWords.speed_range(form.speed) };
   const to = goal_of(form);
   if (typeof to === 'string') return { ok: false, fault: to };
   return { ok: true, text: JSON.stringify({ arm: form.arm, to, velocity_scaling_factor: speed / 100 }) };
@@ -30,12 +33,12 @@ function goal_of(form: GoalForm): object | string {
   if (form.kind === 'named') return { named: form.named };
   if (form.kind === 'joints') {
     const joints = numbers_in(form.joints);
-    return joints ? { joints } : `Joints: numbers in rad or m, one for each joint; found ${form.joints}`;
+    return joints ? { joints } : kWords.joints_fault(form.joints);
   }
   const xyz = numbers_in(form.xyz);
   const rpy = numbers_in(form.rpy);
-  if (xyz?.length !== 3) return `Position: three numbers in m; found ${form.xyz}`;
-  if (rpy?.length !== 3) return `Turn: three numbers in degrees; found ${form.rpy}`;
+  if (xyz?.length !== 3) return kWords.position_fault(form.xyz);
+  if (rpy?.length !== 3) return kWords.rotation_fault(form.rpy);
   const radians = rpy.map((angle) => (angle * Math.PI) / 180);
   return { pose: { ...(form.link.trim() === '' ? {} : { link: form.link.trim() }), xyz, rpy: radians } };
 }

@@ -3,6 +3,7 @@
 
 import { shown_name } from '../names';
 import { bytes_in_words } from '../wording';
+import { kText } from '../strings';
 import { composed, type Composed } from './composed';
 import { composed_beside, kLong } from './long_text';
 
@@ -13,7 +14,7 @@ export type JobFile = { ok: true; text: string } | { ok: false; fault: string };
 
 /** Why a text of so many bytes is not sent; null: it may be. */
 export function too_large(what: string, bytes: number): string | null {
-  return bytes <= kBodyMax_bytes ? null : `${what} has ${bytes_in_words(bytes)}, and the server takes ${bytes_in_words(kBodyMax_bytes)} (8 MiB) in one request at most. It was not read.`;
+  return bytes <= kBodyMax_bytes ? null : kText.compose.too_large(what, bytes_in_words(bytes), bytes_in_words(kBodyMax_bytes));
 }
 
 export async function read_job_file(file: Pick<File, 'name' | 'size' | 'text'>, beside: (text: string) => Promise<Composed> = (text) => composed_beside(text, new AbortController().signal)): Promise<JobFile> {
@@ -25,6 +26,6 @@ export async function read_job_file(file: Pick<File, 'name' | 'size' | 'text'>, 
     const { fault } = text.length > kLong ? await beside(text) : composed(text);
     return fault === null ? { ok: true, text } : { ok: false, fault: `${name} ${fault}.` };
   } catch (error) {
-    return { ok: false, fault: `${name} cannot be read: ${String(error)}` };
+    return { ok: false, fault: kText.compose.unreadable(name, String(error)) };
   }
 }

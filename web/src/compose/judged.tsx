@@ -4,7 +4,10 @@ import type { Api } from '../server/api';
 import type { Problem, Verdict } from '../server/messages';
 import { conflict_in_words, millimetres, seconds, wait_in_words } from '../wording';
 import type { Body } from './bag';
+import { kText } from '../strings';
 import { Refused } from './refused';
+
+const kSays = kText.compose;
 
 export type Judgement = { title: string } & ({ ok: true; verdict: Verdict } | { ok: false; problem: Problem });
 
@@ -34,7 +37,7 @@ export function Judged({ judgements, show }: { judgements: Judgement[]; show: ((
 }
 
 const kWords: Record<Verdict['verdict'], string> = {
-  free: '✓ free', conflict: '✕ in conflict', undecided: '? not proven free',
+  free: kSays.free, conflict: kSays.conflict, undecided: kSays.undecided,
 };
 
 /** Nothing is in its way but those that its arm does first. */
@@ -46,18 +49,18 @@ function Said({ title, verdict, show }: { title: string; verdict: Verdict; show:
   const { earliest_start_s: start_s, clearance_bound_m: bound_m, self_clearance_bound_m: self_m } = verdict;
   const in_turn = only_in_turn(verdict);
   const in_words = verdict.verdict === 'free' || in_turn ? wait_in_words : conflict_in_words;
-  const could = verdict.verdict === 'free' ? 'would' : 'could';
-  const when = start_s === null ? (in_turn ? 'When it would start is decided at its turn.' : 'Not as things stand.') : start_s > 0 ? `It ${could} start in ${seconds(start_s)}.` : `It ${could} start now.`;
+  const could = verdict.verdict === 'free' ? kSays.would : kSays.could;
+  const when = start_s === null ? (in_turn ? kSays.start_at_turn : kSays.no_start) : start_s > 0 ? kSays.start_in(could, seconds(start_s)) : kSays.start_now(could);
   return (
     <>
-      <div class={`verdict-word ${in_turn ? 'in-turn' : verdict.verdict}`}><b>{title}</b>: {in_turn ? '… comes after others' : kWords[verdict.verdict]}</div>
+      <div class={`verdict-word ${in_turn ? 'in-turn' : verdict.verdict}`}><b>{title}</b>: {in_turn ? kSays.in_turn : kWords[verdict.verdict]}</div>
       <div>{when}</div>
-      {bound_m !== null && <div class="dim small">At least {millimetres(bound_m)} are kept{self_m !== null && `, ${millimetres(self_m)} from the arm's own links`}, proven.</div>}
+      {bound_m !== null && <div class="dim small">{kSays.clearance(millimetres(bound_m))}{self_m !== null && kSays.self_clearance(millimetres(self_m))}.</div>}
       {verdict.waits_on.map((conflict, i) => (
         <div key={i} class="words">
           {in_words(conflict)}
           {show && conflict.own_time_s !== null && (
-            <>{' '}<button class="small" data-test="show-conflict" onClick={() => show(conflict.own_time_s ?? 0)}>Show it there</button></>
+            <>{' '}<button class="small" data-test="show-conflict" onClick={() => show(conflict.own_time_s ?? 0)}>{kSays.show_conflict}</button></>
           )}
         </div>
       ))}

@@ -38,7 +38,7 @@ function read_beside(text: string, stop: AbortSignal, make: () => Beside): Promi
     };
     const give_up = () => {
       end();
-      fail(new Error('it was given up'));
+      fail(new Error('reading was canceled'));
     };
     worker.onmessage = ({ data }) => {
       end();

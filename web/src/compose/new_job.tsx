@@ -22,6 +22,9 @@ import { PlanForm } from './plan_form';
 import { Preview, type Chosen } from './preview';
 import { Refused } from './refused';
 import { TextField } from './text_field';
+import { kText } from '../strings';
+
+const kWords = kText.compose;
 
 type Outcome =
   | { kind: 'none' } | { kind: 'busy'; what: string } | { kind: 'accepted'; ids: string[] }
@@ -55,36 +58,35 @@ export function NewJob({ app }: { app: App }) {
   const is_sent = outcome.kind === 'accepted';
   const send = async () => {
     if (busy || mute !== null) return;
-    set_outcome({ kind: 'busy', what: 'Sending…' });
+    set_outcome({ kind: 'busy', what: kWords.sending });
     set_outcome(await sent(made, app));
   };
   const judge = async () => {
     if (idle) return;
-    set_outcome({ kind: 'busy', what: 'Judging…' });
+    set_outcome({ kind: 'busy', what: kWords.checking });
     set_outcome({ kind: 'judged', judgements: await judge_all(made.bodies, app.api) });
   };
   return (
     <div class="page compose">
-      <h2>New job</h2>
+      <h2>{kText.page.new}</h2>
       <p class="hint">
-        Paste or drop a job as JSON, as <code>POST {kApi}/jobs</code> takes it, its trajectory in the form
-        of <code>trajectory_msgs/JointTrajectory</code>; or a batch, a list of jobs as in a jobs file.
+        {kWords.hint_format}<code>POST {kApi}/jobs</code>{kWords.hint_trajectory}<code>trajectory_msgs/JointTrajectory</code>{kWords.hint_batch}
       </p>
       <details class="plan-goal" data-test="plan-goal">
-        <summary>Plan the way to a goal</summary>
+        <summary>{kWords.plan_goal}</summary>
         <PlanForm app={app} change={(next) => { change(next); show_end(next); }} />
       </details>
       <Examples app={app} change={change} />
       <TextField text={text} change={change} send={() => { if (!is_sent) void send(); }} />
-      {is_yaml(text) && <p class="hint" data-test="yaml">This looks like YAML, as ROS's tools print it. The server reads JSON: <code>python3 -c 'import json, sys, yaml; json.dump(yaml.safe_load(sys.stdin), sys.stdout)' &lt; job.yaml</code></p>}
+      {is_yaml(text) && <p class="hint" data-test="yaml">{kWords.yaml}<code>python3 -c 'import json, sys, yaml; json.dump(yaml.safe_load(sys.stdin), sys.stdout)' &lt; job.yaml</code></p>}
       {motion && <Preview motion={motion} app={app} chosen={chosen} />}
       {ways.kind !== 'none' && <WaysSaid ways={ways} />}
       <div class="line">
-        <span class="grow dim small" data-test="bag">{made === null ? 'Reading…' : kind_in_words(made)}</span>
-        <button data-test="judge" title="As things are now; nothing is stored" disabled={idle} onClick={() => void judge()}>Judge</button>
-        <button class={is_sent ? '' : 'primary'} data-test="send" title={mute ?? (is_sent ? 'It was sent; this makes another one of it' : '')} disabled={busy || mute !== null}
+        <span class="grow dim small" data-test="bag">{made === null ? kWords.reading : kind_in_words(made)}</span>
+        <button data-test="judge" title={kWords.check_title} disabled={idle} onClick={() => void judge()}>{kWords.check}</button>
+        <button class={is_sent ? '' : 'primary'} data-test="send" title={mute ?? (is_sent ? kWords.send_again_title : '')} disabled={busy || mute !== null}
           onClick={(event) => { if (event.detail < 2) void send(); /* not by the second click of a double one */ }}>
-          {outcome.kind === 'busy' ? outcome.what : `${made?.kind === 'bag' ? 'Send all' : 'Send'}${is_sent ? ' again' : ''}`}
+          {outcome.kind === 'busy' ? outcome.what : `${made?.kind === 'bag' ? kWords.send_all : kWords.send}${is_sent ? kWords.send_again : ''}`}
         </button>
       </div>
       {made && text.trim() !== '' && <Copies made={made} app={app} />}
@@ -116,7 +118,7 @@ export function is_yaml(text: string): boolean {
 }
 
 function kind_in_words({ kind, bodies }: Composed): string {
-  return kind === 'bag' ? `A batch of ${bodies.length} ${bodies.length === 1 ? 'job' : 'jobs: all are accepted or none'}` : 'Ctrl + Enter sends';
+  return kind === 'bag' ? kWords.batch(bodies.length) : kWords.send_key;
 }
 
 type WaysState = { kind: 'none' } | { kind: 'planning' } | { kind: 'planned'; ways: Ways };
@@ -141,12 +143,12 @@ function use_ways(bag: Bag, app: App): WaysState {
 }
 
 function WaysSaid({ ways }: { ways: Exclude<WaysState, { kind: 'none' }> }) {
-  if (ways.kind === 'planning') return <p class="hint" role="status" data-test="goal-way">Planning the way to the goal…</p>;
+  if (ways.kind === 'planning') return <p class="hint" role="status" data-test="goal-way">{kWords.planning_goal}</p>;
   const { planned, left_out, problem } = ways.ways;
   return (
     <>
-      {planned > 0 && <p class="hint" role="status" data-test="goal-way">The {planned === 1 ? 'way is shown' : `${planned} ways are shown`} as it would be planned now; the server plans it again at its turn.{left_out > 0 && ` ${left_out} more ${left_out === 1 ? 'goal is' : 'goals are'} not shown.`}</p>}
-      {problem && <div data-test="goal-problem"><p class="small">There is no way to the goal as things are:</p><Refused problem={problem} /></div>}
+      {planned > 0 && <p class="hint" role="status" data-test="goal-way">{kWords.path_shown(planned)}{left_out > 0 && kWords.goals_left_out(left_out)}</p>}
+      {problem && <div data-test="goal-problem"><p class="small">{kWords.no_path}</p><Refused problem={problem} /></div>}
     </>
   );
 }
@@ -156,7 +158,7 @@ function Examples({ app, change }: { app: App; change(text: string): void }) {
   const idle = [...store.arms.values()].filter((arm) => arm.state === 'idle' && arm.job === null);
   return (
     <div class="line wrap">
-      <span class="dim">{idle.length === 0 ? 'Examples are for an idle arm: none is idle now.' : 'Example for'}</span>
+      <span class="dim">{idle.length === 0 ? kWords.no_idle_arm : kWords.example_for}</span>
       {idle.map((arm) => (
         <button key={arm.name} class="small" data-test={`example-${arm.name}`}
           onClick={() => change(pretty(example_job(arm, store.q_of(arm), store.cell?.joints ?? [])))}>{arm.name}</button>
@@ -170,7 +172,7 @@ function Copies({ made: { request: { path, body } }, app }: { made: Composed; ap
   const with_it = (make: typeof curl_to_post) => async () => make(path, await body.text(), asked_of(app));
   return (
     <div class="line">
-      <span class="grow dim small">The same for programs</span>
+      <span class="grow dim small">{kWords.same_for_programs}</span>
       <Copy what="curl" text={with_it(curl_to_post)} />
       <Copy what="Python" text={with_it(python_to_post)} />
     </div>
@@ -180,7 +182,7 @@ function Copies({ made: { request: { path, body } }, app }: { made: Composed; ap
 function Accepted({ ids, app }: { ids: string[]; app: App }) {
   return (
     <p class="accepted" role="status" data-test="accepted">
-      Accepted{ids.length === 0 ? '.' : ' as '}
+      {ids.length === 0 ? `${kWords.accepted}.` : kWords.accepted_as}
       {ids.map((id, i) => <span key={id}>{i === 0 ? '' : ', '}<Link app={app} to={{ page: 'job', id }}>{id}</Link></span>)}
     </p>
   );

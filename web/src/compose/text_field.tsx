@@ -4,7 +4,10 @@
 import { useState } from 'preact/hooks';
 import { bytes_in_words } from '../wording';
 import { read_job_file, too_large } from './job_file';
+import { kText } from '../strings';
 import { kLong } from './long_text';
+
+const kWords = kText.compose;
 
 const kBeginning = 2_000;
 
@@ -16,14 +19,14 @@ export function TextField({ text, change, send }: Props) {
     const pasted = event.clipboardData?.getData('text') ?? '';
     if (pasted.length <= kLong) return;
     event.preventDefault();  // the field would be laid out for seconds
-    const large = too_large('What was pasted', pasted.length);
+    const large = too_large(kWords.pasted_text, pasted.length);
     set_fault(large);
     if (large === null) change(pasted);
   };
   return (
     <>
       {text.length > kLong ? <LongText text={text} clear={() => change('')} /> : (
-        <textarea class="mono" spellcheck={false} aria-label="Job as JSON" data-test="job-text" value={text}
+        <textarea class="mono" spellcheck={false} aria-label={kWords.text_label} data-test="job-text" value={text}
           placeholder={'{\n  "trajectory": {\n    "joint_names": […],\n    "points": […]\n  }\n}'}
           onPaste={paste} onInput={(event) => { set_fault(null); change(event.currentTarget.value); }}
           onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) send(); }} />
@@ -40,10 +43,10 @@ function LongText({ text, clear }: { text: string; clear(): void }) {
   return (
     <>
       <div class="line" data-test="long-text">
-        <span class="grow small">{bytes_in_words(text.length)}: too long to be edited here. It is judged and sent as it is.</span>
-        <button class="small" onClick={clear}>Clear</button>
+        <span class="grow small">{kWords.long_text(bytes_in_words(text.length))}</span>
+        <button class="small" onClick={clear}>{kWords.clear}</button>
       </div>
-      <pre class="mono" tabIndex={0} aria-label="The beginning of the job">{text.slice(0, kBeginning)}…</pre>
+      <pre class="mono" tabIndex={0} aria-label={kWords.long_text_label}>{text.slice(0, kBeginning)}…</pre>
     </>
   );
 }
@@ -61,7 +64,7 @@ function FileButton({ change, told }: { change(text: string): void; told(fault: 
   return (
     <label class="file small">
       <input type="file" accept=".json,application/json" data-test="file" class="sr-only" onChange={(event) => void open(event.currentTarget)} />
-      Open a file
+      {kWords.open_file}
     </label>
   );
 }

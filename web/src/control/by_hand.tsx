@@ -8,6 +8,9 @@ import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
 import { reason_in_words } from '../wording';
 import { shown_name } from '../names';
+import { kText } from '../strings';
+
+const kWords = kText.jog;
 
 export function ByHand({ arm, app }: { arm: Arm; app: App }) {
   const { hand, store } = app;
@@ -24,8 +27,8 @@ export function ByHand({ arm, app }: { arm: Arm; app: App }) {
   }, [hand]);
   const states = store.cell ? states_of(arm_of(store.cell, arm.name)) : [];
   return (
-    <section class="by-hand" aria-label={`Jog ${arm.name}`} data-test="by-hand">
-      <h3>By hand</h3>
+    <section class="by-hand" aria-label={kWords.label(arm.name)} data-test="by-hand">
+      <h3>{kWords.title}</h3>
       <Control app={app} />
       {hand.key.value !== null && (
         <div class="line wrap">{states.map((state) => <HoldButton key={state} arm={arm.name} state={state} app={app} />)}</div>
@@ -44,19 +47,19 @@ function Control({ app }: { app: App }) {
   if (hand.key.value !== null) {
     return (
       <div class="line wrap">
-        <span class="grow">You have control.</span>
-        <button class="small" data-test="release-control" onClick={() => void hand.give_back()}>Give control back</button>
+        <span class="grow">{kWords.you_have_control}</span>
+        <button class="small" data-test="release-control" onClick={() => void hand.give_back()}>{kWords.release}</button>
       </div>
     );
   }
   return (
     <div class="line wrap">
-      <span class="grow dim">{holder ? <><b>{shown_name(holder.who)}</b> has control.</> : 'Nobody has control.'} One person at a time can jog arms.</span>
+      <span class="grow dim">{holder ? kWords.has_control(shown_name(holder.who)) : kWords.no_control} {kWords.one_person}</span>
       {!session.value?.name && (
-        <label class="line">Your name <input class="name" type="text" value={settings.person.value} maxLength={100} autocomplete="name" data-test="control-person" onInput={(event) => settings.set_person(event.currentTarget.value)} /></label>
+        <label class="line">{kText.common.your_name} <input class="name" type="text" value={settings.person.value} maxLength={100} autocomplete="name" data-test="control-person" onInput={(event) => settings.set_person(event.currentTarget.value)} /></label>
       )}
-      <button class="small" data-test="take-control" disabled={mute !== null} title={mute ?? (holder ? 'Their jog motion brakes on its path' : 'Required to jog arms')}
-        onClick={() => void hand.take(who)}>{holder ? `Take control from ${shown_name(holder.who)}` : 'Take control'}</button>
+      <button class="small" data-test="take-control" disabled={mute !== null} title={mute ?? (holder ? kWords.stops_their_motion : kWords.required)}
+        onClick={() => void hand.take(who)}>{holder ? kWords.take_from(shown_name(holder.who)) : kWords.take}</button>
     </div>
   );
 }
@@ -69,7 +72,7 @@ function HoldButton({ arm, state, app }: { arm: string; state: string; app: App 
   const is_held = held?.arm === arm && held.state === state;
   return (
     <button class={`hold${is_held ? ' held' : ''}`} data-test={`jog-${state}`} aria-pressed={is_held}
-      title="Hold to move, slowly; let go to brake on the path"
+      title={kWords.button_title}
       onPointerDown={(event) => {
         if (event.button !== 0) return;
         event.currentTarget.setPointerCapture(event.pointerId);
@@ -84,15 +87,14 @@ function HoldButton({ arm, state, app }: { arm: string; state: string; app: App 
       }}
       onKeyUp={(event) => { if (kKeys.has(event.key)) hand.let_go(); }}
       onBlur={() => hand.let_go()}
-    >Hold: {state}</button>
+    >{kWords.button(state)}</button>
   );
 }
 
 function held_in_words(arm: Arm, app: App): string {
   const held = app.hand.held.value;
-  if (held?.arm !== arm.name) return 'Hold a button, or its key (space, Enter), and the arm goes there along a way that the server plans, at a tenth of its speed. Let go, and it brakes.';
+  if (held?.arm !== arm.name) return kWords.hint;
   const job = held.job === null ? null : app.store.job(held.job);
-  if (!job) return `To ${held.state}: asked.`;
-  const why = reason_in_words(job);
-  return `To ${held.state}: ${job.state}${why === '' ? '' : `, ${why}`}.`;
+  if (!job) return kWords.requested(held.state);
+  return kWords.moving(held.state, job.state, reason_in_words(job));
 }

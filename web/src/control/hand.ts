@@ -4,13 +4,13 @@
 
 import { signal } from '@preact/signals';
 import { shown_name } from '../names';
+import { kText } from '../strings';
 import type { Answer, Api } from '../server/api';
 import type { Timers } from '../server/connection';
 import type { ControlHolder, Jog } from '../server/messages';
 
 const kBeats = 4;  // in the time of a lease
 const kFirst_ms = 100;
-const kTooLate = 'The move has ended by itself: the server has to hear several times a second that the button is held. Let go and press again; where this comes again, the network or this computer is too slow for it.';
 
 type HandApi = Pick<Api, 'control' | 'take_control' | 'release_control' | 'jog' | 'renew_jog' | 'cancel_job'>;
 
@@ -41,7 +41,7 @@ export class Hand {
     this.key.value = null;
     this.held.value = null;
     ++this.asked_;
-    if (holder) this.refusal.value = `${shown_name(holder.who)} has control`;
+    if (holder) this.refusal.value = kText.jog.lost_control(shown_name(holder.who));
   }
 
   /** From somebody else where there is one. */
@@ -100,7 +100,7 @@ export class Hand {
       void this.api_.renew_jog(held.arm, key).then((answer) => {
         if (answer.ok || this.asked_ !== asked) return;
         this.held.value = null;  // it is there, it was told too late, or somebody else has taken control
-        if (answer.problem.type.endsWith('jog-lease-expired')) this.refusal.value = `${kTooLate} ${answer.problem.detail ?? ''}`.trim();
+        if (answer.problem.type.endsWith('jog-lease-expired')) this.refusal.value = `${kText.jog.lease_expired} ${answer.problem.detail ?? ''}`.trim();
         this.lost(answer);
       });
       this.beat(asked, lease_s);

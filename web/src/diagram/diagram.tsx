@@ -20,6 +20,9 @@ import { is_arm, job_of_side, why_no_pair } from './sides';
 import { seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
 import { AsOf } from '../frame/as_of';
+import { kText } from '../strings';
+
+const kWords = kText.diagram;
 
 const kShownFinished = 12;
 const kShownOpen = 100;
@@ -31,13 +34,13 @@ export function DiagramPanel({ a, b, app }: Props) {
   const { store } = seen_app(app);
   return (
     <>
-      <h2>Diagram</h2>
+      <h2>{kText.page.diagram}</h2>
       <AsOf app={app}>{app.store.link.status === 'recording'
-        ? 'The diagram itself is the server\'s, which knows its own jobs alone.'
-        : 'What is free is for the scene as it is now; how far both were allowed to go, and what lay ahead, is not kept.'}</AsOf>
+        ? kWords.of_live_server
+        : kWords.of_current_scene}</AsOf>
       <div class="pair">
-        <Pick what="Across" side={a} store={store} on_pick={(side) => app.router.go({ page: 'pair', a: side, b })} />
-        <Pick what="Up" side={b} store={store} on_pick={(side) => app.router.go({ page: 'pair', a, b: side })} />
+        <Pick what={kWords.across} side={a} store={store} on_pick={(side) => app.router.go({ page: 'pair', a: side, b })} />
+        <Pick what={kWords.up} side={b} store={store} on_pick={(side) => app.router.go({ page: 'pair', a, b: side })} />
       </div>
       <Sides key={`${a} ${b}`} a={a} b={b} app={app} />
     </>
@@ -49,7 +52,7 @@ function Sides({ a, b, app }: Props) {
   const { store } = seen_app(app);
   use_beats(store);
   const why_not = why_no_pair(a, b, store);
-  if (why_not !== null) return <p class="hint" data-test="no-pair">{store.stream === null ? 'Not connected yet.' : why_not}</p>;
+  if (why_not !== null) return <p class="hint" data-test="no-pair">{store.stream === null ? kText.common.not_connected : why_not}</p>;
   return <Pair a={job_of_side(a, store)?.id ?? a} b={job_of_side(b, store)?.id ?? b} app={app} />;
 }
 
@@ -80,7 +83,7 @@ function Pair({ a, b, app }: Props) {
         </div>
       )}
       {diagram && <Drawn key={`${diagram.a.id} ${diagram.b.id} ${layer}`} diagram={diagram} layer={layer} jobs={jobs} is_kept={is_kept} app={then} />}
-      {!is_refused && !diagram && <p class="hint">{connected ? 'Drawing…' : 'Not connected.'}</p>}
+      {!is_refused && !diagram && <p class="hint">{connected ? kWords.drawing : kWords.not_connected}</p>}
     </>
   );
 }
@@ -101,12 +104,12 @@ function Pick({ what, side, store, on_pick }: { what: string; side: string; stor
     <label class="pick" style={{ '--arm': arm_colour(names, (of_arm ? side : chosen?.arms[0]) ?? '') }}>
       <span class="small dim">{what}</span>
       <span class="swatch" />
-      <select value={side} aria-label={`${what}: an arm or a job`} onChange={(event) => on_pick(event.currentTarget.value)}>
+      <select value={side} aria-label={kWords.side_label(what)} onChange={(event) => on_pick(event.currentTarget.value)}>
         {!chosen && !of_arm && <option value={side}>{side}</option>}
-        <optgroup label="Arms: what each does">
+        <optgroup label={kWords.arms}>
           {names.filter((name) => is_arm(name, store)).map((name) => <option key={name} value={name}>{name}</option>)}
         </optgroup>
-        <optgroup label="Jobs">
+        <optgroup label={kWords.jobs}>
           {jobs.map((job) => <option key={job.id} value={job.id}>{`${short_id(job.id)} (${job.arms.join(' + ')}, ${job.state})`}</option>)}
         </optgroup>
       </select>
@@ -176,16 +179,15 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
           point_at(picture_shown.current?.at(event.clientX - left, event.clientY - top) ?? null);
         }}
         onPointerLeave={() => point_at(null)}
-        aria-label={`Where ${diagram.a.id} (across) and ${diagram.b.id} (up) are in conflict`} />
+        aria-label={kWords.label(diagram.a.id, diagram.b.id)} />
       <Legend layer={layer} of_now={held_s === null} is_measured={is_measured} />
-      {unheard && <p class="hint" data-test="unmeasured">They moved before this page listened: the way that was measured is not known here.</p>}
+      {unheard && <p class="hint" data-test="unmeasured">{kWords.unmeasured}</p>}
       <Instant diagram={diagram} jobs={jobs} app={app} show={point_at} />
-      {shares(layer).free === 1 && <p class="hint" data-test="all-free">All of it is free: at no pace is one in the way of the other.</p>}
+      {shares(layer).free === 1 && <p class="hint" data-test="all-free">{kWords.all_free}</p>}
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
       {lies && <PlanWords ahead={lies} jobs={[jobs.a, jobs.b]} store={store} />}
       <p class="hint explains">
-        Each cell holds for every instant in it, at any pace: {layer.cells?.length === 1 ? '1 cell' : `${layer.cells?.length ?? 0} cells`} between
-        the {layer.arms[0]} and the {layer.arms[1]} arm, {diagram.evaluations} states looked at.
+        {kWords.explanation(layer.cells?.length ?? 0, layer.arms[0], layer.arms[1], diagram.evaluations)}
       </p>
     </>
   );
@@ -226,7 +228,7 @@ function Instant({ diagram, jobs, app, show }: { diagram: Diagram; jobs: DrawnPr
   const [place, set_place] = useState<Point>({ a_s: 0, b_s: 0 });
   app.motions.changes.value;
   const known = [jobs.a, jobs.b].every((job) => job !== null && app.motions.of(job) !== null);
-  if (!known) return <p class="hint">Their trajectories are not known any more: they cannot be shown in the cell.</p>;
+  if (!known) return <p class="hint">{kWords.no_trajectories}</p>;
   const bar = (key: 'a_s' | 'b_s', { id, duration_s }: Diagram['a']) => (
     <label class="line small"><span class="ellipsis">{short_id(id)}</span>
       <input class="grow" type="range" min={0} max={duration_s} step={0.01} value={place[key]} data-test={`instant-${key}`} aria-valuetext={`${place[key].toFixed(2)} s`}
@@ -239,7 +241,7 @@ function Instant({ diagram, jobs, app, show }: { diagram: Diagram; jobs: DrawnPr
     </label>
   );
   return (
-    <fieldset class="pair instants" aria-label="Show both arms as ghosts in the cell, at an instant of each"><span class="small dim" title="Show both arms as ghosts in the cell, at an instant of each">Ghosts at</span>{bar('a_s', diagram.a)}{bar('b_s', diagram.b)}</fieldset>
+    <fieldset class="pair instants" aria-label={kWords.ghosts_label}><span class="small dim" title={kWords.ghosts_label}>{kWords.ghosts_at}</span>{bar('a_s', diagram.a)}{bar('b_s', diagram.b)}</fieldset>
   );
 }
 

@@ -5,6 +5,7 @@ import type { Evidence, Point } from './reading';
 import type { Diagram, DiagramLayer, DiagramContact } from '../server/messages';
 import { ink, kCellColours, kUndecidedStripes } from '../state/palette';
 import { millimetres, short_id } from '../wording';
+import { kText } from '../strings';
 
 export interface Scene {
   diagram: Diagram;
@@ -164,12 +165,12 @@ function draw_axes(g: CanvasRenderingContext2D, sheet: Sheet, { diagram, colours
   g.textAlign = 'center';
   g.textBaseline = 'alphabetic';
   g.fillStyle = colours.a;
-  g.fillText(`time on ${short_id(a.id)}, s`, (left + right) / 2, sheet.height - 4);
+  g.fillText(kText.diagram.axis(short_id(a.id)), (left + right) / 2, sheet.height - 4);
   g.save();
   g.translate(left - 28, (top + bottom) / 2);
   g.rotate(-Math.PI / 2);
   g.fillStyle = colours.b;
-  g.fillText(`time on ${short_id(b.id)}, s`, 0, 0);
+  g.fillText(kText.diagram.axis(short_id(b.id)), 0, 0);
   g.restore();
 }
 
@@ -257,7 +258,7 @@ function mark(g: CanvasRenderingContext2D, sheet: Sheet, evidence: Evidence): vo
   g.stroke();
   const { clearance_m } = evidence.wait;
   if (clearance_m === null) return;
-  const text = clearance_m <= 0 ? 'touch' : millimetres(clearance_m);
+  const text = clearance_m <= 0 ? kText.diagram.touch : millimetres(clearance_m);
   g.font = '600 11.5px "Inter Variable", system-ui, sans-serif';
   const width = g.measureText(text).width + 12;
   const left = Math.max(sheet.x(0) + 4, x - width - 12);

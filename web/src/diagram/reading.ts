@@ -4,7 +4,10 @@
 import { pair_of, type CellState, type Diagram, type DiagramLayer, type DiagramContact, type Job, type WaitsOn } from '../server/messages';
 import { progress_at, type Course } from '../state/progress_book';
 import { clock, millimetres, short_id } from '../wording';
+import { kText } from '../strings';
 import type { Ahead } from './ahead';
+
+const kWords = kText.diagram;
 
 export interface Point { a_s: number; b_s: number }
 
@@ -57,12 +60,12 @@ export function evidence_of(a: Job | null, b: Job | null): Evidence | null {
 
 export function evidence_in_words(evidence: Evidence, diagram: Diagram): string {
   const { links, clearance_m } = evidence.wait;
-  const [own, other] = pair_of(links) ?? ['one arm', 'the other'];
+  const [own, other] = pair_of(links) ?? [kWords.one_arm, kWords.other_arm];
   const how = clearance_m === null || clearance_m <= 0
-    ? `${own} would touch ${other}`
-    : `${own} would come within ${millimetres(clearance_m)} of ${other}`;
+    ? kWords.touches(own, other)
+    : kWords.comes_within(own, other, millimetres(clearance_m));
   const when = [[diagram.a.id, evidence.a_s], [diagram.b.id, evidence.b_s]] as const;
-  return `${how}, ${when.map(([id, at_s]) => `${at_s.toFixed(2)} s into ${short_id(id)}`).join(' and ')}.`;
+  return `${how}, ${when.map(([id, at_s]) => kWords.time_in(at_s.toFixed(2), short_id(id))).join(kText.server.and)}.`;
 }
 
 /** `calm`: it is seen to; `alarm`: nothing is known that keeps it from happening. */
@@ -73,30 +76,30 @@ export interface PlanWords { tone: 'free' | 'calm' | 'alarm'; words: string }
  * end, if there is such a one.
  */
 export function plan_in_words(ahead: Ahead, waiting: string | null, resting: string | null = null): PlanWords {
-  const begin = waiting !== null ? `If ${short_id(waiting)} started now`
-    : resting === null ? 'If both went on from here' : `While ${short_id(resting)} rests at its end`;
+  const begin = waiting !== null ? kWords.if_started(short_id(waiting))
+    : resting === null ? kWords.if_both_continue : kWords.while_rests(short_id(resting));
   switch (ahead.kind) {
-    case 'free': return { tone: 'free', words: waiting === null && resting !== null ? `${begin}, the way of the other one is free.` : `${begin}, both would reach their ends through free cells only.` };
-    case 'held': return { tone: 'calm', words: `${begin}, they would come to ${met_in_words(ahead.met)}. One of them is not allowed that far (authority): it waits before that.` };
+    case 'free': return { tone: 'free', words: waiting === null && resting !== null ? kWords.other_is_free(begin) : kWords.both_are_free(begin) };
+    case 'held': return { tone: 'calm', words: kWords.one_waits(begin, met_in_words(ahead.met)) };
     case 'allowed': return ahead.met.state === 'conflict'
-      ? { tone: 'alarm', words: `${begin}, they come to ${met_in_words(ahead.met)}. Both are allowed that far: nothing makes one of them wait.` }
-      : { tone: 'calm', words: `${begin}, they come to ${met_in_words(ahead.met)}, which need not be in conflict. Both are allowed that far.` };
+      ? { tone: 'alarm', words: kWords.nothing_waits(begin, met_in_words(ahead.met)) }
+      : { tone: 'calm', words: kWords.may_be_free(begin, met_in_words(ahead.met)) };
   }
 }
 
 function met_in_words({ state, in_s }: DiagramContact): string {
-  const what = state === 'conflict' ? 'a conflict' : 'what is not proven free';
-  return in_s < 0.005 ? `${what} at once` : `${what} in ${in_s.toFixed(2)} s`;
+  const what = state === 'conflict' ? kWords.a_conflict : kWords.an_uncertified_area;
+  return in_s < 0.005 ? kWords.at_once(what) : kWords.in_seconds(what, in_s.toFixed(2));
 }
 
 export function drawn_in_words({ a, b }: Diagram): string {
-  return `${short_id(a.id)} and ${short_id(b.id)}.`;
+  return kWords.of_jobs(short_id(a.id), short_id(b.id));
 }
 
 /** Of a drawing that stays until the one of the `wanted` jobs is there; null: it cannot be had. */
 export function kept_in_words({ a, b }: Diagram, jobs: readonly (Job | null)[], wanted: { a: string; b: string } | null): string {
   const ends_s = jobs.flatMap((job) => job?.ended_s ?? []);
-  const until = ends_s.length === 0 ? 'Drawn before' : `As of ${clock(Math.min(...ends_s))}`;
-  const next = wanted === null ? '' : ` ${short_id(wanted.a)} and ${short_id(wanted.b)} are being drawn…`;
-  return `${until}: ${short_id(a.id)} and ${short_id(b.id)}.${next}`;
+  const until = ends_s.length === 0 ? kWords.earlier : kWords.as_of(clock(Math.min(...ends_s)));
+  const next = wanted === null ? '' : kWords.being_drawn(short_id(wanted.a), short_id(wanted.b));
+  return `${until}: ${kWords.of_jobs(short_id(a.id), short_id(b.id))}${next}`;
 }

@@ -3,6 +3,7 @@
 
 import type { Job } from '../server/messages';
 import type { JobList } from '../state/job_book';
+import { kText } from '../strings';
 
 interface Known { job(id: string): Job | null; jobs(list: JobList): readonly Job[]; arms: ReadonlyMap<string, unknown> }
 
@@ -31,9 +32,9 @@ function job_of_arm(arm: string, store: Known): Job | null {
 export function why_no_pair(a: string, b: string, store: Known): string | null {
   const [job_a, job_b] = [job_of_side(a, store), job_of_side(b, store)];
   const idle = [[a, job_a], [b, job_b]].find(([name, job]) => job === null && is_arm(name as string, store));
-  if (idle) return `The arm ${String(idle[0])} has had no job yet: there is no way of it to draw.`;
+  if (idle) return kText.diagram.no_path_yet(String(idle[0]));
   if (!job_a || !job_b) return null;
-  if (job_a.id === job_b.id) return a === b ? 'A diagram is of two: choose another arm or job on one side.' : 'One job moves both, in step: nothing of it is in its own way.';
+  if (job_a.id === job_b.id) return a === b ? kText.diagram.same_side : kText.diagram.one_job;
   const arms = new Set([...job_a.arms, ...job_b.arms]);
-  return arms.size === 1 ? 'Both move the same arm, one after the other: they cannot be in conflict.' : null;
+  return arms.size === 1 ? kText.diagram.same_arm : null;
 }

@@ -4,6 +4,7 @@
 import { signal } from '@preact/signals';
 import { read_job_file } from '../compose/job_file';
 import type { App } from '../state/app';
+import { kText } from '../strings';
 
 /** Whether files are held over the page. */
 export const files_over = signal(false);
@@ -29,7 +30,7 @@ export function listen_to_drops(app: App, window: Pick<Window, 'addEventListener
     event.preventDefault();
     drop_fault.value = null;
     // What was dropped is known no longer than this event lasts.
-    void what_of(dataTransfer).then((dropped) => take(dropped, app)).catch((error: unknown) => { drop_fault.value = `What was dropped cannot be read: ${String(error)}`; });
+    void what_of(dataTransfer).then((dropped) => take(dropped, app)).catch((error: unknown) => { drop_fault.value = kText.frame.drop_unreadable(String(error)); });
   });
 }
 
@@ -47,7 +48,7 @@ async function take({ files, folder }: Dropped, app: App): Promise<void> {
   }
   app.draft.value = read.text;
   app.router.go({ page: 'new' });
-  if (files.length > 1) drop_fault.value = `Only ${first.name} was taken: jobs come from one file at a time. A batch is a list of jobs in one file.`;
+  if (files.length > 1) drop_fault.value = kText.frame.only_one_file(first.name);
 }
 
 /** The files; of a folder what is recorded in it, not in folders within. */

@@ -1,5 +1,6 @@
 // How far back the jobs reach that the page has, in words; null: it has all that the server has. Pure.
 
+import { kText } from '../strings';
 import { clock } from '../wording';
 
 export interface Loaded {
@@ -13,8 +14,7 @@ export interface Loaded {
 
 export function loaded_in_words({ told, ended_from_s, fetched, is_all }: Loaded): string | null {
   if (is_all) return null;
-  const rest = 'are not loaded, and the filter does not look at them.';
-  if (fetched > 0) return `The last ${told + fetched} are loaded. Earlier ones ${rest}`;
-  if (ended_from_s === null) return `All of this run of the server are loaded. Those of former runs ${rest}`;
-  return `Those that ended since ${clock(ended_from_s)} are loaded. Earlier ones ${rest}`;
+  if (fetched > 0) return kText.history.last_loaded(told + fetched);
+  if (ended_from_s === null) return kText.history.session_loaded;
+  return kText.history.loaded_since(clock(ended_from_s));
 }

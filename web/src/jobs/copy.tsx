@@ -2,6 +2,7 @@
 
 import { useState } from 'preact/hooks';
 import type { App } from '../state/app';
+import { kText } from '../strings';
 import type { Asked } from './snippets';
 
 const kTold_ms = 1500;
@@ -9,12 +10,12 @@ const kTold_ms = 1500;
 export function Copy({ what, text }: { what: string; text(): string | Promise<string> }) {
   const [told, set_told] = useState('');
   const copy = async () => {
-    set_told(await copied(await text()) ? 'copied' : 'not allowed here');
+    set_told(await copied(await text()) ? kText.job.copied : kText.job.not_copied);
     setTimeout(() => set_told(''), kTold_ms);
   };
   return (
     <button class="small" data-test={`copy-${what}`} onClick={() => void copy()}>
-      Copy {what === 'JSON' ? what : `as ${what}`}<span role="status">{told === '' ? '' : `: ${told}`}</span>
+      {what === 'JSON' ? kText.job.copy_json(what) : kText.job.copy_as(what)}<span role="status">{told === '' ? '' : `: ${told}`}</span>
     </button>
   );
 }

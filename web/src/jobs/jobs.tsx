@@ -12,17 +12,20 @@ import { matches } from './filter';
 import { held_lists, type Lists } from './held';
 import { Row } from './row';
 import { Link } from '../route/link';
+import { kText } from '../strings';
+
+const kWords = kText.jobs;
 
 const kShown = 40;
 
 interface Section { list: JobList; title: string; none: string; hint: string }
 
 const kSections: readonly Section[] = [
-  { list: 'running', title: 'Running', none: 'Nothing is moving.', hint: 'Has authority to move, or stands on its path' },
-  { list: 'backlog', title: 'Blocked', none: 'No job is blocked.', hint: 'In the backlog: each was tried and is in conflict; it is tried again until it expires' },
-  { list: 'scheduled', title: 'Scheduled', none: '', hint: 'Admitted: it is decided who passes first' },
-  { list: 'queued', title: 'Queued', none: 'No job is queued.', hint: 'Not tried yet: others come first' },
-  { list: 'finished', title: 'Finished', none: 'No job has ended in this run of the server.', hint: 'In this run of the server, newest first' },
+  { list: 'running', ...kWords.running },
+  { list: 'backlog', ...kWords.blocked },
+  { list: 'scheduled', ...kWords.scheduled },
+  { list: 'queued', ...kWords.queued },
+  { list: 'finished', ...kWords.finished },
 ];
 
 const kLists = kSections.map(({ list }) => list);
@@ -43,13 +46,13 @@ export function Jobs({ app }: { app: App }) {
   shown.current = { of: store, lists };
   const is_asked = (job: Job) => matches(job, words, only_failed);
   return (
-    <section class="jobs" aria-label="Jobs"
+    <section class="jobs" aria-label={kWords.title}
       onPointerOver={(event) => set_held(row_of(event.target))} onPointerLeave={() => set_held(null)}
       onFocusIn={(event) => { if (event.target instanceof HTMLButtonElement) set_held(row_of(event.target)); }} onFocusOut={() => set_held(null)}>
       <div class="filter">
-        <input type="search" placeholder="Filter: id, name, arm, state" aria-label="Filter jobs" data-test="filter" value={words}
+        <input type="search" placeholder={kWords.filter_hint} aria-label={kWords.filter_label} data-test="filter" value={words}
           onInput={(event) => set_words(event.currentTarget.value)} />
-        <button class="small" aria-pressed={only_failed} data-test="only-failed" title="Only jobs that did not succeed" onClick={() => set_only_failed(!only_failed)}>Failed</button>
+        <button class="small" aria-pressed={only_failed} data-test="only-failed" title={kWords.failed_title} onClick={() => set_only_failed(!only_failed)}>{kWords.failed}</button>
       </div>
       <LookedAt app={app} />
       {is_known(app.store) && kSections.map((section) => <List key={section.list} section={section} all={lists.get(section.list) ?? []} app={app} is_asked={is_asked} filtered={words !== '' || only_failed} />)}
@@ -63,7 +66,7 @@ function LookedAt({ app }: { app: App }) {
   if (t_s === null || instant_of(app.router.address.value, app.store).kind === 'now') return null;
   return (
     <p class="hint looked-at" role="status" data-test="looked-at">
-      {is_known(app.store) ? `As it was at ${clock(t_s)}.` : `Which jobs there were at ${clock(t_s)} is not known here.`}
+      {is_known(app.store) ? kWords.state_at(clock(t_s)) : kWords.unknown_at(clock(t_s))}
     </p>
   );
 }
@@ -74,7 +77,7 @@ function EndedFrom({ app }: { app: App }) {
   if (ended_from_s === null) return null;
   return (
     <p class="none" data-test="ended-from">
-      Since {clock(ended_from_s)}; earlier ones are not loaded: see <Link app={app} to={{ page: 'history' }}>History</Link>.
+      {kWords.ended_since(clock(ended_from_s))}<Link app={app} to={{ page: 'history' }}>{kText.page.history}</Link>.
     </p>
   );
 }
@@ -85,7 +88,7 @@ function List({ section: { list, title, none, hint }, all, app, filtered, is_ask
   const [shown, set_shown] = useState(kShown);
   const jobs = filtered ? all.filter(is_asked) : all;
   if (jobs.length === 0 && (filtered || none === '')) return null;
-  const count = filtered ? `${jobs.length} of ${all.length}` : String(all.length);
+  const count = filtered ? kWords.of(jobs.length, all.length) : String(all.length);
   return (
     <section data-test={`list-${list}`} class={`list ${list}`} aria-label={title}>
       <h3 title={hint}>{title}<span class="count" data-test={`count-${list}`}>{count}</span></h3>
@@ -93,7 +96,7 @@ function List({ section: { list, title, none, hint }, all, app, filtered, is_ask
       {jobs.length === 0 && <p class="none">{none}</p>}
       {jobs.slice(0, shown).map((job) => <Row key={job.id} job={job} app={app} />)}
       {jobs.length > shown && (
-        <button class="more" onClick={() => set_shown(shown + 5 * kShown)}>{jobs.length - shown} more</button>
+        <button class="more" onClick={() => set_shown(shown + 5 * kShown)}>{kText.common.more(jobs.length - shown)}</button>
       )}
     </section>
   );

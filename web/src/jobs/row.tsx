@@ -15,6 +15,9 @@ import { as_last_heard, figure_in_words, object_of, reason_in_words, result_in_w
 import { Cancel, Urgency, waits } from './actions';
 import { leg_of, when_in_words } from './when';
 import { shown_name } from '../names';
+import { kText } from '../strings';
+
+const kWords = kText.jobs;
 
 interface Props { job: Job; app: App }
 
@@ -32,11 +35,11 @@ export function Row({ job, app }: Props) {
       class={`job ${told_state(job)}${selected ? ' selected' : ''}${of_arm ? ' of-arm' : ''}`} data-test={`job-${job.id}`} data-state={job.state}
       style={{ '--arm': arm_colour(arms, job.arms[0] ?? '') }}
     >
-      <Link app={app} to={selected && place.page === 'job' ? { page: 'cell' } : { page: 'job', id: job.id }} class="open" title={`Details of ${job.id}`}>
+      <Link app={app} to={selected && place.page === 'job' ? { page: 'cell' } : { page: 'job', id: job.id }} class="open" title={kWords.details(job.id)}>
         <span class="line">
           <span class="tags">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_colour(arms, arm) }}>{shown_name(arm)}</span>)}</span>
           <span class="ellipsis title" title={shown_name(job.name) || job.id}>{title_of(job)}</span>
-          {job.priority !== 0 && <span class="priority" title="Priority: larger goes first">{job.priority > 0 ? `+${job.priority}` : job.priority}</span>}
+          {job.priority !== 0 && <span class="priority" title={kWords.priority}>{job.priority > 0 ? `+${job.priority}` : job.priority}</span>}
           <span class="grow" />
           {ended && <span class="verdict">{job.state}</span>}
           <Figure job={job} app={app} />
@@ -46,7 +49,7 @@ export function Row({ job, app }: Props) {
         <Progress job={job} app={app} />
       </Link>
       {why !== null && (
-        <Link app={app} to={why} class="why" test="why" title={why.page === 'pair' ? `Show where ${job.id} and ${why.a} conflict` : `Show ${shown_name(why.name ?? '')}`}>
+        <Link app={app} to={why} class="why" test="why" title={why.page === 'pair' ? kWords.show_conflict(job.id, why.a) : kWords.show(shown_name(why.name ?? ''))}>
           <Reason job={job} />
         </Link>
       )}
@@ -92,7 +95,7 @@ function Reason({ job }: { job: Job }) {
 function When({ job, app }: Props) {
   use_beats(app.store);
   const first = only_waits_its_turn(job) ? job.waits_on[0]?.id ?? null : null;
-  const words = [first === null ? '' : `after ${short_id(first)}`, when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
+  const words = [first === null ? '' : kWords.after(short_id(first)), when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
   const stale = use_stale(app.store);
-  return words === '' ? null : <span class="when" data-test="when">{stale ? `when last heard: ${words}` : words}</span>;
+  return words === '' ? null : <span class="when" data-test="when">{stale ? kWords.last_known(words) : words}</span>;
 }

@@ -4,7 +4,10 @@
 import type { Forecast, ForecastLeg, Job } from '../server/messages';
 import { is_stopped } from '../state/standing';
 import type { Store } from '../state/store';
+import { kText } from '../strings';
 import { seconds } from '../wording';
+
+const kWords = kText.figure;
 
 /** What the server expects of a job; null: nothing is known. */
 export function leg_of({ id }: Pick<Job, 'id'>, forecast: Forecast | null): ForecastLeg | null {
@@ -16,15 +19,15 @@ export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'for
   const leg = leg_of(job, store.forecast);
   const parts: string[] = [];
   const since_s = store.book.since(job.id);
-  if (job.state === 'backlogged') parts.push(`blocked for ${seconds(Math.max(0, now_s - (job.backlogged_s ?? since_s ?? now_s)))}`);
-  if (job.state === 'paused' && since_s !== null) parts.push(`paused for ${seconds(Math.max(0, now_s - since_s))}`);
+  if (job.state === 'backlogged') parts.push(kWords.blocked_for(seconds(Math.max(0, now_s - (job.backlogged_s ?? since_s ?? now_s)))));
+  if (job.state === 'paused' && since_s !== null) parts.push(kWords.paused_for(seconds(Math.max(0, now_s - since_s))));
   const starts_s = leg ? leg.starts_s : job.scheduled_s;
   const stopped = is_stopped(job);  // its reason says so, and until when
   if (!stopped && job.started_s === null && starts_s !== null) {
-    parts.push(starts_s > now_s + 0.05 ? `starts in about ${seconds(starts_s - now_s)}` : 'about to start');
+    parts.push(starts_s > now_s + 0.05 ? kWords.starts_in(seconds(starts_s - now_s)) : kWords.about_to_start);
   }
-  if (!stopped && leg && leg.starts_s === null) parts.push('no start as things are');
-  if (!stopped && leg && job.state === 'paused') parts.push(leg.ends_s === null ? 'no end as things are' : `ends in about ${seconds(Math.max(0, leg.ends_s - now_s))}`);
-  if (job.expires_s !== undefined) parts.push(`expires in ${seconds(Math.max(0, job.expires_s - now_s))}`);
+  if (!stopped && leg && leg.starts_s === null) parts.push(kWords.not_scheduled);
+  if (!stopped && leg && job.state === 'paused') parts.push(leg.ends_s === null ? kWords.end_unknown : kWords.ends_in(seconds(Math.max(0, leg.ends_s - now_s))));
+  if (job.expires_s !== undefined) parts.push(kWords.expires_in(seconds(Math.max(0, job.expires_s - now_s))));
   return parts.join(' · ');
 }

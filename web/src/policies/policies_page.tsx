@@ -8,8 +8,11 @@ import { why_no_change } from './change';
 import type { Comparison, PolicyRun } from '../server/messages';
 import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
-import { clock, millimetres, seconds , why_mute } from '../wording';
+import { kText } from '../strings';
+import { clock, millimetres, seconds, why_mute } from '../wording';
 import { ends_in_words, share_in_words } from './told';
+
+const kWords = kText.policies;
 
 export function PoliciesPage({ app }: { app: App }) {
   const { comparing } = app;
@@ -18,12 +21,12 @@ export function PoliciesPage({ app }: { app: App }) {
   return (
     <div class="columns policies">
       <section>
-        <h2>The policy</h2>
-        <AsOf app={app}>The comparison beside it is of now.</AsOf>
+        <h2>{kWords.title}</h2>
+        <AsOf app={app}>{kWords.compared_now}</AsOf>
         <PolicyForm app={app} />
       </section>
       <section>
-        <h2>What would the others have done?</h2>
+        <h2>{kWords.comparison}</h2>
         <Asking app={app} />
         {comparing.latest.value && <Table comparison={comparing.latest.value} app={app} />}
       </section>
@@ -40,16 +43,14 @@ function Asking({ app }: { app: App }) {
   return (
     <>
       <p class="hint">
-        The jobs that came since the server was started, the last 500 at most, each at its time, run under every policy: simulated
-        beside the cell, without stops, faults and what people canceled. Nothing in the cell changes or waits for it. Of former
-        runs of the server it knows no job: <code>armloom compare</code> takes those of a recording.
+        {kWords.hint}<code>armloom compare</code>.
       </p>
       <div class="line wrap">
         {is_running
-          ? <button class="small" data-test="cancel-comparison" onClick={() => void comparing.cancel()}>Give up</button>
-          : <button class="small" data-test="compare" disabled={mute !== null} title={mute ?? 'Runs in the background'} onClick={() => void comparing.start(null)}>Compare</button>}
-        {latest === null && <button class="small" data-test="look-comparison" disabled={unheard !== null} title={unheard ?? 'That another page has asked for'} onClick={() => void comparing.look()}>Show the last one</button>}
-        <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? 'No comparison was made so far.' : ''}</span>
+          ? <button class="small" data-test="cancel-comparison" onClick={() => void comparing.cancel()}>{kWords.cancel}</button>
+          : <button class="small" data-test="compare" disabled={mute !== null} title={mute ?? kWords.compare_title} onClick={() => void comparing.start(null)}>{kWords.compare}</button>}
+        {latest === null && <button class="small" data-test="look-comparison" disabled={unheard !== null} title={unheard ?? kWords.show_last_title} onClick={() => void comparing.look()}>{kWords.show_last}</button>}
+        <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? kWords.none : ''}</span>
       </div>
       <InSight answer={comparing.refusal.value}>{comparing.refusal.value !== null && <p class="refused" role="alert" data-test="comparison-refused">{comparing.refusal.value}</p>}</InSight>
     </>
@@ -57,12 +58,12 @@ function Asking({ app }: { app: App }) {
 }
 
 function state_in_words({ state, jobs, first_s, last_s, policies, runs, detail }: Comparison): string {
-  const what = `${jobs} ${jobs === 1 ? 'job' : 'jobs'} of ${clock(first_s)} to ${clock(last_s)}`;
+  const what = kWords.jobs_between(jobs, clock(first_s), clock(last_s));
   switch (state) {
-    case 'running': return `${what}: ${runs.length} of ${policies.length} policies done, ${policies[runs.length] ?? ''} under way`;
-    case 'done': return `${what}: done`;
-    case 'canceled': return `${what}: given up`;
-    case 'failed': return `${what}: ${detail}`;
+    case 'running': return kWords.running(what, runs.length, policies.length, policies[runs.length] ?? '');
+    case 'done': return kWords.done(what);
+    case 'canceled': return kWords.canceled(what);
+    case 'failed': return kWords.failed(what, detail);
   }
 }
 
@@ -70,11 +71,10 @@ function Table({ comparison, app }: { comparison: Comparison; app: App }) {
   const longest_s = Math.max(...comparison.runs.map(({ makespan_s }) => makespan_s ?? 0), 1e-9);
   if (comparison.runs.length === 0) return null;
   return (
-    <div class="scrolling" tabIndex={0} role="region" aria-label="Policies compared">
+    <div class="scrolling" tabIndex={0} role="region" aria-label={kWords.table}>
       <table class="compared" data-test="compared">
         <thead><tr>
-          <th scope="col">policy</th><th scope="col">succeeded</th><th scope="col">backlogged</th><th scope="col">makespan</th>
-          <th scope="col">of sequential</th><th scope="col">mean wait</th><th scope="col">smallest clearance</th><th scope="col">change</th>
+          {kWords.columns.map((title) => <th key={title} scope="col">{title}</th>)}
         </tr></thead>
         <tbody>{comparison.runs.map((run) => <Run key={run.policy} run={run} jobs={comparison.jobs} longest_s={longest_s} app={app} />)}</tbody>
       </table>
@@ -90,19 +90,19 @@ function Run({ run, jobs, longest_s, app }: { run: PolicyRun; jobs: number; long
   return (
     <tr class={is_in_force ? 'in-force' : ''} data-test={`compared-${run.policy}`}>
       <th scope="row">{run.policy}</th>
-      <td class="mono">{run.succeeded} of {jobs}{ends !== '' && <span class="dim"> ({ends})</span>}</td>
+      <td class="mono">{kWords.of(run.succeeded, jobs)}{ends !== '' && <span class="dim"> ({ends})</span>}</td>
       <td class="mono">{run.backlogged}</td>
       <td class="mono">
-        {run.makespan_s === null ? 'did not end' : seconds(run.makespan_s)}
+        {run.makespan_s === null ? kWords.not_finished : seconds(run.makespan_s)}
         <span class="share" aria-hidden="true"><span style={{ width: `${(100 * (run.makespan_s ?? 0)) / longest_s}%` }} /></span>
       </td>
       <td class="mono">{share_in_words(run.makespan_ratio)}</td>
       <td class="mono">{seconds(run.wait_mean_s)}</td>
-      <td class="mono">{run.min_clearance_m === null ? 'never near' : millimetres(run.min_clearance_m)}</td>
+      <td class="mono">{run.min_clearance_m === null ? kWords.never_near : millimetres(run.min_clearance_m)}</td>
       <td>{is_in_force
-        ? <span class="dim">in force</span>
-        : <button class="small" data-test={`use-${run.policy}`} disabled={mute !== null} aria-label={`Change to ${run.policy}`}
-          title={mute ?? ''} onClick={() => void actions.change_policy(run.policy)}>Use it</button>}</td>
+        ? <span class="dim">{kWords.in_force}</span>
+        : <button class="small" data-test={`use-${run.policy}`} disabled={mute !== null} aria-label={kWords.change_to(run.policy)}
+          title={mute ?? ''} onClick={() => void actions.change_policy(run.policy)}>{kWords.use}</button>}</td>
     </tr>
   );
 }

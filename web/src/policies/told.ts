@@ -1,14 +1,15 @@
 // Figures of a compared policy in words. Pure.
 
 import type { PolicyRun } from '../server/messages';
+import { kText } from '../strings';
 
 /** How the jobs ended that did not succeed; empty: all did. */
 export function ends_in_words(run: PolicyRun): string {
   const ends = (['expired', 'failed', 'canceled', 'refused', 'unfinished'] as const)
     .flatMap((end) => (run[end] > 0 ? [`${run[end]} ${end}`] : []));
-  return [...ends, ...(run.given_up ? ['given up: too much to decide'] : [])].join(', ');
+  return [...ends, ...(run.given_up ? [kText.policies.aborted] : [])].join(', ');
 }
 
 export function share_in_words(share: number | null): string {
-  return share === null ? '–' : `${(100 * share).toFixed(0)} %`;
+  return share === null ? kText.common.unknown_time : `${(100 * share).toFixed(0)} %`;
 }

@@ -8,7 +8,10 @@ import type { Store } from '../state/store';
 import { EventsReader, type Events } from './read_events';
 import { StatesReader, type Frames } from './read_states';
 import { shown_name } from '../names';
+import { kText } from '../strings';
 import { of_blob, texts_of, type Source } from './sources';
+
+const kWords = kText.recordings;
 
 /** `frames`: pictures; none: it has no positions. */
 export interface Opened { name: string; frames: number; events: number; unread: number; first_s: number; last_s: number }
@@ -72,7 +75,7 @@ export class Player {
       bytes += more;
       if (!stop.signal.aborted && (bytes - (this.reading.peek()?.bytes ?? 0)) * kShownSteps >= of_bytes) this.reading.value = { name, bytes, of_bytes };
     };
-    const got = await read(told, stop.signal).catch((error: unknown): Read => ({ ok: false, fault: `It could not be read to its end: ${String(error)}` }));
+    const got = await read(told, stop.signal).catch((error: unknown): Read => ({ ok: false, fault: kWords.incomplete(String(error)) }));
     if (stop.signal.aborted) return;  // nobody waits for it any more
     this.reading.value = null;
     const fault = got.ok ? this.look_at(name, got.frames, got.events) : got.fault;
@@ -82,10 +85,10 @@ export class Player {
   /** Why it cannot be; null: it is. */
   private look_at(name: string, frames: Frames | null, { messages, unread }: Events): string | null {
     const strange = this.strange_in(frames, messages);
-    if (strange !== null) return `It was recorded with another cell: this server's has no ${strange}.`;
+    if (strange !== null) return kWords.other_cell(strange);
     const times = frames?.t_s ?? messages.map(({ t_s }) => t_s);
     const [first_s, last_s] = [times[0], times.at(-1)];
-    if (first_s === undefined || last_s === undefined) return 'There is nothing in it.';
+    if (first_s === undefined || last_s === undefined) return kWords.nothing_in_it;
     this.connection_.stop();
     this.store_.show_recording(name, messages, frames);
     this.opened.value = { name, frames: frames?.t_s.length ?? 0, events: messages.length, unread, first_s, last_s };
@@ -97,14 +100,14 @@ export class Player {
     const { cell, arms } = this.store_;
     const joints = new Set(cell?.joints.map(({ name }) => name));
     const joint = frames?.names.find((name) => !joints.has(name));
-    if (joint !== undefined) return `joint ${joint}`;
+    if (joint !== undefined) return kWords.joint(joint);
     const arm = messages.flatMap((message) => (message.type === 'arm' ? [message.data.name] : [])).find((name) => !arms.has(name));
-    return arm === undefined || arms.size === 0 ? null : `arm ${arm}`;
+    return arm === undefined || arms.size === 0 ? null : kWords.arm(arm);
   }
 }
 
 async function read_sources(name: string, { states, events }: Sources, told: (bytes: number) => void, stop: AbortSignal): Promise<Read> {
-  if (!states && !events) return { ok: false, fault: `${name === '' ? 'Among the files' : `In ${shown_name(name)}`} there is neither a states.csv nor an events.jsonl, which a recording consists of, and no MCAP file. Take the folder of one run, or the files in it.` };
+  if (!states && !events) return { ok: false, fault: kWords.not_a_recording(name === '' ? kWords.among_files : kWords.in_folder(shown_name(name))) };
   const events_reader = new EventsReader();
   if (events) for await (const text of texts_of(events, stop, told)) events_reader.take(text);
   if (!states) return { ok: true, frames: null, events: events_reader.end() };

@@ -3,6 +3,7 @@
 
 import { McapStreamReader, type McapTypes } from '@mcap/core';
 import { kMetadata, kTopics, kWallAtZero, wall_ns } from './mcap_layout';
+import { kText } from '../strings';
 import type { Frames } from './read_states';
 
 export interface Mcap { frames: Frames; /** A line each, as events.jsonl has them. */ events: string }
@@ -29,9 +30,9 @@ export async function read_mcap(file: Blob): Promise<{ ok: true; mcap: Mcap } | 
     frames.t_s.push(Number(logTime - zero_ns) / 1e9);
     frames.q.push(names.map((name, i) => places.get(name) ?? frames.q.at(-1)?.[i] ?? 0));
   };
-  if (file.size === 0) return { ok: false, fault: 'It is empty.' };
+  if (file.size === 0) return { ok: false, fault: kText.recordings.empty_file };
   const begin = new Uint8Array(await file.slice(0, kMagic.length).arrayBuffer());
-  if (kMagic.some((byte, i) => begin[i] !== byte)) return { ok: false, fault: 'It is no MCAP file: it does not begin as one.' };
+  if (kMagic.some((byte, i) => begin[i] !== byte)) return { ok: false, fault: kText.recordings.not_mcap };
   try {
     const reader = new McapStreamReader();
     reader.append(new Uint8Array(await file.arrayBuffer()));
@@ -46,9 +47,9 @@ export async function read_mcap(file: Blob): Promise<{ ok: true; mcap: Mcap } | 
       }
     }
   } catch (error) {
-    return { ok: false, fault: `It is no MCAP file that can be read here: ${String(error)}` };
+    return { ok: false, fault: kText.recordings.bad_mcap(String(error)) };
   }
-  if (frames.t_s.length === 0) return { ok: false, fault: `It has no ${kTopics.joints.topic} in JSON: these are the arms' positions.` };
+  if (frames.t_s.length === 0) return { ok: false, fault: kText.recordings.no_topic(kTopics.joints.topic) };
   return { ok: true, mcap: { frames, events: events.join('\n') } };
 }
 

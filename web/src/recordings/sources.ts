@@ -2,6 +2,7 @@
 // while they are read. However large they are, no more than a piece is held.
 
 import type { Fetch } from '../server/api';
+import { kText } from '../strings';
 
 export interface Source {
   /** So many are expected. */
@@ -18,7 +19,7 @@ export function of_server(address: string, bytes: number, fetch: Fetch): Source 
     bytes,
     open: async (stop) => {
       const response = await fetch(address, { signal: stop });
-      if (!response.ok || !response.body) throw new Error(`the server answers ${response.status} ${response.statusText}`);
+      if (!response.ok || !response.body) throw new Error(kText.recordings.server_answers(response.status, response.statusText));
       return response.body;
     },
   };

@@ -3,11 +3,10 @@
 
 import { computed, signal } from '@preact/signals';
 import type { Store } from '../state/store';
+import { kText } from '../strings';
 import { cause_of, waiting_arms } from './needs';
 
-export const kChecks: readonly string[] = [
-  'I know why the arms stopped.', 'Nobody is within reach of an arm.', 'Every object stands where the scene has it.', 'Nothing is damaged, and grippers hold what they should.',
-];
+export const kChecks: readonly string[] = kText.recovery.checks;
 
 export class Checklist {
   private readonly ticked_ = signal<ReadonlySet<number>>(new Set());

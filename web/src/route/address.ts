@@ -12,6 +12,9 @@
 //   ?camera=x,y,z,x,y,z     where the camera stands and what it looks at, in metres
 
 import { shown_name } from '../names';
+import { kText } from '../strings';
+
+const kTitles = kText.page;
 
 export type Place =
   | { page: 'cell' } | { page: 'new' } | { page: 'history' } | { page: 'settings' }
@@ -103,18 +106,18 @@ function place_text(place: Place): string {
 /** For the window's title. */
 export function place_in_words(place: Place): string {
   switch (place.page) {
-    case 'cell': return 'Cell';
-    case 'job': return `Job ${shown_name(place.id)}`;
-    case 'arm': return `Arm ${shown_name(place.name)}`;
-    case 'pair': return `${shown_name(place.a)} and ${shown_name(place.b)}`;
-    case 'scene': return place.name === null ? 'Scene' : `Object ${shown_name(place.name)}`;
-    case 'new': return 'New job';
-    case 'history': return 'History';
-    case 'settings': return 'Settings';
-    case 'alerts': return 'Alerts';
-    case 'recovery': return 'Recovery';
-    case 'recordings': return 'Recordings';
-    case 'policies': return 'Policies';
-    case 'unknown': return 'No such page';
+    case 'cell': return kTitles.cell;
+    case 'job': return kTitles.job(shown_name(place.id));
+    case 'arm': return kTitles.arm(shown_name(place.name));
+    case 'pair': return kTitles.pair(shown_name(place.a), shown_name(place.b));
+    case 'scene': return place.name === null ? kTitles.scene : kTitles.object(shown_name(place.name));
+    case 'new': return kTitles.new;
+    case 'history': return kTitles.history;
+    case 'settings': return kTitles.settings;
+    case 'alerts': return kTitles.alerts;
+    case 'recovery': return kTitles.recovery;
+    case 'recordings': return kTitles.recordings;
+    case 'policies': return kTitles.policies;
+    case 'unknown': return kText.frame.no_page;
   }
 }

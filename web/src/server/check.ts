@@ -14,7 +14,7 @@ export type Parsed<T> = { ok: true; value: T } | { ok: false; fault: string };
 const validators = new Map<Checked, Validator>();
 
 export function check<Name extends Checked>(name: Name, value: unknown): Parsed<Schemas[Name]> {
-  if (value === undefined) return { ok: false, fault: '/: There is nothing.' };  // which is no JSON
+  if (value === undefined) return { ok: false, fault: '/: no value' };  // which is no JSON
   const { valid, errors } = validator_of(name).validate(value);
   if (valid) return { ok: true, value: value as Schemas[Name] };
   // The innermost one says most; around it they only say that there is one.

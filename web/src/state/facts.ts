@@ -2,6 +2,7 @@
 // what was reported. Of poses it has what snapshots tell.
 
 import type { Arm, Job, SceneObject, SequencedMessage } from '../server/messages';
+import { kText } from '../strings';
 import { HaltBook, type Halts } from './halts';
 import { is_terminal, JobBook, type JobList } from './job_book';
 import { Notices, type Notice } from './notices';
@@ -49,8 +50,8 @@ export class Facts {
           this.restart = { at: message.at, lost };
         }
         this.take_snapshot(message, same_run);
-        if (restarted) this.notices_.note(this.stream, message.t_s, 'warning', 'The server was restarted. Jobs of its former run are in the history, if it keeps them.');
-        else if (message.data.gap) this.notices_.note(this.stream, message.t_s, 'info', 'Some events were missed while the connection was lost.');
+        if (restarted) this.notices_.note(this.stream, message.t_s, 'warning', kText.events.restarted);
+        else if (message.data.gap) this.notices_.note(this.stream, message.t_s, 'info', kText.events.missed);
         break;
       case 'job':
         this.book.take(message.data, message.t_s);

@@ -3,6 +3,7 @@
 
 import type { Address } from '../route/address';
 import { clock } from '../wording';
+import { kText } from '../strings';
 import type { Store } from './store';
 import type { Heard } from './trace';
 
@@ -34,11 +35,12 @@ export function pose_at(instant: Instant, { q, trace }: Pick<Store, 'q' | 'trace
 
 export function why_unheard(why: Unheard, { trace, t_s }: Pick<Store, 'trace' | 't_s'>): string {
   const [first_s, last_s] = [trace.first_s ?? t_s, trace.last_s ?? t_s];
+  const words = kText.server.positions;
   switch (why) {
-    case 'nothing': return 'This page has heard nothing yet.';
-    case 'before': return `What this page has heard, and keeps, begins at ${clock(first_s)}.`;
-    case 'after': return `It has not come yet: the last that was heard is ${clock(last_s)}.`;
-    case 'gap': return 'No positions came from the server then.';
-    case 'other-run': return 'It is a time of another run of the server, whose clock began anew.';
+    case 'nothing': return words.nothing;
+    case 'before': return words.before(clock(first_s));
+    case 'after': return words.after(clock(last_s));
+    case 'gap': return words.gap;
+    case 'other-run': return words['other-run'];
   }
 }

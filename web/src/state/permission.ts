@@ -2,6 +2,7 @@
 
 import type { Session } from '../server/messages';
 import { why_mute } from '../wording';
+import { kText } from '../strings';
 import type { App } from './app';
 
 /** Whose token lets them look only. */
@@ -11,7 +12,7 @@ export function is_viewer(session: Session | null): boolean {
 
 /** Why whoever uses this browser may give no command; null: they may. */
 export function why_not_permitted(session: Session | null): string | null {
-  return is_viewer(session) ? 'Your token may only look: this takes the role operator' : null;
+  return is_viewer(session) ? kText.server.role : null;
 }
 
 /** Why no command can be given to the cell now; null when one can. */

@@ -6,11 +6,14 @@ import type { Notice } from '../state/notices';
 import { clock, seconds } from '../wording';
 import { kAxis_px, kLeft_px, kRight_px, type Sheet } from './sheet';
 import { shown_name, shown_text } from '../names';
+import { kText } from '../strings';
+
+const kWords = kText.timeline;
 
 export type EventMark = Pick<Notice, 'key' | 't_s' | 'level' | 'text' | 'arms'>;
 
 const kColours: Record<EventMark['level'], string> = { info: '--dim', warning: '--amber', error: '--red' };
-const kNames: Record<EventMark['level'], string> = { info: 'Note', warning: 'Warning', error: 'Error' };
+const kNames: Record<EventMark['level'], string> = { info: kWords.note, warning: kWords.warning, error: kWords.error };
 const kHeight_px = 9;
 // A notch is narrower than what a hand can point at.
 const kReach_px = 7;
@@ -61,14 +64,14 @@ export function event_beside(events: readonly EventMark[], from: EventMark | nul
 /** How bad, when, what, and which arms, a line each. */
 export function events_in_words(events: readonly EventMark[], now_s: number): string {
   const lines = events.slice(0, kMostTold).map((event) => event_in_words(event, now_s));
-  if (events.length > kMostTold) lines.push(`and ${events.length - kMostTold} more`);
+  if (events.length > kMostTold) lines.push(kWords.and_more(events.length - kMostTold));
   return lines.join('\n');
 }
 
 function event_in_words({ level, t_s, text, arms }: EventMark, now_s: number): string {
   const unnamed = arms.filter((arm) => !names(text, arm));
-  const of = unnamed.length === 0 ? '' : ` (${unnamed.map(shown_name).join(' and ')})`;
-  return `${kNames[level]} at ${clock(t_s)}, ${seconds(Math.max(0, now_s - t_s))} ago: ${shown_text(text)}${of}`;
+  const of = unnamed.length === 0 ? '' : ` (${unnamed.map(shown_name).join(kText.server.and)})`;
+  return kWords.event(kNames[level], clock(t_s), seconds(Math.max(0, now_s - t_s)), shown_text(text), of);
 }
 
 /** Whether an arm stands in a text as a word of its own, not as the beginning of a link's name. */

@@ -8,6 +8,7 @@ import { drawn_of, type Lane, type Mark } from './lanes';
 import { kAxis_px, kLeft_px, kRight_px, lane_height, widest_free, type Sheet, type Stretch } from './sheet';
 import { tick_of } from './span';
 import { characters_of, shown_name } from '../names';
+import { kText } from '../strings';
 
 /** What is looked at: the rest is dimmed. And the instant that is held, if one is. */
 export interface Lit {
@@ -105,7 +106,7 @@ function tick_label(t_s: number, step_s: number): string {
 
 /** What stands at the line where the page's knowledge ends. */
 export function now_in_words(stale: boolean): string {
-  return stale ? 'last heard' : 'now';
+  return stale ? kText.timeline.mark_last_data : kText.timeline.mark_now;
 }
 
 /** The line that is now. */

@@ -5,7 +5,10 @@ import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
 import { instant_of } from '../state/instant';
 import { use_beats } from '../state/seen';
+import { kText } from '../strings';
 import { clock } from '../wording';
+
+const kWords = kText.timeline;
 
 const kStep_s = 0.1;
 const kPlayed_ms = 66;
@@ -20,13 +23,13 @@ export function ScrubBar({ app }: { app: App }) {
   if (!span || span.last_s - span.first_s < 1) return null;
   const { first_s, last_s } = span;
   const value_s = Math.min(last_s, Math.max(first_s, held_s ?? last_s));
-  const words = held_s === null ? 'now' : unheard ? `${clock(held_s)}, not heard here` : `${clock(held_s)}, ${(last_s - held_s).toFixed(1)} s ago`;
+  const words = held_s === null ? kWords.scrub_now : unheard ? kWords.no_data_at(clock(held_s)) : kWords.ago(clock(held_s), (last_s - held_s).toFixed(1));
   return (
     <>
       {held_s !== null && !unheard && <Play app={app} />}
-      <label class="scrub" title="Look back: drag, or use the arrow keys">
-        <span class="sr-only">Look back</span>
-        <span class="small mono">{held_s === null ? '' : unheard ? 'not heard' : `−${(last_s - value_s).toFixed(1)} s`}</span>
+      <label class="scrub" title={kWords.scrub_title}>
+        <span class="sr-only">{kWords.scrub}</span>
+        <span class="small mono">{held_s === null ? '' : unheard ? kWords.no_data : kWords.offset((last_s - value_s).toFixed(1))}</span>
         <input type="range" min={first_s} max={last_s} step={kStep_s} value={value_s} aria-valuetext={words} data-test="scrub"
           onInput={(event) => {
             const t_s = Number(event.currentTarget.value);
@@ -53,5 +56,5 @@ function Play({ app }: { app: App }) {
     }, kPlayed_ms);
     return () => clearInterval(timer);
   }, [plays, app]);
-  return <button class="small" data-test="play" aria-pressed={plays} title="Play from here" onClick={() => set_plays(!plays)}>{plays ? 'Pause' : 'Play'}</button>;
+  return <button class="small" data-test="play" aria-pressed={plays} title={kWords.play_title} onClick={() => set_plays(!plays)}>{plays ? kText.common.pause : kText.common.play}</button>;
 }

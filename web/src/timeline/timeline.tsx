@@ -14,6 +14,9 @@ import { fit, sheet_of } from './sheet';
 import { around, begin_of, kFollowing, moved, zoomed, type Span } from './span';
 import { ScrubBar } from './scrub_bar';
 import { Told } from './told_list';
+import { kText } from '../strings';
+
+const kWords = kText.timeline;
 
 const kRedraw_ms = 100;
 export function Timeline({ app }: { app: App }) {
@@ -86,21 +89,21 @@ export function Timeline({ app }: { app: App }) {
   const address = router.address.value;
   useEffect(() => draw.current(), [span, theme, address, stale]);
   return (
-    <section class="timeline" aria-label="Timeline">
+    <section class="timeline" aria-label={kWords.title}>
       <div class={`line head${held_s === null ? '' : ' looks-back'}`}>
-        <h2>Timeline</h2>
+        <h2>{kWords.title}</h2>
         <Keys />
-        <details class="legend"><summary class="small">Legend</summary><div class="legend-keys"><Keys /></div></details>
+        <details class="legend"><summary class="small">{kWords.legend}</summary><div class="legend-keys"><Keys /></div></details>
         <span class="grow" />
         <ScrubBar app={app} />
-        <button class="small" aria-label="Zoom out" title="Zoom out (−)" onClick={() => change(zoomed(span, 1.5, store.t_s))}>−</button>
-        <button class="small" aria-label="Zoom in" title="Zoom in (+)" onClick={() => change(zoomed(span, 1 / 1.5, store.t_s))}>+</button>
-        <button class="small" data-test="follow-now" aria-pressed={span.held_from_s === null && held_s === null} title="Follow now (0)"
-          onClick={() => { router.hold_at(null); change({ ...span, held_from_s: null }); }}>Now</button>
+        <button class="small" aria-label={kWords.zoom_out} title={kWords.zoom_out_title} onClick={() => change(zoomed(span, 1.5, store.t_s))}>−</button>
+        <button class="small" aria-label={kWords.zoom_in} title={kWords.zoom_in_title} onClick={() => change(zoomed(span, 1 / 1.5, store.t_s))}>+</button>
+        <button class="small" data-test="follow-now" aria-pressed={span.held_from_s === null && held_s === null} title={kWords.now_title}
+          onClick={() => { router.hold_at(null); change({ ...span, held_from_s: null }); }}>{kWords.now}</button>
       </div>
       <div class="sheet">
         <canvas ref={canvas} tabIndex={0} role="img" data-test="lanes" data-from={span.held_from_s ?? 'now'} data-length={span.length_s}
-          aria-label="A lane for each arm: what it did, and what it is expected to do. Told below in words. Page up and page down go through the events, Enter looks back at one."
+          aria-label={kWords.label}
           {...pointing(drawing.current, app, change, set_tip, () => draw.current())}
           onBlur={() => look_away()} onKeyDown={(event) => { if (by_key(event.key)) event.preventDefault(); }} />
         <span class="sr-only" role="status">{chosen}</span>
@@ -115,8 +118,8 @@ export function Timeline({ app }: { app: App }) {
 function Keys() {
   return (
     <>
-      <span class="key"><i class="solid" /> moves</span><span class="key"><i class="outlined" /> expected</span>
-      <span class="key"><i class="hatched" /> waits</span><span class="key"><i class="hatched pausing" /> pauses</span><span class="key"><i class="hatched stopping" /> stopped</span><span class="key"><i class="event" /> event</span>
+      <span class="key"><i class="solid" /> {kWords.keys.moves}</span><span class="key"><i class="outlined" /> {kWords.keys.expected}</span>
+      <span class="key"><i class="hatched" /> {kWords.keys.waits}</span><span class="key"><i class="hatched pausing" /> {kWords.keys.paused}</span><span class="key"><i class="hatched stopping" /> {kWords.keys.stopped}</span><span class="key"><i class="event" /> {kWords.keys.event}</span>
     </>
   );
 }

@@ -3,25 +3,30 @@
 import { clock, seconds, short_id, wait_in_words } from '../wording';
 import type { Lane, Mark } from './lanes';
 import { shown_name } from '../names';
+import { kText } from '../strings';
+
+const kWords = kText.timeline;
 
 export function mark_in_words(mark: Mark, now_s: number): string {
   const title = shown_name(mark.label) || short_id(mark.job);
-  const until = Number.isFinite(mark.to_s) ? `until ${clock(mark.to_s)}` : mark.stopped ? 'until it is resumed' : 'with no end as things are';
-  if (mark.kind === 'motion') return `${title}: ${expectation(mark)}${clock(mark.from_s)} to ${Number.isFinite(mark.to_s) ? clock(mark.to_s) : 'no end as things are'}`;
-  const why = mark.stopped && mark.waits_on === null ? 'was stopped' : mark.waits_on ? wait_in_words(mark.waits_on) : mark.kind === 'wait' ? 'waits before its start' : 'stands on its way';
+  const until = Number.isFinite(mark.to_s) ? kWords.until(clock(mark.to_s)) : mark.stopped ? kWords.until_resumed : kWords.end_unknown;
+  if (mark.kind === 'motion') {
+    return Number.isFinite(mark.to_s) ? kWords.motion(title, expectation(mark), clock(mark.from_s), clock(mark.to_s)) : kWords.motion_without_end(title, expectation(mark), clock(mark.from_s));
+  }
+  const why = mark.stopped && mark.waits_on === null ? kWords.was_stopped : mark.waits_on ? wait_in_words(mark.waits_on) : mark.kind === 'wait' ? kWords.waits_before_start : kWords.paused;
   const length = Number.isFinite(mark.to_s) ? ` (${seconds(mark.to_s - Math.max(mark.from_s, mark.expected ? now_s : 0))})` : '';
-  return `${title} ${why}, ${until}${length}`;
+  return kWords.mark(title, why, until, length);
 }
 
 function expectation(mark: Mark): string {
   if (!mark.expected) return '';
-  return mark.state === 'running' || mark.state === 'paused' ? 'runs on, ' : 'expected ';
+  return mark.state === 'running' || mark.state === 'paused' ? kWords.running : kWords.expected;
 }
 
 /** What an arm is expected to do, a sentence for each motion and each wait, soonest first. */
 export function lane_in_words(lane: Lane, now_s: number): string[] {
   const expected = lane.marks.filter((mark) => mark.expected).sort((a, b) => a.from_s - b.from_s);
   const words = expected.map((mark) => mark_in_words(mark, now_s));
-  if (lane.waiting > 0) words.push(`${lane.waiting} more ${lane.waiting === 1 ? 'waits' : 'wait'} without a time yet`);
-  return words.length > 0 ? words : ['nothing is planned'];
+  if (lane.waiting > 0) words.push(kWords.not_scheduled(lane.waiting));
+  return words.length > 0 ? words : [kWords.nothing_planned];
 }
