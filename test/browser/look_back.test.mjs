@@ -98,13 +98,13 @@ test('a diagram shows where both were, without what nobody knows of then', { tim
   await says_of_then(/not kept/);
   await page.locator('[data-test=measured]').waitFor();
   await counts(page.locator('[data-test=plan]'), 0);
-  await counts(page.getByText('if both continue'), 0);
+  await counts(page.getByText('if neither waits'), 0);
   await counts(page.getByText('authority', { exact: true }), 0);
   await page.evaluate(() => window.armloom.drawn());
   await page.screenshot(path_for('look-back-diagram-dark'));
   await page.locator('[data-test=as-of] button').click();
   await page.locator('[data-test=as-of]').waitFor({ state: 'detached' });
-  await page.getByText('if both continue').waitFor();
+  await page.getByText('if neither waits').waitFor();
 });
 
 test('nothing so far was an error in the console', () => {

@@ -402,7 +402,7 @@ export const kText = {
     ghosts_at: 'Ghosts at',
     authority: 'authority',
     authority_title: 'Movement authority: how far each job may go, whatever the other one does',
-    prediction: 'if both continue',
+    prediction: 'if neither waits',
     prediction_title: 'A prediction: it does not happen if one of the jobs waits',
     contact: 'not free there',
     contact_title: 'The first point of the prediction that is in conflict or not certified free',

@@ -104,7 +104,7 @@ describe('how far back the jobs reach that are loaded', () => {
   it('is said until there are no more: no number is taken for all that there were', () => {
     expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 0, is_all: false })).toMatch(/^Jobs that ended since 0:09:12.0 are loaded\. Earlier jobs are neither/);
     expect(loaded_in_words({ told: 1137, ended_from_s: null, fetched: 0, is_all: false })).toMatch(/^All jobs of this server session .* previous sessions are neither loaded nor filtered/);
-    expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 800, is_all: false })).toMatch(/^The last 1008 are loaded/);
+    expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 800, is_all: false })).toMatch(/^The last 1008 jobs are loaded/);
     expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 932, is_all: true })).toBeNull();
   });
 });

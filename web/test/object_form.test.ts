@@ -14,8 +14,8 @@ describe('a form of an object', () => {
     expect(fault_of_name('a/b')).toMatch(/found \/$/);
     expect(fault_of_name('a\\b')).toMatch(/found \\$/);
     expect(fault_of_name('a\u0007b')).toMatch(/found a control character$/);
-    expect(fault_of_name('..')).toMatch(/no name/);
-    expect(fault_of_name('  ')).toMatch(/no name/);
+    expect(fault_of_name('..')).toMatch(/not a valid name/);
+    expect(fault_of_name('..')).toMatch(/not a valid name/);
     expect(fault_of_name('x'.repeat(129))).toMatch(/128/);
     expect(object_of({ ...form_of(kCan), name: 'a/b' })).toHaveProperty('fault');
   });

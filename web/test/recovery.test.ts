@@ -29,7 +29,7 @@ describe('after a stop', () => {
     const next = job_json('place', { name: 'place 3' }) as Job;
     expect(need_of(arm({ state: 'stopped' }), null, pose(0, -1.2), next).words).toMatch(/^Resume: place 3 starts as soon as/);
     expect(need_of(arm({ state: 'stopped' }), job, pose(0, -1.2), next).words).toMatch(/^Resume: pick 7 continues/);
-    expect(need_of(arm({ state: 'stopped' }), null, pose(0, -1.2)).words).toMatch(/none waits for it/);
+    expect(need_of(arm({ state: 'stopped' }), null, pose(0, -1.2)).words).toMatch(/none is waiting for it/);
     expect(need_of(arm({ state: 'fault' }), null, pose(0, -1.2))).toMatchObject({ resume: true });
     expect(need_of(arm({ state: 'idle' }), null, pose(0.5, -1.2))).toMatchObject({ resume: false, home: true });
     expect(need_of(arm({ state: 'idle' }), null, pose(0, -1.2))).toMatchObject({ resume: false, home: false });
