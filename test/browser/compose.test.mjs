@@ -31,8 +31,8 @@ test('a job is judged before it is sent, a bag of jobs is taken whole', { timeou
   const { names, q } = await arm_now(page, 'left');
   const text = page.locator('[data-test=job-text]');
   await text.fill(JSON.stringify(job_through('judged', names, [q, kMiddle, q], 4)));
-  await page.locator('[data-test=judge]').click();
-  await reads(page.locator('[data-test=judged]'), /free\s+It would start now/);
+  await page.locator('[data-test=check-job]').click();
+  await reads(page.locator('[data-test=check-results]'), /free\s+It would start now/);
   assert.equal((await ask(page, 'GET', '/jobs/judged')).status, 404);
 
   // Previewed: a ghost of the arm where it would be, and where it would meet what stands in its way.
@@ -40,16 +40,16 @@ test('a job is judged before it is sent, a bag of jobs is taken whole', { timeou
   await page.locator('[data-test=preview-time]').fill('4');
   await looks_different(page, without, kLeastShown_px);
   await ask(page, 'PUT', '/scene/objects/post', { box: [0.1, 0.1, 0.6], xyz: [-0.05, 0, 0.6], rpy: [0, 0, 0] });
-  await page.locator('[data-test=judge]').click();
+  await page.locator('[data-test=check-job]').click();
   await page.locator('[data-test=show-conflict]').first().click();
-  await reads(page.locator('[data-test=judged]'), /in conflict/);
+  await reads(page.locator('[data-test=check-results]'), /in conflict/);
   await page.waitForFunction(() => { const at = Number(document.querySelector('[data-test=preview-time]').value); return at > 0.1 && at < 3.9; });
   await page.evaluate(() => window.armloom.drawn());
   await page.screenshot(path_for('preview-dark'));
   await ask(page, 'DELETE', '/scene/objects/post');
   const bag = [1, 2].map((i) => ({ at: 0, job: job_through(`bag-${i}`, names, [q, q.map((v, k) => v + (k === 0 ? 0.1 * i : 0)), q], 1) }));
   await text.fill(JSON.stringify(bag));
-  await reads(page.locator('[data-test=bag]'), /2 jobs/);
+  await reads(page.locator('[data-test=batch]'), /2 jobs/);
   await page.screenshot(path_for('compose-dark'));
   await page.locator('[data-test=send]').click();
   await page.locator('[data-test=accepted]').getByText('bag-2').click();
@@ -68,8 +68,8 @@ test('a file that is dropped anywhere on the page is shown, and sent', { timeout
   await page.locator('[data-test=page-new]').waitFor();
   await eventually(async () => assert.equal(await page.locator('[data-test=job-text]').inputValue(), JSON.stringify(trajectory)));
   await page.locator('[data-test=preview-time]').waitFor();
-  await page.locator('[data-test=judge]').click();
-  await page.locator('[data-test=judged]', { hasText: 'free' }).waitFor();
+  await page.locator('[data-test=check-job]').click();
+  await page.locator('[data-test=check-results]', { hasText: 'free' }).waitFor();
   await page.locator('[data-test=send]').click();
   const id = await page.locator('[data-test=accepted] a').innerText();
   await page.locator(`[data-test=list-finished] [data-test="job-${id}"][data-state=succeeded]`).waitFor();
@@ -148,7 +148,7 @@ test('a pasted goal is planned and shown before it is sent', { timeout: 400_000 
   const ghost = () => page.evaluate(() => window.armloom.ghost());
   const text = page.locator('[data-test=job-text]');
   await text.fill(JSON.stringify({ id: 'by-goal', arm: 'right', move_to: { named: 'ready' } }));
-  await page.locator('[data-test=goal-way]', { hasText: 'as planned now' }).waitFor();
+  await page.locator('[data-test=goal-path]', { hasText: 'as planned now' }).waitFor();
   const end = await eventually(async () => {
     const shown = await ghost();
     assert.ok(Object.keys(shown ?? {}).some((joint) => joint.startsWith('right_')), 'the arm stands at its goal, as a ghost');
@@ -159,7 +159,7 @@ test('a pasted goal is planned and shown before it is sent', { timeout: 400_000 
   await page.screenshot(path_for('compose-goal'));
   // What is half typed asks nothing; a place that is out of reach says so.
   await text.fill(JSON.stringify({ arm: 'right', move_to: { named: 'rea' } }));
-  await page.locator('[data-test=goal-way]').waitFor({ state: 'detached' });
+  await page.locator('[data-test=goal-path]').waitFor({ state: 'detached' });
   await text.fill(JSON.stringify({ arm: 'right', move_to: { pose: { xyz: [3, 0, 0.5] } } }));
   await page.locator('[data-test=goal-problem]').waitFor();
   await text.fill('');

@@ -41,7 +41,7 @@ test('the cell shows the way ahead, where arms come to rest, and what is closest
   await page.locator('.distance-label:not([hidden])').first().waitFor();
   await reads(page.locator('.distance-label:not([hidden])').first(), /^[\d.]+ (mm|m)$/);
   await page.screenshot(path_for('ahead-dark'));
-  await puts_away('show-ways', kLeastWay_px, 'pixels of the way ahead');
+  await puts_away('show-paths', kLeastWay_px, 'pixels of the way ahead');
   await page.locator('[data-test=show-distances]').click();
   await counts(page.locator('.distance-label:not([hidden])'), 0);
   await page.locator('[data-test=show-distances]').click();
@@ -122,7 +122,7 @@ test('after a stop the recovery page says why, and leads back', { timeout: 400_0
   await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'stopped' }).waitFor();
   await label_of(page, 'left').filter({ hasText: 'stopped' }).waitFor();
   await page.locator('[data-test="job-interrupted"] [data-test=figure]', { hasText: 'stopped' }).waitFor();
-  await page.waitForFunction(() => /waits for resume: left is stopped \(operator\), until it is resumed/.test(document.querySelector('[data-test=told-left]').textContent));
+  await page.waitForFunction(() => /waits for resume: left is stopped \(operator\), until it is resumed/.test(document.querySelector('[data-test=lane-text-left]').textContent));
   await eventually(async () => assert.ok((await page.evaluate(() => window.armloom.lanes())).every(({ marks }) => marks.every(({ expected, to_s }) => !expected || to_s === null || to_s === Infinity))));
   await page.screenshot(path_for('stopped-told-dark'));
   await go('#/arm/left');
@@ -165,7 +165,7 @@ test('alerts are counted until somebody acknowledges them, with a name', { timeo
 test('an object is moved by hand', { timeout: 300_000 }, async () => {
   await ask(page, 'PUT', '/scene/objects/crate', { box: [0.2, 0.2, 0.2], xyz: [0, 0.8, 0.3], rpy: [0, 0, 0] });
   await go('#/scene/crate');
-  await page.locator('[data-test=by-hand]').click();
+  await page.locator('[data-test=move-object]').click();
   const where = () => page.evaluate(() => window.armloom.where_is('crate'));
   const drag = async (dx, dy) => {
     await page.evaluate(() => window.armloom.drawn());

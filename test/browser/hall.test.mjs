@@ -66,7 +66,7 @@ test('eight arms and two hundred waiting jobs stay legible', { timeout: 400_000 
     const rows = await page.locator('.job').count();
     assert.ok(rows > 2 * kArms && rows < 140, `${rows} rows are drawn`);
   });
-  await counts(page.locator('[data-test^=told-arm]'), kArms);
+  await counts(page.locator('[data-test^=lane-text-arm]'), kArms);
 
   await page.screenshot(path_for('hall-dark'));
   await page.locator('[data-test=filter]').fill('arm3');

@@ -37,7 +37,7 @@ test('jobs of a former run stand in the history, and have their pages', { timeou
     if (reload) await page.reload();
     await page.locator('[data-test=link].open').waitFor();
     await history.getByRole('link', { name: 'picked long ago' }).waitFor();
-    await page.locator('[data-test=earlier-said]', { hasText: 'All jobs of the server are loaded' }).waitFor();
+    await page.locator('[data-test=earlier-status]', { hasText: 'All jobs of the server are loaded' }).waitFor();
     await counts(page.locator('[data-test=list-finished] .job'), 0, 'they are none of this run');
     await reads(page.locator('[data-test=list-finished] .none'), /No job has ended in this server session/);
     await counts(page.locator('[data-test=loaded]'), 0, 'the number is of all');

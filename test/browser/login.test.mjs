@@ -80,7 +80,7 @@ test('a page whose token is revoked goes to the login page', { timeout: 300_000 
 test('who may only look is told so before, not by a refusal', { timeout: 300_000 }, async () => {
   await log_in(viewer);
   await connected();
-  await page.locator('[data-test=only-looks]', { hasText: 'vic: view only' }).waitFor();
+  await page.locator('[data-test=view-only]', { hasText: 'vic: view only' }).waitFor();
   await page.locator('[data-test=stop]', { hasText: 'your role does not allow this' }).waitFor();
   const off = async (name) => {
     const command = page.locator(`[data-test=${name}]`);
@@ -95,7 +95,7 @@ test('who may only look is told so before, not by a refusal', { timeout: 300_000
   await go_to(page, '#/new');
   await page.locator('[data-test=job-text]').fill('{"arm": "left", "move_to": {"named": "home"}}');
   await off('send');
-  await page.locator('[data-test=judge]').click();  // which changes nothing
-  await page.locator('[data-test=judged]').waitFor();
+  await page.locator('[data-test=check-job]').click();  // which changes nothing
+  await page.locator('[data-test=check-results]').waitFor();
   await page.screenshot(path_for('viewer-dark'));
 });

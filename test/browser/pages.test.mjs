@@ -29,7 +29,7 @@ test('the timeline shows what comes: motions, waits, and for whom', { timeout: 3
   await send('right', 'second', [kMiddle, null], 6, { name: 'behind it' });
   await page.waitForFunction(() => window.armloom.lanes().find((lane) => lane.arm === 'right')
     ?.marks.some((mark) => mark.expected && mark.kind !== 'motion' && mark.waits_on?.arm === 'left'));
-  for (const words of [/behind it waits for job first of left/, /behind it: (expected|running)/]) await page.locator('[data-test=told-right]', { hasText: words }).waitFor({ state: 'attached' });
+  for (const words of [/behind it waits for job first of left/, /behind it: (expected|running)/]) await page.locator('[data-test=lane-text-right]', { hasText: words }).waitFor({ state: 'attached' });
   const row = page.locator('[data-test="job-second"]');
   await reads(row.locator('[data-test=when]'), /starts in about|ends in about|about to start/);
   await page.screenshot(path_for('timeline-dark'));

@@ -56,7 +56,7 @@ test('a recording is opened from its files and scrubbed through, and the present
   // At its beginning nothing has ended yet, whatever the recording goes on to tell.
   await page.locator('[data-test=count-finished]', { hasText: /^0$/ }).waitFor();
   await reads(page.locator('[data-test=arm-right] [data-test=arm-state]'), /^○\s+idle$/);
-  await page.locator('[data-test=told-left]', { hasText: 'nothing is planned' }).waitFor({ state: 'attached' });
+  await page.locator('[data-test=lane-text-left]', { hasText: 'nothing is planned' }).waitFor({ state: 'attached' });
   const before = await view_picture(page);
   const scrub = page.locator('[data-test=scrub]');
   await scrub.fill('2');
@@ -66,7 +66,7 @@ test('a recording is opened from its files and scrubbed through, and the present
   await page.locator('[data-test=list-running] [data-test="job-recorded-1"]').waitFor();
   await page.locator('[data-test=arm-right] [data-test=arm-state]', { hasText: 'moving' }).waitFor();
   await reads(label_of(page, 'right'), /moving/);
-  await reads(page.locator('[data-test=looked-at]'), /0:00:02/);
+  await reads(page.locator('[data-test=state-at]'), /0:00:02/);
   await page.screenshot(path_for('recording-dark'));
   await page.locator('[data-test=play]').click();
   await page.locator('[data-test=instant]', { hasText: '0:00:03' }).waitFor();

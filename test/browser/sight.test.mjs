@@ -152,7 +152,7 @@ test('what a button says is read in every state of it, in both themes', { timeou
     await go('#/settings');
     await page.getByLabel(theme, { exact: true }).check();
     await page.waitForFunction((theme) => document.documentElement.dataset.theme === theme, theme.toLowerCase());
-    for (const [hash, ...tests] of [['#/new', 'send', 'judge'], ['#/scene/table', 'object-save', 'object-remove', 'by-hand'], ['#/recovery', 'resume-checked'], ['#/policies', 'compare']]) {
+    for (const [hash, ...tests] of [['#/new', 'send', 'check-job'], ['#/scene/table', 'object-save', 'object-remove', 'move-object'], ['#/recovery', 'resume-checked'], ['#/policies', 'compare']]) {
       await go(hash);
       for (const name of ['stop', 'to-resume', ...tests]) {
         const button = page.locator(`[data-test=${name}]`);
@@ -203,9 +203,9 @@ test('what a form answers is seen', { timeout: 300_000 }, async () => {
   await go('#/new');
   const { names, q } = await arm_now(page, 'left');
   await page.locator('[data-test=job-text]').fill(JSON.stringify(job_through('far', names, [q, q.map(() => 9)], 3), null, 2));
-  await page.locator('[data-test=judge]').click();
-  await page.locator('[data-test=judged]').waitFor();
-  await is_in_pane(page.locator('[data-test=judged]'), 'the judgement');
+  await page.locator('[data-test=check-job]').click();
+  await page.locator('[data-test=check-results]').waitFor();
+  await is_in_pane(page.locator('[data-test=check-results]'), 'the judgement');
   await page.locator('[data-test=send]').click();
   await page.locator('.in-sight > [data-test=problem]').waitFor();
   await is_in_pane(page.locator('.in-sight > [data-test=problem]'), 'why it was not sent');

@@ -4,7 +4,7 @@ import { signal } from '@preact/signals';
 import { render } from 'preact';
 import { Arms } from './arms/arms';
 import { install_debug_hook, show_debug_view } from './debug';
-import { Hand } from './control/hand';
+import { JogControl } from './control/jog_control';
 import { Banner } from './frame/banner';
 import { Header } from './frame/header';
 import { listen_to_drops } from './frame/drops';
@@ -52,7 +52,7 @@ const timers: Timers = {
   clear: (id) => window.clearTimeout(id),
 };
 const alerts = new AlertList(api, timers);
-const hand = new Hand(api, timers, (id) => store.book.has_ended(id));
+const jogging = new JogControl(api, timers, (id) => store.book.has_ended(id));
 const session = signal<Session | null>(null);
 const connection = new Connection({
   url: `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${kApi}/ws`,
@@ -64,7 +64,7 @@ const connection = new Connection({
     store.take(message);
     if (is_new_run) void look_before(message.stream, message.seq);
     if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
-    if (message.type === 'snapshot' || message.type === 'alert') void hand.look();  // a change of control is told
+    if (message.type === 'snapshot' || message.type === 'alert') void jogging.look();  // a change of control is told
     // It has less than what the page was told before.
     if (message.type === 'snapshot') archive.reopen();
     if (other_run) {
@@ -88,7 +88,7 @@ const checklist = new Checklist(store);
 store.on_change(() => checklist.follow());
 const app: App = {
   get store() { return seen(store); },
-  archive, checklist, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
+  archive, checklist, api, motions, alerts, session, jogging, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), dragged_object: signal(null), tool: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
   router, seen: new Seen(store, router), player: new Player(store, connection, router), kept: new KeptList(api),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),

@@ -2,7 +2,7 @@
 
 import type { Link } from './server/connection';
 import type { Facts, Restart } from './state/facts';
-import { is_stopped } from './state/standing';
+import { is_stopped } from './state/shown_state';
 import { pair_of, type Arm, type Clearance, type Job, type MonitorData, type WaitsOn } from './server/messages';
 import { cut_text, shown_name, shown_text } from './names';
 import { kText } from './strings';
@@ -177,7 +177,7 @@ export function clearance_in_words(clearance: Clearance): string {
 }
 
 /** Why nothing can be asked of the server now; null when it can. */
-export function why_mute(link: Link): string | null {
+export function why_not_connected(link: Link): string | null {
   switch (link.status) {
     case 'open': return null;
     case 'connecting': return kText.server.not_connected;
@@ -201,9 +201,9 @@ export function restart_in_words({ lost }: Pick<Restart, 'lost'>, since: string)
 /** How a job ended: the reason of the closed list as words, with the server's detail. */
 export function result_in_words(job: Job): string {
   if (!job.result) return '';
-  // What the state says by itself is not said again.
-  const said = kSaidByState.has(job.result.reason) ? '' : job.result.reason.replaceAll('_', ' ');
-  return [said, shown_text(job.result.detail)].filter((part) => part !== '').join(': ');
+  // What the state says by itself is not words again.
+  const words = kSaidByState.has(job.result.reason) ? '' : job.result.reason.replaceAll('_', ' ');
+  return [words, shown_text(job.result.detail)].filter((part) => part !== '').join(': ');
 }
 
 export function monitor_in_words(event: MonitorData): string {
@@ -216,19 +216,19 @@ export function monitor_in_words(event: MonitorData): string {
 /** How its way came to be another one than its client's, or it came to be taken: a sentence each. */
 export function path_in_words(job: Job): string[] {
   const words = kText.path;
-  const said: string[] = [];
+  const sentences: string[] = [];
   const { choice, detour, replan } = job;
-  if (choice) said.push(choice.candidates.length > 1 ? words.selected_from(choice.selected, choice.candidates.join(', '), choice.detail) : words.selected(choice.selected, choice.detail));
+  if (choice) sentences.push(choice.candidates.length > 1 ? words.selected_from(choice.selected, choice.candidates.join(', '), choice.detail) : words.selected(choice.selected, choice.detail));
   if (detour) {
     const evaluated = words.evaluated(detour.candidates_evaluated);
     const gain = detour.time_saved_s === null ? words.shortest_blocked : words.sooner(seconds(detour.time_saved_s));
-    said.push(detour.selected ? words.detour(evaluated, gain) : words.no_detour(evaluated));
+    sentences.push(detour.selected ? words.detour(evaluated, gain) : words.no_detour(evaluated));
   }
   if (replan) {
     const cause = words.cause[replan.cause];
-    if (replan.done > 0) said.push(words.replanned(replan.done, cause));
-    if (replan.planning) said.push(words.replanning);
-    else if (replan.refused !== null) said.push(words.not_replanned(cause, replan.refused));
+    if (replan.done > 0) sentences.push(words.replanned(replan.done, cause));
+    if (replan.planning) sentences.push(words.replanning);
+    else if (replan.refused !== null) sentences.push(words.not_replanned(cause, replan.refused));
   }
-  return said;
+  return sentences;
 }

@@ -50,10 +50,10 @@ describe('the router', () => {
     const { fake, changes } = bar('#/arm/left');
     const router = new Router(fake);
     expect(router.place).toEqual({ page: 'arm', name: 'left' });
-    router.hold_at(7.25);
-    router.hold_at(7.25);
+    router.show_time(7.25);
+    router.show_time(7.25);
     router.go({ page: 'job', id: 'a' });
-    router.hold_at(null);
+    router.show_time(null);
     expect(changes).toEqual(['replace #/arm/left?t=7.25', 'push #/job/a?t=7.25', 'replace #/job/a']);
   });
 
@@ -61,10 +61,10 @@ describe('the router', () => {
     const { fake, changes } = bar('#/');
     let stream: string | null = '7997886f-351f-4aa0-babd-42ad4e6d6ef7';
     const router = new Router(fake, () => stream);
-    router.hold_at(7.25);
+    router.show_time(7.25);
     stream = null;
     router.go({ page: 'history' });
-    router.hold_at(3);
+    router.show_time(3);
     expect(changes).toEqual(['replace #/?t=7.25&run=7997886f', 'push #/history?t=7.25&run=7997886f', 'replace #/history?t=3']);
   });
 

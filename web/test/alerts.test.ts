@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { AlertList } from '../src/alerts/alert_list';
-import { id_of, told_until } from '../src/alerts/alerts';
+import { id_of, reported_until } from '../src/alerts/alerts';
 import type { Notice } from '../src/state/notices';
 import type { KeptAlert } from '../src/server/messages';
 
@@ -27,9 +27,9 @@ describe('alerts', () => {
     const notice = (seq: number, t_s: number) => ({ stream: 's', seq, t_s }) as Notice;
     const known = { stream: 's', notices: [notice(9, 30), notice(4, 12)] };
     const all = [alert('s:9'), alert('s:4'), alert('former:7')];
-    expect(told_until(all, null, known)).toEqual(all);
-    expect(told_until(all, 20, known).map(({ id }) => id)).toEqual(['s:4', 'former:7']);
-    expect(told_until(all, 5, known).map(({ id }) => id)).toEqual(['former:7']);
+    expect(reported_until(all, null, known)).toEqual(all);
+    expect(reported_until(all, 20, known).map(({ id }) => id)).toEqual(['s:4', 'former:7']);
+    expect(reported_until(all, 5, known).map(({ id }) => id)).toEqual(['former:7']);
   });
 
   it('are open until the server says that somebody has seen to them', async () => {

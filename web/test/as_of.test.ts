@@ -91,15 +91,15 @@ describe('what is shown of an instant that is looked at', () => {
     const router = new Router({ read: () => hash, push: (to) => { hash = to; }, replace: (to) => { hash = to; }, on_change: () => undefined }, () => store.stream);
     const seen = new Seen(store, router);
     expect(seen.store.value).toBe(store);
-    router.hold_at(12);
+    router.show_time(12);
     const then = seen.store.value;
     expect(then.jobs('running')).toHaveLength(1);
-    router.hold_at(13);  // no event lies between
+    router.show_time(13);  // no event lies between
     expect(seen.store.value).toBe(then);
     expect(then.t_s).toBe(13);
-    router.hold_at(22);
+    router.show_time(22);
     expect(seen.store.value.jobs('running')).toHaveLength(0);
-    router.hold_at(null);
+    router.show_time(null);
     expect(seen.store.value).toBe(store);
   });
 });

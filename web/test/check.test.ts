@@ -27,7 +27,7 @@ describe('the check of what the server says', () => {
     expect(fault_of('Arm', arm_json('left', { progress: 'x'.repeat(1_000_000) }))?.length).toBeLessThan(300);
   });
 
-  it('stands what is no object at all', () => {
+  it('pauses what is no object at all', () => {
     for (const value of [null, undefined, 7, 'arm', []]) expect(fault_of('Arm', value)).not.toBeNull();
   });
 });

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { Comparing } from '../src/policies/comparing';
-import { ends_in_words, share_in_words } from '../src/policies/told';
+import { ends_in_words, share_in_words } from '../src/policies/run_words';
 import type { Answer } from '../src/server/api';
 import type { Comparison, PolicyRun } from '../src/server/messages';
 

@@ -66,30 +66,30 @@ describe('the plan', () => {
     expect(plan_from({ a_s: 4, b_s: 0 }, diagram())).toEqual([{ a_s: 4, b_s: 0 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }]);
   });
   it('is no alarm while one of them may not go that far, nor at the border of a conflict', () => {
-    const met: DiagramContact = { state: 'conflict', in_s: 1, a_s: 2, b_s: 2 };
-    const ahead = (now: Point, authority: Point | null) => ahead_of(met, now, authority, diagram())?.kind;
-    expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 1 })).toBe('held');
-    expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 2, b_s: 3 })).toBe('held');
-    expect(ahead({ a_s: 2, b_s: 2 }, { a_s: 2, b_s: 3 })).toBe('held');  // left stands where it waits for right
-    expect(ahead({ a_s: 2.01, b_s: 2 }, { a_s: 2.01, b_s: 3 })).toBe('held');
-    expect(ahead({ a_s: 1, b_s: 1 }, null)).toBe('held');
+    const contact: DiagramContact = { state: 'conflict', in_s: 1, a_s: 2, b_s: 2 };
+    const ahead = (now: Point, authority: Point | null) => ahead_of(contact, now, authority, diagram())?.kind;
+    expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 1 })).toBe('waits');
+    expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 2, b_s: 3 })).toBe('waits');
+    expect(ahead({ a_s: 2, b_s: 2 }, { a_s: 2, b_s: 3 })).toBe('waits');  // left pauses where it waits for right
+    expect(ahead({ a_s: 2.01, b_s: 2 }, { a_s: 2.01, b_s: 3 })).toBe('waits');
+    expect(ahead({ a_s: 1, b_s: 1 }, null)).toBe('waits');
     expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 3 })).toBe('allowed');
     expect(ahead_of(null, { a_s: 1, b_s: 1 }, null, diagram())).toEqual({ kind: 'free' });
     // At the end of one of them nothing lies beyond.
-    expect(ahead_of({ ...met, a_s: 4 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }, diagram())?.kind).toBe('allowed');
+    expect(ahead_of({ ...contact, a_s: 4 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }, diagram())?.kind).toBe('allowed');
   });
   it('says what is left of the way by now, and nothing of what lies behind', () => {
-    const met: DiagramContact = { state: 'undecided', in_s: 0.5, a_s: 2, b_s: 1.5 };
-    expect(ahead_of(met, { a_s: 1.75, b_s: 1.25 }, null, diagram())).toMatchObject({ met: { in_s: 0.25 } });
-    expect(ahead_of(met, { a_s: 2.1, b_s: 1.6 }, null, diagram())).toBeNull();
+    const contact: DiagramContact = { state: 'undecided', in_s: 0.5, a_s: 2, b_s: 1.5 };
+    expect(ahead_of(contact, { a_s: 1.75, b_s: 1.25 }, null, diagram())).toMatchObject({ contact: { in_s: 0.25 } });
+    expect(ahead_of(contact, { a_s: 2.1, b_s: 1.6 }, null, diagram())).toBeNull();
   });
   it('is put into words, which are red where nothing makes one of them wait', () => {
     const conflict: DiagramContact = { state: 'conflict', in_s: 2, a_s: 2, b_s: 2 };
     const undecided: DiagramContact = { state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 };
-    expect(plan_in_words({ kind: 'held', met: conflict }, 'right')).toEqual({ tone: 'calm', words: 'If right started now, they would reach a conflict in 2.00 s. One of them has no authority to go that far and waits before it.' });
-    expect(plan_in_words({ kind: 'held', met: undecided }, null)).toMatchObject({ tone: 'calm', words: expect.stringMatching(/^If both continued from here, they would reach an area that is not certified free in 0.25 s\./) as unknown });
-    expect(plan_in_words({ kind: 'allowed', met: undecided }, null).tone).toBe('calm');
-    expect(plan_in_words({ kind: 'allowed', met: conflict }, null)).toMatchObject({ tone: 'alarm', words: expect.stringMatching(/nothing makes one of them wait/) as unknown });
+    expect(plan_in_words({ kind: 'waits', contact: conflict }, 'right')).toEqual({ tone: 'calm', words: 'If right started now, they would reach a conflict in 2.00 s. One of them has no authority to go that far and waits before it.' });
+    expect(plan_in_words({ kind: 'waits', contact: undecided }, null)).toMatchObject({ tone: 'calm', words: expect.stringMatching(/^If both continued from here, they would reach an area that is not certified free in 0.25 s\./) as unknown });
+    expect(plan_in_words({ kind: 'allowed', contact: undecided }, null).tone).toBe('calm');
+    expect(plan_in_words({ kind: 'allowed', contact: conflict }, null)).toMatchObject({ tone: 'alarm', words: expect.stringMatching(/nothing makes one of them wait/) as unknown });
     expect(plan_in_words({ kind: 'free' }, null, 'left').words).toBe('While left rests at its end, the path of the other job is free.');
     expect(plan_in_words({ kind: 'free' }, null)).toMatchObject({ tone: 'free', words: expect.stringMatching(/without a conflict/) as unknown });
   });

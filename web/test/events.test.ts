@@ -7,7 +7,7 @@ const at = (key: number, t_s: number, over: Partial<EventMark> = {}): EventMark 
 // Newest first, as the page keeps them.
 const kEvents = [at(4, 30), at(3, 20), at(2, 20), at(1, 5)];
 // 10 px a second, from 0 s on.
-const sheet = sheet_of(72 + 10 + 500, 100, { length_s: 50, held_from_s: 0 }, 40);
+const sheet = sheet_of(72 + 10 + 500, 100, { length_s: 50, fixed_from_s: 0 }, 40);
 const foot = 100 - kAxis_px;
 
 describe('events on the timeline', () => {
@@ -18,7 +18,7 @@ describe('events on the timeline', () => {
   });
 
   it('are found only where they are drawn', () => {
-    const later = sheet_of(582, 100, { length_s: 50, held_from_s: 5.3 }, 40);
+    const later = sheet_of(582, 100, { length_s: 50, fixed_from_s: 5.3 }, 40);
     expect(events_at(kEvents, later, later.x(5), foot - 4)).toEqual([]);
   });
 

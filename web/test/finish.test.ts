@@ -31,7 +31,7 @@ describe('a surface in two finishes', () => {
 
 describe('triangles that nobody can see', () => {
   it('are left out where a sphere lies in a cylinder, and nowhere else', () => {
-    // The end of a capsule: one half of the sphere stands out.
+    // The end of a capsule: one half of the sphere pauses out.
     const X_SL = new THREE.Matrix4().makeTranslation(0, 0.5, 0);  // the cylinder reaches from y = -1 to 0
     const sphere = without_hidden(new THREE.SphereGeometry(1, 20, 12), [{ X_SL, inside: inside_cylinder(0.99) }]);
     const all = triangles(new THREE.SphereGeometry(1, 20, 12));

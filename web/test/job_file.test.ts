@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { composed, type Composed } from '../src/compose/composed';
 import { kBodyMax_bytes, read_job_file } from '../src/compose/job_file';
-import { composed_beside, kLong, type Beside } from '../src/compose/long_text';
+import { composed_in_worker, kLong, type WorkerLike } from '../src/compose/long_text';
 import { motion_of_parts } from '../src/motion/pasted';
 import { read_mcap } from '../src/recordings/read_mcap';
 
@@ -40,10 +40,10 @@ describe('a text that jobs are made of', () => {
     const one = composed(JSON.stringify(trajectory(2)));
     expect(one).toMatchObject({ kind: 'one', fault: null, request: { path: '/jobs' }, parts: [{ begins_s: 0 }] });
     expect([await one.request.body.text(), await one.bodies[0]?.body.text()]).toEqual([JSON.stringify({ trajectory: trajectory(2) }), JSON.stringify({ trajectory: trajectory(2) })]);
-    const bag = composed(JSON.stringify([{ trajectory: trajectory(3) }, { trajectory: trajectory(2) }]));
-    expect(await bag.request.body.text()).toBe(JSON.stringify({ atomic: true, jobs: [{ trajectory: trajectory(3) }, { trajectory: trajectory(2) }] }));
-    expect(await bag.bodies[1]?.body.text()).toBe(JSON.stringify({ trajectory: trajectory(2) }));
-    expect([bag.kind, bag.request.path, bag.bodies.length, bag.parts.map(({ begins_s }) => begins_s)]).toEqual(['bag', '/batches', 2, [0, 2]]);
+    const batch = composed(JSON.stringify([{ trajectory: trajectory(3) }, { trajectory: trajectory(2) }]));
+    expect(await batch.request.body.text()).toBe(JSON.stringify({ atomic: true, jobs: [{ trajectory: trajectory(3) }, { trajectory: trajectory(2) }] }));
+    expect(await batch.bodies[1]?.body.text()).toBe(JSON.stringify({ trajectory: trajectory(2) }));
+    expect([batch.kind, batch.request.path, batch.bodies.length, batch.parts.map(({ begins_s }) => begins_s)]).toEqual(['batch', '/batches', 2, [0, 2]]);
   });
 
   it('is handed over with as many points as can be seen, from the first to the last', () => {
@@ -57,27 +57,27 @@ describe('a text that jobs are made of', () => {
   });
 
   it('is given up with what reads it', async () => {
-    const workers: (Beside & { ended: number; got: string[] })[] = [];
+    const workers: (WorkerLike & { ended: number; got: string[] })[] = [];
     const make = () => {
       const worker = { ended: 0, got: [] as string[], onmessage: null, onerror: null, postMessage: (text: string) => void worker.got.push(text), terminate: () => { worker.ended += 1; } };
       workers.push(worker);
-      return worker as Beside;
+      return worker as WorkerLike;
     };
     const stop = new AbortController();
-    const given_up = composed_beside('{}', stop.signal, make);
+    const given_up = composed_in_worker('{}', stop.signal, make);
     stop.abort();
     await expect(given_up).rejects.toThrow('canceled');
-    const done = composed_beside('[1]', new AbortController().signal, make);
+    const done = composed_in_worker('[1]', new AbortController().signal, make);
     workers[1]?.onmessage?.({ data: composed('[1]') } as MessageEvent<Composed>);
-    expect((await done).kind).toBe('bag');
+    expect((await done).kind).toBe('batch');
     expect(workers.map(({ ended, got }) => [ended, got])).toEqual([[1, ['{}']], [1, ['[1]']]]);
-    expect(await composed_beside('[1]', new AbortController().signal, make)).toBe(await done);  // not read twice
+    expect(await composed_in_worker('[1]', new AbortController().signal, make)).toBe(await done);  // not read twice
     expect(workers).toHaveLength(2);
   });
 
   it('is read by the page itself where nothing can run beside it', async () => {
-    const worker: Beside = { onmessage: null, onerror: null, postMessage: () => worker.onerror?.({} as ErrorEvent), terminate: () => undefined };
-    expect(await composed_beside('[2]', new AbortController().signal, () => worker)).toMatchObject({ kind: 'bag', fault: null });
+    const worker: WorkerLike = { onmessage: null, onerror: null, postMessage: () => worker.onerror?.({} as ErrorEvent), terminate: () => undefined };
+    expect(await composed_in_worker('[2]', new AbortController().signal, () => worker)).toMatchObject({ kind: 'batch', fault: null });
   });
 });
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { bodies_of, read_bag } from '../src/compose/bag';
+import { bodies_of, read_batch } from '../src/compose/batch';
 import { motion_of } from '../src/motion/pasted';
 import { motion_of_piece, read_trajectory } from '../src/motion/motion';
 import { MotionBook } from '../src/motion/motion_book';
@@ -13,18 +13,18 @@ const body = (id: string, joints: string[], stations: number[][], velocities = t
     })),
   },
 });
-const motion = (value: unknown) => motion_of(read_bag(JSON.stringify(value)));
+const motion = (value: unknown) => motion_of(read_batch(JSON.stringify(value)));
 
 describe('what was pasted', () => {
-  it('is one job, or a bag in any of its shapes', () => {
+  it('is one job, or a batch in any of its shapes', () => {
     const a = body('a', ['x'], [[0], [1]]);
-    expect(read_bag(JSON.stringify(a)).kind).toBe('one');
-    expect(read_bag('{ not json').kind).toBe('one');
-    expect(read_bag('[]').kind).toBe('one');
-    for (const bag of [[a, a], { jobs: [a, a] }, [{ at: 0, job: a }, { at: 1, job: a }]]) {
-      expect(read_bag(JSON.stringify(bag))).toEqual({ kind: 'bag', jobs: [a, a] });
+    expect(read_batch(JSON.stringify(a)).kind).toBe('one');
+    expect(read_batch('{ not json').kind).toBe('one');
+    expect(read_batch('[]').kind).toBe('one');
+    for (const batch of [[a, a], { jobs: [a, a] }, [{ at: 0, job: a }, { at: 1, job: a }]]) {
+      expect(read_batch(JSON.stringify(batch))).toEqual({ kind: 'batch', jobs: [a, a] });
     }
-    expect(bodies_of(read_bag(JSON.stringify([a, { trajectory: {} }]))).map(({ title }) => title)).toEqual(['a', 'job 2']);
+    expect(bodies_of(read_batch(JSON.stringify([a, { trajectory: {} }]))).map(({ title }) => title)).toEqual(['a', 'job 2']);
   });
 
   it('moves as it says: rest to rest halfway at half time, and at its ends beyond', () => {

@@ -21,7 +21,7 @@ function timeline() {
     sheet: sheet_of(kWidth, kHeight, kFollowing, kNow_s), pointed: kNothing, drag: null,
   };
   const seen = { spans: [] as Span[], tips: [] as (Tip | null)[], draws: 0, went: [] as unknown[], held: [] as unknown[] };
-  const app = { store: { t_s: kNow_s, events: [stop] }, router: { go: (place: unknown) => seen.went.push(place), hold_at: (t_s: unknown) => seen.held.push(t_s) } } as unknown as App;
+  const app = { store: { t_s: kNow_s, events: [stop] }, router: { go: (place: unknown) => seen.went.push(place), show_time: (t_s: unknown) => seen.held.push(t_s) } } as unknown as App;
   const on = pointing(drawing, app, (span) => seen.spans.push(span), (tip) => seen.tips.push(tip), () => { seen.draws += 1; });
   const canvas = { setPointerCapture: vi.fn(), classList: { toggle: vi.fn() } };
   const at = (t_s: number, y = kLane_px, over = {}) => ({ offsetX: drawing.sheet?.x(t_s), offsetY: y, pointerId: 1, currentTarget: canvas, preventDefault: vi.fn(), ...over }) as unknown as PointerEvent & WheelEvent;
@@ -62,7 +62,7 @@ describe('a pointer on the timeline', () => {
     on.onPointerMove(at(80));
     on.onPointerUp(at(80));
     const follows_from_s = kNow_s - kNowAt * kFollowing.length_s;
-    expect(seen.spans.map(({ held_from_s }) => held_from_s)).toEqual([follows_from_s - 5, follows_from_s - 20]);
+    expect(seen.spans.map(({ fixed_from_s }) => fixed_from_s)).toEqual([follows_from_s - 5, follows_from_s - 20]);
     expect(seen.went).toEqual([]);
   });
 
@@ -77,11 +77,11 @@ describe('a pointer on the timeline', () => {
 
   it('zooms about itself by its wheel, once the sheet is held', () => {
     const { drawing, seen, on, at } = timeline();
-    drawing.span = { length_s: 50, held_from_s: 62.5 };
+    drawing.span = { length_s: 50, fixed_from_s: 62.5 };
     on.onWheel(at(80, kLane_px, { deltaY: -1 }));
     const [near] = seen.spans;
     expect(near?.length_s).toBeCloseTo(50 / 1.2, 9);
-    expect((near?.held_from_s ?? 0) + 0.35 * (near?.length_s ?? 0)).toBeCloseTo(80, 9);  // where it was: 17.5 of 50 s
+    expect((near?.fixed_from_s ?? 0) + 0.35 * (near?.length_s ?? 0)).toBeCloseTo(80, 9);  // where it was: 17.5 of 50 s
     on.onWheel(at(80, kLane_px, { deltaY: 1 }));
     expect(seen.spans.at(-1)?.length_s).toBeCloseTo(60, 9);
   });

@@ -19,17 +19,17 @@ describe('settings', () => {
     first.set_theme('light');
     first.set_letter_keys(false);
     first.set_person('Ada');
-    first.set_shows({ ways: true, ghosts: false, distances: false });
+    first.set_shows({ paths: true, ghosts: false, distances: false });
     const next = new Settings(shelf, null, () => undefined);
     expect([next.theme.value, next.shown_theme.value, next.letter_keys.value, next.person.value]).toEqual(['light', 'light', false, 'Ada']);
-    expect(next.shows.value).toEqual({ ways: true, ghosts: false, distances: false });
+    expect(next.shows.value).toEqual({ paths: true, ghosts: false, distances: false });
   });
 
   it('are the usual ones at first, and where something else was written', () => {
     for (const shelf of [null, shelf_of(), shelf_of({ 'armloom.theme': 'pink', 'armloom.shows': 'everything', 'armloom.letter-keys': '?' })]) {
       const { theme, letter_keys, person, shows } = new Settings(shelf, null, () => undefined);
       expect([theme.value, letter_keys.value, person.value]).toEqual(['system', true, '']);
-      expect(shows.value).toEqual({ ways: true, ghosts: true, distances: true });
+      expect(shows.value).toEqual({ paths: true, ghosts: true, distances: true });
     }
   });
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { measured_way } from '../src/diagram/reading';
+import { measured_path } from '../src/diagram/reading';
 import { job_of_side, why_no_pair } from '../src/diagram/sides';
 import type { Job } from '../src/server/messages';
 import { JobBook, type JobList } from '../src/state/job_book';
@@ -40,22 +40,22 @@ describe('a side of a diagram', () => {
 describe('the way of two jobs that was measured', () => {
   it('is where both were together, standing included, from when both were heard', () => {
     const book = new ProgressBook();
-    // A goes for 4 s; B waits until 2 s, goes, stands from 3 to 5 s at 1 s, and goes on.
+    // A goes for 4 s; B waits until 2 s, goes, pauses from 3 to 5 s at 1 s, and goes on.
     for (let i = 0; i <= 240; i++) {
       const t_s = i / 30;
       const b = t_s < 2 ? 0 : t_s < 3 ? t_s - 2 : t_s < 5 ? 1 : t_s - 4;
       book.take(t_s, [...(t_s <= 4 ? [{ job: 'a', progress_s: t_s }] : []), ...(t_s >= 2 ? [{ job: 'b', progress_s: b }] : [])]);
     }
-    const way = measured_way(book.of('a'), book.of('b'));
+    const way = measured_path(book.of('a'), book.of('b'));
     expect(way[0]).toEqual({ a_s: 0, b_s: 0 });
     const near = (a_s: number, b_s: number) => way.some((point) => Math.hypot(point.a_s - a_s, point.b_s - b_s) < 0.11);
     for (const [a_s, b_s] of [[1, 0], [2, 0], [3, 1], [4, 1], [4, 2.5], [4, 4]] as const) expect(near(a_s, b_s), `${a_s} ${b_s}`).toBe(true);
     // Never across the corner that they went around.
     expect(way.every(({ a_s, b_s }) => b_s < 0.05 || a_s > 1.9)).toBe(true);
     expect(way.every((point, i) => i === 0 || (point.a_s >= (way[i - 1]?.a_s ?? 0) && point.b_s >= (way[i - 1]?.b_s ?? 0)))).toBe(true);
-    expect(measured_way(book.of('a'), book.of('c'))).toEqual([]);
+    expect(measured_path(book.of('a'), book.of('c'))).toEqual([]);
     // Of an instant that is looked at nothing later is shown.
-    expect(measured_way(book.of('a'), book.of('b'), 2.5).every(({ a_s, b_s }) => a_s <= 2.5 && b_s <= 2.5)).toBe(true);
+    expect(measured_path(book.of('a'), book.of('b'), 2.5).every(({ a_s, b_s }) => a_s <= 2.5 && b_s <= 2.5)).toBe(true);
   });
 
   it('leaves out what one of them did before it was heard', () => {

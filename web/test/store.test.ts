@@ -61,9 +61,9 @@ describe('the store', () => {
     const book = new JobBook();
     book.take(job('a', { state: 'running' }), 1);
     book.take(job('a', { state: 'paused' }), 2);
-    expect(book.stands('a')).toMatchObject([{ from_s: 2, to_s: null, stopped: false }]);
+    expect(book.pauses('a')).toMatchObject([{ from_s: 2, to_s: null, stopped: false }]);
     book.take(job('a', { state: 'running' }), 3.5);
-    expect(book.stands('a')).toMatchObject([{ from_s: 2, to_s: 3.5, stopped: false }]);
+    expect(book.pauses('a')).toMatchObject([{ from_s: 2, to_s: 3.5, stopped: false }]);
     book.take(job('b', { state: 'backlogged' }), 4);
     book.take(job('b', { state: 'backlogged' }), 5);
     expect(book.since('b')).toBe(4);

@@ -85,7 +85,7 @@ describe('an object with a mesh', () => {
     expect(size(surface)).toEqual([1, 2, 0]);  // the shelf's own is as it was
   });
 
-  it('is a mark where it stands when its mesh cannot be read', () => {
+  it('is a mark where it pauses when its mesh cannot be read', () => {
     const mark = object_mesh(object, null) as THREE.Mesh;
     expect(mark.position.x).toBe(1);
     expect(size(mark.geometry).every((length) => length > 0 && length < 0.2)).toBe(true);

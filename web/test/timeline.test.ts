@@ -3,7 +3,7 @@ import type { Forecast, Job } from '../src/server/messages';
 import { drawn_of, lanes_of, mark_at, pasts_of, type Lane } from '../src/timeline/lanes';
 import { sheet_of, widest_free } from '../src/timeline/sheet';
 import { around, begin_of, kFollowing, kNowAt, moved, tick_of, zoomed } from '../src/timeline/span';
-import { lane_in_words } from '../src/timeline/told';
+import { lane_in_words } from '../src/timeline/mark_words';
 import { job_json, wait_json } from './samples';
 
 const job = (id: string, over: object) => job_json(id, over) as unknown as Job;
@@ -27,7 +27,7 @@ const kForecast = {
 const known = (jobs: Job[], forecast: Forecast | null, now_s = 10): Lane =>
   lanes_of({
     arms: ['left'], jobs: jobs.filter((one) => one.ended_s === null), pasts: pasts_of(['left'], jobs.filter((one) => one.ended_s !== null), () => []),
-    stands: () => [], has_ended: (id) => jobs.some((one) => one.id === id && one.ended_s !== null), forecast, now_s,
+    pauses: () => [], has_ended: (id) => jobs.some((one) => one.id === id && one.ended_s !== null), forecast, now_s,
   })[0] as Lane;
 
 describe('the lanes of the timeline', () => {
@@ -78,24 +78,24 @@ describe('the span of the timeline', () => {
   });
 
   it('zooms about the instant that is pointed at, within bounds', () => {
-    const held = around({ length_s: 40, held_from_s: null }, 60);
-    expect(held.held_from_s).toBe(40);
+    const held = around({ length_s: 40, fixed_from_s: null }, 60);
+    expect(held.fixed_from_s).toBe(40);
     const near = zoomed(held, 0.5, 100, 0.25);
-    expect(near).toEqual({ length_s: 20, held_from_s: 45 });
+    expect(near).toEqual({ length_s: 20, fixed_from_s: 45 });
     expect(zoomed(held, 1e9, 100).length_s).toBe(3600);
-    expect(zoomed(kFollowing, 1e-9, 100)).toEqual({ length_s: 4, held_from_s: null });
+    expect(zoomed(kFollowing, 1e-9, 100)).toEqual({ length_s: 4, fixed_from_s: null });
   });
 
   it('shows an instant that is looked at wherever it lies, also while it is not known yet what time it is', () => {
     const opened = around(kFollowing, 873.92);
     const sheet = sheet_of(1000, 100, opened, 0);
-    expect((sheet.x(873.92) - sheet.x(opened.held_from_s ?? 0)) / (sheet.x(923.92) - sheet.x(873.92))).toBeCloseTo(0.5);
-    expect(around(kFollowing, 0).held_from_s).toBe(-25);
+    expect((sheet.x(873.92) - sheet.x(opened.fixed_from_s ?? 0)) / (sheet.x(923.92) - sheet.x(873.92))).toBeCloseTo(0.5);
+    expect(around(kFollowing, 0).fixed_from_s).toBe(-25);
   });
 
   it('never goes farther than what may be known', () => {
-    expect(moved(kFollowing, 1e6, 100).held_from_s).toBeLessThan(800);
-    expect(moved(kFollowing, -1e6, 100).held_from_s).toBeGreaterThan(-60);
+    expect(moved(kFollowing, 1e6, 100).fixed_from_s).toBeLessThan(800);
+    expect(moved(kFollowing, -1e6, 100).fixed_from_s).toBeGreaterThan(-60);
   });
 
   it('has ticks that people count in', () => {

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
-import { leg_of, when_in_words } from '../src/jobs/when';
+import { step_of, when_in_words } from '../src/jobs/when';
 import { partner_of } from '../src/diagram/partner';
-import { stood_in_words } from '../src/jobs/states';
+import { pause_in_words } from '../src/jobs/states';
 import { selection_of } from '../src/route/selection';
 import { parse_message, type Forecast, type Job } from '../src/server/messages';
 import { kStateColours } from '../src/state/palette';
@@ -60,8 +60,8 @@ describe('the figure of a job that moves', () => {
 
   it('is until when the server expects it to end, pauses with it, where that is known', () => {
     const forecast = { arms: [{ name: 'left', waiting: 0, steps: [{ id: 'r', ends_s: 30 }] }] } as unknown as Forecast;
-    expect(figure_in_words(job, 3.4, 0.5, leg_of(job, forecast)?.ends_s ?? null).text).toBe('26.6 s left');
-    expect(figure_in_words(job, 3.4, 0.5, leg_of({ ...job, id: 'other' }, forecast)?.ends_s ?? null).text).toBe('2.0 s left');
+    expect(figure_in_words(job, 3.4, 0.5, step_of(job, forecast)?.ends_s ?? null).text).toBe('26.6 s left');
+    expect(figure_in_words(job, 3.4, 0.5, step_of({ ...job, id: 'other' }, forecast)?.ends_s ?? null).text).toBe('2.0 s left');
   });
   it('is told as past when nothing is heard any more', () => {
     expect(['17.4 s left', 'waited 2.0 s', 'paused', ''].map(as_last_heard)).toEqual(['had 17.4 s left', 'had waited 2.0 s', 'was paused', '']);
@@ -73,9 +73,9 @@ describe('why a job stood on its path', () => {
   it('is remembered when it has gone on', () => {
     const at = (state: string, waits_on: object[]) => job_json('h', { state, started_s: 1, waits_on });
     const store = store_of([at('running', []), at('paused', []), at('paused', [crate]), at('running', [])]);
-    const [stand] = store.book.stands('h');
+    const [stand] = store.book.pauses('h');
     expect(stand).toMatchObject({ from_s: 3, to_s: 5, why: { kind: 'object', id: 'crate' } });
-    expect(stand && stood_in_words(stand)).toMatch(/^waited until crate is out of the way.* \(2\.0 s\)$/);
+    expect(stand && pause_in_words(stand)).toMatch(/^waited until crate is out of the way.* \(2\.0 s\)$/);
     const [mark] = known_lanes({ store }, 0).flatMap(({ marks }) => marks.filter(({ kind }) => kind === 'pause'));
     expect(mark?.waits_on?.id).toBe('crate');
   });

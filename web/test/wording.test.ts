@@ -2,7 +2,7 @@ import { describe, expect, it } from 'vitest';
 import { parse_message, type Job, type MonitorData, type WaitsOn } from '../src/server/messages';
 import {
   bytes_in_words, clearance_in_words, clock, conflict_in_words, figure_in_words, found_in_words, millimetres, monitor_in_words, reason_in_words,
-  result_in_words, seconds, short_id, path_in_words, why_mute,
+  result_in_words, seconds, short_id, path_in_words, why_not_connected,
 } from '../src/wording';
 import { envelope, job_json, wait_json } from './samples';
 
@@ -98,10 +98,10 @@ describe('a clearance', () => {
 });
 
 describe('the buttons', () => {
-  it('are mute unless the connection is open, and say why', () => {
-    expect(why_mute({ status: 'open' })).toBeNull();
-    expect(why_mute({ status: 'connecting' })).toMatch(/not connected/i);
-    expect(why_mute({ status: 'lost', attempt: 1, retry_in_ms: 250 })).toMatch(/lost/);
+  it('are why_disabled unless the connection is open, and say why', () => {
+    expect(why_not_connected({ status: 'open' })).toBeNull();
+    expect(why_not_connected({ status: 'connecting' })).toMatch(/not connected/i);
+    expect(why_not_connected({ status: 'lost', attempt: 1, retry_in_ms: 250 })).toMatch(/lost/);
   });
 });
 

@@ -17,7 +17,7 @@ export function is_later({ t_s, stream }: Pick<Notice, 't_s' | 'stream'>, at_s: 
 const kRounding_s = 0.01;
 
 /** Those that had been told by then: what is not among the last notices is older than these. */
-export function told_until(alerts: readonly KeptAlert[], at_s: number | null, { notices, stream }: Pick<Store, 'notices' | 'stream'>): readonly KeptAlert[] {
+export function reported_until(alerts: readonly KeptAlert[], at_s: number | null, { notices, stream }: Pick<Store, 'notices' | 'stream'>): readonly KeptAlert[] {
   const later = new Set(notices.filter((notice) => is_later(notice, at_s, stream)).map(id_of));
   return later.size === 0 ? alerts : alerts.filter(({ id }) => !later.has(id));
 }

@@ -6,7 +6,7 @@ import { AsOf } from '../frame/as_of';
 import type { KeptAlert } from '../server/messages';
 import { shown_name, shown_text } from '../names';
 import { short_wall_time, wall_time } from '../wall_time';
-import { id_of, told_until } from './alerts';
+import { id_of, reported_until } from './alerts';
 import { kText } from '../strings';
 import { Then } from './notices';
 
@@ -15,12 +15,12 @@ const kWords = kText.alerts;
 export function AlertsPage({ app }: { app: App }) {
   const { settings, alerts, actions, session } = app;
   const { t_s } = app.router.address.value;
-  const all = told_until(alerts.all, t_s, app.store);
+  const all = reported_until(alerts.all, t_s, app.store);
   const open = all.filter(({ acknowledged }) => acknowledged === null);
   const known_as = session.value?.name ?? null;
   const who = settings.person.value;
   const unnamed = known_as === null && who.trim() === '';
-  const mute = why_not_permitted(session.value) ?? (unnamed ? kWords.name_first : null);
+  const why_disabled = why_not_permitted(session.value) ?? (unnamed ? kWords.name_first : null);
   const acknowledge = (some: readonly KeptAlert[]) => void actions.ask(kWords.acknowledge, alerts.acknowledge(some, who.trim()));
   return (
     <div class="page">
@@ -32,19 +32,19 @@ export function AlertsPage({ app }: { app: App }) {
           {known_as === null
             ? <label class="line">{kText.common.your_name} <input type="text" value={who} maxLength={100} autocomplete="name" placeholder={kWords.name_hint} required aria-describedby="who-acknowledges" data-test="person" onInput={(event) => settings.set_person(event.currentTarget.value)} /></label>
             : <span>{kWords.acknowledging_as} <b>{shown_name(known_as)}</b></span>}
-          <button class="small" data-test="acknowledge-all" disabled={open.length === 0 || mute !== null} title={mute ?? ''} onClick={() => acknowledge(open)}>{kWords.acknowledge_all}</button>
+          <button class="small" data-test="acknowledge-all" disabled={open.length === 0 || why_disabled !== null} title={why_disabled ?? ''} onClick={() => acknowledge(open)}>{kWords.acknowledge_all}</button>
         </div>
       )}
       {unnamed && open.length > 0 && <p class="hint" id="who-acknowledges" data-test="unnamed">{kWords.needs_name}</p>}
       {all.length === 0 && <p class="none">{t_s === null ? kWords.none : kWords.none_then}</p>}
       <ul class="alerts" data-test="alerts">
-        {all.map((alert) => <Alert key={alert.id} alert={alert} app={app} mute={mute} acknowledge={() => acknowledge([alert])} />)}
+        {all.map((alert) => <Alert key={alert.id} alert={alert} app={app} why_disabled={why_disabled} acknowledge={() => acknowledge([alert])} />)}
       </ul>
     </div>
   );
 }
 
-function Alert({ alert, app, mute, acknowledge }: { alert: KeptAlert; app: App; mute: string | null; acknowledge(): void }) {
+function Alert({ alert, app, why_disabled, acknowledge }: { alert: KeptAlert; app: App; why_disabled: string | null; acknowledge(): void }) {
   const seen = alert.acknowledged;
   const event = app.store.notices.find((notice) => id_of(notice) === alert.id);
   return (
@@ -53,7 +53,7 @@ function Alert({ alert, app, mute, acknowledge }: { alert: KeptAlert; app: App; 
       <span class="grow"><b>{alert.level === 'error' ? kWords.error : kWords.warning}</b> {shown_text(alert.text)}
         {seen && <span class="dim small">{kWords.acknowledged_by(shown_name(seen.who) || kWords.unnamed, wall_time(seen.at))}</span>}
       </span>
-      {!seen && <button class="small" data-test="acknowledge" disabled={mute !== null} title={mute ?? ''} onClick={acknowledge}>{kWords.acknowledge}</button>}
+      {!seen && <button class="small" data-test="acknowledge" disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={acknowledge}>{kWords.acknowledge}</button>}
     </li>
   );
 }

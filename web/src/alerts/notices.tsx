@@ -65,7 +65,7 @@ export function Then({ notice, app }: { notice: Notice; app: App }) {
   if (!is_kept(notice, app)) return <span class="mono" title={at}>{clock(notice.t_s)}</span>;
   return (
     <button class="then mono" title={`${at === '' ? '' : `${at}. `}${kWords.show_time}`} data-test={`then-${notice.seq ?? notice.key}`}
-      onClick={() => app.router.hold_at(notice.t_s)}>{clock(notice.t_s)}</button>
+      onClick={() => app.router.show_time(notice.t_s)}>{clock(notice.t_s)}</button>
   );
 }
 

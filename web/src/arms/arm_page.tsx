@@ -3,7 +3,7 @@
 
 import { useState } from 'preact/hooks';
 import { arm_of, states_of } from '../compose/goal';
-import { ByHand } from '../control/by_hand';
+import { JogPanel } from '../control/jog';
 import { AsOf } from '../frame/as_of';
 import { when_in_words } from '../jobs/when';
 import { Link } from '../route/link';
@@ -16,7 +16,7 @@ import { instant_of, pose_at } from '../state/instant';
 import { seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
 import { known_lanes } from '../timeline/known';
-import { lane_in_words } from '../timeline/told';
+import { lane_in_words } from '../timeline/mark_words';
 import { short_names, shown_name } from '../names';
 import { reason_in_words, title_of } from '../wording';
 import { kText } from '../strings';
@@ -50,7 +50,7 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
       </p>
       <AsOf app={app}>{kWords.acts_now}</AsOf>
       <SendTo arm={arm} app={app} />
-      <ByHand arm={arm} app={app} />
+      <JogPanel arm={arm} app={app} />
       <h3>{kWords.joints}</h3>
       <Joints arm={arm} app={app} />
       <h3>{kWords.measured(units_of(arm.joints, app), kPlotted_s)}</h3>
@@ -62,11 +62,11 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
 }
 
 function StopOfArm({ arm, app }: { arm: Arm; app: App }) {
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   const state = app.store.arm_state(arm);
   return state === 'stopped' || state === 'fault'
     ? <button class="small" data-test="resume-arm" title={kText.common.open_recovery} onClick={() => app.router.go({ page: 'recovery' })}>{kText.common.resume}</button>
-    : <button class="small" disabled={mute !== null} data-test="stop-arm" title={kWords.stop_title} onClick={() => void app.actions.stop_arm(arm.name)}>{kWords.stop}</button>;
+    : <button class="small" disabled={why_disabled !== null} data-test="stop-arm" title={kWords.stop_title} onClick={() => void app.actions.stop_arm(arm.name)}>{kWords.stop}</button>;
 }
 
 /** Along a way that the server plans; the job waits its turn as any other. */
@@ -74,13 +74,13 @@ function SendTo({ arm, app }: { arm: Arm; app: App }) {
   const { cell } = app.store;
   const states = cell ? states_of(arm_of(cell, arm.name)) : [];
   const [state, set_state] = useState('home');
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   return (
     <div class="line wrap">
       <label class="line">{kWords.send_to} <select value={state} data-test="send-state" onChange={(event) => set_state(event.currentTarget.value)}>
         {states.map((name) => <option key={name} value={name}>{name}</option>)}
       </select></label>
-      <button class="small" data-test="send-there" disabled={mute !== null} title={mute ?? kWords.send_title}
+      <button class="small" data-test="send-there" disabled={why_disabled !== null} title={why_disabled ?? kWords.send_title}
         onClick={() => void app.actions.send_to(arm.name, state, kSlowly)}>{kWords.send(100 * kSlowly)}</button>
       <Link app={app} to={{ page: 'new' }}>{kWords.other_goals}</Link>
     </div>

@@ -4,10 +4,10 @@
 import { cut_text } from '../names';
 import { parts_of, thinned, type Part } from '../motion/pasted';
 import { kText } from '../strings';
-import { bodies_of, read_bag, type Body } from './bag';
+import { bodies_of, read_batch, type Body } from './batch';
 
 export interface Composed {
-  kind: 'one' | 'bag';
+  kind: 'one' | 'batch';
   bodies: Body[];
   /** What is sent, and where. */
   request: { path: '/batches' | '/jobs'; body: Blob };
@@ -21,10 +21,10 @@ export interface Composed {
 const kMostShown = 10_000;
 
 export function composed(text: string): Composed {
-  const bag = read_bag(text);
+  const batch = read_batch(text);
   return {
-    kind: bag.kind, bodies: bodies_of(bag), parts: thinned(parts_of(bag), kMostShown), fault: fault_in(text),
-    request: bag.kind === 'bag' ? { path: '/batches', body: new Blob([JSON.stringify({ atomic: true, jobs: bag.jobs })]) } : { path: '/jobs', body: new Blob([bag.text]) },
+    kind: batch.kind, bodies: bodies_of(batch), parts: thinned(parts_of(batch), kMostShown), fault: fault_in(text),
+    request: batch.kind === 'batch' ? { path: '/batches', body: new Blob([JSON.stringify({ atomic: true, jobs: batch.jobs })]) } : { path: '/jobs', body: new Blob([batch.text]) },
   };
 }
 

@@ -3,7 +3,7 @@
 import { no_number, number_in } from '../frame/number_text';
 import type { Cell, CellArm } from '../server/messages';
 import { kText } from '../strings';
-import type { ToolPose } from '../view/tool_in_hand';
+import type { ToolPose } from '../view/tool_goal';
 
 const kWords = kText.plan;
 

@@ -5,7 +5,7 @@ import { shown_name } from '../names';
 import { bytes_in_words } from '../wording';
 import { kText } from '../strings';
 import { composed, type Composed } from './composed';
-import { composed_beside, kLong } from './long_text';
+import { composed_in_worker, kLong } from './long_text';
 
 /** A request to the server has at most so much (kBodyMax of server/http/session.h; 413 of the contract). */
 export const kBodyMax_bytes = 8 * 1024 * 1024;
@@ -17,7 +17,7 @@ export function too_large(what: string, bytes: number): string | null {
   return bytes <= kBodyMax_bytes ? null : kText.compose.too_large(what, bytes_in_words(bytes), bytes_in_words(kBodyMax_bytes));
 }
 
-export async function read_job_file(file: Pick<File, 'name' | 'size' | 'text'>, beside: (text: string) => Promise<Composed> = (text) => composed_beside(text, new AbortController().signal)): Promise<JobFile> {
+export async function read_job_file(file: Pick<File, 'name' | 'size' | 'text'>, beside: (text: string) => Promise<Composed> = (text) => composed_in_worker(text, new AbortController().signal)): Promise<JobFile> {
   const name = shown_name(file.name);
   const large = too_large(name, file.size);
   if (large !== null) return { ok: false, fault: large };

@@ -6,14 +6,14 @@ import { composed, type Composed } from './composed';
 export const kLong = 200_000;
 
 /** The part of a Worker that is used. */
-export interface Beside {
+export interface WorkerLike {
   postMessage(text: string): void;
   terminate(): void;
   onmessage: ((event: MessageEvent<Composed>) => void) | null;
   onerror: ((event: ErrorEvent) => void) | null;
 }
 
-const kMake = (): Beside => new Worker(new URL('./composing.ts', import.meta.url), { type: 'module' });
+const kMake = (): WorkerLike => new Worker(new URL('./compose_worker.ts', import.meta.url), { type: 'module' });
 
 /** A file is looked at before its text is taken: what it came to is not made twice. */
 let last: { of: string; made: Composed } | null = null;
@@ -22,14 +22,14 @@ let last: { of: string; made: Composed } | null = null;
  * The same as composed(); `stop` gives it up, which rejects. Where nothing can run beside the page, as when the
  * server was updated under it and has other files now, the page reads it itself.
  */
-export async function composed_beside(text: string, stop: AbortSignal, make: () => Beside = kMake): Promise<Composed> {
+export async function composed_in_worker(text: string, stop: AbortSignal, make: () => WorkerLike = kMake): Promise<Composed> {
   if (last?.of === text) return last.made;
-  const made = await read_beside(text, stop, make);
+  const made = await read_in_worker(text, stop, make);
   last = { of: text, made };
   return made;
 }
 
-function read_beside(text: string, stop: AbortSignal, make: () => Beside): Promise<Composed> {
+function read_in_worker(text: string, stop: AbortSignal, make: () => WorkerLike): Promise<Composed> {
   return new Promise((done, fail) => {
     const worker = make();
     const end = () => {

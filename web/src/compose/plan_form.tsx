@@ -4,12 +4,12 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Plan, Problem } from '../server/messages';
 import type { App } from '../state/app';
-import { millimetres, seconds, why_mute } from '../wording';
+import { millimetres, seconds, why_not_connected } from '../wording';
 import { InSight } from '../frame/in_sight';
 import { NumberField } from '../frame/number_field';
 import { pretty } from './example';
-import type { Grip } from '../view/by_hand';
-import type { ToolPose } from '../view/tool_in_hand';
+import type { Grip } from '../view/drag_handles';
+import type { ToolPose } from '../view/tool_goal';
 import { arm_of, form_of_pose, plan_request, pose_of_form, states_of, type GoalForm, type GoalKind } from './goal';
 import { kText } from '../strings';
 import { Refused } from './refused';
@@ -57,7 +57,7 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
     set(part);
     if (last) void plan(last);
   };
-  const mute = why_mute(app.store.link);
+  const why_disabled = why_not_connected(app.store.link);
   const { arm } = shown;
   return (
     <form class="plan-form" data-test="plan-form" onSubmit={(event) => { event.preventDefault(); void plan(shown); }}>
@@ -74,7 +74,7 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
       {shown.kind !== 'named' && <Goal form={shown} app={app} set={set} />}
       {shown.kind === 'pose' && <Drag form={shown} app={app} drag={drag} />}
       <div class="line">
-        <button type="submit" data-test="plan" disabled={outcome.kind === 'busy' || mute !== null} title={mute ?? kWords.submit_title}>
+        <button type="submit" data-test="plan" disabled={outcome.kind === 'busy' || why_disabled !== null} title={why_disabled ?? kWords.submit_title}>
           {outcome.kind === 'busy' ? kWords.planning : kWords.submit}
         </button>
         <span class="dim small grow">{kWords.start}</span>

@@ -7,20 +7,20 @@
 import type { Diagram, DiagramContact } from '../server/messages';
 import type { Point } from './reading';
 
-/** `allowed`: both may go until there and on. `held`: one of them may not. */
-export type Ahead = { kind: 'free' } | { kind: 'allowed' | 'held'; met: DiagramContact };
+/** `allowed`: both may go until there and on. `waits`: one of them may not. */
+export type Ahead = { kind: 'free' } | { kind: 'allowed' | 'waits'; contact: DiagramContact };
 
 // Cells are as fine as 10 ms; who waits at the border of a conflict stands a little before or behind it.
 const kBorder_s = 0.05;
 
-/** `met`: as the server answered some time ago; null: nothing. `authority`: null: none was told of. The answer is null where what was met lies behind by now. */
-export function ahead_of(met: DiagramContact | null, now: Point, authority: Point | null, { a, b }: Pick<Diagram, 'a' | 'b'>): Ahead | null {
-  if (!met) return { kind: 'free' };
-  const left = { a_s: met.a_s - now.a_s, b_s: met.b_s - now.b_s };
+/** `contact`: as the server answered some time ago; null: nothing. `authority`: null: none was told of. The answer is null where what was contact lies behind by now. */
+export function ahead_of(contact: DiagramContact | null, now: Point, authority: Point | null, { a, b }: Pick<Diagram, 'a' | 'b'>): Ahead | null {
+  if (!contact) return { kind: 'free' };
+  const left = { a_s: contact.a_s - now.a_s, b_s: contact.b_s - now.b_s };
   if (Math.min(left.a_s, left.b_s) < -kBorder_s) return null;
-  const may_a = may_pass(met.a_s, Math.max(now.a_s, authority?.a_s ?? 0), a.duration_s);
-  const may_b = may_pass(met.b_s, Math.max(now.b_s, authority?.b_s ?? 0), b.duration_s);
-  return { kind: may_a && may_b ? 'allowed' : 'held', met: { ...met, in_s: Math.max(0, left.a_s, left.b_s) } };
+  const may_a = may_pass(contact.a_s, Math.max(now.a_s, authority?.a_s ?? 0), a.duration_s);
+  const may_b = may_pass(contact.b_s, Math.max(now.b_s, authority?.b_s ?? 0), b.duration_s);
+  return { kind: may_a && may_b ? 'allowed' : 'waits', contact: { ...contact, in_s: Math.max(0, left.a_s, left.b_s) } };
 }
 
 function may_pass(place_s: number, authority_s: number, end_s: number): boolean {

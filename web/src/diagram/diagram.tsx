@@ -3,7 +3,7 @@
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import {
-  evidence_in_words, evidence_of, drawn_in_words, kept_in_words, measured_way, plan_from, plan_in_words, shares, type Point,
+  evidence_in_words, evidence_of, drawn_in_words, kept_in_words, measured_path, plan_from, plan_in_words, shares, type Point,
 } from './reading';
 import { ahead_of, type Ahead } from './ahead';
 import { use_fetched, use_latest } from './fetched';
@@ -125,7 +125,7 @@ interface DrawnProps {
 
 function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
   const { store } = app;
-  const held_s = app.router.address.value.t_s;
+  const shown_s = app.router.address.value.t_s;
   const layer = diagram.layers[index] ?? diagram.layers[0];
   const host = useRef<HTMLDivElement>(null);
   const scene = useRef<() => Scene | null>(() => null);
@@ -137,11 +137,11 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
     picture_shown.current?.draw();
   };
   useEffect(() => () => { app.ghost.value = null; }, [app]);
-  const measured = () => measured_way(store.courses.of(diagram.a.id), store.courses.of(diagram.b.id), held_s ?? Infinity);
-  const now_point = () => ({ a_s: progress_of(diagram.a, store, held_s), b_s: progress_of(diagram.b, store, held_s) });
+  const measured = () => measured_path(store.courses.of(diagram.a.id), store.courses.of(diagram.b.id), shown_s ?? Infinity);
+  const now_point = () => ({ a_s: progress_of(diagram.a, store, shown_s), b_s: progress_of(diagram.b, store, shown_s) });
   // What lay ahead then nobody kept.
-  const plans = is_open(jobs, store) && held_s === null && !is_kept;
-  const authority = () => (held_s === null && !is_kept ? authority_of(store, diagram) : null);
+  const plans = is_open(jobs, store) && shown_s === null && !is_kept;
+  const authority = () => (shown_s === null && !is_kept ? authority_of(store, diagram) : null);
   const latest = use_latest(diagram, plans, app.api);
   const ahead = (at: Point) => (plans ? ahead_of(latest.layers[index]?.first_contact ?? null, at, authority(), diagram) : null);
   const evidence = evidence_of(jobs.a, jobs.b);
@@ -150,10 +150,10 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
     if (!layer) return null;
     const at = now_point();
     const lies = ahead(at);
-    const way = measured();
+    const path = measured();
     return {
       authority: authority(), pointed: pointed.current,
-      diagram, layer, now: at, way: plans ? plan_from(at, diagram) : [], trail: way.length === 0 ? [] : [...way, at] /* not to end at a stride of the clock */, met: lies && 'met' in lies ? lies.met : null, evidence,
+      diagram, layer, now: at, prediction: plans ? plan_from(at, diagram) : [], trail: path.length === 0 ? [] : [...path, at] /* not to end at a stride of the clock */, contact: lies && 'contact' in lies ? lies.contact : null, evidence,
       colours: { a: ink(arm_colour(names, layer.arms[0])), b: ink(arm_colour(names, layer.arms[1])) },
     };
   };
@@ -180,7 +180,7 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
         }}
         onPointerLeave={() => point_at(null)}
         aria-label={kWords.label(diagram.a.id, diagram.b.id)} />
-      <Legend layer={layer} of_now={held_s === null} is_measured={is_measured} />
+      <Legend layer={layer} of_now={shown_s === null} is_measured={is_measured} />
       {unheard && <p class="hint" data-test="unmeasured">{kWords.unmeasured}</p>}
       <Instant diagram={diagram} jobs={jobs} app={app} show={point_at} />
       {shares(layer).free === 1 && <p class="hint" data-test="all-free">{kWords.all_free}</p>}
@@ -194,11 +194,11 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
 }
 
 /** As the last poses have it, which tell of authority, too; else by the last event, carried on with the clock. */
-function progress_of(side: Diagram['a'], store: Store, held_s: number | null): number {
-  const measured_s = held_s === null ? motion_of(store, side)?.progress_s : measured_at(store, side, held_s);
+function progress_of(side: Diagram['a'], store: Store, shown_s: number | null): number {
+  const measured_s = shown_s === null ? motion_of(store, side)?.progress_s : measured_at(store, side, shown_s);
   if (measured_s != null) return Math.min(measured_s, side.duration_s);
   const job = store.job(side.id);
-  return job ? store.progress(job) * side.duration_s : held_s === null ? side.progress_s : 0;
+  return job ? store.progress(job) * side.duration_s : shown_s === null ? side.progress_s : 0;
 }
 
 /** Whether something lies ahead of them: one is under way or to begin, and none was given up. */

@@ -12,9 +12,9 @@ export interface Scene {
   layer: DiagramLayer;
   now: Point;
   /** Empty: no plan. */
-  way: Point[];
+  prediction: Point[];
   trail: Point[];
-  met: DiagramContact | null;
+  contact: DiagramContact | null;
   evidence: Evidence | null;
   /** How far each may go, whatever the other does; null: neither has been told to move. */
   authority: Point | null;
@@ -186,7 +186,7 @@ function figure(t_s: number): string {
 }
 
 function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): void {
-  const { now, way, trail, met, evidence, colours } = scene;
+  const { now, prediction, trail, contact, evidence, colours } = scene;
   g.lineJoin = 'round';
   g.lineCap = 'round';
   g.setLineDash([]);
@@ -196,17 +196,17 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   guide(g, [x, y], [sheet.x(0), y], colours.b);
   draw_authority(g, sheet, scene);
   polyline(g, sheet, trail, kInk, 2.5);
-  if (way.length > 0) {
+  if (prediction.length > 0) {
     // Never as what was measured: it may not come to that.
     g.setLineDash(kBeyond);
-    polyline(g, sheet, way, kPlan, 1.8);
+    polyline(g, sheet, prediction, kPlan, 1.8);
     g.setLineDash(kGoesOn);
-    polyline(g, sheet, met ? up_to(way, met) : way, kPlan, 1.8);
+    polyline(g, sheet, contact ? up_to(prediction, contact) : prediction, kPlan, 1.8);
     g.setLineDash([]);
   }
   if (evidence) mark(g, sheet, evidence);
   if (scene.pointed) ring(g, sheet.x(scene.pointed.a_s), sheet.y(scene.pointed.b_s));
-  if (met) cross(g, sheet.x(met.a_s), sheet.y(met.b_s));
+  if (contact) cross(g, sheet.x(contact.a_s), sheet.y(contact.b_s));
   g.beginPath();
   g.arc(x, y, 5.5, 0, 2 * Math.PI);
   g.fillStyle = '#ffffff';
@@ -236,8 +236,8 @@ function ring(g: CanvasRenderingContext2D, x: number, y: number): void {
   g.stroke();
 }
 
-function up_to(way: Point[], met: DiagramContact): Point[] {
-  return [...way.filter((point) => point.a_s <= met.a_s && point.b_s <= met.b_s), met];
+function up_to(prediction: Point[], contact: DiagramContact): Point[] {
+  return [...prediction.filter((point) => point.a_s <= contact.a_s && point.b_s <= contact.b_s), contact];
 }
 
 function polyline(g: CanvasRenderingContext2D, sheet: Sheet, points: Point[], colour: string, width: number): void {

@@ -23,16 +23,16 @@ export function plan_from(now: Point, diagram: Diagram): Point[] {
 }
 
 /** Where the two were together until some time, as measured; empty where one of them was not heard. */
-export function measured_way(a: Course | null, b: Course | null, until_s = Infinity): Point[] {
+export function measured_path(a: Course | null, b: Course | null, until_s = Infinity): Point[] {
   if (!a || !b) return [];
   const times_s = [...new Set([...a.t_s, ...b.t_s])].filter((t_s) => t_s <= until_s).sort((x, y) => x - y);
-  const way: Point[] = [];
+  const path: Point[] = [];
   for (const t_s of times_s) {
     const [a_s, b_s] = [progress_at(a, t_s), progress_at(b, t_s)];
-    const last = way.at(-1);
-    if (a_s !== null && b_s !== null && (last?.a_s !== a_s || last.b_s !== b_s)) way.push({ a_s, b_s });
+    const last = path.at(-1);
+    if (a_s !== null && b_s !== null && (last?.a_s !== a_s || last.b_s !== b_s)) path.push({ a_s, b_s });
   }
-  return way;
+  return path;
 }
 
 /** Shares of the rectangle's area, which add up to one. */
@@ -80,14 +80,14 @@ export function plan_in_words(ahead: Ahead, waiting: string | null, resting: str
     : resting === null ? kWords.if_both_continue : kWords.while_rests(short_id(resting));
   switch (ahead.kind) {
     case 'free': return { tone: 'free', words: waiting === null && resting !== null ? kWords.other_is_free(begin) : kWords.both_are_free(begin) };
-    case 'held': return { tone: 'calm', words: kWords.one_waits(begin, met_in_words(ahead.met)) };
-    case 'allowed': return ahead.met.state === 'conflict'
-      ? { tone: 'alarm', words: kWords.nothing_waits(begin, met_in_words(ahead.met)) }
-      : { tone: 'calm', words: kWords.may_be_free(begin, met_in_words(ahead.met)) };
+    case 'waits': return { tone: 'calm', words: kWords.one_waits(begin, contact_in_words(ahead.contact)) };
+    case 'allowed': return ahead.contact.state === 'conflict'
+      ? { tone: 'alarm', words: kWords.nothing_waits(begin, contact_in_words(ahead.contact)) }
+      : { tone: 'calm', words: kWords.may_be_free(begin, contact_in_words(ahead.contact)) };
   }
 }
 
-function met_in_words({ state, in_s }: DiagramContact): string {
+function contact_in_words({ state, in_s }: DiagramContact): string {
   const what = state === 'conflict' ? kWords.a_conflict : kWords.an_uncertified_area;
   return in_s < 0.005 ? kWords.at_once(what) : kWords.in_seconds(what, in_s.toFixed(2));
 }

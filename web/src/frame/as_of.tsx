@@ -14,7 +14,7 @@ export function AsOf({ app, children }: { app: App; children?: ComponentChildren
   return (
     <p class="hint looked-at as-of" role="status" data-test="as-of">
       <b>{known ? kText.past.state_at : kText.past.state_unknown_at} <span class="mono">{clock(t_s)}</span>.</b> {children}{' '}
-      <button class="small" onClick={() => app.router.hold_at(null)}>{app.store.link.status === 'recording' ? kText.past.go_to_end : kText.past.go_to_now}</button>
+      <button class="small" onClick={() => app.router.show_time(null)}>{app.store.link.status === 'recording' ? kText.past.go_to_end : kText.past.go_to_now}</button>
     </p>
   );
 }

@@ -26,7 +26,7 @@ export function Header({ app }: { app: App }) {
       <Navigation app={app} />
       <div class="facts">
         <ConnectionState app={app} />
-        <OnlyLooks app={app} />
+        <ViewOnly app={app} />
         <OpenAlerts app={app} />
         <InControl app={app} />
         {store.speed !== 1 && <span class="fact"><i>{kWords.speed}</i> ×{store.speed}</span>}
@@ -42,11 +42,11 @@ export function Header({ app }: { app: App }) {
 }
 
 /** Said before a command is refused. */
-function OnlyLooks({ app }: { app: App }) {
+function ViewOnly({ app }: { app: App }) {
   const session = app.session.value;
   if (!is_viewer(session)) return null;
   return (
-    <span class="fact gives-way" data-test="only-looks" title={kWords.viewer_title(shown_name(session?.name ?? ''))}>
+    <span class="fact gives-way" data-test="view-only" title={kWords.viewer_title(shown_name(session?.name ?? ''))}>
       <Link app={app} to={{ page: 'settings' }}>{kWords.viewer(shown_name(session?.name ?? ''))}</Link>
     </span>
   );
@@ -54,10 +54,10 @@ function OnlyLooks({ app }: { app: App }) {
 
 /** Who moves arms by hand. */
 function InControl({ app }: { app: App }) {
-  const holder = app.hand.holder.value;
+  const holder = app.jogging.holder.value;
   if (!holder) return null;
   const name = shown_name(holder.who);
-  const who = app.hand.key.value === null ? name : kWords.you(name);
+  const who = app.jogging.key.value === null ? name : kWords.you(name);
   return (
     <span class="fact gives-way" data-test="in-control" title={kWords.control_since(who, wall_time(holder.since_at))}>
       {kWords.control}{holder.arm === null ? who : <Link app={app} to={{ page: 'arm', name: holder.arm }}>{who}</Link>}

@@ -14,7 +14,7 @@ export function PolicyForm({ app }: { app: App }) {
   const { store } = app;
   const [chosen, set_chosen] = useState<string | null>(null);
   const policy = chosen ?? store.policy;
-  const mute = why_no_command(app) ?? why_no_change(store);
+  const why_disabled = why_no_command(app) ?? why_no_change(store);
   return (
     <form
       data-test="policy-form"
@@ -32,11 +32,11 @@ export function PolicyForm({ app }: { app: App }) {
           </label>
         ))}
       </fieldset>
-      <button data-test="change-policy" disabled={mute !== null || policy === store.policy} title={mute ?? ''}>
+      <button data-test="change-policy" disabled={why_disabled !== null || policy === store.policy} title={why_disabled ?? ''}>
         {policy === store.policy ? kWords.active : kWords.change_to(policy)}
       </button>
       <p class="hint">
-        {mute === null ? kWords.change_hint : <b data-test="no-change">{mute}.</b>}{kWords.change_effect}
+        {why_disabled === null ? kWords.change_hint : <b data-test="no-change">{why_disabled}.</b>}{kWords.change_effect}
       </p>
     </form>
   );

@@ -14,8 +14,8 @@ export function listen_to_keys(app: App, window: Pick<Window, 'addEventListener'
     }
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (document.querySelector('dialog[open], .more-pages[open]')) return;
-    if (event.key === 'Escape' && app.by_hand.value !== null) {
-      app.by_hand.value = null;
+    if (event.key === 'Escape' && app.dragged_object.value !== null) {
+      app.dragged_object.value = null;
       return;
     }
     if (event.key === 'Escape' && app.router.place.page !== 'cell') return app.router.go({ page: 'cell' });

@@ -12,12 +12,12 @@ export const kStopKey = 'F8';
 
 export function StopButton({ app }: { app: App }) {
   const asked = app.actions.stopping.value;
-  const in_vain = is_viewer(app.session.value);
+  const not_allowed = is_viewer(app.session.value);
   return (
     <button class="stop" aria-label={kStopName} aria-keyshortcuts={kStopKey} data-test="stop"
-      title={in_vain ? kWords.stop_not_allowed_title : kWords.stop_title(kStopKey)}
+      title={not_allowed ? kWords.stop_not_allowed_title : kWords.stop_title(kStopKey)}
       onClick={() => void app.actions.stop()}>
-      <span class="stop-what"><b>{asked ? kWords.stopping : kWords.stop_all}</b><span class="stop-how">{in_vain ? kWords.stop_not_allowed : kWords.stop_how}</span></span>
+      <span class="stop-what"><b>{asked ? kWords.stopping : kWords.stop_all}</b><span class="stop-how">{not_allowed ? kWords.stop_not_allowed : kWords.stop_how}</span></span>
       <kbd>{kStopKey}</kbd>
     </button>
   );

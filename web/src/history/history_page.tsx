@@ -7,7 +7,7 @@ import type { Job } from '../server/messages';
 import type { App } from '../state/app';
 import { arm_colour } from '../state/palette';
 import { short_wall_time, wall_time } from '../wall_time';
-import { clock, result_in_words, seconds, title_of, why_mute } from '../wording';
+import { clock, result_in_words, seconds, title_of, why_not_connected } from '../wording';
 import { shown_name } from '../names';
 import { kText } from '../strings';
 import { loaded_in_words } from './loaded';
@@ -56,10 +56,10 @@ function none_in_words(all: number, may_be_more: boolean): string {
 
 /** Loads what the page was not told of: of former runs of the server, too, where it keeps them. */
 function More({ app: { archive, store }, show }: { app: App; show(): void }) {
-  const mute = why_mute(store.link);
+  const why_disabled = why_not_connected(store.link);
   if (archive.state === 'all') return null;
   return (
-    <button class="small" data-test="earlier" disabled={archive.state === 'asking' || mute !== null} title={mute ?? ''} onClick={() => { show(); void archive.more(); }}>
+    <button class="small" data-test="earlier" disabled={archive.state === 'asking' || why_disabled !== null} title={why_disabled ?? ''} onClick={() => { show(); void archive.more(); }}>
       {archive.state === 'asking' ? kWords.loading : kWords.earlier}
     </button>
   );
@@ -68,11 +68,11 @@ function More({ app: { archive, store }, show }: { app: App; show(): void }) {
 /** At the table's end. */
 function Earlier({ app, show }: { app: App; show(): void }) {
   const { archive } = app;
-  const said = archive.fault ? kWords.not_available(archive.fault.detail ?? archive.fault.title) : archive.state === 'all' ? kWords.all_loaded : kWords.with_data;
+  const status = archive.fault ? kWords.not_available(archive.fault.detail ?? archive.fault.title) : archive.state === 'all' ? kWords.all_loaded : kWords.with_data;
   return (
     <div class="line">
       <More app={app} show={show} />
-      <span class="dim small" role="status" data-test="earlier-said">{said}</span>
+      <span class="dim small" role="status" data-test="earlier-status">{status}</span>
     </div>
   );
 }

@@ -18,7 +18,7 @@ export function JobActions({ job, app }: Props) {
   return (
     <div class="job-actions" data-test="job-actions">
       {waits(job) && <Urgency job={job} app={app} />}
-      {kCanReplan && job.arms.length === 1 && <AnotherWay job={job} app={app} />}
+      {kCanReplan && job.arms.length === 1 && <Replan job={job} app={app} />}
       <Cancel job={job} app={app} words={kWords.cancel_this} />
     </div>
   );
@@ -30,9 +30,9 @@ export function waits(job: Pick<Job, 'state'>): boolean {
 
 /** Who of those that wait goes first. */
 export function Urgency({ job, app }: Props) {
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   const step = (by: number, sign: string, what: string) => (
-    <button class="small" disabled={mute !== null} title={mute ?? kWords.new_priority(what, job.priority + by)} aria-label={kWords.of_job(what, job.id)}
+    <button class="small" disabled={why_disabled !== null} title={why_disabled ?? kWords.new_priority(what, job.priority + by)} aria-label={kWords.of_job(what, job.id)}
       onClick={() => { void app.actions.set_priority(job.id, job.priority + by); }}>{sign}</button>
   );
   return <div class="urgency" data-test="urgency">{step(1, '▲', kWords.more_urgent)}{step(-1, '▼', kWords.less_urgent)}</div>;
@@ -41,10 +41,10 @@ export function Urgency({ job, app }: Props) {
 /** The first click asks, the second does it; the question goes away by itself. */
 export function Cancel({ job, app, words }: Props & { words?: string }) {
   const question = use_question();
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   if (!question.asked) {
     return (
-      <button ref={question.button} class={words === undefined ? 'cancel' : 'small'} data-test={words === undefined ? undefined : 'cancel-job'} disabled={job.stopping || mute !== null} title={mute ?? kWords.cancel(job.id)}
+      <button ref={question.button} class={words === undefined ? 'cancel' : 'small'} data-test={words === undefined ? undefined : 'cancel-job'} disabled={job.stopping || why_disabled !== null} title={why_disabled ?? kWords.cancel(job.id)}
         aria-label={kWords.cancel(job.id)} onClick={question.ask}>{words ?? kWords.cancel_short}</button>
     );
   }
@@ -59,9 +59,9 @@ export function Cancel({ job, app, words }: Props & { words?: string }) {
 }
 
 /** Of one that moves this is asked first: what its trajectory was to do on the way is lost. */
-function AnotherWay({ job, app }: Props) {
+function Replan({ job, app }: Props) {
   const { asked, ...question } = use_question();
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   const moves = job.state === 'running' || job.state === 'paused';
   const ask = () => {
     if (moves && !asked) return question.ask();
@@ -70,7 +70,7 @@ function AnotherWay({ job, app }: Props) {
   };
   return (
     <div class="line">
-      <button ref={question.button} class="small" data-test="replan" disabled={mute !== null || job.stopping} title={mute ?? kWords.replan_title} onClick={ask}>
+      <button ref={question.button} class="small" data-test="replan" disabled={why_disabled !== null || job.stopping} title={why_disabled ?? kWords.replan_title} onClick={ask}>
         {asked ? kWords.confirm_replan : kWords.replan}
       </button>
       {asked && <><span class="small">{kWords.replan_loss}</span><button class="small" onClick={question.take_back}>{kWords.keep_path}</button></>}

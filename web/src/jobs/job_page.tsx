@@ -8,16 +8,16 @@ import { Plot, units_of } from '../plot/plot';
 import { Link } from '../route/link';
 import type { Job } from '../server/messages';
 import type { App } from '../state/app';
-import { is_terminal, type Stand } from '../state/job_book';
+import { is_terminal, type Pause } from '../state/job_book';
 import { arm_colour } from '../state/palette';
-import { told_state } from '../state/standing';
+import { shown_state } from '../state/shown_state';
 import { use_beats } from '../state/seen';
 import { clock, reason_in_words, result_in_words, short_id, wait_in_words, path_in_words } from '../wording';
 import { short_wall_time } from '../wall_time';
 import { JobActions } from './actions';
 import { asked_of, Copy } from './copy';
 import { curl_of, python_of } from './snippets';
-import { states_of, stood_in_words } from './states';
+import { states_of, pause_in_words } from './states';
 import { when_in_words } from './when';
 import { shown_json, shown_name } from '../names';
 import { kText } from '../strings';
@@ -45,13 +45,13 @@ export function JobPage({ id, app }: { id: string; app: App }) {
       <h2 class="ellipsis" title={shown_name(job.name) || job.id}>{shown_name(job.name) || job.id}</h2>
       <p class="hint line">
         {job.arms.map((arm) => <Link key={arm} app={app} to={{ page: 'arm', name: arm }} class="tag link-tag"><span style={{ color: arm_colour(arms, arm) }}>{shown_name(arm)}</span></Link>)}
-        <span class={`state-word ${told_state(job)}`} data-test="job-state">{told_state(job)}</span>
+        <span class={`state-word ${shown_state(job)}`} data-test="job-state">{shown_state(job)}</span>
         <span class="mono ellipsis">{job.id}</span>
       </p>
       {words !== '' && <p class="words">{words}</p>}
       {job.waits_on.length > 0 && <Evidence job={job} app={app} />}
       <States job={job} app={app} />
-      {path_in_words(job).map((words) => <p key={words} class="hint" data-test="way">{words}</p>)}
+      {path_in_words(job).map((words) => <p key={words} class="hint" data-test="path">{words}</p>)}
       {looks_back ? null : former ? <p class="hint" data-test="former">{kWords.from_store}</p> : <Beside job={job} app={app} />}
       {goes_on && <JobActions job={job} app={app} />}
       {!former && <Moves job={job} app={app} />}
@@ -70,7 +70,7 @@ function States({ job, app }: Props) {
   use_beats(app.store);
   const former = app.store.job(job.id) === null;
   const times = states_of(job, app.store.book.changes(job.id));
-  const stands = app.store.book.stands(job.id);
+  const pauses = app.store.book.pauses(job.id);
   const when = is_terminal(job) ? '' : when_in_words(job, app.store);
   return (
     <>
@@ -79,7 +79,7 @@ function States({ job, app }: Props) {
           <li key={i} class={t_s === null ? 'open' : ''}>
             <span>{name}</span><span class="mono" title={wall_of(job, name)}>{t_s === null ? kText.common.unknown_time : former || t_s < 0 ? short_wall_time(wall_of(job, name), Date.now()) : clock(t_s)}</span>
             <span class="dim">{t_s === null || name === kWords.submitted ? '' : `+${(t_s - job.submitted_s).toFixed(2)} s`}</span>
-            <StoodFor stand={stands.find(({ from_s }) => from_s === t_s) ?? null} />
+            <PauseReason pause={pauses.find(({ from_s }) => from_s === t_s) ?? null} />
           </li>
         ))}
       </ol>
@@ -89,9 +89,9 @@ function States({ job, app }: Props) {
 }
 
 /** Why it stood there, and for how long, as far as the page was told. */
-function StoodFor({ stand }: { stand: Stand | null }) {
-  const words = stand ? stood_in_words(stand) : '';
-  return words === '' ? null : <span class="small" data-test="stood">{words}</span>;
+function PauseReason({ pause }: { pause: Pause | null }) {
+  const words = pause ? pause_in_words(pause) : '';
+  return words === '' ? null : <span class="small" data-test="pause-reason">{words}</span>;
 }
 
 /** Of what was in a former run the wall clock's times alone mean something now. */

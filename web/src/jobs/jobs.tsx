@@ -9,7 +9,7 @@ import type { JobList } from '../state/job_book';
 import { is_known } from '../state/as_of';
 import { clock } from '../wording';
 import { matches } from './filter';
-import { held_lists, type Lists } from './held';
+import { frozen_lists, type Lists } from './frozen_lists';
 import { Row } from './row';
 import { Link } from '../route/link';
 import { kText } from '../strings';
@@ -38,17 +38,17 @@ function row_of(target: EventTarget | null): string | null {
 export function Jobs({ app }: { app: App }) {
   const [words, set_words] = useState('');
   const [only_failed, set_only_failed] = useState(false);
-  const [held, set_held] = useState<string | null>(null);
+  const [pointed_at, set_pointed_at] = useState<string | null>(null);
   const { store } = app;
   const shown = useRef<{ of: unknown; lists: Lists }>({ of: store, lists: new Map() });
   const now = new Map(kLists.map((list) => [list, store.jobs(list)]));
-  const lists = shown.current.of === store ? held_lists(kLists, now, shown.current.lists, held) : now;
+  const lists = shown.current.of === store ? frozen_lists(kLists, now, shown.current.lists, pointed_at) : now;
   shown.current = { of: store, lists };
   const is_asked = (job: Job) => matches(job, words, only_failed);
   return (
     <section class="jobs" aria-label={kWords.title}
-      onPointerOver={(event) => set_held(row_of(event.target))} onPointerLeave={() => set_held(null)}
-      onFocusIn={(event) => { if (event.target instanceof HTMLButtonElement) set_held(row_of(event.target)); }} onFocusOut={() => set_held(null)}>
+      onPointerOver={(event) => set_pointed_at(row_of(event.target))} onPointerLeave={() => set_pointed_at(null)}
+      onFocusIn={(event) => { if (event.target instanceof HTMLButtonElement) set_pointed_at(row_of(event.target)); }} onFocusOut={() => set_pointed_at(null)}>
       <div class="filter">
         <input type="search" placeholder={kWords.filter_hint} aria-label={kWords.filter_label} data-test="filter" value={words}
           onInput={(event) => set_words(event.currentTarget.value)} />
@@ -65,7 +65,7 @@ function LookedAt({ app }: { app: App }) {
   const { t_s } = app.router.address.value;
   if (t_s === null || instant_of(app.router.address.value, app.store).kind === 'now') return null;
   return (
-    <p class="hint looked-at" role="status" data-test="looked-at">
+    <p class="hint looked-at" role="status" data-test="state-at">
       {is_known(app.store) ? kWords.state_at(clock(t_s)) : kWords.unknown_at(clock(t_s))}
     </p>
   );

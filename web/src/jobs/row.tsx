@@ -9,11 +9,11 @@ import type { Job } from '../server/messages';
 import type { App } from '../state/app';
 import { is_terminal } from '../state/job_book';
 import { arm_colour } from '../state/palette';
-import { told_state } from '../state/standing';
+import { shown_state } from '../state/shown_state';
 import { use_beats } from '../state/seen';
 import { as_last_heard, figure_in_words, object_of, reason_in_words, result_in_words, short_id, title_of } from '../wording';
 import { Cancel, Urgency, waits } from './actions';
-import { leg_of, when_in_words } from './when';
+import { step_of, when_in_words } from './when';
 import { shown_name } from '../names';
 import { kText } from '../strings';
 
@@ -32,7 +32,7 @@ export function Row({ job, app }: Props) {
   const ended = is_terminal(job);
   return (
     <article
-      class={`job ${told_state(job)}${selected ? ' selected' : ''}${of_arm ? ' of-arm' : ''}`} data-test={`job-${job.id}`} data-state={job.state}
+      class={`job ${shown_state(job)}${selected ? ' selected' : ''}${of_arm ? ' of-arm' : ''}`} data-test={`job-${job.id}`} data-state={job.state}
       style={{ '--arm': arm_colour(arms, job.arms[0] ?? '') }}
     >
       <Link app={app} to={selected && place.page === 'job' ? { page: 'cell' } : { page: 'job', id: job.id }} class="open" title={kWords.details(job.id)}>
@@ -76,7 +76,7 @@ function Progress({ job, app }: Props) {
 function Figure({ job, app }: Props) {
   if (!is_terminal(job)) use_beats(app.store);
   const stale = use_stale(app.store) && !is_terminal(job);
-  const { text, title } = figure_in_words(job, app.store.t_s, app.store.progress(job), leg_of(job, app.store.forecast)?.ends_s ?? null);
+  const { text, title } = figure_in_words(job, app.store.t_s, app.store.progress(job), step_of(job, app.store.forecast)?.ends_s ?? null);
   return <span class="figure" title={title} data-test="figure">{stale ? as_last_heard(text) : text}</span>;
 }
 

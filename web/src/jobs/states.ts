@@ -1,7 +1,7 @@
 // The states of a job with their times: all that were heard, or what the job itself says. Pure.
 
 import type { Job } from '../server/messages';
-import { is_terminal, type Change, type Stand } from '../state/job_book';
+import { is_terminal, type Change, type Pause } from '../state/job_book';
 import { kText } from '../strings';
 import { seconds, wait_in_words } from '../wording';
 
@@ -23,6 +23,6 @@ export function states_of(job: Job, heard: readonly Change[]): StateAt[] {
 }
 
 /** Why a job stood on its path, and how long; empty where that was not told, or goes on: it stands beside then. */
-export function stood_in_words({ from_s, to_s, why }: Stand): string {
+export function pause_in_words({ from_s, to_s, why }: Pause): string {
   return why === null || to_s === null ? '' : kText.wait.past(wait_in_words(why).replace(/^waits/, kText.wait.was_waiting), seconds(to_s - from_s));
 }

@@ -1,15 +1,15 @@
-// The motion that a pasted body, or a bag of them, describes, so that it can be shown before it is sent.
+// The motion that a pasted body, or a batch of them, describes, so that it can be shown before it is sent.
 // Pure.
 
-import type { Bag } from '../compose/bag';
+import type { Batch } from '../compose/batch';
 import { child, motion_of_piece, read_trajectory, type Motion, type Piece } from './motion';
 
 /** One that begins so long after the first. */
 export interface Part { piece: Piece; begins_s: number }
 
 /** Jobs of one arm follow each other. */
-export function parts_of(bag: Bag): Part[] {
-  const bodies = bag.kind === 'bag' ? bag.jobs : [json_of(bag.text)];
+export function parts_of(batch: Batch): Part[] {
+  const bodies = batch.kind === 'batch' ? batch.jobs : [json_of(batch.text)];
   const ends_s = new Map<string, number>();
   const parts: Part[] = [];
   for (const body of bodies) {
@@ -40,8 +40,8 @@ export function motion_of_parts(parts: readonly Part[]): Motion | null {
   return { duration_s, names: [...names], q_at: (t_s) => q_of(motions, t_s) };
 }
 
-export function motion_of(bag: Bag): Motion | null {
-  return motion_of_parts(parts_of(bag));
+export function motion_of(batch: Batch): Motion | null {
+  return motion_of_parts(parts_of(batch));
 }
 
 function q_of(motions: readonly { motion: Motion; begins_s: number }[], t_s: number): Record<string, number> {

@@ -9,8 +9,8 @@ import type { Comparison, PolicyRun } from '../server/messages';
 import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
 import { kText } from '../strings';
-import { clock, millimetres, seconds, why_mute } from '../wording';
-import { ends_in_words, share_in_words } from './told';
+import { clock, millimetres, seconds, why_not_connected } from '../wording';
+import { ends_in_words, share_in_words } from './run_words';
 
 const kWords = kText.policies;
 
@@ -36,8 +36,8 @@ export function PoliciesPage({ app }: { app: App }) {
 
 function Asking({ app }: { app: App }) {
   const { comparing, store } = app;
-  const unheard = why_mute(store.link);
-  const mute = why_no_command(app);
+  const unheard = why_not_connected(store.link);
+  const why_disabled = why_no_command(app);
   const latest = comparing.latest.value;
   const is_running = latest?.state === 'running';
   return (
@@ -48,7 +48,7 @@ function Asking({ app }: { app: App }) {
       <div class="line wrap">
         {is_running
           ? <button class="small" data-test="cancel-comparison" onClick={() => void comparing.cancel()}>{kWords.cancel}</button>
-          : <button class="small" data-test="compare" disabled={mute !== null} title={mute ?? kWords.compare_title} onClick={() => void comparing.start(null)}>{kWords.compare}</button>}
+          : <button class="small" data-test="compare" disabled={why_disabled !== null} title={why_disabled ?? kWords.compare_title} onClick={() => void comparing.start(null)}>{kWords.compare}</button>}
         {latest === null && <button class="small" data-test="look-comparison" disabled={unheard !== null} title={unheard ?? kWords.show_last_title} onClick={() => void comparing.look()}>{kWords.show_last}</button>}
         <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? kWords.none : ''}</span>
       </div>
@@ -84,7 +84,7 @@ function Table({ comparison, app }: { comparison: Comparison; app: App }) {
 
 function Run({ run, jobs, longest_s, app }: { run: PolicyRun; jobs: number; longest_s: number; app: App }) {
   const { store, actions } = app;
-  const mute = why_no_command(app) ?? why_no_change(store);
+  const why_disabled = why_no_command(app) ?? why_no_change(store);
   const is_in_force = run.policy === store.policy;
   const ends = ends_in_words(run);
   return (
@@ -101,8 +101,8 @@ function Run({ run, jobs, longest_s, app }: { run: PolicyRun; jobs: number; long
       <td class="mono">{run.min_clearance_m === null ? kWords.never_near : millimetres(run.min_clearance_m)}</td>
       <td>{is_in_force
         ? <span class="dim">{kWords.in_force}</span>
-        : <button class="small" data-test={`use-${run.policy}`} disabled={mute !== null} aria-label={kWords.change_to(run.policy)}
-          title={mute ?? ''} onClick={() => void actions.change_policy(run.policy)}>{kWords.use}</button>}</td>
+        : <button class="small" data-test={`use-${run.policy}`} disabled={why_disabled !== null} aria-label={kWords.change_to(run.policy)}
+          title={why_disabled ?? ''} onClick={() => void actions.change_policy(run.policy)}>{kWords.use}</button>}</td>
     </tr>
   );
 }

@@ -75,7 +75,7 @@ async function begin(writer: McapWriter, offset_s: number): Promise<Log> {
 }
 
 async function write_events(store: Store, first_s: number, log: Log): Promise<void> {
-  for (const event of store.log.entries) await log('told', event.t_s, () => event);
+  for (const event of store.log.entries) await log('raw', event.t_s, () => event);
   const level = { info: 2, warning: 3, error: 4 } as const;
   for (const notice of [...store.notices].reverse()) {
     if (notice.t_s < first_s) continue;

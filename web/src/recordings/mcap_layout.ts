@@ -7,7 +7,7 @@ interface Topic { topic: string; schema: keyof typeof kSchemas }
 export const kTopics = {
   joints: { topic: '/joint_states', schema: 'foxglove.JointStates' }, transforms: { topic: '/tf', schema: 'foxglove.FrameTransforms' },
   scene: { topic: '/scene', schema: 'foxglove.SceneUpdate' }, events: { topic: '/events', schema: 'foxglove.Log' },
-  jobs: { topic: '/jobs', schema: 'armloom.Job' }, told: { topic: '/armloom', schema: 'armloom.Event' },
+  jobs: { topic: '/jobs', schema: 'armloom.Job' }, raw: { topic: '/armloom', schema: 'armloom.Event' },
 } as const satisfies Record<string, Topic>;
 
 /** Metadata of the file: from these cell time is told from wall time. */

@@ -60,7 +60,7 @@ export class Player {
     this.fault.value = null;
     if (this.opened.value === null) return;
     this.opened.value = null;
-    this.router_.hold_at(null);
+    this.router_.show_time(null);
     this.store_.forget_all();
     this.connection_.begin_anew();
   }
@@ -92,7 +92,7 @@ export class Player {
     this.connection_.stop();
     this.store_.show_recording(name, messages, frames);
     this.opened.value = { name, frames: frames?.t_s.length ?? 0, events: messages.length, unread, first_s, last_s };
-    this.router_.hold_at(first_s);
+    this.router_.show_time(first_s);
     return null;
   }
 

@@ -22,7 +22,7 @@ export async function read_mcap(file: Blob): Promise<{ ok: true; mcap: Mcap } | 
   let zero_ns: bigint | null = null;
   const take = ({ channelId, logTime, data }: McapTypes.TypedMcapRecords['Message']) => {
     const topic = topics.get(channelId);
-    if (topic === kTopics.told.topic) events.push(decoder.decode(data));
+    if (topic === kTopics.raw.topic) events.push(decoder.decode(data));
     if (topic !== kTopics.joints.topic) return;
     const places = new Map((JSON.parse(decoder.decode(data)) as JointStates).joints.map(({ name, position }) => [name, position]));
     if (names.length === 0) names.push(...places.keys());

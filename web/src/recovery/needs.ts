@@ -1,7 +1,7 @@
 // What stopped the arms, and what each of them needs to go on. Pure.
 
 import type { Arm, Job } from '../server/messages';
-import { is_stopped } from '../state/standing';
+import { is_stopped } from '../state/shown_state';
 import type { Notice } from '../state/notices';
 import type { Store } from '../state/store';
 import { kText } from '../strings';

@@ -49,7 +49,7 @@ function waiting_in_words(waiting: number, arms: number, looks_back: boolean): s
 function Checks({ app, needed }: { app: App; needed: boolean }) {
   const { checklist } = app;
   const { left } = checklist;
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   return (
     <fieldset class="checks">
       <legend class="sr-only">{kWords.legend}</legend>
@@ -59,7 +59,7 @@ function Checks({ app, needed }: { app: App; needed: boolean }) {
         </label>
       ))}
       <div class="line">
-        <button class="primary" data-test="resume-checked" disabled={!needed || left > 0 || mute !== null} title={mute ?? ''}
+        <button class="primary" data-test="resume-checked" disabled={!needed || left > 0 || why_disabled !== null} title={why_disabled ?? ''}
           onClick={(event) => { if (event.detail < 2) void app.actions.resume(); /* not by the second click of a double one */ }}>{kWords.resume_all}</button>
         <span class="dim small" role="status" data-test="checks-left">{!needed ? kWords.nothing_stopped : left > 0 ? kWords.still_to_confirm(left) : kWords.after_resume}</span>
       </div>
@@ -75,16 +75,16 @@ function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) 
   const next = store.next_of(arm.name);
   const its = job ?? next;
   const need = need_of(arm, job, pose_at(instant_of(app.router.address.value, store), store), next);
-  const mute = why_no_command(app) ?? (guarded ? kWords.confirm_first : null);
+  const why_disabled = why_no_command(app) ?? (guarded ? kWords.confirm_first : null);
   return (
     <li data-test={`need-${arm.name}`} style={{ '--arm': arm_colour([...store.arms.keys()], arm.name) }}>
       <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{shown_name(arm.name)}</Link><StatePill arm={arm} app={app} /></div>
       <p>{need.words}</p>
       <div class="line">
-        {need.resume && <button class="small" data-test={`resume-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.resume_arm(arm.name)}>{kWords.resume_one(shown_name(arm.name))}</button>}
+        {need.resume && <button class="small" data-test={`resume-${arm.name}`} disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={() => void app.actions.resume_arm(arm.name)}>{kWords.resume_one(shown_name(arm.name))}</button>}
         {need.resume && its && <Link app={app} to={{ page: 'job', id: its.id }}>{job ? kWords.its_job : kWords.its_next_job}</Link>}
         {need.resume && its && <Cancel job={its} app={app} words={kText.job.cancel(title_of(its))} />}
-        {need.home && <button class="small" data-test={`home-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.send_to(arm.name, 'home', kHomeSpeed)}>{kWords.send_home(shown_name(arm.name))}</button>}
+        {need.home && <button class="small" data-test={`home-${arm.name}`} disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={() => void app.actions.send_to(arm.name, 'home', kHomeSpeed)}>{kWords.send_home(shown_name(arm.name))}</button>}
       </div>
     </li>
   );

@@ -39,7 +39,7 @@ export class Router {
   }
 
   /** These do not make a step to go back by. */
-  hold_at(t_s: number | null): void {
+  show_time(t_s: number | null): void {
     this.see({ t_s, run: t_s === null ? null : this.run_()?.slice(0, 8) ?? null });
   }
   look_from(camera: Camera | null): void {

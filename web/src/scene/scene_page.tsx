@@ -36,7 +36,7 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
         ))}
       </ul>
       {name !== null && !chosen && <p class="hint">{app.router.address.value.t_s === null ? kWords.none_called(shown_name(name)) : kWords.none_called_then(shown_name(name))}</p>}
-      {chosen && app.router.address.value.t_s === null && <HandButton name={chosen.name} app={app} />}
+      {chosen && app.router.address.value.t_s === null && <DragButton name={chosen.name} app={app} />}
       {chosen?.mesh !== undefined
         ? <p class="hint">{kWords.mesh}</p>
         : <ObjectForm key={chosen?.name ?? 'new'} chosen={chosen} app={app} />}
@@ -45,13 +45,13 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
 }
 
 /** In the cell, too; not without being asked for, as what is moved holds motions. */
-function HandButton({ name, app }: { name: string; app: App }) {
-  const in_hand = app.by_hand.value === name;
-  useEffect(() => () => { app.by_hand.value = null; }, [app, name]);
+function DragButton({ name, app }: { name: string; app: App }) {
+  const is_dragged = app.dragged_object.value === name;
+  useEffect(() => () => { app.dragged_object.value = null; }, [app, name]);
   return (
     <div class="line">
-      <button class="small" aria-pressed={in_hand} data-test="by-hand" onClick={() => { app.by_hand.value = in_hand ? null : name; }}>{kWords.drag}</button>
-      <span class="dim small">{in_hand ? kWords.drag_hint : kWords.or_form}</span>
+      <button class="small" aria-pressed={is_dragged} data-test="move-object" onClick={() => { app.dragged_object.value = is_dragged ? null : name; }}>{kWords.drag}</button>
+      <span class="dim small">{is_dragged ? kWords.drag_hint : kWords.or_form}</span>
     </div>
   );
 }
@@ -72,7 +72,7 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
   const edit = (more: Edits) => set_edits((now) => ({ ...now, ...more, values: { ...now.values, ...more.values } }));
   const form = with_edits(chosen ? form_of(chosen) : blank_form(), edits);
   const [problem, set_problem] = useState<Problem | null>(null);
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   const name_fault = form.name === '' ? null : fault_of_name(form.name);
   const submit = async (event: Event) => {
     event.preventDefault();
@@ -104,7 +104,7 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
         </fieldset>
       ))}
       <div class="line">
-        <button class="primary" type="submit" data-test="object-save" disabled={mute !== null || name_fault !== null} title={mute ?? name_fault ?? ''}>{chosen ? kWords.change : kWords.add}</button>
+        <button class="primary" type="submit" data-test="object-save" disabled={why_disabled !== null || name_fault !== null} title={why_disabled ?? name_fault ?? ''}>{chosen ? kWords.change : kWords.add}</button>
         {chosen && <Remove object={chosen} app={app} />}
         {chosen && <Link app={app} to={{ page: 'scene', name: null }}>{kWords.add_another}</Link>}
       </div>
@@ -115,11 +115,11 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
 
 function Remove({ object, app }: { object: SceneObject; app: App }) {
   const question = use_question();
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   const remove = async () => {
     if (await app.actions.ask(kText.command.remove(object.name), app.api.remove_object(object.name))) app.router.go({ page: 'scene', name: null });
   };
   return question.asked
-    ? <><button type="button" class="danger" data-test="object-removal" disabled={mute !== null} title={mute ?? ''} onClick={() => void remove()}>{kWords.remove_object(shown_name(object.name))}</button><button type="button" onClick={question.take_back}>{kText.common.keep}</button></>
-    : <button ref={question.button} type="button" data-test="object-remove" disabled={mute !== null} title={mute ?? ''} onClick={question.ask}>{kWords.remove}</button>;
+    ? <><button type="button" class="danger" data-test="object-removal" disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={() => void remove()}>{kWords.remove_object(shown_name(object.name))}</button><button type="button" onClick={question.take_back}>{kText.common.keep}</button></>
+    : <button ref={question.button} type="button" data-test="object-remove" disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={question.ask}>{kWords.remove}</button>;
 }

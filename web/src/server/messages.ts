@@ -30,7 +30,7 @@ export type DiagramContact = Schemas['DiagramContact'];
 export type CellState = Schemas['DiagramCell']['state'];
 /** When each arm is expected to move. */
 export type Forecast = Schemas['Timeline'];
-export type ForecastLeg = Schemas['TimelineStep'];
+export type ForecastStep = Schemas['TimelineStep'];
 /** What the admission code says of a job that was only asked about. */
 export type Verdict = Schemas['Verdict'];
 /** What of a job can be changed. */

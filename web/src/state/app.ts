@@ -1,7 +1,7 @@
 // What every part of the page is given: what is known, what can be asked, where we are, how it looks.
 
 import type { Signal } from '@preact/signals';
-import type { Hand } from '../control/hand';
+import type { JogControl } from '../control/jog_control';
 import type { Archive } from '../history/archive';
 import type { AlertList } from '../alerts/alert_list';
 import type { Api } from '../server/api';
@@ -16,7 +16,7 @@ import type { Actions } from './actions';
 import type { Seen } from './as_of';
 import type { Settings } from './settings';
 import type { Store } from './store';
-import type { Tool } from '../view/tool_in_hand';
+import type { Tool } from '../view/tool_goal';
 
 export interface App {
   /** Whoever reads it while it is drawn is drawn again when it changes. */
@@ -35,17 +35,17 @@ export interface App {
   comparing: Comparing;
   /** Jobs that the page was never told of. */
   archive: Archive;
-  hand: Hand;
+  jogging: JogControl;
   /** What is looked at before arms that were stopped move again. */
   checklist: Checklist;
   /** Who uses this browser, where the server asks for tokens; null: not known yet. */
   session: Signal<Session | null>;
-  /** The job, or the bag of jobs, that is being composed; it outlives the page's pane. */
+  /** The job, or the batch of jobs, that is being composed; it outlives the page's pane. */
   draft: Signal<string>;
   /** Joints as they would stand, shown in the cell; null: nothing is previewed. */
   ghost: Signal<Readonly<Record<string, number>> | null>;
   /** The object that may be moved by hand in the cell. */
-  by_hand: Signal<string | null>;
+  dragged_object: Signal<string | null>;
   /** The tool whose goal is dragged in the cell. */
   tool: Signal<Tool | null>;
   /** So much of the cell's left is covered by a pane. */

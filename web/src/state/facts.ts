@@ -8,12 +8,12 @@ import { is_terminal, JobBook, type JobList } from './job_book';
 import { Notices, type Notice } from './notices';
 import type { Snapshot } from './snapshots';
 import { counted, kNoNumbers, type Numbers } from './numbers';
-import type { ToldState } from './standing';
+import type { ShownState } from './shown_state';
 
 /** `at`: wall time of the first that was heard of its next run; `lost`: jobs that had not ended, of which that one does not tell. */
 export interface Restart { at: string; lost: readonly Job[] }
 
-const kStands: ReadonlySet<Arm['state']> = new Set(['paused', 'stopped', 'fault'] as const);
+const kAtRest: ReadonlySet<Arm['state']> = new Set(['paused', 'stopped', 'fault'] as const);
 
 export class Facts {
   stream: string | null = null;
@@ -98,14 +98,14 @@ export class Facts {
   /** Share of its trajectory that a job has done by now: the last report, carried on while it runs. */
   progress(job: Job): number {
     const heard_s = this.book.heard_at(job.id);
-    const moves = job.state === 'running' && job.arms.every((arm) => !kStands.has(this.arms.get(arm)?.state ?? 'moving'));
+    const moves = job.state === 'running' && job.arms.every((arm) => !kAtRest.has(this.arms.get(arm)?.state ?? 'moving'));
     if (heard_s === null || !moves || job.stopping || !job.duration_s) return job.progress;
     const since_report = Math.max(0, this.t_s - Math.max(heard_s, job.started_s ?? heard_s));
     return Math.min(1, job.progress + since_report / job.duration_s);
   }
 
   /** What an arm does, as people are told of it. */
-  arm_state(arm: Arm): ToldState {
+  arm_state(arm: Arm): ShownState {
     if (this.unknown_arms_.has(arm.name)) return 'not known';
     return arm.state === 'idle' && this.waiting_of(arm.name) ? 'waiting' : arm.state;
   }

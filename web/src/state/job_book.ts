@@ -3,7 +3,7 @@
 // order in which they did, so that ten thousand of them cost nothing when one more is heard of.
 
 import type { Job, JobState, QueueData, WaitsOn } from '../server/messages';
-import { is_stopped, told_state } from './standing';
+import { is_stopped, shown_state } from './shown_state';
 
 export type JobList = 'running' | 'scheduled' | 'queued' | 'backlog' | 'finished';
 
@@ -16,7 +16,7 @@ const kMaxFinished = 10_000;
 const kTold = 200;
 // Forgotten some at a time.
 const kSlack = 0.05;
-// Of one job that stands and goes on for hours the last ones.
+// Of one job that pauses and goes on for hours the last ones.
 const kMostRemembered = 400;
 
 export function is_terminal(job: Pick<Job, 'state'>): boolean {
@@ -24,7 +24,7 @@ export function is_terminal(job: Pick<Job, 'state'>): boolean {
 }
 
 /** Cell time; to_s is null while it lasts. `stopped`: until somebody resumes its arm. `why`: as last told while it stood. */
-export interface Stand { from_s: number; to_s: number | null; stopped: boolean; why: WaitsOn | null }
+export interface Pause { from_s: number; to_s: number | null; stopped: boolean; why: WaitsOn | null }
 
 /** `stopped`: it stands until its arm is resumed. */
 export interface Change { state: JobState | 'stopped'; t_s: number }
@@ -35,7 +35,7 @@ interface Heard {
   t_s: number;
   /** When it came into its state; null: before this page listened. */
   since_s: number | null;
-  stands: Stand[];
+  pauses: Pause[];
   /** Each state that it came into while this page listened. */
   changes: Change[];
 }
@@ -59,11 +59,11 @@ export class JobBook {
     this.heard_ = new Map(jobs.map((job) => {
       const known = before.get(job.id);
       const same_state = known?.job.state === job.state;
-      return [job.id, { job, t_s, since_s: same_state ? known.since_s : null, stands: known?.stands ?? [], changes: known?.changes ?? [] }];
+      return [job.id, { job, t_s, since_s: same_state ? known.since_s : null, pauses: known?.pauses ?? [], changes: known?.changes ?? [] }];
     }));
     this.open_ = new Set(jobs.filter((job) => !is_terminal(job)).map((job) => job.id));
     this.ended_ = jobs.filter(is_terminal).sort((a, b) => ended(a) - ended(b));
-    this.ended_from_s_ = ended_from_s === undefined ? told_from(jobs) : ended_from_s;
+    this.ended_from_s_ = ended_from_s === undefined ? ended_from(jobs) : ended_from_s;
     this.endings_ += 1;
     this.lists_ = null;
   }
@@ -71,12 +71,12 @@ export class JobBook {
   take(job: Job, t_s: number): void {
     const known = this.heard_.get(job.id);
     const same_state = known?.job.state === job.state;
-    const stands = known?.stands ?? [];
+    const pauses = known?.pauses ?? [];
     const changes = known?.changes ?? [];
-    const told = told_state(job);
-    if (changes.at(-1)?.state !== told && (!same_state || told_state(known.job) !== told)) remember(changes, { state: told, t_s });
-    stand(stands, job, t_s);
-    this.heard_.set(job.id, { job, t_s, since_s: same_state ? known.since_s : t_s, stands, changes });
+    const told = shown_state(job);
+    if (changes.at(-1)?.state !== told && (!same_state || shown_state(known.job) !== told)) remember(changes, { state: told, t_s });
+    note_pause(pauses, job, t_s);
+    this.heard_.set(job.id, { job, t_s, since_s: same_state ? known.since_s : t_s, pauses, changes });
     if (known && is_terminal(known.job)) {
       this.ended_ = this.ended_.filter((one) => one.id !== job.id);
       this.endings_ += 1;
@@ -123,8 +123,8 @@ export class JobBook {
     return this.heard_.get(id)?.changes ?? [];
   }
 
-  stands(id: string): readonly Stand[] {
-    return this.heard_.get(id)?.stands ?? [];
+  pauses(id: string): readonly Pause[] {
+    return this.heard_.get(id)?.pauses ?? [];
   }
 
   all(): Job[] {
@@ -198,14 +198,14 @@ export class JobBook {
 }
 
 /** The same of a server's snapshot, by the jobs that it has. */
-export function told_from(jobs: readonly Job[]): number | null {
+export function ended_from(jobs: readonly Job[]): number | null {
   const ended_s = jobs.filter(is_terminal).map(ended);
   return ended_s.length < kTold ? null : Math.min(...ended_s);
 }
 
-/** It stands, goes on, or stands for another reason than before. */
-function stand(stands: Stand[], job: Job, t_s: number): void {
-  const last = stands.at(-1);
+/** It pauses, goes on, or stands for another reason than before. */
+function note_pause(pauses: Pause[], job: Job, t_s: number): void {
+  const last = pauses.at(-1);
   const open = last && last.to_s === null ? last : null;
   const stopped = is_stopped(job);
   const why = job.waits_on[0] ?? null;
@@ -214,7 +214,7 @@ function stand(stands: Stand[], job: Job, t_s: number): void {
     return;
   }
   if (open) open.to_s = t_s;
-  if (job.state === 'paused') remember(stands, { from_s: t_s, to_s: null, stopped, why });
+  if (job.state === 'paused') remember(pauses, { from_s: t_s, to_s: null, stopped, why });
 }
 
 export function remember<T>(list: T[], one: T): void {

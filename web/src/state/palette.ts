@@ -3,11 +3,11 @@
 // now.
 
 import type { CellState } from '../server/messages';
-import type { ToldState } from './standing';
+import type { ShownState } from './shown_state';
 
 const kArmColours = 8;
 
-export const kStateColours: Record<ToldState, string> = {
+export const kStateColours: Record<ShownState, string> = {
   idle: 'var(--idle)',
   moving: 'var(--moving)',
   paused: 'var(--paused)',
@@ -18,7 +18,7 @@ export const kStateColours: Record<ToldState, string> = {
 };
 
 /** A state is never told by colour alone. */
-export const kStateGlyphs: Record<ToldState, string> = {
+export const kStateGlyphs: Record<ShownState, string> = {
   idle: '○', moving: '▶', paused: '❚❚', waiting: '◔', stopped: '■', fault: '✕', 'not known': '?',
 };
 

@@ -1,7 +1,7 @@
 // What whoever uses this browser may do, by the role of their token. The server decides; the page says it before.
 
 import type { Session } from '../server/messages';
-import { why_mute } from '../wording';
+import { why_not_connected } from '../wording';
 import { kText } from '../strings';
 import type { App } from './app';
 
@@ -17,5 +17,5 @@ export function why_not_permitted(session: Session | null): string | null {
 
 /** Why no command can be given to the cell now; null when one can. */
 export function why_no_command({ store, session }: Pick<App, 'store' | 'session'>): string | null {
-  return why_mute(store.link) ?? why_not_permitted(session.value);
+  return why_not_connected(store.link) ?? why_not_permitted(session.value);
 }

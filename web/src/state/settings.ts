@@ -7,9 +7,9 @@ export type Theme = 'system' | 'dark' | 'light';
 export type ShownTheme = 'dark' | 'light';
 
 /** Ways ahead with their authority; ghosts of where arms come to rest; the closest pairs. */
-export interface Shows { ways: boolean; ghosts: boolean; distances: boolean }
+export interface Shows { paths: boolean; ghosts: boolean; distances: boolean }
 
-const kShowsAll: Shows = { ways: true, ghosts: true, distances: true };
+const kShowsAll: Shows = { paths: true, ghosts: true, distances: true };
 const kPersonKey = 'armloom.person';
 const kShowsKey = 'armloom.shows';
 const kThemes: readonly Theme[] = ['system', 'dark', 'light'];
@@ -38,7 +38,7 @@ export class Settings {
     this.letter_keys.value = this.read(kKeysKey) !== 'off';
     this.person.value = this.read(kPersonKey) ?? '';
     const hidden = (this.read(kShowsKey) ?? '').split(' ');
-    this.shows.value = { ways: !hidden.includes('ways'), ghosts: !hidden.includes('ghosts'), distances: !hidden.includes('distances') };
+    this.shows.value = { paths: !hidden.includes('paths'), ghosts: !hidden.includes('ghosts'), distances: !hidden.includes('distances') };
     prefers_light_?.addEventListener('change', () => this.apply());
     this.apply();
   }

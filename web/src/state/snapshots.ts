@@ -2,7 +2,7 @@
 
 import type { Arm, SequencedMessage } from '../server/messages';
 import { Facts } from './facts';
-import { told_from } from './job_book';
+import { ended_from } from './job_book';
 
 type ToldSnapshot = Extract<SequencedMessage, { type: 'snapshot' }>;
 /** `ended_from_s`: of one that the page made itself, as JobBook has it. The server's have none. */
@@ -32,7 +32,7 @@ export function before_all({ data, ...first }: ToldSnapshot, led: readonly Seque
   // From the very beginning, when every arm stood idle.
   const is_whole = next?.seq === 1;
   // These tell of each that ended while they came, the snapshot of those before.
-  const from_s = told_from(data.jobs);
+  const from_s = ended_from(data.jobs);
   const idle = data.arms.map((arm) => (arms.has(arm.name) ? at_rest(arm) : arm));
   return {
     ...first, type: 'snapshot', seq: (next?.seq ?? 1) - 1, t_s: is_whole ? 0 : next?.t_s ?? first.t_s, at: next?.at ?? first.at,

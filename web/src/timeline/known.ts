@@ -15,9 +15,9 @@ const kept = new WeakMap<Store, Kept>();
 /** Of what moves or waits at a time or later, and it may be of some before. */
 export function known_lanes({ store }: Pick<App, 'store'>, from_s = store.t_s): Lane[] {
   const { book } = store;
-  const stands = (id: string) => book.stands(id);
+  const pauses = (id: string) => book.pauses(id);
   return lanes_of({
-    arms: [...store.arms.keys()], jobs: book.open, pasts: pasts_since(store, from_s - kBefore_s), stands, has_ended: (id) => book.has_ended(id),
+    arms: [...store.arms.keys()], jobs: book.open, pasts: pasts_since(store, from_s - kBefore_s), pauses, has_ended: (id) => book.has_ended(id),
     forecast: store.forecast, now_s: store.t_s,
   });
 }
@@ -27,7 +27,7 @@ function pasts_since(store: Store, from_s: number): ReadonlyMap<string, Past> {
   const of = [arms, book.endings];
   const known = kept.get(store);
   if (known && known.from_s <= from_s && known.of.every((one, i) => one === of[i])) return known.pasts;
-  const pasts = pasts_of([...arms.keys()], book.ended_since(from_s), (id) => book.stands(id));
+  const pasts = pasts_of([...arms.keys()], book.ended_since(from_s), (id) => book.pauses(id));
   kept.set(store, { of, from_s, pasts });
   return pasts;
 }

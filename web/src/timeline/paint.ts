@@ -1,6 +1,6 @@
 // Draws the timeline on a canvas: axis, lanes, marks, and threads from who waits to who is waited for.
 
-import type { Stand } from '../state/job_book';
+import type { Pause } from '../state/job_book';
 import { arm_colour, ink } from '../state/palette';
 import { short_id } from '../wording';
 import { draw_events, type EventMark } from './events';
@@ -14,12 +14,12 @@ import { kText } from '../strings';
 export interface Lit {
   jobs: readonly string[];
   arms: readonly string[];
-  held_s: number | null;
+  shown_s: number | null;
   /** Nothing has been heard for a while: where now was. */
   stale: boolean;
   events: readonly EventMark[];
   /** When each arm was stopped. */
-  halts: ReadonlyMap<string, readonly Pick<Stand, 'from_s' | 'to_s'>[]>;
+  halts: ReadonlyMap<string, readonly Pick<Pause, 'from_s' | 'to_s'>[]>;
 }
 /** What is pointed at, or gone to by keys. */
 export interface Pointed { mark: Mark | null; events: readonly EventMark[] }
@@ -52,12 +52,12 @@ export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly
   lanes.forEach((lane, i) => draw_threads(g, sheet, lane, i, rows, arms, hover));
   draw_events(g, sheet, lit.events, pointed.events);
   draw_now(g, sheet, now_in_words(lit.stale));
-  if (lit.held_s !== null) draw_held(g, sheet, lit.held_s);
+  if (lit.shown_s !== null) draw_shown_time(g, sheet, lit.shown_s);
   g.restore();
   rows.forEach((row, i) => draw_name(g, row, lanes[i]?.arm ?? ''));
 }
 
-function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number, stands: readonly Pick<Stand, 'from_s' | 'to_s'>[]): Row {
+function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number, pauses: readonly Pick<Pause, 'from_s' | 'to_s'>[]): Row {
   const height = lane_height(sheet, arms.length);
   const roomy = height >= 30;
   const top = i * height;
@@ -67,7 +67,7 @@ function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number, s
   const bar_top = top + gap;
   const covers = [
     { from: -Infinity, to: kLeft_px }, { from: sheet.width - kRight_px, to: Infinity },
-    ...stands.map(({ from_s, to_s }) => ({ from: sheet.x(from_s), to: sheet.x(to_s ?? sheet.now_s) })),
+    ...pauses.map(({ from_s, to_s }) => ({ from: sheet.x(from_s), to: sheet.x(to_s ?? sheet.now_s) })),
   ];
   return { top, height, colour: ink(arm_colour(arms, arm)), bar_top, bar_height, wait_top: bar_top + bar_height + gap, wait_height, covers };
 }
@@ -123,8 +123,8 @@ function draw_now(g: CanvasRenderingContext2D, sheet: Sheet, words: string): voi
   g.fillText(words, Math.min(at, sheet.width - kRight_px - g.measureText(words).width / 2), sheet.height - 5);
 }
 
-function draw_held(g: CanvasRenderingContext2D, sheet: Sheet, held_s: number): void {
-  const at = Math.round(sheet.x(held_s)) + 0.5;
+function draw_shown_time(g: CanvasRenderingContext2D, sheet: Sheet, shown_s: number): void {
+  const at = Math.round(sheet.x(shown_s)) + 0.5;
   g.strokeStyle = ink('--blue');
   g.lineWidth = 2;
   line(g, at, 0, at, sheet.height - kAxis_px + 3);
@@ -164,7 +164,7 @@ function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Ma
 }
 
 /** An arm stands stopped, with a job or none: until now, and nobody knows how long. */
-function draw_halt(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, { from_s, to_s }: Pick<Stand, 'from_s' | 'to_s'>, dim: boolean): void {
+function draw_halt(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, { from_s, to_s }: Pick<Pause, 'from_s' | 'to_s'>, dim: boolean): void {
   const left = sheet.x(from_s);
   const right = sheet.x(to_s ?? sheet.now_s);
   if (right < kLeft_px || left > sheet.width) return;

@@ -7,7 +7,7 @@ import { mark_at, type Lane } from './lanes';
 import type { Pointed } from './paint';
 import { kAxis_px, lane_at, type Sheet } from './sheet';
 import { moved, zoomed, type Span } from './span';
-import { mark_in_words } from './told';
+import { mark_in_words } from './mark_words';
 
 /** What is drawn and what is pointed at; changes many times a second, so no component's state. */
 export interface Drawing { span: Span; lanes: Lane[]; sheet: Sheet | null; pointed: Pointed; drag: Drag | null }
@@ -69,7 +69,7 @@ export function pointing(drawing: Drawing, app: App, change: (span: Span) => voi
       const { mark, events: [first] } = drawing.drag && drawing.drag.travelled_px <= kClick_px ? found(event) : kNothing;
       drawing.drag = null;
       if (mark) app.router.go({ page: 'job', id: mark.job });
-      else if (first) app.router.hold_at(first.t_s);
+      else if (first) app.router.show_time(first.t_s);
     },
     onPointerCancel: () => { drawing.drag = null; },
     onPointerLeave: () => {

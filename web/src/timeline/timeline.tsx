@@ -13,7 +13,7 @@ import { kNothing, pointing, tip_of, type Drawing, type Tip } from './pointing';
 import { fit, sheet_of } from './sheet';
 import { around, begin_of, kFollowing, moved, zoomed, type Span } from './span';
 import { ScrubBar } from './scrub_bar';
-import { Told } from './told_list';
+import { TextList } from './text_list';
 import { kText } from '../strings';
 
 const kWords = kText.timeline;
@@ -26,7 +26,7 @@ export function Timeline({ app }: { app: App }) {
   const [span, set_span] = useState<Span>(kFollowing);
   const [tip, set_tip] = useState<Tip | null>(null);
   const [chosen, set_chosen] = useState('');
-  const held_s = router.address.value.t_s;
+  const shown_s = router.address.value.t_s;
   const change = (next: Span) => {
     drawing.current.span = next;
     set_span(next);
@@ -34,8 +34,8 @@ export function Timeline({ app }: { app: App }) {
   // Before anybody can press another key: what that one asks for is not undone.
   useLayoutEffect(() => {
     const { span: now } = drawing.current;
-    change(held_s === null ? { ...now, held_from_s: null } : is_shown(now, held_s, store.t_s) ? now : around(now, held_s));
-  }, [held_s]);
+    change(shown_s === null ? { ...now, fixed_from_s: null } : is_shown(now, shown_s, store.t_s) ? now : around(now, shown_s));
+  }, [shown_s]);
   const stale = use_stale(store);
   const is_stale = useRef(stale);
   is_stale.current = stale;
@@ -60,7 +60,7 @@ export function Timeline({ app }: { app: App }) {
   /** By key: shown where it stands, and said. */
   const choose = (event: EventMark) => {
     const { span: now } = drawing.current;
-    change(is_shown({ ...now, held_from_s: begin_of(now, store.t_s) }, event.t_s, store.t_s) ? moved(now, 0, store.t_s) : around(now, event.t_s));
+    change(is_shown({ ...now, fixed_from_s: begin_of(now, store.t_s) }, event.t_s, store.t_s) ? moved(now, 0, store.t_s) : around(now, event.t_s));
     drawing.current.pointed = { mark: null, events: [event] };
     draw.current();
     const { sheet } = drawing.current;
@@ -76,12 +76,12 @@ export function Timeline({ app }: { app: App }) {
       return true;
     }
     if (key === 'Enter' && at) {
-      router.hold_at(at.t_s);
+      router.show_time(at.t_s);
       return true;
     }
     const next = span_by_key(key, drawing.current.span, store.t_s);
     if (!next) return false;
-    if (key === '0') router.hold_at(null);
+    if (key === '0') router.show_time(null);
     change(next);
     return true;
   };
@@ -90,7 +90,7 @@ export function Timeline({ app }: { app: App }) {
   useEffect(() => draw.current(), [span, theme, address, stale]);
   return (
     <section class="timeline" aria-label={kWords.title}>
-      <div class={`line head${held_s === null ? '' : ' looks-back'}`}>
+      <div class={`line head${shown_s === null ? '' : ' looks-back'}`}>
         <h2>{kWords.title}</h2>
         <Keys />
         <details class="legend"><summary class="small">{kWords.legend}</summary><div class="legend-keys"><Keys /></div></details>
@@ -98,18 +98,18 @@ export function Timeline({ app }: { app: App }) {
         <ScrubBar app={app} />
         <button class="small" aria-label={kWords.zoom_out} title={kWords.zoom_out_title} onClick={() => change(zoomed(span, 1.5, store.t_s))}>−</button>
         <button class="small" aria-label={kWords.zoom_in} title={kWords.zoom_in_title} onClick={() => change(zoomed(span, 1 / 1.5, store.t_s))}>+</button>
-        <button class="small" data-test="follow-now" aria-pressed={span.held_from_s === null && held_s === null} title={kWords.now_title}
-          onClick={() => { router.hold_at(null); change({ ...span, held_from_s: null }); }}>{kWords.now}</button>
+        <button class="small" data-test="follow-now" aria-pressed={span.fixed_from_s === null && shown_s === null} title={kWords.now_title}
+          onClick={() => { router.show_time(null); change({ ...span, fixed_from_s: null }); }}>{kWords.now}</button>
       </div>
       <div class="sheet">
-        <canvas ref={canvas} tabIndex={0} role="img" data-test="lanes" data-from={span.held_from_s ?? 'now'} data-length={span.length_s}
+        <canvas ref={canvas} tabIndex={0} role="img" data-test="lanes" data-from={span.fixed_from_s ?? 'now'} data-length={span.length_s}
           aria-label={kWords.label}
           {...pointing(drawing.current, app, change, set_tip, () => draw.current())}
           onBlur={() => look_away()} onKeyDown={(event) => { if (by_key(event.key)) event.preventDefault(); }} />
         <span class="sr-only" role="status">{chosen}</span>
         {tip && <div class="tip" role="tooltip" style={{ left: `${tip.x}px`, bottom: `${tip.up}px` }}>{tip.words}</div>}
       </div>
-      <Told app={app} />
+      <TextList app={app} />
     </section>
   );
 }
@@ -126,7 +126,7 @@ function Keys() {
 
 function is_shown(span: Span, t_s: number, now_s: number): boolean {
   const sheet = sheet_of(100, 100, span, now_s);
-  return span.held_from_s !== null && t_s >= sheet.from_s && t_s <= sheet.from_s + sheet.length_s;
+  return span.fixed_from_s !== null && t_s >= sheet.from_s && t_s <= sheet.from_s + sheet.length_s;
 }
 
 /** Draws as the store changes, ten times a second at most, and as the canvas changes its size. */
@@ -154,8 +154,8 @@ function draw_now(canvas: HTMLCanvasElement, drawing: Drawing, app: App, stale: 
   drawing.lanes = known_lanes(app, drawing.sheet.from_s);
   const { jobs, arms } = selection_of(app.router.place, app.store);
   const at = app.router.address.peek();
-  const held_s = is_of_this_run(at.run, app.store) ? at.t_s : null;
-  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s, stale, events: app.store.events, halts: app.store.halts }, drawing.pointed);
+  const shown_s = is_of_this_run(at.run, app.store) ? at.t_s : null;
+  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, shown_s, stale, events: app.store.events, halts: app.store.halts }, drawing.pointed);
 }
 
 function span_by_key(key: string, span: Span, now_s: number): Span | null {
@@ -164,7 +164,7 @@ function span_by_key(key: string, span: Span, now_s: number): Span | null {
     case 'ArrowRight': return moved(span, span.length_s / 10, now_s);
     case '+': case '=': return zoomed(span, 1 / 1.5, now_s);
     case '-': return zoomed(span, 1.5, now_s);
-    case '0': return { ...span, held_from_s: null };
+    case '0': return { ...span, fixed_from_s: null };
     default: return null;
   }
 }

@@ -87,8 +87,8 @@ function InstantMark({ app }: { app: App }) {
       <p><b>{kWords.unknown_positions}<span class="mono">{clock(instant.t_s)}</span>.</b></p>
       <p class="dim">{why_unheard(instant.why, store)}{is_known(app.seen.store.value) && kWords.lists_are_known}</p>
       <div class="line">
-        <button class="small" data-test="unheard-now" onClick={() => router.hold_at(null)}>{kText.past.go_to_now}</button>
-        {instant.why === 'before' && first_s !== null && <button class="small" onClick={() => router.hold_at(first_s)}>{kWords.earliest}</button>}
+        <button class="small" data-test="unheard-now" onClick={() => router.show_time(null)}>{kText.past.go_to_now}</button>
+        {instant.why === 'before' && first_s !== null && <button class="small" onClick={() => router.show_time(first_s)}>{kWords.earliest}</button>}
         <Link app={app} to={{ page: 'recordings' }}>{kWords.open_recording}</Link>
       </div>
     </div>
@@ -118,7 +118,7 @@ function StoppedMark({ app }: { app: App }) {
 }
 
 const kShows: readonly [what: keyof Shows, title: string, meaning: string][] = [
-  ['ways', kWords.paths, kWords.paths_title],
+  ['paths', kWords.paths, kWords.paths_title],
   ['ghosts', kWords.ghosts, kWords.ghosts_title],
   ['distances', kWords.distances, kWords.distances_title],
 ];

@@ -15,14 +15,14 @@ import { on_click } from './click';
 import { Distances } from './distances';
 import { box_around_bases } from './framing';
 import { Ghosts } from './ghosts';
-import { ByHand } from './by_hand';
+import { DragHandles } from './drag_handles';
 import { ArmLabels } from './labels';
 import { Robots } from './robots';
 import { SceneObjects } from './scene_objects';
 import { Stage } from './stage';
 import type { CameraStep } from './steer';
 import { SurfaceShelf, type Surfaces } from './surfaces';
-import { ToolInHand } from './tool_in_hand';
+import { ToolGoal } from './tool_goal';
 import { ToolPaths } from './tool_path';
 
 // Among more, figures cover the tools that they are about.
@@ -39,8 +39,8 @@ export class CellView {
   private readonly labels_: ArmLabels;
   private readonly shelf_ = new SurfaceShelf();
   private readonly objects_: SceneObjects;
-  private readonly by_hand_: ByHand;
-  private readonly tool_: ToolInHand;
+  private readonly drag_handles_: DragHandles;
+  private readonly tool_: ToolGoal;
   private cell_: Cell | null = null;
   private readonly off_: (() => void)[];
 
@@ -51,7 +51,7 @@ export class CellView {
   /** The next ghost is built then; one asks for it, however often the store changes meanwhile. */
   private builds_: number | null = null;
 
-  constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'seen' | 'covered_px' | 'motions' | 'settings' | 'actions' | 'by_hand' | 'tool'>) {
+  constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'seen' | 'covered_px' | 'motions' | 'settings' | 'actions' | 'dragged_object' | 'tool'>) {
     const store_ = this.store_;
     this.at_ = app_.router.address.peek();
     this.robots_.group.visible = this.paths_.group.visible = false;  // until a pose is known
@@ -63,14 +63,14 @@ export class CellView {
     this.stage_.scene.add(this.robots_.group, this.objects_.group, this.ghosts_.group, this.ahead_.group, this.distances_.group, this.paths_.group);
     this.stage_.after_draw = () => this.place_labels();
     this.stage_.on_level = ({ ghosts }) => this.ahead_.show_level(ghosts);
-    this.by_hand_ = new ByHand(this.stage_, (object) => this.let_go(object));
-    this.tool_ = new ToolInHand(this.stage_, (arm, link) => this.robots_.get(store_.arms.get(arm)?.robot)?.frame_of(arm, link) ?? null);
+    this.drag_handles_ = new DragHandles(this.stage_, (object) => this.let_go(object));
+    this.tool_ = new ToolGoal(this.stage_, (arm, link) => this.robots_.get(store_.arms.get(arm)?.robot)?.frame_of(arm, link) ?? null);
     on_click(this.stage_.canvas, (x_px, y_px) => this.pick(x_px, y_px));
     this.stage_.on_camera = (camera) => app_.router.look_from(camera);
     this.off_ = [
       store_.on_change(() => this.follow()), store_.on_frame(() => this.move()), store_.on_beat(() => this.measure()),
       app_.motions.changes.subscribe(() => this.look_ahead()), app_.settings.shows.subscribe(() => this.show_shows()),
-      app_.by_hand.subscribe(() => this.take_in_hand()), app_.tool.subscribe((tool) => this.tool_.show(tool)), app_.seen.store.subscribe(() => this.follow()),
+      app_.dragged_object.subscribe(() => this.update_dragged()), app_.tool.subscribe((tool) => this.tool_.show(tool)), app_.seen.store.subscribe(() => this.follow()),
       app_.covered_px.subscribe((left_px) => this.stage_.set_covered(left_px)),
     ];
     this.follow();
@@ -81,7 +81,7 @@ export class CellView {
     if (this.builds_ !== null) cancelAnimationFrame(this.builds_);
     this.labels_.clear();
     this.distances_.clear();
-    this.by_hand_.close();
+    this.drag_handles_.close();
     this.tool_.close();
     this.stage_.close();
   }
@@ -171,7 +171,7 @@ export class CellView {
     const { objects, arms } = this.seen_;
     if (cell && cell !== this.cell_) this.build(cell);
     this.objects_.show(objects);
-    this.take_in_hand();
+    this.update_dragged();
     const states = [...arms.values()].map((arm) => `${arm.name} ${arm_in_words(arm, this.seen_)}`).join('\n');
     if (states !== this.states_) {
       for (const arm of arms.values()) this.show_arm(arm);
@@ -182,8 +182,8 @@ export class CellView {
     this.look_ahead();
   }
 
-  private take_in_hand(): void {
-    if (this.by_hand_.show(this.objects_.find(this.app_.by_hand.peek()))) this.stage_.invalidate();
+  private update_dragged(): void {
+    if (this.drag_handles_.show(this.objects_.find(this.app_.dragged_object.peek()))) this.stage_.invalidate();
   }
 
   private let_go({ name, position }: THREE.Object3D): void {
@@ -287,7 +287,7 @@ export class CellView {
 
   /** What was clicked, an arm or an object, is looked at. */
   private pick(x_px: number, y_px: number): void {
-    if (this.by_hand_.is_touched || this.tool_.is_touched) return;
+    if (this.drag_handles_.is_touched || this.tool_.is_touched) return;
     const sight = this.stage_.sight(x_px, y_px);
     const robots = this.robots_.group.visible ? [this.robots_.group] : [];
     const hit = sight.intersectObjects([...robots, ...this.objects_.group.children], true)[0]?.object;

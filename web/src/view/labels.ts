@@ -1,7 +1,7 @@
 // A label under each arm: its name and its state, in words, a glyph and a colour.
 
 import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
-import type { ToldState } from '../state/standing';
+import type { ShownState } from '../state/shown_state';
 import { stacked, within_room } from './stacking';
 import { shown_name } from '../names';
 
@@ -24,7 +24,7 @@ export class ArmLabels {
 
   constructor(private readonly host_: HTMLElement) {}
 
-  show(arm: string, state: ToldState, arms: readonly string[], words: string): void {
+  show(arm: string, state: ShownState, arms: readonly string[], words: string): void {
     let label = this.labels_.get(arm);
     if (!label) {
       label = make_label();

@@ -9,7 +9,7 @@ import URDFLoader, { type URDFRobot } from 'urdf-loader';
 import type { CellArm, CellRobot } from '../server/messages';
 import { ink, kStateColours } from '../state/palette';
 import { FinishedMesh } from './finish';
-import type { ToldState } from '../state/standing';
+import type { ShownState } from '../state/shown_state';
 import type { Surfaces } from './surfaces';
 import { tool_of } from './kinematics';
 import { mark_geometry, place } from './shapes';
@@ -57,7 +57,7 @@ export class RobotModel {
     return moved;
   }
 
-  show_state(arm: string, state: ToldState): void {
+  show_state(arm: string, state: ShownState): void {
     const mark = this.marks_.get(arm);
     if (!mark) return;
     mark.ring.material.color.set(ink(kStateColours[state]));

@@ -3,33 +3,33 @@
 import type { Api } from '../server/api';
 import type { Problem, Verdict } from '../server/messages';
 import { conflict_in_words, millimetres, seconds, wait_in_words } from '../wording';
-import type { Body } from './bag';
+import type { Body } from './batch';
 import { kText } from '../strings';
 import { Refused } from './refused';
 
 const kSays = kText.compose;
 
-export type Judgement = { title: string } & ({ ok: true; verdict: Verdict } | { ok: false; problem: Problem });
+export type CheckResult = { title: string } & ({ ok: true; verdict: Verdict } | { ok: false; problem: Problem });
 
 const kMost = 50;
 
 /** One after the other: each costs the server some checks. */
-export async function judge_all(bodies: readonly Body[], api: Pick<Api, 'check'>): Promise<Judgement[]> {
-  const judgements: Judgement[] = [];
+export async function check_all(bodies: readonly Body[], api: Pick<Api, 'check'>): Promise<CheckResult[]> {
+  const results: CheckResult[] = [];
   for (const { title, body } of bodies.slice(0, kMost)) {
     const answer = await api.check(body);
-    judgements.push(answer.ok ? { title, ok: true, verdict: answer.value } : { title, ok: false, problem: answer.problem });
+    results.push(answer.ok ? { title, ok: true, verdict: answer.value } : { title, ok: false, problem: answer.problem });
   }
-  return judgements;
+  return results;
 }
 
 /** `show`: shows the motion at a time from its start. */
-export function Judged({ judgements, show }: { judgements: Judgement[]; show: ((t_s: number) => void) | null }) {
+export function CheckResults({ results, show }: { results: CheckResult[]; show: ((t_s: number) => void) | null }) {
   return (
-    <ul class="judged" role="status" data-test="judged">
-      {judgements.map((judgement, i) => (
+    <ul class="check-results" role="status" data-test="check-results">
+      {results.map((result, i) => (
         <li key={i}>
-          {judgement.ok ? <Said title={judgement.title} verdict={judgement.verdict} show={show} /> : <><b>{judgement.title}</b><Refused problem={judgement.problem} /></>}
+          {result.ok ? <Result title={result.title} verdict={result.verdict} show={show} /> : <><b>{result.title}</b><Refused problem={result.problem} /></>}
         </li>
       ))}
     </ul>
@@ -45,7 +45,7 @@ export function only_in_turn({ verdict, waits_on }: Pick<Verdict, 'verdict' | 'w
   return verdict === 'conflict' && waits_on.length > 0 && waits_on.every(({ kind }) => kind === 'predecessor');
 }
 
-function Said({ title, verdict, show }: { title: string; verdict: Verdict; show: ((t_s: number) => void) | null }) {
+function Result({ title, verdict, show }: { title: string; verdict: Verdict; show: ((t_s: number) => void) | null }) {
   const { earliest_start_s: start_s, clearance_bound_m: bound_m, self_clearance_bound_m: self_m } = verdict;
   const in_turn = only_in_turn(verdict);
   const in_words = verdict.verdict === 'free' || in_turn ? wait_in_words : conflict_in_words;

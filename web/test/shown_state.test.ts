@@ -6,7 +6,7 @@ import { when_in_words } from '../src/jobs/when';
 import { need_of } from '../src/recovery/needs';
 import { Store } from '../src/state/store';
 import { known_lanes } from '../src/timeline/known';
-import { lane_in_words } from '../src/timeline/told';
+import { lane_in_words } from '../src/timeline/mark_words';
 import { figure_in_words } from '../src/wording';
 import { arm_json, envelope, job_json, snapshot, wait_json } from './samples';
 
@@ -38,37 +38,37 @@ describe('an arm that was stopped', () => {
     told(store, envelope('job', 4, stopped_job()));
     told(store, envelope('arm', 5, arm({ state: 'stopped' })));
     expect(store.arms.get('left') && store.arm_state(store.arms.get('left') as Arm)).toBe('stopped');
-    expect(store.book.stands('pick')).toMatchObject([{ from_s: 3, to_s: 4, stopped: false }, { from_s: 4, to_s: null, stopped: true }]);
+    expect(store.book.pauses('pick')).toMatchObject([{ from_s: 3, to_s: 4, stopped: false }, { from_s: 4, to_s: null, stopped: true }]);
     told(store, envelope('job', 7, stopped_job({ state: 'running', waits_on: [] })));
-    expect(store.book.stands('pick').at(-1)).toMatchObject({ from_s: 4, to_s: 7, stopped: true });
+    expect(store.book.pauses('pick').at(-1)).toMatchObject({ from_s: 4, to_s: 7, stopped: true });
     expect(states_of(store.job('pick') as Job, store.book.changes('pick')).map(([name]) => name)).toEqual(['submitted', 'running', 'paused', 'stopped', 'running', 'ended']);
     expect(known_lanes({ store })[0]?.marks.filter(({ kind }) => kind === 'pause').map(({ stopped }) => stopped)).toEqual([false, true]);
   });
 
-  it('that stands and goes on for hours is remembered for the last times only', () => {
+  it('that pauses and goes on for hours is remembered for the last times only', () => {
     const store = new Store(() => 0);
     told(store, snapshot(1));
     for (let i = 0; i < 3000; i++) told(store, envelope('job', 2 + i, stopped_job({ state: i % 2 ? 'running' : 'paused', waits_on: [] })));
-    expect(store.book.stands('pick').length).toBeLessThanOrEqual(400);
+    expect(store.book.pauses('pick').length).toBeLessThanOrEqual(400);
     expect(store.book.changes('pick').length).toBeLessThanOrEqual(400);
   });
 });
 
 // As the server expects it after a stop: nobody knows when it is over.
 const forecast = (now_s: number) => {
-  const stands = (at_s: number, waits_on: unknown) => [{ from_s: now_s, to_s: null, at_s, waits_on }];
+  const pauses = (at_s: number, waits_on: unknown) => [{ from_s: now_s, to_s: null, at_s, waits_on }];
   return {
     now_s, horizon_steps: 6, arms: [
       {
         name: 'left', waiting: 1, steps: [
-          { id: 'pick', name: '', arms: ['left'], state: 'paused', progress: 0.25, starts_s: 2, ends_s: null, pauses: stands(3, kStop) },
-          { id: 'behind', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ kind: 'predecessor', id: 'pick' })) },
+          { id: 'pick', name: '', arms: ['left'], state: 'paused', progress: 0.25, starts_s: 2, ends_s: null, pauses: pauses(3, kStop) },
+          { id: 'behind', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: pauses(0, wait_json({ kind: 'predecessor', id: 'pick' })) },
         ],
       },
       {
         name: 'right', waiting: 0, steps: [
           { id: 'other', name: '', arms: ['right'], state: 'running', progress: 0.5, starts_s: 1, ends_s: now_s + 4, pauses: [] },
-          { id: 'waits', name: '', arms: ['right'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ id: 'pick', arm: 'left' })) },
+          { id: 'waits', name: '', arms: ['right'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: pauses(0, wait_json({ id: 'pick', arm: 'left' })) },
         ],
       },
     ],

@@ -4,7 +4,7 @@
 import type { ArmState, Job, JobState } from '../server/messages';
 
 /** `not known`: of the time that is looked at nothing tells it. `waiting`: it is idle, and its next job waits. */
-export type ToldState = ArmState | 'waiting' | 'not known';
+export type ShownState = ArmState | 'waiting' | 'not known';
 
 /** Whether a job waits until an arm is resumed: this one, or any of its own. */
 export function is_stopped(job: Pick<Job, 'waits_on'> | null, arm: string | null = null): boolean {
@@ -12,6 +12,6 @@ export function is_stopped(job: Pick<Job, 'waits_on'> | null, arm: string | null
 }
 
 /** As people are told of it, everywhere. */
-export function told_state(job: Pick<Job, 'state' | 'waits_on'>): JobState | 'stopped' {
+export function shown_state(job: Pick<Job, 'state' | 'waits_on'>): JobState | 'stopped' {
   return job.state === 'paused' && is_stopped(job) ? 'stopped' : job.state;
 }

@@ -2,7 +2,7 @@
 // whoever asked for it is told where it was let go.
 
 import * as THREE from 'three';
-import { ByHand, type Grip } from './by_hand';
+import { DragHandles, type Grip } from './drag_handles';
 import { place } from './shapes';
 import type { Stage } from './stage';
 
@@ -20,8 +20,8 @@ export interface Tool {
   let_go(pose: ToolPose): void;
 }
 
-export class ToolInHand {
-  private readonly hand_: ByHand;
+export class ToolGoal {
+  private readonly handles_: DragHandles;
   private readonly frame_ = new THREE.Group();
   private tool_: Tool | null = null;
 
@@ -30,7 +30,7 @@ export class ToolInHand {
     this.frame_.add(new THREE.AxesHelper(kAxes_m));
     this.frame_.visible = false;
     stage_.scene.add(this.frame_);
-    this.hand_ = new ByHand(stage_, () => this.tool_?.let_go(pose_of(this.frame_)));
+    this.handles_ = new DragHandles(stage_, () => this.tool_?.let_go(pose_of(this.frame_)));
   }
 
   show(tool: Tool | null): void {
@@ -40,12 +40,12 @@ export class ToolInHand {
     else if (stands) stands.decompose(this.frame_.position, this.frame_.quaternion, new THREE.Vector3());
     this.frame_.visible = Boolean(tool?.at ?? stands);
     this.frame_.updateMatrixWorld(true);
-    this.hand_.show(this.frame_.visible ? this.frame_ : null, tool?.grip);
+    this.handles_.show(this.frame_.visible ? this.frame_ : null, tool?.grip);
     this.stage_.invalidate(true);
   }
 
   get is_touched(): boolean {
-    return this.hand_.is_touched;
+    return this.handles_.is_touched;
   }
 
   /** Its middle in the world; null: no tool is in hand. */
@@ -54,7 +54,7 @@ export class ToolInHand {
   }
 
   close(): void {
-    this.hand_.close();
+    this.handles_.close();
   }
 }
 

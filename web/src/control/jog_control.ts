@@ -12,23 +12,23 @@ import type { ControlHolder, Jog } from '../server/messages';
 const kBeats = 4;  // in the time of a lease
 const kFirst_ms = 100;
 
-type HandApi = Pick<Api, 'control' | 'take_control' | 'release_control' | 'jog' | 'renew_jog' | 'cancel_job'>;
+type JogApi = Pick<Api, 'control' | 'take_control' | 'release_control' | 'jog' | 'renew_jog' | 'cancel_job'>;
 
-/** What is held: from when the button is pressed until it is let go, or the move has ended. */
-export interface Held { arm: string; state: string; job: string | null }
+/** What is pressed: from when the button is pressed until it is let go, or the move has ended. */
+export interface Pressed { arm: string; state: string; job: string | null }
 
-export class Hand {
+export class JogControl {
   readonly holder = signal<ControlHolder | null>(null);
   /** That of this page; null: it has no control. */
   readonly key = signal<string | null>(null);
-  readonly held = signal<Held | null>(null);
+  readonly pressed = signal<Pressed | null>(null);
   readonly refusal = signal<string | null>(null);
   /** As this page took control last. */
   private taken_: ControlHolder | null = null;
   private asked_ = 0;  // each press has a number, so that late answers are known
 
   /** `has_ended`: whether the page has heard that a job has: its hold is not asked for any more. */
-  constructor(private readonly api_: HandApi, private readonly timers_: Timers, private readonly has_ended_: (job: string) => boolean = () => false) {}
+  constructor(private readonly api_: JogApi, private readonly timers_: Timers, private readonly has_ended_: (job: string) => boolean = () => false) {}
 
   async look(): Promise<void> {
     const answer = await this.api_.control();
@@ -37,9 +37,9 @@ export class Hand {
     this.holder.value = holder;
     const own = this.taken_;
     if (this.key.value === null || (own && holder?.who === own.who && holder.since_at === own.since_at)) return;
-    // The server brakes what was held.
+    // The server brakes what was pressed.
     this.key.value = null;
-    this.held.value = null;
+    this.pressed.value = null;
     ++this.asked_;
     if (holder) this.refusal.value = kText.jog.lost_control(shown_name(holder.who));
   }
@@ -47,74 +47,74 @@ export class Hand {
   /** From somebody else where there is one. */
   async take(who: string): Promise<void> {
     const answer = await this.api_.take_control(who);
-    if (!this.told(answer)) return;
+    if (!this.accepted(answer)) return;
     this.holder.value = answer.value.holder;
     this.taken_ = answer.value.holder;
     this.key.value = answer.value.key ?? null;
   }
 
-  async give_back(): Promise<void> {
-    this.let_go();
+  async release_control(): Promise<void> {
+    this.release();
     const key = this.key.value;
     if (key === null) return;
     this.key.value = null;
-    this.told(await this.api_.release_control(key));
+    this.accepted(await this.api_.release_control(key));
     await this.look();
   }
 
   async press(arm: string, state: string): Promise<void> {
     const key = this.key.value;
-    if (key === null || this.held.value) return;
+    if (key === null || this.pressed.value) return;
     const asked = ++this.asked_;
-    this.held.value = { arm, state, job: null };
+    this.pressed.value = { arm, state, job: null };
     const answer = await this.api_.jog(arm, state, key);
-    const is_held = this.asked_ === asked && this.held.value !== null;
-    if (!this.told(answer)) {
-      if (is_held) this.held.value = null;
-      return this.lost(answer);
+    const is_pressed = this.asked_ === asked && this.pressed.value !== null;
+    if (!this.accepted(answer)) {
+      if (is_pressed) this.pressed.value = null;
+      return this.lose_control(answer);
     }
     const { job, lease_s } = answer.value;
-    if (!is_held) return void this.api_.cancel_job(job.id);  // let go before the answer came
-    this.held.value = { arm, state, job: job.id };
+    if (!is_pressed) return void this.api_.cancel_job(job.id);  // let go before the answer came
+    this.pressed.value = { arm, state, job: job.id };
     this.beat(asked, lease_s);
   }
 
-  let_go(): void {
-    const held = this.held.value;
-    if (!held) return;
+  release(): void {
+    const pressed = this.pressed.value;
+    if (!pressed) return;
     ++this.asked_;
-    this.held.value = null;
-    if (held.job !== null && !this.has_ended_(held.job)) void this.api_.cancel_job(held.job);
+    this.pressed.value = null;
+    if (pressed.job !== null && !this.has_ended_(pressed.job)) void this.api_.cancel_job(pressed.job);
   }
 
   private beat(asked: number, lease_s: number): void {
     const every_ms = lease_s > 0 ? (1000 * lease_s) / kBeats : kFirst_ms;
     this.timers_.set(() => {
-      const held = this.held.value;
+      const pressed = this.pressed.value;
       const key = this.key.value;
-      if (!held || key === null || this.asked_ !== asked) return;
-      if (held.job !== null && this.has_ended_(held.job)) {
-        this.held.value = null;  // it is there
+      if (!pressed || key === null || this.asked_ !== asked) return;
+      if (pressed.job !== null && this.has_ended_(pressed.job)) {
+        this.pressed.value = null;  // it is there
         return;
       }
-      void this.api_.renew_jog(held.arm, key).then((answer) => {
+      void this.api_.renew_jog(pressed.arm, key).then((answer) => {
         if (answer.ok || this.asked_ !== asked) return;
-        this.held.value = null;  // it is there, it was told too late, or somebody else has taken control
+        this.pressed.value = null;  // it is there, it was told too late, or somebody else has taken control
         if (answer.problem.type.endsWith('jog-lease-expired')) this.refusal.value = `${kText.jog.lease_expired} ${answer.problem.detail ?? ''}`.trim();
-        this.lost(answer);
+        this.lose_control(answer);
       });
       this.beat(asked, lease_s);
     }, every_ms);
   }
 
-  private lost(answer: Answer<Jog>): void {
+  private lose_control(answer: Answer<Jog>): void {
     if (answer.ok || !answer.problem.type.endsWith('not-in-control')) return;
     this.key.value = null;
     this.refusal.value = answer.problem.detail ?? answer.problem.title;
     void this.look();
   }
 
-  private told<T>(answer: Answer<T>): answer is { ok: true; value: T } {
+  private accepted<T>(answer: Answer<T>): answer is { ok: true; value: T } {
     this.refusal.value = answer.ok ? null : (answer.problem.detail ?? answer.problem.title);
     return answer.ok;
   }

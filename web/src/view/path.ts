@@ -11,7 +11,7 @@ const kMark_px = 13;
 
 export interface Stretch { from_s: number; granted_s: number }
 
-export class Way {
+export class Path {
   readonly group = new THREE.Group();
   private readonly geometry_ = new THREE.BufferGeometry();
   private readonly mark_geometry_ = new THREE.BufferGeometry();

@@ -1,18 +1,18 @@
-// What was pasted: one job, or a bag of jobs. Pure. The server judges what is in it; here it is only
+// What was pasted: one job, or a batch of jobs. Pure. The server judges what is in it; here it is only
 // seen how many there are.
 
 import { shown_name } from '../names';
 import { kText } from '../strings';
 
-export type Bag =
+export type Batch =
   | { kind: 'one'; text: string }
-  | { kind: 'bag'; jobs: unknown[] };
+  | { kind: 'batch'; jobs: unknown[] };
 
 /**
  * A list of bodies, a list of {"at", "job"} as in a jobs file, or {"jobs": […]}; a trajectory by itself is
  * a job of nothing else; anything else is one body.
  */
-export function read_bag(text: string): Bag {
+export function read_batch(text: string): Batch {
   let value: unknown;
   try {
     value = JSON.parse(text);
@@ -22,7 +22,7 @@ export function read_bag(text: string): Bag {
   if (is_trajectory(value)) return { kind: 'one', text: JSON.stringify({ trajectory: value }) };
   const list = Array.isArray(value) ? value : (value as { jobs?: unknown } | null)?.jobs;
   if (!Array.isArray(list) || list.length === 0) return { kind: 'one', text };
-  return { kind: 'bag', jobs: list.map((entry) => (is_trajectory(entry) ? { trajectory: entry as unknown } : (entry as { job?: unknown } | null)?.job ?? entry)) };
+  return { kind: 'batch', jobs: list.map((entry) => (is_trajectory(entry) ? { trajectory: entry as unknown } : (entry as { job?: unknown } | null)?.job ?? entry)) };
 }
 
 /** A JointTrajectory by itself. */
@@ -34,9 +34,9 @@ function is_trajectory(value: unknown): boolean {
 /** What is asked of the server, with a name for people. */
 export interface Body { title: string; body: Blob }
 
-export function bodies_of(bag: Bag): Body[] {
-  if (bag.kind === 'one') return [{ title: kText.compose.this_job, body: new Blob([bag.text]) }];
-  return bag.jobs.map((job, i) => {
+export function bodies_of(batch: Batch): Body[] {
+  if (batch.kind === 'one') return [{ title: kText.compose.this_job, body: new Blob([batch.text]) }];
+  return batch.jobs.map((job, i) => {
     const { id, name } = (job ?? {}) as { id?: unknown; name?: unknown };
     const title = [id, name].find((one): one is string => typeof one === 'string' && one !== '');
     return { title: title === undefined ? kText.compose.job_number(i + 1) : shown_name(title), body: new Blob([JSON.stringify(job)]) };

@@ -9,7 +9,7 @@ const kSize = 0.75;
 
 export type Grip = 'move' | 'turn';
 
-export class ByHand {
+export class DragHandles {
   private readonly controls_: TransformControls;
   private object_: THREE.Object3D | null = null;
 

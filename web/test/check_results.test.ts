@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { only_in_turn } from '../src/compose/judged';
+import { only_in_turn } from '../src/compose/check_results';
 import { is_yaml } from '../src/compose/new_job';
 import type { WaitsOn } from '../src/server/messages';
 import { wait_json } from './samples';
