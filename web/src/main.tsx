@@ -1,4 +1,4 @@
-// Puts the page together: store, server, socket, address, and what is shown of them.
+// Assembles the page: store, API, socket, router, views.
 
 import { signal } from '@preact/signals';
 import { render } from 'preact';
@@ -64,8 +64,8 @@ const connection = new Connection({
     store.take(message);
     if (is_new_run) void look_before(message.stream, message.seq);
     if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
-    if (message.type === 'snapshot' || message.type === 'alert') void jogging.look();  // a change of control is told
-    // It has less than what the page was told before.
+    if (message.type === 'snapshot' || message.type === 'alert') void jogging.look();  // control changes are published as alerts
+    // A snapshot has fewer ended jobs than the page knew.
     if (message.type === 'snapshot') archive.reopen();
     if (other_run) {
       motions.clear();
@@ -98,11 +98,11 @@ function shelf(): Storage | null {
   try {
     return window.localStorage;
   } catch {
-    return null;  // some browsers forbid it
+    return null;  // some browsers forbid access
   }
 }
 
-/** Whose token was revoked, or who has logged out in another window, may nothing any more but log in. */
+/** Goes to the login page if the token was revoked or the user logged out in another window. */
 async function know_who(): Promise<void> {
   const answer = await api.session();
   if (!answer.ok) return;
@@ -110,12 +110,12 @@ async function know_who(): Promise<void> {
   if (answer.value.role === null) location.assign(`/login${location.hash}`);
 }
 
-/** What the server told before this page listened. */
+/** Loads events from before the page was connected. */
 async function look_before(stream: string, seq: number): Promise<void> {
   store.take_earlier(await earlier_events(kApi, (url, init) => fetch(url, init), stream, seq));
 }
 
-/** Where the arms were before this page listened, or while it could not. */
+/** Loads positions from before the page was connected, or while it was not. */
 async function look_at_states(): Promise<void> {
   const answer = await api.states();
   if (answer.ok) store.take_earlier_states(answer.value);

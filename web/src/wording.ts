@@ -1,4 +1,4 @@
-// What the page says about jobs, in words. Pure functions from the contract's data to sentences.
+// Builds the sentences about jobs, arms and the server; their words are in strings.ts. Pure.
 
 import type { Link } from './server/connection';
 import type { Facts, Restart } from './state/facts';
@@ -9,13 +9,13 @@ import { kText } from './strings';
 
 const kLongestId = 24;
 
-/** An id short enough for a list: a long machine-made one is cut, a name that a client chose stays. */
+/** Returns an id short enough for a list: a UUID by its beginning, another id cut if it is long. */
 export function short_id(id: string): string {
   if (/^[0-9a-f]{8}-[0-9a-f]{4}-/i.test(id)) return id.slice(0, 8);
   return cut_text(id, kLongestId);
 }
 
-/** What a job is called: by its name, or else by its id. */
+/** Returns the job's name, or its id if it has no name. */
 export function title_of(job: Pick<Job, 'id' | 'name'>): string {
   return shown_name(job.name) || short_id(job.id);
 }
@@ -40,7 +40,7 @@ export function bytes_in_words(bytes: number): string {
   return `${bytes} B`;
 }
 
-/** Cell time as h:mm:ss.t, for the header and the event list. */
+/** Formats cell time as h:mm:ss.t. */
 export function clock(t_s: number): string {
   const tenths = Math.max(0, Math.floor(t_s * 10));
   const pad = (n: number) => String(n).padStart(2, '0');
@@ -48,7 +48,7 @@ export function clock(t_s: number): string {
   return `${Math.floor(whole / 3600)}:${pad(Math.floor(whole / 60) % 60)}:${pad(whole % 60)}.${tenths % 10}`;
 }
 
-/** Why a job waits, one sentence; empty when it waits on nothing. */
+/** Returns why a job waits, in one sentence; empty if it waits for nothing. */
 export function reason_in_words(job: Job): string {
   if (job.cycle.length) return kText.wait.deadlock([...job.cycle, ...job.cycle.slice(0, 1)].map(short_id).join(' -> '));
   const [first, ...rest] = job.waits_on;
@@ -75,7 +75,7 @@ export function wait_in_words(w: WaitsOn): string {
   }
 }
 
-/** What a job that was only asked about would meet. */
+/** Returns what a checked job would conflict with. */
 export function conflict_in_words(w: WaitsOn): string {
   const how = conflict_of(w);
   return how === '' ? kText.wait.against(subject(w)) : kText.wait.against_because(subject(w), how);
@@ -96,7 +96,7 @@ function conflict_of(w: WaitsOn): string {
   const links = pair_of(w.links);
   if (!links) return '';
   const [own, other] = [shown_name(links[0]), shown_name(links[1])];
-  // The job has not begun: the time counts from its own start, whenever that will be.
+  // The job has not started: its time counts from its own start.
   const when = w.own_time_s === null ? '' : kText.wait.time_in_motion(w.own_time_s.toFixed(2));
   if (w.clearance_m === null || w.clearance_m <= 0) return kText.wait.touches(own, other, when);
   return kText.wait.comes_within(own, other, millimetres(w.clearance_m), when);
@@ -104,7 +104,10 @@ function conflict_of(w: WaitsOn): string {
 
 export interface Figure { text: string; title: string }
 
-/** The one number that matters at this stage of a job's life, and what it means; `ends_s`: as the server expects it. */
+/**
+ * Returns the most relevant number at this stage of a job, with its meaning. `ends_s` is the
+ * predicted end.
+ */
 export function figure_in_words(job: Job, now_s: number, progress: number, ends_s: number | null = null): Figure {
   const words = kText.figure;
   if (job.stopping) return { text: words.stopping, title: words.stopping_title };
@@ -119,18 +122,18 @@ export function figure_in_words(job: Job, now_s: number, progress: number, ends_
   return { text: words.ran(seconds(job.ended_s - job.started_s)), title: words.ran_title };
 }
 
-/** The same of a job that nothing has been heard of for a while. */
+/** Rephrases a figure as past, because the data is old. */
 export function as_last_heard(figure: string): string {
   if (figure === '') return '';
   return /^waited|left$/.test(figure) ? kText.figure.had(figure) : kText.figure.was(figure);
 }
 
-/** The object that a job waits for before all else. */
+/** Returns the object that the job waits for first. */
 export function object_of({ waits_on: [first] }: Pick<Job, 'waits_on'>): string | null {
   return first?.kind === 'object' ? first.id ?? first.links[1] ?? null : null;
 }
 
-/** For whom or what a job waits, short enough for a label. */
+/** Returns what a job waits for, short enough for a label. */
 export function waited_for(job: Pick<Job, 'waits_on'>): string {
   const words = kText.wait;
   const [first] = job.waits_on;
@@ -146,7 +149,7 @@ export function waited_for(job: Pick<Job, 'waits_on'>): string {
   }
 }
 
-/** What an arm does, or for what it waits. */
+/** Returns what an arm does, or what it waits for. */
 export function arm_in_words(arm: Arm, facts: Pick<Facts, 'arm_state' | 'waiting_of'>): string {
   const state = facts.arm_state(arm);
   const next = state === 'waiting' ? facts.waiting_of(arm.name) : null;
@@ -158,7 +161,7 @@ function waited(job: Job, until_s: number | null): Figure {
   return { text: kText.figure.waited(seconds(Math.max(0, until_s - job.submitted_s))), title: kText.figure.waited_title };
 }
 
-/** Without the digits that only tell how a computer keeps it: 0.30000001192 is 0.3. */
+/** Rounds away digits of binary representation: 0.30000001192 becomes 0.3. */
 export function number_in_words(value: number): string {
   return String(Number(value.toPrecision(kDigits)));
 }
@@ -166,17 +169,17 @@ export function number_in_words(value: number): string {
 const kDigits = 6;
 const kLongestValue = 200;
 
-/** What a refused request held at the place of the fault; empty when the server does not say. */
+/** Returns the value found at the fault of a refused request; empty if the server gives none. */
 export function found_in_words(value: unknown): string {
   return value === undefined || value === null || value === '' ? '' : kText.compose.found(cut_text(JSON.stringify(value, (_, part: unknown) => (typeof part === 'number' ? Number(number_in_words(part)) : part)), kLongestValue));
 }
 
-/** Between what a clearance was measured. */
+/** Returns the kinds of bodies that a clearance is between. */
 export function clearance_in_words(clearance: Clearance): string {
   return clearance.arms.length > 1 ? kText.view.arm_to_arm : kText.view.arm_to_object;
 }
 
-/** Why nothing can be asked of the server now; null when it can. */
+/** Returns why the server cannot be reached for requests now, or null. */
 export function why_not_connected(link: Link): string | null {
   switch (link.status) {
     case 'open': return null;
@@ -191,17 +194,20 @@ const kSaidByState: ReadonlySet<string> = new Set(['completed', 'succeeded', 'ca
 
 const kMostNamed = 6;
 
-/** What is not known any more after a restart; `since`: when it was heard of. */
+/**
+ * Returns what is unknown after a restart; `since` is the time of the first message of the new
+ * session.
+ */
 export function restart_in_words({ lost }: Pick<Restart, 'lost'>, since: string): string {
   const named = lost.slice(0, kMostNamed).map((job) => title_of(job)).join(', ');
   const names = lost.length > kMostNamed ? kText.server.names_and_more(named, lost.length - kMostNamed) : named;
   return kText.server.restarted(since, lost.length === 0 ? kText.server.all_known : kText.server.unknown_status(lost.length, names));
 }
 
-/** How a job ended: the reason of the closed list as words, with the server's detail. */
+/** Returns how a job ended: the reason from the closed list, with the server's detail. */
 export function result_in_words(job: Job): string {
   if (!job.result) return '';
-  // What the state says by itself is not words again.
+  // The state already says this.
   const words = kSaidByState.has(job.result.reason) ? '' : job.result.reason.replaceAll('_', ' ');
   return [words, shown_text(job.result.detail)].filter((part) => part !== '').join(': ');
 }
@@ -213,7 +219,7 @@ export function monitor_in_words(event: MonitorData): string {
   return kText.server.apart(String(a), String(b), millimetres(event.clearance_m), millimetres(event.limit_m), stopped);
 }
 
-/** How its way came to be another one than its client's, or it came to be taken: a sentence each. */
+/** Returns a sentence for each choice the server made about the job's path. */
 export function path_in_words(job: Job): string[] {
   const words = kText.path;
   const sentences: string[] = [];

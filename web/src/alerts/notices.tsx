@@ -1,4 +1,4 @@
-// What the monitor saw and what the server wants known, newest first.
+// The event list, newest first: findings of the monitor and alerts of the server.
 
 import { Link } from '../route/link';
 import type { App } from '../state/app';
@@ -40,7 +40,10 @@ export function NoticeList({ app }: { app: App }) {
   );
 }
 
-/** What was reported before the page listened, or in a former run, stands among the alerts alone. */
+/**
+ * Reports from before the page was connected, or from a previous session, are only on the Alerts
+ * page.
+ */
 function nothing_in_words({ store, alerts }: App): string {
   const [first] = store.log.entries;
   if (alerts.all.length === 0 || !first || store.link.status === 'recording') return kWords.none;
@@ -59,7 +62,7 @@ function Line({ notice, app }: { notice: Notice; app: App }) {
   );
 }
 
-/** When it was, by the cell's clock, which every view can be brought back to. */
+/** The cell time of an event; a click shows this time in all views. */
 export function Then({ notice, app }: { notice: Notice; app: App }) {
   const at = notice.at === null ? '' : wall_time(notice.at);
   if (!is_kept(notice, app)) return <span class="mono" title={at}>{clock(notice.t_s)}</span>;
@@ -69,7 +72,7 @@ export function Then({ notice, app }: { notice: Notice; app: App }) {
   );
 }
 
-/** Whether it can be looked back at. */
+/** Returns true if the state at the event's time can be shown. */
 function is_kept({ stream, t_s }: Notice, { store }: App): boolean {
   return (stream === null || stream === store.stream) && (store.trace.heard(t_s) === 'kept' || events_until(t_s, null, store) > 0);
 }

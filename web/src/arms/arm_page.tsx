@@ -1,5 +1,5 @@
-// One arm: what it does and what comes, its joints against their limits, how far it is off its path,
-// and how its joints moved lately.
+// The page of one arm: current and next jobs, joints with limits and deviation, and a plot of the
+// last seconds.
 
 import { useState } from 'preact/hooks';
 import { arm_of, states_of } from '../compose/goal';
@@ -69,7 +69,7 @@ function StopOfArm({ arm, app }: { arm: Arm; app: App }) {
     : <button class="small" disabled={why_disabled !== null} data-test="stop-arm" title={kWords.stop_title} onClick={() => void app.actions.stop_arm(arm.name)}>{kWords.stop}</button>;
 }
 
-/** Along a way that the server plans; the job waits its turn as any other. */
+/** Sends the arm to a named state. The server plans the path; the job is queued like any other. */
 function SendTo({ arm, app }: { arm: Arm; app: App }) {
   const { cell } = app.store;
   const states = cell ? states_of(arm_of(cell, arm.name)) : [];

@@ -1,4 +1,4 @@
-// One card per arm: state, what it does, how far it is. It leads to the arm's page.
+// One card per arm with state, job and progress; it links to the arm's page.
 
 import { Link } from '../route/link';
 import { selection_of } from '../route/selection';
@@ -49,7 +49,7 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
   );
 }
 
-/** For whom or what its next job waits, and since when. */
+/** Shows what the arm's next job waits for, and since when. */
 function Waiting({ job, app }: { job: Job; app: App }) {
   const short = [waited_for(job), when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
   return <span class="grow ellipsis waiting" data-test="arm-waits" title={`${title_of(job)}: ${reason_in_words(job)}`}>{short}</span>;

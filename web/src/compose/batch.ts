@@ -1,5 +1,5 @@
-// What was pasted: one job, or a batch of jobs. Pure. The server judges what is in it; here it is only
-// seen how many there are.
+// Splits pasted text into one job or a batch of jobs. Pure. The server validates the jobs; this
+// file only counts them.
 
 import { shown_name } from '../names';
 import { kText } from '../strings';
@@ -9,8 +9,8 @@ export type Batch =
   | { kind: 'batch'; jobs: unknown[] };
 
 /**
- * A list of bodies, a list of {"at", "job"} as in a jobs file, or {"jobs": […]}; a trajectory by itself is
- * a job of nothing else; anything else is one body.
+ * Accepts a list of jobs, a list of {"at", "job"} as in a jobs file, or {"jobs": […]}. A bare
+ * trajectory becomes a job. Any other text is one job.
  */
 export function read_batch(text: string): Batch {
   let value: unknown;
@@ -25,13 +25,13 @@ export function read_batch(text: string): Batch {
   return { kind: 'batch', jobs: list.map((entry) => (is_trajectory(entry) ? { trajectory: entry as unknown } : (entry as { job?: unknown } | null)?.job ?? entry)) };
 }
 
-/** A JointTrajectory by itself. */
+/** Returns true for a bare JointTrajectory. */
 function is_trajectory(value: unknown): boolean {
   const { joint_names, points } = (value ?? {}) as { joint_names?: unknown; points?: unknown };
   return Array.isArray(joint_names) && Array.isArray(points);
 }
 
-/** What is asked of the server, with a name for people. */
+/** The body of one request, with a title for people. */
 export interface Body { title: string; body: Blob }
 
 export function bodies_of(batch: Batch): Body[] {

@@ -1,4 +1,4 @@
-// What the admission code says of jobs that are only asked about, each as if it came now.
+// The verdicts of POST /check, each as if its job were submitted now.
 
 import type { Api } from '../server/api';
 import type { Problem, Verdict } from '../server/messages';
@@ -13,7 +13,7 @@ export type CheckResult = { title: string } & ({ ok: true; verdict: Verdict } | 
 
 const kMost = 50;
 
-/** One after the other: each costs the server some checks. */
+/** Checks the jobs one after the other, because each costs the server some work. */
 export async function check_all(bodies: readonly Body[], api: Pick<Api, 'check'>): Promise<CheckResult[]> {
   const results: CheckResult[] = [];
   for (const { title, body } of bodies.slice(0, kMost)) {
@@ -23,7 +23,7 @@ export async function check_all(bodies: readonly Body[], api: Pick<Api, 'check'>
   return results;
 }
 
-/** `show`: shows the motion at a time from its start. */
+/** `show` displays the motion at a time from its start. */
 export function CheckResults({ results, show }: { results: CheckResult[]; show: ((t_s: number) => void) | null }) {
   return (
     <ul class="check-results" role="status" data-test="check-results">
@@ -40,7 +40,7 @@ const kWords: Record<Verdict['verdict'], string> = {
   free: kSays.free, conflict: kSays.conflict, undecided: kSays.undecided,
 };
 
-/** Nothing is in its way but those that its arm does first. */
+/** Returns true if the job only waits for earlier jobs of its arm. */
 export function only_in_turn({ verdict, waits_on }: Pick<Verdict, 'verdict' | 'waits_on'>): boolean {
   return verdict === 'conflict' && waits_on.length > 0 && waits_on.every(({ kind }) => kind === 'predecessor');
 }

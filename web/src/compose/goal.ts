@@ -1,4 +1,4 @@
-// A goal as a form has it: numbers are texts until they are asked for. Pure.
+// The plan form's goal. Numbers stay text until the request is made. Pure.
 
 import { no_number, number_in } from '../frame/number_text';
 import type { Cell, CellArm } from '../server/messages';
@@ -14,12 +14,12 @@ export function arm_of(cell: Cell, name: string): CellArm | undefined {
   return cell.robots.flatMap((robot) => robot.arms).find((arm) => arm.name === name);
 }
 
-/** States that the arm knows by name; home is always one. */
+/** Returns the named states of the arm; `home` is always among them. */
 export function states_of(arm: CellArm | undefined): string[] {
   return ['home', ...Object.keys(arm?.named_states ?? {}).filter((name) => name !== 'home')];
 }
 
-/** The body of POST /plan, or what cannot be read. */
+/** Returns the body of POST /plan, or what is wrong with the form. */
 export function plan_request(form: GoalForm): { ok: true; text: string } | { ok: false; fault: string } {
   const speed = number_in(form.speed);
   if (speed === null) return { ok: false, fault: kWords.speed_fault(no_number(form.speed)) };
@@ -43,13 +43,13 @@ function goal_of(form: GoalForm): object | string {
   return { pose: { ...(form.link.trim() === '' ? {} : { link: form.link.trim() }), xyz, rpy: radians } };
 }
 
-/** As a form has it: millimetres, and tenths of a degree. */
+/** Formats a pose for the form, rounded to millimeters and tenths of a degree. */
 export function form_of_pose({ xyz, rpy }: ToolPose): Pick<GoalForm, 'xyz' | 'rpy'> {
   const text = (numbers: readonly number[], digits: number) => numbers.map((n) => String(Number(n.toFixed(digits)))).join(', ');
   return { xyz: text(xyz, 3), rpy: text(rpy.map((angle) => (angle * 180) / Math.PI), 1) };
 }
 
-/** null: the form does not say one yet. */
+/** Returns the pose, or null if the form is incomplete. */
 export function pose_of_form({ xyz, rpy }: Pick<GoalForm, 'xyz' | 'rpy'>): ToolPose | null {
   const at = numbers_in(xyz);
   const turn = numbers_in(rpy)?.map((angle) => (angle * Math.PI) / 180);
@@ -57,7 +57,7 @@ export function pose_of_form({ xyz, rpy }: Pick<GoalForm, 'xyz' | 'rpy'>): ToolP
   return { xyz: at as ToolPose['xyz'], rpy: turn as ToolPose['rpy'] };
 }
 
-/** Between commas or blanks; null where one is none. */
+/** Reads numbers separated by commas or blanks. Returns null if any part is not a number. */
 export function numbers_in(text: string): number[] | null {
   const parts = text.replaceAll(/[[\]]/g, ' ').split(/[\s,;]+/).filter((part) => part !== '');
   const numbers = parts.map(Number);

@@ -1,5 +1,5 @@
-// A file that jobs are to be read from. What the server would not take is not read at all, and what is no job is
-// said at once, with the file's name.
+// Reads jobs from a file. Files above the server's limit are not read; a file without a job is
+// refused at once, by name.
 
 import { shown_name } from '../names';
 import { bytes_in_words } from '../wording';
@@ -7,12 +7,12 @@ import { kText } from '../strings';
 import { composed, type Composed } from './composed';
 import { composed_in_worker, kLong } from './long_text';
 
-/** A request to the server has at most so much (kBodyMax of server/http/session.h; 413 of the contract). */
+/** The server's limit for a request body (kBodyMax in server/http/session.h; answered with 413). */
 export const kBodyMax_bytes = 8 * 1024 * 1024;
 
 export type JobFile = { ok: true; text: string } | { ok: false; fault: string };
 
-/** Why a text of so many bytes is not sent; null: it may be. */
+/** Returns why a text of this length cannot be sent, or null. */
 export function too_large(what: string, bytes: number): string | null {
   return bytes <= kBodyMax_bytes ? null : kText.compose.too_large(what, bytes_in_words(bytes), bytes_in_words(kBodyMax_bytes));
 }

@@ -1,8 +1,10 @@
-// A long text is read beside the page, which goes on to answer clicks and Stop meanwhile.
+// Reads a long text in a web worker, so that the page keeps answering clicks and Stop.
 
 import { composed, type Composed } from './composed';
 
-/** A longer one is not put into the text field either: a browser lays it out for seconds. */
+/**
+ * Texts longer than this are not shown in the text field: browsers take seconds for their layout.
+ */
 export const kLong = 200_000;
 
 /** The part of a Worker that is used. */
@@ -15,12 +17,12 @@ export interface WorkerLike {
 
 const kMake = (): WorkerLike => new Worker(new URL('./compose_worker.ts', import.meta.url), { type: 'module' });
 
-/** A file is looked at before its text is taken: what it came to is not made twice. */
+/** The last result. A file is read before its text is shown, so its text would be read twice. */
 let last: { of: string; made: Composed } | null = null;
 
 /**
- * The same as composed(); `stop` gives it up, which rejects. Where nothing can run beside the page, as when the
- * server was updated under it and has other files now, the page reads it itself.
+ * Does the same as composed() in a worker; rejects if `stop` aborts it. If the worker cannot load,
+ * for example after an update of the server's files, the page reads the text itself.
  */
 export async function composed_in_worker(text: string, stop: AbortSignal, make: () => WorkerLike = kMake): Promise<Composed> {
   if (last?.of === text) return last.made;

@@ -1,5 +1,5 @@
-// Compose: paste, drop or begin from an example; see it judged as things are; send it. One job, or a batch
-// of jobs, which is taken whole or not at all.
+// The New job page: paste, drop or plan a job or a batch; check it; send it. A batch is accepted as
+// a whole or not at all.
 
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import { InSight } from '../frame/in_sight';
@@ -30,7 +30,7 @@ type Outcome =
   | { kind: 'none' } | { kind: 'busy'; what: string } | { kind: 'accepted'; ids: string[] }
   | { kind: 'refused'; problem: Problem } | { kind: 'checked'; results: CheckResult[] };
 
-/** What was found out, and which instant is previewed; of another text it says nothing. */
+/** Results for one text: the outcome and the previewed time. They do not apply to another text. */
 interface Found { of: string; outcome: Outcome; chosen: Chosen | null }
 
 const kTyped_ms = 500;
@@ -42,19 +42,19 @@ export function NewJob({ app }: { app: App }) {
   const { outcome, chosen } = found.of === text ? found : kNothingFound;
   const set_outcome = (next: Outcome) => set_found({ of: text, outcome: next, chosen });
   const set_chosen = (next: Chosen) => set_found({ of: text, outcome, chosen: next });
-  const change = (next: string) => { app.draft.value = next.replace(/^\uFEFF/, ''); };  // some editors begin files by it
+  const change = (next: string) => { app.draft.value = next.replace(/^\uFEFF/, ''); };  // some editors write a byte order mark
   const show_end = (next: string) => set_found({ of: next, outcome: { kind: 'none' }, chosen: { t_s: motion_of(read_batch(next))?.duration_s ?? 0 } });
   const made = use_composed(text);
-  const batch = useMemo(() => read_batch(text.length > kLong ? '' : text), [text]);  // paths to goals are shown of short ones
+  const batch = useMemo(() => read_batch(text.length > kLong ? '' : text), [text]);  // only goals of short texts are previewed
   const paths = use_goal_paths(batch, app);
   const motion = useMemo(() => (paths.kind === 'planned' ? motion_of(paths.paths.batch) : motion_of_parts(made?.parts ?? [])), [made, paths]);
-  // Where a goal leads is shown as soon as there is a way.
+  // Shows the end of the path once a goal is planned.
   useEffect(() => { if (paths.kind === 'planned' && paths.paths.planned > 0 && motion) set_chosen({ t_s: motion.duration_s }); }, [paths]);
   const unheard = why_not_connected(app.store.link);
   const why_disabled = why_no_command(app);
   const busy = made === null || text.trim() === '' || outcome.kind === 'busy';
   const idle = busy || unheard !== null;
-  // The same once more is another job: it has to be asked for by the button that says so.
+  // Sending the same text again submits another job, so only the button "Send again" does it.
   const is_sent = outcome.kind === 'accepted';
   const send = async () => {
     if (busy || why_disabled !== null) return;
@@ -85,7 +85,7 @@ export function NewJob({ app }: { app: App }) {
         <span class="grow dim small" data-test="batch">{made === null ? kWords.reading : kind_in_words(made)}</span>
         <button data-test="check-job" title={kWords.check_title} disabled={idle} onClick={() => void check()}>{kWords.check}</button>
         <button class={is_sent ? '' : 'primary'} data-test="send" title={why_disabled ?? (is_sent ? kWords.send_again_title : '')} disabled={busy || why_disabled !== null}
-          onClick={(event) => { if (event.detail < 2) void send(); /* not by the second click of a double one */ }}>
+          onClick={(event) => { if (event.detail < 2) void send(); /* ignores the second click of a double click */ }}>
           {outcome.kind === 'busy' ? outcome.what : `${made?.kind === 'batch' ? kWords.send_all : kWords.send}${is_sent ? kWords.send_again : ''}`}
         </button>
       </div>
@@ -99,7 +99,7 @@ export function NewJob({ app }: { app: App }) {
   );
 }
 
-/** What the text comes to; null: a long one is being read. */
+/** Returns the composed text, or null while a long text is read. */
 function use_composed(text: string): Composed | null {
   const [read, set_read] = useState<{ of: string; made: Composed } | null>(null);
   const is_long = text.length > kLong;
@@ -112,7 +112,7 @@ function use_composed(text: string): Composed | null {
   return useMemo(() => (!is_long ? composed(text) : read?.of === text ? read.made : null), [text, is_long, read]);
 }
 
-/** It begins with a key, or with the line that begins a document. */
+/** Returns true if the text begins with a YAML key or document marker. */
 export function is_yaml(text: string): boolean {
   return /^\s*(---|[A-Za-z_]\w*:)(\s|$)/.test(text.slice(0, 200));
 }
@@ -123,7 +123,7 @@ function kind_in_words({ kind, bodies }: Composed): string {
 
 type GoalPathsState = { kind: 'none' } | { kind: 'planning' } | { kind: 'planned'; paths: GoalPaths };
 
-/** The paths to the goals that are pasted, asked for once nobody types any more. */
+/** Plans the pasted goals once typing has stopped. */
 function use_goal_paths(batch: Batch, app: App): GoalPathsState {
   const { store, api } = app;
   const [state, set_state] = useState<{ of: Batch; paths: GoalPaths } | null>(null);
@@ -167,7 +167,7 @@ function Examples({ app, change }: { app: App; change(text: string): void }) {
   );
 }
 
-/** The same request for a terminal or a program. */
+/** The same request as a command or program. */
 function Copies({ made: { request: { path, body } }, app }: { made: Composed; app: App }) {
   const with_it = (make: typeof curl_to_post) => async () => make(path, await body.text(), asked_of(app));
   return (
@@ -193,7 +193,7 @@ async function sent({ request: { path, body } }: Composed, app: App): Promise<Ou
   return answer.ok ? { kind: 'accepted', ids: ids_of(answer.value) } : { kind: 'refused', problem: answer.problem };
 }
 
-/** The job, or each of the batch's. */
+/** Returns the ids of the accepted job or jobs. */
 function ids_of(answer: unknown): string[] {
   const { id, jobs } = (answer ?? {}) as { id?: unknown; jobs?: unknown };
   if (typeof id === 'string') return [id];

@@ -1,5 +1,4 @@
-// Say where to go instead of how: the server plans the way, which is then looked at, judged and sent as
-// any job is.
+// The plan form: the server plans a path to a goal, to be previewed, checked and sent as a job.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Plan, Problem } from '../server/messages';
@@ -21,10 +20,10 @@ type Outcome = { kind: 'none' } | { kind: 'busy' } | { kind: 'planned'; plan: Pl
 const kAlready_s = 0.05;
 const kKinds: readonly [GoalKind, string][] = [['named', kWords.named], ['joints', kWords.joints], ['pose', kWords.pose]];
 
-// What was asked last outlives the page's pane.
+// The last input outlives the form.
 let last: GoalForm | null = null;
 
-/** `change`: the way as a job's text, and the time to show first. */
+/** `change` receives the planned job as text. */
 export function PlanForm({ app, change }: { app: App; change(text: string): void }) {
   const { cell } = app.store;
   const [form, set_form] = useState<GoalForm | null>(last);
@@ -34,7 +33,7 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
   const first = cell.robots.flatMap((robot) => robot.arms)[0]?.name ?? '';
   const shown = form ?? { arm: first, kind: 'named', named: 'home', joints: '', xyz: '', rpy: '180, 0, 0', link: '', speed: '50' };
   const set = (part: Partial<GoalForm>) => {
-    last = { ...(last ?? shown), ...part };  // also for who was told of the form some time ago
+    last = { ...(last ?? shown), ...part };  // drag callbacks hold an older form
     set_form(last);
     set_outcome({ kind: 'none' });
   };
@@ -45,7 +44,7 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
     app.ghost.value = null;
     const turn = ++turn_.current;
     const answer = await app.api.plan(asked.text);
-    if (turn !== turn_.current) return;  // it was dragged on meanwhile
+    if (turn !== turn_.current) return;  // the goal has changed meanwhile
     if (!answer.ok) {
       show_nearest(answer.problem, form.arm, app);
       return set_outcome({ kind: 'refused', problem: answer.problem });
@@ -114,7 +113,7 @@ function Goal({ form, app, set }: { form: GoalForm; app: App; set(part: Partial<
   return <div class="line wrap goal">{text('xyz', kWords.position_label, kWords.position_hint)}{text('rpy', kWords.rotation_label, kWords.rotation_hint)}{text('link', kWords.link_label, kWords.link_hint)}</div>;
 }
 
-/** The goal in the cell: planned each time it is let go, by the same form that can be filled in. */
+/** Sets the goal in the 3D view; plans on each release with the same form. */
 function Drag({ form, app, drag }: { form: GoalForm; app: App; drag(part: Partial<GoalForm>): void }) {
   const [grip, set_grip] = useState<Grip | null>(null);
   const { arm, link, xyz, rpy } = form;
@@ -158,7 +157,7 @@ function Unplanned({ problem }: { problem: Problem }) {
   );
 }
 
-/** Where the arm comes nearest is shown as a ghost. */
+/** Shows the nearest configuration as a ghost. */
 function show_nearest(problem: Problem, arm: string, app: App): void {
   const joints = app.store.arms.get(arm)?.joints ?? [];
   if (problem.nearest?.length !== joints.length) return;

@@ -1,4 +1,4 @@
-// Shows in the cell what a pasted motion would do: a ghost of its arms, at a time that is played or chosen.
+// Previews a motion as a ghost in the 3D view, played or at a chosen time.
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
@@ -7,7 +7,7 @@ import { kText } from '../strings';
 
 const kStep_ms = 66;
 
-/** A time that is chosen elsewhere, as where it is in conflict; another object each time. */
+/** A time chosen elsewhere, such as a conflict; a new object for each choice. */
 export interface Chosen { t_s: number }
 
 export function Preview({ motion, app, chosen }: { motion: Motion; app: App; chosen: Chosen | null }) {

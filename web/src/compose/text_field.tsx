@@ -1,5 +1,5 @@
-// Where a job's text is written, pasted or opened from a file. A long one is shown by its beginning alone: it is
-// judged and sent as it is.
+// The field for a job's text: typed, pasted or from a file. Of a long text only the beginning is
+// shown; it is checked and sent unchanged.
 
 import { useState } from 'preact/hooks';
 import { bytes_in_words } from '../wording';
@@ -18,7 +18,7 @@ export function TextField({ text, change, send }: Props) {
   const paste = (event: ClipboardEvent) => {
     const pasted = event.clipboardData?.getData('text') ?? '';
     if (pasted.length <= kLong) return;
-    event.preventDefault();  // the field would be laid out for seconds
+    event.preventDefault();  // layout of the field would take seconds
     const large = too_large(kWords.pasted_text, pasted.length);
     set_fault(large);
     if (large === null) change(pasted);
@@ -57,7 +57,7 @@ function FileButton({ change, told }: { change(text: string): void; told(fault: 
     if (!file) return;
     told(null);
     const read = await read_job_file(file);
-    input.value = '';  // the same one may be chosen again, mended
+    input.value = '';  // allows choosing the same, corrected file again
     if (read.ok) change(read.text);
     else told(read.fault);
   };

@@ -1,4 +1,4 @@
-// An arm by hand: buttons that move it to its named states as long as they are pressed.
+// Jogs an arm (hold-to-run): buttons that move it to its named states while they are held.
 
 import { useEffect } from 'preact/hooks';
 import { arm_of, states_of } from '../compose/goal';
@@ -15,7 +15,7 @@ const kWords = kText.jog;
 export function JogPanel({ arm, app }: { arm: Arm; app: App }) {
   const { jogging, store } = app;
   useEffect(() => {
-    // A key that is let go in another window is not heard of here.
+    // A key released in another window sends no event here.
     const release = () => jogging.release();
     window.addEventListener('blur', release);
     document.addEventListener('visibilitychange', release);

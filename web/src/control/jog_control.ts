@@ -1,6 +1,6 @@
-// Moves by hand: who has control, and an arm that goes on only as long as somebody holds a button. The server
-// brakes it when it has not heard of that for half a second; here it is told several times in that time, and
-// at once when the button is let go.
+// Jogging (hold-to-run): who has control, and the motion that lasts while a button is held. The
+// server stops the arm if it receives no renewal within the lease (half a second). The page renews
+// several times per lease, and cancels at once on release.
 
 import { signal } from '@preact/signals';
 import { shown_name } from '../names';
@@ -9,25 +9,27 @@ import type { Answer, Api } from '../server/api';
 import type { Timers } from '../server/connection';
 import type { ControlHolder, Jog } from '../server/messages';
 
-const kBeats = 4;  // in the time of a lease
+const kBeats = 4;  // renewals per lease
 const kFirst_ms = 100;
 
 type JogApi = Pick<Api, 'control' | 'take_control' | 'release_control' | 'jog' | 'renew_jog' | 'cancel_job'>;
 
-/** What is pressed: from when the button is pressed until it is let go, or the move has ended. */
+/** The pressed button, from the press until the release or the end of the motion. */
 export interface Pressed { arm: string; state: string; job: string | null }
 
 export class JogControl {
   readonly holder = signal<ControlHolder | null>(null);
-  /** That of this page; null: it has no control. */
+  /** This page's control key, or null if it has no control. */
   readonly key = signal<string | null>(null);
   readonly pressed = signal<Pressed | null>(null);
   readonly refusal = signal<string | null>(null);
-  /** As this page took control last. */
+  /** The holder as of this page's last take of control. */
   private taken_: ControlHolder | null = null;
-  private asked_ = 0;  // each press has a number, so that late answers are known
+  private asked_ = 0;  // numbers the presses, so that late answers are recognized
 
-  /** `has_ended`: whether the page has heard that a job has: its hold is not asked for any more. */
+  /**
+   * `has_ended` returns true if the page knows that a job has ended; then its lease is not renewed.
+   */
   constructor(private readonly api_: JogApi, private readonly timers_: Timers, private readonly has_ended_: (job: string) => boolean = () => false) {}
 
   async look(): Promise<void> {
@@ -37,14 +39,14 @@ export class JogControl {
     this.holder.value = holder;
     const own = this.taken_;
     if (this.key.value === null || (own && holder?.who === own.who && holder.since_at === own.since_at)) return;
-    // The server brakes what was pressed.
+    // The server stops the motion.
     this.key.value = null;
     this.pressed.value = null;
     ++this.asked_;
     if (holder) this.refusal.value = kText.jog.lost_control(shown_name(holder.who));
   }
 
-  /** From somebody else where there is one. */
+  /** Takes control, also from another holder. */
   async take(who: string): Promise<void> {
     const answer = await this.api_.take_control(who);
     if (!this.accepted(answer)) return;
@@ -74,7 +76,7 @@ export class JogControl {
       return this.lose_control(answer);
     }
     const { job, lease_s } = answer.value;
-    if (!is_pressed) return void this.api_.cancel_job(job.id);  // let go before the answer came
+    if (!is_pressed) return void this.api_.cancel_job(job.id);  // released before the answer
     this.pressed.value = { arm, state, job: job.id };
     this.beat(asked, lease_s);
   }
@@ -99,7 +101,7 @@ export class JogControl {
       }
       void this.api_.renew_jog(pressed.arm, key).then((answer) => {
         if (answer.ok || this.asked_ !== asked) return;
-        this.pressed.value = null;  // it is there, it was told too late, or somebody else has taken control
+        this.pressed.value = null;  // goal reached, renewed too late, or control taken
         if (answer.problem.type.endsWith('jog-lease-expired')) this.refusal.value = `${kText.jog.lease_expired} ${answer.problem.detail ?? ''}`.trim();
         this.lose_control(answer);
       });

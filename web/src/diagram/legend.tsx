@@ -1,4 +1,4 @@
-// What the colours and strokes of a diagram mean.
+// The legend of a diagram.
 
 import type { DiagramLayer } from '../server/messages';
 import { kCellColours, kUndecidedStripes } from '../state/palette';
@@ -7,7 +7,7 @@ import { shares } from './reading';
 
 const kWords = kText.diagram;
 
-/** `of_now`: it shows what lies ahead, too; `is_measured`: a way that was measured is drawn. */
+/** `of_now` adds the entries of the prediction; `is_measured` the measured path. */
 export function Legend({ layer, of_now, is_measured }: { layer: DiagramLayer; of_now: boolean; is_measured: boolean }) {
   const share = shares(layer);
   return (

@@ -1,5 +1,5 @@
-// Questions that change faster than they are answered: one is under way at a time, and of those that came
-// meanwhile only the last is asked. Every answer is told, so that there is one however fast they change.
+// Runs one request at a time; of requests made meanwhile only the last is kept. Every answer is
+// delivered, so results appear however fast the requests change.
 
 export class OneAtATime<Question, Answer> {
   private asks_ = false;
@@ -13,7 +13,7 @@ export class OneAtATime<Question, Answer> {
     if (!this.asks_) void this.go_on();
   }
 
-  /** Nothing is told any more. */
+  /** Stops delivering answers. */
   close(): void {
     this.closed_ = true;
     this.next_ = null;

@@ -1,5 +1,5 @@
-// Draws a coordination diagram on two canvases, one above the other: the cells, which stay, and what
-// moves over them. A runs across, B up, in seconds of each one's own trajectory.
+// Draws a diagram on two stacked canvases: static cells below, moving parts above. A runs across, B
+// up, in seconds of each trajectory.
 
 import type { Evidence, Point } from './reading';
 import type { Diagram, DiagramLayer, DiagramContact } from '../server/messages';
@@ -16,9 +16,9 @@ export interface Scene {
   trail: Point[];
   contact: DiagramContact | null;
   evidence: Evidence | null;
-  /** How far each may go, whatever the other does; null: neither has been told to move. */
+  /** How far each job may go, whatever the other does; null if neither has been told to move. */
   authority: Point | null;
-  /** What is pointed at. */
+  /** The point under the pointer. */
   pointed: Point | null;
   colours: { a: string; b: string };
 }
@@ -28,11 +28,11 @@ const kBottom_px = 36;
 const kTop_px = 10;
 const kRight_px = 12;
 const kTick_px = 56;
-const kNarrowest = 3;  // a rectangle longer than this times its height is not drawn to one scale
+const kNarrowest = 3;  // longer rectangles use two scales
 const kStripes_px = 6;
 const kInk = '#0c1118';
 const kPlan = '#10161f';
-// Strokes, px: as far as all is free, and beyond.
+// Dash patterns, px: up to the first contact, and beyond.
 const kGoesOn = [7, 6];
 const kBeyond = [1, 12];
 
@@ -56,7 +56,10 @@ export class DiagramPicture {
     this.host_.replaceChildren();
   }
 
-  /** What lies at a place of the picture, px from its top left; null beside the rectangle. */
+  /**
+   * Returns the times at a point of the picture (px from its top left), or null outside of the
+   * diagram.
+   */
   at(x_px: number, y_px: number): Point | null {
     const scene = this.scene_();
     if (!scene) return null;
@@ -86,7 +89,10 @@ export class DiagramPicture {
   }
 }
 
-/** One scale for both, so that going on second by second is a line of 45 degrees; unless one is much longer. */
+/**
+ * Uses one scale for both axes, so that equal progress is a line of 45 degrees, unless one job is
+ * much longer.
+ */
 function sheet_of({ a, b }: Diagram, width: number, height: number): Sheet {
   const room = { x: width - kLeft_px - kRight_px, y: height - kTop_px - kBottom_px };
   let per_s = { x: room.x / a.duration_s, y: room.y / b.duration_s };
@@ -122,7 +128,7 @@ function draw_cells(g: CanvasRenderingContext2D, sheet: Sheet, { layer }: Scene)
     const width = sheet.x(a_s[1]) - left;
     const height = sheet.y(b_s[0]) - top;
     g.fillStyle = kCellColours[state];
-    // A hair wider, so that the ground does not shine through between neighbours.
+    // Overlaps slightly, so that no gaps show between cells.
     g.fillRect(left, top, width + 0.4, height + 0.4);
     if (state === 'undecided') undecided.rect(left, top, width + 0.4, height + 0.4);
     if (width > 3 && height > 3) edges.rect(left, top, width, height);
@@ -191,13 +197,13 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   g.lineCap = 'round';
   g.setLineDash([]);
   const [x, y] = [sheet.x(now.a_s), sheet.y(now.b_s)];
-  // Down and across to both axes: each one's time.
+  // Guides to both axes.
   guide(g, [x, y], [x, sheet.y(0)], colours.a);
   guide(g, [x, y], [sheet.x(0), y], colours.b);
   draw_authority(g, sheet, scene);
   polyline(g, sheet, trail, kInk, 2.5);
   if (prediction.length > 0) {
-    // Never as what was measured: it may not come to that.
+    // Dashed, because the prediction may not happen.
     g.setLineDash(kBeyond);
     polyline(g, sheet, prediction, kPlan, 1.8);
     g.setLineDash(kGoesOn);
@@ -216,7 +222,7 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   g.stroke();
 }
 
-/** From where both are to where both may go: nothing in it is in conflict. */
+/** The rectangle of both authorities: it contains no conflict. */
 function draw_authority(g: CanvasRenderingContext2D, sheet: Sheet, { now, authority }: Scene): void {
   if (!authority) return;
   const [left, bottom] = [sheet.x(now.a_s), sheet.y(now.b_s)];
@@ -248,7 +254,7 @@ function polyline(g: CanvasRenderingContext2D, sheet: Sheet, points: Point[], co
   g.stroke();
 }
 
-/** The state that the server named as the reason, with the distance there. */
+/** Marks the conflict that the server named, with its clearance. */
 function mark(g: CanvasRenderingContext2D, sheet: Sheet, evidence: Evidence): void {
   const [x, y] = [sheet.x(evidence.a_s), sheet.y(evidence.b_s)];
   g.beginPath();

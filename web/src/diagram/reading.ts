@@ -1,5 +1,5 @@
-// What a coordination diagram says about two jobs from where they are now. Pure: times in seconds of
-// each one's own trajectory, A across and B up.
+// Reads a coordination diagram at the current progress of two jobs. Pure. Times are seconds of each
+// trajectory, A across and B up.
 
 import { pair_of, type CellState, type Diagram, type DiagramLayer, type DiagramContact, type Job, type WaitsOn } from '../server/messages';
 import { progress_at, type Course } from '../state/progress_book';
@@ -12,8 +12,8 @@ const kWords = kText.diagram;
 export interface Point { a_s: number; b_s: number }
 
 /**
- * The plan from `now`: both go on second by second (45 degrees), and whoever ends first rests at its
- * goal (along the border) until the other one has ended, too.
+ * Returns the prediction from `now`: both advance equally (45 degrees); the first to end rests at
+ * its goal, along the border, until the other ends.
  */
 export function plan_from(now: Point, diagram: Diagram): Point[] {
   const { a, b } = diagram;
@@ -22,7 +22,10 @@ export function plan_from(now: Point, diagram: Diagram): Point[] {
   return [now, first_end, { a_s: a.duration_s, b_s: b.duration_s }];
 }
 
-/** Where the two were together until some time, as measured; empty where one of them was not heard. */
+/**
+ * Returns the measured progress of both jobs up to a time, or an empty list if one was not
+ * observed.
+ */
 export function measured_path(a: Course | null, b: Course | null, until_s = Infinity): Point[] {
   if (!a || !b) return [];
   const times_s = [...new Set([...a.t_s, ...b.t_s])].filter((t_s) => t_s <= until_s).sort((x, y) => x - y);
@@ -35,7 +38,7 @@ export function measured_path(a: Course | null, b: Course | null, until_s = Infi
   return path;
 }
 
-/** Shares of the rectangle's area, which add up to one. */
+/** Returns the shares of the area; they add up to one. */
 export function shares(layer: DiagramLayer): Record<CellState, number> {
   const area: Record<CellState, number> = { free: 0, conflict: 0, undecided: 0 };
   for (const { state, a_s, b_s } of layer.cells ?? []) area[state] += (a_s[1] - a_s[0]) * (b_s[1] - b_s[0]);
@@ -45,7 +48,7 @@ export function shares(layer: DiagramLayer): Record<CellState, number> {
 
 export interface Evidence extends Point { wait: WaitsOn }
 
-/** Where in the diagram the server found the two too close, if one of them waits for the other. */
+/** Returns where the server found a conflict, if one of the jobs waits for the other. */
 export function evidence_of(a: Job | null, b: Job | null): Evidence | null {
   if (!a || !b) return null;
   for (const [waiting, other] of [[a, b], [b, a]] as const) {
@@ -68,12 +71,12 @@ export function evidence_in_words(evidence: Evidence, diagram: Diagram): string 
   return `${how}, ${when.map(([id, at_s]) => kWords.time_in(at_s.toFixed(2), short_id(id))).join(kText.server.and)}.`;
 }
 
-/** `calm`: it is seen to; `alarm`: nothing is known that keeps it from happening. */
+/** `calm`: handled by the scheduler; `alarm`: nothing known prevents the conflict. */
 export interface PlanWords { tone: 'free' | 'calm' | 'alarm'; words: string }
 
 /**
- * What lies ahead, as words; `waiting` is the job that has not begun, `resting` the one that has come to its
- * end, if there is such a one.
+ * Describes the prediction. `waiting` is the job that has not started, `resting` the job that has
+ * ended, if any.
  */
 export function plan_in_words(ahead: Ahead, waiting: string | null, resting: string | null = null): PlanWords {
   const begin = waiting !== null ? kWords.if_started(short_id(waiting))
@@ -96,7 +99,10 @@ export function drawn_in_words({ a, b }: Diagram): string {
   return kWords.of_jobs(short_id(a.id), short_id(b.id));
 }
 
-/** Of a drawing that stays until the one of the `wanted` jobs is there; null: it cannot be had. */
+/**
+ * Describes a diagram that is shown until the diagram of the `wanted` jobs arrives; `wanted` is
+ * null if it cannot be computed.
+ */
 export function kept_in_words({ a, b }: Diagram, jobs: readonly (Job | null)[], wanted: { a: string; b: string } | null): string {
   const ends_s = jobs.flatMap((job) => job?.ended_s ?? []);
   const until = ends_s.length === 0 ? kWords.earlier : kWords.as_of(clock(Math.min(...ends_s)));

@@ -1,5 +1,5 @@
-// Above a page's figures while an earlier instant is looked at: which one they are of, and what of the page is
-// of now all the same.
+// States the shown past time above a page, and which parts of the page show the present all the
+// same.
 
 import type { ComponentChildren } from 'preact';
 import type { App } from '../state/app';

@@ -1,4 +1,4 @@
-// The line under the header: connection lost, cell unreadable, or a refused request.
+// Banners under the header: lost connection, old data, unreadable cell, refused request.
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';

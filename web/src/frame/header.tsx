@@ -1,4 +1,4 @@
-// The top line: which cell, where we are, whether we hear it, and Stop, always at the right end.
+// The header: cell, navigation, connection state, and Stop always at the right end.
 
 import { Link } from '../route/link';
 import type { App } from '../state/app';
@@ -41,7 +41,7 @@ export function Header({ app }: { app: App }) {
   );
 }
 
-/** Said before a command is refused. */
+/** States that the user is a viewer, before a command is refused. */
 function ViewOnly({ app }: { app: App }) {
   const session = app.session.value;
   if (!is_viewer(session)) return null;
@@ -52,7 +52,7 @@ function ViewOnly({ app }: { app: App }) {
   );
 }
 
-/** Who moves arms by hand. */
+/** Shows who has control for jogging. */
 function InControl({ app }: { app: App }) {
   const holder = app.jogging.holder.value;
   if (!holder) return null;

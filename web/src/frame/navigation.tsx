@@ -1,4 +1,4 @@
-// Where the pages are: the first ones in the header, the others behind one button beside them.
+// Links to the pages: the main ones in the header, the others in a menu.
 
 import { useEffect, useRef } from 'preact/hooks';
 import { Link } from '../route/link';
@@ -23,7 +23,7 @@ function Tab({ page: { place, title, key, test }, app }: { page: Page; app: App 
   );
 }
 
-/** Opens below itself; a page that is chosen, Escape, or whatever is done elsewhere closes it. */
+/** The menu closes on a choice, on Escape, and on any action outside. */
 function More({ app }: { app: App }) {
   const menu = useRef<HTMLDetailsElement>(null);
   const pages = kPages.filter(({ more }) => more);

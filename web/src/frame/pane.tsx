@@ -1,4 +1,4 @@
-// What the address names, beside the cell or over it.
+// The page that the address names, next to the cell or over it.
 
 import type { ComponentChildren, RefObject } from 'preact';
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
@@ -44,7 +44,7 @@ export function Pane({ app }: { app: App }) {
   );
 }
 
-/** A page that is opened gets the focus, and whoever had it gets it back, at once: keys go on where one looks. */
+/** Focuses an opened page, and returns the focus when it closes. */
 function use_focus(pane: RefObject<HTMLElement>, page: Place['page']): void {
   const before = useRef<Element | null>(null);
   const last = useRef(page);

@@ -1,4 +1,4 @@
-// Which policy decides, and another one while no job is admitted.
+// Shows the scheduling policy, and changes it while no job is admitted.
 
 import { useState } from 'preact/hooks';
 import type { Cell } from '../server/messages';

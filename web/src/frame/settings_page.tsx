@@ -1,4 +1,4 @@
-// How this browser shows the page, and which keys it has.
+// The Settings page: theme, user, keys, the settings of the cell, the policy.
 
 import type { App } from '../state/app';
 import type { Theme } from '../state/settings';

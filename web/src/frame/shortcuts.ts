@@ -1,5 +1,5 @@
-// Keys: F8 stops, wherever the focus is; Escape lets go of what is moved by hand, or leads back to the cell; single letters lead to pages,
-// unless somebody types, or has turned them off.
+// Keys: F8 stops all arms from anywhere; Escape ends dragging or returns to the cell; single
+// letters open pages unless the user types or has turned them off.
 
 import type { App } from '../state/app';
 import { kPageOfKey } from './pages';

@@ -1,4 +1,4 @@
-// Stop: one place, one key. It is never disabled: a page that hears nothing can still ask.
+// The Stop button. It is never disabled: a page that receives nothing can still send.
 
 import type { App } from '../state/app';
 import { is_viewer } from '../state/permission';
@@ -6,7 +6,7 @@ import { kText } from '../strings';
 
 const kWords = kText.frame;
 
-/** What it does, as IEC 60204-1 has it: category 2; this is no emergency stop. */
+/** A controlled stop of category 2 (IEC 60204-1), not an emergency stop. */
 export const kStopName = `${kWords.stop_all}: ${kWords.stop_how}`;
 export const kStopKey = 'F8';
 
