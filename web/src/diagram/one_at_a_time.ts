@@ -6,7 +6,7 @@ export class OneAtATime<Question, Answer> {
   private next_: { question: Question } | null = null;
   private closed_ = false;
 
-  constructor(private readonly ask_: (question: Question) => Promise<Answer>, private readonly tell_: (answer: Answer, question: Question) => void) {}
+  constructor(private readonly ask_: (question: Question) => Promise<Answer>, private readonly deliver_: (answer: Answer, question: Question) => void) {}
 
   want(question: Question): void {
     this.next_ = { question };
@@ -25,7 +25,7 @@ export class OneAtATime<Question, Answer> {
       const { question } = this.next_;
       this.next_ = null;
       const answer = await this.ask_(question);
-      if (!this.closed_) this.tell_(answer, question);
+      if (!this.closed_) this.deliver_(answer, question);
     }
     this.asks_ = false;
   }

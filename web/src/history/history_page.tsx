@@ -1,4 +1,4 @@
-// What was: the jobs that have ended, as a table. Events stand below, in the dock.
+// The History page: a table of the jobs that have ended.
 
 import { useEffect, useState } from 'preact/hooks';
 import { matches } from '../jobs/filter';
@@ -54,7 +54,7 @@ function none_in_words(all: number, may_be_more: boolean): string {
   return may_be_more ? kWords.none_in_session : kWords.none;
 }
 
-/** Loads what the page was not told of: of former runs of the server, too, where it keeps them. */
+/** Loads older jobs, including those of previous sessions if the server stores jobs. */
 function More({ app: { archive, store }, show }: { app: App; show(): void }) {
   const why_disabled = why_not_connected(store.link);
   if (archive.state === 'all') return null;
@@ -65,7 +65,7 @@ function More({ app: { archive, store }, show }: { app: App; show(): void }) {
   );
 }
 
-/** At the table's end. */
+/** The line at the end of the table. */
 function Earlier({ app, show }: { app: App; show(): void }) {
   const { archive } = app;
   const status = archive.fault ? kWords.not_available(archive.fault.detail ?? archive.fault.title) : archive.state === 'all' ? kWords.all_loaded : kWords.with_data;
@@ -77,7 +77,7 @@ function Earlier({ app, show }: { app: App; show(): void }) {
   );
 }
 
-/** `before`: the one above it; where former runs begin their times are those of another clock. */
+/** `before` is the row above. At the first job of a previous session the clock changes. */
 function Line({ job, app, before }: { job: Job; app: App; before: Job | null }) {
   const is_former = ({ id }: Job) => app.store.job(id) === null;
   const former = is_former(job);

@@ -1,13 +1,13 @@
-// How far back the jobs reach that the page has, in words; null: it has all that the server has. Pure.
+// Describes how far back the loaded jobs reach; null if all jobs of the server are loaded. Pure.
 
 import { kText } from '../strings';
 import { clock } from '../wording';
 
 export interface Loaded {
-  /** Those that the page was told of, and since when all that ended are among them; null: since the run began. */
+  /** Jobs received as events, complete since `ended_from_s`; null means since the session began. */
   told: number;
   ended_from_s: number | null;
-  /** Those that were fetched besides, and whether there may be more. */
+  /** Jobs loaded in addition, and whether these are all. */
   fetched: number;
   is_all: boolean;
 }

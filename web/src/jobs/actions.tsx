@@ -1,4 +1,4 @@
-// What can be asked for a job that has not ended, in its row and on its page alike.
+// Commands for an unfinished job, in its row and on its page.
 
 import { use_question } from '../frame/question';
 import { kCanReplan, type Job } from '../server/messages';
@@ -12,7 +12,7 @@ const kWords = kText.job;
 
 interface Props { job: Job; app: App }
 
-/** All of it, on the job's page. */
+/** All commands, for the job's page. */
 export function JobActions({ job, app }: Props) {
   if (is_terminal(job)) return null;
   return (
@@ -28,7 +28,7 @@ export function waits(job: Pick<Job, 'state'>): boolean {
   return job.state === 'queued' || job.state === 'backlogged';
 }
 
-/** Who of those that wait goes first. */
+/** Buttons that raise or lower the priority of a waiting job. */
 export function Urgency({ job, app }: Props) {
   const why_disabled = why_no_command(app);
   const step = (by: number, sign: string, what: string) => (
@@ -38,7 +38,7 @@ export function Urgency({ job, app }: Props) {
   return <div class="urgency" data-test="urgency">{step(1, '▲', kWords.more_urgent)}{step(-1, '▼', kWords.less_urgent)}</div>;
 }
 
-/** The first click asks, the second does it; the question goes away by itself. */
+/** Asks for confirmation before it cancels. */
 export function Cancel({ job, app, words }: Props & { words?: string }) {
   const question = use_question();
   const why_disabled = why_no_command(app);
@@ -58,7 +58,10 @@ export function Cancel({ job, app, words }: Props & { words?: string }) {
   );
 }
 
-/** Of one that moves this is asked first: what its trajectory was to do on the way is lost. */
+/**
+ * Replans the job. A moving job needs confirmation, because the rest of its trajectory is
+ * discarded.
+ */
 function Replan({ job, app }: Props) {
   const { asked, ...question } = use_question();
   const why_disabled = why_no_command(app);

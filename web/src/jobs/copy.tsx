@@ -1,4 +1,4 @@
-// A button that puts text on the clipboard, and says whether that worked.
+// A button that copies text to the clipboard and reports the result.
 
 import { useState } from 'preact/hooks';
 import type { App } from '../state/app';
@@ -20,12 +20,12 @@ export function Copy({ what, text }: { what: string; text(): string | Promise<st
   );
 }
 
-/** As programs would ask the server of this page. */
+/** Returns how a program reaches the server of this page. */
 export function asked_of(app: App): Asked {
   return { origin: location.origin, with_token: app.session.value?.auth_required ?? false };
 }
 
-/** Browsers give the clipboard to pages of a secure origin only; a cell's panel is often none. */
+/** Browsers allow the clipboard API only in secure contexts; a panel at the cell often has none. */
 async function copied(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);

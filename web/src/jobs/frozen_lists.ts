@@ -1,12 +1,14 @@
-// The lists of jobs while one of their rows is pointed at: it, and all above it, keep their places, so that a click
-// meets the job that was looked at. Pure.
+// Freezes the job lists while the pointer is on a row, so that a click hits the intended job. Pure.
 
 import type { Job } from '../server/messages';
 import type { JobList } from '../state/job_book';
 
 export type Lists = ReadonlyMap<JobList, readonly Job[]>;
 
-/** `order`: the lists from top to bottom; what has come above the row since is shown when it is left. */
+/**
+ * Keeps the pointed row and all rows above it in place. `order` names the lists from top to bottom.
+ * Changes above the row appear when the pointer leaves.
+ */
 export function frozen_lists(order: readonly JobList[], now: Lists, before: Lists, pointed_at: string | null): Lists {
   const at = order.findIndex((list) => before.get(list)?.some(({ id }) => id === pointed_at));
   if (pointed_at === null || at < 0) return now;

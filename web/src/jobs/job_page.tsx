@@ -1,5 +1,5 @@
-// One job: its states with their times, why it waits with the evidence, how its arm moved, and the job
-// as programs have it.
+// The page of one job: states with times, reasons to wait with evidence, planned and measured
+// joints, and the job as JSON, curl and Python.
 
 import { useEffect } from 'preact/hooks';
 import { pretty } from '../compose/example';
@@ -37,7 +37,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
   useEffect(() => (goes_on ? app.actions.follow_job(id) : undefined), [app, id, goes_on]);
   if (!job) return <><h2 class="ellipsis">{shown_name(id)}</h2><p class="hint">{looks_back ? kWords.unknown_then : app.store.stream === null ? kText.common.not_connected : kWords.unknown}</p></>;
   const former = known === null;
-  // What it waits for stands below with its evidence, but for a deadlock cycle.
+  // Waits are listed below with evidence, except for a deadlock cycle.
   const words = job.result ? result_in_words(job) : job.cycle.length > 0 || job.waits_on.length === 0 ? reason_in_words(job) : '';
   const arms = [...app.store.arms.keys()];
   return (
@@ -88,13 +88,13 @@ function States({ job, app }: Props) {
   );
 }
 
-/** Why it stood there, and for how long, as far as the page was told. */
+/** Why and for how long the job was paused, if known. */
 function PauseReason({ pause }: { pause: Pause | null }) {
   const words = pause ? pause_in_words(pause) : '';
   return words === '' ? null : <span class="small" data-test="pause-reason">{words}</span>;
 }
 
-/** Of what was in a former run the wall clock's times alone mean something now. */
+/** Jobs of a previous session have only wall-clock times. */
 function wall_of(job: Job, state: string): string {
   const at = state === kWords.submitted ? job.submitted_at : state === kWords.started ? job.started_at : job.ended_at;
   return at ?? '';
@@ -124,10 +124,10 @@ function Beside({ job, app }: Props) {
   return <p><Link app={app} to={{ page: 'pair', a: partner.id, b: job.id }} test="show-diagram">{kWords.diagram_with(short_id(partner.id))}</Link></p>;
 }
 
-/** How its joints move: what is planned as a pale band, what was measured as a line. */
+/** The joints: planned as a pale band, measured as a line. */
 function Moves({ job, app }: Props) {
   const { store, motions } = app;
-  motions.changes.value;  // looked at again when its trajectory has come
+  motions.changes.value;  // redraws when the trajectory arrives
   const planned = motions.of(job);
   const joints = job.arms.flatMap((arm) => store.arms.get(arm)?.joints ?? []);
   const { first_s } = store.trace;

@@ -1,5 +1,4 @@
-// The side: what moves, what is planned, what is blocked and why, what merely waits its turn, and what
-// has ended. A filter goes over all of them.
+// The job lists at the side, with one filter for all of them.
 
 import { useRef, useState } from 'preact/hooks';
 import type { Job } from '../server/messages';
@@ -30,7 +29,7 @@ const kSections: readonly Section[] = [
 
 const kLists = kSections.map(({ list }) => list);
 
-/** The job whose row something is in. */
+/** Returns the job whose row contains the element. */
 function row_of(target: EventTarget | null): string | null {
   return target instanceof Element ? target.closest('.job')?.getAttribute('data-test')?.replace(/^job-/, '') ?? null : null;
 }
@@ -60,7 +59,7 @@ export function Jobs({ app }: { app: App }) {
   );
 }
 
-/** Which time these lists are of, where it is not now. */
+/** The shown time of the lists, if it is not now. */
 function LookedAt({ app }: { app: App }) {
   const { t_s } = app.router.address.value;
   if (t_s === null || instant_of(app.router.address.value, app.store).kind === 'now') return null;
@@ -71,7 +70,7 @@ function LookedAt({ app }: { app: App }) {
   );
 }
 
-/** Since when those that have ended are all there, where not all of the run are. */
+/** Since when the list of ended jobs is complete, if it is not complete for the session. */
 function EndedFrom({ app }: { app: App }) {
   const { ended_from_s } = app.store.book;
   if (ended_from_s === null) return null;

@@ -1,4 +1,4 @@
-// One job in a list: arms, name, the number that matters now, and why it waits.
+// One job in a list: arms, name, the most relevant number, and why it waits.
 
 import { Bar } from '../arms/bar';
 import { use_stale } from '../frame/staleness';
@@ -60,7 +60,10 @@ export function Row({ job, app }: Props) {
   );
 }
 
-/** What its reason leads to: where two jobs conflict, or the object that is in its way. */
+/**
+ * Returns the page that shows the reason: the diagram with the blocking job, or the blocking
+ * object.
+ */
 function reason_place(job: Job): Extract<Place, { page: 'pair' | 'scene' }> | null {
   const blocker = job.waits_on.find((wait) => wait.kind === 'job' && wait.id !== null)?.id ?? null;
   if (blocker !== null) return { page: 'pair', a: blocker, b: job.id };
@@ -80,7 +83,7 @@ function Figure({ job, app }: Props) {
   return <span class="figure" title={title} data-test="figure">{stale ? as_last_heard(text) : text}</span>;
 }
 
-/** That others of its arm come first is said with its times, in one line. */
+/** The reason "waits its turn" is shown together with the times, in one line. */
 function only_waits_its_turn(job: Job): boolean {
   return job.waits_on[0]?.kind === 'predecessor' && job.cycle.length === 0 && !job.result;
 }
@@ -91,7 +94,7 @@ function Reason({ job }: { job: Job }) {
   return words === '' ? null : <span class="words" data-test="reason">{words}</span>;
 }
 
-/** Since when, when it is expected to start, when it expires. */
+/** Shows how long the job is blocked, when it starts and when it expires. */
 function When({ job, app }: Props) {
   use_beats(app.store);
   const first = only_waits_its_turn(job) ? job.waits_on[0]?.id ?? null : null;

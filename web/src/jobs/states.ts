@@ -1,14 +1,14 @@
-// The states of a job with their times: all that were heard, or what the job itself says. Pure.
+// The states of a job with their times, from events or else from the job itself. Pure.
 
 import type { Job } from '../server/messages';
 import { is_terminal, type Change, type Pause } from '../state/job_book';
 import { kText } from '../strings';
 import { seconds, wait_in_words } from '../wording';
 
-// A state that is left at once is a step on the way.
+// Shorter states are transitions and are left out.
 const kLeast_s = 0.005;
 
-/** Cell time; null: not yet. */
+/** Cell time, or null if not reached yet. */
 export type StateAt = readonly [name: string, t_s: number | null];
 
 export function states_of(job: Job, heard: readonly Change[]): StateAt[] {
@@ -22,7 +22,7 @@ export function states_of(job: Job, heard: readonly Change[]): StateAt[] {
   return [[kText.job.submitted, job.submitted_s], ...by_time, end];
 }
 
-/** Why a job stood on its path, and how long; empty where that was not told, or goes on: it stands beside then. */
+/** Returns why and for how long a job was paused; empty if unknown or still paused. */
 export function pause_in_words({ from_s, to_s, why }: Pause): string {
   return why === null || to_s === null ? '' : kText.wait.past(wait_in_words(why).replace(/^waits/, kText.wait.was_waiting), seconds(to_s - from_s));
 }

@@ -1,4 +1,5 @@
-// Whether another policy can be put in force: the server refuses it while a job is admitted. Pure.
+// Returns why the policy cannot be changed now, or null: the server refuses a change while jobs are
+// admitted. Pure.
 
 import type { Store } from '../state/store';
 import { kText } from '../strings';

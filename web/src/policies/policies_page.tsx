@@ -1,4 +1,4 @@
-// Policies: which one decides, and what the jobs at hand would have come to under the others.
+// The Policies page: the active policy, and the comparison of all policies on recent jobs.
 
 import { useEffect } from 'preact/hooks';
 import { AsOf } from '../frame/as_of';
@@ -16,7 +16,7 @@ const kWords = kText.policies;
 
 export function PoliciesPage({ app }: { app: App }) {
   const { comparing } = app;
-  // One that is known of is looked at again; whether there is one is only asked by who wants to know.
+  // Polls a known comparison only; finding one takes a click.
   useEffect(() => { if (comparing.latest.peek() !== null) void comparing.look(); }, [comparing]);
   return (
     <div class="columns policies">

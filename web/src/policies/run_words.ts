@@ -1,9 +1,9 @@
-// Figures of a compared policy in words. Pure.
+// Describes the results of a compared policy. Pure.
 
 import type { PolicyRun } from '../server/messages';
 import { kText } from '../strings';
 
-/** How the jobs ended that did not succeed; empty: all did. */
+/** Returns how jobs ended that did not succeed; empty if all succeeded. */
 export function ends_in_words(run: PolicyRun): string {
   const ends = (['expired', 'failed', 'canceled', 'refused', 'unfinished'] as const)
     .flatMap((end) => (run[end] > 0 ? [`${run[end]} ${end}`] : []));

@@ -1,5 +1,5 @@
-// The objects of the scene as Foxglove has them: boxes, cylinders and spheres in the frame `world`. Of
-// meshes only where they are is told. Pure.
+// Converts scene objects to Foxglove primitives in the frame `world`. Meshes keep only their pose
+// and name. Pure.
 
 import { Euler, Quaternion } from 'three';
 import { shape_of, type SceneObject } from '../server/messages';

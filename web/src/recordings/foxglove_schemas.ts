@@ -1,5 +1,5 @@
-// The JSON schemas of what an MCAP file of this page holds. Foxglove goes by their names; members as in
-// its documentation.
+// JSON schemas of an exported MCAP file. Foxglove recognizes them by name; members as in its
+// documentation.
 
 const time = { type: 'object', title: 'time', properties: { sec: { type: 'integer', minimum: 0 }, nsec: { type: 'integer', minimum: 0, maximum: 999_999_999 } } };
 const duration = { type: 'object', title: 'duration', properties: { sec: { type: 'integer' }, nsec: { type: 'integer', minimum: 0, maximum: 999_999_999 } } };

@@ -1,4 +1,4 @@
-// What this server has recorded: each is opened here, or its files are taken away.
+// The server's recordings, to open here or to download.
 
 import { useEffect, useState } from 'preact/hooks';
 import type { KeptRecording } from '../server/messages';

@@ -1,4 +1,4 @@
-// What an MCAP file of this page holds, for who writes it and who reads it. Pure.
+// The topics of an exported MCAP file, shared by writer and reader. Pure.
 
 import type { kSchemas } from './foxglove_schemas';
 
@@ -10,7 +10,7 @@ export const kTopics = {
   jobs: { topic: '/jobs', schema: 'armloom.Job' }, raw: { topic: '/armloom', schema: 'armloom.Event' },
 } as const satisfies Record<string, Topic>;
 
-/** Metadata of the file: from these cell time is told from wall time. */
+/** File metadata that relates wall time to cell time. */
 export const kMetadata = 'armloom';
 export const kWallAtZero = 'wall_time_at_zero_s';
 

@@ -1,16 +1,16 @@
-// An MCAP file, as this page exports it, read back: positions of joints, and the events as they were told. Of
-// files that others wrote the joint states alone. Loaded when the first one is opened.
+// Reads an MCAP file that this page exported: joint positions and raw events. Of other files it
+// reads JSON joint states only. Loaded on first use.
 
 import { McapStreamReader, type McapTypes } from '@mcap/core';
 import { kMetadata, kTopics, kWallAtZero, wall_ns } from './mcap_layout';
 import { kText } from '../strings';
 import type { Frames } from './read_states';
 
-export interface Mcap { frames: Frames; /** A line each, as events.jsonl has them. */ events: string }
+export interface Mcap { frames: Frames; /** One line per event, as in events.jsonl. */ events: string }
 
-// The page goes on to answer clicks meanwhile.
+// Lets the page answer clicks in between.
 const kBreath_ms = 20;
-// Every MCAP file begins so.
+// The magic bytes of an MCAP file.
 const kMagic = [0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a];
 
 export async function read_mcap(file: Blob): Promise<{ ok: true; mcap: Mcap } | { ok: false; fault: string }> {

@@ -1,5 +1,5 @@
-// Joint positions from a recording's states.csv, thinned while they are read: the file has a row for each
-// control tick, a picture needs thirty a second. Pure.
+// Reads joint positions from a recording's states.csv and thins them: the file has one row per
+// control tick, the view needs 30 per second. Pure.
 
 import { cut_text } from '../names';
 import { kText } from '../strings';
@@ -9,7 +9,7 @@ const kWords = kText.recordings;
 export interface Frames { names: string[]; t_s: number[]; q: number[][] }
 
 const kStep_s = 1 / 30;
-// Of longer recordings fewer a second are kept.
+// Longer recordings are thinned further.
 const kMost = 60_000;
 const kLongestLine = 1 << 20;
 
@@ -22,7 +22,7 @@ export class StatesReader {
   private q_: number[][] = [];
   private fault_: string | null = null;
 
-  /** The next part of the file, cut anywhere. */
+  /** Takes the next part of the file, split anywhere. */
   take(text: string): void {
     if (this.fault_ !== null) return;
     const lines = (this.rest_ + text).split('\n');
@@ -31,12 +31,14 @@ export class StatesReader {
     if (this.rest_.length > kLongestLine) this.fault_ = kWords.long_line(this.row_);
   }
 
-  /** Nothing that comes can make it right. */
+  /** Returns true if the file cannot become valid any more. */
   get is_faulty(): boolean {
     return this.fault_ !== null;
   }
 
-  /** A last row without an end of line is left out: the run was cut off in it. */
+  /**
+   * Returns the frames. A last row without a newline is dropped: the recording was cut off there.
+   */
   end(): { ok: true; frames: Frames } | { ok: false; fault: string } {
     if (this.fault_ !== null) return { ok: false, fault: this.fault_ };
     if (!this.names_ || this.t_s_.length === 0) return { ok: false, fault: kWords.no_positions };

@@ -1,5 +1,5 @@
-// Recordings: those that the server has written, or one from files, are opened and looked at with the scrub
-// bar; what the page has heard lately is written to a file that Foxglove reads.
+// The Recordings page: opens recordings of the server or from files, and exports recent data as
+// MCAP.
 
 import { useState } from 'preact/hooks';
 import type { App } from '../state/app';
@@ -40,7 +40,7 @@ export function RecordingsPage({ app }: { app: App }) {
   );
 }
 
-/** How much of one has come. */
+/** The progress of reading. */
 function ReadingOn({ app: { player } }: { app: App }) {
   const reading = player.reading.value;
   if (!reading) return null;

@@ -1,4 +1,4 @@
-// What stopped the arms, and what each of them needs to go on. Pure.
+// Finds what stopped the arms, and what each arm needs to continue. Pure.
 
 import type { Arm, Job } from '../server/messages';
 import { is_stopped } from '../state/shown_state';
@@ -9,12 +9,12 @@ import { title_of } from '../wording';
 
 const kWords = kText.recovery;
 
-/** The last thing that stopped arms; null: nothing that this page has heard. */
+/** Returns the last event that stopped arms, or null if the page knows none. */
 export function cause_of(notices: readonly Notice[]): Notice | null {
   return notices.find(({ text, source, level }) => /^stopped: /.test(text) || (source === 'monitor' && level === 'error') || /fault/.test(text)) ?? null;
 }
 
-/** Those that stand, or brake and will stand, until they are resumed. */
+/** Returns the arms that are stopped, or are braking to a stop, until they are resumed. */
 export function waiting_arms(store: Pick<Store, 'arms' | 'job'>): Arm[] {
   return [...store.arms.values()].filter((arm) => arm.state === 'fault' || arm.state === 'stopped' || is_stopped(arm.job === null ? null : store.job(arm.job), arm.name));
 }
@@ -23,7 +23,10 @@ export interface Need { words: string; resume: boolean; home: boolean }
 
 const kAtHome_rad = 0.02;
 
-/** `job`: that it is in the middle of; `pose`: every joint, null: nobody knows where it stands; `next`: that it begins afterwards. */
+/**
+ * Describes what an arm needs. `job` is its unfinished job, `pose` the joints (null if unknown),
+ * `next` the job that follows.
+ */
 export function need_of(arm: Arm, job: Job | null, pose: Readonly<Record<string, number>> | null, next: Job | null = null): Need {
   const name = job ? title_of(job) : '';
   switch (arm.state) {

@@ -1,5 +1,4 @@
-// After a stop: why the arms stopped, what each of them needs, what to look at before they move again,
-// and the way back.
+// The Recovery page after a stop: the cause, the checklist, what each arm needs, and Resume.
 
 import { StatePill } from '../arms/arms';
 import { AsOf } from '../frame/as_of';
@@ -60,14 +59,14 @@ function Checks({ app, needed }: { app: App; needed: boolean }) {
       ))}
       <div class="line">
         <button class="primary" data-test="resume-checked" disabled={!needed || left > 0 || why_disabled !== null} title={why_disabled ?? ''}
-          onClick={(event) => { if (event.detail < 2) void app.actions.resume(); /* not by the second click of a double one */ }}>{kWords.resume_all}</button>
+          onClick={(event) => { if (event.detail < 2) void app.actions.resume(); /* ignores the second click of a double click */ }}>{kWords.resume_all}</button>
         <span class="dim small" role="status" data-test="checks-left">{!needed ? kWords.nothing_stopped : left > 0 ? kWords.still_to_confirm(left) : kWords.after_resume}</span>
       </div>
     </fieldset>
   );
 }
 
-/** `guarded`: no arm moves before all has been looked at. */
+/** `guarded` disables all motion until the checklist is confirmed. */
 function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) {
   use_beats(app.store);
   const { store } = app;

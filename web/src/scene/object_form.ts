@@ -1,4 +1,4 @@
-// An object of the scene as a form has it: texts, lengths in metres, turns in degrees. Pure.
+// A scene object as a form: texts, lengths in meters, angles in degrees. Pure.
 
 import { no_number, number_in } from '../frame/number_text';
 import { shape_of, type SceneObject } from '../server/messages';
@@ -9,11 +9,11 @@ const kWords = kText.scene;
 export type Kind = 'box' | 'cylinder' | 'sphere';
 export const kKinds: readonly Kind[] = ['box', 'cylinder', 'sphere'];
 
-/** What the server takes for an object's name (`ObjectRequest` in /openapi.json). */
+/** The server's limits for an object's name (`ObjectRequest` in /openapi.json). */
 export const kLongestName = 128;
 const kNotInNames = /[\u0000-\u001f\u007f/\\]/u;
 
-/** Null: it is one. */
+/** Returns what is wrong with a name, or null. */
 export function fault_of_name(text: string): string | null {
   const name = text.trim();
   if (name === '') return kWords.name_missing;
@@ -24,7 +24,7 @@ export function fault_of_name(text: string): string | null {
 }
 
 export interface Form { name: string; kind: Kind; values: Record<string, string> }
-/** What was typed and is not saved yet; the rest of a form follows the object. */
+/** Unsaved input; the other fields of the form follow the object. */
 export type Edits = Partial<Form>;
 
 type Field = readonly [key: string, label: string, step: number];
@@ -65,7 +65,7 @@ export function with_edits(form: Form, edits: Edits): Form {
   return { ...form, ...edits, values: { ...form.values, ...edits.values } };
 }
 
-/** Of the edits those that came after `sent`, which is saved now. */
+/** Returns the edits made after `sent`, which is saved now. */
 export function edits_since(sent: Form, edits: Edits): Edits {
   const later: Edits = { values: {} };
   if (edits.name !== undefined && edits.name.trim() !== sent.name.trim()) later.name = edits.name;
@@ -78,7 +78,7 @@ function text_of(value: number): string {
   return String(Number(value.toFixed(6)));
 }
 
-/** Or what is wrong with it; what a size may be is the server's matter. */
+/** Returns the object, or the faults of the form. The server checks the sizes. */
 export function object_of(form: Form): SceneObject | { fault: string } {
   const faults: string[] = [];
   const number_of = (key: string): number => {

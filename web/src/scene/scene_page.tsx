@@ -1,4 +1,4 @@
-// The scene: what stands in it, and a form to add, move and take away boxes, cylinders and spheres.
+// The Scene page: the list of objects, and a form to add, change and remove them.
 
 import { useEffect, useState } from 'preact/hooks';
 import { Refused } from '../compose/refused';
@@ -44,7 +44,7 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
   );
 }
 
-/** In the cell, too; not without being asked for, as what is moved holds motions. */
+/** Dragging must be enabled first, because a moved object can pause motions. */
 function DragButton({ name, app }: { name: string; app: App }) {
   const is_dragged = app.dragged_object.value === name;
   useEffect(() => () => { app.dragged_object.value = null; }, [app, name]);

@@ -31,7 +31,7 @@ function beside_rims(x: number, sheet: Sheet): number {
   return Math.min(Math.max(x, kTipHalf_px), sheet.width - kTipHalf_px);
 }
 
-export function pointing(drawing: Drawing, app: App, change: (span: Span) => void, tell: (tip: Tip | null) => void, draw: () => void) {
+export function pointing(drawing: Drawing, app: App, change: (span: Span) => void, show_tip: (tip: Tip | null) => void, draw: () => void) {
   const found = (event: MouseEvent): Pointed => {
     const { sheet, lanes } = drawing;
     if (!sheet) return kNothing;
@@ -55,7 +55,7 @@ export function pointing(drawing: Drawing, app: App, change: (span: Span) => voi
       if (drag && sheet) {
         drag.travelled_px = Math.max(drag.travelled_px, Math.abs(event.offsetX - drag.x));
         if (drag.travelled_px > kClick_px) {
-          tell(null);
+          show_tip(null);
           return change(moved(drag.span, sheet.t_s(drag.x) - sheet.t_s(event.offsetX), app.store.t_s));
         }
       }
@@ -63,7 +63,7 @@ export function pointing(drawing: Drawing, app: App, change: (span: Span) => voi
       drawing.pointed = pointed;
       (event.currentTarget as HTMLCanvasElement).classList.toggle('leads', pointed.mark !== null || pointed.events.length > 0);
       draw();
-      tell(sheet && told(pointed, sheet, event));
+      show_tip(sheet && told(pointed, sheet, event));
     },
     onPointerUp: (event: PointerEvent) => {
       const { mark, events: [first] } = drawing.drag && drawing.drag.travelled_px <= kClick_px ? found(event) : kNothing;
@@ -74,7 +74,7 @@ export function pointing(drawing: Drawing, app: App, change: (span: Span) => voi
     onPointerCancel: () => { drawing.drag = null; },
     onPointerLeave: () => {
       drawing.pointed = kNothing;
-      tell(null);
+      show_tip(null);
       draw();
     },
     onWheel: (event: WheelEvent) => {
