@@ -1,4 +1,4 @@
-// What a click may ask of the server, with the answer shown where it concerns everyone.
+// Commands to the server; refusals appear in a banner.
 
 import { signal } from '@preact/signals';
 import { short_wall_time } from '../wall_time';
@@ -12,9 +12,9 @@ import type { Store } from './store';
 const kWords = kText.command;
 
 export class Actions {
-  /** The last thing that the server refused, until it is put away. */
+  /** The last refusal, until dismissed. */
   readonly refusal = signal<string | null>(null);
-  /** A stop was asked for and is not answered yet. */
+  /** A stop was sent and is not answered yet. */
   readonly stopping = signal(false);
 
   constructor(
@@ -22,12 +22,12 @@ export class Actions {
     readonly retry_connection: () => void,
   ) {}
 
-  /** Keeps a job's details fresh until it ends or the answer is called. */
+  /** Polls a job until it ends or the returned function is called. */
   follow_job(id: string): () => void {
     return follow_job(id, this.api_, this.store_, this.timers_);
   }
 
-  /** Asked even when the connection seems lost: it may be the page that hears nothing. */
+  /** Sent even if the connection seems lost: perhaps only the page receives nothing. */
   async stop(): Promise<void> {
     this.stopping.value = true;
     if (await this.ask(kWords.stop_all, this.api_.stop())) this.store_.set_stopped(true);
@@ -50,7 +50,7 @@ export class Actions {
     await this.ask(kWords.policy(policy), this.api_.change_policy(policy));
   }
 
-  /** Along a way that the server plans, at this share of its speed. */
+  /** Sends the arm to a named state on a planned path, at this share of its speed. */
   async send_to(name: string, state: string, speed: number): Promise<void> {
     const job = { name: kWords.job_name(name, state), arm: name, move_to: { named: state }, velocity_scaling_factor: speed };
     await this.ask(kWords.send(name, state), this.api_.post_job(JSON.stringify(job)));
@@ -64,7 +64,7 @@ export class Actions {
     await this.ask(kWords.replan(id), this.api_.replan_job(id));
   }
 
-  /** Larger goes first; it counts at once. */
+  /** Larger values go first; takes effect at once. */
   async set_priority(id: string, priority: number): Promise<void> {
     await this.ask(kWords.priority(id, priority), this.api_.amend_job(id, { priority }));
   }
@@ -80,7 +80,7 @@ export class Actions {
   }
 }
 
-/** Status 0: nobody has answered, so that nobody knows whether it was heard. */
+/** Status 0 means no answer, so it is unknown whether the server received the command. */
 function why_not(what: string, problem: Problem): string {
   if (problem.status !== 0) return kText.server.was_refused(what, problem.detail ?? problem.title);
   return kText.server.was_not_answered(what, short_wall_time(Date.now(), Date.now()));

@@ -1,4 +1,4 @@
-// When each arm was stopped, or at fault, whether it had a job or none.
+// The periods in which each arm was stopped or had a fault, with or without a job.
 
 import type { Arm, SequencedMessage } from '../server/messages';
 import { remember, type Pause as JobPause } from './job_book';

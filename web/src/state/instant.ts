@@ -1,5 +1,5 @@
-// The instant that the address names, as far as the page knows it. Pure. What was not heard has no pose:
-// another one is never shown in its place.
+// Resolves the address's time. Pure. A time without data has no pose; another pose never replaces
+// it.
 
 import type { Address } from '../route/address';
 import { clock } from '../wording';
@@ -19,15 +19,15 @@ export function instant_of({ t_s, run }: Pick<Address, 't_s' | 'run'>, store: Kn
   return heard === 'kept' ? { kind: 'kept', t_s } : { kind: 'unheard', t_s, why: heard };
 }
 
-/** Cell time begins anew with each run of the server. */
+/** Cell time restarts with each server session. */
 export function is_of_this_run(run: string | null, { stream }: Pick<Store, 'stream'>): boolean {
   return run === null || stream === null || stream.startsWith(run);
 }
 
-/** Every joint then; null where that was not heard. */
+/** Returns all joints at the time, or null if unknown. */
 export function pose_at(instant: Instant, { q, trace }: Pick<Store, 'q' | 'trace'>): Readonly<Record<string, number>> | null {
   switch (instant.kind) {
-    case 'now': return Object.keys(q).length === 0 ? null : q;  // nothing was heard yet
+    case 'now': return Object.keys(q).length === 0 ? null : q;  // no data yet
     case 'kept': return trace.at(instant.t_s);
     case 'unheard': return null;
   }

@@ -1,17 +1,17 @@
-// Why a job stands. Pure. The server says `paused` of every job that stands on its path; that its arm was
-// stopped, and goes on only when somebody resumes it, is what the job waits for.
+// Distinguishes stopped from paused. Pure. The server reports `paused` for both; a stopped job
+// additionally waits for resume.
 
 import type { ArmState, Job, JobState } from '../server/messages';
 
-/** `not known`: of the time that is looked at nothing tells it. `waiting`: it is idle, and its next job waits. */
+/** `not known`: no data for the shown time. `waiting`: idle, and its next job waits. */
 export type ShownState = ArmState | 'waiting' | 'not known';
 
-/** Whether a job waits until an arm is resumed: this one, or any of its own. */
+/** Returns true if a job waits for the resume of an arm: `arm`, or any if null. */
 export function is_stopped(job: Pick<Job, 'waits_on'> | null, arm: string | null = null): boolean {
   return job?.waits_on.some((wait) => wait.kind === 'stop' && (arm === null || wait.arm === null || wait.arm === arm)) ?? false;
 }
 
-/** As people are told of it, everywhere. */
+/** Returns the state as shown to people. */
 export function shown_state(job: Pick<Job, 'state' | 'waits_on'>): JobState | 'stopped' {
   return job.state === 'paused' && is_stopped(job) ? 'stopped' : job.state;
 }

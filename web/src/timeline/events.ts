@@ -1,5 +1,4 @@
-// What was reported, as notches over the timeline's axis: drawn, found under the pointer, gone through by
-// keys, and told in words. Pure but for the drawing.
+// Events as marks on the timeline's axis: drawing, pointing, keys, text. Pure except for drawing.
 
 import { ink } from '../state/palette';
 import type { Notice } from '../state/notices';
@@ -15,11 +14,11 @@ export type EventMark = Pick<Notice, 'key' | 't_s' | 'level' | 'text' | 'arms'>;
 const kColours: Record<EventMark['level'], string> = { info: '--dim', warning: '--amber', error: '--red' };
 const kNames: Record<EventMark['level'], string> = { info: kWords.note, warning: kWords.warning, error: kWords.error };
 const kHeight_px = 9;
-// A notch is narrower than what a hand can point at.
+// Marks are narrower than a pointer's precision.
 const kReach_px = 7;
 const kMostTold = 3;
 
-/** Bars and triangles by how bad it is; the one that is looked at is outlined. The newest come first, and lie on top. */
+/** Draws bars or triangles by level, the newest on top; outlines the pointed events. */
 export function draw_events(g: CanvasRenderingContext2D, sheet: Sheet, events: readonly EventMark[], looked_at: readonly EventMark[]): void {
   const foot = sheet.height - kAxis_px;
   for (const event of [...events].reverse()) {
@@ -38,13 +37,13 @@ export function draw_events(g: CanvasRenderingContext2D, sheet: Sheet, events: r
   }
 }
 
-/** Those at a place of the sheet, newest first; none where it is not on the notches' strip. */
+/** Returns the events at a point of the sheet, newest first; none outside of the marks' strip. */
 export function events_at(events: readonly EventMark[], sheet: Sheet, x: number, y: number): EventMark[] {
   const foot = sheet.height - kAxis_px;
   if (y < foot - kHeight_px - 3 || y > sheet.height) return [];
   const found = events.filter((event) => Math.abs(sheet.x(event.t_s) - x) <= kReach_px && is_in(sheet, event));
   const nearest = found.reduce<EventMark | null>((best, event) => (best && Math.abs(sheet.x(best.t_s) - x) <= Math.abs(sheet.x(event.t_s) - x) ? best : event), null);
-  // Those that share its pixels are told with it.
+  // Events on the same pixels are listed together.
   return nearest ? found.filter((event) => Math.abs(sheet.x(event.t_s) - sheet.x(nearest.t_s)) <= 2) : [];
 }
 
@@ -53,7 +52,7 @@ function is_in(sheet: Sheet, { t_s }: EventMark): boolean {
   return x >= kLeft_px && x <= sheet.width - kRight_px;
 }
 
-/** The next one later (by 1) or earlier (by -1) than another; without one, the newest there is. */
+/** Returns the next later (1) or earlier (-1) event; without `from` the newest. */
 export function event_beside(events: readonly EventMark[], from: EventMark | null, by: 1 | -1): EventMark | null {
   if (events.length === 0) return null;
   const at = from ? events.findIndex(({ key }) => key === from.key) : -1;
@@ -61,7 +60,7 @@ export function event_beside(events: readonly EventMark[], from: EventMark | nul
   return events[Math.min(events.length - 1, Math.max(0, at - by))] ?? null;
 }
 
-/** How bad, when, what, and which arms, a line each. */
+/** Returns a line for each event: level, time, text, arms. */
 export function events_in_words(events: readonly EventMark[], now_s: number): string {
   const lines = events.slice(0, kMostTold).map((event) => event_in_words(event, now_s));
   if (events.length > kMostTold) lines.push(kWords.and_more(events.length - kMostTold));
@@ -74,7 +73,9 @@ function event_in_words({ level, t_s, text, arms }: EventMark, now_s: number): s
   return kWords.event(kNames[level], clock(t_s), seconds(Math.max(0, now_s - t_s)), shown_text(text), of);
 }
 
-/** Whether an arm stands in a text as a word of its own, not as the beginning of a link's name. */
+/**
+ * Returns true if the text contains the arm's name as a whole word, not as part of a link's name.
+ */
 function names(text: string, arm: string): boolean {
   return text.split(/[^\p{L}\p{N}_-]+/u).includes(arm);
 }

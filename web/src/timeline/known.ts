@@ -1,18 +1,18 @@
-// The lanes of what the page knows. What has ended is gone through when a job ends or an earlier time is
-// looked at, not with each picture: with ten thousand jobs in view that would take most of the page's time.
+// The timeline of the known jobs. Ended jobs are processed only when a job ends or an earlier time
+// is shown, because with ten thousand jobs this would dominate each redraw.
 
 import type { App } from '../state/app';
 import type { Store } from '../state/store';
 import { lanes_of, pasts_of, type Lane, type Past } from './lanes';
 
-// A motion that ended before what is shown tells since when its arm could have gone on.
+// A motion that ended before the shown range still determines since when its arm waits.
 const kBefore_s = 60;
 
 interface Kept { of: readonly unknown[]; from_s: number; pasts: ReadonlyMap<string, Past> }
 
 const kept = new WeakMap<Store, Kept>();
 
-/** Of what moves or waits at a time or later, and it may be of some before. */
+/** Returns the lanes from a time on; they may contain earlier marks. */
 export function known_lanes({ store }: Pick<App, 'store'>, from_s = store.t_s): Lane[] {
   const { book } = store;
   const pauses = (id: string) => book.pauses(id);

@@ -1,4 +1,4 @@
-// Draws the timeline on a canvas: axis, lanes, marks, and threads from who waits to who is waited for.
+// Draws the timeline on a canvas: axis, lanes, marks, and lines from waits to their blockers.
 
 import type { Pause } from '../state/job_book';
 import { arm_colour, ink } from '../state/palette';
@@ -10,26 +10,26 @@ import { tick_of } from './span';
 import { characters_of, shown_name } from '../names';
 import { kText } from '../strings';
 
-/** What is looked at: the rest is dimmed. And the instant that is held, if one is. */
+/** The selection (everything else is dimmed) and the shown time, if it is in the past. */
 export interface Lit {
   jobs: readonly string[];
   arms: readonly string[];
   shown_s: number | null;
-  /** Nothing has been heard for a while: where now was. */
+  /** The data is old: the line marks the last data instead of now. */
   stale: boolean;
   events: readonly EventMark[];
-  /** When each arm was stopped. */
+  /** The periods in which arms were stopped. */
   halts: ReadonlyMap<string, readonly Pick<Pause, 'from_s' | 'to_s'>[]>;
 }
-/** What is pointed at, or gone to by keys. */
+/** The marks under the pointer, or chosen by keys. */
 export interface Pointed { mark: Mark | null; events: readonly EventMark[] }
 
 const kFont = '"Inter Variable", system-ui, sans-serif';
 const kHatch_px = 5;
-// A bar is no narrower.
+// The least width of a bar.
 const kLeast_px = 2;
 
-/** `covers`: where its bars are not seen: under stands on the way and stops, and beside the sheet. */
+/** `covers`: where bars are hidden, under pauses and stops and outside of the sheet. */
 interface Row { top: number; height: number; colour: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number; covers: readonly Stretch[] }
 
 export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly Lane[], lit: Lit, pointed: Pointed): void {
@@ -77,7 +77,7 @@ function is_dim(mark: Mark, arm: string, lit: Lit): boolean {
   return lit.arms.length > 0 && !lit.arms.includes(arm);
 }
 
-// More have no room on any sheet, whatever its times are.
+// A limit for any sheet and times.
 const kTicksMax = 1000;
 
 function draw_axis(g: CanvasRenderingContext2D, sheet: Sheet): void {
@@ -104,12 +104,12 @@ function tick_label(t_s: number, step_s: number): string {
   return step_s < 1 ? `${clock}.${Math.round((t_s - whole) * 10)}` : clock;
 }
 
-/** What stands at the line where the page's knowledge ends. */
+/** Returns the label of the line that ends the known data. */
 export function now_in_words(stale: boolean): string {
   return stale ? kText.timeline.mark_last_data : kText.timeline.mark_now;
 }
 
-/** The line that is now. */
+/** Draws the line at now. */
 function draw_now(g: CanvasRenderingContext2D, sheet: Sheet, words: string): void {
   const at = Math.round(sheet.x(sheet.now_s)) + 0.5;
   if (at < kLeft_px || at > sheet.width - kRight_px) return;
@@ -138,7 +138,7 @@ function draw_name(g: CanvasRenderingContext2D, row: Row, name: string): void {
   g.fillText(cut(g, shown_name(name), kLeft_px - 20), 14, row.bar_top + row.bar_height / 2);
 }
 
-/** As much of a name as has room. */
+/** Cuts a name to the available width. */
 function cut(g: CanvasRenderingContext2D, text: string, room_px: number): string {
   if (g.measureText(text).width <= room_px) return text;
   const letters = characters_of(text);
@@ -163,7 +163,7 @@ function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Ma
   g.globalAlpha = 1;
 }
 
-/** An arm stands stopped, with a job or none: until now, and nobody knows how long. */
+/** Draws a stopped arm, with or without a job. While the stop lasts, its end is open. */
 function draw_halt(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, { from_s, to_s }: Pick<Pause, 'from_s' | 'to_s'>, dim: boolean): void {
   const left = sheet.x(from_s);
   const right = sheet.x(to_s ?? sheet.now_s);
@@ -174,7 +174,7 @@ function draw_halt(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, { from_s
   g.globalAlpha = 1;
 }
 
-/** A stop fades out: it has no end that is known. */
+/** A stop fades out, because its end is unknown. */
 function draw_open_end(g: CanvasRenderingContext2D, row: Row, left: number): void {
   kFading.forEach((alpha, i) => {
     g.globalAlpha = alpha;
@@ -209,7 +209,7 @@ function draw_expected(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: 
   label(g, row, mark, left, width, ink('--text'));
 }
 
-/** It stands on its way, or is stopped there: the bar is open. */
+/** Draws a pause or stop as an open bar. */
 function draw_pause(g: CanvasRenderingContext2D, row: Row, left: number, width: number, stopped: boolean, hover: boolean): void {
   g.fillStyle = ink('--panel');
   g.fillRect(left, row.bar_top, width, row.bar_height);
@@ -222,7 +222,7 @@ function bar(g: CanvasRenderingContext2D, left: number, top: number, width: numb
   g.roundRect(left, top, wide, height, Math.min(3, wide / 2));
 }
 
-/** The longest name that fits whole where its bar is seen; a cut one says nothing. */
+/** Draws the longest form of the name that fits the visible part of the bar; none is cut. */
 function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, colour: string): void {
   if (row.bar_height < 11 || width < 16) return;
   g.font = `500 10.5px ${kFont}`;
@@ -238,7 +238,7 @@ function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, 
   g.fillText(text, seen.from + 5, row.bar_top + row.bar_height / 2 + 0.5);
 }
 
-/** From the end of each wait to come, down to whoever is waited for, at the instant when it makes way. */
+/** Draws a line from the end of each predicted wait to its blocker's lane. */
 function draw_threads(g: CanvasRenderingContext2D, sheet: Sheet, lane: Lane, i: number, rows: readonly Row[], arms: readonly string[], hover: Mark | null): void {
   const from = rows[i];
   if (!from) return;
@@ -261,7 +261,7 @@ function draw_threads(g: CanvasRenderingContext2D, sheet: Sheet, lane: Lane, i: 
   }
 }
 
-/** Rising stripes wait, falling ones stand on their way: told apart where colours are not. */
+/** Rising stripes for waits, falling stripes for pauses, to be told apart without colors. */
 interface Stripes { left: number; top: number; width: number; height: number; falls?: boolean }
 
 function hatch(g: CanvasRenderingContext2D, { left, top, width, height, falls = false }: Stripes, colour: string, strong: boolean): void {
@@ -272,7 +272,7 @@ function hatch(g: CanvasRenderingContext2D, { left, top, width, height, falls = 
   g.globalAlpha *= strong ? 1 : 0.7;
   g.strokeStyle = colour;
   g.lineWidth = strong ? 1.8 : 1.2;
-  // Stripes are anchored to the bar's start, so that they travel with it.
+  // Anchored to the bar's start, so that stripes move with it.
   const shown = Math.max(left, 0);
   const first = shown - ((shown - left) % kHatch_px) - height - kHatch_px;
   const last = Math.min(left + width, g.canvas.width);

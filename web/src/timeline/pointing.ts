@@ -1,5 +1,4 @@
-// What the pointer does on the timeline: tells what is under it, moves the sheet, zooms, leads to a job or
-// back to an event.
+// Pointer actions on the timeline: tooltip, drag, zoom, opening a job, going to an event.
 
 import type { App } from '../state/app';
 import { events_at, events_in_words, type EventMark } from './events';
@@ -9,10 +8,10 @@ import { kAxis_px, lane_at, type Sheet } from './sheet';
 import { moved, zoomed, type Span } from './span';
 import { mark_in_words } from './mark_words';
 
-/** What is drawn and what is pointed at; changes many times a second, so no component's state. */
+/** The drawn state, which changes too often for component state. */
 export interface Drawing { span: Span; lanes: Lane[]; sheet: Sheet | null; pointed: Pointed; drag: Drag | null }
 
-/** From where the pointer went down; it outlives that the page is drawn anew meanwhile. */
+/** The start of a drag; it survives redraws. */
 interface Drag { x: number; span: Span; travelled_px: number }
 
 export interface Tip { x: number; up: number; words: string }

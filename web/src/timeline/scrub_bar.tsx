@@ -1,5 +1,4 @@
-// One bar for all views: where it stands is the instant that the cell, the timeline and the address
-// show; at its right end they follow now.
+// The scrub bar sets the time that all views show; at its right end they follow now.
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
@@ -18,7 +17,7 @@ export function ScrubBar({ app }: { app: App }) {
   const { span } = app.store;
   const shown_s = app.router.address.value.t_s;
   const is_recording = app.store.link.status === 'recording';
-  // A recording without positions has no instant that was heard, and is gone through all the same.
+  // A recording without positions has no poses, but its events can be scrubbed.
   const unheard = !is_recording && instant_of(app.router.address.value, app.store).kind === 'unheard';
   if (!span || span.last_s - span.first_s < 1) return null;
   const { first_s, last_s } = span;
@@ -40,7 +39,7 @@ export function ScrubBar({ app }: { app: App }) {
   );
 }
 
-/** From the instant that is held on, as fast as it was, to the end. */
+/** Plays from the shown time to the end, at the recorded speed. */
 function Play({ app }: { app: App }) {
   const [plays, set_plays] = useState(false);
   useEffect(() => {

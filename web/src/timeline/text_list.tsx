@@ -1,4 +1,4 @@
-// The timeline's future in words, for who cannot see the canvas; renewed once a second, not more.
+// The predicted timeline as text for screen readers, updated once per second.
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
