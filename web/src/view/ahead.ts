@@ -1,5 +1,5 @@
-// What the arms have before them: the path of each tool through the motions that are admitted, how far
-// along it the arm may go, and a ghost of where each arm comes to rest next.
+// The future of the arms in the 3D view: tool paths of admitted motions with their authority, and a
+// ghost of each arm's next end position.
 
 import * as THREE from 'three';
 import type { Motion } from '../motion/motion';
@@ -22,7 +22,7 @@ export class Ahead {
   private kinematics_: Kinematics[] = [];
   private readonly paths_ = new Map<string, Shown>();
   private cell_: Cell | null = null;
-  /** Some are still to be built, each when it is followed again. */
+  /** True while ghosts still have to be built, one for each call of follow(). */
   lacks_ghosts = false;
   private ghosts_at_ = '';
   private seen_ = '';
@@ -31,7 +31,7 @@ export class Ahead {
     this.group.add(this.ghosts_.group);
   }
 
-  /** Another cell, or another theme: all is made anew. */
+  /** Discards everything after a change of cell or theme. */
   begin(cell: Cell | null): void {
     for (const key of [...this.paths_.keys()]) this.forget(key);
     this.ghosts_.clear();
@@ -44,7 +44,7 @@ export class Ahead {
       try {
         this.kinematics_.push(new Kinematics(robot));
       } catch {
-        // It cannot be drawn, either, and that was said.
+        // Robots reported this error already.
       }
     }
   }
@@ -54,8 +54,8 @@ export class Ahead {
   }
 
   /**
-   * By what is known now; `at_now`: else an instant of the past is looked at, which has no future here.
-   * Answers whether something else is to be seen than before.
+   * Updates paths and ghosts. With `at_now` false a past time is shown, which has no prediction.
+   * Returns true if something visible changed.
    */
   follow(surfaces: Surfaces, at_now: boolean): boolean {
     const { settings, store } = this.app_;
@@ -75,7 +75,7 @@ export class Ahead {
     return changed;
   }
 
-  /** How far each is, and how far it may go, by the last frame. */
+  /** Updates progress and authority from the last frame. */
   move(): void {
     for (const { path, arm, job, motion } of this.paths_.values()) {
       const told = this.app_.store.motions.find((one) => one.arm === arm && one.job === job);
@@ -84,12 +84,12 @@ export class Ahead {
     }
   }
 
-  /** Drawings take long: ghosts are left out first. */
+  /** Hides the ghosts when drawing is slow. */
   show_level(ghosts: boolean): void {
     this.ghosts_.group.visible = ghosts;
   }
 
-  /** Of each arm the motions that are admitted, the one under path first. */
+  /** Returns the admitted motions of each arm, the current one first. */
   private steps(): { arm: string; job: Job }[] {
     const { store } = this.app_;
     return (store.forecast?.arms ?? []).flatMap(({ name, steps }) => steps
@@ -121,7 +121,7 @@ export class Ahead {
     this.group.add(path.group);
   }
 
-  /** Where each arm is at the end of the motion that is under path, or comes next. */
+  /** Shows where each arm's current or next motion ends. */
   private show_ghosts(steps: readonly { arm: string; job: Job }[], surfaces: Surfaces): void {
     if (!this.cell_) return;
     const q: Record<string, number> = {};

@@ -1,5 +1,5 @@
-// The 3D view with what is laid over it: the smallest clearance, the mark of a stop, of an instant that
-// is held. The view itself is loaded after the rest of the page stands.
+// The 3D view with its overlays: clearance, stop, shown time. The view is loaded after the rest of
+// the page.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { waiting_arms } from '../recovery/needs';
@@ -63,7 +63,7 @@ export function CellPanel({ app, on_view }: Props) {
   );
 }
 
-/** Nothing is drawn of arms before it is known where they stand. */
+/** No arm is drawn before its position is known. */
 function Waits({ app }: { app: App }) {
   use_beats(app.store);
   return waits_for_first(app) ? <p class="loading" role="status" data-test="no-pose-yet">{kWords.waiting_for_positions}</p> : null;
@@ -73,7 +73,7 @@ function waits_for_first({ store }: App): boolean {
   return store.link.status !== 'recording' && store.trace.last_s === null && Object.keys(store.q).length === 0;
 }
 
-/** That another instant than now is shown; or, where it was not heard, that it cannot be. */
+/** States that a past time is shown, or that its positions are unknown. */
 function InstantMark({ app }: { app: App }) {
   use_beats(app.store);
   const { store, router } = app;
@@ -95,7 +95,7 @@ function InstantMark({ app }: { app: App }) {
   );
 }
 
-/** A recording of events alone. */
+/** Overlay for a recording without positions. */
 function WithoutPositions({ app }: { app: App }) {
   return (
     <div class="unheard" role="status" data-test="without-positions" style={{ '--covered': `${app.covered_px.value}px` }}>
@@ -105,7 +105,7 @@ function WithoutPositions({ app }: { app: App }) {
   );
 }
 
-/** That arms are stopped, and the way to what they need. */
+/** States which arms are stopped, with a link to the recovery page. */
 function StoppedMark({ app }: { app: App }) {
   const { store } = app;
   const waiting = waiting_arms(store);
@@ -123,7 +123,7 @@ const kShows: readonly [what: keyof Shows, title: string, meaning: string][] = [
   ['distances', kWords.distances, kWords.distances_title],
 ];
 
-/** What is drawn beside the arms. */
+/** Buttons for the optional parts of the view. */
 function ShownBar({ app }: { app: App }) {
   const shows = app.settings.shows.value;
   return (
@@ -141,7 +141,7 @@ const kSteps: readonly [step: CameraStep, sign: string, title: string][] = [
   ['nearer', '+', kWords.camera_nearer], ['farther', '−', kWords.camera_farther], ['whole', kWords.show_all_sign, kWords.show_all],
 ];
 
-/** Where the camera stands, for who does not drag. */
+/** Camera buttons, as an alternative to dragging. */
 function CameraBar({ view }: { view: CellView | null }) {
   return (
     <div class="camera-bar" role="group" aria-label={kWords.camera}>

@@ -1,4 +1,4 @@
-// The cell in 3D: robots where they stand, moved by pose frames, with a mark and a label per arm.
+// The cell in 3D: robots at their measured positions, with a label for each arm.
 
 import * as THREE from 'three';
 import type { Arm, Cell } from '../server/messages';
@@ -25,7 +25,7 @@ import { SurfaceShelf, type Surfaces } from './surfaces';
 import { ToolGoal } from './tool_goal';
 import { ToolPaths } from './tool_path';
 
-// Among more, figures cover the tools that they are about.
+// With more arms, distance labels would cover the tools.
 const kFewArms = 4;
 
 export class CellView {
@@ -44,11 +44,11 @@ export class CellView {
   private cell_: Cell | null = null;
   private readonly off_: (() => void)[];
 
-  /** As they are drawn: a drawing costs much, so it is asked for when something has changed. */
+  /** The arm states as last drawn: drawing is expensive and done only after changes. */
   private states_ = '';
-  /** The instant that is looked at. */
+  /** The shown time. */
   private at_: Pick<Address, 't_s' | 'run'>;
-  /** The next ghost is built then; one asks for it, however often the store changes meanwhile. */
+  /** The frame request for building the next ghost; at most one is pending. */
   private builds_: number | null = null;
 
   constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'seen' | 'covered_px' | 'motions' | 'settings' | 'actions' | 'dragged_object' | 'tool'>) {
@@ -86,7 +86,7 @@ export class CellView {
     this.stage_.close();
   }
 
-  /** Lights up what the address points at. */
+  /** Highlights what the address selects. */
   show_selection(selection: Selection): void {
     this.objects_.light(selection.object);
     this.labels_.light(selection.arms);
@@ -94,7 +94,7 @@ export class CellView {
     this.stage_.invalidate();
   }
 
-  /** Where the arms were then, or are now; none where that was not heard: another pose is no answer. */
+  /** Shows the arms at a time, or no arms if their positions are unknown. */
   show_instant(at: Pick<Address, 't_s' | 'run'>): void {
     this.at_ = at;
     this.paths_.clear();
@@ -102,7 +102,7 @@ export class CellView {
     this.show_shows();
   }
 
-  /** Arms as they would stand with these joints; null: no ghost. */
+  /** Shows a ghost with these joints, or none if null. */
   show_ghost(q: Readonly<Record<string, number>> | null): void {
     if (!this.cell_) return;
     const names = [...this.store_.arms.keys()];
@@ -111,10 +111,10 @@ export class CellView {
     this.stage_.invalidate(true);
   }
 
-  /** As an address has it; null leaves it as it is. */
+  /** Moves the camera; null leaves it unchanged. */
   show_camera(camera: Camera | null): void { this.stage_.show_camera(camera); }
 
-  /** By a button or a key, as by dragging. */
+  /** Moves the camera by a button or key. */
   steer(step: CameraStep): void { this.stage_.steer(step); }
 
   show_theme(): void {
@@ -128,7 +128,7 @@ export class CellView {
   private get store_(): Store {
     return this.app_.store;
   }
-  /** As it was at the instant that is looked at. */
+  /** The state at the shown time. */
   private get seen_(): Store {
     return this.app_.seen.store.peek();
   }
@@ -136,31 +136,31 @@ export class CellView {
     return instant_of(this.at_, this.store_);
   }
 
-  /** Whether every robot of the cell stands in the view. */
+  /** Returns true if every robot of the cell is in the view. */
   is_drawn(): boolean {
     return this.cell_ !== null && this.robots_.size === this.cell_.robots.length;
   }
 
-  /** Kept once all that changed until now has been drawn. */
+  /** Resolves when all changes so far are drawn. */
   drawn(): Promise<void> { return this.stage_.drawn(); }
 
-  /** Where the middle of an object stands, px from the view's top left. */
+  /** Returns the center of an object, px from the view's top left. */
   where_is(object: string): { x: number; y: number } | null {
     const found = this.objects_.find(object);
     return found ? this.stage_.to_page(found.position) : null;
   }
-  /** The same of the tool that is in hand. */
+  /** Returns the same of the dragged tool goal. */
   where_is_tool(): { x: number; y: number } | null {
     return this.tool_.position ? this.stage_.to_page(this.tool_.position) : null;
   }
 
-  /** How many ways ahead are drawn. */
+  /** Returns the number of drawn tool paths. */
   ahead(): number { return this.ahead_.count; }
-  /** How many pictures have been drawn, and how finely the next one will be. */
+  /** Returns the number of drawn frames, and the present level of detail. */
   pictures(): number { return this.stage_.pictures; }
   level(): Level { return this.stage_.level; }
 
-  /** For tests and debugging: a robot is drawn or not. */
+  /** Shows or hides a robot, for tests and debugging. */
   set_robot_visible(name: string, visible: boolean): void {
     this.robots_.set_visible(name, visible);
     this.stage_.invalidate(true);
@@ -207,7 +207,7 @@ export class CellView {
     });
   }
 
-  /** The monitor's closest pairs, as things are now. */
+  /** Updates the monitor's closest pairs. */
   private measure(): void {
     const shown = this.app_.settings.shows.peek().distances && this.instant.kind === 'now';
     const changed = this.distances_.show(shown ? this.store_.clearance : [], this.store_.cell?.clearance_m ?? 0, this.store_.arms.size > kFewArms ? 1 : Infinity);
@@ -236,7 +236,7 @@ export class CellView {
     const addresses = cell.robots.flatMap((robot) => Object.values(robot.meshes));
     if (addresses.length === 0) return this.add_robots(cell, new Map());
     void this.shelf_.load(addresses).then((surfaces) => {
-      if (this.cell_ !== cell) return;  // another run has begun meanwhile
+      if (this.cell_ !== cell) return;  // another session has begun
       this.add_robots(cell, surfaces);
       this.frame_robots(cell);
       this.follow();
@@ -251,8 +251,8 @@ export class CellView {
   }
 
   /**
-   * Looks at the robots as they stand at home: those with meshes come in all sizes. Wherever they stand now,
-   * a camera that an address names then shows the same.
+   * Frames the robots at their home positions, since meshes vary in size. An address's camera then
+   * shows the same, wherever the robots are now.
    */
   private frame_robots(cell: Cell): void {
     this.robots_.set_home(cell);
@@ -270,7 +270,7 @@ export class CellView {
     if (this.robots_.group.visible !== (q !== null)) {
       this.robots_.group.visible = this.paths_.group.visible = q !== null;
       this.stage_.invalidate(true);
-      // On a busy machine the next picture may be seconds away, and this one shows arms that stand elsewhere, or nowhere.
+      // On a busy machine the next frame may be seconds away, and this one shows wrong positions.
       this.stage_.hurry();
       if (q === null) this.labels_.hide();
     }
@@ -285,7 +285,7 @@ export class CellView {
     return foot ? this.stage_.to_page(foot) : null;
   }
 
-  /** What was clicked, an arm or an object, is looked at. */
+  /** Opens the page of the clicked arm or object. */
   private pick(x_px: number, y_px: number): void {
     if (this.drag_handles_.is_touched || this.tool_.is_touched) return;
     const sight = this.stage_.sight(x_px, y_px);

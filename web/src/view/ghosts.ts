@@ -1,4 +1,4 @@
-// Arms as they would stand: translucent, each in its own colour, over the cell as it is.
+// Ghosts: translucent robots in their arms' colors, at planned positions.
 
 import * as THREE from 'three';
 import type { Cell, CellRobot } from '../server/messages';
@@ -10,7 +10,7 @@ import type { Surfaces } from './surfaces';
 const kPreview = 0.42;
 
 type Model = Pick<RobotModel, 'set_q'> & { root: THREE.Object3D };
-/** Where joints of ghosts are, and where all are measured. */
+/** Joints of the ghosts, and the measured joints. */
 export interface Poses { q: Readonly<Record<string, number>> | null; now: Readonly<Record<string, number>> }
 
 export class Ghosts {
@@ -20,8 +20,8 @@ export class Ghosts {
   constructor(private readonly opacity_ = kPreview, private readonly build_: (robot: CellRobot, surfaces: Surfaces) => Model = (robot, surfaces) => new RobotModel(robot, surfaces)) {}
 
   /**
-   * The robots that these joints belong to stand as told; null: no ghost. A robot is built when it is first
-   * asked for, and one at a time, as that takes long: false says that others are still missing.
+   * Shows the robots of the given joints, or no ghost if null. Robots are built on first use, one
+   * per call, because building is slow. Returns false while robots are missing.
    */
   show({ q, now }: Poses, cell: Cell, surfaces: Surfaces, colour: (arm: string) => string): boolean {
     for (const model of this.models_.values()) model.root.visible = false;
@@ -38,7 +38,7 @@ export class Ghosts {
     return true;
   }
 
-  /** How many have been built. */
+  /** The number of built robots. */
   get count(): number {
     return this.models_.size;
   }
@@ -51,7 +51,7 @@ export class Ghosts {
     return model;
   }
 
-  /** Another cell has other robots. */
+  /** Discards the robots of another cell. */
   clear(): void {
     dispose(this.group);
     this.group.clear();

@@ -1,5 +1,5 @@
-// The way that an arm's tool has before it, as beads at equal times: far apart is fast. Those that the
-// arm may pass are bright, up to a mark where its authority ends; those beyond are faint.
+// The remaining tool path of an arm, with markers at equal time steps. Markers up to the granted
+// authority are bright, later ones faint; a ring marks the authority.
 
 import * as THREE from 'three';
 
@@ -20,7 +20,7 @@ export class Path {
   private readonly beyond_: THREE.Points;
   private readonly mark_: THREE.Points;
 
-  /** `points`: where the tool is at equal times over the whole motion. */
+  /** `points` are tool positions at equal time steps over the whole motion. */
   constructor(private readonly points_: readonly THREE.Vector3[], private readonly duration_s_: number) {
     this.geometry_.setFromPoints([...points_]);
     this.mark_geometry_.setFromPoints([points_[0] ?? new THREE.Vector3()]);
@@ -36,7 +36,7 @@ export class Path {
     for (const part of [this.line_, this.granted_, this.beyond_, this.mark_]) (part.material as THREE.PointsMaterial).color.set(colour);
   }
 
-  /** What of it is still to come, and how much of that the arm may go. */
+  /** Shows the rest of the path from `from_s`, bright up to `granted_s`. */
   show({ from_s, granted_s }: Stretch): void {
     const count = this.points_.length;
     const index = (t_s: number) => Math.min(count, Math.max(0, Math.ceil((t_s / this.duration_s_) * (count - 1))));
@@ -46,7 +46,7 @@ export class Path {
     const within = granted > from;
     const stands = granted_s < this.duration_s_ - 1e-3 && within;
     this.granted_.visible = within;
-    // One buffer of places, shown in two parts: the range is set as each is drawn.
+    // One buffer drawn in two parts: the range is set before each part.
     this.granted_.onBeforeRender = () => this.geometry_.setDrawRange(from, granted - from);
     this.beyond_.onBeforeRender = () => this.geometry_.setDrawRange(granted, count - granted);
     this.line_.onBeforeRender = () => this.geometry_.setDrawRange(from, count - from);
@@ -65,7 +65,7 @@ export class Path {
   }
 }
 
-/** How many instants a motion is sampled at. */
+/** Returns the number of samples of a motion. */
 export function beads_of(duration_s: number): number {
   return Math.min(kMostBeads, Math.max(2, Math.ceil(duration_s / kBead_s) + 1));
 }

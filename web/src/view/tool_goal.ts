@@ -1,5 +1,5 @@
-// Where a tool is to go, by hand: a frame at the tool, dragged by arrows or turned by rings. Nothing moves;
-// whoever asked for it is told where it was let go.
+// The goal of a tool in the 3D view: a frame dragged by arrows or rings. No arm moves; the pose is
+// reported on release.
 
 import * as THREE from 'three';
 import { DragHandles, type Grip } from './drag_handles';
@@ -8,14 +8,14 @@ import type { Stage } from './stage';
 
 const kAxes_m = 0.14;
 
-/** Of a frame in the world: metres, and roll, pitch, yaw about the fixed axes x, y, z (rad). */
+/** A pose in the world: meters, and roll, pitch, yaw about the fixed axes x, y, z (rad). */
 export interface ToolPose { xyz: [number, number, number]; rpy: [number, number, number] }
 export interface Tool {
   arm: string;
-  /** By its name in the cell or in the URDF; empty: that of the arm's last joint. */
+  /** The link's name in the cell or URDF; empty means the link of the arm's last joint. */
   link: string;
   grip: Grip;
-  /** null: where the tool stands. */
+  /** The goal, or null for the tool's current pose. */
   at: ToolPose | null;
   let_go(pose: ToolPose): void;
 }
@@ -25,7 +25,7 @@ export class ToolGoal {
   private readonly frame_ = new THREE.Group();
   private tool_: Tool | null = null;
 
-  /** `where`: the link's frame in the world; null: there is no such link. */
+  /** `where` returns the link's frame in the world, or null if there is no such link. */
   constructor(private readonly stage_: Stage, private readonly where_: (arm: string, link: string) => THREE.Matrix4 | null) {
     this.frame_.add(new THREE.AxesHelper(kAxes_m));
     this.frame_.visible = false;
@@ -48,7 +48,7 @@ export class ToolGoal {
     return this.handles_.is_touched;
   }
 
-  /** Its middle in the world; null: no tool is in hand. */
+  /** The goal's position in the world, or null if there is no goal. */
   get position(): THREE.Vector3 | null {
     return this.frame_.visible ? this.frame_.position : null;
   }
@@ -59,7 +59,7 @@ export class ToolGoal {
 }
 
 export function pose_of(frame: THREE.Object3D): ToolPose {
-  // Fixed axes x, y, z are the moving axes z, y, x: three's order 'ZYX'.
+  // Rotations about fixed x, y, z equal moving z, y, x: three's order 'ZYX'.
   const { x, y, z } = new THREE.Euler().setFromQuaternion(frame.quaternion, 'ZYX');
   return { xyz: frame.position.toArray(), rpy: [x, y, z] };
 }

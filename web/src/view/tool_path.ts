@@ -1,4 +1,4 @@
-// The way that an arm's tool has come lately, as a line that fades towards its beginning.
+// The recent path of an arm's tool, as a line that fades with age.
 
 import * as THREE from 'three';
 import type { Arm } from '../server/messages';
@@ -21,13 +21,13 @@ export class ToolPath {
     this.line.frustumCulled = false;
   }
 
-  /** Another instant of the past: what was passed since is no past of it. */
+  /** Clears the line, because a different past time is shown. */
   clear(): void {
     this.passed_.length = 0;
     this.line.geometry.setDrawRange(0, 0);
   }
 
-  /** Where the tool is at a cell time; the line's colour is the arm's. */
+  /** Adds the tool's position at a cell time, in the arm's color. */
   pass(t_s: number, p_W: THREE.Vector3, colour: THREE.Color): void {
     const last = this.passed_.at(-1);
     if (last && t_s < last.t_s) this.clear();
@@ -50,7 +50,7 @@ export class ToolPath {
   }
 }
 
-/** One for each arm. */
+/** The recent paths of all arms. */
 export class ToolPaths {
   readonly group = new THREE.Group();
   private readonly paths_ = new Map<string, ToolPath>();
@@ -59,7 +59,7 @@ export class ToolPaths {
     for (const path of this.paths_.values()) path.clear();
   }
 
-  /** Where each tool stands at a cell time, in its arm's colour. */
+  /** Adds the tool positions at a cell time, in the arms' colors. */
   follow(robots: Robots, arms: ReadonlyMap<string, Arm>, t_s: number): void {
     const names = [...arms.keys()];
     for (const arm of arms.values()) {
