@@ -842,7 +842,7 @@ export const kText = {
     and: ' and ',
   },
 
-  // What a command is called when the server refuses it.
+  // Names of commands, for messages about refusals.
   command: {
     stop_all: 'Stop all',
     resume: 'Resume',

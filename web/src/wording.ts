@@ -20,7 +20,7 @@ export function title_of(job: Pick<Job, 'id' | 'name'>): string {
   return shown_name(job.name) || short_id(job.id);
 }
 
-export function millimetres(m: number): string {
+export function millimeters(m: number): string {
   const mm = m * 1000;
   if (Math.abs(mm) < 9.95) return `${mm.toFixed(1)} mm`;
   return mm < 1000 ? `${mm.toFixed(0)} mm` : `${m.toFixed(2)} m`;
@@ -99,7 +99,7 @@ function conflict_of(w: WaitsOn): string {
   // The job has not started: its time counts from its own start.
   const when = w.own_time_s === null ? '' : kText.wait.time_in_motion(w.own_time_s.toFixed(2));
   if (w.clearance_m === null || w.clearance_m <= 0) return kText.wait.touches(own, other, when);
-  return kText.wait.comes_within(own, other, millimetres(w.clearance_m), when);
+  return kText.wait.comes_within(own, other, millimeters(w.clearance_m), when);
 }
 
 export interface Figure { text: string; title: string }
@@ -216,7 +216,7 @@ export function monitor_in_words(event: MonitorData): string {
   const [a, b] = event.links;
   const stopped = event.stopped.length ? kText.server.stopped(event.stopped.join(kText.server.and)) : '';
   if (event.kind === 'contact') return kText.server.touches(String(a), String(b), stopped);
-  return kText.server.apart(String(a), String(b), millimetres(event.clearance_m), millimetres(event.limit_m), stopped);
+  return kText.server.apart(String(a), String(b), millimeters(event.clearance_m), millimeters(event.limit_m), stopped);
 }
 
 /** Returns a sentence for each choice the server made about the job's path. */

@@ -21,7 +21,7 @@ describe('a surface in two finishes', () => {
     show_finish(root, true);
     expect([seen.geometry, seen.material]).toEqual([fine.geometry, fine.material]);
   });
-  it('has one colour in both, also when that changes', () => {
+  it('has one color in both, also when that changes', () => {
     material.color.set(0xff0000);
     material.emissive.set(0x400000);
     expect(quick.material.uniforms['diffuse']?.value).toBe(material.color);

@@ -58,7 +58,7 @@ describe('moves by hand', () => {
     expect(timers).toEqual([]);
   });
 
-  it('that are let go before the server has answered are cancelled when it does', async () => {
+  it('that are let go before the server has answered are canceled when it does', async () => {
     const { jogging, said, accept } = bench();
     await jogging.take('Ada');
     void jogging.press('left', 'ready');
@@ -86,7 +86,7 @@ describe('moves by hand', () => {
     expect(jogging.refusal.value).toMatch(/^The jog motion was stopped.*press it again/);
   });
 
-  it('are asked for no more once the arm is there: nothing is renewed, nothing cancelled', async () => {
+  it('are asked for no more once the arm is there: nothing is renewed, nothing canceled', async () => {
     const { jogging, said, timers, server, accept } = bench();
     await jogging.take('Ada');
     void jogging.press('left', 'ready');

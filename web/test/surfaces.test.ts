@@ -124,7 +124,7 @@ describe('a link', () => {
     expect(meshes?.[0]?.material).toBe(yellow);
   });
 
-  it('is drawn by its collision shapes in the colour of visuals that are missing', () => {
+  it('is drawn by its collision shapes in the color of visuals that are missing', () => {
     const [missing, read] = drawn(link([false], [true, true]), link([true], [true]));
     expect(missing?.map((mesh) => mesh.material)).toEqual([yellow, yellow]);
     expect(read).toHaveLength(1);

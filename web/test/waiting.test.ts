@@ -4,7 +4,7 @@ import { partner_of } from '../src/diagram/partner';
 import { pause_in_words } from '../src/jobs/states';
 import { selection_of } from '../src/route/selection';
 import { parse_message, type Forecast, type Job } from '../src/server/messages';
-import { kStateColours } from '../src/state/palette';
+import { kStateColors } from '../src/state/palette';
 import { Store } from '../src/state/store';
 import { known_lanes } from '../src/timeline/known';
 import { now_in_words } from '../src/timeline/paint';
@@ -35,7 +35,7 @@ describe('an arm whose next job waits', () => {
     const store = store_of([blocked]);
     expect(told(store, 'left')).toEqual(['waiting', 'waits for crate']);
     expect(told(store, 'right')).toEqual(['idle', 'idle']);
-    expect(kStateColours.waiting).toBe('var(--paused)');
+    expect(kStateColors.waiting).toBe('var(--paused)');
     expect(when_in_words(store.waiting_of('left') as Job, store)).toMatch(/^blocked for/);
   });
   it('does what it does while it moves or is stopped', () => {

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { parse_message, type Job, type MonitorData, type WaitsOn } from '../src/server/messages';
 import {
-  bytes_in_words, clearance_in_words, clock, conflict_in_words, figure_in_words, found_in_words, millimetres, monitor_in_words, reason_in_words,
+  bytes_in_words, clearance_in_words, clock, conflict_in_words, figure_in_words, found_in_words, millimeters, monitor_in_words, reason_in_words,
   result_in_words, seconds, short_id, path_in_words, why_not_connected,
 } from '../src/wording';
 import { envelope, job_json, wait_json } from './samples';
@@ -114,7 +114,7 @@ describe('a monitor event', () => {
 
 describe('figures', () => {
   it('have units and sensible digits', () => {
-    expect([0.0004, 0.0123, 1.5].map(millimetres)).toEqual(['0.4 mm', '12 mm', '1.50 m']);
+    expect([0.0004, 0.0123, 1.5].map(millimeters)).toEqual(['0.4 mm', '12 mm', '1.50 m']);
     expect([0, 999, 1000, 9949, 9960, 123_456, 999_600, 1.2e9, 23e9].map(bytes_in_words)).toEqual(['0 B', '999 B', '1.0 kB', '9.9 kB', '10 kB', '123 kB', '1.0 MB', '1.2 GB', '23 GB']);
     expect([1.234, 12.34, 59.97, 75, 3599.4, 3599.6, 33_100].map(seconds)).toEqual(['1.2 s', '12.3 s', '1 min 0 s', '1 min 15 s', '59 min 59 s', '1 h 0 min', '9 h 11 min']);
     expect([0, 3661.29].map(clock)).toEqual(['0:00:00.0', '1:01:01.2']);

@@ -11,7 +11,7 @@ import { Plot, units_of } from '../plot/plot';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
 import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
-import { arm_colour } from '../state/palette';
+import { arm_color } from '../state/palette';
 import { instant_of, pose_at } from '../state/instant';
 import { seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
@@ -36,9 +36,9 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
   const job = arm_then.job === null ? null : then.store.job(arm_then.job);
   const waiting = then.store.arm_state(arm_then) === 'waiting' ? then.store.waiting_of(name) : null;
   const nothing = then.store.arm_state(arm_then) === 'not known' ? kWords.past_unknown : then === app ? kWords.no_active_job : kWords.no_job_was_active;
-  const colour = arm_colour([...store.arms.keys()], name);
+  const color = arm_color([...store.arms.keys()], name);
   return (
-    <div class="page" style={{ '--arm': colour }}>
+    <div class="page" style={{ '--arm': color }}>
       <div class="line">
         <h2 class="ellipsis"><span class="swatch" aria-hidden="true" /> {shown_name(name)}</h2>
         <StatePill arm={arm_then} app={then} />

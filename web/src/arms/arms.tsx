@@ -5,7 +5,7 @@ import { selection_of } from '../route/selection';
 import { when_in_words } from '../jobs/when';
 import type { Arm, Job } from '../server/messages';
 import type { App } from '../state/app';
-import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
+import { arm_color, kStateColors, kStateGlyphs } from '../state/palette';
 import { use_beats } from '../state/seen';
 import { shown_name } from '../names';
 import { reason_in_words, short_id, title_of, waited_for } from '../wording';
@@ -32,7 +32,7 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
   const lit = selection_of(app.router.address.value.place, store).arms.includes(arm.name);
   return (
     <div class={`card${lit ? ' lit' : ''}`} data-test={`arm-${arm.name}`}
-      style={{ '--arm': arm_colour([...store.arms.keys()], arm.name), '--state': kStateColours[store.arm_state(arm)] }}>
+      style={{ '--arm': arm_color([...store.arms.keys()], arm.name), '--state': kStateColors[store.arm_state(arm)] }}>
       <Link app={app} to={{ page: 'arm', name: arm.name }} class="card-link" title={kText.arm.details_of(shown_name(arm.name))}>
         <span class="line">
           <span class="swatch" aria-hidden="true" />
@@ -57,5 +57,5 @@ function Waiting({ job, app }: { job: Job; app: App }) {
 
 export function StatePill({ arm, app }: { arm: Arm; app: App }) {
   const state = app.store.arm_state(arm);
-  return <span class="pill" data-test="arm-state" style={{ '--state': kStateColours[state] }}><span aria-hidden="true">{kStateGlyphs[state]}</span> {state}</span>;
+  return <span class="pill" data-test="arm-state" style={{ '--state': kStateColors[state] }}><span aria-hidden="true">{kStateGlyphs[state]}</span> {state}</span>;
 }

@@ -2,7 +2,7 @@
 
 import type { Api } from '../server/api';
 import type { Problem, Verdict } from '../server/messages';
-import { conflict_in_words, millimetres, seconds, wait_in_words } from '../wording';
+import { conflict_in_words, millimeters, seconds, wait_in_words } from '../wording';
 import type { Body } from './batch';
 import { kText } from '../strings';
 import { Refused } from './refused';
@@ -55,7 +55,7 @@ function Result({ title, verdict, show }: { title: string; verdict: Verdict; sho
     <>
       <div class={`verdict-word ${in_turn ? 'in-turn' : verdict.verdict}`}><b>{title}</b>: {in_turn ? kSays.in_turn : kWords[verdict.verdict]}</div>
       <div>{when}</div>
-      {bound_m !== null && <div class="dim small">{kSays.clearance(millimetres(bound_m))}{self_m !== null && kSays.self_clearance(millimetres(self_m))}.</div>}
+      {bound_m !== null && <div class="dim small">{kSays.clearance(millimeters(bound_m))}{self_m !== null && kSays.self_clearance(millimeters(self_m))}.</div>}
       {verdict.waits_on.map((conflict, i) => (
         <div key={i} class="words">
           {in_words(conflict)}

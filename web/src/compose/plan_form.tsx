@@ -3,7 +3,7 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Plan, Problem } from '../server/messages';
 import type { App } from '../state/app';
-import { millimetres, seconds, why_not_connected } from '../wording';
+import { millimeters, seconds, why_not_connected } from '../wording';
 import { InSight } from '../frame/in_sight';
 import { NumberField } from '../frame/number_field';
 import { pretty } from './example';
@@ -151,7 +151,7 @@ function Unplanned({ problem }: { problem: Problem }) {
   return (
     <>
       <Refused problem={problem} />
-      {links?.length === 2 && clearance_m !== undefined && <p class="small">{clearance_m <= 0 ? kWords.in_contact(links[0] ?? '', links[1] ?? '') : kWords.apart(links[0] ?? '', links[1] ?? '', millimetres(clearance_m))}</p>}
+      {links?.length === 2 && clearance_m !== undefined && <p class="small">{clearance_m <= 0 ? kWords.in_contact(links[0] ?? '', links[1] ?? '') : kWords.apart(links[0] ?? '', links[1] ?? '', millimeters(clearance_m))}</p>}
       {nearest && <p class="small">{kWords.nearest}</p>}
     </>
   );

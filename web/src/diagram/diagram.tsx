@@ -9,7 +9,7 @@ import { ahead_of, type Ahead } from './ahead';
 import { use_fetched, use_latest } from './fetched';
 import { Legend } from './legend';
 import type { ArmAuthority, Diagram, Job } from '../server/messages';
-import { arm_colour, ink } from '../state/palette';
+import { arm_color, ink } from '../state/palette';
 import { progress_at } from '../state/progress_book';
 import type { Store } from '../state/store';
 import { short_id } from '../wording';
@@ -56,7 +56,7 @@ function Sides({ a, b, app }: Props) {
   return <Pair a={job_of_side(a, store)?.id ?? a} b={job_of_side(b, store)?.id ?? b} app={app} />;
 }
 
-/** Of two jobs. */
+/** The diagram of two jobs. */
 function Pair({ a, b, app }: Props) {
   const { actions, api } = app;
   const then = seen_app(app);
@@ -101,7 +101,7 @@ function Pick({ what, side, store, on_pick }: { what: string; side: string; stor
   if (chosen && !of_arm && !jobs.some((job) => job.id === side)) jobs.push(chosen);
   const names = [...store.arms.keys()];
   return (
-    <label class="pick" style={{ '--arm': arm_colour(names, (of_arm ? side : chosen?.arms[0]) ?? '') }}>
+    <label class="pick" style={{ '--arm': arm_color(names, (of_arm ? side : chosen?.arms[0]) ?? '') }}>
       <span class="small dim">{what}</span>
       <span class="swatch" />
       <select value={side} aria-label={kWords.side_label(what)} onChange={(event) => on_pick(event.currentTarget.value)}>
@@ -154,7 +154,7 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
     return {
       authority: authority(), pointed: pointed.current,
       diagram, layer, now: at, prediction: plans ? plan_from(at, diagram) : [], trail: path.length === 0 ? [] : [...path, at] /* ends at the current progress, not at the last sample */, contact: lies && 'contact' in lies ? lies.contact : null, evidence,
-      colours: { a: ink(arm_colour(names, layer.arms[0])), b: ink(arm_colour(names, layer.arms[1])) },
+      colors: { a: ink(arm_color(names, layer.arms[0])), b: ink(arm_color(names, layer.arms[1])) },
     };
   };
   useEffect(() => {

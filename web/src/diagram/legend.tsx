@@ -1,7 +1,7 @@
 // The legend of a diagram.
 
 import type { DiagramLayer } from '../server/messages';
-import { kCellColours, kUndecidedStripes } from '../state/palette';
+import { kCellColors, kUndecidedStripes } from '../state/palette';
 import { kText } from '../strings';
 import { shares } from './reading';
 
@@ -13,7 +13,7 @@ export function Legend({ layer, of_now, is_measured }: { layer: DiagramLayer; of
   return (
     <div class="keys">
       <div class="line">{(['free', 'conflict', 'undecided'] as const).map((state) => (
-        <span key={state} class="key"><i class={state} style={{ '--cell': kCellColours[state], '--stripes': kUndecidedStripes }} /> {state} <b class="mono">{percent(share[state])}</b></span>
+        <span key={state} class="key"><i class={state} style={{ '--cell': kCellColors[state], '--stripes': kUndecidedStripes }} /> {state} <b class="mono">{percent(share[state])}</b></span>
       ))}</div>
       <div class="line">
         {of_now && <><span class="key" title={kWords.authority_title}><i class="authority" /> {kWords.authority}</span>

@@ -3,15 +3,15 @@
 
 import type { Evidence, Point } from './reading';
 import type { Diagram, DiagramLayer, DiagramContact } from '../server/messages';
-import { ink, kCellColours, kUndecidedStripes } from '../state/palette';
-import { millimetres, short_id } from '../wording';
+import { ink, kCellColors, kUndecidedStripes } from '../state/palette';
+import { millimeters, short_id } from '../wording';
 import { kText } from '../strings';
 
 export interface Scene {
   diagram: Diagram;
   layer: DiagramLayer;
   now: Point;
-  /** Empty: no plan. */
+  /** Empty without a prediction. */
   prediction: Point[];
   trail: Point[];
   contact: DiagramContact | null;
@@ -20,7 +20,7 @@ export interface Scene {
   authority: Point | null;
   /** The point under the pointer. */
   pointed: Point | null;
-  colours: { a: string; b: string };
+  colors: { a: string; b: string };
 }
 
 const kLeft_px = 40;
@@ -127,7 +127,7 @@ function draw_cells(g: CanvasRenderingContext2D, sheet: Sheet, { layer }: Scene)
     const top = sheet.y(b_s[1]);
     const width = sheet.x(a_s[1]) - left;
     const height = sheet.y(b_s[0]) - top;
-    g.fillStyle = kCellColours[state];
+    g.fillStyle = kCellColors[state];
     // Overlaps slightly, so that no gaps show between cells.
     g.fillRect(left, top, width + 0.4, height + 0.4);
     if (state === 'undecided') undecided.rect(left, top, width + 0.4, height + 0.4);
@@ -153,7 +153,7 @@ function stripe(g: CanvasRenderingContext2D, { width, height }: Sheet, where: Pa
   g.restore();
 }
 
-function draw_axes(g: CanvasRenderingContext2D, sheet: Sheet, { diagram, colours }: Scene): void {
+function draw_axes(g: CanvasRenderingContext2D, sheet: Sheet, { diagram, colors }: Scene): void {
   const { a, b } = diagram;
   const [left, right, bottom, top] = [sheet.x(0), sheet.x(a.duration_s), sheet.y(0), sheet.y(b.duration_s)];
   g.strokeStyle = ink('--line-strong');
@@ -170,12 +170,12 @@ function draw_axes(g: CanvasRenderingContext2D, sheet: Sheet, { diagram, colours
   g.font = '600 11.5px "Inter Variable", system-ui, sans-serif';
   g.textAlign = 'center';
   g.textBaseline = 'alphabetic';
-  g.fillStyle = colours.a;
+  g.fillStyle = colors.a;
   g.fillText(kText.diagram.axis(short_id(a.id)), (left + right) / 2, sheet.height - 4);
   g.save();
   g.translate(left - 28, (top + bottom) / 2);
   g.rotate(-Math.PI / 2);
-  g.fillStyle = colours.b;
+  g.fillStyle = colors.b;
   g.fillText(kText.diagram.axis(short_id(b.id)), 0, 0);
   g.restore();
 }
@@ -192,14 +192,14 @@ function figure(t_s: number): string {
 }
 
 function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): void {
-  const { now, prediction, trail, contact, evidence, colours } = scene;
+  const { now, prediction, trail, contact, evidence, colors } = scene;
   g.lineJoin = 'round';
   g.lineCap = 'round';
   g.setLineDash([]);
   const [x, y] = [sheet.x(now.a_s), sheet.y(now.b_s)];
   // Guides to both axes.
-  guide(g, [x, y], [x, sheet.y(0)], colours.a);
-  guide(g, [x, y], [sheet.x(0), y], colours.b);
+  guide(g, [x, y], [x, sheet.y(0)], colors.a);
+  guide(g, [x, y], [sheet.x(0), y], colors.b);
   draw_authority(g, sheet, scene);
   polyline(g, sheet, trail, kInk, 2.5);
   if (prediction.length > 0) {
@@ -246,10 +246,10 @@ function up_to(prediction: Point[], contact: DiagramContact): Point[] {
   return [...prediction.filter((point) => point.a_s <= contact.a_s && point.b_s <= contact.b_s), contact];
 }
 
-function polyline(g: CanvasRenderingContext2D, sheet: Sheet, points: Point[], colour: string, width: number): void {
+function polyline(g: CanvasRenderingContext2D, sheet: Sheet, points: Point[], color: string, width: number): void {
   g.beginPath();
   points.forEach((point, i) => (i === 0 ? g.moveTo : g.lineTo).call(g, sheet.x(point.a_s), sheet.y(point.b_s)));
-  g.strokeStyle = colour;
+  g.strokeStyle = color;
   g.lineWidth = width;
   g.stroke();
 }
@@ -264,7 +264,7 @@ function mark(g: CanvasRenderingContext2D, sheet: Sheet, evidence: Evidence): vo
   g.stroke();
   const { clearance_m } = evidence.wait;
   if (clearance_m === null) return;
-  const text = clearance_m <= 0 ? kText.diagram.touch : millimetres(clearance_m);
+  const text = clearance_m <= 0 ? kText.diagram.touch : millimeters(clearance_m);
   g.font = '600 11.5px "Inter Variable", system-ui, sans-serif';
   const width = g.measureText(text).width + 12;
   const left = Math.max(sheet.x(0) + 4, x - width - 12);
@@ -290,11 +290,11 @@ function cross(g: CanvasRenderingContext2D, x: number, y: number): void {
   g.stroke();
 }
 
-function guide(g: CanvasRenderingContext2D, from: [number, number], to: [number, number], colour: string): void {
+function guide(g: CanvasRenderingContext2D, from: [number, number], to: [number, number], color: string): void {
   g.beginPath();
   g.moveTo(...from);
   g.lineTo(...to);
-  g.strokeStyle = colour;
+  g.strokeStyle = color;
   g.lineWidth = 2;
   g.stroke();
 }

@@ -3,7 +3,7 @@
 
 import { pair_of, type CellState, type Diagram, type DiagramLayer, type DiagramContact, type Job, type WaitsOn } from '../server/messages';
 import { progress_at, type Course } from '../state/progress_book';
-import { clock, millimetres, short_id } from '../wording';
+import { clock, millimeters, short_id } from '../wording';
 import { kText } from '../strings';
 import type { Ahead } from './ahead';
 
@@ -66,7 +66,7 @@ export function evidence_in_words(evidence: Evidence, diagram: Diagram): string 
   const [own, other] = pair_of(links) ?? [kWords.one_arm, kWords.other_arm];
   const how = clearance_m === null || clearance_m <= 0
     ? kWords.touches(own, other)
-    : kWords.comes_within(own, other, millimetres(clearance_m));
+    : kWords.comes_within(own, other, millimeters(clearance_m));
   const when = [[diagram.a.id, evidence.a_s], [diagram.b.id, evidence.b_s]] as const;
   return `${how}, ${when.map(([id, at_s]) => kWords.time_in(at_s.toFixed(2), short_id(id))).join(kText.server.and)}.`;
 }

@@ -5,7 +5,7 @@ import { matches } from '../jobs/filter';
 import { Link } from '../route/link';
 import type { Job } from '../server/messages';
 import type { App } from '../state/app';
-import { arm_colour } from '../state/palette';
+import { arm_color } from '../state/palette';
 import { short_wall_time, wall_time } from '../wall_time';
 import { clock, result_in_words, seconds, title_of, why_not_connected } from '../wording';
 import { shown_name } from '../names';
@@ -90,7 +90,7 @@ function Line({ job, app, before }: { job: Job; app: App; before: Job | null }) 
       <tr class={job.state}>
         <td class="mono whole" title={wall_time(job.ended_at ?? '')}>{job.ended_s === null ? kText.common.unknown_time : former ? short_wall_time(job.ended_at ?? '', Date.now()) : clock(job.ended_s)}</td>
         <td><Link app={app} to={{ page: 'job', id: job.id }} title={job.id}>{title_of(job)}</Link></td>
-        <td class="whole">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_colour(arms, arm) }}>{shown_name(arm)}</span>)}</td>
+        <td class="whole">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_color(arms, arm) }}>{shown_name(arm)}</span>)}</td>
         <td class="verdict whole">{job.state}</td>
         <td class="mono whole">{seconds(waited_s)}</td>
         <td class="mono whole">{ran}</td>

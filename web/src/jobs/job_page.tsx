@@ -9,7 +9,7 @@ import { Link } from '../route/link';
 import type { Job } from '../server/messages';
 import type { App } from '../state/app';
 import { is_terminal, type Pause } from '../state/job_book';
-import { arm_colour } from '../state/palette';
+import { arm_color } from '../state/palette';
 import { shown_state } from '../state/shown_state';
 import { use_beats } from '../state/seen';
 import { clock, reason_in_words, result_in_words, short_id, wait_in_words, path_in_words } from '../wording';
@@ -44,7 +44,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
     <div class="page">
       <h2 class="ellipsis" title={shown_name(job.name) || job.id}>{shown_name(job.name) || job.id}</h2>
       <p class="hint line">
-        {job.arms.map((arm) => <Link key={arm} app={app} to={{ page: 'arm', name: arm }} class="tag link-tag"><span style={{ color: arm_colour(arms, arm) }}>{shown_name(arm)}</span></Link>)}
+        {job.arms.map((arm) => <Link key={arm} app={app} to={{ page: 'arm', name: arm }} class="tag link-tag"><span style={{ color: arm_color(arms, arm) }}>{shown_name(arm)}</span></Link>)}
         <span class={`state-word ${shown_state(job)}`} data-test="job-state">{shown_state(job)}</span>
         <span class="mono ellipsis">{job.id}</span>
       </p>

@@ -8,7 +8,7 @@ import { Link } from '../route/link';
 import type { Job } from '../server/messages';
 import type { App } from '../state/app';
 import { is_terminal } from '../state/job_book';
-import { arm_colour } from '../state/palette';
+import { arm_color } from '../state/palette';
 import { shown_state } from '../state/shown_state';
 import { use_beats } from '../state/seen';
 import { as_last_heard, figure_in_words, object_of, reason_in_words, result_in_words, short_id, title_of } from '../wording';
@@ -33,11 +33,11 @@ export function Row({ job, app }: Props) {
   return (
     <article
       class={`job ${shown_state(job)}${selected ? ' selected' : ''}${of_arm ? ' of-arm' : ''}`} data-test={`job-${job.id}`} data-state={job.state}
-      style={{ '--arm': arm_colour(arms, job.arms[0] ?? '') }}
+      style={{ '--arm': arm_color(arms, job.arms[0] ?? '') }}
     >
       <Link app={app} to={selected && place.page === 'job' ? { page: 'cell' } : { page: 'job', id: job.id }} class="open" title={kWords.details(job.id)}>
         <span class="line">
-          <span class="tags">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_colour(arms, arm) }}>{shown_name(arm)}</span>)}</span>
+          <span class="tags">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_color(arms, arm) }}>{shown_name(arm)}</span>)}</span>
           <span class="ellipsis title" title={shown_name(job.name) || job.id}>{title_of(job)}</span>
           {job.priority !== 0 && <span class="priority" title={kWords.priority}>{job.priority > 0 ? `+${job.priority}` : job.priority}</span>}
           <span class="grow" />

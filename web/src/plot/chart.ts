@@ -9,7 +9,7 @@ import type { Curves } from '../state/trace';
 import { clock } from '../wording';
 
 const kHeight_px = 170;
-const kColours = 8;
+const kColors = 8;
 const kDashes: readonly number[][] = [[], [8, 3], [2, 3], [10, 3, 2, 3]];
 const kBorders = ['solid', 'dashed', 'dotted', 'double'];
 
@@ -61,11 +61,11 @@ function options_of(joints: readonly string[], width: number, with_plan: boolean
     series: [
       { label: 'at', value: (_, t_s) => (t_s === null ? '' : clock(t_s)) },
       ...(with_plan ? joints.map((joint, i) => ({
-        label: `${joint} planned`, class: 'planned', width: 6, points: { show: false }, spanGaps: true, stroke: `${ink(`--arm-${i % kColours}`)}44`,
+        label: `${joint} planned`, class: 'planned', width: 6, points: { show: false }, spanGaps: true, stroke: `${ink(`--arm-${i % kColors}`)}44`,
       })) : []),
       ...joints.map((joint, i) => ({
         spanGaps: with_plan, label: labels[i] ?? joint, width: 1.5, points: { show: false },
-        stroke: ink(`--arm-${i % kColours}`), dash: kDashes[i % kDashes.length] ?? [],
+        stroke: ink(`--arm-${i % kColors}`), dash: kDashes[i % kDashes.length] ?? [],
         value: (_: uPlot, q: number | null) => (q === null ? '' : q.toFixed(3)),
       })),
     ],

@@ -9,7 +9,7 @@ import type { Comparison, PolicyRun } from '../server/messages';
 import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
 import { kText } from '../strings';
-import { clock, millimetres, seconds, why_not_connected } from '../wording';
+import { clock, millimeters, seconds, why_not_connected } from '../wording';
 import { ends_in_words, share_in_words } from './run_words';
 
 const kWords = kText.policies;
@@ -98,7 +98,7 @@ function Run({ run, jobs, longest_s, app }: { run: PolicyRun; jobs: number; long
       </td>
       <td class="mono">{share_in_words(run.makespan_ratio)}</td>
       <td class="mono">{seconds(run.wait_mean_s)}</td>
-      <td class="mono">{run.min_clearance_m === null ? kWords.never_near : millimetres(run.min_clearance_m)}</td>
+      <td class="mono">{run.min_clearance_m === null ? kWords.never_near : millimeters(run.min_clearance_m)}</td>
       <td>{is_in_force
         ? <span class="dim">{kWords.in_force}</span>
         : <button class="small" data-test={`use-${run.policy}`} disabled={why_disabled !== null} aria-label={kWords.change_to(run.policy)}

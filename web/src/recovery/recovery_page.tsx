@@ -7,7 +7,7 @@ import { Link } from '../route/link';
 import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
-import { arm_colour } from '../state/palette';
+import { arm_color } from '../state/palette';
 import { instant_of, pose_at } from '../state/instant';
 import { use_beats } from '../state/seen';
 import { clock, title_of } from '../wording';
@@ -76,7 +76,7 @@ function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) 
   const need = need_of(arm, job, pose_at(instant_of(app.router.address.value, store), store), next);
   const why_disabled = why_no_command(app) ?? (guarded ? kWords.confirm_first : null);
   return (
-    <li data-test={`need-${arm.name}`} style={{ '--arm': arm_colour([...store.arms.keys()], arm.name) }}>
+    <li data-test={`need-${arm.name}`} style={{ '--arm': arm_color([...store.arms.keys()], arm.name) }}>
       <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{shown_name(arm.name)}</Link><StatePill arm={arm} app={app} /></div>
       <p>{need.words}</p>
       <div class="line">

@@ -1,4 +1,4 @@
-// What the address selects; all views highlight it.
+// The selection of the address; all views highlight it.
 
 import { job_of_side } from '../diagram/sides';
 import type { Store } from '../state/store';

@@ -46,7 +46,7 @@ export type Session = Schemas['Session'];
 /** The same jobs simulated under several policies. */
 export type Comparison = Schemas['Comparison'];
 export type PolicyRun = Schemas['PolicyRun'];
-/** Who has control for jogging. */
+/** The holder of control for jogging. */
 export type Control = Schemas['Control'];
 export type ControlTaken = Schemas['ControlTaken'];
 export type ControlHolder = Schemas['ControlHolder'];

@@ -1,4 +1,4 @@
-// What every part of the page receives: state, commands, address, settings.
+// The object that every part of the page receives: state, commands, address, settings.
 
 import type { Signal } from '@preact/signals';
 import type { JogControl } from '../control/jog_control';

@@ -4,9 +4,9 @@
 import type { CellState } from '../server/messages';
 import type { ShownState } from './shown_state';
 
-const kArmColours = 8;
+const kArmColors = 8;
 
-export const kStateColours: Record<ShownState, string> = {
+export const kStateColors: Record<ShownState, string> = {
   idle: 'var(--idle)',
   moving: 'var(--moving)',
   paused: 'var(--paused)',
@@ -22,12 +22,12 @@ export const kStateGlyphs: Record<ShownState, string> = {
 };
 
 /** Returns the arm's color, by its position in the cell. */
-export function arm_colour(arms: readonly string[], arm: string): string {
-  return `var(--arm-${Math.max(0, arms.indexOf(arm)) % kArmColours})`;
+export function arm_color(arms: readonly string[], arm: string): string {
+  return `var(--arm-${Math.max(0, arms.indexOf(arm)) % kArmColors})`;
 }
 
 /** The cells of a diagram, in both themes. */
-export const kCellColours: Record<CellState, string> = {
+export const kCellColors: Record<CellState, string> = {
   free: '#c3cfdb',
   conflict: '#e0454e',
   undecided: '#f0b541',
@@ -38,9 +38,9 @@ export const kUndecidedStripes = '#6e4c00';
 const known = new Map<string, string>();
 
 /** Returns the theme's value of `var(--name)` or `--name`; other colors unchanged. */
-export function ink(colour: string): string {
-  const name = /--[\w-]+/.exec(colour)?.[0];
-  if (name === undefined) return colour;
+export function ink(color: string): string {
+  const name = /--[\w-]+/.exec(color)?.[0];
+  if (name === undefined) return color;
   let found = known.get(name);
   if (found === undefined) {
     found = getComputedStyle(document.documentElement).getPropertyValue(name).trim();

@@ -1,4 +1,4 @@
-// What the user may do, by role. The server decides; the page explains it beforehand.
+// The permissions of the user, by role. The server decides; the page explains it beforehand.
 
 import type { Session } from '../server/messages';
 import { why_not_connected } from '../wording';

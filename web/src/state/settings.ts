@@ -6,7 +6,7 @@ import { forget_inks } from './palette';
 export type Theme = 'system' | 'dark' | 'light';
 export type ShownTheme = 'dark' | 'light';
 
-/** What the 3D view shows: tool paths with authority, ghosts of end positions, closest pairs. */
+/** The optional parts of the 3D view: tool paths with authority, ghosts of end positions, closest pairs. */
 export interface Shows { paths: boolean; ghosts: boolean; distances: boolean }
 
 const kShowsAll: Shows = { paths: true, ghosts: true, distances: true };

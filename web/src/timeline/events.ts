@@ -11,7 +11,7 @@ const kWords = kText.timeline;
 
 export type EventMark = Pick<Notice, 'key' | 't_s' | 'level' | 'text' | 'arms'>;
 
-const kColours: Record<EventMark['level'], string> = { info: '--dim', warning: '--amber', error: '--red' };
+const kColors: Record<EventMark['level'], string> = { info: '--dim', warning: '--amber', error: '--red' };
 const kNames: Record<EventMark['level'], string> = { info: kWords.note, warning: kWords.warning, error: kWords.error };
 const kHeight_px = 9;
 // Marks are narrower than a pointer's precision.
@@ -24,7 +24,7 @@ export function draw_events(g: CanvasRenderingContext2D, sheet: Sheet, events: r
   for (const event of [...events].reverse()) {
     const at = Math.round(sheet.x(event.t_s));
     if (at < kLeft_px || at > sheet.width) continue;
-    g.fillStyle = ink(kColours[event.level]);
+    g.fillStyle = ink(kColors[event.level]);
     g.beginPath();
     if (event.level === 'info') g.rect(at - 1, foot - 6, 2, 6);
     else for (const [x, y] of [[at, foot - 8], [at + 5, foot], [at - 5, foot]] as const) g.lineTo(x, y);

@@ -1,7 +1,7 @@
 // Draws the timeline on a canvas: axis, lanes, marks, and lines from waits to their blockers.
 
 import type { Pause } from '../state/job_book';
-import { arm_colour, ink } from '../state/palette';
+import { arm_color, ink } from '../state/palette';
 import { short_id } from '../wording';
 import { draw_events, type EventMark } from './events';
 import { drawn_of, type Lane, type Mark } from './lanes';
@@ -30,7 +30,7 @@ const kHatch_px = 5;
 const kLeast_px = 2;
 
 /** `covers`: where bars are hidden, under pauses and stops and outside of the sheet. */
-interface Row { top: number; height: number; colour: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number; covers: readonly Stretch[] }
+interface Row { top: number; height: number; color: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number; covers: readonly Stretch[] }
 
 export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly Lane[], lit: Lit, pointed: Pointed): void {
   const { mark: hover } = pointed;
@@ -69,7 +69,7 @@ function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number, p
     { from: -Infinity, to: kLeft_px }, { from: sheet.width - kRight_px, to: Infinity },
     ...pauses.map(({ from_s, to_s }) => ({ from: sheet.x(from_s), to: sheet.x(to_s ?? sheet.now_s) })),
   ];
-  return { top, height, colour: ink(arm_colour(arms, arm)), bar_top, bar_height, wait_top: bar_top + bar_height + gap, wait_height, covers };
+  return { top, height, color: ink(arm_color(arms, arm)), bar_top, bar_height, wait_top: bar_top + bar_height + gap, wait_height, covers };
 }
 
 function is_dim(mark: Mark, arm: string, lit: Lit): boolean {
@@ -131,7 +131,7 @@ function draw_shown_time(g: CanvasRenderingContext2D, sheet: Sheet, shown_s: num
 }
 
 function draw_name(g: CanvasRenderingContext2D, row: Row, name: string): void {
-  g.fillStyle = row.colour;
+  g.fillStyle = row.color;
   g.font = `600 ${row.height < 18 ? 10.5 : 12}px ${kFont}`;
   g.textAlign = 'left';
   g.textBaseline = 'middle';
@@ -156,7 +156,7 @@ function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Ma
   if (right < kLeft_px || left > sheet.width) return;
   const width = right - left;
   g.globalAlpha = dim ? 0.28 : 1;
-  if (mark.kind === 'wait') hatch(g, { left, top: row.wait_top, width, height: row.wait_height }, mark.stopped ? ink('--alarm') : row.colour, hover);
+  if (mark.kind === 'wait') hatch(g, { left, top: row.wait_top, width, height: row.wait_height }, mark.stopped ? ink('--alarm') : row.color, hover);
   else if (mark.kind === 'pause') draw_pause(g, row, left, width, mark.stopped, hover);
   else if (mark.expected) draw_expected(g, row, mark, left, width, dim, hover);
   else draw_motion(g, row, mark, left, width, dim, hover);
@@ -190,7 +190,7 @@ function draw_motion(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: nu
   const live = mark.state === 'running' || mark.state === 'paused';
   const strength = live || hover ? 1 : mark.state === 'canceled' ? 0.22 : 0.4;
   g.globalAlpha = (dim ? 0.3 : 1) * strength;
-  g.fillStyle = failed ? ink('--alarm') : row.colour;
+  g.fillStyle = failed ? ink('--alarm') : row.color;
   bar(g, left, row.bar_top, width - 1, row.bar_height);
   g.fill();
   g.globalAlpha = dim ? 0.4 : 1;
@@ -198,12 +198,12 @@ function draw_motion(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: nu
 }
 
 function draw_expected(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, dim: boolean, hover: boolean): void {
-  g.fillStyle = row.colour;
+  g.fillStyle = row.color;
   g.globalAlpha = (dim ? 0.3 : 1) * (hover ? 0.35 : 0.13);
   bar(g, left + 0.5, row.bar_top + 0.5, width - 2, row.bar_height - 1);
   g.fill();
   g.globalAlpha = dim ? 0.3 : 0.9;
-  g.strokeStyle = row.colour;
+  g.strokeStyle = row.color;
   g.lineWidth = 1;
   g.stroke();
   label(g, row, mark, left, width, ink('--text'));
@@ -223,7 +223,7 @@ function bar(g: CanvasRenderingContext2D, left: number, top: number, width: numb
 }
 
 /** Draws the longest form of the name that fits the visible part of the bar; none is cut. */
-function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, colour: string): void {
+function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, color: string): void {
   if (row.bar_height < 11 || width < 16) return;
   g.font = `500 10.5px ${kFont}`;
   g.textAlign = 'left';
@@ -234,7 +234,7 @@ function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, 
   const name = shown_name(mark.label);
   const text = [name, name.replace(/^[^:]*: /, ''), short_id(mark.job)].find((name) => name !== '' && g.measureText(name).width < room);
   if (!text) return;
-  g.fillStyle = colour;
+  g.fillStyle = color;
   g.fillText(text, seen.from + 5, row.bar_top + row.bar_height / 2 + 0.5);
 }
 
@@ -250,8 +250,8 @@ function draw_threads(g: CanvasRenderingContext2D, sheet: Sheet, lane: Lane, i: 
     const y0 = mark.kind === 'wait' ? from.wait_top + (down ? from.wait_height : 0) : from.bar_top + (down ? from.bar_height : 0);
     const y1 = to.bar_top + (down ? 0 : to.bar_height);
     g.globalAlpha = mark === hover ? 1 : 0.75;
-    g.strokeStyle = to.colour;
-    g.fillStyle = to.colour;
+    g.strokeStyle = to.color;
+    g.fillStyle = to.color;
     g.lineWidth = mark === hover ? 2 : 1.2;
     line(g, at, y0, at, y1);
     g.beginPath();
@@ -264,13 +264,13 @@ function draw_threads(g: CanvasRenderingContext2D, sheet: Sheet, lane: Lane, i: 
 /** Rising stripes for waits, falling stripes for pauses, to be told apart without colors. */
 interface Stripes { left: number; top: number; width: number; height: number; falls?: boolean }
 
-function hatch(g: CanvasRenderingContext2D, { left, top, width, height, falls = false }: Stripes, colour: string, strong: boolean): void {
+function hatch(g: CanvasRenderingContext2D, { left, top, width, height, falls = false }: Stripes, color: string, strong: boolean): void {
   g.save();
   g.beginPath();
   g.rect(left, top, width, height);
   g.clip();
   g.globalAlpha *= strong ? 1 : 0.7;
-  g.strokeStyle = colour;
+  g.strokeStyle = color;
   g.lineWidth = strong ? 1.8 : 1.2;
   // Anchored to the bar's start, so that stripes move with it.
   const shown = Math.max(left, 0);

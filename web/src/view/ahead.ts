@@ -5,7 +5,7 @@ import * as THREE from 'three';
 import type { Motion } from '../motion/motion';
 import type { Cell, Job } from '../server/messages';
 import type { App } from '../state/app';
-import { arm_colour, ink } from '../state/palette';
+import { arm_color, ink } from '../state/palette';
 import { Ghosts } from './ghosts';
 import { Kinematics } from './kinematics';
 import type { Surfaces } from './surfaces';
@@ -116,7 +116,7 @@ export class Ahead {
     }
     if (points.length === 0) return;
     const path = new Path(points, motion.duration_s);
-    path.paint(ink(arm_colour([...this.app_.store.arms.keys()], arm)));
+    path.paint(ink(arm_color([...this.app_.store.arms.keys()], arm)));
     this.paths_.set(key, { path, arm, job: job.id, motion });
     this.group.add(path.group);
   }
@@ -137,7 +137,7 @@ export class Ahead {
     const at = ends.join('\n');
     if (at === this.ghosts_at_) return;
     const names = [...this.app_.store.arms.keys()];
-    const all = this.ghosts_.show({ q: ends.length === 0 ? null : q, now: this.app_.store.q }, this.cell_, surfaces, (arm) => ink(arm_colour(names, arm)));
+    const all = this.ghosts_.show({ q: ends.length === 0 ? null : q, now: this.app_.store.q }, this.cell_, surfaces, (arm) => ink(arm_color(names, arm)));
     this.lacks_ghosts = !all;
     this.ghosts_at_ = all ? at : `${at}\n${this.ghosts_.count}`;
   }

@@ -10,7 +10,7 @@ import type { Shows } from '../state/settings';
 import { instant_of, why_unheard } from '../state/instant';
 import { is_known, seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
-import { clearance_in_words, clock, millimetres } from '../wording';
+import { clearance_in_words, clock, millimeters } from '../wording';
 import type { CellView } from './cell_view';
 import { kText } from '../strings';
 import { step_of_key, type CameraStep } from './steer';
@@ -161,7 +161,7 @@ function ClearanceFigure({ app }: { app: App }) {
   const level = nearest.m < limit_m ? 'low' : nearest.m < 3 * limit_m ? 'near' : '';
   return (
     <div class={`clearance ${level}`} title={kWords.clearance_title}>
-      <span class="dim">{level === 'low' ? kWords.too_close : ''}{clearance_in_words(nearest)}</span> <b class="mono">{millimetres(nearest.m)}</b>
+      <span class="dim">{level === 'low' ? kWords.too_close : ''}{clearance_in_words(nearest)}</span> <b class="mono">{millimeters(nearest.m)}</b>
       <div class="small dim">{nearest.links[0]} – {nearest.links[1]}</div>
     </div>
   );

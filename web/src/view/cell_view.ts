@@ -5,7 +5,7 @@ import type { Arm, Cell } from '../server/messages';
 import type { Address, Camera } from '../route/address';
 import type { Selection } from '../route/selection';
 import type { App } from '../state/app';
-import { arm_colour, ink } from '../state/palette';
+import { arm_color, ink } from '../state/palette';
 import { instant_of, pose_at, type Instant } from '../state/instant';
 import type { Store } from '../state/store';
 import { arm_in_words } from '../wording';
@@ -106,8 +106,8 @@ export class CellView {
   show_ghost(q: Readonly<Record<string, number>> | null): void {
     if (!this.cell_) return;
     const names = [...this.store_.arms.keys()];
-    const colour = (arm: string) => ink(arm_colour(names, arm));
-    while (!this.ghosts_.show({ q, now: this.store_.q }, this.cell_, this.surfaces_, colour));
+    const color = (arm: string) => ink(arm_color(names, arm));
+    while (!this.ghosts_.show({ q, now: this.store_.q }, this.cell_, this.surfaces_, color));
     this.stage_.invalidate(true);
   }
 

@@ -4,7 +4,7 @@
 import * as THREE from 'three';
 import type { Clearance } from '../server/messages';
 import { ink } from '../state/palette';
-import { millimetres } from '../wording';
+import { millimeters } from '../wording';
 import { FinishedMesh } from './finish';
 import { closest_points, corners_of, type Surface } from './closest';
 import { stacked } from './stacking';
@@ -72,7 +72,7 @@ export class Distances {
     shown.line.geometry.setFromPoints(points);
     (shown.line.material as THREE.LineBasicMaterial).color.set(ink(level === 'low' ? '--red' : level === 'near' ? '--amber' : '--text'));
     shown.middle.copy(points[0]).add(points[1]).multiplyScalar(0.5);
-    const figure = millimetres(m);
+    const figure = millimeters(m);
     if (figure.length !== shown.element.textContent?.length) shown.width_px = 0;  // measured by place()
     shown.element.textContent = figure;
     shown.element.className = `distance-label ${level}`;

@@ -23,7 +23,7 @@ export class Ghosts {
    * Shows the robots of the given joints, or no ghost if null. Robots are built on first use, one
    * per call, because building is slow. Returns false while robots are missing.
    */
-  show({ q, now }: Poses, cell: Cell, surfaces: Surfaces, colour: (arm: string) => string): boolean {
+  show({ q, now }: Poses, cell: Cell, surfaces: Surfaces, color: (arm: string) => string): boolean {
     for (const model of this.models_.values()) model.root.visible = false;
     let built = 0;
     for (const robot of q ? cell.robots : []) {
@@ -31,7 +31,7 @@ export class Ghosts {
       if (!arm) continue;
       const known = this.models_.get(robot.name);
       if (!known && ++built > 1) return false;
-      const model = known ?? this.add(robot, surfaces, colour(arm.name));
+      const model = known ?? this.add(robot, surfaces, color(arm.name));
       model.root.visible = true;
       model.set_q({ ...now, ...q });
     }
@@ -43,10 +43,10 @@ export class Ghosts {
     return this.models_.size;
   }
 
-  private add(robot: CellRobot, surfaces: Surfaces, colour: string): Model {
+  private add(robot: CellRobot, surfaces: Surfaces, color: string): Model {
     const model = this.build_(robot, surfaces);
     this.models_.set(robot.name, model);
-    paint(model.root, colour, this.opacity_);
+    paint(model.root, color, this.opacity_);
     this.group.add(model.root);
     return model;
   }
@@ -59,8 +59,8 @@ export class Ghosts {
   }
 }
 
-function paint(root: THREE.Object3D, colour: string, opacity: number): void {
-  const skin = new THREE.MeshStandardMaterial({ color: colour, transparent: true, opacity, depthWrite: false, roughness: 0.6, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 4 });
+function paint(root: THREE.Object3D, color: string, opacity: number): void {
+  const skin = new THREE.MeshStandardMaterial({ color: color, transparent: true, opacity, depthWrite: false, roughness: 0.6, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 4 });
   const quick_skin = quick_material(skin);
   root.traverse((node) => {
     if (!(node instanceof THREE.Mesh)) return;

@@ -1,6 +1,6 @@
 // A label under each arm with name and state, in words, glyph and color.
 
-import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
+import { arm_color, kStateColors, kStateGlyphs } from '../state/palette';
 import type { ShownState } from '../state/shown_state';
 import { stacked, within_room } from './stacking';
 import { shown_name } from '../names';
@@ -38,8 +38,8 @@ export class ArmLabels {
     label.state.textContent = words;
     label.element.classList.toggle('alarmed', state === 'stopped' || state === 'fault');
     label.element.classList.toggle('short', arms.length > kMostInWords);
-    label.element.style.setProperty('--arm', arm_colour(arms, arm));
-    label.element.style.setProperty('--state', kStateColours[state]);
+    label.element.style.setProperty('--arm', arm_color(arms, arm));
+    label.element.style.setProperty('--state', kStateColors[state]);
   }
 
   light(arms: readonly string[]): void {

@@ -32,8 +32,8 @@ export class Path {
     for (const part of this.group.children) part.frustumCulled = false;
   }
 
-  paint(colour: string): void {
-    for (const part of [this.line_, this.granted_, this.beyond_, this.mark_]) (part.material as THREE.PointsMaterial).color.set(colour);
+  paint(color: string): void {
+    for (const part of [this.line_, this.granted_, this.beyond_, this.mark_]) (part.material as THREE.PointsMaterial).color.set(color);
   }
 
   /** Shows the rest of the path from `from_s`, bright up to `granted_s`. */

@@ -7,7 +7,7 @@
 import * as THREE from 'three';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
 import type { CellArm, CellRobot } from '../server/messages';
-import { ink, kStateColours } from '../state/palette';
+import { ink, kStateColors } from '../state/palette';
 import { FinishedMesh } from './finish';
 import type { ShownState } from '../state/shown_state';
 import type { Surfaces } from './surfaces';
@@ -60,7 +60,7 @@ export class RobotModel {
   show_state(arm: string, state: ShownState): void {
     const mark = this.marks_.get(arm);
     if (!mark) return;
-    mark.ring.material.color.set(ink(kStateColours[state]));
+    mark.ring.material.color.set(ink(kStateColors[state]));
     mark.ring.material.opacity = state === 'idle' ? 0.5 : 0.95;
     const alarmed = state === 'fault' || state === 'stopped';
     this.skin_.emissive.set(alarmed ? 0x4a0d10 : 0x000000);
@@ -167,12 +167,12 @@ export function choose_shapes(root: Pick<URDFRobot, 'links'>): void {
   for (const { link, visuals, colliders } of links) {
     const named = visuals.flatMap(meshes_below);
     const by_colliders = !named.some(is_read) && (named.length > 0 || !any_visual);
-    const colour = named.find((mesh) => !is_read(mesh))?.material;
+    const color = named.find((mesh) => !is_read(mesh))?.material;
     for (const node of by_colliders ? visuals : colliders) node.removeFromParent();
     const drawn = (by_colliders ? colliders : visuals).flatMap(meshes_below);
     for (const mesh of drawn) {
       if (!is_read(mesh)) mesh.removeFromParent();
-      else if (by_colliders && colour) mesh.material = colour;
+      else if (by_colliders && color) mesh.material = color;
     }
     if (drawn.length > 0 && !drawn.some(is_read)) link.add(new THREE.Mesh(mark_geometry(), new THREE.MeshPhongMaterial()));
   }

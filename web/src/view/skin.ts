@@ -89,9 +89,9 @@ function painted(mesh: THREE.Mesh, link: THREE.Object3D, rounds: Rounds): THREE.
   geometry.morphAttributes = {};
   const material = [mesh.material].flat()[0] as THREE.MeshPhongMaterial;
   const count = geometry.getAttribute('position').count;
-  const colours = new Float32Array(3 * count);
-  for (let i = 0; i < count; i++) material.color.toArray(colours, 3 * i);
-  geometry.setAttribute('color', new THREE.BufferAttribute(colours, 3));
+  const colors = new Float32Array(3 * count);
+  for (let i = 0; i < count; i++) material.color.toArray(colors, 3 * i);
+  geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3));
   return X_LM.determinant() < 0 ? turned_inside_out(geometry) : geometry;
 }
 

@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 import type { Arm } from '../server/messages';
-import { arm_colour, ink } from '../state/palette';
+import { arm_color, ink } from '../state/palette';
 import type { Robots } from './robots';
 
 const kPoints = 120;
@@ -28,21 +28,21 @@ export class ToolPath {
   }
 
   /** Adds the tool's position at a cell time, in the arm's color. */
-  pass(t_s: number, p_W: THREE.Vector3, colour: THREE.Color): void {
+  pass(t_s: number, p_W: THREE.Vector3, color: THREE.Color): void {
     const last = this.passed_.at(-1);
     if (last && t_s < last.t_s) this.clear();
     if (!last || last.p_W.distanceTo(p_W) > kLeastStep_m) this.passed_.push({ t_s, p_W: p_W.clone() });
     while (this.passed_.length > kPoints || (this.passed_[0] && this.passed_[0].t_s < t_s - kLasts_s)) this.passed_.shift();
-    this.draw(t_s, colour);
+    this.draw(t_s, color);
   }
 
-  private draw(t_s: number, colour: THREE.Color): void {
+  private draw(t_s: number, color: THREE.Color): void {
     const { geometry } = this.line;
     const position = geometry.getAttribute('position');
     const shade = geometry.getAttribute('color');
     this.passed_.forEach((passed, i) => {
       position.setXYZ(i, passed.p_W.x, passed.p_W.y, passed.p_W.z);
-      shade.setXYZW(i, colour.r, colour.g, colour.b, 1 - (t_s - passed.t_s) / kLasts_s);
+      shade.setXYZW(i, color.r, color.g, color.b, 1 - (t_s - passed.t_s) / kLasts_s);
     });
     position.needsUpdate = true;
     shade.needsUpdate = true;
@@ -64,17 +64,17 @@ export class ToolPaths {
     const names = [...arms.keys()];
     for (const arm of arms.values()) {
       const p_W = robots.get(arm.robot)?.tool(arm.name);
-      if (p_W) this.pass(arm.name, t_s, p_W, ink(arm_colour(names, arm.name)));
+      if (p_W) this.pass(arm.name, t_s, p_W, ink(arm_color(names, arm.name)));
     }
   }
 
-  private pass(arm: string, t_s: number, p_W: THREE.Vector3, colour: string): void {
+  private pass(arm: string, t_s: number, p_W: THREE.Vector3, color: string): void {
     let path = this.paths_.get(arm);
     if (!path) {
       path = new ToolPath();
       this.paths_.set(arm, path);
       this.group.add(path.line);
     }
-    path.pass(t_s, p_W, new THREE.Color(colour));
+    path.pass(t_s, p_W, new THREE.Color(color));
   }
 }

@@ -17,7 +17,7 @@ const kLeastOfFour = 12;
 
 const [dark = '', light = ''] = css.split(":root[data-theme='light']");
 
-function colour(theme: string, name: string): Triple {
+function color(theme: string, name: string): Triple {
   const hex = new RegExp(`${name}: #([0-9a-f]{6})`).exec(theme)?.[1];
   if (hex === undefined) throw new Error(`no ${name}`);
   const [r, g, b] = [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255).map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
@@ -33,11 +33,11 @@ function lab(rgb: Triple): Triple {
 }
 
 function apart(theme: string, a: number, b: number, eye: Eye): number {
-  const [p, q] = [a, b].map((i) => lab(times(kEyes[eye], colour(theme, `--arm-${i}`)))) as [Triple, Triple];
+  const [p, q] = [a, b].map((i) => lab(times(kEyes[eye], color(theme, `--arm-${i}`)))) as [Triple, Triple];
   return Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
-describe.each([['dark', dark], ['light', light]])('Colours of arms, %s', (_, theme) => {
+describe.each([['dark', dark], ['light', light]])('Colors of arms, %s', (_, theme) => {
   it.each(Object.keys(kEyes) as Eye[])('tell the first arms apart for an eye with %s', (eye) => {
     expect(apart(theme, 0, 1, eye)).toBeGreaterThan(kLeastOfTwo);
     for (const a of [0, 1, 2, 3]) for (let b = a + 1; b < 4; b++) expect(apart(theme, a, b, eye), `arms ${a} and ${b}`).toBeGreaterThan(kLeastOfFour);
