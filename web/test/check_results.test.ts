@@ -6,8 +6,8 @@ import { wait_json } from './samples';
 
 const wait = (kind: string) => wait_json({ kind }) as WaitsOn;
 
-describe('a job that was asked about', () => {
-  it('merely comes after others where nothing but their order is in its way', () => {
+describe('Check result', () => {
+  it('says that a job waits its turn if only predecessors block it', () => {
     expect(only_in_turn({ verdict: 'conflict', waits_on: [wait('predecessor'), wait('predecessor')] })).toBe(true);
     expect(only_in_turn({ verdict: 'conflict', waits_on: [wait('predecessor'), wait('job')] })).toBe(false);
     expect(only_in_turn({ verdict: 'conflict', waits_on: [] })).toBe(false);
@@ -15,8 +15,8 @@ describe('a job that was asked about', () => {
   });
 });
 
-describe('what was pasted', () => {
-  it('is told as YAML where it begins as ROS prints it', () => {
+describe('Pasted text', () => {
+  it('is recognized as YAML in the format of ROS tools', () => {
     expect(['joint_names:\n- a', '---\ntrajectory:', 'header:\n  stamp: 1'].map(is_yaml)).toEqual([true, true, true]);
     expect(['{"a": 1}', '[1]', '', 'hello', '"a: b"'].map(is_yaml)).toEqual(Array(5).fill(false));
   });

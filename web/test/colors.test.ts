@@ -37,8 +37,8 @@ function apart(theme: string, a: number, b: number, eye: Eye): number {
   return Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
-describe.each([['dark', dark], ['light', light]])('Colors of arms, %s', (_, theme) => {
-  it.each(Object.keys(kEyes) as Eye[])('tell the first arms apart for an eye with %s', (eye) => {
+describe.each([['dark', dark], ['light', light]])('Arm colors, %s', (_, theme) => {
+  it.each(Object.keys(kEyes) as Eye[])('are distinguishable with %s', (eye) => {
     expect(apart(theme, 0, 1, eye)).toBeGreaterThan(kLeastOfTwo);
     for (const a of [0, 1, 2, 3]) for (let b = a + 1; b < 4; b++) expect(apart(theme, a, b, eye), `arms ${a} and ${b}`).toBeGreaterThan(kLeastOfFour);
   });

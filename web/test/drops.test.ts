@@ -40,23 +40,23 @@ function folder_of(entries: readonly object[]) {
   };
 }
 
-describe('what is dropped on the page', () => {
+describe('Dropped files', () => {
   beforeEach(() => { drop_fault.value = null; });
 
-  it('is a recording when it is a folder, all of whose files are found', async () => {
+  it('are a recording if they are a folder; all its files are found', async () => {
     const { drop, opened, places } = page();
     const files = ['summary.json', 'states.csv', 'jobs.json', 'notes.txt', 'events.jsonl'].map((name) => new File(['x'], name));
     expect(await drop([folder_of([folder_of([]), ...files.map(entry_of)])], [unreadable])).toBe(true);
     expect([opened, places, drop_fault.value]).toEqual([[[['states.csv', 'events.jsonl'], 'run']], ['recordings'], null]);
   });
 
-  it('is looked for in a folder that holds none, so that the page says so', async () => {
+  it('are reported if a folder has no recording', async () => {
     const { drop, opened, places } = page();
     await drop([folder_of([entry_of(new File(['{}'], 'jobs.json'))])], [unreadable]);
     expect([opened, places]).toEqual([[[[], 'run']], ['recordings']]);
   });
 
-  it('is a job when it is one file of another kind', async () => {
+  it('are a job if they are one file of another kind', async () => {
     const { drop, draft, opened, places } = page();
     const file = new File(['{"id": "x"}'], 'job.json');
     files_over.value = true;
@@ -64,7 +64,7 @@ describe('what is dropped on the page', () => {
     expect([draft.value, opened, places, files_over.value, drop_fault.value]).toEqual(['{"id": "x"}', [], ['new'], false, null]);
   });
 
-  it('is not left out without a word', async () => {
+  it('are reported if they are not used', async () => {
     const { drop, draft } = page();
     const [first, second] = ['a.json', 'b.json'].map((name) => new File(['{}'], name));
     await drop([first, second].map((file) => entry_of(file!)), [first!, second!]);
@@ -73,7 +73,7 @@ describe('what is dropped on the page', () => {
     expect(drop_fault.value).toMatch(/cannot be read: .*NotFoundError/);
   });
 
-  it('is the browser\'s matter when it is no file', async () => {
+  it('are left to the browser if there is no file', async () => {
     const { drop, opened, places } = page();
     expect([await drop([], []), opened, places]).toEqual([false, [], []]);
   });

@@ -23,8 +23,8 @@ function planner() {
   return { asked, api: { plan } };
 }
 
-describe('a pasted goal', () => {
-  it('is shown by the way that the server would plan now', async () => {
+describe('Pasted goal', () => {
+  it('is previewed by the path that the server would plan now', async () => {
     const { api, asked } = planner();
     const batch = read_batch('{"id": "go", "arm": "left", "move_to": {"named": "ready"}, "velocity_scaling_factor": 0.5}');
     expect(motion_of(batch)).toBeNull();
@@ -35,7 +35,7 @@ describe('a pasted goal', () => {
     expect(motion_of(paths.batch)?.q_at(2)).toEqual({ left_panda_joint1: 0.3, left_panda_joint2: -1 });
   });
 
-  it('in a batch begins where the job before it has led its arm', async () => {
+  it('starts where the previous job of the batch leaves its arm', async () => {
     const { api, asked } = planner();
     const batch = read_batch(JSON.stringify([
       { trajectory: { joint_names: arms.get('left')?.joints, points: [{ positions: [0, 0], time_from_start: 0 }, { positions: [1, 2], time_from_start: 1 }] } },
@@ -46,13 +46,13 @@ describe('a pasted goal', () => {
     expect(motion_of(paths.batch)?.q_at(3)).toMatchObject({ left_panda_joint1: 3, left_panda_joint2: 4 });
   });
 
-  it('that has no way says why, and nothing behind it is shown as if it had', async () => {
+  it('without a path says why, and later goals are not previewed', async () => {
     const { api } = planner();
     const batch = read_batch('[{"arm": "left", "move_to": {"joints": [9, 0]}}, {"arm": "left", "move_to": {"named": "ready"}}]');
     expect(await paths_to_goals(batch, known, api)).toMatchObject({ planned: 0, left_out: 1, problem: { title: 'No plan' } });
   });
 
-  it('is not asked about while it is half typed, or names what the cell has not', () => {
+  it('is not planned while incomplete or unknown to the cell', () => {
     for (const text of ['{"arm": "left", "move_to": ', '{"arm": "lef", "move_to": {"named": "ready"}}', '{"arm": "left", "move_to": {"named": "rea"}}',
       '{"arm": "left", "move_to": {"joints": [1]}}', '{"arm": "left", "move_to": {}}', '{"arm": "left", "move_to": {"pose": {"xyz": [1, 2]}}}', '{"arms": [], "move_to": {"named": "home"}}', '[]', '7']) {
       expect(has_goal(read_batch(text), known), text).toBe(false);

@@ -40,8 +40,8 @@ async function refuse_held({ jogging, timers, server, accept }: ReturnType<typeo
   await settled();
 }
 
-describe('moves by hand', () => {
-  it('go on only as long as they are renewed, and end at once when the button is let go', async () => {
+describe('Jogging', () => {
+  it('continues only while renewed, and ends at once on release', async () => {
     const { jogging, said, timers, accept } = bench();
     await jogging.press('left', 'ready');
     expect(said).toEqual([]);  // without control nothing is asked
@@ -58,7 +58,7 @@ describe('moves by hand', () => {
     expect(timers).toEqual([]);
   });
 
-  it('that are let go before the server has answered are canceled when it does', async () => {
+  it('is canceled if released before the server answers', async () => {
     const { jogging, said, accept } = bench();
     await jogging.take('Ada');
     void jogging.press('left', 'ready');
@@ -70,7 +70,7 @@ describe('moves by hand', () => {
     expect(jogging.pressed.value).toBeNull();
   });
 
-  it('end when somebody else takes control, and say so', async () => {
+  it('ends when somebody else takes control, and says so', async () => {
     const pressed = bench();
     const { jogging, server } = pressed;
     server.holder = holder('Bob');
@@ -78,7 +78,7 @@ describe('moves by hand', () => {
     expect([jogging.pressed.value, jogging.key.value, jogging.refusal.value, jogging.holder.value?.who]).toEqual([null, null, 'Bob has control', 'Bob']);
   });
 
-  it('say so when the server was told too late', async () => {
+  it('says that the renewal came too late', async () => {
     const pressed = bench();
     const { jogging } = pressed;
     await refuse_held(pressed, 'jog-lease-expired');
@@ -86,7 +86,7 @@ describe('moves by hand', () => {
     expect(jogging.refusal.value).toMatch(/^The jog motion was stopped.*press it again/);
   });
 
-  it('are asked for no more once the arm is there: nothing is renewed, nothing canceled', async () => {
+  it('stops renewing at the goal, without a cancel', async () => {
     const { jogging, said, timers, server, accept } = bench();
     await jogging.take('Ada');
     void jogging.press('left', 'ready');
@@ -100,7 +100,7 @@ describe('moves by hand', () => {
     expect([jogging.pressed.value, jogging.refusal.value, timers.length]).toEqual([null, null, 0]);
   });
 
-  it('end when it is told that somebody else has control, before anything is refused', async () => {
+  it('ends when the page learns that somebody else has control', async () => {
     const { jogging, said, server, accept } = bench();
     await jogging.take('Ada');
     await jogging.look();
@@ -114,7 +114,7 @@ describe('moves by hand', () => {
     expect(said).not.toContain('cancel h');
   });
 
-  it('end when control is given back', async () => {
+  it('ends when control is released', async () => {
     const { jogging, said, accept } = bench();
     await jogging.take('Ada');
     void jogging.press('left', 'ready');

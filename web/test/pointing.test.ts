@@ -28,8 +28,8 @@ function timeline() {
   return { drawing, seen, on, at, canvas };
 }
 
-describe('a pointer on the timeline', () => {
-  it('is told what is under it, and nothing where there is nothing', () => {
+describe('Pointer on the timeline', () => {
+  it('shows what is under it', () => {
     const { seen, on, at, canvas } = timeline();
     on.onPointerMove(at(80));
     expect(seen.tips.at(-1)?.words).toMatch(/pick/);
@@ -39,7 +39,7 @@ describe('a pointer on the timeline', () => {
     expect(canvas.classList.toggle).toHaveBeenLastCalledWith('leads', false);
   });
 
-  it('leads to a job by a click, also by a hand that is not quite still', () => {
+  it('opens a job by a click, also with small movements', () => {
     const { seen, on, at } = timeline();
     on.onPointerDown(at(80));
     on.onPointerMove(at(80.3));
@@ -48,14 +48,14 @@ describe('a pointer on the timeline', () => {
     expect(seen.spans).toEqual([]);
   });
 
-  it('looks back at what was reported, by a click on its notch', () => {
+  it('goes to an event by a click on its mark', () => {
     const { seen, on, at } = timeline();
     on.onPointerDown(at(95, kHeight - kAxis_px - 3));
     on.onPointerUp(at(95, kHeight - kAxis_px - 3));
     expect([seen.held, seen.went]).toEqual([[95], []]);
   });
 
-  it('moves the sheet by as much as it is dragged, and leads nowhere when it is let go over a job', () => {
+  it('drags the sheet by its movement, and opens nothing on release', () => {
     const { seen, on, at } = timeline();
     on.onPointerDown(at(60));
     on.onPointerMove(at(65));
@@ -66,7 +66,7 @@ describe('a pointer on the timeline', () => {
     expect(seen.went).toEqual([]);
   });
 
-  it('leads nowhere where it went down elsewhere, or was taken away', () => {
+  it('opens nothing after a press elsewhere or a cancel', () => {
     const { seen, on, at } = timeline();
     on.onPointerUp(at(80));
     on.onPointerDown(at(80));
@@ -75,7 +75,7 @@ describe('a pointer on the timeline', () => {
     expect([seen.went, seen.held]).toEqual([[], []]);
   });
 
-  it('zooms about itself by its wheel, once the sheet is held', () => {
+  it('zooms about itself with the wheel once the range is fixed', () => {
     const { drawing, seen, on, at } = timeline();
     drawing.span = { length_s: 50, fixed_from_s: 62.5 };
     on.onWheel(at(80, kLane_px, { deltaY: -1 }));
@@ -86,7 +86,7 @@ describe('a pointer on the timeline', () => {
     expect(seen.spans.at(-1)?.length_s).toBeCloseTo(60, 9);
   });
 
-  it('says nothing any more once it has gone', () => {
+  it('shows nothing after leaving', () => {
     const { drawing, seen, on, at } = timeline();
     on.onPointerMove(at(80));
     on.onPointerLeave();

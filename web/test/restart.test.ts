@@ -4,8 +4,8 @@ import { Store } from '../src/state/store';
 import { restart_in_words } from '../src/wording';
 import { envelope, job_json, snapshot } from './samples';
 
-describe('a server that was restarted while the page was there', () => {
-  it('is said to have been, with the jobs that it does not tell of', () => {
+describe('Server restart', () => {
+  it('is reported with the jobs of unknown status', () => {
     const store = new Store(() => 0);
     const take = (...texts: string[]) => texts.forEach((text) => {
       const parsed = parse_message(text);

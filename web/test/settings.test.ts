@@ -12,8 +12,8 @@ function system_of(light: boolean) {
   return { query: query as unknown as MediaQueryList, change: (to: boolean) => { query.matches = to; listeners.forEach((tell) => tell()); } };
 }
 
-describe('settings', () => {
-  it('are found again by the next page of the same browser', () => {
+describe('Settings', () => {
+  it('are restored by the next page in the same browser', () => {
     const shelf = shelf_of();
     const first = new Settings(shelf, null, () => undefined);
     first.set_theme('light');
@@ -25,7 +25,7 @@ describe('settings', () => {
     expect(next.shows.value).toEqual({ paths: true, ghosts: false, distances: false });
   });
 
-  it('are the usual ones at first, and where something else was written', () => {
+  it('are the defaults at first, and for invalid stored values', () => {
     for (const shelf of [null, shelf_of(), shelf_of({ 'armloom.theme': 'pink', 'armloom.shows': 'everything', 'armloom.letter-keys': '?' })]) {
       const { theme, letter_keys, person, shows } = new Settings(shelf, null, () => undefined);
       expect([theme.value, letter_keys.value, person.value]).toEqual(['system', true, '']);
@@ -33,7 +33,7 @@ describe('settings', () => {
     }
   });
 
-  it('last as long as the page where the browser keeps nothing', () => {
+  it('last as long as the page without storage', () => {
     const refuse = () => { throw new DOMException('denied', 'SecurityError'); };
     const settings = new Settings({ getItem: refuse, setItem: refuse }, null, () => undefined);
     settings.set_theme('light');
@@ -41,7 +41,7 @@ describe('settings', () => {
     expect([settings.theme.value, settings.person.value]).toEqual(['light', 'Ada']);
   });
 
-  it('follow the system, and the moment it changes its mind, unless a theme was chosen', () => {
+  it('follow the system\'s theme and its changes unless a theme was chosen', () => {
     const shown: string[] = [];
     const { query, change } = system_of(true);
     const settings = new Settings(shelf_of(), query, (theme) => shown.push(theme));

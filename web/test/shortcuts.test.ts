@@ -6,7 +6,7 @@ import type { App } from '../src/state/app';
 describe('Escape', () => {
   afterEach(() => vi.unstubAllGlobals());
 
-  it('lets go of what is moved by hand first, and closes the page the next time', () => {
+  it('ends dragging first, and closes the page the next time', () => {
     vi.stubGlobal('document', { querySelector: () => null });
     const places: string[] = [];
     const dragged_object = signal<string | null>('crate');

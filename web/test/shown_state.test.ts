@@ -20,8 +20,8 @@ function told(store: Store, text: string): void {
   else throw new Error(JSON.stringify(parsed));
 }
 
-describe('an arm that was stopped', () => {
-  it('is told as stopped: by its job, which the server says holds, and by what it needs', () => {
+describe('Stopped arm', () => {
+  it('is shown as stopped by its job, although the server says paused, and by its needs', () => {
     expect(figure_in_words(stopped_job(), 9, 0.25).text).toBe('stopped');
     expect(figure_in_words(stopped_job({ waits_on: [wait_json()] }), 9, 0.25).text).toBe('paused');
     expect(need_of(arm({ state: 'stopped' }), stopped_job(), null)).toMatchObject({ resume: true });
@@ -30,7 +30,7 @@ describe('an arm that was stopped', () => {
     expect(need_of(arm({ name: 'right' }), stopped_job({ arms: ['left', 'right'] }), null)).toMatchObject({ resume: false });
   });
 
-  it('is remembered as stopped, with when: by its job, and on the timeline', () => {
+  it('is recorded with its times by its job and on the timeline', () => {
     const store = new Store(() => 0);
     told(store, snapshot(1));
     told(store, envelope('job', 2, stopped_job({ state: 'running', waits_on: [] })));
@@ -45,7 +45,7 @@ describe('an arm that was stopped', () => {
     expect(known_lanes({ store })[0]?.marks.filter(({ kind }) => kind === 'pause').map(({ stopped }) => stopped)).toEqual([false, true]);
   });
 
-  it('that pauses and goes on for hours is remembered for the last times only', () => {
+  it('has a bounded record of pauses', () => {
     const store = new Store(() => 0);
     told(store, snapshot(1));
     for (let i = 0; i < 3000; i++) told(store, envelope('job', 2 + i, stopped_job({ state: i % 2 ? 'running' : 'paused', waits_on: [] })));
@@ -75,8 +75,8 @@ const forecast = (now_s: number) => {
   } as unknown as Forecast;
 };
 
-describe('what is expected beside an arm that was stopped', () => {
-  it('is told by the job, and by the lane', () => {
+describe('Prediction for a stopped arm', () => {
+  it('is described by the job and by the lane', () => {
     const store = new Store(() => 0);
     told(store, snapshot(10, { jobs: [stopped_job(), job_json('waits', { state: 'scheduled', arms: ['right'], waits_on: [wait_json({ id: 'pick' })] })], arms: [arm({ state: 'stopped' }), arm_json('right')] }));
     store.set_forecast(forecast(10));

@@ -13,8 +13,8 @@ const known = (...jobs: Job[]) => {
 };
 const job = (id: string, arms: string[], state: string, over: object = {}) => job_json(id, { arms, state, ...over }) as Job;
 
-describe('a side of a diagram', () => {
-  it('is a job, or what an arm does, does next, or did last', () => {
+describe('Side of a diagram', () => {
+  it('is a job, or the current, next or last job of an arm', () => {
     const store = known(
       job('old', ['left'], 'succeeded', { ended_s: 3 }), job('older', ['left'], 'succeeded', { ended_s: 2 }),
       job('waits', ['right'], 'backlogged'), job('runs', ['right'], 'running'));
@@ -30,15 +30,15 @@ describe('a side of a diagram', () => {
     expect(why_no_pair('left', 'forgotten', store)).toBeNull();
   });
 
-  it('is the job where an arm is called the same, and no side where one job moves both', () => {
+  it('is the job if an arm has the same name, and none if one job moves both', () => {
     const store = known(job('left', ['right'], 'running'), job('both', ['left', 'front'], 'running'));
     expect(job_of_side('left', store)?.arms).toEqual(['right']);
     expect(why_no_pair('front', 'both', store)).toMatch(/One job moves both/);
   });
 });
 
-describe('the way of two jobs that was measured', () => {
-  it('is where both were together, standing included, from when both were heard', () => {
+describe('Measured path of two jobs', () => {
+  it('is the progress of both, rests included, since both were observed', () => {
     const book = new ProgressBook();
     // A goes for 4 s; B waits until 2 s, goes, pauses from 3 to 5 s at 1 s, and goes on.
     for (let i = 0; i <= 240; i++) {
@@ -58,13 +58,13 @@ describe('the way of two jobs that was measured', () => {
     expect(measured_path(book.of('a'), book.of('b'), 2.5).every(({ a_s, b_s }) => a_s <= 2.5 && b_s <= 2.5)).toBe(true);
   });
 
-  it('leaves out what one of them did before it was heard', () => {
+  it('omits what one job did before it was observed', () => {
     const book = new ProgressBook();
     for (let i = 0; i <= 30; i++) book.take(10 + i / 10, [{ job: 'a', progress_s: 5 + i / 10 }]);
     expect(progress_at(book.of('a') ?? { t_s: [], progress_s: [] }, 9)).toBeNull();
   });
 
-  it('is remembered of the last jobs only, each in so many points', () => {
+  it('is kept for the last jobs, each with a bounded number of points', () => {
     const book = new ProgressBook();
     for (let i = 0; i < 40_000; i++) book.take(i, [{ job: 'long', progress_s: i }]);
     expect(book.of('long')?.t_s.length).toBeLessThanOrEqual(1200);
