@@ -1,6 +1,6 @@
-// While an earlier instant is looked at every page is of that instant, or says what of it is of now.
+// While a past time is shown, every page shows that time, or says which parts show the present.
 //
-//   node --test test/browser/look_back.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/look_back.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -9,14 +9,14 @@ import { ask, counts, eventually, finished, go_to, path_for, reads, resume, send
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
 const dashboard = with_dashboard('config/two_pandas.json', 'coordinated');
-/** Cell times: before anything, while the first of two jobs ran, while all was stopped. */
+/** Cell times: before all jobs, while the first of two jobs ran, while all was stopped. */
 const at = {};
 
 const now_s = async () => {
   const [hours, minutes, seconds] = (await dashboard.page.locator('[data-test=clock]').innerText()).split(':').map(Number);
   return 3600 * hours + 60 * minutes + seconds;
 };
-/** Answers the clock once it is beyond that: what is to be looked back at lasts for a while. */
+/** Waits until the clock is later than this, and returns it. */
 const clock_beyond = (t_s) => eventually(async () => {
   const s = await now_s();
   assert.ok(s > t_s, `${s} s, not yet beyond ${t_s} s`);
@@ -24,7 +24,7 @@ const clock_beyond = (t_s) => eventually(async () => {
 }, 60_000);
 const says_of_then = (pattern) => reads(dashboard.page.locator('[data-test=as-of]'), pattern);
 
-test('something happens, and is over', { timeout: 500_000 }, async () => {
+test('Setup: jobs run, are stopped, and end', { timeout: 500_000 }, async () => {
   const { page } = dashboard;
   at.first = await clock_beyond(await now_s() + 1.5);
   await clock_beyond(at.first + 0.3);
@@ -49,7 +49,7 @@ test('something happens, and is over', { timeout: 500_000 }, async () => {
   await ask(page, 'PUT', '/sim/speed', { speed: 1 });
 });
 
-test('the scene has the objects of that instant, and cannot be changed there', { timeout: 300_000 }, async () => {
+test('Scene page shows past objects and cannot change them', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/scene/crate?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=objects]', { hasText: 'crate' }).waitFor();
@@ -61,7 +61,7 @@ test('the scene has the objects of that instant, and cannot be changed there', {
   await page.getByText('There was no object called crate.').waitFor();
 });
 
-test('recovery tells what each arm needed then, and resumes nothing', { timeout: 300_000 }, async () => {
+test('Recovery page shows past needs and cannot resume', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/recovery?t=${at.stopped.toFixed(2)}`);
   await page.getByText('2 of 2 arms were waiting for resume.').waitFor();
@@ -73,7 +73,7 @@ test('recovery tells what each arm needed then, and resumes nothing', { timeout:
   await page.getByText('No arm was waiting for resume.').waitFor();
 });
 
-test('alerts are those that had been told', { timeout: 300_000 }, async () => {
+test('Alerts page shows the alerts up to the shown time', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/alerts?t=${at.stopped.toFixed(2)}`);
   await page.locator('[data-test=alerts]', { hasText: 'stopped: left, right' }).waitFor();
@@ -82,7 +82,7 @@ test('alerts are those that had been told', { timeout: 300_000 }, async () => {
   await says_of_then(/as they are now/);
 });
 
-test('the policy is the one that was in force', { timeout: 300_000 }, async () => {
+test('Policies page shows the past policy', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/policies?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=policy-form] input[value=coordinated]:checked').waitFor();
@@ -91,7 +91,7 @@ test('the policy is the one that was in force', { timeout: 300_000 }, async () =
   await page.screenshot(path_for('look-back-policies-dark'));
 });
 
-test('a diagram shows where both were, without what nobody knows of then', { timeout: 300_000 }, async () => {
+test('Diagram shows past progress without authority and prediction', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/pair/there/back?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=diagram] canvas').first().waitFor();
@@ -107,6 +107,6 @@ test('a diagram shows where both were, without what nobody knows of then', { tim
   await page.getByText('if neither waits').waitFor();
 });
 
-test('nothing so far was an error in the console', () => {
+test('The console has no errors', () => {
   assert.deepEqual(dashboard.chromium.errors, []);
 });

@@ -10,7 +10,7 @@ const ended = (number: number) => job_json(`j${number}`, {
   state: 'succeeded', ended_s: number, ended_at: new Date(1.8e12 + 1000 * number).toISOString(), result: { reason: 'completed', detail: '' },
 }) as Job;
 
-/** A server that has so many jobs, the newest with the highest number. */
+/** A server with this many jobs, the newest with the highest number. */
 function server(count: number) {
   const asked: string[] = [];
   const api = {

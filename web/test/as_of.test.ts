@@ -122,7 +122,7 @@ describe('Events from before the page was loaded', () => {
     expect([...at(12).arms.keys()]).toEqual(['left', 'right']);
   });
 
-  it('leave arms unknown before the first event that names them', () => {  // they are not from the very beginning
+  it('leave arms unknown before the first event that names them', () => {  // they do not begin with the session
     expect(arm_at(9)?.[0]).toBe('not known');
   });
 

@@ -11,7 +11,8 @@ const kEyes: Record<Eye, readonly [Triple, Triple, Triple]> = {
   'no green': [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
   'no blue': [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.3039]],
 };
-// In CIELAB 2 is just seen side by side; marks that lie apart want several times that.
+// In CIELAB a distance of 2 is just visible side by side; marks apart from each other need several
+// times that.
 const kLeastOfTwo = 20;
 const kLeastOfFour = 12;
 

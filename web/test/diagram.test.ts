@@ -8,7 +8,7 @@ import { diagram_json, job_json, wait_json } from './samples';
 
 type Cells = Parameters<typeof diagram_json>[0];
 
-// In conflict where left is past 2 s and right past 1 s; the corner before it is not decided.
+// A conflict where left is past 2 s and right past 1 s; the corner before it is undecided.
 const kCells: Cells = [
   ['free', 0, 2, 0, 3], ['free', 2, 4, 0, 0.5], ['undecided', 2, 4, 0.5, 1], ['conflict', 2, 4, 1, 3],
 ];
@@ -70,12 +70,12 @@ describe('Diagram prediction', () => {
     const ahead = (now: Point, authority: Point | null) => ahead_of(contact, now, authority, diagram())?.kind;
     expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 1 })).toBe('waits');
     expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 2, b_s: 3 })).toBe('waits');
-    expect(ahead({ a_s: 2, b_s: 2 }, { a_s: 2, b_s: 3 })).toBe('waits');  // left pauses where it waits for right
+    expect(ahead({ a_s: 2, b_s: 2 }, { a_s: 2, b_s: 3 })).toBe('waits');  // left rests where it waits for right
     expect(ahead({ a_s: 2.01, b_s: 2 }, { a_s: 2.01, b_s: 3 })).toBe('waits');
     expect(ahead({ a_s: 1, b_s: 1 }, null)).toBe('waits');
     expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 3 })).toBe('allowed');
     expect(ahead_of(null, { a_s: 1, b_s: 1 }, null, diagram())).toEqual({ kind: 'free' });
-    // At the end of one of them nothing lies beyond.
+    // At the end of a job nothing lies beyond.
     expect(ahead_of({ ...contact, a_s: 4 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }, diagram())?.kind).toBe('allowed');
   });
   it('states the remaining time, and nothing once the contact has passed', () => {

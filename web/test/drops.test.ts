@@ -6,7 +6,7 @@ import type { App } from '../src/state/app';
 
 const go_on = () => new Promise((done) => setTimeout(done));
 
-/** A page with what it did, and how something is dropped on it. */
+/** Returns a page that records what it did, and a function that drops something on it. */
 function page() {
   const opened: [names: string[], folder: string | null][] = [];
   const places: Place['page'][] = [];
@@ -17,7 +17,7 @@ function page() {
   } as unknown as App;
   const window = new EventTarget();
   listen_to_drops(app, window as unknown as Window);
-  /** As a browser tells of it: a folder is a file that cannot be read, and an entry that can. */
+  /** As browsers present a folder: an unreadable file, and a readable entry. */
   const drop = async (entries: readonly object[], files: readonly object[]) => {
     const event = Object.assign(new Event('drop', { cancelable: true }), { dataTransfer: { files, items: entries.map((entry) => ({ webkitGetAsEntry: () => entry })) } });
     window.dispatchEvent(event);
@@ -29,7 +29,7 @@ function page() {
 
 const entry_of = (file: File) => ({ isFile: true, isDirectory: false, name: file.name, file: (done: (file: File) => void) => done(file) });
 const unreadable = { name: 'run', size: 4096, text: () => Promise.reject(new Error('NotFoundError')) };
-/** Tells of two at a time. */
+/** Returns two entries at a time. */
 function folder_of(entries: readonly object[]) {
   return {
     isFile: false, isDirectory: true, name: 'run',

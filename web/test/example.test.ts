@@ -15,7 +15,7 @@ function joint(name: string, over: Partial<CellJoint> = {}): CellJoint {
 
 const joints = [joint('left_panda_joint1'), joint('left_panda_joint2', { lower: -1.3 })];
 
-/** Largest velocity and acceleration of the quintic over d in T, by sampling it. */
+/** Samples the largest velocity and acceleration of the quintic over d in T. */
 function peaks(d: number, T: number): { velocity: number; acceleration: number } {
   let velocity = 0;
   let acceleration = 0;

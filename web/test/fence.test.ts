@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Fence } from '../src/view/fence';
 
-/** Of a graphics card: what it is asked for is done when the test says so. */
+/** A graphics card whose commands complete when the test says so. */
 function card() {
   const state = { done: false, open: 0 };
   const gl = {

@@ -10,7 +10,7 @@ const arms = new Map(['left', 'right'].map((name) => [name, arm_json(name) as Ar
 const cell = { robots: ['left', 'right'].map((name) => ({ arms: [{ name, named_states: { ready: [0.3, -1] } }] })) } as unknown as Cell;
 const known = { arms, cell };
 
-/** Goes straight from where it is told to begin, else from zero, to the joints that are asked for. */
+/** Plans a straight line from the given start, or from zero, to the requested joints. */
 function planner() {
   const asked: Record<string, unknown>[] = [];
   const plan = async (text: string): Promise<Answer<Plan>> => {

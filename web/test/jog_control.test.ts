@@ -27,7 +27,7 @@ function bench() {
   return { jogging, said, timers, server, accept: () => answer_jog({ ok: true, value: { job, lease_s: 0.5 } }) };
 }
 
-/** Pressed, and then refused when the server is told of it again. */
+/** Presses the button; the server then refuses the renewal. */
 async function refuse_held({ jogging, timers, server, accept }: ReturnType<typeof bench>, refusal: string): Promise<void> {
   await jogging.take('Ada');
   void jogging.press('left', 'ready');
@@ -44,7 +44,7 @@ describe('Jogging', () => {
   it('continues only while renewed, and ends at once on release', async () => {
     const { jogging, said, timers, accept } = bench();
     await jogging.press('left', 'ready');
-    expect(said).toEqual([]);  // without control nothing is asked
+    expect(said).toEqual([]);  // no request without control
     await jogging.take('Ada');
     void jogging.press('left', 'ready');
     accept();

@@ -87,7 +87,7 @@ describe('Trajectory', () => {
     expect(asked).toHaveLength(6);
     expect(book.changes.value).toBe(before + 4);
     expect(book.of(job('j0'))?.q_at(1)).toEqual({ a: 0.5 });
-    expect(book.of(job('j0', 3))?.duration_s).toBe(2);  // the old one, until the new one is there
+    expect(book.of(job('j0', 3))?.duration_s).toBe(2);  // the old motion, until the new one arrives
     for (const answer of answers.splice(0)) answer();
     await new Promise((done) => setTimeout(done));
     expect(asked.at(-1)).toBe('j0');
@@ -95,7 +95,7 @@ describe('Trajectory', () => {
 });
 
 describe('Longest trajectory that the server accepts', () => {
-  // Tasks above 0.1 s are felt; beside reading the JSON as such, which nobody is spared.
+  // Tasks above 0.1 s are noticed; this is besides parsing the JSON.
   const kMostTimesJson = 6;
 
   it('is read in about the time that parsing its JSON takes', () => {

@@ -26,7 +26,7 @@ describe('Names from users', () => {
     expect(shown_name('\u202epots lla')).toBe('⟨U+202E⟩pots lla');
     expect(shown_name('pi\u200dck')).not.toBe('pick');
     expect(shown_name('left\u2066\u2069')).toBe('left⟨U+2066⟩⟨U+2069⟩');
-    // A name that is written from the right keeps to its own place.
+    // A right-to-left name is isolated.
     expect(shown_name('שלום')).toBe('\u2068שלום\u2069');
   });
 
@@ -53,7 +53,7 @@ describe('Names from users', () => {
 
   it('are cut quickly at any length', () => {
     expect(cut_text('x'.repeat(1_000_000), 4)).toBe('xxx…');
-    expect(cut_text(`a${'\u0301'.repeat(1_000_000)}`, 4)).toBe('…');  // one character without end: nothing of it is whole
+    expect(cut_text(`a${'\u0301'.repeat(1_000_000)}`, 4)).toBe('…');  // one endless character: no part of it is complete
     expect(cut_text(`ab${'\u0301'.repeat(1_000_000)}`, 4)).toBe('a…');
   });
 

@@ -57,7 +57,7 @@ describe('Pace of the 3D view', () => {
   });
   it('retries a failed level less and less often', () => {
     const pace = new Pace(kFirstInSoftware);
-    // As software draws: a fine picture takes long, any other does not.
+    // Software rendering: fine frames are slow, all others quick.
     let fine = 0;
     for (let i = 0; i < 20_000; i++) {
       if (pace.level.fine) fine += 1;

@@ -8,7 +8,7 @@ import { job_json, wait_json } from './samples';
 
 const job = (id: string, arm: string, over: object = {}) => job_json(id, { arms: [arm], ...over }) as unknown as Job;
 
-/** Of a store what is asked here. */
+/** The part of a store that is used here. */
 function store_of(lists: Partial<Record<JobList, Job[]>>, arms: string[] = ['left', 'right']): Store {
   const jobs = (list: JobList) => lists[list] ?? [];
   const all = Object.values(lists).flat();

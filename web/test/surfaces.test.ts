@@ -81,8 +81,8 @@ describe('Object with a mesh', () => {
     const p = mesh.geometry.getAttribute('position');
     const at = (i: number) => new THREE.Vector3().fromBufferAttribute(p as THREE.BufferAttribute, i);
     const normal = at(1).sub(at(0)).cross(at(2).sub(at(0)));
-    expect(normal.z).toBeLessThan(0);  // it faced up before it was mirrored along z
-    expect(size(surface)).toEqual([1, 2, 0]);  // the shelf's own is as it was
+    expect(normal.z).toBeLessThan(0);  // it faced up before mirroring along z
+    expect(size(surface)).toEqual([1, 2, 0]);  // the cached surface is unchanged
   });
 
   it('is drawn as a marker if its mesh cannot be read', () => {
