@@ -728,7 +728,6 @@ export const kText = {
     deadlock: (cycle: string) => `deadlock: ${cycle}`,
     retried: 'waits to be checked again',
     and_more: (n: number) => ` (and ${n} more)`,
-    because: (how: string) => (how === '' ? '' : `: ${how}`),
     for_end: (who: string) => `waits for ${who} to end`,
     for_job: (who: string, how: string) => `waits for ${who}: ${how}`,
     for_arm: (who: string, how: string, detail: string) => `waits for ${who} to move away${how === '' ? '' : `: ${how}`}${detail === '' ? '' : ` (${detail})`}`,

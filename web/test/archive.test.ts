@@ -102,10 +102,10 @@ describe('Archive', () => {
 
 describe('Description of the loaded jobs', () => {
   it('states the limit until all jobs are loaded', () => {
-    expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 0, is_all: false })).toMatch(/^Jobs that ended since 0:09:12.0 are loaded\. Earlier jobs are neither/);
-    expect(loaded_in_words({ told: 1137, ended_from_s: null, fetched: 0, is_all: false })).toMatch(/^All jobs of this server session .* previous sessions are neither loaded nor filtered/);
-    expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 800, is_all: false })).toMatch(/^The last 1008 jobs are loaded/);
-    expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 932, is_all: true })).toBeNull();
+    expect(loaded_in_words({ received: 208, ended_from_s: 552, fetched: 0, is_all: false })).toMatch(/^Jobs that ended since 0:09:12.0 are loaded\. Earlier jobs are neither/);
+    expect(loaded_in_words({ received: 1137, ended_from_s: null, fetched: 0, is_all: false })).toMatch(/^All jobs of this server session .* previous sessions are neither loaded nor filtered/);
+    expect(loaded_in_words({ received: 208, ended_from_s: 552, fetched: 800, is_all: false })).toMatch(/^The last 1008 jobs are loaded/);
+    expect(loaded_in_words({ received: 208, ended_from_s: 552, fetched: 932, is_all: true })).toBeNull();
   });
 });
 

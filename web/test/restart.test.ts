@@ -17,7 +17,7 @@ describe('Server restart', () => {
     take(snapshot(1, { jobs: [job_json('kept')] }, { stream: '5f0c7f0e-6f0e-4d55-9b1c-0d3a54c7a002' }));
     expect([store.restart?.at, store.restart?.lost.map(({ id }) => id)]).toEqual(['2026-01-01T00:00:00Z', ['ran']]);
     expect(restart_in_words(store.restart ?? { lost: [] }, '14:02:11')).toMatch(/restarted; .* since 14:02:11\. Status unknown for 1 job: ran; /);
-    store.put_restart_away();
+    store.dismiss_restart();
     expect(store.restart).toBeNull();
   });
 });

@@ -14,12 +14,12 @@ const kWords = kText.events;
 
 export function Notices({ app }: { app: App }) {
   const { t_s } = app.router.address.value;
-  const told = app.store.notices.filter((notice) => !is_later(notice, t_s, app.store.stream));
+  const shown = app.store.notices.filter((notice) => !is_later(notice, t_s, app.store.stream));
   const open = app.alerts.open.length;
   return (
     <section class="notices" aria-label={kWords.title}>
       <div class="line head">
-        <h2>{kWords.title}<span class="count">{told.length}</span></h2>
+        <h2>{kWords.title}<span class="count">{shown.length}</span></h2>
         <span class="grow" />
         {open > 0 && <Link app={app} to={{ page: 'alerts' }} test="see-alerts">{kText.common.to_acknowledge(open)}</Link>}
       </div>

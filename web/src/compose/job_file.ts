@@ -17,13 +17,13 @@ export function too_large(what: string, bytes: number): string | null {
   return bytes <= kBodyMax_bytes ? null : kText.compose.too_large(what, bytes_in_words(bytes), bytes_in_words(kBodyMax_bytes));
 }
 
-export async function read_job_file(file: Pick<File, 'name' | 'size' | 'text'>, beside: (text: string) => Promise<Composed> = (text) => composed_in_worker(text, new AbortController().signal)): Promise<JobFile> {
+export async function read_job_file(file: Pick<File, 'name' | 'size' | 'text'>, in_worker: (text: string) => Promise<Composed> = (text) => composed_in_worker(text, new AbortController().signal)): Promise<JobFile> {
   const name = shown_name(file.name);
   const large = too_large(name, file.size);
   if (large !== null) return { ok: false, fault: large };
   try {
     const text = await file.text();
-    const { fault } = text.length > kLong ? await beside(text) : composed(text);
+    const { fault } = text.length > kLong ? await in_worker(text) : composed(text);
     return fault === null ? { ok: true, text } : { ok: false, fault: `${name} ${fault}.` };
   } catch (error) {
     return { ok: false, fault: kText.compose.unreadable(name, String(error)) };

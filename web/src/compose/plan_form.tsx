@@ -118,8 +118,8 @@ function Drag({ form, app, drag }: { form: GoalForm; app: App; drag(part: Partia
   const [grip, set_grip] = useState<Grip | null>(null);
   const { arm, link, xyz, rpy } = form;
   useEffect(() => {
-    const let_go = (pose: ToolPose) => drag(form_of_pose(pose));
-    app.tool.value = grip && { arm, link: link.trim(), grip, at: pose_of_form({ xyz, rpy }), let_go };
+    const on_release = (pose: ToolPose) => drag(form_of_pose(pose));
+    app.tool.value = grip && { arm, link: link.trim(), grip, at: pose_of_form({ xyz, rpy }), on_release };
   }, [app, grip, arm, link, xyz, rpy]);
   useEffect(() => () => { app.tool.value = null; }, [app]);
   const button = (its: Grip, title: string) => (

@@ -32,7 +32,7 @@ export function TextField({ text, change, send }: Props) {
           onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) send(); }} />
       )}
       <div class="line">
-        <FileButton change={change} told={set_fault} />
+        <FileButton change={change} report={set_fault} />
       </div>
       {fault !== null && <p class="refused" role="alert" data-test="file-fault">{fault}</p>}
     </>
@@ -51,15 +51,15 @@ function LongText({ text, clear }: { text: string; clear(): void }) {
   );
 }
 
-function FileButton({ change, told }: { change(text: string): void; told(fault: string | null): void }) {
+function FileButton({ change, report }: { change(text: string): void; report(fault: string | null): void }) {
   const open = async (input: HTMLInputElement) => {
     const file = input.files?.[0];
     if (!file) return;
-    told(null);
+    report(null);
     const read = await read_job_file(file);
     input.value = '';  // allows choosing the same, corrected file again
     if (read.ok) change(read.text);
-    else told(read.fault);
+    else report(read.fault);
   };
   return (
     <label class="file small">

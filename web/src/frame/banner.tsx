@@ -32,7 +32,7 @@ export function Banner({ app }: { app: App }) {
         </div>
       )}
       {store.restart !== null && store.link.status === 'open' && (
-        <div class="banner" role="status" data-test="restarted"><span>{restart_in_words(store.restart, short_wall_time(store.restart.at, Date.now()))}</span><button onClick={() => store.put_restart_away()}>{kText.common.dismiss}</button></div>
+        <div class="banner" role="status" data-test="restarted"><span>{restart_in_words(store.restart, short_wall_time(store.restart.at, Date.now()))}</span><button onClick={() => store.dismiss_restart()}>{kText.common.dismiss}</button></div>
       )}
       {refusal !== null && <Fault words={refusal} test="refusal" dismiss={() => { actions.refusal.value = null; }} />}
       {drop_fault.value !== null && <Fault words={drop_fault.value} test="drop-fault" dismiss={() => { drop_fault.value = null; }} />}

@@ -24,7 +24,7 @@ export function HistoryPage({ app }: { app: App }) {
   const former = archive.jobs;
   const known = app.store.jobs('finished');
   const all = former.length === 0 ? known : [...known, ...former];
-  const reach = app.store.link.status === 'recording' ? null : loaded_in_words({ told: known.length, ended_from_s: app.store.book.ended_from_s, fetched: former.length, is_all: archive.state === 'all' });
+  const reach = app.store.link.status === 'recording' ? null : loaded_in_words({ received: known.length, ended_from_s: app.store.book.ended_from_s, fetched: former.length, is_all: archive.state === 'all' });
   const few = app.router.address.value.t_s === null && known.length < kShown && app.store.link.status === 'open';
   useEffect(() => { if (few) void archive.more(); }, [archive, few, app.store.stream]);
   const jobs = words === '' && !only_failed ? all : all.filter((job) => matches(job, words, only_failed));

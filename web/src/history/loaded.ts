@@ -5,16 +5,16 @@ import { clock } from '../wording';
 
 export interface Loaded {
   /** Jobs received as events, complete since `ended_from_s`; null means since the session began. */
-  told: number;
+  received: number;
   ended_from_s: number | null;
   /** Jobs loaded in addition, and whether these are all. */
   fetched: number;
   is_all: boolean;
 }
 
-export function loaded_in_words({ told, ended_from_s, fetched, is_all }: Loaded): string | null {
+export function loaded_in_words({ received, ended_from_s, fetched, is_all }: Loaded): string | null {
   if (is_all) return null;
-  if (fetched > 0) return kText.history.last_loaded(told + fetched);
+  if (fetched > 0) return kText.history.last_loaded(received + fetched);
   if (ended_from_s === null) return kText.history.session_loaded;
   return kText.history.loaded_since(clock(ended_from_s));
 }

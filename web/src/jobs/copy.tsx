@@ -5,17 +5,17 @@ import type { App } from '../state/app';
 import { kText } from '../strings';
 import type { Asked } from './snippets';
 
-const kTold_ms = 1500;
+const kStatus_ms = 1500;
 
 export function Copy({ what, text }: { what: string; text(): string | Promise<string> }) {
-  const [told, set_told] = useState('');
+  const [status, set_status] = useState('');
   const copy = async () => {
-    set_told(await copied(await text()) ? kText.job.copied : kText.job.not_copied);
-    setTimeout(() => set_told(''), kTold_ms);
+    set_status(await copied(await text()) ? kText.job.copied : kText.job.not_copied);
+    setTimeout(() => set_status(''), kStatus_ms);
   };
   return (
     <button class="small" data-test={`copy-${what}`} onClick={() => void copy()}>
-      {what === 'JSON' ? kText.job.copy_json(what) : kText.job.copy_as(what)}<span role="status">{told === '' ? '' : `: ${told}`}</span>
+      {what === 'JSON' ? kText.job.copy_json(what) : kText.job.copy_as(what)}<span role="status">{status === '' ? '' : `: ${status}`}</span>
     </button>
   );
 }

@@ -78,8 +78,8 @@ export class JobBook {
     const same_state = known?.job.state === job.state;
     const pauses = known?.pauses ?? [];
     const changes = known?.changes ?? [];
-    const told = shown_state(job);
-    if (changes.at(-1)?.state !== told && (!same_state || shown_state(known.job) !== told)) remember(changes, { state: told, t_s });
+    const shown = shown_state(job);
+    if (changes.at(-1)?.state !== shown && (!same_state || shown_state(known.job) !== shown)) remember(changes, { state: shown, t_s });
     note_pause(pauses, job, t_s);
     this.heard_.set(job.id, { job, t_s, since_s: same_state ? known.since_s : t_s, pauses, changes });
     if (known && is_terminal(known.job)) {

@@ -210,7 +210,7 @@ export class Store extends Facts {
     this.pulse_.change();
   }
 
-  put_restart_away(): void {
+  dismiss_restart(): void {
     this.restart = null;
     this.pulse_.change();
   }

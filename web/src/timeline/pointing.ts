@@ -39,7 +39,7 @@ export function pointing(drawing: Drawing, app: App, change: (span: Span) => voi
     const lane = lanes[lane_at(sheet, lanes.length, event.offsetY)];
     return { mark: lane ? mark_at(lane, sheet.t_s(event.offsetX)) : null, events };
   };
-  const told = ({ mark, events }: Pointed, sheet: Sheet, event: MouseEvent): Tip | null => {
+  const tip_at = ({ mark, events }: Pointed, sheet: Sheet, event: MouseEvent): Tip | null => {
     const now_s = app.store.t_s;
     if (events.length > 0) return tip_of(events, sheet, now_s);
     return mark && { x: beside_rims(event.offsetX, sheet), up: sheet.height - event.offsetY + 12, words: mark_in_words(mark, now_s) };
@@ -62,7 +62,7 @@ export function pointing(drawing: Drawing, app: App, change: (span: Span) => voi
       drawing.pointed = pointed;
       (event.currentTarget as HTMLCanvasElement).classList.toggle('leads', pointed.mark !== null || pointed.events.length > 0);
       draw();
-      show_tip(sheet && told(pointed, sheet, event));
+      show_tip(sheet && tip_at(pointed, sheet, event));
     },
     onPointerUp: (event: PointerEvent) => {
       const { mark, events: [first] } = drawing.drag && drawing.drag.travelled_px <= kClick_px ? found(event) : kNothing;

@@ -44,7 +44,7 @@ export function Timeline({ app }: { app: App }) {
     draw.current = () => { if (canvas.current) draw_now(canvas.current, drawing.current, app, is_stale.current); };
     return drive(canvas, store, () => draw.current());
   }, [app]);
-  const look_away = () => {
+  const clear_pointed = () => {
     if (drawing.current.pointed === kNothing) return;
     drawing.current.pointed = kNothing;
     set_tip(null);
@@ -53,9 +53,9 @@ export function Timeline({ app }: { app: App }) {
   // Escape closes the tooltip, whatever has the focus.
   useLayoutEffect(() => {
     if (!tip) return;
-    const put_away = (event: KeyboardEvent) => { if (event.key === 'Escape') look_away(); };
-    window.addEventListener('keydown', put_away);
-    return () => window.removeEventListener('keydown', put_away);
+    const on_escape = (event: KeyboardEvent) => { if (event.key === 'Escape') clear_pointed(); };
+    window.addEventListener('keydown', on_escape);
+    return () => window.removeEventListener('keydown', on_escape);
   }, [tip !== null]);
   /** Shows an event chosen by keys, and announces it. */
   const choose = (event: EventMark) => {
@@ -105,7 +105,7 @@ export function Timeline({ app }: { app: App }) {
         <canvas ref={canvas} tabIndex={0} role="img" data-test="lanes" data-from={span.fixed_from_s ?? 'now'} data-length={span.length_s}
           aria-label={kWords.label}
           {...pointing(drawing.current, app, change, set_tip, () => draw.current())}
-          onBlur={() => look_away()} onKeyDown={(event) => { if (by_key(event.key)) event.preventDefault(); }} />
+          onBlur={() => clear_pointed()} onKeyDown={(event) => { if (by_key(event.key)) event.preventDefault(); }} />
         <span class="sr-only" role="status">{chosen}</span>
         {tip && <div class="tip" role="tooltip" style={{ left: `${tip.x}px`, bottom: `${tip.up}px` }}>{tip.words}</div>}
       </div>

@@ -78,9 +78,9 @@ export class Ahead {
   /** Updates progress and authority from the last frame. */
   move(): void {
     for (const { path, arm, job, motion } of this.paths_.values()) {
-      const told = this.app_.store.motions.find((one) => one.arm === arm && one.job === job);
-      path.show(told ? { from_s: told.progress_s, granted_s: told.authority_s } : { from_s: 0, granted_s: 0 });
-      path.group.visible = told === undefined || told.progress_s < motion.duration_s;
+      const authority = this.app_.store.motions.find((one) => one.arm === arm && one.job === job);
+      path.show(authority ? { from_s: authority.progress_s, granted_s: authority.authority_s } : { from_s: 0, granted_s: 0 });
+      path.group.visible = authority === undefined || authority.progress_s < motion.duration_s;
     }
   }
 

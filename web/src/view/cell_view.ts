@@ -63,7 +63,7 @@ export class CellView {
     this.stage_.scene.add(this.robots_.group, this.objects_.group, this.ghosts_.group, this.ahead_.group, this.distances_.group, this.paths_.group);
     this.stage_.after_draw = () => this.place_labels();
     this.stage_.on_level = ({ ghosts }) => this.ahead_.show_level(ghosts);
-    this.drag_handles_ = new DragHandles(this.stage_, (object) => this.let_go(object));
+    this.drag_handles_ = new DragHandles(this.stage_, (object) => this.put_dragged(object));
     this.tool_ = new ToolGoal(this.stage_, (arm, link) => this.robots_.get(store_.arms.get(arm)?.robot)?.frame_of(arm, link) ?? null);
     on_click(this.stage_.canvas, (x_px, y_px) => this.pick(x_px, y_px));
     this.stage_.on_camera = (camera) => app_.router.look_from(camera);
@@ -186,7 +186,7 @@ export class CellView {
     if (this.drag_handles_.show(this.objects_.find(this.app_.dragged_object.peek()))) this.stage_.invalidate();
   }
 
-  private let_go({ name, position }: THREE.Object3D): void {
+  private put_dragged({ name, position }: THREE.Object3D): void {
     const object = this.store_.objects.find((one) => one.name === name);
     const xyz = position.toArray().map((m) => Number(m.toFixed(3))) as [number, number, number];
     if (object) void this.app_.actions.move_object(object, xyz).then((moved) => { if (!moved) this.objects_.renew(); });

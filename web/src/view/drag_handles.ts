@@ -19,7 +19,7 @@ export class DragHandles {
     this.controls_.setSize(kSize);
     this.controls_.addEventListener('change', () => stage.invalidate(true));
     this.controls_.addEventListener('dragging-changed', ({ value }) => {
-      stage.let_turn(value !== true);
+      stage.enable_turning(value !== true);
       if (value !== true && this.object_) moved(this.object_);
     });
     stage.scene.add(this.controls_.getHelper());

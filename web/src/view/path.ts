@@ -44,15 +44,15 @@ export class Path {
     const granted = Math.max(from, index(granted_s) + (granted_s >= this.duration_s_ ? 1 : 0));
     this.geometry_.setDrawRange(from, count - from);
     const within = granted > from;
-    const stands = granted_s < this.duration_s_ - 1e-3 && within;
+    const is_limited = granted_s < this.duration_s_ - 1e-3 && within;
     this.granted_.visible = within;
     // One buffer drawn in two parts: the range is set before each part.
     this.granted_.onBeforeRender = () => this.geometry_.setDrawRange(from, granted - from);
     this.beyond_.onBeforeRender = () => this.geometry_.setDrawRange(granted, count - granted);
     this.line_.onBeforeRender = () => this.geometry_.setDrawRange(from, count - from);
-    this.mark_.visible = stands;
+    this.mark_.visible = is_limited;
     const end = this.points_[Math.min(count - 1, granted)];
-    if (stands && end) {
+    if (is_limited && end) {
       this.mark_geometry_.getAttribute('position').setXYZ(0, end.x, end.y, end.z);
       this.mark_geometry_.getAttribute('position').needsUpdate = true;
     }

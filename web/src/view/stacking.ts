@@ -16,8 +16,8 @@ export function stacked(labels: readonly Placed[], height_px: number, gap_px: nu
     if (!label) continue;
     const own = { ...label };
     for (const other of placed) {
-      const beside = Math.abs(other.x - own.x) >= (other.width_px + own.width_px) / 2 + gap_px;
-      if (!beside && Math.abs(other.y - own.y) < height_px) own.y = other.y + height_px;
+      const is_clear = Math.abs(other.x - own.x) >= (other.width_px + own.width_px) / 2 + gap_px;
+      if (!is_clear && Math.abs(other.y - own.y) < height_px) own.y = other.y + height_px;
     }
     y[i] = own.y;
     placed.push(own);

@@ -150,7 +150,7 @@ export class Stage {
   hurry(): void { this.hurried_ = true; }
 
   /** Enables or disables turning the view by dragging. */
-  let_turn(yes: boolean): void { this.viewpoint_.let_turn(yes); }
+  enable_turning(yes: boolean): void { this.viewpoint_.enable_turning(yes); }
 
   /**
    * Requests a frame in full quality and resolves after it; quality stays full until something

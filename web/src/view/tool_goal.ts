@@ -17,7 +17,7 @@ export interface Tool {
   grip: Grip;
   /** The goal, or null for the tool's current pose. */
   at: ToolPose | null;
-  let_go(pose: ToolPose): void;
+  on_release(pose: ToolPose): void;
 }
 
 export class ToolGoal {
@@ -30,15 +30,15 @@ export class ToolGoal {
     this.frame_.add(new THREE.AxesHelper(kAxes_m));
     this.frame_.visible = false;
     stage_.scene.add(this.frame_);
-    this.handles_ = new DragHandles(stage_, () => this.tool_?.let_go(pose_of(this.frame_)));
+    this.handles_ = new DragHandles(stage_, () => this.tool_?.on_release(pose_of(this.frame_)));
   }
 
   show(tool: Tool | null): void {
     this.tool_ = tool;
-    const stands = tool && !tool.at ? this.where_(tool.arm, tool.link) : null;
+    const tool_pose = tool && !tool.at ? this.where_(tool.arm, tool.link) : null;
     if (tool?.at) place(this.frame_, tool.at.xyz, tool.at.rpy);
-    else if (stands) stands.decompose(this.frame_.position, this.frame_.quaternion, new THREE.Vector3());
-    this.frame_.visible = Boolean(tool?.at ?? stands);
+    else if (tool_pose) tool_pose.decompose(this.frame_.position, this.frame_.quaternion, new THREE.Vector3());
+    this.frame_.visible = Boolean(tool?.at ?? tool_pose);
     this.frame_.updateMatrixWorld(true);
     this.handles_.show(this.frame_.visible ? this.frame_ : null, tool?.grip);
     this.stage_.invalidate(true);

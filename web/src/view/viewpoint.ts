@@ -73,7 +73,7 @@ export class Viewpoint {
   }
 
   /** Enables or disables turning the view by dragging. */
-  let_turn(yes: boolean): void { this.controls_.enabled = yes; }
+  enable_turning(yes: boolean): void { this.controls_.enabled = yes; }
 
   close(): void { this.controls_.dispose(); }
 
