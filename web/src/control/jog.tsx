@@ -27,7 +27,7 @@ export function JogPanel({ arm, app }: { arm: Arm; app: App }) {
   }, [jogging]);
   const states = store.cell ? states_of(arm_of(store.cell, arm.name)) : [];
   return (
-    <section class="by-jogging" aria-label={kWords.label(arm.name)} data-test="by-jogging">
+    <section class="jog" aria-label={kWords.label(arm.name)} data-test="jog">
       <h3>{kWords.title}</h3>
       <Control app={app} />
       {jogging.key.value !== null && (
