@@ -1,5 +1,5 @@
-// Returns why the policy cannot be changed now, or null: the server refuses a change while jobs are
-// admitted. Pure.
+// Returns why the policy cannot be changed now, or null if it can. The server refuses a change while
+// jobs are admitted. Pure.
 
 import type { Store } from '../state/store';
 import { kText } from '../strings';
