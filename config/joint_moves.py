@@ -3,8 +3,8 @@
 
     python3 config/joint_moves.py CELL > config/CELL_jobs.json
 
-CELL is a name from CELLS below. Its arms go from home to each of their poses and back, all jobs
-submitted at time zero, many of them into the middle that all want.
+CELL is a name from CELLS below. Its arms move from home to each of their poses and back. All jobs
+are submitted at time zero; many of them compete for the middle.
 
 A move is the quintic from rest to rest in all joints at once,
     q(t) = q0 + (q1 - q0) (10 u^3 - 15 u^4 + 6 u^5),  u = t / T,
@@ -30,7 +30,7 @@ class Robot(NamedTuple):
 class Arm(NamedTuple):
     name: str
     robot: Robot
-    prefix: str  # of the joints' names
+    prefix: str  # of joint names
     poses: dict  # name -> configuration
 
 
@@ -40,14 +40,14 @@ PANDA = Robot([f"panda_joint{i}" for i in range(1, 8)],
 UR5E = Robot(["shoulder_pan_joint", "shoulder_lift_joint", "elbow_joint", "wrist_1_joint",
               "wrist_2_joint", "wrist_3_joint"], [math.pi] * 6, [4] * 6,
              [0, -2.3, 2.6, -1.87, -1.5708, 0])
-# Its tool points straight down where joints 2, 3 and 5 add up to pi / 2.
+# The tool points straight down if joints 2, 3 and 5 add up to pi / 2.
 SHUTTLE = Robot([f"joint_{i}" for i in range(1, 7)], [3.2, 3.0, 3.2, 5.2, 5.2, 7.0], [3.75] * 6,
                 [0, -0.5, 0.5, 0, 1.57, 0])
 
 CELLS = {
-    # Poses and bases as published with the planning environments of mr_planner (panda_two, panda_four); of
-    # these the ones whose straight move from home keeps clear of the other arms at theirs. mr_planner's
-    # panda1 is left, its panda0 right.
+    # Poses and bases are published with the planning environments of mr_planner (panda_two,
+    # panda_four). Only poses are used whose straight move from home keeps clear of the other arms
+    # at home. mr_planner's panda1 is left, its panda0 is right.
     "two_pandas": [
         Arm("left", PANDA, "left_", {
             "tiled_up": [0.0, -0.25, 0.0, -1.6, 0.0, 2.7, 0.0],
@@ -92,7 +92,7 @@ CELLS = {
             "front_and_back": [1.0, -0.6, 0.0, -2.5, 0.0, 2.3, 0.0],
         }),
     ],
-    # Tool down over the table; both reach beyond the middle between them.
+    # Tools point down at the table; both arms reach beyond the middle between them.
     "panda_and_ur5e": [
         Arm("panda", PANDA, "panda_", {
             "middle": [0, -0.1, 0, -2.0, 0, 1.9, 0.785],
@@ -107,7 +107,7 @@ CELLS = {
             "far": [0, -1.2, 1.5, -1.87, -1.5708, 0],
         }),
     ],
-    # Side by side: each reaches before itself, between both, and before the other.
+    # Side by side: each arm reaches ahead, between both, and in front of the other arm.
     "dual_panda": [
         Arm("left", PANDA, "left_", {
             "between": [-0.5, 0.1, 0, -1.9, 0, 2.0, 0.785],
@@ -122,7 +122,7 @@ CELLS = {
             "outside": [-0.7, 0, 0, -2.0, 0, 2.0, 0.785],
         }),
     ],
-    # Tool down over the table; the two middles are one place.
+    # Tools point down at the table; both poses "middle" are the same place.
     "two_shuttles": [
         Arm("left", SHUTTLE, "left_", {
             "middle": [0, 0.3, 0.4, 0, 0.87, 0],
@@ -141,7 +141,7 @@ CELLS = {
 
 
 def duration(q0, q1, robot=PANDA):
-    """Seconds that the straight move takes, a multiple of 10 ms."""
+    """Returns the duration of the straight move in seconds, a multiple of 10 ms."""
     longest = 0.5
     for a, b, velocity, acceleration in zip(q0, q1, robot.velocity_max, robot.acceleration_max):
         dq = abs(b - a)
@@ -151,7 +151,7 @@ def duration(q0, q1, robot=PANDA):
 
 
 def quintic(joint_names, q0, q1, T=None):
-    """A trajectory, as the body of POST /jobs wants it; in the time of a Panda if T is not given."""
+    """Returns a trajectory for the body of POST /jobs; T (s) defaults to the duration for a Panda."""
     T = T or duration(q0, q1)
     points = []
     for k in range(WAYPOINTS):

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""The demo load: both arms shuttle between home and poses in the middle, through the public API.
+"""Demo load: both arms shuttle between home and poses in the middle, through the public API.
 
     server/demo.py URL JOBS_FILE [--parent PID]
 
-Reads the moves out and back from a jobs file (config/two_pandas_jobs.json) and asks for their goals,
-two jobs of each arm at any time for as long as the server runs, so that queue and backlog are at
-work: the server plans the ways, from wherever an arm has been moved or canceled. Ends with the
-server, or when the process PID has gone.
+Reads motions from a jobs file (config/two_pandas_jobs.json) and submits their ends as goals, so that
+the server plans each path from wherever the arm is. Keeps two jobs per arm in the queue, so
+that the dashboard shows waiting jobs. Ends with the server, or when the process PID ends.
 """
 import json
 import os
@@ -15,7 +14,7 @@ import time
 import urllib.error
 import urllib.request
 
-AHEAD = 2  # jobs of each arm that are accepted and have not ended
+AHEAD = 2  # jobs per arm that have not ended
 
 
 class Server:
@@ -40,7 +39,7 @@ class Server:
 
 
 class Shuttle:
-    """One arm, going to the ends of its moves again and again, from wherever it is."""
+    """Sends one arm to the ends of its motions again and again."""
 
     def __init__(self, server, arm, moves):
         self.server, self.arm, self.moves = server, arm, moves
@@ -98,5 +97,5 @@ def main():
 if __name__ == "__main__":
     try:
         main()
-    except KeyboardInterrupt:  # Ctrl-C at the terminal ends server and load alike
+    except KeyboardInterrupt:  # Ctrl-C at the terminal ends the server and the demo load
         pass

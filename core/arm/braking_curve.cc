@@ -8,8 +8,8 @@ namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds(1);
 constexpr double kStep_s = 1e-3;
-// The curve asks for less than the brake limits, so that the ticks, which fall between its points,
-// can stay below it within them.
+// Less than the brake limits, so that ticks between the curve's points can stay below it within
+// them.
 constexpr double kLimitShare = 0.95;
 
 }  // namespace

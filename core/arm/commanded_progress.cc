@@ -19,7 +19,7 @@ void CommandedProgress::follow(TrajectoryPtr trajectory, Duration from, Duration
 
 void CommandedProgress::grant(Duration authority) {
   if (authority < authority_ && authority < trajectory_->duration()) {
-    // Where the arm would come to rest if it braked from the next tick on.
+    // Progress at rest if the arm braked from the next tick on.
     Duration stop = progress_;
     double rate = rate_;
     while (rate > 0.0 && stop < trajectory_->duration()) {
@@ -51,7 +51,7 @@ void CommandedProgress::advance(Duration period, bool braking) {
     rate_ = bound ? std::sqrt(curve_.rate_squared(0.0)) : 1.0;  // the path itself starts at rest
   }
   if (rate_ == 1.0 && !braking && (!bound || progress_ + period <= curve_.free_until())) {
-    progress_ = std::min(progress_ + period, end());  // in whole nanoseconds: the planned duration
+    progress_ = std::min(progress_ + period, end());  // whole nanoseconds keep the planned duration
   } else {
     const double period_s = to_seconds(period);
     const Step step = braking ? braked(progress_, rate_, period_s) : next_step(period_s);
@@ -61,7 +61,7 @@ void CommandedProgress::advance(Duration period, bool braking) {
   if (progress_ == end()) rate_ = 0.0;
 }
 
-// A brake that ends within the tick covers its triangle only.
+// A brake that ends within the tick covers only the distance up to the rest.
 CommandedProgress::Step CommandedProgress::braked(Duration progress, double rate, double period_s) {
   if (period_s <= 0.0) return {rate, 0.0};
   const Duration last = std::min(progress + from_seconds(rate * period_s), trajectory_->duration());
@@ -95,9 +95,9 @@ CommandedProgress::Step CommandedProgress::below_curve(Step fastest, double peri
   if (!above(fastest.rate, fastest.progress_s)) return fastest;
 
   const double left_s = to_seconds(authority_) - here_s;
-  if (left_s <= 0.5 * rate_ * period_s) return {0.0, left_s};  // rest falls within this tick
+  if (left_s <= 0.5 * rate_ * period_s) return {0.0, left_s};  // rests within this tick
   const auto covered = [&](double rate) { return 0.5 * (rate_ + rate) * period_s; };
-  double low = 0.0;  // the curve falls along the path: one crossing
+  double low = 0.0;  // the curve falls: one crossing
   double high = fastest.rate;
   for (int i = 0; i < 40; ++i) {
     const double middle = 0.5 * (low + high);

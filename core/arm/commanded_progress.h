@@ -7,28 +7,27 @@
 
 namespace armloom {
 
-// How far along its path an arm is told to be: it advances at a rate from 0 to 1, which rises and
-// falls as fast as the rate law lets it, and comes to rest where the authority ends.
+// Commanded progress of an arm on its path. The rate (0 to 1) changes within the rate law and
+// reaches zero at the authority.
 class CommandedProgress {
  public:
   explicit CommandedProgress(CellPtr cell) : law_(std::move(cell)) {}
 
-  // Begins at rest at `from`.
+  // Starts at rest at `from`.
   void follow(TrajectoryPtr trajectory, Duration from, Duration authority);
-  // Authority that comes too late to stop for is raised to where a brake ends.
+  // Sets the authority; raises it to where a brake ends if it is too close.
   void grant(Duration authority);
   void advance(Duration period, bool braking);
 
   [[nodiscard]] Duration progress() const { return progress_; }
   [[nodiscard]] double rate() const { return rate_; }
-  // It goes no farther.
+  // Returns the largest progress that the arm may reach.
   [[nodiscard]] Duration end() const { return std::min(authority_, trajectory_->duration()); }
 
  private:
-  // What the rate law makes of one tick.
   struct Step {
     double rate;        // at the end of the tick
-    double progress_s;  // ground covered in it
+    double progress_s;  // progress made in the tick
   };
   [[nodiscard]] Step next_step(double period_s);
   [[nodiscard]] Step braked(Duration progress, double rate, double period_s);
@@ -38,7 +37,7 @@ class CommandedProgress {
 
   RateLaw law_;
   BrakingCurve curve_;
-  bool curve_stale_ = true;  // the authority has grown since; the curve is still on the safe side
+  bool curve_stale_ = true;  // the authority has grown since; the curve is conservative
   TrajectoryPtr trajectory_;
   Duration progress_{};
   Duration authority_{};

@@ -39,7 +39,7 @@ void FaultyArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration fro
 
 void FaultyArm::grant(Duration authority) {
   granted_ = authority;
-  // What is withheld stays withheld; the next tick decides.
+  // Withheld authority stays withheld; the next tick decides.
   if (allowed_ > granted_ || (!active(ArmFault::Kind::stall) && !active(ArmFault::Kind::slow))) {
     allowed_ = granted_;
     inner_->grant(allowed_);
@@ -80,8 +80,7 @@ const ArmFeedback& FaultyArm::advance(TimePoint now) {
     withhold(period);
   }
   feedback_ = inner_->tick(now);
-  // A path that was commanded to its end cannot be braked on any more: the arm gives up at its
-  // goal.
+  // An arm whose path is commanded to the end cannot brake any more: it gives up at the goal.
   if (giving_up_ && (feedback_.phase == Phase::stopped || feedback_.phase == Phase::finished)) {
     feedback_.phase = Phase::fault;
     feedback_.detail = "the simulated controller gave up";
@@ -91,7 +90,7 @@ const ArmFeedback& FaultyArm::advance(TimePoint now) {
   return feedback_;
 }
 
-// Whether time alone makes the faults do otherwise to a motion that is under way.
+// Returns true if the faults' effect on the present motion changes with time.
 bool FaultyArm::fault_changes() const {
   const bool over = phase_ == Phase::stopped || phase_ == Phase::finished || phase_ == Phase::fault;
   if (over) return false;

@@ -9,32 +9,32 @@
 
 namespace armloom {
 
-// What goes wrong with a simulated arm, and when.
 struct ArmFault {
   enum class Kind {
-    stall,          // stays where it is on its path, then goes on
-    slow,           // follows its path at `value` (0..1) of its speed
-    late_start,     // begins each motion `value` seconds late
-    drop_feedback,  // nothing is heard of it but that it takes commands: what it told last is told
-    fault,  // the controller gives up: brakes, and reports a fault; once. It strikes the motion
-            // that moves then; an arm that does not move keeps it for its next motion
+    stall,       // stops on its path, then continues
+    slow,        // follows its path at `value` (0..1) of its speed
+    late_start,  // starts each motion `value` seconds late
+    // Commands are still acknowledged, but the feedback is frozen at its last value.
+    drop_feedback,
+    // The controller gives up once: brakes and reports a fault, in the present or next motion.
+    fault,
   };
   Kind kind;
   TimePoint from;
-  std::optional<TimePoint> until;  // absent: until removed
+  std::optional<TimePoint> until;  // unlimited if nullopt
   double value = 0.0;
 };
 
-// A controller with faults, for tests and simulation. It does to the inner controller only what an
-// executive could: it withholds authority (stall, slow), starts late, brakes; so limits and path
-// are kept whatever is injected. Deterministic.
+// A controller with faults, for tests and simulation. Acts on the inner controller only as an
+// executive could (withholds authority, starts late, brakes), so limits and path are always kept.
+// Deterministic.
 class FaultyArm final : public ArmController {
  public:
   explicit FaultyArm(std::unique_ptr<ArmController> inner);
 
-  // `id` is the caller's, and not in use.
+  // Adds a fault under an unused `id`.
   void inject(std::uint64_t id, ArmFault fault);
-  // False: no such fault.
+  // Returns false if there is no such fault.
   bool remove(std::uint64_t id);
 
   [[nodiscard]] const std::vector<JointId>& joints() const override { return inner_->joints(); }
@@ -57,13 +57,13 @@ class FaultyArm final : public ArmController {
   TimePoint now_{};
   bool under_way_ = false;
   Duration granted_{};             // by the caller
-  Duration allowed_{};             // handed on
-  std::optional<double> creep_s_;  // while slow: authority that grows with the clock
+  Duration allowed_{};             // to the inner controller
+  std::optional<double> creep_s_;  // while slow: authority that grows with time
   bool giving_up_ = false;
-  ArmFeedback::Phase phase_ = ArmFeedback::Phase::idle;  // as told last
+  ArmFeedback::Phase phase_ = ArmFeedback::Phase::idle;  // last reported by advance()
   ArmFeedback feedback_;
   bool dropping_ = false;
-  ArmFeedback told_;  // while it is dropping
+  ArmFeedback told_;  // reported while dropping
 };
 
 }  // namespace armloom

@@ -7,8 +7,8 @@
 
 namespace armloom {
 
-// Standard normal numbers from a seed, by Box and Muller. Not std::normal_distribution: what that
-// draws from the same engine differs between standard libraries.
+// Standard normal numbers (Box and Muller). Unlike std::normal_distribution, equal with every
+// standard library.
 class GaussianNoise {
  public:
   explicit GaussianNoise(std::uint64_t seed) : engine_(seed) {}

@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Slower than this a joint does not tell one s'' from another.
+// A slower joint does not constrain s''.
 constexpr double kStandingSpeed = 1e-9;
 
 double worst_share(const JointState& state, double rate, const Eigen::VectorXd& limit,
@@ -34,7 +34,7 @@ void RateLaw::follow(TrajectoryPtr trajectory) {
   floor_ = std::min(kBrakeFloorShare * slowest, kRateChangeMax_1_s);
   for (Sampled& sampled : sampled_) {
     sampled.progress = Duration{-1};
-    trajectory_->sample(Duration{}, sampled.state);  // has its size before the first tick
+    trajectory_->sample(Duration{}, sampled.state);  // allocates before the first tick
   }
 }
 

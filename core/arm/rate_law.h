@@ -8,33 +8,32 @@
 
 namespace armloom {
 
-// A point of the phase plane of a motion: where on the path, and the rate r = ds/dt (1: as
-// planned).
+// A point of a motion's phase plane; rate r = ds/dt (1: as planned).
 struct PathPoint {
   Duration progress;
   double rate;
 };
 
-// How fast the rate of progress along a trajectory q(s) may change. The joints' acceleration is
+// Limits the change of rate along a trajectory q(s). The joints' acceleration is
 //   q'(s) s'' + q''(s) r^2
-// with ' the derivative by trajectory time, so each joint's limit is an interval of s'' (Bobrow,
-// Dubowsky and Gibson 1985). All joints of the trajectory count, also those of other arms: arms
-// that share a synchronous motion then brake and continue in step. All s'' are in 1/s.
+// with ' the derivative by trajectory time, so each joint limits s'' to an interval (Bobrow,
+// Dubowsky and Gibson 1985). Includes all joints of the trajectory, so that the arms of a
+// synchronous motion keep in step. All s'' are in 1/s.
 class RateLaw {
  public:
-  // |s''| is never larger: where the path nearly rests, its limits say nothing.
+  // Bound on |s''|, because the joint limits permit any s'' where the path almost rests.
   inline static constexpr double kRateChangeMax_1_s = 50.0;
-  // A brake always makes this share of a joint's limit, even where the path itself uses it all up:
-  // so it ends.
+  // Least share of the joint limits used by a brake, even if the path itself needs them all: so it
+  // ends.
   inline static constexpr double kBrakeFloorShare = 0.02;
 
   explicit RateLaw(CellPtr cell) : cell_(std::move(cell)) {}
   void follow(TrajectoryPtr trajectory);
 
-  // The strongest deceleration s'' < 0 for the stretch from `first` to `last`, within `share` of
-  // the joints' brake limits at both of its ends; where no s'' is, the one that breaks them least.
+  // Returns the strongest deceleration s'' < 0 from `first` to `last` within `share` of the brake
+  // limits at both ends, or the s'' that violates them least if there is none.
   [[nodiscard]] double brake(PathPoint first, PathPoint last, double share = 1.0);
-  // The strongest acceleration s'' >= 0 within the acceleration limits, on a tick of `period_s`.
+  // Returns the strongest acceleration s'' >= 0 within the limits for a tick of `period_s`.
   [[nodiscard]] double rise(PathPoint first, double period_s);
 
  private:
@@ -57,7 +56,7 @@ class RateLaw {
   Eigen::VectorXd acceleration_;  // limits of the trajectory's joints, > 0
   Eigen::VectorXd brake_;
   double floor_ = 0.0;              // smallest deceleration of a brake, > 0
-  std::array<Sampled, 2> sampled_;  // the last two places that were asked for
+  std::array<Sampled, 2> sampled_;  // the last two points requested
   std::size_t older_ = 0;
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 using Phase = ArmFeedback::Phase;
 
-// Closer than this to where it was commanded to rest, the arm is there.
+// The arm has arrived if closer than this to its commanded position.
 constexpr double kArrived_rad = 1e-5;
 
 }  // namespace
@@ -58,7 +58,7 @@ void SimulatedArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration 
   if (!concerned) throw std::logic_error("SimulatedArm::start: none of its joints");
 
   trajectory->sample_positions(from_progress, path_.at);
-  path_.target = path_.at;  // both have their size before the first tick
+  path_.target = path_.at;  // allocates both before the first tick
   Eigen::VectorXd offset = Eigen::VectorXd::Zero(position_.size());
   for (std::size_t j = 0; j < rows.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
@@ -142,7 +142,7 @@ void SimulatedArm::advance(Duration period) {
   if (moved && controller_.noise_rad <= 0.0) feedback_.measured = position_;
 }
 
-// m' = (s - m) / lag, solved exactly for s moving evenly through the tick.
+// Solves m' = (s - m) / lag exactly for constant s'.
 void SimulatedArm::lag_behind(Duration commanded_before, Duration period) {
   const Duration commanded = feedback_.commanded_progress;
   Duration& measured = feedback_.measured_progress;
@@ -155,9 +155,9 @@ void SimulatedArm::lag_behind(Duration commanded_before, Duration period) {
   if (period <= Duration{}) return;
   const double share = std::exp(-to_seconds(period) / to_seconds(controller_.lag));
   const double steady = to_seconds(controller_.lag) * to_seconds(commanded - commanded_before) /
-                        to_seconds(period);  // how far behind it would stay at this speed
+                        to_seconds(period);  // steady lag at this speed
   const double behind = to_seconds(commanded_before - measured);
-  // Rounded down, so that it closes to nothing however slow the lag.
+  // Rounded down, so that the lag reaches zero.
   const Duration behind_after{
       static_cast<Duration::rep>((steady + (behind - steady) * share) * 1e9)};
   measured = std::clamp(commanded - behind_after, measured, commanded);

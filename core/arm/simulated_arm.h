@@ -10,22 +10,19 @@
 
 namespace armloom {
 
-// A simulated arm with a 1 kHz control cycle. Commanded progress advances along the path at a rate
-// (0..1) that a brake lowers to zero, and a start or resume raises to one, as fast as the joints'
-// brake (acceleration) limits allow: |q'(s) s'' + q''(s) s'^2| <= limit for every joint. Measured
-// progress follows the commanded one with a first-order lag (ControllerDescription::lag); measured
-// positions are the path at the measured progress plus, if asked for, Gaussian noise from the seed.
-// Deterministic: the same seed and the same calls give the same feedback, bit for bit.
+// A simulated arm with a 1 kHz control cycle. A brake lowers the rate (0..1) of commanded progress
+// to zero, and a start or resume raises it to one, as fast as the joints' brake or acceleration
+// limits permit: |q'(s) s'' + q''(s) s'^2| <= limit. Measured progress follows with a first-order
+// lag (ControllerDescription::lag). Measured positions are the path at that progress, plus optional
+// Gaussian noise. Deterministic: the same seed and calls give the same feedback, bit for bit.
 //
-// What the interface leaves open:
-// - From the very start of a path (at rest there) the rate is one at once; elsewhere it begins at
-// zero.
-// - Whoever shares a trajectory brakes alike: the limits of all its joints bind the rate, so the
-//   commanded progress of synchronous arms stays equal.
+// Behavior that the interface leaves open:
+// - At the start of a path (at rest there) the rate is one at once; elsewhere it starts at zero.
+// - Synchronous arms keep equal commanded progress: all joints of the trajectory bind the rate.
 // - At rest at its authority the phase stays `moving`; more authority continues the motion.
-// - A grant that comes too late to stop for is raised to where a brake brings the arm to rest.
-// - A brake on the last stretch may come to rest at the goal: the phase is then `finished`.
-// - A start that is off the path (within execution.start_tolerance_rad) is pulled in with the lag.
+// - A grant that is too close is raised to where a brake ends.
+// - A brake near the goal may end at the goal: the phase is then `finished`.
+// - A start off the path (within execution.start_tolerance_rad) is pulled in with the lag.
 // - It never reports `fault`.
 // Broken preconditions throw std::logic_error.
 class SimulatedArm final : public ArmController {
@@ -61,14 +58,14 @@ class SimulatedArm final : public ArmController {
 
   struct Path {
     TrajectoryPtr trajectory;
-    std::vector<Eigen::Index> rows;  // of the trajectory, for each of joints_; -1: not in it
-    Eigen::VectorXd at;              // scratch, of the trajectory's joints: at measured progress
-    Eigen::VectorXd target;          // the same, at commanded progress
+    std::vector<Eigen::Index> rows;  // rows of joints_ in the trajectory; -1 if absent
+    Eigen::VectorXd at;              // scratch: the trajectory's joints at measured progress
+    Eigen::VectorXd target;          // scratch: the same at commanded progress
   };
   Path path_;
-  Eigen::VectorXd position_;  // of joints_: where the arm truly is
+  Eigen::VectorXd position_;  // true positions of joints_
   struct Offset {
-    Eigen::VectorXd left;  // of joints_: of the distance to the path at the start
+    Eigen::VectorXd left;  // of joints_: what is left of the start's distance to the path
     bool is_any = false;
   };
   Offset offset_;

@@ -15,12 +15,12 @@ class Audit {
 
   void look_at(TimePoint time, const Configuration& q) {
     ++report_.states_checked;
-    if (report_.states_checked > 1 && q == last_q_) return;  // its answer is known
+    if (report_.states_checked > 1 && q == last_q_) return;  // same result as the last state
     last_q_ = q;
     audited_.move_to(cell_, q);
     for (AuditedPair& pair : audited_.pairs()) {
       const double at_least = audited_.at_least(pair);
-      // What is farther than the smallest clearance so far cannot change the report.
+      // A pair beyond the smallest clearance so far cannot change the report.
       if (pair.contact_only ? at_least > 0.0 || report_.first_contact.has_value()
                             : at_least >= smallest_m_) {
         continue;

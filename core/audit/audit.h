@@ -10,11 +10,11 @@
 
 namespace armloom {
 
-// One recorded instant: measured positions of all joints of the cell.
+// Measured positions of all joints of the cell.
 struct RecordedState {
   TimePoint time;
   Configuration q;
-  bool after_rest = false;  // nothing has moved since the one before it
+  bool after_rest = false;  // no joint has moved since the previous state
 };
 
 struct AuditFinding {
@@ -26,16 +26,16 @@ struct AuditFinding {
 
 struct AuditReport {
   std::optional<AuditFinding> first_contact;
-  std::optional<AuditFinding> smallest_clearance;  // over all pairs that are not allowed to touch
+  std::optional<AuditFinding> smallest_clearance;  // over all pairs that must not touch
   std::size_t states_checked = 0;
 };
 
-// Re-checks what really happened with plain FCL, sharing nothing with the admission path beyond the
-// model: its own FCL objects, one per collision element as the URDF has it. Between two recorded
-// states joints are interpolated linearly so that no step is longer than `step`, but for stretches
-// of rest. Arms against each other and against the scene, static links included, count for the
-// smallest clearance; what is one arm's own (Cell::is_own) for contact only.
-// Precondition: every q has one entry per joint of the cell; times increase.
+// Re-checks recorded states with plain FCL. Shares only the model with admission: it has its own
+// FCL objects, one per collision element of the URDF. Joints are interpolated linearly between
+// states, in steps of at most `step`, except during rest. The smallest clearance covers arms
+// against each other and the scene, static links included. Pairs within one arm (Cell::is_own) are
+// checked for contact only. Precondition: every q has one entry per joint of the cell; times
+// increase.
 [[nodiscard]] Result<AuditReport> audit(const Cell& cell, const std::vector<RecordedState>& states,
                                         Duration step);
 

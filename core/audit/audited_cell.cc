@@ -11,11 +11,10 @@
 namespace armloom {
 namespace {
 
-// Nothing is concluded for later states from closer than this.
+// Subtracted from a distance before later states rely on it.
 constexpr double kDoubt_m = 1e-3;
-// FCL takes milliseconds for the distance of meshes, unless it may pass over what is farther than
-// some bound. What is asked for beyond the distance that matters saves as much travel until the
-// pair must be looked at again.
+// FCL needs milliseconds for meshes unless it may skip what is beyond a bound. Looking this much
+// beyond the relevant distance saves that much travel until the next look.
 constexpr double kLookAhead_m = 0.05;
 
 bool lacks_mesh(const std::vector<PlacedShape>& shapes) {
@@ -26,9 +25,9 @@ bool lacks_mesh(const std::vector<PlacedShape>& shapes) {
 }
 
 bool may_touch(const Cell& cell, const AuditedSolid& a, const AuditedSolid& b) {
-  if (!a.arm && !b.arm) return true;  // nothing there can change
+  if (!a.arm && !b.arm) return true;  // neither moves
   if (!b.link) return cell.allowed.link_objects.count({*a.link, b.name}) > 0;
-  // What an SRDF only claims (claimed_pairs) is looked at, out of reach or not.
+  // Pairs that an SRDF only claims (claimed_pairs) are checked.
   return cell.allowed.allows(*a.link, *b.link);
 }
 
@@ -43,7 +42,7 @@ bool encloses(const Element& y, const Eigen::Vector3d& p_Y) {
   return y.mesh != nullptr ? y.mesh->encloses(p_Y) : y.primitive->contains(p_Y);
 }
 
-// Surfaces that do not touch: whether one of x's pieces lies inside of y.
+// Returns true if a piece of x lies inside y. Precondition: the surfaces do not touch.
 bool lies_inside(const Element& x, const Element& y) {
   const Eigen::Isometry3d X_YX = y.surface.getTransform().inverse() * x.surface.getTransform();
   if (x.mesh == nullptr) return encloses(y, X_YX.translation());
@@ -52,7 +51,7 @@ bool lies_inside(const Element& x, const Element& y) {
                      [&](const Eigen::Vector3d& p) { return encloses(y, X_YX * p); });
 }
 
-// min(distance, most_m); zero in contact.
+// Returns min(distance, most_m), or zero in contact.
 double distance_of(const Element& x, const Element& y, double most_m) {
   if (x.primitive != nullptr && y.primitive != nullptr) {
     const auto proven = AuditedPrimitive::proven_distance(*x.primitive, x.surface.getTransform(),
@@ -143,7 +142,7 @@ void AuditedCell::move_to(const Cell& cell, const Configuration& q) {
     if (!solid.link) continue;
     const Eigen::Isometry3d& X_WL = X_WL_[solid.link->index()];
     if (moved_once_) {
-      // |(R' - R) p + (t' - t)| for every p within the radius about the link's origin.
+      // Bounds |(R' - R) p + (t' - t)| for every p within radius_m.
       const double shift = (X_WL.translation() - solid.X_WL.translation()).norm();
       const double turn = (X_WL.linear() - solid.X_WL.linear()).norm();
       solid.travel_m += shift + turn * solid.radius_m;

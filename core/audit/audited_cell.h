@@ -17,53 +17,53 @@
 
 namespace armloom {
 
-// A link with shapes, or an object, as one FCL object for each collision element.
+// A link or object: one FCL object per collision element.
 struct AuditedSolid {
   struct Element {
     fcl::CollisionObjectd surface;  // triangles
-    Eigen::Isometry3d X_LS;         // of a mesh: to the middle of its bounding box
-    double radius_m;                // of its bounding sphere
-    double round_m;                 // everything is so much nearer than from the surface
-    // One of the two.
+    Eigen::Isometry3d X_LS;         // mesh: to the center of its bounding box
+    double radius_m;                // bounding sphere
+    double round_m;                 // subtracted from distances to the surface
+    // Exactly one is set.
     std::shared_ptr<const AuditedMesh> mesh;
     std::shared_ptr<const AuditedPrimitive> primitive;
   };
   std::string name;
-  std::optional<LinkId> link;  // none: an object
-  std::optional<ArmId> arm;    // none: it stands still
+  std::optional<LinkId> link;  // nullopt if an object
+  std::optional<ArmId> arm;    // nullopt if stationary
   std::vector<Element> elements;
-  double radius_m = 0.0;  // about the origin of the link, all elements within
+  double radius_m = 0.0;  // bounding sphere about the link's origin
   Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
-  double travel_m = 0.0;         // no point of it has moved farther than this since the beginning
-  bool elements_placed = false;  // the FCL objects stand at X_WL
+  double travel_m = 0.0;         // upper bound of any point's travel
+  bool elements_placed = false;  // the FCL objects are placed at X_WL
 };
 
 struct AuditedPair {
   std::size_t a;
   std::size_t b;
-  bool contact_only;  // one arm's own (Cell::is_own)
-  // What the distance was known to be, at least, and how far both had travelled then.
+  bool contact_only;  // within one arm (Cell::is_own)
+  // Lower bound of the distance, and both solids' travel, at the last look().
   double distance_then_m;
   double travel_then_m;
 };
 
-// The cell as the audit sees it: every pair that is not allowed to touch, and where things are.
+// The audit's model of the cell: poses, and every pair that must not touch.
 class AuditedCell {
  public:
-  // Problems: meshes without data.
+  // Fails if a mesh has no data.
   [[nodiscard]] static Result<AuditedCell> build(const Cell& cell);
 
-  // Moves everything to q and adds to each solid's travel.
+  // Moves all links to q and adds to each solid's travel.
   void move_to(const Cell& cell, const Configuration& q);
 
   [[nodiscard]] std::vector<AuditedPair>& pairs() { return pairs_; }
   [[nodiscard]] const AuditedSolid& solid(std::size_t index) const { return solids_[index]; }
 
-  // What the pair's distance cannot be below, from what was seen before and the travel since.
+  // Returns a lower bound of the distance, from the last look() and the travel since.
   [[nodiscard]] double at_least(const AuditedPair& pair) const;
-  // Asks FCL and remembers: the distance when it is below `matters_m` (to 0.03 mm, of cylinders of
-  // 1 m radius 0.1 mm), else that or more. Zero in contact, when one lies inside of the other, and
-  // when FCL throws.
+  // Computes the distance with FCL and stores it for at_least(). Exact (to 0.03 mm; 0.1 mm for
+  // cylinders of 1 m radius) if below `matters_m`, else at least `matters_m`. Zero in contact, if
+  // one solid is inside the other, or if FCL throws.
   [[nodiscard]] double look(AuditedPair& pair, double matters_m);
 
  private:

@@ -10,7 +10,7 @@
 namespace armloom {
 namespace {
 
-// Vertices in one tree are connected by triangles.
+// Union-find: vertices of one set are connected by triangles.
 class Pieces {
  public:
   explicit Pieces(std::size_t vertices) : above_(vertices) {
@@ -26,7 +26,7 @@ class Pieces {
   std::vector<std::uint32_t> above_;
 };
 
-// Whether a ray from p crosses the triangle (Möller and Trumbore 1997).
+// Returns true if a ray from p crosses the triangle (Möller and Trumbore 1997).
 bool crosses(const Eigen::Vector3d& p, const Eigen::Vector3d& ray, const Eigen::Vector3d& a,
              const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   const Eigen::Vector3d ab = b - a;

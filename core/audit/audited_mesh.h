@@ -10,8 +10,7 @@
 
 namespace armloom {
 
-// A mesh as the audit sees it: its plain triangles, about the middle C of their bounding box, which
-// is the origin of all points here.
+// The audit's model of a mesh: triangles, relative to the center C of their bounding box.
 class AuditedMesh {
  public:
   explicit AuditedMesh(const MeshData& mesh);
@@ -20,17 +19,16 @@ class AuditedMesh {
   [[nodiscard]] double radius_m() const { return radius_m_; }          // about C
   [[nodiscard]] std::shared_ptr<fcl::CollisionGeometryd> make_surface() const;
 
-  // One vertex of each connected piece of the surface: a piece that touches nothing is inside of
-  // another surface if this vertex is. Of the kMaxRepresentatives largest pieces, should a file be
-  // a heap of crumbs.
+  // One vertex of each connected piece, at most kMaxRepresentatives (largest pieces first). A piece
+  // that touches nothing is inside another surface if its vertex is.
   static constexpr std::size_t kMaxRepresentatives = 64;
   [[nodiscard]] const std::vector<Eigen::Vector3d>& representatives() const {
     return representatives_;
   }
 
-  // Whether the surface closes around the point: whether rays from it cross one of its pieces an
-  // odd number of times (the majority of three rays, as one may graze an edge). Orientation plays
-  // no part. Points on the surface may be either; surfaces with holes do not close around anything.
+  // Returns true if rays from the point cross a piece of the surface an odd number of times
+  // (majority of three, because a ray may graze an edge). Orientation is ignored. Either result is
+  // possible on the surface; surfaces with holes enclose nothing.
   [[nodiscard]] bool encloses(const Eigen::Vector3d& p_C) const;
 
  private:

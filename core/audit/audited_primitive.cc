@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kGjkTolerance = 1e-12;
-constexpr double kSpeck_m = 1e-7;  // FCL's distance of triangles wants an area
+constexpr double kSpeck_m = 1e-7;  // FCL needs triangles with an area
 constexpr double kPrismCornersMost = 512.0;
 
 std::shared_ptr<fcl::CollisionGeometryd> solid_of(const Shape& shape) {
@@ -40,7 +40,7 @@ TriangleModel box_surface(const Vector3d& half) {
     model.vertices.emplace_back(i & 1 ? half.x() : -half.x(), i & 2 ? half.y() : -half.y(),
                                 i & 4 ? half.z() : -half.z());
   }
-  // Each face by its first corner and the next ones around it.
+  // Each face: its corners in order.
   for (const auto& [a, b, c, d] : {std::array<std::uint32_t, 4>{0, 2, 3, 1},
                                    {4, 5, 7, 6},
                                    {0, 1, 5, 4},

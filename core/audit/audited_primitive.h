@@ -10,24 +10,23 @@
 
 namespace armloom {
 
-// A box, cylinder or sphere as the audit sees it: solid, about its centre. Immutable.
+// A solid box, cylinder or sphere about its center. Immutable.
 class AuditedPrimitive {
  public:
   explicit AuditedPrimitive(const Shape& shape);  // precondition: no mesh
 
-  // Its triangles: of a box exact, of a cylinder a prism around it that stands off by at most
-  // kPrismExcess_m, of a sphere a speck at its centre, from which everything is round_m nearer.
+  // Returns its triangles: a box exactly, a cylinder as a prism at most kPrismExcess_m outside, a
+  // sphere as a tiny triangle at its center (subtract round_m() from distances).
   [[nodiscard]] std::shared_ptr<fcl::CollisionGeometryd> make_surface() const;
   [[nodiscard]] double round_m() const;
   static constexpr double kPrismExcess_m = 2e-5;
 
-  [[nodiscard]] double radius_m() const;  // of its bounding sphere
+  [[nodiscard]] double radius_m() const;  // bounding sphere
   [[nodiscard]] bool contains(const Eigen::Vector3d& p, double within_m = 0.0) const;
 
-  // The distance by GJK where it is proven to kProof_m: it is no more than that of two points of
-  // the shapes, and no less than the gap between two planes that hold the shapes apart. Nothing
-  // where it is not, as in contact: libccd's GJK ends far too early for one pair of upright boxes
-  // in twenty, and tells up to twice the distance, or none.
+  // Returns the GJK distance if proven to kProof_m by two points of the shapes and by two planes
+  // that separate them, else nullopt, as in contact. For 5 % of upright box pairs, libccd's GJK
+  // ends too early and returns up to twice the distance, or none.
   [[nodiscard]] static std::optional<double> proven_distance(const AuditedPrimitive& a,
                                                              const Eigen::Isometry3d& X_WA,
                                                              const AuditedPrimitive& b,
@@ -35,7 +34,7 @@ class AuditedPrimitive {
   static constexpr double kProof_m = 1e-5;
 
  private:
-  // The largest n·x over the shape, n of unit length in the shape's frame.
+  // Returns the largest n·x over the shape; n of unit length in its frame.
   [[nodiscard]] double support(const Eigen::Vector3d& n) const;
 
   Shape shape_;

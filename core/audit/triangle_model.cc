@@ -15,13 +15,13 @@ using Eigen::Vector3d;
 
 bool lacks_area(const Vector3d& a, const Vector3d& b, const Vector3d& c) {
   const double longest_m = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-  return (b - a).cross(c - a).norm() <= 1e-9 * longest_m;  // its height is below a nanometre
+  return (b - a).cross(c - a).norm() <= 1e-9 * longest_m;  // its height is below a nanometer
 }
 
-// Three corners with an area, each near the one given.
+// Returns three corners with an area, each near a given corner.
 std::array<Vector3d, 3> spread(Vector3d a, Vector3d b, Vector3d c) {
   constexpr double kAside_m = TriangleModel::kAside_m;
-  // The longest side is kept; the corner across goes aside.
+  // Keeps the longest side and moves the opposite corner.
   if ((c - b).norm() > (b - a).norm()) std::swap(a, c);
   if ((c - a).norm() > (b - a).norm()) std::swap(b, c);
   if ((b - a).norm() < kAside_m) b = a + kAside_m * Vector3d::UnitX();

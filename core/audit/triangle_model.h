@@ -10,13 +10,13 @@
 
 namespace armloom {
 
-// Triangles on their way into FCL.
+// Triangles to be passed to FCL.
 struct TriangleModel {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
 
-  // FCL's distance of triangles is exact, but for those without area, of which it makes anything:
-  // these get one, by a corner that is moved aside by at most kAside_m.
+  // Builds the FCL model. FCL's triangle distance is arbitrary for triangles without area, so one
+  // of their corners is moved by at most kAside_m.
   [[nodiscard]] std::shared_ptr<fcl::CollisionGeometryd> made() const;
   static constexpr double kAside_m = 1e-6;
 };

@@ -7,8 +7,7 @@
 
 namespace armloom {
 
-// What was found in a part of the input joins the other problems: their pointers begin at that
-// part, which is at `place`.
+// Appends the problems found in the part of the input at `place`, a prefix of their pointers.
 inline void add_below(const std::string& place, Problems found, Problems& problems) {
   for (Problem& problem : found) {
     problem.pointer.insert(0, place);

@@ -7,8 +7,7 @@
 
 namespace armloom {
 
-// A 64-bit hash of content, the same on every machine and in every session. It tells contents apart
-// that differ by mistake, not by malice.
+// A 64-bit content hash, equal on every machine. Not cryptographic: detects accidents only.
 class ContentHash {
  public:
   void add(std::unsigned_integral auto value) { mix(static_cast<std::uint64_t>(value)); }

@@ -6,10 +6,10 @@
 
 namespace armloom {
 
-// Union-find: what has been joined is one set, which its first member names.
+// Union-find. The smallest member identifies its set.
 class DisjointSets {
  public:
-  // One more set, of one member.
+  // Adds a set of one member.
   void add() { parents_.push_back(parents_.size()); }
   [[nodiscard]] std::size_t root(std::size_t member) {
     while (parents_[member] != member) member = parents_[member] = parents_[parents_[member]];

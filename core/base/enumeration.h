@@ -7,9 +7,9 @@
 
 namespace armloom {
 
-// An enumeration that is spelt out somewhere has its names in one place: a constexpr to_string()
-// with a case for each value, so that the compiler misses none, and null for what is no value. The
-// values count from zero.
+// Names of enumeration values. Each enumeration defines a constexpr to_string() with a case for
+// each value (the compiler reports a missing case) and nullptr for other numbers. Values count
+// from zero.
 
 template <class E>
 inline constexpr std::size_t kValueCount = [] {
@@ -18,7 +18,7 @@ inline constexpr std::size_t kValueCount = [] {
   return count;
 }();
 
-// All of them, in their order.
+// All values in order.
 template <class E>
 inline constexpr auto kValues = [] {
   std::array<E, kValueCount<E>> values{};
@@ -26,7 +26,7 @@ inline constexpr auto kValues = [] {
   return values;
 }();
 
-// The one of this name; nothing: none is.
+// Returns the value of this name, or nullopt if there is none.
 template <class E>
 [[nodiscard]] constexpr std::optional<E> value_named(std::string_view name) {
   for (const E value : kValues<E>) {

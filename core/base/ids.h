@@ -7,13 +7,12 @@
 
 namespace armloom {
 
-// An index that is a type: passing an ArmId where a JobId is asked for does not compile.
+// A typed index: passing an ArmId for a JobId does not compile.
 template <class Tag, class Rep = std::uint32_t>
 class Id {
  public:
   constexpr explicit Id(Rep value) : value_(value) {}
   [[nodiscard]] constexpr Rep value() const { return value_; }
-  // The position in the array that the id indexes (links, joints, arms of a cell).
   [[nodiscard]] constexpr std::size_t index() const { return static_cast<std::size_t>(value_); }
   constexpr auto operator<=>(const Id&) const = default;
 
@@ -24,15 +23,14 @@ class Id {
 // Dense indices into the arrays of one Cell.
 using RobotId = Id<struct RobotTag>;
 using ArmId = Id<struct ArmTag>;
-using JointId =
-    Id<struct JointTag>;  // a movable joint that is no mimic: one entry of a Configuration
-using LinkId = Id<struct LinkTag>;      // a link of any robot of the cell
+using JointId = Id<struct JointTag>;  // a movable joint, not a mimic: one entry of a Configuration
+using LinkId = Id<struct LinkTag>;    // a link of any robot of the cell
 using ObjectId = Id<struct ObjectTag>;  // a collision object of the planning scene
 
-// The order of submission: smaller is earlier. Clients see a string instead (JobView::key).
+// Submission order: smaller is earlier. Clients see a string instead (JobView::key).
 using JobId = Id<struct JobTag, std::uint64_t>;
 
-// What a judgement depends on (reservations, scene); a verdict names the version it judged.
+// Version of what a check depends on (reservations, scene). Verdicts name the version checked.
 using Version = std::uint64_t;
 
 }  // namespace armloom

@@ -29,7 +29,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string_view> nearest_name(std::string_view misspelt,
                                              std::span<const std::string_view> known) {
-  static constexpr std::size_t kLongest = 100;  // no name that we know is longer
+  static constexpr std::size_t kLongest = 100;  // no known name is longer
   if (misspelt.size() > kLongest) return std::nullopt;
   std::optional<std::string_view> nearest;
   std::size_t fewest = 0;

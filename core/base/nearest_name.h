@@ -8,14 +8,13 @@
 
 namespace armloom {
 
-// The known name that a misspelt one most likely means: the fewest letters changed, added, left out
-// or swapped with a neighbour (optimal string alignment), at most a third of them. None: nothing is
-// near.
+// Returns the known name with the fewest letters changed, added, omitted or swapped with a
+// neighbor (optimal string alignment). Returns nullopt if that is more than a third of its
+// letters.
 [[nodiscard]] std::optional<std::string_view> nearest_name(std::string_view misspelt,
                                                            std::span<const std::string_view> known);
 
-// The same of the keys of a map. Only where there are few of them: many names can be unknown at
-// once.
+// Returns the nearest key of a map. Ignores large maps: many names can be unknown at once.
 template <class Map>
 [[nodiscard]] std::optional<std::string> nearest_key(const std::string& misspelt,
                                                      const Map& known) {
@@ -27,7 +26,7 @@ template <class Map>
   return nearest ? std::optional<std::string>(*nearest) : std::nullopt;
 }
 
-// "; did you mean elbow?", of the keys of a map, or nothing.
+// Returns "; did you mean elbow?" with the nearest key, or an empty string.
 template <class Map>
 [[nodiscard]] std::string did_you_mean(const std::string& misspelt, const Map& known) {
   const auto nearest = nearest_key(misspelt, known);

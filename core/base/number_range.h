@@ -5,13 +5,14 @@
 
 namespace armloom {
 
-// Numbers that a value may have: lowest..highest, without the ends that are open. NaN is in none.
+// Range of allowed numbers from `lowest` to `highest`. An open end is excluded. NaN is never
+// inside.
 struct NumberRange {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
-  bool open = false;        // without the lowest itself
-  const char* remedy = "";  // told with a number outside: "; degrees go to rpy_deg"
-  bool open_above = false;  // without the highest itself
+  bool open = false;        // excludes `lowest`
+  const char* remedy = "";  // appended to the error message: "; degrees go to rpy_deg"
+  bool open_above = false;  // excludes `highest`
 
   [[nodiscard]] constexpr bool holds(double number) const {
     return (open ? number > lowest : number >= lowest) &&
@@ -19,7 +20,7 @@ struct NumberRange {
   }
 };
 
-// What it takes, in words: "greater than 0 and at most 1". Precondition: one end is finite.
+// Describes the range: "greater than 0 and at most 1". Precondition: one end is finite.
 [[nodiscard]] std::string in_words(const NumberRange& range);
 
 }  // namespace armloom

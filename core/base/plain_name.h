@@ -5,14 +5,15 @@
 
 namespace armloom {
 
-// Of what stands in paths of the API (robots, arms, objects): 1 to kPlainNameMax characters of
-// UTF-8, no slashes, no control characters, and not "." or "..", which clients take for folders.
+// For names in API paths (robots, arms, objects): 1 to kPlainNameMax characters of UTF-8, no
+// slashes, backslashes or control characters, and not "." or "..", which clients resolve as
+// folders.
 inline constexpr std::size_t kPlainNameMax = 128;
 inline constexpr const char* kPlainNameRule =
     "a name is 1 to 128 characters without slashes and control characters, and not . or ..";
 [[nodiscard]] bool is_plain_name(std::string_view name);
 
-// Of UTF-8.
+// Counts UTF-8 characters.
 [[nodiscard]] std::size_t characters(std::string_view text);
 
 }  // namespace armloom

@@ -1,1 +1,1 @@
-// The headers that are compiled once for all (CMakeLists.txt) need a source to be compiled with.
+// The precompiled headers (CMakeLists.txt) need one source file.

@@ -8,24 +8,24 @@
 
 namespace armloom {
 
-// What kind of mistake it is; the server maps it to an HTTP status, the command line to exit 2.
+// Kind of mistake. Mapped to an HTTP status by the server, to exit code 2 by the command line.
 enum class ProblemKind {
   malformed,    // cannot be read at all: broken JSON or XML, wrong type
-  invalid,      // can be read, but can never be right: limits, sizes, unknown names
+  invalid,      // readable, but never right: limits, sizes, unknown names
   not_found,    // names something that does not exist
-  conflict,     // contradicts the present state: id reused, job already ended
-  too_large,    // over a stated bound
-  unsupported,  // a kind of input that is not read: content type, <capsule>
-  unavailable,  // right, but not now: queue full, shutting down
+  conflict,     // contradicts the present state: id in use, job already ended
+  too_large,    // exceeds a documented limit
+  unsupported,  // an unsupported kind of input: content type, <capsule>
+  unavailable,  // valid, but not possible now: queue full, shutting down
 };
 
-// A client's mistake, as a value. Never a bare "invalid": the place and the value found are in it.
+// A client's mistake, with its place and, if any, the value found.
 struct Problem {
   ProblemKind kind = ProblemKind::invalid;
   std::string slug;     // stable name for programs, e.g. "limit-exceeded"
-  std::string pointer;  // where: JSON pointer into the input, or "file:line" / "file: element"
+  std::string pointer;  // JSON pointer into the input, or "file:line" / "file: element"
   std::string detail;   // one sentence for people, with numbers and units
-  std::variant<std::monostate, double, std::string> value = {};  // what was found there
+  std::variant<std::monostate, double, std::string> value = {};  // found at `pointer`
 };
 
 // One or more problems, in the order found. Never empty when it travels inside a Result.

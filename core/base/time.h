@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// Cell time: starts at zero with the executive and runs X times faster than the wall under
-// --speed X. It has no now(): time is an argument, only the executive's drivers read a clock.
+// Cell time: starts at zero with the executive and runs X times faster than the wall clock under
+// --speed X. Only the executive's drivers read a clock: there is no now().
 struct CellClock {
   using rep = std::int64_t;
   using period = std::nano;
@@ -19,7 +19,7 @@ struct CellClock {
 using Duration = CellClock::duration;
 using TimePoint = CellClock::time_point;
 
-// The instant `since_start` after the executive began; tests say at(99ms).
+// Returns the instant `since_start` after the executive started.
 [[nodiscard]] constexpr TimePoint at(Duration since_start) { return TimePoint{since_start}; }
 
 [[nodiscard]] constexpr double to_seconds(Duration d) {

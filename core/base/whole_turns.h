@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// Of a joint that turns: what to add to a sentence that two of its positions differ, where they
-// look the same (whole turns apart, to the tolerance): ", 2 whole turns away: ...". Else nothing.
+// Returns ", 2 whole turns away: ..." if two revolute positions are whole turns apart (within the
+// tolerance), else an empty string.
 [[nodiscard]] inline std::string whole_turns_apart(double a_rad, double b_rad,
                                                    double tolerance_rad) {
   constexpr double kTurn_rad = 2.0 * std::numbers::pi;

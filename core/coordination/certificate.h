@@ -13,43 +13,42 @@
 
 namespace armloom {
 
-// Certificates: what the checker has proven, as values. Each is complete by itself, so that it
-// stays true whatever becomes of the question that it answered.
+// Certificates: proofs of the checker, as self-contained values.
 
-// A content hash of everything that a proof relies on besides the motions: shapes, where they are,
-// what arms hold, pairs that are not looked at, and the distances that are kept.
+// Content hash of what a proof relies on besides motions: shapes, poses, attached objects,
+// unchecked pairs, required distances.
 using Fingerprint = std::uint64_t;
 
 // The content of a planning scene.
 struct SceneFingerprint {
   Fingerprint common = 0;         // limits, pairs that may touch, links that no arm moves
-  std::vector<Fingerprint> arms;  // by ArmId: links, joints, and what the arm holds
+  std::vector<Fingerprint> arms;  // by ArmId: links, joints, attached objects
   // By ArmId: the objects within the arm's reach, ascending.
   std::vector<std::vector<Fingerprint>> objects;
 
-  // Returns the content that a proof about the arms of both lists relies on. Precondition: each
-  // list is ascending, and no arm is in both.
+  // Returns the content that a proof about these arms relies on. Precondition: each list is
+  // ascending, and no arm is in both.
   [[nodiscard]] Fingerprint of(std::span<const ArmId> one, std::span<const ArmId> other = {}) const;
   bool operator==(const SceneFingerprint&) const = default;
 };
-// Returns the arms whose motions have to be checked again: an object appeared or changed within
-// their reach, or any arm, or what all proofs rely on, is different.
+// Returns the arms whose motions must be checked again: arms with a new or changed object within
+// reach; all arms if an arm or the common content changed.
 [[nodiscard]] std::vector<ArmId> arms_in_question(const SceneFingerprint& before,
                                                   const SceneFingerprint& now);
 
-// The arms of one motion, or one arm at rest, as a proof sees them. Each joint is at most `error`
-// (rad, m) from where it is said to be.
+// The arms of one motion, or one resting arm, in a proof. Each joint is at most `error` (rad, m)
+// from its stated position.
 struct CertifiedSide {
   std::vector<ArmId> arms;  // ascending
-  TrajectoryPtr motion;     // null: the arm is at rest
-  Duration from{};          // the proof holds from this progress of the motion on
+  TrajectoryPtr motion;     // null if the arm rests
+  Duration from{};          // valid from this progress on
   double error = 0.0;
-  std::vector<std::pair<JointId, double>> still;  // positions of their joints that do not move
+  std::vector<std::pair<JointId, double>> still;  // the arms' joints that do not move
 };
 
-// Wherever both are on their ways, they keep their clearance, but for these rectangles: progress of
-// `a`, progress of `b` (zero at rest). An edge is free unless another rectangle, or the motion's
-// own end, lies behind it.
+// Proves that two sides keep their clearance at all combinations of positions on their motions,
+// except in `blocked` (progress of `a`, progress of `b`; zero at rest). A rectangle's edge is free
+// unless another rectangle, or the motion's own end, adjoins it.
 struct PairCertificate {
   CertifiedSide a;
   CertifiedSide b;
@@ -57,21 +56,21 @@ struct PairCertificate {
   Fingerprint geometry;
 };
 [[nodiscard]] PairCertificate turned(const PairCertificate& pair);
-// These two arms keep their clearance wherever they are.
+// Proves that two arms keep their clearance in all positions.
 struct ApartCertificate {
   ArmId a;
   ArmId b;
   Fingerprint geometry;
 };
-// On all of its remaining way the motion keeps its clearance from itself, links that stand still,
-// and these objects.
+// Proves that the rest of the motion keeps its clearance from itself, stationary links and these
+// objects.
 struct SceneCertificate {
   CertifiedSide side;
   std::vector<std::vector<Fingerprint>> objects;  // of each arm of the side, ascending
   Fingerprint geometry;
 };
-// The arms of one motion keep their clearance from each other while none of them is ahead of
-// another by more than `apart` (trajectory time).
+// Proves that a motion's arms keep their clearance from each other while no arm is ahead of another
+// by more than `apart` (trajectory time).
 struct TogetherCertificate {
   CertifiedSide side;
   Duration apart;

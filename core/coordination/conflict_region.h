@@ -15,21 +15,20 @@ struct ProgressBox {
 };
 
 // A connected set of states (progress of A, progress of B) that are not certified free. A monotone
-// path through the diagram passes all of it on one side: either A is first everywhere (B comes to
-// no box before A has left it), or B is.
+// path passes the whole region on one side: either A is first (B enters no box before A has left
+// it), or B is.
 struct ConflictRegion {
   std::vector<ProgressBox> boxes;  // never empty
-  Proximity proximity;             // evidence: the closest that was found; body_a is A's
-  Duration time_a;                 // where
+  Proximity proximity;             // evidence: the closest pair found; body_a is A's
+  Duration time_a;                 // state of `proximity`
   Duration time_b;
 };
 
-// What a candidate and another motion, or an arm at rest, do to each other wherever each is on its
-// way. Every state outside of the boxes, from the progress that the question gave on, is certified
-// free: in it both keep the cell's clearance, their tracking errors included.
+// Conflict regions of a candidate and another motion or resting arm. From the question's progress
+// on, every state outside the boxes is certified free, including the tracking errors.
 struct PairRegions {
   JobId a;                       // a candidate
-  std::variant<JobId, ArmId> b;  // another motion, or an arm that none moves: its times are zero
+  std::variant<JobId, ArmId> b;  // another motion, or a resting arm: its times are zero
   std::vector<ConflictRegion> regions;
 };
 

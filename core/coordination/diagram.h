@@ -10,12 +10,12 @@
 
 namespace armloom {
 
-// A rectangle of a coordination diagram: trajectory times of A and of B.
+// A rectangle of trajectory times of A and of B.
 struct DiagramCell {
   enum class State : std::uint8_t {
-    free,       // certified: the arms keep their clearance in every state of the cell
-    conflict,   // they do not, in every state of the cell
-    undecided,  // both kinds, or neither is proven
+    free,       // the arms keep their clearance in every state (certified)
+    conflict,   // they violate it in every state
+    undecided,  // both kinds, or not proven
   };
   Duration from_a, to_a, from_b, to_b;
   State state;
@@ -32,24 +32,24 @@ struct DiagramCell {
   return nullptr;
 }
 
-// What one arm's motion and another's do to each other, wherever each is on its own way.
+// Diagram of two arms' motions.
 struct DiagramLayer {
   ArmId arm_a;
   ArmId arm_b;
   std::vector<DiagramCell> cells;  // cover the rectangle of both motions
 };
 
-// "What do these two motions do to each other, wherever each is on its way?"
+// Requests the coordination diagram of two motions.
 struct Drawing {
   TrajectoryPtr a;
   TrajectoryPtr b;
-  Configuration rest;  // where the joints stand that are in neither
+  Configuration rest;  // positions of the joints that are in neither motion
   double tracking_error;
   Duration resolution;
-  std::uint64_t budget;  // cells, for each pair of arms
+  std::uint64_t budget;  // cells per pair of arms
 };
 
-// Of two motions: a layer for each arm of A and each arm of B.
+// One layer for each arm of A and each arm of B.
 struct Diagram {
   Duration duration_a;
   Duration duration_b;

@@ -7,13 +7,13 @@
 
 namespace armloom {
 
-// A job is not put off because the budget of evaluations has ended: its question is asked again
-// with a larger one, up to kEffortMax times the usual. What has been learnt is kept
-// (motion_store.h), so that each asking goes on where the one before it ended.
+// A job is not deferred because its budget of evaluations ran out: its question is checked again
+// with a larger budget, up to kEffortMax times the usual budget. Each check continues where the
+// previous check ended (motion_store.h).
 inline constexpr std::uint64_t kEffortGrowth = 4;
 inline constexpr std::uint64_t kEffortMax = 16;
 
-// With what Question::effort to ask again; nothing: that was the last word.
+// Returns the next Question::effort, or nullopt if the verdict is final.
 [[nodiscard]] inline std::optional<std::uint64_t> larger_effort(const Verdict& verdict,
                                                                 std::uint64_t effort) {
   if (!verdict.exhausted || effort >= kEffortMax) return std::nullopt;

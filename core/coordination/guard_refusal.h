@@ -10,16 +10,16 @@ namespace armloom {
 // Evidence that an arm must not be given authority.
 struct GuardRefusal {
   enum class Why {
-    uncertified,  // no valid certificate covers it: ask the checker for one
-    region,       // a certificate covers it, and the product of authorities meets a region
+    uncertified,  // no valid certificate: ask the checker
+    region,       // the certified product of authorities overlaps a conflict region
     busy,         // the arm is on another motion
-    out_of_step,  // the arms of the motion are farther apart on it than is certified
+    out_of_step,  // the motion's arms are too far apart in progress
   };
   Why why = Why::uncertified;
-  ArmId arm{0};                     // that may not go
-  std::optional<ArmId> other = {};  // nullopt: the scene, or the arms of the same motion
+  ArmId arm{0};                     // the refused arm
+  std::optional<ArmId> other = {};  // nullopt if about the scene or the same motion's arms
   ProgressBox asked = {};           // progress of `arm`, progress of `other`, up to authority
-  std::optional<ProgressBox> region = {};  // Why::region: the first rectangle that is met
+  std::optional<ProgressBox> region = {};  // Why::region: the first rectangle that overlaps
 };
 [[nodiscard]] constexpr const char* to_string(GuardRefusal::Why why) {
   switch (why) {

@@ -4,9 +4,9 @@
 
 namespace armloom {
 
-// The arms of one synchronous motion keep together on its path: one that gets ahead of another by
-// more than kOutOfStep is told to wait there. So they are apart by no more than this, what the one
-// ahead passes until it is told, and its stopping reach. Trajectory time.
+// Arms of one synchronous motion keep in step: an arm ahead of another by more than kOutOfStep is
+// ordered to wait. So they differ in progress by at most kOutOfStep, plus kUntilTold (delay of the
+// order), plus the stopping reach. All in trajectory time.
 inline constexpr Duration kOutOfStep = std::chrono::milliseconds(50);
 inline constexpr Duration kUntilTold = std::chrono::milliseconds(2);  // control cycles
 

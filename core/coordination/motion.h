@@ -12,72 +12,71 @@
 
 namespace armloom {
 
-// One job's motion as a judgement sees it. Zero is the instant that the question asks about:
-// there the motion stands at `progress` of its trajectory (trajectory time, 0 <= progress <=
-// duration), from there it advances second by second to the end and rests at the goal.
-// A negative progress is a motion that is still to start: it rests at its start for that long.
+// One job's motion in a collision check. At the question's instant the motion is at `progress`
+// (trajectory time, <= duration), from which it runs to the end and rests at the goal. If
+// `progress` is negative, the motion first rests at its start for that long.
 struct Motion {
   JobId job;
   TrajectoryPtr trajectory;
   Duration progress;
-  bool to_come = false;  // Coordinated: its arm makes another motion before it
-  // Its joints are up to so far from the path where it sets out (rad, m): certified methods take
-  // the larger of this and their tracking error.
+  bool to_come = false;  // Coordinated only: its arm executes another motion first
+  // Largest distance of its joints from the path at its start or resume (rad, m). Certified methods
+  // use the larger of this and their tracking error.
   double off_path = 0.0;
-  // TimedDiscrete, which has no orders that would keep others away from where it stands.
+  // TimedDiscrete only: no passing orders protect a paused motion.
   enum class Stands : std::uint8_t {
     goes_on,
-    may_stay,  // it brakes, or has not moved for a while: compared both ways
-    stays,     // it was stopped, and is asked about before it goes on
+    may_stay,  // brakes, or has not moved for a while: both cases are checked
+    stays,     // was stopped; checked again before it continues
   };
   Stands stands = Stands::goes_on;
 
   [[nodiscard]] Duration remaining() const { return trajectory->duration() - progress; }
 };
 
-// How motions are compared.
-struct TimedDiscrete {  // the paper's: at equal instants, every `step`; between them nothing is
-                        // promised
+// The paper's method: checks equal instants, every `step`. Guarantees nothing between them.
+struct TimedDiscrete {
   Duration step;
 };
-struct Swept {            // whatever the times: all of what remains of one against all of the other
-  double tracking_error;  // of each joint against its path (rad, m)
+// Ignores times: checks the whole remainder of each motion against that of every other motion.
+struct Swept {
+  double tracking_error;  // of each joint from its path (rad, m)
 };
-struct Coordinated {  // no times at all: in which states of each pair it is not certified that both
-                      // may be (Verdict::regions). Of one arm, several motions may be named, in the
-                      // order in which it will make them; each begins where the one before ends
+// Ignores times: finds the states of each pair that are not certified free (Verdict::regions). An
+// arm may have several motions, in execution order, each starting at the end of the previous
+// motion.
+struct Coordinated {
   double tracking_error;
 };
 using CheckMethod = std::variant<TimedDiscrete, Swept, Coordinated>;
-// Of each joint against its path (rad, m); zero where none is looked at.
+// Returns the tracking error of each joint (rad, m); zero if the method has none.
 [[nodiscard]] inline double tracking_error_of(const CheckMethod& method) {
   if (const auto* swept = std::get_if<Swept>(&method)) return swept->tracking_error;
   const auto* coordinated = std::get_if<Coordinated>(&method);
   return coordinated != nullptr ? coordinated->tracking_error : 0.0;
 }
 
-// Does this motion find its way free, from its progress on, while an arm that it does not move
-// rests there?
+// Asks if a motion is free, from its progress on, while another arm rests at `rest`.
 struct PassageQuestion {
   Motion motion;
   ArmId arm;
-  Eigen::VectorXd rest;  // of the arm's joints, in its order
+  Eigen::VectorXd rest;  // the arm's joints, in its order
 };
 
-// "May these candidates start together at the question's instant, beside everything else?"
-// Plain data: complete, self-contained, safe to hand to another thread.
+// Asks if the candidates may start together, given all other motions and resting arms. Plain
+// data, safe to pass to another thread.
 struct Question {
-  Version version;                 // of the reservations that `others` and `rest` were read from
-  TimePoint start_at;              // the question's instant, in cell time
-  std::vector<Motion> candidates;  // usually one; several are judged as one synchronous start
+  Version version;                 // of the reservations behind `others` and `rest`
+  TimePoint start_at;              // the question's instant
+  std::vector<Motion> candidates;  // usually one; several are checked as one synchronous start
   std::vector<Motion> others;      // every motion that holds a reservation
-  Configuration rest;              // where every joint that is in none of these motions stands
+  Configuration rest;              // joints that are in none of these motions
   CheckMethod method;
-  std::vector<PassageQuestion> passages = {};  // asked besides, whatever becomes of the candidates
-  // How many times the usual budget of evaluations an answer may cost (not for TimedDiscrete).
+  std::vector<PassageQuestion> passages = {};  // answered whatever the result for the candidates
+  // Multiple of the usual budget of evaluations (not for TimedDiscrete).
   std::uint64_t effort = 1;
-  // Pairs that are too close at the question's instant may part: not where nothing stands there
-  // yet.
+  // Lets pairs that are too close at the question's instant move apart. Must be false if the arms
+  // are not really there yet.
   bool may_part = true;
 };
 

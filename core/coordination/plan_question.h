@@ -13,36 +13,33 @@
 
 namespace armloom {
 
-// Where one arm is to be, and how fast it goes there. Plain data.
 struct LinkTarget {
   LinkId link;
   Eigen::Isometry3d X_WL;  // in the world (m)
 };
-// Wherever the arm stands clear of what remains of this motion of others: the nearest such place
-// that is found.
+// Goal: the nearest configuration found that is clear of the rest of this motion.
 struct ClearOf {
   TrajectoryPtr motion;
   Duration progress{};
 };
 struct MotionGoal {
   ArmId arm;
-  // Of the arm's joints, in its order (rad, m); or of one of its links; or out of the way.
+  // Joint positions in the arm's order (rad, m), a link pose, or out of another motion's path.
   std::variant<Eigen::VectorXd, LinkTarget, ClearOf> to;
-  double speed = 1.0;     // in (0, 1]: as if all were stretched in time
-  bool straight = false;  // of a link: along a straight line in the world (tool_line.h)
+  double speed = 1.0;     // in (0, 1]: scales velocity, and acceleration by its square
+  bool straight = false;  // LinkTarget: along a straight line in the world (tool_line.h)
 };
 
-// "How does the arm get there?" Plain data: complete, self-contained, safe to hand to another
-// thread.
+// Asks for a motion to a goal. Plain data, safe to pass to another thread.
 struct PlanQuestion {
   MotionGoal goal;
-  Configuration at;  // where every joint stands: the arm's own are the start
-  // Arms that do not rest there for good: a way past them is looked for first, past all but those
-  // that stand where the arm sets out or is to go; where there is none, one as if they were gone.
+  Configuration at;  // all joints of the cell; the arm's own are the start
+  // Arms that will move away from their present position. The planner first looks for a path
+  // past them, except those at the arm's start or goal. If there is none, it ignores them all.
   std::vector<ArmId> may_move = {};
-  bool has_no_way_past = false;  // that is known already of these: it is looked for as if gone
+  bool has_no_way_past = false;  // no path exists past `may_move`: ignore them at once
   std::uint64_t seed = 1;
-  std::optional<std::uint64_t> budget = {};  // evaluations of a try; else the planner's own
+  std::optional<std::uint64_t> budget = {};  // evaluations per try; nullopt for the default
 };
 
 }  // namespace armloom

@@ -8,23 +8,23 @@
 
 namespace armloom {
 
-// Two bodies that come too close, and how close. Names are links (with prefix) or objects. What an
-// arm holds belongs to the arm.
+// Two bodies that come too close, and their distance. Names are links (with prefix) or objects.
+// An attached object belongs to the arm.
 struct Proximity {
-  std::string body_a;          // a link, or held
-  std::string body_b;          // a link, held, or an object of the scene
-  std::optional<ArmId> arm_a;  // empty: a static link
-  std::optional<ArmId> arm_b;  // empty: a static link or an object
+  std::string body_a;          // a link or attached object
+  std::string body_b;          // a link, attached object, or object of the scene
+  std::optional<ArmId> arm_a;  // nullopt if a static link
+  std::optional<ArmId> arm_b;  // nullopt if a static link or an object
   bool object_b = false;       // body_b is an object of the scene
   double clearance_m = 0.0;    // distance; zero or less in contact
-  bool held_a = false;         // body_a is an object that arm_a holds
-  bool held_b = false;         // body_b is an object that arm_b holds
-  double limit_m = 0.0;        // what they should have kept, where they were asked for that
+  bool held_a = false;         // body_a is attached to arm_a
+  bool held_b = false;         // body_b is attached to arm_b
+  double limit_m = 0.0;        // required clearance; zero if not given
 
   bool operator==(const Proximity&) const = default;
 };
 
-// The same evidence as the second body sees it.
+// Returns the evidence with the bodies swapped.
 [[nodiscard]] inline Proximity turned_around(Proximity proximity) {
   std::swap(proximity.body_a, proximity.body_b);
   std::swap(proximity.arm_a, proximity.arm_b);

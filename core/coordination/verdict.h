@@ -16,12 +16,12 @@
 
 namespace armloom {
 
-// The evidence of a conflict: what a candidate would come too close to, where and when.
+// Evidence of a conflict: the bodies that come too close, with the place and times.
 struct Conflict {
   enum class With {
     motion,  // another job's motion, or its rest after its end
     rest,    // an arm at rest that no job will move
-    scene,   // an object, or a link that stands still
+    scene,   // an object, or a stationary link
     self,    // the candidate's own links (Cell::is_own)
   };
   With with;
@@ -29,22 +29,22 @@ struct Conflict {
   std::optional<JobId> other_job;  // With::motion
   Proximity proximity;             // body_a belongs to the candidate
   Duration own_time;               // trajectory time of the candidate
-  Duration other_time;             // trajectory time of the other job; zero where there is none
+  Duration other_time;             // trajectory time of the other job, or zero
 };
 
-// To a PassageQuestion. What is not decided within the budget is blocked.
+// Answer to a PassageQuestion. Not decided within the budget means `blocked`.
 enum class PassageAnswer {
   free,
   blocked,
-  apart,  // and so it is wherever both arms are
+  apart,  // free in all positions of both arms
 };
 
-// What is proven to be kept, in m: no more than was asked of any pair of that kind.
+// Proven clearance in m: the smallest limit to which pairs of each kind were held.
 struct ClearanceBound {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
-  double apart_m =
-      kNone;  // between arms, and by arms from all that stands still, their mounts among it
-  double self_m = kNone;  // by links of one arm from each other (Cell::is_own)
+  // Between arms, and from arms to everything stationary, including their mounts.
+  double apart_m = kNone;
+  double self_m = kNone;  // between links of one arm (Cell::is_own)
 
   void lower(const ClearanceBound& other) {
     apart_m = std::min(apart_m, other.apart_m);
@@ -54,27 +54,24 @@ struct ClearanceBound {
   friend bool operator==(const ClearanceBound&, const ClearanceBound&) = default;
 };
 
-// The answer to a Question, with its evidence.
 struct Verdict {
   enum class Kind { free, conflict, undecided };
   Kind kind;
   Version version;                  // of the question
-  std::vector<Conflict> conflicts;  // the first one found with each counterpart; empty when free
-  std::optional<ClearanceBound> clearance_bound;  // absent: nothing is proven
-  std::uint64_t evaluations = 0;                  // combined states looked at
-  // Where a policy has been asked too (executive/dry_run.h): the candidates would start this much
-  // after the question's instant.
+  std::vector<Conflict> conflicts;  // the first conflict with each counterpart; empty when free
+  std::optional<ClearanceBound> clearance_bound;  // nullopt if nothing is proven
+  std::uint64_t evaluations = 0;                  // combined states checked
+  // If a policy was asked too (executive/dry_run.h): delay until the candidates would start.
   std::optional<Duration> earliest_start = {};
-  // Coordinated, and no conflict: every pair of a candidate and another motion or an arm at rest
-  // that is not free everywhere.
+  // Coordinated without conflict: every pair of a candidate and another motion or resting arm
+  // that is not free in all states.
   std::vector<PairRegions> regions = {};
-  std::vector<PassageAnswer> passages = {};  // as in Question::passages; empty: all are free
-  // Not all was decided, as the budget of evaluations ended: a larger Question::effort may find
-  // more free.
+  std::vector<PassageAnswer> passages = {};  // to Question::passages; empty if all are free
+  // The budget of evaluations ran out. A larger Question::effort may find more states free.
   bool exhausted = false;
-  // The check was ended early: everything else here is void.
+  // The check was aborted: all other members are void.
   bool interrupted = false;
-  // Free, and by a certified method: everything about the candidates that the answer proves.
+  // If free by a certified method: all that the answer proves about the candidates.
   std::vector<Certificate> certificates = {};
 };
 [[nodiscard]] constexpr const char* to_string(Verdict::Kind kind) {

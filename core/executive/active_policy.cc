@@ -25,9 +25,8 @@ Result<void> Executive::ActivePolicy::change(const std::string& name) {
       if (scheduler.find(job)->in<Queued>() != nullptr) continue;
       admitted += (admitted.empty() ? "" : ", ") + executive_.jobs_.key(job);
     }
-    return failure(
-        Problem{ProblemKind::conflict, "not-at-rest", "/policy",
-                "the policy changes only while no job is admitted; now there are: " + admitted});
+    return failure(Problem{ProblemKind::conflict, "not-at-rest", "/policy",
+                           "cannot change the policy while jobs are admitted: " + admitted});
   }
   executive_.step(ChangePolicy{std::move(*policy)});
   executive_.follow_policy();

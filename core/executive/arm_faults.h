@@ -13,26 +13,26 @@
 
 namespace armloom {
 
-// A fault of a simulated arm, as a client asks for it.
+// A fault of a simulated arm, as requested by a client.
 struct FaultRequest {
   std::string arm;
   ArmFault::Kind kind = ArmFault::Kind::stall;
-  std::optional<TimePoint> at;      // absent: now
-  std::optional<Duration> lasting;  // absent: until removed; a fault strikes once
+  std::optional<TimePoint> at;      // nullopt: now
+  std::optional<Duration> lasting;  // nullopt: until removed; a fault strikes once
   double value = 0.0;
 };
 
 struct ExecutiveInput;
 
-// Faults of the simulated arms, which clients put in and take out.
+// Injects faults into the simulated arms, and removes them.
 class ArmFaults {
  public:
-  // Told what a client wants, good or not; answers what time it is.
+  // Called with each request, valid or not; returns the present time.
   using Asked = std::function<TimePoint(const ExecutiveInput&)>;
-  // The arms, by ArmId, outlive it.
+  // `arms`, by ArmId, outlive this object.
   ArmFaults(CellPtr cell, const std::vector<std::unique_ptr<FaultyArm>>& arms, Asked asked);
 
-  // Its number. Problem: an unknown arm.
+  // Returns the fault's number. Problem: an unknown arm.
   [[nodiscard]] Result<std::uint64_t> inject(const FaultRequest& request);
   // Problem: an unknown fault.
   [[nodiscard]] Result<void> remove(std::uint64_t id);

@@ -15,7 +15,7 @@ namespace {
 
 Problem too_many(const std::string& what) {
   return {ProblemKind::unavailable, "too-many-" + what, "",
-          "too many " + what + " are being made; ask again in a moment"};
+          "too many " + what + " are open; retry in a moment"};
 }
 
 // For each arm that may go; where that begins stands in `at`.
@@ -46,7 +46,7 @@ std::optional<double> arrives_s(const PlanView& plan) {
 }
 
 std::string why_another(const std::optional<double>& arrives, const PlanView& best) {
-  if (!arrives) return "when it could go is not known";
+  if (!arrives) return "its arrival time is not known";
   const auto first = arrives_s(best);
   char text[96];
   std::snprintf(text, sizeof text, "it would arrive in %.2f s, %s in %.2f s", *arrives,
@@ -163,7 +163,7 @@ void Executive::Impl::walk(std::shared_ptr<Trial> trial,
   for (Wait& wait : outcome.waits) {
     if (!wait.job || scheduler_.find(*wait.job) != nullptr) continue;
     const bool was_forgotten = *wait.job < scheduler_.next_job();
-    if (!was_forgotten) wait.detail = "a motion of the server's own, which would go first";
+    if (!was_forgotten) wait.detail = "a motion that the server would add and run first";
     wait.job.reset();
   }
   CheckView view = view_of(outcome, *cell_, jobs_);

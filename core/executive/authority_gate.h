@@ -11,28 +11,27 @@
 
 namespace armloom {
 
-// The only way to the arms: starts, resumes and extends motions as far as the guard allows. What it
-// refuses is kept and tried again in each control cycle, until the guard allows it or the motion is
-// braked. Certificates that are missing are asked for.
+// The only way to the arms: starts, resumes and extends motions as far as the guard allows. Refused
+// authority is retried in each control cycle until it is allowed or the motion is braked. Requests
+// missing certificates.
 class AuthorityGate {
  public:
   struct Calls {
-    // Certificates are missing: the answer's come back through certified().
+    // Certificates are missing: pass those of the answer to certified().
     std::function<void(const Question&)> certify;
-    // The scheduler granted what it should not have: told once for each job.
+    // The scheduler granted what it should not have granted. Called once per job.
     std::function<void(JobId, const GuardRefusal&)> refused;
-    // What was told so is allowed now.
+    // A refusal reported by `refused` is now allowed.
     std::function<void(JobId)> allowed;
   };
-  // Both outlive it. All arms are at rest.
+  // `cell` and `motions` outlive this object. All arms are at rest.
   AuthorityGate(CellPtr cell, Motions& motions, SceneFingerprint present, Calls calls);
 
-  // Without certificates (timed_discrete) everything passes. Precondition: no arm is on a motion.
+  // Without certificates (timed_discrete) the gate allows everything. Precondition: no arm has a
+  // motion.
   void set_certified(bool certified) { is_certified_ = certified; }
 
-  // From answers of the checker, whatever they were asked for.
   void take(const std::vector<Certificate>& certificates) { guard_.take(certificates); }
-  // The answer to Calls::certify.
   void certified(const std::vector<Certificate>& certificates);
   void look_at(const SceneFingerprint& present);
   [[nodiscard]] const SceneFingerprint& scene() const { return guard_.scene(); }
@@ -43,21 +42,18 @@ class AuthorityGate {
   void brake(JobId job);
   void release(JobId job);
 
-  // One control cycle of every arm. Returns what there is to tell the scheduler, in order of jobs.
+  // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs.
   [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now);
 
-  // Returns the refusal that the scheduler did not expect and that keeps the job back now; nullopt
-  // if there is none.
+  // Returns the refusal that holds the job back and that the scheduler did not expect; nullopt if
+  // there is none.
   [[nodiscard]] std::optional<GuardRefusal> refusal(JobId job) const;
-  // Returns true if the arms were told all that was granted.
   [[nodiscard]] bool is_idle() const { return kept_.empty(); }
-  // The job whose motion the arm was told of last.
   [[nodiscard]] std::optional<JobId> job_of(ArmId arm) const { return jobs_[arm.index()]; }
 
-  // The gate asks for the missing certificates of one job at most once in this time.
+  // Shortest time between two requests for the missing certificates of one job.
   inline static constexpr Duration kAskAgain = std::chrono::milliseconds(100);
-  // A certificate that is missing longer than this, and after so many answers about the present
-  // scene, is a defect of the scheduler.
+  // Beyond both of these, a missing certificate is a defect of the scheduler.
   inline static constexpr Duration kMissing = std::chrono::seconds(1);
   inline static constexpr int kAnswers = 2;
 
@@ -67,11 +63,11 @@ class AuthorityGate {
     Duration authority;
     GuardRefusal refusal;
     TimePoint since;
-    std::optional<Dispatch> start = {};  // the arms are not told yet
-    bool is_braked = false;              // before they were
+    std::optional<Dispatch> start = {};  // not sent to the arms yet
+    bool is_braked = false;
     bool is_reported = false;
-    TimePoint asks_from = {};  // the gate asks for its certificates from then on
-    int answers = 0;           // about the present scene, without the missing certificate
+    TimePoint asks_from = {};  // time of the next request for its certificates
+    int answers = 0;
 
     [[nodiscard]] AuthorityGuard::From from() const {
       return start ? std::optional(start->from_progress) : std::nullopt;
@@ -93,11 +89,11 @@ class AuthorityGate {
   Calls calls_;
   bool is_certified_ = true;
   std::map<JobId, Kept> kept_;
-  std::map<JobId, TrajectoryPtr> told_;     // motions that arms were told of
+  std::map<JobId, TrajectoryPtr> told_;
   std::vector<std::optional<JobId>> jobs_;  // by ArmId
   std::optional<JobId> asked_;              // the job of the open question
   TimePoint now_{};
-  std::uint32_t looked_at_ = 0;  // ArmId of the arm at rest that was read last
+  std::uint32_t looked_at_ = 0;  // ArmId of the last resting arm whose position was read
   std::vector<MotionReport> reports_;
 };
 

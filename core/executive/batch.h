@@ -10,21 +10,21 @@
 
 namespace armloom {
 
-// Several jobs that were submitted at once, as far as they are taken. An atomic one is looked at as
-// a whole first, which is quick where its motions are validated; then one job after the other is
-// accepted, and none can be refused any more.
+// A batch of jobs, submitted in chunks. An atomic batch is first checked as a whole, which is fast
+// if its motions are validated; then its jobs are accepted one after the other, and none can be
+// refused any more.
 class Executive::Batch {
  public:
   Batch(Impl& taker, std::vector<JobRequest> asked, bool all_or_none)
       : executive(taker), requests(std::move(asked)), atomic(all_or_none) {}
 
-  // Takes the next part. The answers, when nothing is left.
+  // Takes the next chunk. Returns the answers after the last one.
   [[nodiscard]] std::optional<BatchAnswers> go_on();
 
   Impl& executive;
   std::vector<JobRequest> requests;
   const bool atomic;
-  std::optional<std::vector<PreparedJob>> prepared = {};  // atomic: all that is accepted
+  std::optional<std::vector<PreparedJob>> prepared = {};  // atomic: the checked jobs
   std::size_t next = 0;
   std::vector<Result<JobView>> answers = {};
 };

@@ -31,10 +31,10 @@ std::string to_text(const ClaimedPairsReport& report) {
   if (count == 0) return {};
   std::string text = "the SRDF disables " + std::to_string(count) +
                      (count == 1 ? " pair" : " pairs") +
-                     " of links of different arms, or of an arm and what stands beside it: " +
+                     " of links of different arms, or of an arm and its surroundings: " +
                      std::to_string(report.out_of_reach) + " proven out of reach and skipped, " +
                      std::to_string(report.cell_file) + " allowed by the cell file, " +
-                     std::to_string(report.checked.size()) + " checked all the same";
+                     std::to_string(report.checked.size()) + " checked nevertheless";
   if (report.checked.empty()) return text;
   std::string pairs;
   for (std::size_t i = 0; i < std::min(kTold, report.checked.size()); ++i) {

@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-// What became of the pairs of links that an SRDF disables without proof
+// How the pairs of links that an SRDF disables without proof are treated
 // (AllowedCollisions::claimed_pairs).
 struct ClaimedPairsReport {
   struct Pair {
@@ -22,7 +22,7 @@ struct ClaimedPairsReport {
   std::vector<Pair> checked;     // although the SRDF disables them
 };
 
-// Problems: as PlanningScene::build.
+// Problems: those of PlanningScene::build.
 [[nodiscard]] Result<ClaimedPairsReport> report_claimed_pairs(CellPtr cell);
 
 // Returns one sentence with the numbers and up to three of the checked pairs; empty if there are no

@@ -61,7 +61,7 @@ void Drawings::draw(const Asked& asked, std::function<void(Result<DiagramView>)>
   const TrajectoryPtr motion_b = (*b)->trajectory;
   if (share_no_space(*motion_a, *motion_b)) {
     return refuse("same-arm", "both jobs move arm " + names_of(cell, motion_b->arms()) +
-                                  ": one comes after the other");
+                                  ": they run one after the other");
   }
   DiagramView view{
       .time = asked.now, .a = side_of(**a), .b = side_of(**b), .scene_version = scene_version};
@@ -86,7 +86,7 @@ void Drawings::draw(const Asked& asked, std::function<void(Result<DiagramView>)>
   };
   if (judges_.draw(std::move(drawing), scene, drawn)) return;
   done(failure(Problem{ProblemKind::unavailable, "too-many-diagrams", "",
-                       "too many diagrams are being drawn; ask again in a moment"}));
+                       "too many diagrams are open; retry in a moment"}));
 }
 
 }  // namespace armloom

@@ -10,11 +10,11 @@
 
 namespace armloom {
 
-// Coordination diagrams of two jobs, for people who want to see why one waits. Keeps the last ones:
-// whoever looks at one asks again and again where its two are by now.
+// Draws coordination diagrams of two jobs, for users who want to see why one waits. Caches the last
+// ones, because a client that shows a diagram requests it repeatedly for the present progress.
 class Drawings {
  public:
-  // All outlive it.
+  // All arguments outlive this object.
   Drawings(const Scheduler& scheduler, const JobRegister& jobs, JudgementService& judges)
       : scheduler_(scheduler), jobs_(jobs), judges_(judges) {}
 

@@ -92,7 +92,7 @@ class Plan {
         job.after.push_back(it->second);
       } else if (ended_.contains(key)) {
         fails = true;
-        why_[job.key] = "a job that it comes after did not succeed";
+        why_[job.key] = "a job in its \"after\" did not succeed";
       } else {
         problems.push_back({ProblemKind::invalid, "unknown-job", "/after/" + std::to_string(i),
                             "no job before this one has the id \"" + key + "\"", key});

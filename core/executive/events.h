@@ -16,12 +16,12 @@
 
 namespace armloom {
 
-// What clients see of a job: the scheduler's Job with names instead of ids. Plain data, copied
+// Views of the scheduler's objects for clients, with names instead of ids. Plain data, copied
 // freely between threads. Times are cell time; the server adds wall time.
 struct WaitView {
   Wait::Kind kind;
-  std::string job;                 // key; empty: none
-  std::string arm;                 // name; empty: none
+  std::string job;
+  std::string arm;
   std::vector<std::string> links;  // own, other; or empty
   std::optional<double> own_time_s;
   std::optional<double> other_time_s;
@@ -30,10 +30,10 @@ struct WaitView {
   std::optional<double> progress = {};  // check: 0 to 1
 };
 
-// That it was taken before others, or by one of several arms (scheduler/job.h, Choice).
+// See Choice in core/jobs/job.h.
 struct ChoiceView {
-  std::vector<std::string> candidates;  // keys of jobs, or names of arms
-  std::string selected;                 // of these
+  std::vector<std::string> candidates;
+  std::string selected;  // one of `candidates`
   std::optional<double> time_saved_s;
   std::string detail;  // one sentence
 };
@@ -43,36 +43,35 @@ struct JobResultView {
   std::string detail;
 };
 
-// The answer to "what if": the Verdict of the design.
 struct CheckView {
   Verdict::Kind kind = Verdict::Kind::free;
-  std::optional<double> earliest_start_s;        // from now; absent: not known
-  std::optional<double> clearance_bound_m;       // ClearanceBound; absent: nothing is proven
+  std::optional<double> earliest_start_s;        // from now; nullopt: not known
+  std::optional<double> clearance_bound_m;       // ClearanceBound; nullopt: not certified
   std::optional<double> self_clearance_bound_m;  // likewise
-  std::vector<WaitView> waits_on;                // as the job's own; free: before it starts
-  std::vector<WaitView> conflicts;               // not free: the same
+  std::vector<WaitView> waits_on;                // free: until it starts
+  std::vector<WaitView> conflicts;               // not free: the same as waits_on
   std::uint64_t evaluations = 0;
   std::uint64_t scene_version = 0;
-  std::optional<ChoiceView> choice;       // of a goal that several arms could go to
-  std::optional<double> move_to_start_s;  // from now until its arms are where it begins
-  std::optional<JobResultView> result;    // it would end at once
+  std::optional<ChoiceView> choice;       // of a goal with several candidate arms
+  std::optional<double> move_to_start_s;  // time until its arms are at its start
+  std::optional<JobResultView> result;    // set if the job would end at once
 };
-// Other ways that were looked for, for a job (scheduler/ways/replanning.h).
+// See scheduler/ways/replanning.h.
 struct AnotherWayView {
-  std::uint64_t done = 0;                               // so many times it was given one
-  bool is_open = false;                                 // one is being looked for
-  AnotherWay::Cause cause = AnotherWay::Cause::client;  // of the last time
-  std::optional<std::string> refusal;                   // why it kept its own, the last time
+  std::uint64_t done = 0;  // successful replans
+  bool is_open = false;
+  AnotherWay::Cause cause = AnotherWay::Cause::client;
+  std::optional<std::string> refusal;  // why the last replan failed
 };
-// Ways around the places that others hold (scheduler/ways/detour.h).
+// See scheduler/ways/detour.h.
 struct DetourView {
-  std::uint64_t candidates_evaluated = 0;  // so many
-  bool is_selected = false;                // it goes by one of them
-  std::optional<double> time_saved_s;  // nothing: none is taken, or the shortest way could not go
+  std::uint64_t candidates_evaluated = 0;
+  bool is_selected = false;
+  std::optional<double> time_saved_s;  // nullopt: no detour, or the shortest path was not possible
 };
-// What was left open of a job, and how that came out.
+// The alternatives that a client left open, and the decision.
 struct JobWaysView {
-  std::vector<std::string> alternatives;  // names of arms of which one does it
+  std::vector<std::string> alternatives;  // candidate arms, by name
   std::optional<ChoiceView> choice;
   std::optional<DetourView> detour;
   std::optional<AnotherWayView> another_way;
@@ -80,31 +79,30 @@ struct JobWaysView {
 struct JobTimesView {
   TimePoint submitted_at{};
   std::optional<TimePoint> backlogged_at;  // the first time
-  std::optional<TimePoint> expires_at;     // while it waits in the backlog, or in vain on its path
+  std::optional<TimePoint> expires_at;     // while backlogged or blocked on its path
   std::optional<TimePoint> scheduled_at;
   std::optional<TimePoint> started_at;
   std::optional<TimePoint> ended_at;
 };
-// Its trajectory, and how far it has come.
 struct JobMotionView {
   Duration duration{};
-  std::optional<bool> planned;  // of a goal: else the duration is an estimate
+  std::optional<bool> planned;  // for a goal; if false, the duration is an estimate
   double progress = 0.0;        // 0..1
   bool stopping = false;
 };
 struct JobView {
   JobId id{0};
-  std::string key;   // the "id" that clients use
+  std::string key;   // the "id" in the API
   std::string name;  // may be empty
   JobState state = JobState::queued;
   std::vector<std::string> arms;
   JobTerms terms = {};
-  bool system_job = false;  // the server's own
+  bool system_job = false;
   JobTimesView times = {};
   JobMotionView motion = {};
   JobWaysView ways = {};
   std::vector<WaitView> waits_on;
-  std::vector<std::string> cycle;       // keys: the deadlock that it is part of, itself first
+  std::vector<std::string> cycle;       // keys of the deadlock cycle, this job first
   std::optional<JobResultView> result;  // when ended
 
   [[nodiscard]] std::optional<Reason> reason() const {
@@ -134,10 +132,10 @@ struct ArmView {
   std::string name;
   std::string robot;
   ArmState state = ArmState::idle;
-  std::string job;  // key of the job in motion or paused; empty: none
+  std::string job;  // key of the job in motion or paused; empty if there is none
   double progress = 0.0;
   std::vector<std::string> joints;
-  std::vector<double> q;  // measured, as joints
+  std::vector<double> q;  // measured, in the order of `joints`
   std::vector<double> home;
   double deviation_rad = 0.0;  // measured distance from its own path, largest joint
 };
@@ -158,15 +156,15 @@ struct SceneView {
 struct MonitorEvent {
   MonitorFinding finding;
   std::vector<std::string> arms;     // of the pair
-  std::vector<std::string> stopped;  // names of the arms that were told to stop
+  std::vector<std::string> stopped;  // names of the arms that were stopped
 };
-// The guard kept an arm from what the scheduler had granted: a defect, which moved no arm.
+// The guard refused what the scheduler had granted: a defect, which moved no arm.
 struct GuardEvent {
   GuardRefusal refusal;
   std::string arm;
   std::string job;        // key
-  std::string other_arm;  // empty: the scene, or the arms of the same motion
-  std::string other_job;  // that the other arm is on, or was last; empty: none
+  std::string other_arm;  // empty if it is the scene or an arm of the same motion
+  std::string other_job;  // present or last job of the other arm; may be empty
 };
 struct Alert {
   enum class Level { info, warning, error };
@@ -185,22 +183,21 @@ struct Alert {
   return nullptr;
 }
 
-// One entry of the log. Job events are never dropped; seq has no holes.
+// One entry of the event log. Job events are never dropped; seq has no gaps.
 struct Event {
   std::uint64_t seq;
   TimePoint time;
   std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, GuardEvent, Alert> body;
 };
 
-// A motion that an arm has been told of. Trajectory time.
 struct ArmAuthority {
-  std::string arm;       // name
-  std::string job;       // key
-  Duration progress{};   // measured
-  Duration authority{};  // it may go so far, unless more is granted
+  std::string arm;      // name
+  std::string job;      // key
+  Duration progress{};  // measured
+  Duration authority{};
 };
 
-// Poses: may be dropped.
+// A sample of the measured state; may be dropped.
 struct StateFrame {
   TimePoint time;
   Configuration q;                         // measured, all joints of the cell
@@ -208,9 +205,9 @@ struct StateFrame {
   std::vector<ArmAuthority> motions = {};  // in the order of jobs
 };
 
-// Everything at one instant: what a new client gets first.
+// The complete status at one instant, sent first to a new subscriber.
 struct Snapshot {
-  std::uint64_t seq = 0;  // of the last event that is contained
+  std::uint64_t seq = 0;  // of the last event that it includes
   TimePoint time;
   QueueView queue;
   SceneView scene;

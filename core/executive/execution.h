@@ -13,32 +13,31 @@
 
 namespace armloom {
 
-// The arms' side: what they are told, as far as it is on disk that they may move and as far as the
-// guard allows, what they say, and what is wrong with them.
+// The arms' side: commands, withheld until the start is on disk and the guard allows them.
 class Execution {
  public:
   struct Made {
     std::vector<std::unique_ptr<FaultyArm>> arms;  // at home
     SceneFingerprint scene;
   };
-  // `log` outlives it; null: nobody asks.
+  // `log` outlives this object; may be null.
   Execution(const CellPtr& cell, Made made, StartLog* log, ArmFaults::Asked asked,
             AuthorityGate::Calls calls);
 
-  // `written`: told, on the strand, when it is on disk that the job's arms may move; whether it is
-  // in motion still.
+  // `written` is called on the strand when the job's start is on disk; it returns true if the job
+  // is still in motion.
   void carry_out(const Dispatch& dispatch, const Job& job, std::function<bool(JobId)> written);
   void carry_out(const Grant& grant);
   void carry_out(const Brake& brake) { gate_.brake(brake.job); }
   void carry_out(const Release& release) { gate_.release(release.job); }
-  void brake_all() { motions_.brake_all(); }  // whatever moves
+  void brake_all() { motions_.brake_all(); }
   void forget(const Job& ended);
 
-  // One control cycle of every arm. Returns what there is to tell the scheduler, in order of jobs;
-  // but for those that it is to know nothing of: the job has not begun.
+  // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs.
+  // keeps_back() is true for reports that it must not get, because the job has not begun.
   [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now) { return gate_.tick(now); }
   [[nodiscard]] bool keeps_back(const MotionReport& report) const;
-  // The arms' own part of it: what goes on if nobody asks any more.
+  // Runs the arms only, as if the executive had stopped.
   void tick_arms(TimePoint now) { motions_.tick_arms(now); }
 
   [[nodiscard]] const Motions& motions() const { return motions_; }

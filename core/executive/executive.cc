@@ -56,9 +56,9 @@ Result<JobView> Executive::cancel(const std::string& key, std::optional<TimePoin
                  : ExecutiveInput{ExecutiveInput::Canceled{key}});
   return impl_->cancel(key, at);
 }
-void Executive::withdraw(const std::string& key) {
-  impl_->note({ExecutiveInput::Withdrawn{key}});
-  impl_->withdraw(key);
+void Executive::roll_back(const std::string& key) {
+  impl_->note({ExecutiveInput::RolledBack{key}});
+  impl_->roll_back(key);
 }
 Result<JobView> Executive::amend(const std::string& key, JobAmendment amendment) {
   impl_->note({ExecutiveInput::Amended{key, amendment}});

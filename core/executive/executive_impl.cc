@@ -192,7 +192,7 @@ void Executive::Impl::tick(TimePoint now) {
     if (!execution_.keeps_back(report)) step(report);
   }
   if (now >= clock_.shows_check_at) show_check();
-  forget_withdrawn();
+  forget_rolled_back();
   count_.motion(motions);
   if (watch_.is_due(now)) watch();
   publisher_.tell_queue(now);
@@ -287,7 +287,7 @@ void Executive::Impl::refused(JobId job, const GuardRefusal& refusal) {
   publisher_.tell(std::move(event), clock_.now);
   publisher_.tell(
       Alert{Alert::Level::error, "job " + jobs_.key(job) + ": " + sentence(refusal, *cell_) +
-                                     "; it goes no farther than before"},
+                                     "; the arm moves no farther than before"},
       clock_.now);
   publisher_.tell_job(publisher_.view(job), clock_.now);
 }

@@ -23,11 +23,10 @@
 
 namespace armloom {
 
-// The rooms of the executive, and the ways between them: what comes in goes to the scheduler, what
-// that decides to the arms, what changes to the publisher.
+// The modules of the executive and their connections.
 class Executive::Impl {
  public:
-  // What create() has found good, or made: arms stand at home.
+  // The parts checked or made by create(); the arms are at home.
   struct Checked {
     CellPtr cell;
     PlanningScenePtr scene;
@@ -43,7 +42,7 @@ class Executive::Impl {
 
   // job_commands.cc
   Result<JobView> cancel(const std::string& key, std::optional<TimePoint> at);
-  void withdraw(const std::string& key);
+  void roll_back(const std::string& key);
   Result<JobView> amend(const std::string& key, JobAmendment amendment);
   Result<JobView> replan(const std::string& key);
 
@@ -62,17 +61,17 @@ class Executive::Impl {
   void resume(const std::vector<ArmId>& arms);
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
   [[nodiscard]] TimePoint settled_until() const;
-  void follow_policy();  // whether that has certificates
+  void follow_policy();
 
   struct Clock {
     TimePoint now{};
-    std::optional<TimePoint> wake_at = {};  // asked for by the scheduler
-    HoldToRun held = {};                    // jobs that end when nobody holds them any more
-    bool quiet = false;  // the last cycle found all arms settled, and nothing to report
+    std::optional<TimePoint> wake_at = {};  // requested by the scheduler
+    HoldToRun held = {};                    // jobs that end with their lease
+    bool quiet = false;  // in the last cycle all arms were settled and there was no report
     std::optional<TimePoint> dies_at = {};  // ExecutiveOptions
-    std::uint64_t ticks = 0;                // so many cycles have begun
-    InputLog* inputs = nullptr;             // is told what comes between them
-    TimePoint shows_check_at{};             // the progress of an open check
+    std::uint64_t ticks = 0;
+    InputLog* inputs = nullptr;  // receives the inputs between them
+    TimePoint shows_check_at{};  // next publication of a check's progress
   };
 
   CellPtr cell_;
@@ -101,18 +100,18 @@ class Executive::Impl {
   void hide_checks();
   void certify(const Question& question);
   void refused(JobId job, const GuardRefusal& refusal);
-  void forget_withdrawn();
+  void forget_rolled_back();
   void watch();
   void scene_has_changed(ClearanceQuery query);
 
-  // The last act has begun.
+  // Set when the shutdown has begun.
   struct WindDown {
     std::function<void()> done;
     bool keeps_waiting;
   };
 
-  std::set<JobId> checks_shown_;  // jobs that readers see as being checked
-  std::vector<JobId> withdrawn_;  // and not ended, or still known
+  std::set<JobId> checks_shown_;    // jobs that are published as being checked
+  std::vector<JobId> rolled_back_;  // not ended, or not forgotten yet
   JobIntake intake_;
   StateWatch watch_;
   std::optional<WindDown> wind_down_;

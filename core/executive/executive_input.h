@@ -10,14 +10,14 @@
 
 namespace armloom {
 
-// What comes to an executive from outside and changes something, as InputLog has it. Beside its
-// cell, its options and the ticks this is all that decides what it does: arms are simulated from a
-// seed, and verdicts and plans follow from their questions; only when they come is an input.
+// An external input that changes an executive, as recorded by InputLog. Together with the cell, the
+// options and the ticks, the inputs determine everything: arms are simulated from a seed, and
+// verdicts and plans follow from their questions; only their times are inputs.
 struct ExecutiveInput {
-  // A job as its client has it: all else of a request is read from its body.
+  // A job as requested: everything else is read from the body.
   struct AskedJob {
-    std::vector<std::string> succeeded = {};       // of JobRequest::known
-    std::shared_ptr<const std::string> body = {};  // null: nobody keeps it
+    std::vector<std::string> succeeded = {};       // JobRequest::known
+    std::shared_ptr<const std::string> body = {};  // null if no log keeps it
   };
   struct Submitted {
     std::vector<AskedJob> jobs;  // one
@@ -28,13 +28,13 @@ struct ExecutiveInput {
   struct AtomicBatchOpened {
     std::vector<AskedJob> jobs;
   };
-  // One more part of the batch that was opened last was taken.
+  // The next chunk of the last opened batch was taken.
   struct WentOn {};
   struct FormerJob {
     JobId id{0};
     std::string key;
     TimePoint submitted_at;
-    JobAmendment amended;  // all that can be, as it is by now
+    JobAmendment amended;  // all amendable terms, as they are now
     AskedJob asked;
   };
   struct Restored {
@@ -43,7 +43,7 @@ struct ExecutiveInput {
   struct Canceled {
     std::string job;
   };
-  struct Withdrawn {
+  struct RolledBack {
     std::string job;
   };
   struct Held {
@@ -89,8 +89,8 @@ struct ExecutiveInput {
   struct Alerted {
     Alert alert;
   };
-  // The answer to the one question of the scheduler that is open; `evaluations` tell whether a
-  // replay comes to the same one.
+  // The answer to the scheduler's open question; `evaluations` shows whether a replay gets the same
+  // answer.
   struct Judged {
     std::uint64_t evaluations;
     bool interrupted = false;  // Verdict::interrupted
@@ -99,16 +99,16 @@ struct ExecutiveInput {
   struct Certified {
     std::uint64_t evaluations;
   };
-  // The answer to the open question about this job's way.
+  // The answer to the open plan of this job.
   struct Planned {
     JobId job{0};
     std::uint64_t question;
   };
-  // That this job may have moved is on disk (StartLog).
+  // The job's start is on disk (StartLog).
   struct StartWritten {
     JobId job{0};
   };
-  std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, Withdrawn,
+  std::variant<Submitted, BatchOpened, AtomicBatchOpened, WentOn, Restored, Canceled, RolledBack,
                Held, Amended, Replanned, Stopped, Resumed, PolicyChanged, WoundDown, ObjectAdded,
                ObjectReplaced, ObjectRemoved, Injected, FaultRemoved, Alerted, Judged, Certified,
                Planned, StartWritten>

@@ -8,18 +8,18 @@
 
 namespace armloom {
 
-// Jobs that go on only as long as somebody says so again and again: moves by hand, behind a button
-// that is held. Each has a lease; when that is over the job is to be cancelled. On the strand.
+// Leases of jog motions (hold-to-run). A job is canceled when its lease is over, unless the client
+// has renewed the lease. On the strand.
 class HoldToRun {
  public:
   void hold(const std::string& job, TimePoint until) { leases_[job] = until; }
-  // The jobs whose lease is over by `now`: they are forgotten here.
+  // Returns the jobs whose lease is over by `now`, and forgets them.
   [[nodiscard]] std::vector<std::string> let_go(TimePoint now);
-  // When the next lease is over; TimePoint::max(): nobody holds anything.
+  // Returns when the next lease is over; TimePoint::max() if there is none.
   [[nodiscard]] TimePoint next() const;
 
  private:
-  std::map<std::string, TimePoint> leases_;  // by the jobs' keys
+  std::map<std::string, TimePoint> leases_;  // by job key
 };
 
 }  // namespace armloom

@@ -18,17 +18,17 @@ Result<JobView> Executive::Impl::cancel(const std::string& key, std::optional<Ti
   return publisher_.view(*id);
 }
 
-void Executive::Impl::withdraw(const std::string& key) {
+void Executive::Impl::roll_back(const std::string& key) {
   const auto id = jobs_.find(key);
   if (!id) return;
-  withdrawn_.push_back(*id);
+  rolled_back_.push_back(*id);
   if (jobs_.not_ended(key)) step(Cancel{*id});
-  forget_withdrawn();
+  forget_rolled_back();
 }
 
 // Not within a step, whose effects may speak of it.
-void Executive::Impl::forget_withdrawn() {
-  std::erase_if(withdrawn_, [this](JobId id) {
+void Executive::Impl::forget_rolled_back() {
+  std::erase_if(rolled_back_, [this](JobId id) {
     const Job* job = scheduler_.find(id);
     if (job != nullptr && !job->has_ended()) return false;
     publisher_.forget(id, jobs_.key(id));
@@ -51,7 +51,7 @@ Result<JobView> Executive::Impl::replan(const std::string& key) {
   if (!id) return failure(id.error());
   if (const auto why = why_not_replanned(*scheduler_.find(*id))) {
     return failure(Problem{ProblemKind::conflict, "no-alternative-path", "",
-                           "job \"" + key + "\" can be given no other way: " + *why, key});
+                           "job \"" + key + "\" cannot be replanned: " + *why, key});
   }
   step(Replan{*id});
   return publisher_.view(*id);

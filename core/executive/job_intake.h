@@ -13,59 +13,54 @@
 
 namespace armloom {
 
-// What a request has become once everything about it has been checked.
+// A request after all checks.
 struct PreparedJob {
-  std::string key;  // empty: one is to be given
+  std::string key;  // generated if empty
   std::string name;
-  std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; the only one, mostly
-  std::vector<MotionGoal> goals;            // the trajectories are estimates, one for each
+  std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first, mostly the only one
+  std::vector<MotionGoal> goals;            // one for each trajectory, which are then estimates
   JobTerms terms;
   std::vector<std::string> after;
-  std::vector<TrajectoryPtr> returns;  // of its arms, to where their clients left them
+  std::vector<TrajectoryPtr> returns;  // of its arms, to where the clients left them
 };
 
-// Memory that these hold.
 [[nodiscard]] std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories);
 
-// Reads what clients ask for, against the cell and what has been accepted before. Changes nothing
-// but what it knows of ways back.
+// Checks requests against the cell and the accepted jobs.
 class JobIntake {
  public:
-  // What active jobs may take (ExecutiveOptions).
+  // Limits for active jobs (ExecutiveOptions).
   struct ActiveMax {
     std::size_t jobs;
     std::size_t bytes;
   };
-  // Both outlive it.
+  // `scheduler` and `jobs` outlive this object.
   JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs, ActiveMax active_max)
       : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), active_max_(active_max) {}
 
-  // Where joints will stand, and which keys are taken, when the jobs before it are accepted.
+  // Joint positions and used keys after all earlier jobs.
   struct Ahead {
     Configuration rest;
     std::unordered_set<std::string> keys;
-    std::map<ArmId, TrajectoryPtr> ways_back;  // of arms that were sent aside
-    std::vector<ArmId> open = {};              // whose end of `rest` is not known yet
+    std::map<ArmId, TrajectoryPtr> ways_back;  // of arms that have retreated
+    std::vector<ArmId> open = {};              // whose position in `rest` is not known yet
     bool begins_anywhere = false;              // jobs need not begin at `rest`
-    std::size_t jobs = 0;                      // accepted with it
+    std::size_t jobs = 0;                      // accepted together with it
     std::size_t bytes = 0;                     // of their trajectories
   };
   [[nodiscard]] Ahead ahead() const;
-  // Everything that can be said against a request, before anything is stored. `ahead` then holds
-  // what the next request of a batch finds.
+  // Checks a request completely, before anything is stored. Updates `ahead` for the next request of
+  // a batch.
   [[nodiscard]] Result<PreparedJob> prepare(JobRequest request, Ahead& ahead) const;
-  // The scheduler's job, but for its id.
   [[nodiscard]] Submit submission(PreparedJob prepared) const;
-  // Of an arm that was sent aside, before a job of this priority.
+  // Returns the job that brings an arm back after a retreat, before a job of this priority.
   [[nodiscard]] Submit return_of(TrajectoryPtr back, int priority) const;
 
-  // What was prepared is accepted.
   void accepted(Ahead ahead) { ways_back_ = std::move(ahead.ways_back); }
-  // The arm goes aside: where its clients left it, however often it does.
+  // The arm retreats: remembers where its clients left it, however often it retreats.
   void remember_way_back(ArmId arm, const Trajectory& way);
-  // The arm goes elsewhere than where its clients left it.
   void forget_way_back(ArmId arm) { ways_back_.erase(arm); }
-  // The server is ending: no job is taken from now on.
+  // The server is ending: refuses all further jobs.
   void close() { is_closed_ = true; }
 
  private:

@@ -16,59 +16,54 @@
 
 namespace armloom {
 
-// Jobs of the server's own, as their keys begin.
+// Server-initiated jobs; part of their keys.
 enum class OwnJob { retreat, move_to_start };
 
-// What clients know a job by.
 struct JobLabel {
   std::string key;
   std::string name;
-  std::optional<TimePoint> submitted_at = {};  // in a former run
+  std::optional<TimePoint> submitted_at = {};  // in an earlier session
   std::size_t bytes = 0;                       // of its trajectories
 };
 
-// The jobs under the names that clients have for them, and which of them have ended.
 class JobRegister final : public JobNames {
  public:
-  // What jobs that have ended may take; beyond it those that ended longest ago are forgotten.
+  // Limits for ended jobs; beyond them the oldest are forgotten.
   struct EndedMax {
     std::size_t jobs;
-    std::size_t bytes;  // of trajectories; the job that ended last stays all the same
+    std::size_t bytes;  // of trajectories; the job that ended last always stays
   };
-  // `scheduler` outlives it.
+  // `scheduler` outlives this object.
   JobRegister(const Scheduler& scheduler, EndedMax ended_max)
       : scheduler_(scheduler), ended_max_(ended_max) {}
 
   // Precondition: the key is not taken.
   void add(JobId id, JobLabel label);
-  void rename(JobId id, std::string name);  // precondition: it is known
-  // The job has ended. Those that ended longest ago, as far as they are too many, are taken out:
-  // returned with their keys, for whoever else knows them.
+  void rename(JobId id, std::string name);  // precondition: the job is known
+  // Returns the oldest ended jobs beyond the limits, now removed, so that the caller can forget
+  // them too.
   struct Forgotten {
     JobId id;
     std::string key;
   };
   std::vector<Forgotten> end(JobId id);
-  // One that has ended, if it is known still.
   void forget(JobId id);
 
   [[nodiscard]] std::optional<JobId> find(const std::string& key) const;
-  // Problems: not_found; conflict when it has ended.
+  // Problems: not_found; conflict if it has ended.
   [[nodiscard]] Result<JobId> not_ended(const std::string& key) const;
   [[nodiscard]] bool is_taken(const std::string& key) const { return ids_.contains(key); }
-  // Null for what was forgotten.
   [[nodiscard]] const JobLabel* label(JobId id) const;
   [[nodiscard]] std::size_t active() const { return labels_.size() - ended_.size(); }
-  // Memory that trajectories of active jobs hold.
   [[nodiscard]] std::size_t active_bytes() const { return active_bytes_; }
   [[nodiscard]] const std::deque<JobId>& ended() const { return ended_; }  // oldest first
 
-  // A key for a job whose client gave none: "job-17", or "job-17.2" where that is taken.
+  // Returns a key for a job without one: "job-17", or "job-17.2" if that is taken.
   [[nodiscard]] std::string free_key(JobId id) const;
-  // The next one for a job of the server's own.
+  // Returns the next key for a server-initiated job.
   [[nodiscard]] std::string own_key(OwnJob kind);
 
-  // Empty for a job that has been forgotten since.
+  // Return an empty string for a forgotten job.
   [[nodiscard]] std::string key(JobId job) const override;
   [[nodiscard]] std::string name(JobId job) const override;
   [[nodiscard]] bool has_job(ArmId arm) const override;

@@ -14,34 +14,33 @@
 
 namespace armloom {
 
-// A job as a client asks for it, its JSON already read.
+// A client's request for a job, parsed from JSON.
 struct JobRequest {
-  std::string key;  // the client's id; empty: one is given ("job-17")
+  std::string key;  // generated if empty ("job-17")
   std::string name;
-  TrajectoryRequest trajectory;  // not read where there are alternatives, or a goal
-  // The same work by several arms, of which one will do it: each moves one arm, and back to where
-  // it begins. None, or at least two.
+  TrajectoryRequest trajectory;  // ignored if there are alternatives or a goal
+  // The same work by one of several arms: each moves one arm and ends where it begins. Empty, or at
+  // least two.
   std::vector<TrajectoryRequest> alternatives = {};
-  // Instead: where this arm is to go, or whichever of these arrives first, and at which share of
-  // its speed (absent: the cell's).
+  // Instead of a trajectory: a goal for this arm, or for whichever of `arms` arrives first, and the
+  // speed factor (nullopt: the cell's).
   std::optional<PlanGoal> move_to = {};
   std::string arm = {};
   std::vector<std::string> arms = {};
   std::optional<double> speed = {};
   JobTerms terms = {};
-  std::vector<std::string> after;  // keys of jobs that have to succeed first
-  // What was found out before the strand has it.
+  std::vector<std::string> after;  // keys of jobs that must succeed first
   struct Known {
-    // Of `after`, those that have succeeded, in a former run or long ago.
+    // Jobs of `after` that have succeeded, in an earlier session or long ago.
     std::vector<std::string> succeeded = {};
-    // What validate() makes of each of motions() (validated.h): it takes time that the strand has
-    // not. Empty: nobody has asked.
+    // Results of validate() for each of motions() (validated.h), which takes too long for the
+    // strand. Empty: not validated yet.
     std::vector<Result<TrajectoryPtr>> validated = {};
   } known = {};
-  // As it came, for who writes down what did. Null: nobody does.
+  // The request as received; null if no log keeps it.
   std::shared_ptr<const std::string> body = {};
 
-  // The trajectory, or the alternatives, each with its place in the request ("/alternatives/0").
+  // Returns the trajectory, or the alternatives, each with its JSON pointer ("/alternatives/0").
   struct PlacedMotion {
     std::string place;
     const TrajectoryRequest& motion;
@@ -49,7 +48,7 @@ struct JobRequest {
   [[nodiscard]] std::vector<PlacedMotion> motions() const;
 };
 
-// What is to be changed of a job that was accepted, as JobRequest has it; what is absent stays.
+// nullopt: unchanged.
 struct JobAmendment {
   std::optional<std::string> name = {};
   AmendedTerms terms = {};

@@ -10,8 +10,8 @@
 
 namespace armloom {
 
-// The jobs that clients know, as they see them, in order of ids. An immutable value: a copy costs
-// one pointer, whatever the number of jobs.
+// The jobs as clients see them, in order of ids. An immutable value: a copy costs one pointer,
+// whatever the number of jobs.
 class JobSheet {
  public:
   using JobPtr = std::shared_ptr<const JobView>;
@@ -55,11 +55,11 @@ class JobSheet {
   std::shared_ptr<const Slots> slots_ = std::make_shared<const Slots>();
 };
 
-// Where the strand keeps these jobs. A change copies one page at most; sheets that were shared
-// before stay as they are and share all other pages.
+// The strand's master copy. A change copies at most one page; sheets shared before stay unchanged
+// and share all other pages.
 class JobLedger {
  public:
-  void put(JobSheet::JobPtr job);  // in place of the one with its id
+  void put(JobSheet::JobPtr job);  // replaces the job with its id
   void erase(JobId job);
   [[nodiscard]] JobSheet share();
 
@@ -67,7 +67,7 @@ class JobLedger {
   JobSheet::Page& own_page(std::uint64_t number);
 
   JobSheet::Slots slots_;      // by number
-  std::uint64_t edition_ = 1;  // pages of this one are in no sheet yet
+  std::uint64_t edition_ = 1;  // pages with this number are in no sheet yet
   JobSheet shared_;
   bool is_shared_ = true;
 };

@@ -8,9 +8,9 @@
 
 namespace armloom {
 
-// The names that ExecutiveOptions::policy may have, in order of ambition.
+// Returns the valid values of ExecutiveOptions::policy, in order of ambition.
 [[nodiscard]] std::vector<std::string> known_policies();
-// What is wrong with a name; nothing: it is known.
+// Returns the problems of a policy name; nullopt if it is known.
 [[nodiscard]] std::optional<Problems> policy_problems(const std::string& name);
 
 }  // namespace armloom

@@ -72,7 +72,8 @@ Result<void> LiveScene::change(std::vector<CollisionObject> objects) {
     const Proximity pair = query.describe(closer);
     if (!pair.object_b) continue;
     char text[256];
-    std::snprintf(text, sizeof text, "%s would be %.4f m from %s as it stands now, limit %.4f m",
+    std::snprintf(text, sizeof text,
+                  "%s would be %.4f m from %s at its present position, limit %.4f m",
                   pair.body_b.c_str(), pair.clearance_m, pair.body_a.c_str(), pair.limit_m);
     return failure(Problem{ProblemKind::conflict, "object-in-arm", "", text, pair.clearance_m});
   }

@@ -13,20 +13,20 @@ namespace armloom {
 
 struct ExecutiveInput;
 
-// The planning scene, and which of its versions it is.
+// The planning scene and its version.
 struct VersionedScene {
   PlanningScenePtr scene;
   std::uint64_t version = 1;
 };
 
-// The planning scene as it is now, and its objects as clients change them. On the strand.
+// The present planning scene, with changes of its objects by clients. On the strand.
 class LiveScene {
  public:
-  // Where all joints stand, whenever it is asked.
+  // Returns the present measured positions.
   using Measured = std::function<const Configuration&()>;
   struct Told {
-    std::function<void(const ExecutiveInput&)> asked;  // a client wants a change, good or not
-    std::function<void(ClearanceQuery)> changed;       // of the new scene, what the monitor asks
+    std::function<void(const ExecutiveInput&)> asked;  // a client's request, valid or not
+    std::function<void(ClearanceQuery)> changed;       // the monitor's query in the new scene
   };
   LiveScene(PlanningScenePtr scene, Measured measured, Told told)
       : now_{std::move(scene)}, measured_(std::move(measured)), told_(std::move(told)) {}
@@ -38,9 +38,9 @@ class LiveScene {
     return now_.scene->objects();
   }
 
-  // Every motion under way and every waiting job is judged again. Problems: a name that is in use
-  // (of an object, a link or a robot), or unknown; a shape inside an arm as measured (nearer than
-  // the monitor's stop_clearance).
+  // Change the objects; every motion under way and every waiting job is checked again. Problems: a
+  // name in use (of an object, a link or a robot) or unknown; a shape closer to a measured arm than
+  // the monitor's stop_clearance.
   [[nodiscard]] Result<void> add(CollisionObject object);
   [[nodiscard]] Result<void> replace(CollisionObject object);
   [[nodiscard]] Result<void> remove(const std::string& name);

@@ -11,12 +11,11 @@
 
 namespace armloom {
 
-// The arms and the motions on them: hands a job's trajectory to the controllers of its arms
-// and joins what they say into one report for the job (one progress, that of the last; one end).
-// Siblings of an arm that faults are braked; siblings that get ahead of it by more than kOutOfStep
-// wait on the path. No arm is given authority farther ahead of the last position that is known of
-// its siblings than kOutOfStep and the motion's stopping reach: so they keep together also while
-// the feedback of one of them does not come.
+// Hands a job's trajectory to the controllers of its arms and joins their feedback into one report
+// (the last arm's progress, one end). If one arm faults, the others are braked. Arms that lead by
+// more than kOutOfStep wait on the path. No arm gets authority farther ahead of the last known
+// position of the others than kOutOfStep plus the stopping reach, so the arms stay together even if
+// feedback is lost.
 class Motions {
  public:
   Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
@@ -25,28 +24,27 @@ class Motions {
   void dispatch(const Dispatch& dispatch, const TrajectoryPtr& trajectory);
   void grant(const Grant& grant);
   void brake(JobId job);
-  void brake_all();  // whatever moves
+  void brake_all();
   void release(JobId job);
 
-  // One control cycle of every arm. Returns what there is to tell the scheduler, in order of jobs.
+  // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs.
   [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now);
-  // The arms' own part of it: what goes on if nobody asks any more.
+  // Runs the arms' part of a cycle only, as if the executive had stopped.
   void tick_arms(TimePoint now);
 
-  // As of the last tick; whole cell.
+  // As of the last tick; all joints of the cell.
   [[nodiscard]] const Configuration& measured() const { return measured_; }
   [[nodiscard]] const ArmFeedback& feedback(ArmId arm) const { return feedback_[arm.index()]; }
   [[nodiscard]] bool moving(ArmId arm) const;
-  // It got ahead on its path in the last tick: a pause on the way is none.
+  // Returns true if the arm progressed on its path in the last tick; false in a pause.
   [[nodiscard]] bool advances(ArmId arm) const { return advances_[arm.index()]; }
-  // No arm moves, as of the last tick.
   [[nodiscard]] bool all_at_rest() const;
-  // Nor will one before the next command.
+  // Until the next command.
   [[nodiscard]] bool all_settled() const;
-  // Largest distance of a measured joint from where its path is at the measured progress, rad or
+  // Returns the largest distance of a measured joint from its path at the measured progress, rad or
   // m; zero without a motion.
   [[nodiscard]] double deviation(ArmId arm) const;
-  // What each arm that has a motion may do of it, in the order of jobs. Trajectory time.
+  // In order of jobs. Trajectory time.
   struct UnderWay {
     ArmId arm;
     JobId job;
@@ -58,12 +56,11 @@ class Motions {
  private:
   struct Motion {
     TrajectoryPtr trajectory;
-    std::map<ArmId, Duration>
-        stands_at{};  // measured, where an arm rests on the path after a brake
+    std::map<ArmId, Duration> stands_at{};  // measured, after a brake
     Duration authority{};
-    Duration ahead_max{};  // of a sibling; motions of several arms
-    Duration handed_on{};  // of the authority, to the controllers
-    bool resting = false;  // its end has been reported
+    Duration ahead_max{};  // limit of lead over the last arm; motions of several arms
+    Duration handed_on{};
+    bool resting = false;  // its end was reported
     bool braking = false;
   };
   void report(JobId job, Motion& motion);

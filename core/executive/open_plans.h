@@ -14,16 +14,16 @@ namespace armloom {
 
 [[nodiscard]] PlanMade made_of(const PlanMotion& asked, PlanAnswer answer);
 
-// The ways to the goals of jobs that are being planned.
+// The open plans of jobs.
 class OpenPlans {
  public:
-  explicit OpenPlans(JudgementService& judges) : judges_(judges) {}  // outlives it
+  explicit OpenPlans(JudgementService& judges) : judges_(judges) {}  // outlives this object
 
-  // `done` is called on the strand, later.
+  // `done` is called later, on the strand.
   void ask(const PlanMotion& asked, PlanningScenePtr scene, std::function<void(PlanMade)> done);
-  // The job needs none any more.
+  // The job no longer needs its plans.
   void give_up(JobId job);
-  // That are not answered yet, by job.
+  // Returns the open plans, by job.
   [[nodiscard]] std::vector<PlanMotion> open() const;
 
  private:

@@ -10,14 +10,13 @@
 
 namespace armloom {
 
-// What is asked of the judgement service and not answered yet.
 class OpenQuestions {
  public:
-  // All outlive it.
+  // All arguments outlive this object.
   OpenQuestions(const Scheduler& scheduler, const JobRegister& jobs, JudgementService& service)
       : service_(service), plans_(service), drawings_(scheduler, jobs, service) {}
 
-  // The scheduler's; one at a time. `done` is called on the strand.
+  // Asks the scheduler's question, one at a time. `done` is called on the strand.
   void judge(const Question& question, PlanningScenePtr scene, std::function<void(Judged)> done) {
     asked_ = question;
     service_.ask(question, std::move(scene), [this, done = std::move(done)](Verdict verdict) {
@@ -25,14 +24,13 @@ class OpenQuestions {
       done(Judged{std::move(verdict)});
     });
   }
-  // That one.
   [[nodiscard]] const std::optional<Question>& asked() const { return asked_; }
 
-  // A job has ended: a question about it is void.
+  // The job has ended: its question is void.
   void give_up(JobId job) {
     if (asks_about(job)) service_.interrupt();
   }
-  // Adds to what the job waits for that it is being checked; false if it is not.
+  // Adds a wait of kind `check`; returns false if the job is not being checked.
   [[nodiscard]] bool tell_check(JobView& job) const {
     const auto progress = asks_about(job.id) ? service_.progress() : std::nullopt;
     if (!progress) return false;
@@ -43,7 +41,7 @@ class OpenQuestions {
 
   [[nodiscard]] OpenPlans& plans() { return plans_; }
   [[nodiscard]] Drawings& drawings() { return drawings_; }
-  // For what clients ask.
+  // For what-if queries of clients.
   [[nodiscard]] JudgementService& service() { return service_; }
 
  private:

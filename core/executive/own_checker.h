@@ -6,7 +6,7 @@
 
 namespace armloom {
 
-// The checker of one thread, made when it is first asked, in the scene that is asked about.
+// The checker of one thread, created at the first call, in the scene of the present question.
 class OwnChecker {
  public:
   [[nodiscard]] MotionChecker& in(const PlanningScenePtr& scene) {

@@ -7,11 +7,11 @@
 
 namespace armloom {
 
-// What two motions meet if both go on from where they are, second by second (45 degrees in their
-// diagram), and whoever ends first rests at its goal (along the border): the first cell in
-// conflict, or, where there is none, the first that is undecided. Around each conflict lies a seam
-// of undecided cells, which says nothing more. A corner that is only touched is not entered.
-// Nothing: the way leads through free cells only. Preconditions: 0 <= at <= end of each.
+// Returns the first contact of two motions if both go on from their progress at the same speed (45
+// degrees in their diagram) and the one that ends first rests at its goal: the first cell in
+// conflict or, if there is none, the first undecided cell. (Each conflict has a seam of undecided
+// cells, which is not reported before it.) A corner that is only touched is not entered. nullopt if
+// all cells are free. Preconditions: 0 <= at <= end for each.
 struct DiagramContact {
   DiagramCell::State state;
   Duration after;       // from now

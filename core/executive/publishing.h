@@ -19,11 +19,11 @@
 
 namespace armloom {
 
-// Tells clients what changes, and publishes what they see when they ask: on a board that other
-// threads read. The board holds what an event says before the event is told.
+// Publishes changes as events, and the present status on a board that other threads read. The board
+// is updated before the event is published.
 class Publisher {
  public:
-  // Whatever is shown; it outlives the publisher.
+  // All of it outlives the publisher.
   struct Shown {
     const Cell& cell;
     const Scheduler& scheduler;
@@ -38,33 +38,28 @@ class Publisher {
   using Body =
       std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, GuardEvent, Alert>;
   void tell(Body body, TimePoint now);
-  // The scene has changed.
   void tell_scene(TimePoint now);
-  // With an alert where it failed.
+  // With an alert if it failed.
   void tell_job(JobView view, TimePoint now);
-  // What is otherwise than it was when told last:
+  // Publish only what changed since the last publication:
   void tell_arms(TimePoint now);
   void tell_stops();
   void tell_judged(std::uint64_t evaluations) { observer_.on_judged(evaluations); }
-  // The longer the queue, the more seldom: a list of thousands is not made for each change of it.
-  // That all arms are stopped, or no more, is told at once.
+  // Publishes the queue lists, rarely if they are long. A change of "all arms are stopped" is
+  // published at once.
   void queue_may_have_changed(TimePoint now);
-  void tell_queue(TimePoint now);  // what is left to be told of it, when it is time
+  void tell_queue(TimePoint now);
   [[nodiscard]] bool is_behind() const { return queue_is_old_; }
-  // Each control cycle.
   void tell_tick(TimePoint now);
-  // Each period of the monitor.
   void tell_state(const std::vector<Proximity>& near, TimePoint now);
 
-  // After each step of the scheduler: publishes what changed without an event, too.
+  // After each scheduler step: also publishes changes without an event.
   void publish_step(TimePoint now);
-  // What readers see of a job, though no event tells it.
-  void show(JobView view, TimePoint now);
-  // The job is not known any more: `key` was its key.
+  void show(JobView view, TimePoint now);  // on the board only, without an event
   void forget(JobId job, const std::string& key);
   [[nodiscard]] std::shared_ptr<const StatusBoard> board() const { return board_; }
 
-  // Times of a former run are shown as they were.
+  // Returns the view of a job; times of an earlier session are kept.
   [[nodiscard]] JobView view(JobId job) const;
   [[nodiscard]] std::vector<ArmView> arms() const;
 
@@ -91,8 +86,7 @@ class Publisher {
   JobLedger jobs_;
   std::vector<StatusBoard::KeyOfJob> gone_;  // forgotten since the board was published
   QueueLists lists_;
-  std::set<JobId> explained_;         // past the queue, and waiting: what they wait for may get
-                                      // other words though the job does not change
+  std::set<JobId> explained_;         // jobs whose wait texts may change by themselves
   std::vector<ArmStatus> arms_;       // ArmId; as published
   std::vector<ArmStatus> told_arms_;  // ArmId
   std::vector<ArmId> told_stops_;

@@ -9,12 +9,12 @@
 
 namespace armloom {
 
-// The list of the queue in which a job of this state stands; null once it has ended. A job at rest
-// on its path (`paused`) counts as running.
+// Returns the queue list for jobs of this state; null if the job has ended. A paused job is in the
+// list `running`.
 [[nodiscard]] std::vector<std::string> QueueView::*queue_list_of(JobState state);
 
-// Which job stands in which list of the queue, in order of submission. Takes the state that clients
-// are told with the job, so that both always agree.
+// Keeps the queue lists, in order of submission. Uses the published job states, so lists and jobs
+// always agree.
 class QueueLists {
  public:
   void put(const JobView& job);

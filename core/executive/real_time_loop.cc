@@ -231,9 +231,9 @@ class RealTimeLoop::Impl final : public JudgementService {
     if (late < kTellsLate || now < tells_late_from_) return;
     tells_late_from_ = now + kTellsAgain;
     const auto late_ms = std::chrono::duration_cast<std::chrono::milliseconds>(late).count();
-    executive_->alert(
-        {Alert::Level::warning, "the control loop was held up for " + std::to_string(late_ms) +
-                                    " ms: the machine is too busy, or something took too long"});
+    executive_->alert({Alert::Level::warning,
+                       "the control loop was delayed by " + std::to_string(late_ms) +
+                           " ms: the machine is too busy, or a control cycle took too long"});
   }
 
   std::atomic<double> speed_;

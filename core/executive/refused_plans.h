@@ -8,17 +8,16 @@
 
 namespace armloom {
 
-// Ways that were looked for in vain, so that nobody looks for them again while nothing that they
-// were to pass has changed: the scene, where their arm sets out and is to go, and where the arms
-// stand that were not left out. Whatever the seed.
+// Caches failed planning queries. A query is repeated only when the scene, its start, its goal, or
+// the position of an arm that it had to avoid has changed. The seed is ignored.
 class RefusedPlans {
  public:
-  // What is known already of the question, written into the task.
+  // Sets PlanTask::known if the answer is cached.
   void tell(PlanTask& task);
-  // The answer to a question that was asked in this scene, and not given up.
+  // Stores the answer to a query in this scene that was not canceled.
   void learn(const PlanQuestion& question, const PlanningScenePtr& scene, const PlanAnswer& answer);
 
-  inline static constexpr std::size_t kMax = 64;  // of these the oldest are forgotten
+  inline static constexpr std::size_t kMax = 64;  // the oldest are dropped
 
  private:
   struct Refused {

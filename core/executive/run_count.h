@@ -7,15 +7,15 @@
 
 namespace armloom {
 
-// Counts the figures of a run.
+// Collects the results of a session.
 class RunCount {
  public:
   explicit RunCount(std::size_t arms);
 
   void end_of_a_job(TimePoint at);
-  // Each control cycle.
+  // Called in each control cycle.
   void motion(const Motions& motions);
-  // Each look of the monitor at another state.
+  // Called when the monitor has checked a changed state.
   void look(const std::vector<Proximity>& near);
   void monitor_stop() { ++figures_.monitor_stops; }
   void guard_refusal() { ++figures_.guard_refusals; }

@@ -9,16 +9,16 @@
 
 namespace armloom {
 
-// What the collision checks make of one link or object.
+// The collision shapes of one link or object.
 struct ShapeReport {
   std::string body;               // the link's or object's name
-  std::size_t convex_shapes = 0;  // exact; a mesh counts as many as it has pieces
-  std::size_t capsules = 0;       // of the cheap filter, around them
-  double excess_m = 0.0;          // how far the capsules stand off the shapes, measured
+  std::size_t convex_shapes = 0;  // exact shapes; a mesh has one per convex piece
+  std::size_t capsules = 0;       // around them, for the conservative filter
+  double excess_m = 0.0;          // measured gap by which the capsules exceed the shapes
 };
 
-// Of every link that has a shape, in the cell's order, then of every object. Problems: as
-// PlanningScene::build.
+// Returns a report of every link that has a shape, in the cell's order, then of every object.
+// Problems: those of PlanningScene::build.
 [[nodiscard]] Result<std::vector<ShapeReport>> report_shapes(CellPtr cell);
 
 }  // namespace armloom

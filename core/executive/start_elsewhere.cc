@@ -18,8 +18,8 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
     if (std::abs(begins - stands) <= cell.execution.start_tolerance_rad) continue;
     char text[256];
     std::snprintf(text, sizeof text,
-                  "waypoint 0, %s: begins at %.6g %s, but will stand at %.6g %s when the jobs "
-                  "accepted for the arm have run",
+                  "waypoint 0, %s: begins at %.6g %s, but will be at %.6g %s after the jobs "
+                  "accepted for the arm",
                   joint.name.c_str(), without_rounding_noise(begins), joint.unit().c_str(),
                   without_rounding_noise(stands), joint.unit().c_str());
     std::string detail = text;

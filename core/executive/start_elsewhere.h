@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// Every joint of the motion that does not begin (within the tolerance) where `rest` has it;
-// pointers below the trajectory.
+// Adds a problem for each joint of the motion whose start differs from `rest` by more than the
+// tolerance. Pointers begin below the trajectory.
 void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const Configuration& rest,
                           Problems& problems);
 

@@ -12,34 +12,34 @@ namespace armloom {
 
 class StartLog;
 
-// What has not been put down as about to move has no authority until it is. Without a log
-// everything passes.
+// Withholds a job's authority until the start log has recorded that it is about to move. Without a
+// log everything passes.
 class StartGate {
  public:
-  // `log` outlives it; null: nobody asks.
+  // `log` outlives this object; may be null.
   explicit StartGate(StartLog* log) : log_(log) {}
 
-  // What the arms may be told of a dispatch of a client's job. `written` is handed to the log, once
-  // for each job.
+  // Returns the part of a client job's dispatch that the arms may get. At the job's first dispatch,
+  // passes `written` to the log.
   [[nodiscard]] Dispatch pass(Dispatch dispatch, std::function<void()> written);
-  // Whether a grant has to wait: then it is kept.
+  // Returns true if the grant must wait; the gate then keeps it.
   [[nodiscard]] bool keeps(const Grant& grant);
-  // It is put down: what was withheld, if anything.
+  // The start is recorded: returns the withheld authority, if any.
   [[nodiscard]] std::optional<Duration> open(JobId job);
   void forget(JobId job) { starts_.erase(job); }
 
-  // Its arms are told of it and may not leave where they stand: it has not begun.
+  // Returns true if the job is dispatched without authority, because its start is not recorded.
   [[nodiscard]] bool withholds(JobId job) const;
-  // It has been put down as about to move, or is to be.
+  // Returns true if the job's start is recorded or is being recorded.
   [[nodiscard]] bool knows(JobId job) const { return starts_.contains(job); }
 
  private:
   struct Start {
     bool is_written = false;
-    std::optional<Duration> withheld = {};  // authority, until then
+    std::optional<Duration> withheld = {};  // authority kept until then
   };
   StartLog* log_;
-  std::unordered_map<JobId, Start> starts_;  // of jobs that have been dispatched
+  std::unordered_map<JobId, Start> starts_;  // dispatched jobs
 };
 
 }  // namespace armloom

@@ -7,24 +7,21 @@
 
 namespace armloom {
 
-// Looks at the measured state as often as the monitor's rate says: what is near, and what is too
-// close.
+// Runs the monitor on the measured state, at the monitor's rate.
 class StateWatch {
  public:
-  // What is farther apart than this is not told in state frames nor counted as near.
+  // Pairs farther apart are not reported as near.
   inline static constexpr double kHorizon_m = 2.0;
 
   explicit StateWatch(const PlanningScenePtr& scene);
-  // With the monitor's limits.
   [[nodiscard]] static ClearanceQuery query_of(const PlanningScenePtr& scene);
-  // The scene is another one: looks again, though no arm has moved.
+  // For a changed scene: the next check runs even if no arm has moved.
   void follow(ClearanceQuery query);
 
-  // Once for each period.
   [[nodiscard]] bool is_due(TimePoint now);
-  // Whether the state is another one than that of the last look. `moving`: by ArmId.
+  // Returns false if `measured` is unchanged since the previous call. `moving`: by ArmId.
   bool look(const Configuration& measured, const std::vector<bool>& moving, TimePoint now);
-  // Of the last look at another state:
+  // Results of the last check of a changed state.
   [[nodiscard]] const std::vector<Proximity>& near() const { return near_; }
   [[nodiscard]] const std::vector<MonitorFinding>& found() const { return found_; }
 

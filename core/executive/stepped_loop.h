@@ -8,11 +8,11 @@
 
 namespace armloom {
 
-// Drives an executive by hand: its cycles, and when what it asks for is answered. Verdicts and
-// plans are computed then. On one thread.
+// Drives an executive by hand: control cycles, and the times of answers. Verdicts and plans are
+// computed on demand. Single-threaded.
 class SteppedLoop {
  public:
-  // `options.starts` is set here. Problems: those of Executive::create(). The observer outlives it.
+  // Sets `options.starts`. Problems: those of Executive::create(). `observer` outlives the loop.
   [[nodiscard]] static Result<std::unique_ptr<SteppedLoop>> create(CellPtr cell,
                                                                    ExecutiveOptions options,
                                                                    Observer& observer);
@@ -20,12 +20,12 @@ class SteppedLoop {
 
   [[nodiscard]] Executive& executive();
   void tick();
-  [[nodiscard]] std::uint64_t ticks() const;  // so many
-  [[nodiscard]] TimePoint next() const;       // the time of the next one
-  // Nothing happens where nothing is open.
+  [[nodiscard]] std::uint64_t ticks() const;
+  [[nodiscard]] TimePoint next() const;
+  // No effect if nothing is open.
   void answer_question(bool interrupted = false);
   void answer_certify();
-  void answer_plan();           // the one that has been open for longest
+  void answer_plan();           // the oldest open plan
   void write_start(JobId job);  // StartLog
 
  private:

@@ -11,15 +11,15 @@
 
 namespace armloom {
 
-// What is expected of the arms, as the strand knows it at one instant.
+// The predicted timeline and the status at the same instant.
 struct TimelineView {
   PredictedTimeline predicted;
   std::uint64_t horizon_steps = 0;
-  Status status;  // of the same instant
+  Status status;
 };
 
-// What clients see of it, lane by lane. A motion of several arms stands in the lane of each. Every
-// job that has not ended is a leg or waits, in the lanes of its `arms`. Times are cell time.
+// The timeline for clients, by arm. A motion of several arms is in the lane of each. Every active
+// job is a leg or waiting, in the lanes of its `arms`. Times are cell time.
 struct TimelineLanes {
   struct Pause {
     TimePoint from;
@@ -35,15 +35,15 @@ struct TimelineLanes {
   };
   struct Lane {
     std::string arm;
-    std::vector<Leg> steps;     // in the order in which they go
-    std::uint64_t waiting = 0;  // jobs of the arm that are no leg
+    std::vector<Leg> steps;     // in running order
+    std::uint64_t waiting = 0;  // jobs of the arm that are not in `steps`
   };
   TimePoint now;
   std::uint64_t horizon_steps = 0;
   std::vector<Lane> lanes;  // by ArmId
 };
 
-// On any thread.
+// Thread-safe.
 [[nodiscard]] TimelineLanes lanes_of(const TimelineView& timeline, const Cell& cell);
 
 }  // namespace armloom

@@ -4,8 +4,8 @@
 
 namespace armloom {
 
-// JobRequest::validated, where there is anything to validate. Thread-safe: what takes long of a
-// submission, done before the strand has it.
+// Fills JobRequest::known.validated, the slow part of a submission, before the request reaches the
+// strand. Thread-safe.
 void validate_ahead(JobRequest& request, const Cell& cell);
 
 }  // namespace armloom

@@ -10,67 +10,66 @@
 namespace armloom {
 namespace {
 
-// The setting with which the server itself would send `whom` aside.
+// The setting with which `whom` would retreat.
 std::string to_send_aside(const std::string& whom) {
-  return "\"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, which send " +
-         whom + " aside where there is a free way";
+  return "set \"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, so that " +
+         whom + " retreats if a path is free";
 }
 
-// By which an arm may go out of the way.
+// The retreats that are tried.
 std::string ways_aside(const Cell& cell) {
   const std::string known = "back along its last motion, home, ";
   const bool plans = cell.scheduling.on_idle_blocker == OnIdleBlocker::replan;
-  return known + (plans ? "to a named pose of its group, or to a place planned beside the way"
+  return known + (plans ? "to a named pose of its group, or to a planned position clear of the path"
                         : "or to a named pose of its group");
 }
 
-// What would open the way past an arm that stays where it is; nothing while its jobs move it.
+// Hint on how to unblock a job that waits for a resting arm; nullopt if the arm's own jobs will
+// move it.
 std::optional<std::string> opens(const Wait& wait, bool in_vain, const Cell& cell,
                                  const JobNames& names) {
   const std::string arm = "arm " + cell.arm(*wait.arm).name;
   const bool stopped = names.is_stopped(*wait.arm);
   if (names.has_job(*wait.arm)) {
     if (!stopped) return std::nullopt;
-    return arm + " is stopped: resuming it would let its own job move it on";
+    return arm + " is stopped: resume it, and its own job will move it away";
   }
   const std::string begins = arm + (stopped ? " is stopped and has no job: " : " has no job: ");
   const OnIdleBlocker setting = cell.scheduling.on_idle_blocker;
   if (setting == OnIdleBlocker::report) {
-    return begins + (stopped ? "resuming it, and a job" : "one") +
-           " that moves it away would open the way, or " + to_send_aside("it") +
-           (stopped ? " when it is resumed" : "");
+    return begins + (stopped ? "resume it and " : "") + "move it away with another job, or " +
+           to_send_aside("it") + (stopped ? " when it is resumed" : "");
   }
-  const std::string none = "no free way aside was found (" + ways_aside(cell) + "); ";
+  const std::string none = "no free retreat was found (" + ways_aside(cell) + "); ";
   if (in_vain && !stopped)
-    return begins + none + "a job that moves it away would have opened this one";
+    return begins + none + "moving it away with another job would have unblocked this one";
   if (wait.has_no_way_aside && !stopped) {
-    return begins + none + "a job that moves it away would open this one" +
+    return begins + none + "move it away with another job to unblock this one" +
            (setting == OnIdleBlocker::park
-                ? ", or \"on_idle_blocker\": \"replan\", by which ways aside are planned"
+                ? ", or set \"on_idle_blocker\": \"replan\", so that retreats are planned"
                 : "");
   }
-  return begins + (stopped ? "when it is resumed " : "") +
-         "it goes aside where it has a free way (" + ways_aside(cell) +
-         "), else a job that moves it away would open this one";
+  return begins + (stopped ? "when it is resumed " : "") + "it retreats if a path is free (" +
+         ways_aside(cell) + "); otherwise move it away with another job to unblock this one";
 }
 
-// What would open the way past what stands still.
+// Hint on how to unblock a job that waits for an object or a fixed link.
 std::string opens(const Proximity& proximity, const Cell& cell) {
   const bool link = cell.find_link(proximity.body_b).has_value();
-  return proximity.body_b + " stands still: another trajectory" +
-         (link ? "" : ", or the object moved or deleted,") + " would open the way";
+  return proximity.body_b + " does not move: change the trajectory" +
+         (link ? "" : ", or move or delete the object,") + " to unblock this job";
 }
 
-// "a -> b -> a: none of them can move before the next one does", and what would open it.
+// "a -> b -> a: each waits for the next one, so none can move", and how to avoid it.
 std::string deadlock_text(const std::vector<std::string>& cycle, const Cell& cell) {
   std::string text;
   for (const std::string& key : cycle) text += key + " -> ";
-  text += cycle.front() + ": none of them can move before the next one does; a job before them " +
-          "that moves an arm out of the others' way would break the cycle, or ";
+  text += cycle.front() + ": each waits for the next one, so none can move; submit a job before " +
+          "them that moves an arm out of the others' paths, or ";
   if (cell.scheduling.on_idle_blocker == OnIdleBlocker::report) {
-    return text + to_send_aside("one");
+    return text + to_send_aside("an arm");
   }
-  return text + "a free way aside for one (" + ways_aside(cell) + "), of which none was found";
+  return text + "clear a retreat for one of the arms: none was free (" + ways_aside(cell) + ")";
 }
 
 }  // namespace
@@ -95,8 +94,9 @@ WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names, bool
 namespace {
 
 const char* why_first(const Job& job, std::size_t among) {
-  if (among == 1) return "no other one can";
-  return job.goal ? "no other one arrives sooner" : "no other one makes the plan shorter";
+  if (among == 1) return "no other candidate is possible";
+  return job.goal ? "no other candidate arrives sooner"
+                  : "no other candidate makes the plan shorter";
 }
 
 ChoiceView view_of(const Job& job, const Choice& choice, const Cell& cell, const JobNames& names) {
@@ -109,7 +109,7 @@ ChoiceView view_of(const Job& job, const Choice& choice, const Cell& cell, const
   if (view.selected == first) {
     view.detail = why_first(job, view.candidates.size());
   } else if (!choice.saves) {
-    view.detail = first + " could not go as things stood";
+    view.detail = first + " was not possible at the time";
   } else {
     view.time_saved_s = to_seconds(*choice.saves);
     char text[64];

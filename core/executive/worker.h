@@ -9,9 +9,9 @@
 
 namespace armloom {
 
-// A thread for what would hold up another one: the control loop, or the one that serves all
-// connections. Tasks run one after the other, in the order given; those that have not begun at the
-// end are dropped. How many wait is bounded by who gives them.
+// A thread for tasks that would block the control loop or the connection thread. Tasks run one
+// after the other, in order. Tasks that have not begun at the end are dropped. The caller must
+// bound the number of waiting tasks.
 class Worker {
  public:
   void post(std::function<void()> task) {
@@ -21,7 +21,7 @@ class Worker {
     }
     arrived_.notify_one();
   }
-  // When the present task is done. So does the destructor.
+  // Waits for the present task, then ends the thread. So does the destructor.
   void end() {
     if (!thread_.joinable()) return;
     thread_.request_stop();

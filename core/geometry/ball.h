@@ -4,7 +4,6 @@
 
 namespace armloom {
 
-// A radius of zero: a point.
 struct Ball {
   Eigen::Vector3d center;
   double radius_m = 0.0;

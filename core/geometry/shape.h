@@ -8,7 +8,7 @@
 
 namespace armloom {
 
-// Collision shapes, each centred in its own frame S; lengths in metres, axes along z as in URDF.
+// Collision shapes, each centered in its own frame S. Lengths in meters, axes along z as in URDF.
 struct Box {
   Eigen::Vector3d size_m;  // full side lengths
 };
@@ -23,7 +23,7 @@ struct MeshData;  // core/geometry/mesh/mesh.h
 struct Mesh {
   std::string path;  // resolved file
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  // The triangles, with the scale applied; every mesh of a Cell has them. Null in descriptions.
+  // The triangles with the scale applied. Set for every mesh of a Cell; null in descriptions.
   std::shared_ptr<const MeshData> data = nullptr;
 };
 using Shape = std::variant<Box, Cylinder, Sphere, Mesh>;

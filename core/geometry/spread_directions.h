@@ -5,7 +5,7 @@
 
 namespace armloom {
 
-// Unit vectors that lie evenly on the sphere (Fibonacci's spiral).
+// Returns unit vectors spread evenly over the sphere (Fibonacci spiral).
 [[nodiscard]] std::vector<Eigen::Vector3d> spread_directions(int count);
 
 }  // namespace armloom

@@ -9,9 +9,9 @@ namespace {
 
 using Why = GuardRefusal::Why;
 
-// A state on the edge of a rectangle is certified by the free state beside it; of two rectangles
-// side by side a stretch meets one of them inside. So only where an arm rests, or a rectangle has
-// no width, the edge counts.
+// Free states next to a rectangle certify its edge, and an interval across the common edge of two
+// rectangles overlaps the inside of one. So the edge matters only if the arm rests or the rectangle
+// has no width.
 bool overlap(Duration from, Duration to, Duration box_from, Duration box_to) {
   if (from < to && box_from < box_to) return box_from < to && from < box_to;
   return box_from <= to && from <= box_to;
@@ -55,7 +55,8 @@ void AuthorityGuard::take(std::span<const Certificate> certificates) {
   drop_old();
 }
 
-// Of the same two sides the first one stays, which orders were made by, and the latest.
+// Keeps two certificates of the same two sides: the first, on which passing orders are based,
+// and the latest.
 void AuthorityGuard::take(const PairCertificate& pair) {
   for (const ArmId arm : pair.b.arms) {
     auto& all = known(pair.a.motion).pairs[arm];
@@ -94,7 +95,7 @@ void AuthorityGuard::drop_left(const Trajectory* motion) {
   if (left != motions_.end() && left->second.is_forgotten && !is_on(motion)) motions_.erase(left);
 }
 
-// Motions that were asked about and never started, as ways aside that were not taken.
+// Drops motions that were checked but never started, such as unused retreats.
 void AuthorityGuard::drop_old() {
   while (motions_.size() > kMotionsKept * positions_.size()) {
     const auto age = [&](const Motions::value_type& of) {
@@ -128,7 +129,7 @@ void AuthorityGuard::rests(ArmId arm, Duration progress, const Configuration& me
   if (position.motion) position.off_path = off(*position.motion, arm, position.measured);
 }
 
-// ---- The gate ----
+// ---- Authority ----
 
 bool AuthorityGuard::is_valid(const PairCertificate& pair) const {
   return present_.of(pair.a.arms, pair.b.arms) == pair.geometry;
@@ -139,7 +140,7 @@ bool AuthorityGuard::are_apart(ArmId a, ArmId b) const {
   return apart != apart_.end() && apart->second == present_.of({&a, 1}, {&b, 1});
 }
 
-// How far the arm's joints, as last seen at rest, are from the motion there. rad, m.
+// Returns how far (rad, m) the arm's joints, as last measured at rest, are from the motion.
 double AuthorityGuard::off(const Trajectory& motion, ArmId arm, Duration progress) const {
   Eigen::VectorXd at;
   motion.sample_positions(progress, at);
@@ -152,8 +153,8 @@ double AuthorityGuard::off(const Trajectory& motion, ArmId arm, Duration progres
   return largest;
 }
 
-// A motion of one arm may be restarted from an earlier place. Arms of a synchronous motion may rest
-// at different places on it, so that an earlier `from` is no restart.
+// A start before the measured progress restarts the motion of one arm. Arms of a synchronous motion
+// may rest at different progress: no restart there.
 ArmPosition AuthorityGuard::as_granted(const TrajectoryPtr& motion, ArmId arm, From from,
                                        Duration authority) const {
   ArmPosition position = positions_[arm.index()];
@@ -168,12 +169,12 @@ ArmPosition AuthorityGuard::as_granted(const TrajectoryPtr& motion, ArmId arm, F
   return position;
 }
 
-// Where the arm is on this side of a certificate; nullopt if that says nothing about it there.
+// Returns the arm's interval on this side of a certificate, or nullopt if not covered.
 std::optional<AuthorityGuard::Interval> AuthorityGuard::covers(const CertifiedSide& side, ArmId arm,
                                                                const ArmPosition& position) const {
   const bool is_still = std::ranges::all_of(side.still, [&](const auto& joint) {
     const auto& [id, at] = joint;
-    if (arm_of_[id.index()] && arm_of_[id.index()] != arm) return true;  // of a sibling
+    if (arm_of_[id.index()] && arm_of_[id.index()] != arm) return true;  // another arm's joint
     return std::abs(q_[id.value()] - at) <= side.error;
   });
   if (!is_still) return std::nullopt;
@@ -197,7 +198,8 @@ bool AuthorityGuard::sees_scene(const Known& known, ArmId arm, const ArmPosition
   });
 }
 
-// The refusal of the last certificate that covers both, if none of them says that they are free.
+// Returns nullopt if a certificate proves both positions free. Otherwise returns the refusal of
+// the last certificate that covers both, or Why::uncertified.
 std::optional<GuardRefusal> AuthorityGuard::between(const Known& known, ArmId arm,
                                                     const ArmPosition& own, ArmId other) const {
   GuardRefusal refusal{Why::uncertified, arm, other, {own.measured, own.authority}};
@@ -218,7 +220,7 @@ std::optional<GuardRefusal> AuthorityGuard::between(const Known& known, ArmId ar
   return refusal;
 }
 
-// Whether the arms of one motion may be as far apart on it as they are.
+// Checks that the motion's arms may be as far apart as `last` and `first`.
 std::optional<GuardRefusal> AuthorityGuard::together(const Known& known, Duration last,
                                                      Duration first) const {
   const auto& of = known.together;

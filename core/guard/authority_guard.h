@@ -14,74 +14,75 @@
 
 namespace armloom {
 
-// Where one arm is, and how far it may go: on a motion, or at rest.
 struct ArmPosition {
-  TrajectoryPtr motion = {};  // null: it has made none
-  Duration measured{};        // progress that feedback proves
-  Duration authority{};       // it may go so far; `measured` at rest
+  TrajectoryPtr motion = {};  // null if the arm has not moved yet
+  Duration measured{};        // progress proven by feedback
+  Duration authority{};       // largest permitted progress; `measured` at rest
   bool at_rest = true;
-  double off_path = 0.0;  // of its joints, where it set out or rests (rad, m)
+  double off_path = 0.0;  // of its joints, where it started or rests (rad, m)
 };
 
-// The last gate before every start, resume and grant of authority (README.md). It keeps this: for
-// every two arms the product [measured, authority] x [measured, authority] is covered by a valid
-// certificate and meets none of its rectangles, and every motion has one for the present scene.
+// The last check before every start, resume and grant of authority (README.md). Invariants:
+// - For every two arms, a valid certificate covers the product [measured, authority] x [measured,
+//   authority], which overlaps none of its rectangles.
+// - Every motion has a valid certificate for the present scene.
 //
-// A certificate covers an arm that is on its motion, that rests where it says, or that rests where
-// its motion begins or ends. Each one is a proof by itself, if its content is the present one's.
-// README.md lists the assumptions. Pure; not thread-safe.
+// A certificate covers an arm on its motion, an arm at rest where the certificate says, and an arm
+// at rest at the motion's start or end. Each is a proof by itself while its content is the present
+// content. Pure; not thread-safe.
 class AuthorityGuard {
  public:
-  // By ArmId, the joints of each arm and of its gripper; where all joints of the cell are.
+  // `joints`: by ArmId, the joints of each arm and its gripper. `rest`: all joints of the cell.
   AuthorityGuard(std::vector<std::vector<JointId>> joints, Configuration rest,
                  SceneFingerprint present);
 
-  // ---- What is known ----
+  // ---- Certificates and content ----
   void take(std::span<const Certificate> certificates);
-  // The scene, or what arms hold, is another one: certificates that name what changed do not count.
+  // Sets the present content (scene, attached objects). Certificates about other content are
+  // ignored.
   void look_at(SceneFingerprint present) { present_ = std::move(present); }
   [[nodiscard]] const SceneFingerprint& scene() const { return present_; }
-  // The motion will not be started any more: its certificates go when no arm is on it.
+  // Forgets a motion that will not start again. Its certificates are dropped when no arm is on
+  // it.
   void forget(const TrajectoryPtr& motion);
 
-  // ---- Feedback ----
-  // The arm is on its motion. Progress never goes back.
+  // Reports a moving arm's progress, which never decreases.
   void moves(ArmId arm, Duration measured);
-  // The arm is at rest, `progress` on its motion; `measured`: all joints of the cell.
+  // Reports a resting arm: its progress, and all joints of the cell.
   void rests(ArmId arm, Duration progress, const Configuration& measured);
 
-  // ---- The gate ----
-  // Trajectory time where a start or resume begins; nullopt for a grant to arms under way.
+  // Trajectory time at which a start or resume begins; nullopt for a grant to moving arms.
   using From = std::optional<Duration>;
-  // Returns why the motion's arms may not go up to `authority`; nullopt if they may.
+  // Returns why the motion's arms may not move up to `authority`, or nullopt if they may.
   [[nodiscard]] std::optional<GuardRefusal> refuses(const TrajectoryPtr& motion, From from,
                                                     Duration authority) const;
-  // The same, and holds their positions if they may. The caller then tells the arms.
+  // Calls refuses() and, if permitted, records the arms' new positions. The caller then commands
+  // the arms.
   [[nodiscard]] std::optional<GuardRefusal> grant(const TrajectoryPtr& motion, From from,
                                                   Duration authority);
-  // Holds their positions without certificates, for policies that have none.
+  // Records the positions without a check, for policies that have no certificates.
   void hold(const TrajectoryPtr& motion, From from, Duration authority);
   [[nodiscard]] const ArmPosition& position(ArmId arm) const { return positions_[arm.index()]; }
-  // The joints of the whole cell, as last seen at rest.
+  // Returns all joints of the cell, as last measured at rest.
   [[nodiscard]] const Configuration& rest() const { return q_; }
-  // Returns the largest distance between a joint of the motion's arms and the motion (rad, m).
+  // Returns the largest distance of a joint from the motion (rad, m).
   [[nodiscard]] double off_path(const TrajectoryPtr& motion, From from) const;
 
-  // The latest certificates are kept: of so many motions for each arm while no arm is on them; and
-  // of each motion so many with one other arm, and with the scene.
+  // Limits; the oldest are dropped: motions per arm (those with an arm on them are kept), and per
+  // motion the certificates with one other arm and with the scene.
   inline static constexpr std::size_t kMotionsKept = 16, kPairsKept = 16, kScenesKept = 2;
 
  private:
-  struct Known {  // of one motion
+  struct Known {  // certificates of one motion
     TrajectoryPtr motion;
     std::uint64_t taken_at = 0;
     bool is_forgotten = false;
-    // By arm of the other side; the motion's own side is `a`.
+    // By arm of the other side. The motion's own side is `a`.
     std::map<ArmId, std::vector<PairCertificate>> pairs = {};
     std::vector<SceneCertificate> scene = {};
     std::optional<TogetherCertificate> together = {};
   };
-  using Motions = std::unordered_map<const Trajectory*, Known>;  // alive: an address is an identity
+  using Motions = std::unordered_map<const Trajectory*, Known>;  // Known keeps the key alive
   struct Interval {
     Duration from, to;
   };
@@ -106,7 +107,7 @@ class AuthorityGuard {
 
   std::vector<std::vector<JointId>> joints_;  // by ArmId
   std::vector<std::optional<ArmId>> arm_of_;  // by JointId
-  Configuration q_;                           // where joints were last seen at rest
+  Configuration q_;                           // joints as last measured at rest
   SceneFingerprint present_;
   std::vector<ArmPosition> positions_;  // by ArmId
   Motions motions_;

@@ -8,8 +8,7 @@
 
 namespace armloom {
 
-// The queues of the arms: of each its jobs that have not ended, first goes first; and the work that
-// stands in each.
+// The arm queues: for each arm its active jobs, in running order, and their work.
 class ArmQueues {
  public:
   using Queue = std::deque<JobId>;
@@ -21,23 +20,22 @@ class ArmQueues {
   [[nodiscard]] auto end() const { return queues_.end(); }
 
   [[nodiscard]] bool is_first(const Job& job) const;  // of all its arms
-  // Its neighbours on that arm of its own; nothing: it is the first, or the last one.
+  // Return the neighbor in that arm's queue, if any.
   [[nodiscard]] std::optional<JobId> before(const Job& job, ArmId arm) const;
   [[nodiscard]] std::optional<JobId> behind(const Job& job, ArmId arm) const;
 
-  // At the end of its arms, or before that one where it stands.
+  // At the end of its arms' queues, or before `before` where present.
   void insert(const Job& job, std::optional<JobId> before);
-  // With so many in front of it.
   void insert_at(const Job& job, std::size_t place);
   void erase(const Job& job);
-  // These follow each other on the same arms: now in this order.
+  // Reorders jobs that are consecutive on the same arms.
   void put_in_order(const Job& any_of_them, const std::vector<JobId>& jobs);
 
-  // The time that its motion takes comes to, or from, the work of its arms. A job that could still
-  // go on several arms counts as shared by them. Whatever changes that: first remove it, then add.
+  // Add or remove the job's duration as work. A job with several candidate arms is shared equally
+  // between them. To change a job, remove its work first and add it again.
   void add_work(const Job& job);
   void remove_work(const Job& job);
-  // By ArmId, of all jobs but these.
+  // By ArmId, without these jobs.
   [[nodiscard]] std::vector<Duration> work_but(const std::vector<const Job*>& in_front) const;
 
  private:

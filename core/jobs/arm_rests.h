@@ -10,22 +10,22 @@
 
 namespace armloom {
 
-// Where the arms of a cell rest, and which of them start nothing for now.
+// Rest positions of the arms, and stopped arms.
 class ArmRests {
  public:
-  // `rest`: of every joint of the cell; throws std::invalid_argument if it has another size.
+  // Throws std::invalid_argument unless `rest` has a value for every joint of the cell.
   ArmRests(const Cell& cell, Configuration rest);
 
-  // Where every joint stands, as far as it is not in motion; there where it set out.
+  // Returns the rest of every joint; of a moving joint, its start.
   [[nodiscard]] const Configuration& rest() const { return rest_; }
   [[nodiscard]] const PlacePtr& place(ArmId arm) const { return places_at_[arm.index()]; }
   [[nodiscard]] const std::vector<PlacePtr>& places() const { return places_at_; }
-  // The motion on which it came to rest; or null.
+  // Returns the motion that ended at this rest; null if there is none or it moved several arms.
   [[nodiscard]] const TrajectoryPtr& came_by(ArmId arm) const { return came_by_[arm.index()]; }
 
-  // At `position` of the trajectory's joints, in its order.
+  // `position`: of the trajectory's joints, in its order.
   void come_to_rest(const Cell& cell, const TrajectoryPtr& motion, const Eigen::VectorXd& position);
-  // At its goal, it counts as standing exactly there.
+  // Ignores small deviations from the goal.
   void rest_at_goal(const WaitingLeg& leg);
 
   void stop(ArmId arm, std::string cause) { stopped_[arm.index()] = std::move(cause); }
@@ -36,14 +36,13 @@ class ArmRests {
   }
   [[nodiscard]] std::optional<Wait> stop_of(const Job& job) const;
 
-  // A motion of these arms as a leg of their lanes.
   [[nodiscard]] WaitingLeg leg_of(const Cell& cell, JobId job, const Trajectory& motion);
-  // The first joint that stands elsewhere than where the trajectory begins, by more than
-  // execution.start_tolerance_rad; of this arm only, if given.
+  // Returns the first joint that rests off the trajectory's start by more than
+  // execution.start_tolerance_rad. With `arm`, only its joints are compared.
   [[nodiscard]] std::optional<JointId> begins_elsewhere(const Cell& cell,
                                                         const Trajectory& trajectory,
                                                         std::optional<ArmId> arm = {}) const;
-  // Why it cannot begin where the arms stand.
+  // Returns the detail of Reason::start_mismatch; nullopt without a mismatch.
   [[nodiscard]] std::optional<std::string> start_mismatch(const Cell& cell,
                                                           const Trajectory& trajectory) const;
 
@@ -52,10 +51,10 @@ class ArmRests {
   std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
   std::vector<TrajectoryPtr> came_by_;
   Places places_;
-  std::vector<PlacePtr> places_at_;  // per arm: where it rests, or came from
+  std::vector<PlacePtr> places_at_;  // per arm: its rest or start
 };
 
-// Whether the motion of that arm may begin with it there (execution.start_tolerance_rad).
+// Returns true if `place` is the motion's start, within execution.start_tolerance_rad.
 [[nodiscard]] bool begins_at(const Cell& cell, const Trajectory& motion, const Place& place);
 
 }  // namespace armloom

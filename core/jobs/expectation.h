@@ -11,16 +11,16 @@
 
 namespace armloom {
 
-// Where everything admitted was expected to be, and when, as its orders were chosen last. Pure.
+// Expected progress of all admitted motions, as predicted when their orders were last chosen. Pure.
 class Expectation {
  public:
-  // The prediction is of these motions.
+  // Stores a prediction for these motions.
   void renew(const std::vector<CoordinatedMotion>& motions, const Prediction& prediction,
              TimePoint now);
-  // Since then something was taken back.
+  // Marks the expectation as void because a motion was abandoned.
   void spoil() { is_spoilt_ = true; }
-  // Some motion is farther from where it was to be now than motions are by themselves, or orders
-  // were chosen for others.
+  // Returns true if a motion's progress is more than 0.4 s off its expectation, or if the
+  // expectation is void.
   [[nodiscard]] bool is_missed(const std::vector<CoordinatedMotion>& motions, TimePoint now) const;
 
  private:

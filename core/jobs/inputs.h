@@ -20,74 +20,74 @@ namespace armloom {
 
 class Policy;
 
-// ---- Inputs: everything that can happen to the scheduler. Time comes beside them, in step(). ----
+// ---- Inputs: everything that can happen to the scheduler. step() takes the time separately. ----
 
-// A valid job arrives. Its id is larger than any before (Scheduler::next_job()), or that of a
-// former run.
+// A valid job arrives. Its id exceeds all earlier ids (Scheduler::next_job()), or belongs to an
+// earlier session.
 struct Submit {
   JobId job;
   TrajectoryPtr trajectory;
   JobTerms terms = {};
-  // The same work by one of several arms, `trajectory` first; none, or two or more. Each moves one
-  // arm, of which no other one is, and ends where it begins, unless goals are given too.
+  // The same work by one of several arms, `trajectory` first: empty, or at least two. Each moves
+  // exactly one arm, all different, and ends where it begins unless `goals` are given.
   std::vector<TrajectoryPtr> alternatives = {};
-  // Where its arm is to go: the way is planned first (PlanMotion); `trajectory` is an estimate.
-  // Several: one for each of `alternatives`, which are estimates.
+  // Goals that must be planned first (PlanMotion); `trajectory` is an estimate. If there are
+  // several, one for each of `alternatives`, which are estimates.
   std::vector<MotionGoal> goals = {};
-  // Active jobs that have to succeed first; smaller ids than its own.
+  // Active jobs that must succeed first; their ids are smaller.
   std::vector<JobId> after = {};
-  bool system_job = false;  // the server's own: in a ring it gives way to jobs of clients
-  // It waited when a former run ended: whether it can begin where its arms stand is not looked at
-  // while one of them is stopped, but when they are resumed. (As of those that Interrupt keeps.)
+  bool system_job = false;  // initiated by the server: fails before client jobs in a deadlock cycle
+  // The job waited when an earlier session ended (or Interrupt keeps it). Its start is not compared
+  // with its arms' position while one of them is stopped.
   bool is_held_over = false;
 };
 struct Cancel {
   JobId job;
 };
-// What is asked of a job is changed, as far as it is named here (amending.h).
+// Changes the given terms of a job (amending.h).
 struct Amend {
   JobId job;
   AmendedTerms terms;
 };
-// Another way for this job, from where its arm stands (replanning.h). One that can be given none
-// (why_not_replanned()) goes on as it is.
+// Requests a new path for this job from its arm's position (replanning.h). Ignored if
+// why_not_replanned() returns a reason.
 struct Replan {
   JobId job;
 };
-// The answer to the Judge effect with the same version.
+// Answers the Judge effect with the same version.
 struct Judged {
   Verdict verdict;
 };
-// The answer to the PlanMotion effect of this number.
+// Answers the PlanMotion effect with this number.
 struct PlanMade {
   JobId job;
   std::uint64_t question;
-  TrajectoryPtr trajectory;  // from question.at to the goal; null: there is none
-  std::string why = {};      // there is none: one sentence
-  // There is none because the arm stands too close to this, which no job moves.
+  TrajectoryPtr trajectory;  // from question.at to the goal; null if there is none
+  std::string why = {};      // one sentence, if there is no trajectory
+  // There is no trajectory because the arm is too close to this object, which no job moves.
   std::optional<Proximity> stands_in = {};
-  bool goes_through = false;  // it leads where others stand: no way past all of them was found
+  bool goes_through = false;  // passes other arms: no path around all of them was found
 };
-// What a controller measured of a job's motion. Sent for every job in motion at every tick that
-// matters; `kind` says what has changed.
+// Measured progress of a job's motion. Sent for every moving job in every relevant tick; `kind`
+// says what changed.
 struct MotionReport {
   enum class Kind {
-    progressed,  // moving; first one of a job: it has started
+    progressed,  // moving; the job's first report means that it started
     stopped,     // at rest before its end, after a Brake
     finished,    // at rest at its end
-    faulted,     // the controller gave up; the arm is at rest where it stands
+    faulted,     // the controller reported a fault; the arm is at rest
   };
   JobId job;
   Kind kind;
-  Duration progress;                   // trajectory time, as proven by measurement
+  Duration progress;                   // trajectory time, as measured
   Eigen::VectorXd rest_position = {};  // stopped, finished, faulted: measured positions of the
                                        // trajectory's joints, in its order
-  std::string detail = {};             // faulted: why
-  // stopped, faulted: the progress of that one of its arms that got farthest; `progress` is the
-  // last one's. Zero: the same.
+  std::string detail = {};             // faulted: the reason
+  // stopped, faulted: progress of the foremost arm (`progress` is that of the last one). Zero if
+  // equal.
   Duration farthest{};
 };
-// Stop these arms (all: every arm of the cell) and start nothing on them until Resume.
+// Stops these arms and starts nothing on them until Resume.
 struct Stop {
   std::vector<ArmId> arms;
   std::string cause;  // "operator", or the monitor's sentence
@@ -95,22 +95,22 @@ struct Stop {
 struct Resume {
   std::vector<ArmId> arms;
 };
-// The planning scene changed: waiting jobs are judged again, and the motions under way of these
-// arms (arms_in_question) are checked again.
+// The planning scene changed: waiting jobs are checked again, and so are the motions under way of
+// `arms` (arms_in_question).
 struct SceneChanged {
   std::vector<ArmId> arms;
 };
-// From now on this policy decides; it is not null. Ignored while a motion is admitted: its orders
-// are those of the policy that chose them.
+// Sets the policy, not null. Ignored while a motion is admitted, because its orders belong to the
+// policy that chose them.
 struct ChangePolicy {
   std::shared_ptr<const Policy> policy;
 };
-// The server ends: every job that has not ended is interrupted; or only those that have begun,
-// where the others are kept for the next run. Sent when the arms are at rest.
+// The server ends and the arms are at rest: interrupts every job that has not ended; with
+// `keeps_waiting` only jobs that have begun.
 struct Interrupt {
   bool keeps_waiting = false;
 };
-// A time asked for by WakeAt has come. Every other input does the same work besides.
+// A time requested by WakeAt has come. Every other input does the same work as well.
 struct Wake {};
 
 using Input = std::variant<Submit, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
@@ -118,40 +118,38 @@ using Input = std::variant<Submit, Cancel, Amend, Replan, Judged, PlanMade, Moti
 
 // ---- Effects: what the caller must do now, in this order. ----
 
-// Answer the question, on a worker, and come back with Judged. At most one is open at a time.
+// Answer the question on a worker and reply with Judged. At most one is open at a time.
 struct Judge {
   Question question;
 };
-// Plan this job's motion, on a worker, and come back with PlanMade. Of each job and arm one is open
-// at most.
+// Plan this job's motion on a worker and reply with PlanMade. At most one is open per job and arm.
 struct PlanMotion {
   JobId job;
   std::uint64_t number;
   PlanQuestion question;
 };
-// Start (progress zero) or continue (a job that was held) this job's motion at `start_at`.
+// Start (zero progress) or continue (a stopped job) this job's motion at `start_at`.
 struct Dispatch {
   JobId job;
   TimePoint start_at;
   Duration from_progress;
-  Duration authority;  // trajectory time that it may not pass until more is granted
+  Duration authority;  // trajectory time that the motion may not pass until more is granted
 };
-// The job's arms may go on to here, and rest there unless more is granted in time. Never less than
-// before.
+// Extends the job's authority: its arms rest there unless more is granted in time. Never decreases.
 struct Grant {
   JobId job;
   Duration authority;
 };
-// Bring this job's arms to rest on their path. A job that has not moved yet stays where it is; the
-// controller answers with MotionReport::stopped in either case.
+// Brake the job's arms to rest on their path, or keep them at the start. The controller always
+// answers with MotionReport::stopped.
 struct Brake {
   JobId job;
 };
-// An arm rests in `blocked_job`'s way: from now on the scheduler has a job of its own that sends it
-// aside. If the arm has a job, the two wait for each other in a ring: the motion takes its place
-// before that job, and behind it comes a second one, `returns`, back to where the arm stands now,
-// which lets the other pass first. Said before these jobs' first JobChanged.
-// to_start: none of this; it goes, by a way that is planned first, to where `blocked_job` begins.
+// The scheduler has added a retreat `job` because `arm` rests in `blocked_job`'s path. If the arm
+// has a job, both are in a deadlock cycle (`in_ring`): the retreat goes before the arm's job,
+// followed by a second job (`returns`) that brings the arm back after `blocked_job` has passed.
+// With `to_start` it is a move-to-start instead: a planned path to the start of `blocked_job`.
+// Reported before the first JobChanged of `job`.
 struct YieldMove {
   JobId job;
   ArmId arm;
@@ -164,11 +162,11 @@ struct YieldMove {
 struct Release {
   JobId job;
 };
-// Something that a client sees of this job has changed (state, progress is not one of them).
+// Something that clients see of this job has changed (progress is not included).
 struct JobChanged {
   JobId job;
 };
-// Call step(Wake) not before `when` and soon after it. Replaces the time asked for before.
+// Call step(Wake) at or soon after `when`. Replaces the previous WakeAt.
 struct WakeAt {
   TimePoint when;
 };

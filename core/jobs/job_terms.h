@@ -6,10 +6,10 @@
 
 namespace armloom {
 
-// What becomes of a job when its time in the backlog is over.
+// Handling of a job whose backlog timeout is over.
 enum class OnTimeout {
   abort,   // it expires
-  replan,  // it is planned anew, before it expires (replanning.h)
+  replan,  // it is replanned before it expires (replanning.h)
 };
 [[nodiscard]] constexpr const char* to_string(OnTimeout what) {
   switch (what) {
@@ -21,10 +21,10 @@ enum class OnTimeout {
   return nullptr;
 }
 
-// How an arm gets to the start of a job's trajectory.
+// How an arm gets to a job's start.
 enum class MoveToStart {
   none,  // the arm must be there at the job's turn
-  plan,  // an arm that is elsewhere at the job's turn is moved there first (ways/approach.h)
+  plan,  // the server moves it there at the job's turn (approach.h)
 };
 [[nodiscard]] constexpr const char* to_string(MoveToStart how) {
   switch (how) {
@@ -36,11 +36,10 @@ enum class MoveToStart {
   return nullptr;
 }
 
-// A job's terms: the settings of its request that decide when it runs. They stay with the job and
-// are part of its published view. server/messages/job_terms.h describes them as JSON.
+// A client's terms for a job's turn. server/messages/job_terms.h defines the JSON.
 struct JobTerms {
   int priority = 0;  // larger goes first
-  // Longest time in the backlog. nullopt: the cell's default; never nullopt in a scheduled Job.
+  // nullopt: the cell's value; always set in the scheduler's jobs.
   std::optional<Duration> backlog_timeout = {};
   OnTimeout on_timeout = OnTimeout::abort;
   MoveToStart move_to_start = MoveToStart::none;
@@ -49,10 +48,10 @@ struct JobTerms {
   bool reorderable = false;
 };
 
-// Of these, what can still be changed while the job has not ended; what is absent stays.
+// The terms that can change while the job has not ended; nullopt: unchanged.
 struct AmendedTerms {
   std::optional<int> priority = {};
-  // It counts from when the job first was in conflict: it may be over at once.
+  // Measured from the time of the first conflict, so it may be over at once.
   std::optional<Duration> backlog_timeout = {};
   std::optional<OnTimeout> on_timeout = {};
 };
@@ -62,7 +61,6 @@ inline void apply(const AmendedTerms& amended, JobTerms& terms) {
   if (amended.backlog_timeout) terms.backlog_timeout = amended.backlog_timeout;
   if (amended.on_timeout) terms.on_timeout = *amended.on_timeout;
 }
-// As they are.
 [[nodiscard]] inline AmendedTerms amendable(const JobTerms& terms) {
   return {terms.priority, terms.backlog_timeout, terms.on_timeout};
 }

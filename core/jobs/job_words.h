@@ -11,15 +11,15 @@
 
 namespace armloom {
 
-// What clients are told of a job in a word: its state, what it waits for, and why it ended.
+// Enums that clients see of a job: its state, its waits, and the reason of its end.
 
-// A job's state as clients are told it; follows from its phase (job.h).
+// A job's published state; follows from its phase (job.h).
 enum class JobState {
-  queued,      // not judged yet: just arrived, or behind another job of its arm
-  backlogged,  // judged, in conflict: `waits_on` says with what
+  queued,      // not checked yet: new, or behind another job of its arm
+  backlogged,  // checked, in conflict: `waits_on` names with what
   scheduled,   // admitted, starts at scheduled_at
   running,
-  paused,  // in the middle of its path, at rest or braking, until resumed
+  paused,  // on its path, at rest or braking
   succeeded,
   canceled,
   expired,
@@ -52,7 +52,7 @@ enum class JobState {
   }
   return nullptr;
 }
-// Those in which a job ends.
+// The terminal states.
 inline constexpr auto kJobEnds = std::span(kValues<JobState>).last<5>();
 static_assert(is_terminal(kJobEnds.front()) && !is_terminal(*(kJobEnds.begin() - 1)));
 
@@ -61,15 +61,15 @@ struct Wait {
   enum class Kind { job, arm, object, predecessor, capacity, stop, plan, check, guard };
   Kind kind;
   std::optional<JobId> job;            // job, predecessor, capacity
-  std::optional<ArmId> arm;            // arm, stop; job: the other's arm that comes too close
+  std::optional<ArmId> arm;            // arm, stop; job: the other arm that comes too close
   std::optional<Proximity> proximity;  // job, arm, object: evidence
-  Duration own_time{};                 // with proximity: trajectory time of this job
-  Duration other_time{};               // and of the other one
+  Duration own_time{};                 // with proximity: time in this job's trajectory
+  Duration other_time{};               // and in the other trajectory
   std::string detail = {};             // stop: its cause
-  bool has_no_way_aside = false;       // arm: none of those that it could go is left to be tried
+  bool has_no_way_aside = false;       // arm: no candidate retreat is left to be tried
 
   bool operator==(const Wait&) const = default;
-  // Same obstacle, whatever the figures: used to spare clients a repeated event.
+  // Returns true for the same obstacle, whatever the numbers: avoids repeated events.
   [[nodiscard]] bool same_cause(const Wait& other) const {
     return kind == other.kind && job == other.job && arm == other.arm && detail == other.detail &&
            has_no_way_aside == other.has_no_way_aside;
@@ -99,19 +99,19 @@ struct Wait {
   return nullptr;
 }
 
-// Closed list; README.md beside this file explains each.
+// Closed list; core/scheduler/README.md explains each.
 enum class Reason {
   completed,
   canceled_by_client,
   backlog_timeout,
-  start_mismatch,      // the arm does not stand where the trajectory begins
-  self_collision,      // the arm would hit itself: it can never run
+  start_mismatch,      // the arm is not where the trajectory begins
+  self_collision,      // the job's arms would hit themselves or each other: it can never run
   predecessor_failed,  // a job named in `after` ended without success
   arm_fault,
-  overrun,  // took longer than execution.duration_scaling and _margin allow, and stands still
+  overrun,  // took longer than execution.duration_scaling and _margin allow, and is at rest
   server_restart,
-  deadlock,  // it waited in a ring of jobs none of which could ever move, and came last
-  no_plan,   // no way to its goal was found, or none that still fitted when it was there
+  deadlock,  // it was in a deadlock cycle and was submitted last
+  no_plan,   // no path to its goal was found, or every plan was out of date when it arrived
 };
 [[nodiscard]] constexpr const char* to_string(Reason reason) {
   switch (reason) {

@@ -6,23 +6,20 @@
 
 namespace armloom {
 
-// How fast motions go, seen from outside.
+// Measured speed of motions.
 
-// An arm that sets out or brakes may be seen so long in one place.
+// A starting or braking arm may be measured at one position for this long.
 inline constexpr Duration kStandsFrom = std::chrono::milliseconds(250);
 
-// It has not been seen to move for longer than an arm that sets out or brakes.
+// Returns true if the motion has not moved for kStandsFrom.
 [[nodiscard]] bool is_standing(const Moving& moving, TimePoint now);
 
-// Since when its arms have stood for no reason of ours: late, stalled, stopped; nothing: they move,
-// or wait for others.
+// Returns since when the job's arms rest although no order holds them (late, stalled, stopped).
 [[nodiscard]] std::optional<TimePoint> stands_since(const Job& job);
-// How long its arms have stood for no reason of ours: late, stalled, stopped. Zero: it moves, or
-// waits for others.
+// Returns how long they have rested so; zero below kStandsFrom.
 [[nodiscard]] Duration stood_for(const Job& job, TimePoint now);
 
-// Of cell time for one of its trajectory, as it has gone since it last stood; 1: at about the speed
-// that it was to have, or not known.
+// Returns cell time per trajectory time since the last rest; 1 if about as planned, or not known.
 [[nodiscard]] double pace_of(const Job& job, TimePoint now);
 
 }  // namespace armloom

@@ -6,23 +6,23 @@
 
 namespace armloom {
 
-// Nearer than this to its limit, a motion has come to it.
 inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
-// What keeps an admitted job from going on, or from beginning; nothing: it goes, or is about to.
+// Returns what holds back an admitted job; nullopt if it moves or is about to.
 [[nodiscard]] std::optional<Wait> held_where_it_stands(const State& state, const Record& record);
-// One of its arms rests in the way of a motion that comes before it on another one of its arms.
+// Returns true if an arm of the job rests in the path of a motion ahead of it on another of its
+// arms.
 [[nodiscard]] bool holds_one_ahead(const State& state, const Record& record);
-// It moves only after others have moved.
+// Returns true if the job cannot move before other jobs have moved.
 [[nodiscard]] bool stands(const State& state, const Record& record);
 
-// The earlier job with an open arm that may yet move an arm of this job: the job does not begin
-// where its arms stand, but may where that one would leave them. Returns nullopt if there is none.
+// Returns the earlier job with an undecided arm that may yet bring an arm to this job's start;
+// nullopt if there is none or the arms are there.
 [[nodiscard]] std::optional<JobId> may_go_first(const State& state, const Record& record);
 
-// As it was found when it was judged last, or where it pauses; null: it is not known.
+// Returns the waits of the last check or the present pause; null if not known.
 [[nodiscard]] const std::vector<Wait>* known_waits(const State& state, const Job& job);
-// It waits for an arm that no job will move.
+// Returns true if the wait is for an arm without jobs.
 [[nodiscard]] bool is_idle_arm(const State& state, const Wait& wait);
 
 }  // namespace armloom

@@ -16,7 +16,7 @@ namespace armloom {
 
 class Policy;
 
-// The jobs that have a place now, under policies with rounds; else empty.
+// The jobs of the present round; empty under policies without rounds.
 struct Round {
   std::set<JobId> jobs = {};
   bool has_begun = false;  // one of them has moved
@@ -27,8 +27,8 @@ struct Decided {
   std::vector<Effect> effects = {};
 };
 
-// What the rooms of the scheduler share: who is there, where everything stands, what is admitted;
-// and what the present step has decided so far. A copy is independent of it (Trial).
+// The state that the scheduler's modules share, with the decisions of the present step. A copy is
+// independent of the original (Trial).
 struct State {
   CellPtr cell;
   std::shared_ptr<const Policy> policy;
@@ -38,8 +38,8 @@ struct State {
   PrecedenceGraph graph;      // all that is admitted
   Expectation expected = {};  // of what is admitted
   Round round = {};
-  Version version = 1;      // of what is admitted, and of where arms rest
-  Version scene_epoch = 0;  // the last version that began with another scene
+  Version version = 1;      // of the admitted motions and of the arms' rests
+  Version scene_epoch = 0;  // the version since which the scene is unchanged
   TimePoint now{};          // of the present step
   Decided decided = {};     // in the present step
 
@@ -51,7 +51,8 @@ struct State {
         lanes(cell->execution.start_tolerance_rad),
         graph(cell->arms.size()) {}
 
-  // What was found of a job that waits still holds. Precondition: it waits.
+  // Returns true if the last check of a waiting job still applies. Precondition: the job is
+  // waiting.
   [[nodiscard]] bool is_judged(const Job& job) const {
     const Judgement& found = job.judgement();
     if (found.at != version) return false;

@@ -7,32 +7,31 @@
 
 namespace armloom {
 
-// A leg stands at its start, or on its way.
+// A motion rests at its start or on its path.
 struct PredictedPause {
   TimePoint from;
-  std::optional<TimePoint> to;   // nothing: for ever as things are; then it is the last one
-  Duration at;                   // trajectory time at which it stands
-  std::optional<Wait> waits_on;  // nothing: it stands for a reason of its arms' own
+  std::optional<TimePoint> to;   // nullopt: no end predicted; only for the last pause
+  Duration at;                   // trajectory time of the pause
+  std::optional<Wait> waits_on;  // nullopt if the arm rests without being held back by orders
 };
 
-// A motion that is admitted. It follows the one before it on its arms; that wait is no pause.
+// An admitted motion. Waiting for the previous motion of its arms is not a pause.
 struct PredictedLeg {
   JobId job;
-  std::optional<TimePoint> starts;  // leaves its start, or has left it; nothing: never
-  std::optional<TimePoint> ends;    // nothing: it does not come to its end as things are
+  std::optional<TimePoint> starts;  // when it leaves, or has left, its start; nullopt: never
+  std::optional<TimePoint> ends;    // nullopt: no end predicted
   std::vector<PredictedPause> pauses;
 };
 
 struct PredictedTimeline {
   TimePoint now;
-  std::vector<PredictedLeg> legs;  // those of one arm in the order in which they go
+  std::vector<PredictedLeg> legs;  // of one arm: in running order
 };
 
-// What follows from the precedence graph, whichever policy chose the orders, if everything goes as
-// fast as its trajectory says: when each leg moves and whom it waits for. A pause on the way costs
-// kPauseLoss beside the wait. What stands though nothing of ours holds it (late, stalled) is
-// expected to do so for as long again as it has. An arm that is stopped, or rests in the way, stays
-// there: nobody knows when somebody resumes it. Pure. Precondition: `now` is not before state.now.
+// Predicts from the precedence graph when each admitted motion moves and what it waits for, if
+// every motion keeps its speed. A pause on the path adds kPauseLoss to the wait. An arm that is
+// late or stalled is predicted to rest for as long again as it has rested. Stopped arms, and arms
+// that rest in another's path, are predicted to stay there. Pure. Precondition: `now` >= state.now.
 [[nodiscard]] PredictedTimeline predicted_timeline(const State& state, TimePoint now);
 
 }  // namespace armloom

@@ -8,10 +8,10 @@
 
 namespace armloom {
 
-// What a job waits for because of a conflict, or of what blocks it.
+// Return the wait caused by a conflict or a blocker.
 [[nodiscard]] Wait wait_for(const Conflict& conflict);
 [[nodiscard]] Wait wait_for(const Blocker& blocker);
-// Of a job whose arms would hit themselves or each other: what, how and when.
+// Returns the detail of Reason::self_collision: links, distance and time.
 [[nodiscard]] std::string self_collision_text(const Conflict& conflict);
 // "12.5 s"
 [[nodiscard]] std::string seconds_text(Duration duration);

@@ -20,37 +20,36 @@
 namespace armloom {
 
 // Positions of all movable joints of the cell, indexed by JointId; rad, or m for prismatic joints.
-// Mimic joints are not in it: they follow.
+// Mimic joints are not included: they follow another joint.
 using Configuration = Eigen::VectorXd;
 
 enum class JointKind { revolute, continuous, prismatic };
 
-// How far any joint may be from zero (rad or m), also one without limits: beyond any use, and near
-// enough that nothing that is made of it overflows or loses more than its last digits.
+// Bound on every joint position (rad or m), also of joints without limits: beyond any use, but
+// small enough to avoid overflow and loss of precision.
 inline constexpr double kFarthestPosition = 1e5;
 
-// A movable joint that is no mimic: one entry of a Configuration.
+// A movable joint that is not a mimic: one entry of a Configuration.
 struct Joint {
   std::string name;  // with prefix
   RobotId robot;
-  std::optional<ArmId> arm;  // the arm that it belongs to, as arm or gripper joint
+  std::optional<ArmId> arm;  // whose joint or gripper joint it is
   JointKind kind;
-  double lower;  // rad or m; where no file says so, of continuous joints, -kFarthestPosition
+  double lower;  // rad or m; -kFarthestPosition if a continuous joint has no limit
   double upper;
   double velocity_max;      // > 0; rad/s or m/s
   double acceleration_max;  // > 0
   double jerk_max;          // > 0
-  double brake;             // > 0: deceleration that a stop may use
-  // Where it stands at the start, if it is no joint of an arm's group: at zero, or at the limit
-  // next to it, unless the cell says more of a gripper's.
+  double brake;             // > 0; used by stops
+  // Outside arm groups: start position, nearest to 0 unless the cell file's "gripper" sets it.
   double start = 0.0;
 
   [[nodiscard]] bool has_lower() const { return lower > -kFarthestPosition; }
   [[nodiscard]] bool has_upper() const { return upper < kFarthestPosition; }
-  // Of its positions, as people are told.
+  // For messages.
   [[nodiscard]] std::string unit() const { return kind == JointKind::prismatic ? "m" : "rad"; }
 
-  // Limits that no file gives: the defaults that cell_description.h states.
+  // Limits that no file gives: defaults apply.
   struct Assumed {
     bool velocity = false;
     bool acceleration = true;
@@ -61,14 +60,14 @@ struct Joint {
 
 // A link, with the joint above it folded in:
 //   X_WL = X_WP * X_PJ * motion(axis, multiplier * q[driver] + offset)
-// where P is the parent link (for a root: the robot's base pose X_WB, which then stands in X_PJ).
+// P is the parent link. A root has no parent: its X_PJ is the robot's base pose X_WB.
 struct Link {
   std::string name;  // with prefix
   RobotId robot;
-  std::optional<ArmId> arm;      // the arm whose joints move it (nearest above); none: static
-  std::optional<LinkId> parent;  // smaller than the link's own id: one pass computes all poses
+  std::optional<ArmId> arm;      // nearest arm above that moves it; nullopt if static
+  std::optional<LinkId> parent;  // smaller than the link's own id
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
-  std::optional<JointId> driver;  // none: fixed
+  std::optional<JointId> driver;  // nullopt if fixed
   JointKind motion = JointKind::revolute;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  // unit, in the joint frame J
   double multiplier = 1.0;                          // of a mimic joint
@@ -80,11 +79,11 @@ struct Arm {
   std::string name;
   RobotId robot;
   std::string group;
-  std::vector<JointId> joints;          // of the group, from base to tip
-  std::vector<JointId> gripper_joints;  // movable joints below the arm that are in no arm's group
-  std::vector<LinkId> links;            // every link that these joints move
-  Eigen::VectorXd home;                 // size joints.size()
-  std::map<std::string, Eigen::VectorXd> named_states;  // of the group, from the SRDF
+  std::vector<JointId> joints;                          // from base to tip
+  std::vector<JointId> gripper_joints;                  // movable, below the arm, in no arm's group
+  std::vector<LinkId> links;                            // moved by these joints
+  Eigen::VectorXd home;                                 // size joints.size()
+  std::map<std::string, Eigen::VectorXd> named_states;  // from the SRDF
 };
 
 struct Robot {
@@ -92,14 +91,12 @@ struct Robot {
   std::string prefix;
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   std::vector<ArmId> arms;
-  std::string urdf_text;  // for the dashboard: as read, joints that the cell holds being fixed
+  std::string urdf_text;  // as read, except that fixed joints are fixed; for the dashboard
   std::string srdf_text;
   ControllerDescription controller;
-  // Meshes as the URDF names them (package://..., of visuals too) and their files, where they
-  // exist.
+  // Existing mesh files by the name in the URDF (package://...), also of visuals.
   std::map<std::string, std::string> mesh_files;
-  // Joints that have no value of their own, by their names with prefix: why not, as "follows
-  // left_finger" says it.
+  // Why a joint has no value of its own, by prefixed name: "follows left_finger".
   std::map<std::string, std::string> joints_without_value;
 };
 
@@ -112,40 +109,39 @@ struct CollisionObject {
 // A pair of links, the smaller id first.
 using LinkPair = std::pair<LinkId, LinkId>;
 
-// Pairs that need no check, and pairs of which an SRDF only claims it.
+// Pairs that need no check, and pairs that are disabled by an SRDF without proof.
 struct AllowedCollisions {
-  // Named by the robot's files: links of one rigid body, and pairs of the SRDF within one arm or of
-  // an arm and its mount.
+  // From the robots' files: rigid bodies, and pairs disabled by SRDFs except claimed_pairs.
   std::set<LinkPair> link_pairs;
-  // Named by the cell file.
+  // From the cell file.
   std::set<LinkPair> cell_file_pairs;
   std::set<std::pair<LinkId, std::string>> link_objects;  // link, object name
-  // Disabled by an SRDF, and links of different arms, or of an arm and what stands beside its
-  // mount; with the place there ("arm.srdf:17"). MoveIt's Setup Assistant disables what did not
-  // meet in random samples, which proves nothing: such a pair is checked unless it is proven to be
+  // Pairs disabled by an SRDF between different arms, or between an arm and a static link other
+  // than its mount, with their place ("arm.srdf:17"). MoveIt's Setup Assistant disables pairs that
+  // did not meet in random samples, which proves nothing. So these pairs are checked unless proven
   // out of reach (core/collision/scene/out_of_reach.h) or in cell_file_pairs.
   std::map<LinkPair, std::string> claimed_pairs;
 
-  // Returns true if the pair, in either order, may touch. Claims do not count.
+  // Returns true if the pair may touch, in either order. Ignores claimed_pairs.
   [[nodiscard]] bool allows(LinkId a, LinkId b) const {
     const LinkPair pair = std::minmax(a, b);
     return link_pairs.contains(pair) || cell_file_pairs.contains(pair);
   }
 };
-// What is kept from what may not be touched.
+// Distances to keep between bodies that may not touch.
 struct Clearances {
   double clearance_m = 0.02;
-  double self_clearance_m = 0.005;          // of what Cell::is_own(); at most clearance_m
-  std::optional<double> mount_clearance_m;  // of an arm from its mount; absent: clearance_m
-  // What an arm keeps from its mount: never more than from the scene.
+  double self_clearance_m = 0.005;          // for Cell::is_own() pairs; at most clearance_m
+  std::optional<double> mount_clearance_m;  // between an arm and its mount; clearance_m if nullopt
+  // Returns the clearance between an arm and its mount; at most clearance_m.
   [[nodiscard]] double mount_limit_m() const {
     const double limit_m = mount_clearance_m.value_or(clearance_m);
     return limit_m < clearance_m ? limit_m : clearance_m;
   }
 };
 
-// The robots, arms, joints and links of a cell and its settings: immutable, shared by all threads.
-// Built by build_cell (core/model/cell/build_cell.h), which checks everything first.
+// The robots, arms, joints and links of a cell and its settings. Immutable, shared by all threads.
+// Built and checked by build_cell (core/model/cell/build_cell.h).
 struct Cell {
   std::string name;
   std::vector<Robot> robots;             // RobotId
@@ -168,17 +164,16 @@ struct Cell {
   [[nodiscard]] std::optional<JointId> find_joint(std::string_view joint_name) const;
   [[nodiscard]] std::optional<LinkId> find_link(std::string_view link_name) const;
 
-  // A link that stands still and carries a link that the arm moves: what the arm is mounted on. It
-  // may be the arm's own pedestal, or a table that the URDF makes its base: no file tells them
-  // apart. So it is scene, and all of the arm owes it mount_clearance_m: clearance_m unless the
-  // cell says otherwise, as it may for robots that fold on their own body. (Neighbours that touch
-  // are disabled by the SRDF, or by being parent and child where there is none.)
-  // Links without a shape (mounting frames) hand that down to what they are fixed to.
+  // Returns true if the link is static and carries the arm, directly or through fixed links without
+  // shapes. A mount may be a pedestal or a table in the same URDF. So every link of the arm keeps
+  // mount_clearance_m from it; less than clearance_m suits robots that fold onto their own body.
+  // Neighbors that touch are disabled by the SRDF or, without an SRDF, as parent and child.
   [[nodiscard]] bool is_mount(LinkId link, ArmId arm) const;
-  // Two links of one arm: they pass each other closely by design and keep self_clearance_m.
+  // Returns true if both links belong to one arm. They pass closely by design and keep
+  // self_clearance_m.
   [[nodiscard]] bool is_own(LinkId a, LinkId b) const;
 
-  // Every arm at its home; joints of no arm and gripper joints at zero, clamped to their limits.
+  // Returns every arm at its home, other joints at Joint::start.
   [[nodiscard]] Configuration home() const;
 };
 

@@ -14,11 +14,11 @@
 
 namespace armloom {
 
-// A cell file as plain data, before anything in it has been checked against the robots' URDFs.
-// Defaults here are the documented defaults of the file. Names are as the file spells them.
+// A cell file as plain data, not yet checked against the robots' URDFs. Default values here are the
+// documented defaults of the file. Names are spelled as in the file.
 
-// Of one joint, as the cell gives them; absent: the robot's joint_limits file, then the URDF, then
-// the stated default decides.
+// Limits of one joint as given in the cell file. A missing value is taken from joint_limits.yaml,
+// then from the URDF, then from the default below.
 struct JointLimitsDescription {
   std::optional<double> lower;         // rad (m): not below the URDF's
   std::optional<double> upper;         // rad (m): not above the URDF's
@@ -26,28 +26,27 @@ struct JointLimitsDescription {
   std::optional<double> acceleration;  // rad/s^2 (m/s^2), default kDefaultAcceleration
   std::optional<double> jerk;          // rad/s^3 (m/s^3), default kDefaultJerk
   std::optional<double> brake;         // rad/s^2 (m/s^2), default twice the acceleration
-  // The keys by which the cell file gave them, as velocity_m_s: the units have to fit the joint.
+  // As spelled in the cell file (velocity_m_s): their units must fit the joint.
   std::set<std::string> keys = {};
 };
-inline constexpr double kDefaultVelocity = 1.0;  // of joints that no arm's group holds, as MoveIt's
+inline constexpr double kDefaultVelocity = 1.0;  // outside arm groups; as in MoveIt
 inline constexpr double kDefaultAcceleration = 3.75;
 inline constexpr double kDefaultJerk = 7500.0;
 
 struct ArmDescription {
   std::string name;   // unique in the cell
-  std::string group;  // SRDF group (a chain, or joints) that the arm consists of
-  // Group order; empty: as home_state says, and if that is empty too, every joint at zero, clamped
-  // to its limits.
+  std::string group;  // SRDF group that forms the arm
+  // In group order. If empty, home_state applies; if both are empty, all joints are at zero,
+  // clamped.
   std::vector<double> home;
-  std::string home_state;  // a state of the group by its name in the SRDF
-  std::map<std::string, JointLimitsDescription> limits;  // by URDF joint name, without prefix
-  // Where joints of the gripper stand at the start, by URDF joint name (rad, m); others at zero,
-  // clamped to their limits.
+  std::string home_state;                                // a state of the group in the SRDF
+  std::map<std::string, JointLimitsDescription> limits;  // by URDF joint name
+  // Start positions of gripper joints by URDF name (rad, m); others start at zero, clamped.
   std::map<std::string, double> gripper = {};
 };
 
-// What settings may be stands beside them, as <setting>_range: the reader of cell files, their
-// schema and build_cell() take it from here.
+// Permitted values are declared next to each setting, as <setting>_range. The cell file reader, its
+// schema and build_cell() use them.
 inline constexpr NumberRange kSettingTime_s{0.0, 1e6};
 inline constexpr NumberRange kSettingPositiveTime_s{0.0, 1e6, true};
 inline constexpr NumberRange kZeroToOne{0.0, 1.0};
@@ -64,12 +63,12 @@ struct ControllerDescription {
 struct RobotDescription {
   std::string name;
   std::string urdf;          // path, resolved against the folder of the cell file
-  std::string srdf;          // the same
-  std::string joint_limits;  // path of a MoveIt joint_limits.yaml, the same; empty: none
-  std::string prefix;        // joint, link names in the cell are prefix + URDF name
+  std::string srdf;          // like urdf
+  std::string joint_limits;  // a MoveIt joint_limits.yaml, like urdf; may be empty
+  std::string prefix;        // prepended to the URDF's joint and link names
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();  // base link in the world
   std::map<std::string, std::string> packages;             // package:// name -> folder
-  // Joints that are held at a value, by URDF name (rad or m): they are no joints of the cell.
+  // Joints fixed at a value, by URDF name (rad or m): not joints of the cell.
   std::map<std::string, double> fixed;
   std::vector<ArmDescription> arms;
   ControllerDescription controller;
@@ -93,11 +92,11 @@ struct CheckingSettings {
   Duration delay = std::chrono::milliseconds(100);
   double limit_tolerance = 0.05;  // share by which a spline may overshoot a limit
 };
-// What is done about an arm without a job in the way of one, and jobs that wait for each other.
+// Reaction to an idle arm that blocks a job, and to jobs that wait for each other.
 enum class OnIdleBlocker {
-  report,  // it is only told
-  park,    // an arm is sent aside
-  replan,  // the job is planned around it; where there is no such way, as park
+  report,  // only report it
+  park,    // move an arm out of the way (retreat)
+  replan,  // plan the job around it; without such a path, act as park
 };
 [[nodiscard]] constexpr const char* to_string(OnIdleBlocker what) {
   switch (what) {
@@ -111,10 +110,10 @@ enum class OnIdleBlocker {
   return nullptr;
 }
 
-// What a server that is started again does with jobs that had not ended when it did.
+// Handling of unfinished jobs when the server is restarted.
 enum class OnRestart {
-  ask,       // they wait until someone says go on
-  continue_  // those that had not begun go on by themselves
+  ask,       // they wait until an operator resumes them
+  continue_  // jobs that had not begun continue automatically
 };
 [[nodiscard]] constexpr const char* to_string(OnRestart what) {
   switch (what) {
@@ -135,7 +134,7 @@ struct SchedulingSettings {
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
   OnIdleBlocker on_idle_blocker = OnIdleBlocker::park;
-  int horizon_steps = 12;  // of each lane, admitted ahead by policies that look ahead
+  int horizon_steps = 12;  // queued motions per arm, admitted by look-ahead policies
   OnRestart on_restart = OnRestart::ask;
 };
 struct MonitorSettings {
@@ -158,22 +157,21 @@ struct ExecutionSettings {  // MoveIt's defaults
   double start_tolerance_rad = 0.01;
   double duration_scaling = 1.1;
   Duration duration_margin = std::chrono::milliseconds(500);
-  // Of motions whose times are made here, where nobody says another one: a share of the joints'
-  // speeds in (0, 1].
+  // Default share of the joint velocities, in (0, 1], for motions timed by the server.
   double velocity_scaling_factor = 1.0;
 };
 
 struct CellDescription {
-  inline static constexpr NumberRange clearance_range = kZeroToOne;  // m, of all three
+  inline static constexpr NumberRange clearance_range = kZeroToOne;  // m; for all three clearances
 
   std::string name;
   std::vector<RobotDescription> robots;
   std::vector<ObjectDescription> objects;
   std::vector<std::pair<std::string, std::string>> allowed_collisions;  // link or object names
   double clearance_m = 0.02;
-  // Of an arm's own links, which pass each other closely by design.
+  // Within an arm, whose links pass each other closely by design.
   double self_clearance_m = 0.005;
-  // Of an arm from the link that it is mounted on (Cell::is_mount); absent: clearance_m.
+  // Between an arm and its mount; clearance_m if nullopt.
   std::optional<double> mount_clearance_m;
   CheckingSettings checking;
   SchedulingSettings scheduling;

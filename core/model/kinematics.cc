@@ -6,8 +6,8 @@
 namespace armloom {
 namespace {
 
-// X * motion of a joint by `value` about or along the unit `axis`. Rodrigues' formula, written out
-// by Eigen's AngleAxis; no matrix product with the identity part of a translation.
+// Multiplies X from the right by the joint's motion by `value` (Rodrigues' formula, from Eigen's
+// AngleAxis).
 void move(const Link& link, double value, Eigen::Isometry3d& X) {
   if (link.motion == JointKind::prismatic) {
     X.translation() += X.linear() * (link.axis * value);

@@ -10,14 +10,14 @@
 
 namespace armloom {
 
-// What the monitor found and whom it stops.
+// A pair of links that is too close, and the arms to be stopped for it.
 struct MonitorFinding {
   enum class Kind { contact, clearance };
   Kind kind;
   TimePoint time;
   Proximity proximity;       // which links, how close
-  double limit_m;            // what it should have been: Proximity::limit_m, of this pair
-  std::vector<ArmId> stops;  // arms to stop: those of the pair that move
+  double limit_m;            // the required distance: Proximity::limit_m of this pair
+  std::vector<ArmId> stops;  // arms of the pair that are moving
 };
 [[nodiscard]] constexpr const char* to_string(MonitorFinding::Kind kind) {
   switch (kind) {
@@ -29,14 +29,15 @@ struct MonitorFinding {
   return nullptr;
 }
 
-// Watches the joined measured state: all arms as one state, against itself and the scene. Pure: it
-// is handed the pairs that are too close and says what they mean.
+// Checks the measured state of all arms together, against each other and the scene. Pure: the
+// caller finds the pairs that are too close.
 class Monitor {
  public:
-  // `too_close`: every pair below its own limit_m in the measured state at `now`; `moving`:
-  // indexed by ArmId. A pair is found once: while it stays below the limit it is found again only
-  // if one of its arms moves and it has come closer by more than kCloserBy_m since (so that
-  // arms may be moved apart after a stop). A pair of which no arm moves is found without stops.
+  // Returns the new findings. `too_close`: every pair below its own limit_m in the measured state
+  // at `now`; `moving`: by ArmId. A pair is reported once. While it stays below the limit, it is
+  // reported again only if one of its arms moves and the pair has come closer by more than
+  // kCloserBy_m since, so that arms can be moved apart after a stop. A pair without a moving arm
+  // stops no arm.
   inline static constexpr double kCloserBy_m = 0.0005;
   [[nodiscard]] std::vector<MonitorFinding> observe(const std::vector<Proximity>& too_close,
                                                     const std::vector<bool>& moving, TimePoint now);

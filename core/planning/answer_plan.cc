@@ -12,13 +12,13 @@
 namespace armloom {
 namespace {
 
-// Of the tries past others. Ways that there are take a tenth of this mostly (README.md); looking
-// for one that there is not would keep the last try waiting for ten times as long.
+// Budget of tries past other arms. Existing paths mostly take a tenth (README.md); without a path,
+// the full budget would delay the last try tenfold.
 constexpr std::uint64_t kBesideBudget = 40'000;
 
 struct JointGoals {
   std::vector<Eigen::VectorXd> q;
-  std::uint64_t evaluations = 0;  // for them
+  std::uint64_t evaluations = 0;  // spent on them
 };
 using Goals = tl::expected<JointGoals, PlanRefusal>;
 
@@ -36,7 +36,7 @@ Goals joint_goals(const PlanningScenePtr& scene, const PlanQuestion& question) {
       .map([](std::vector<Eigen::VectorXd> q) { return JointGoals{std::move(q)}; });
 }
 
-// With the nearest joint positions that would do, where those that were asked for would not.
+// Adds the nearest joint positions that would work, if the start or goal does not.
 PlanRefusal with_nearest(const PlanningScenePtr& scene, const PlanRequest& request,
                          PlanRefusal refusal) {
   using Reason = PlanRefusal::Reason;
@@ -52,7 +52,7 @@ PlanRefusal with_nearest(const PlanningScenePtr& scene, const PlanRequest& reque
   return refusal;
 }
 
-// Who stands where the arm sets out or is to go has to go first, whatever the way.
+// Returns an arm that may move and rests at the start or the goal, so that it must leave first.
 std::optional<ArmId> stands_at_an_end(const PlanRefusal& refusal, const PlanRequest& request,
                                       const std::vector<ArmId>& may_move) {
   using Reason = PlanRefusal::Reason;
@@ -68,7 +68,6 @@ std::optional<ArmId> stands_at_an_end(const PlanRefusal& refusal, const PlanRequ
   return std::nullopt;
 }
 
-// One try of each kind of goal.
 class Answer {
  public:
   Answer(const PlanningScenePtr& scene, const PlanQuestion& question)

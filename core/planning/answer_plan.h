@@ -9,11 +9,11 @@ namespace armloom {
 
 using PlanAnswer = tl::expected<PlannedMotion, PlanRefusal>;
 
-// Makes the goal's pose joint positions (reach_pose) and plans the motion (plan_motion) beside all
-// other arms where they stand; of those that may move, one that stands where the arm sets out or is
-// to go is left out; where there is no way past the rest either, all are, as if they were gone:
-// when they are is the scheduler's to see. The refusal is that of the last try. `cancelled` is read
-// now and then; may be null. Thread-safe; the same question in the same scene has the same answer.
+// Finds joint positions for the goal (reach_pose) and plans the motion (plan_motion) around all
+// other arms at rest. Of the arms that may move, those at the start or the goal are ignored. If
+// there is no path past the rest, all arms that may move are ignored: the scheduler decides when
+// they have left. The refusal is that of the last try. `cancelled` is polled and may be null.
+// Thread-safe and deterministic.
 [[nodiscard]] PlanAnswer answer_plan(const PlanningScenePtr& scene, const PlanQuestion& question,
                                      const std::atomic<bool>* cancelled = nullptr);
 

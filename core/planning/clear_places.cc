@@ -35,7 +35,7 @@ class Clearing {
                                             .method = Swept{cell_.checking.tracking_error_rad}});
     of_motions_ += verdict.evaluations;
     if (verdict.kind == Verdict::Kind::free) return true;
-    // What else stands in its way does so wherever this arm is.
+    // Other conflicts of the motion do not depend on this arm.
     const bool is_told = !verdict.conflicts.empty();
     return is_told && std::ranges::none_of(verdict.conflicts, [&](const Conflict& conflict) {
              return conflict.with == Conflict::With::rest && conflict.proximity.arm_b == way_.arm;
@@ -67,7 +67,7 @@ tl::expected<ClearPlaces, PlanRefusal> places_clear_of(const PlanningScenePtr& s
   if (found.empty()) {
     return tl::unexpected(PlanRefusal{PlanRefusal::Reason::goal_not_reached,
                                       "none of " + std::to_string(kPlacesLookedAt) +
-                                          " places of arm " + arm.name +
+                                          " configurations of arm " + arm.name +
                                           " is free and out of the way",
                                       {},
                                       clearing.evaluations()});

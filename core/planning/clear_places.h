@@ -10,17 +10,17 @@
 
 namespace armloom {
 
-// An arm, and what remains of a motion of others that it is to make way for.
+// An arm, and the remaining motion of others for which it must make way.
 struct InTheWay {
   ArmId arm;
   TrajectoryPtr motion;
   Duration progress{};
 };
 
-// Joint positions at which the arm keeps its distances from all that stands at `at`, and the motion
-// its own from the arm: those that are found near where it stands, the nearest first. Places of the
-// Halton sequence in a box that grows around that, up to the joints' limits; so many are looked at.
-// Refused (goal_not_reached): none of them is. Thread-safe; the same question has the same answer.
+// Joint positions, nearest first, at which the arm keeps its clearances from everything at `at`,
+// and the motion keeps its own from the arm. Candidates are kPlacesLookedAt points of the Halton
+// sequence in a box around the arm's position that grows up to the joints' limits. Refused
+// (goal_not_reached) if none is clear. Thread-safe and deterministic.
 struct ClearPlaces {
   std::vector<Eigen::VectorXd> q;
   std::uint64_t evaluations = 0;  // of states and motions

@@ -8,17 +8,17 @@
 #include "core/model/cell.h"
 #include "core/model/kinematics.h"
 
-// Inside of core/planning: the door to Orocos KDL.
+// Internal to core/planning: interface to Orocos KDL.
 namespace armloom {
 
-// From the world to a link: the joints of one arm on the way, all others as they stand.
+// From the world to a link: joints of one arm move, all others are fixed.
 struct KdlChain {
   KDL::Chain chain;
   std::vector<Eigen::Index> rows;  // of the arm's joints, by the chain's; mimic joints repeat them
 };
 
-// X_WL: of all links, at the configuration that everything else stands in. Nothing: none of the
-// arm's joints moves the link.
+// X_WL: poses of all links in the current configuration. Returns nullopt if no joint of the arm
+// moves the link.
 [[nodiscard]] std::optional<KdlChain> chain_to(const Cell& cell, ArmId arm, LinkId link,
                                                const LinkPoses& X_WL);
 

@@ -8,11 +8,11 @@
 namespace armloom {
 namespace {
 
-// The line from there to what is wanted is halved so often.
+// Bisections of the line to the wanted position.
 constexpr int kHalvings = 10;
 constexpr int kSweeps = 2;  // over the joints
 
-// Along the line there. Precondition: `q` is free, `blocked` is not.
+// Moves q along the line. Precondition: `q` is free, `blocked` is not.
 Eigen::VectorXd brought_nearer(LineChecker& states, Eigen::VectorXd blocked, Eigen::VectorXd q) {
   for (int i = 0; i < kHalvings; ++i) {
     Eigen::VectorXd middle = 0.5 * (q + blocked);
@@ -21,8 +21,8 @@ Eigen::VectorXd brought_nearer(LineChecker& states, Eigen::VectorXd blocked, Eig
   return q;
 }
 
-// From a place at the edge of what is free: one joint after the other goes back to where it is
-// wanted, the others on as far as nothing is lost by it, and all are brought nearer again.
+// Resets one joint after the other to its wanted position, moves the others on so that the distance
+// stays, then moves all nearer again.
 Eigen::VectorXd by_fewer_joints(LineChecker& states, const Cell& cell, const Arm& arm,
                                 const Eigen::VectorXd& wanted, Eigen::VectorXd q) {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {

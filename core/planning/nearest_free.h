@@ -8,18 +8,17 @@
 
 namespace armloom {
 
-// Joint positions at which the arm keeps its distances from all that stands as the request says,
-// within its limits, as near to `wanted` as is found: of places around it (places_around.h) the
-// first free ones, each brought as near as it stays free, by as few joints as that takes. Nothing:
-// none is.
-// Thread-safe; the same in, the same out.
+// Joint positions near `wanted`, within the limits, at which the arm keeps its clearances from
+// everything as in the request; nullopt if none was found. The first free places around `wanted`
+// (places_around.h) are moved toward it while they stay free, by as few joints as possible.
+// Thread-safe and deterministic.
 struct NearestFree {
   std::optional<Eigen::VectorXd> q;
   std::uint64_t evaluations = 0;
 };
 [[nodiscard]] NearestFree nearest_free(const PlanningScenePtr& scene, const PlanRequest& request,
                                        const Eigen::VectorXd& wanted);
-// So many free places are brought nearer.
+// Number of free places that are moved nearer.
 inline constexpr int kFreePlacesMax = 8;
 
 }  // namespace armloom

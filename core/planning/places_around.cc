@@ -9,7 +9,7 @@
 namespace armloom {
 namespace {
 
-// Around the centre, of joints without limits.
+// From the center, for joints without limits.
 constexpr double kFarthest = std::numbers::pi;
 
 }  // namespace

@@ -70,7 +70,7 @@ Result<LinkTarget> target_of(const Cell& cell, const Arm& arm, const PlanPose& p
   return LinkTarget{*last, pose.X_WL};
 }
 
-// Those that there are, each once.
+// Returns known arms, each once; reports others.
 std::vector<std::pair<std::string, ArmId>> arms_of(const Cell& cell, const GoalArms& who,
                                                    Problems& problems) {
   std::vector<std::pair<std::string, ArmId>> arms;  // each with its place
@@ -83,13 +83,13 @@ std::vector<std::pair<std::string, ArmId>> arms_of(const Cell& cell, const GoalA
                         "arm " + name + " is named twice", name});
   };
   if (who.arms.empty() && who.arm.empty()) {
-    problems.push_back({ProblemKind::invalid,
-                        "no-arm",
-                        "/arm",
-                        "who is to go there is not said: arm names one, arms several of which one "
-                        "goes; the cell has " +
-                            names_of_arms(cell),
-                        {}});
+    problems.push_back(
+        {ProblemKind::invalid,
+         "no-arm",
+         "/arm",
+         "no arm is given: name one in arm, or several candidates in arms; the cell has " +
+             names_of_arms(cell),
+         {}});
     return arms;
   }
   if (who.arms.empty()) {
@@ -98,13 +98,14 @@ std::vector<std::pair<std::string, ArmId>> arms_of(const Cell& cell, const GoalA
   }
   if (!who.arm.empty()) {
     problems.push_back({ProblemKind::invalid, "not-both", "/arms",
-                        "one arm goes there, or one of several: give arm or arms", who.arm});
+                        "both arm and arms are given: give only one of them", who.arm});
   }
   for (std::size_t i = 0; i < who.arms.size(); ++i) add("/arms/" + std::to_string(i), who.arms[i]);
   return arms;
 }
 
-// Of several arms none is named in vain: then the arm is at fault, else the link.
+// Reports a goal link that the arm does not move: a fault of the arm among several, else of the
+// link.
 void find_link_of_another(const Cell& cell, const MotionGoal& goal, const std::string& place,
                           Problems& problems) {
   const auto* target = std::get_if<LinkTarget>(&goal.to);
@@ -112,8 +113,8 @@ void find_link_of_another(const Cell& cell, const MotionGoal& goal, const std::s
   if (target == nullptr || std::ranges::find(arm.links, target->link) != arm.links.end()) return;
   const std::string& link = cell.link(target->link).name;
   const std::string remedy = place.starts_with("/arms")
-                                 ? ": name the link without its prefix, which each arm has under "
-                                   "its own, or none"
+                                 ? ": name the link without its prefix, so that it fits each arm, "
+                                   "or name no link"
                                  : "; it moves " + links_of(cell, arm);
   problems.push_back({ProblemKind::invalid, "link-of-another-arm", place,
                       "arm " + arm.name + " does not move " + link + remedy, link});
@@ -132,7 +133,7 @@ Result<Eigen::VectorXd> joints_of(const Cell& cell, ArmId id, const PlanGoal& sa
   if (said.named) return named_state(arm, *said.named);
   if (!said.joints) {
     return fault("not-served", "/pose",
-                 "a pose does not say where each joint stands: give joints or a named state",
+                 "a pose does not define the position of each joint: give joints or a named state",
                  "pose");
   }
   if (said.joints->size() != arm.joints.size()) {

@@ -7,11 +7,11 @@
 namespace armloom {
 namespace {
 
-// How widely corners are cut, tried in this order; rad or m in joint space.
+// Corner cuts in the order tried; rad or m in joint space.
 constexpr double kRoundings[] = {0.2, 0.05, 0.01, 0.002};
 
-// A way that passes something closely may be proven line by line and not as a job, whose cells are
-// cut otherwise: then another one is looked for.
+// A path certified line by line may fail as a job, whose diagram has other cells: then try another
+// seed.
 constexpr int kTries = 3;
 
 }  // namespace
@@ -27,7 +27,7 @@ std::optional<Conflict> found_in_the_way(MotionChecker& checker, const PlanReque
                                          .method = Swept{tracking_error}});
   if (verdict.kind == Verdict::Kind::free) return std::nullopt;
   if (verdict.conflicts.empty()) return Conflict{Conflict::With::self, JobId{0}, {}, {}, {}, {}};
-  // Arms that are left out are found by the judgement all the same; nothing else may be.
+  // The check also finds conflicts with arms that are left out.
   const auto counts = [&](const Conflict& conflict) {
     const auto& arm = conflict.proximity.arm_b;
     return conflict.with != Conflict::With::rest || !arm ||
@@ -43,7 +43,7 @@ bool is_free(MotionChecker& checker, const PlanRequest& request, const Trajector
   return !found_in_the_way(checker, request, trajectory);
 }
 
-// The way with times, where a judgement finds it free.
+// Returns the path with times if a check finds it free.
 std::optional<PlannedMotion> timed_way(MotionChecker& checker, const PlanRequest& request,
                                        const JointWay& way, const TimingOptions& options) {
   const Cell& cell = checker.scene()->cell();
@@ -80,8 +80,8 @@ tl::expected<PlannedMotion, PlanRefusal> plan_motion(const Planner& planner,
     }
   }
   return tl::unexpected(PlanRefusal{PlanRefusal::Reason::not_found,
-                                    "what was found passes something so closely that it is not "
-                                    "proven free as a job",
+                                    "the path that was found passes something too closely to be "
+                                    "certified as a job",
                                     std::nullopt, evaluations});
 }
 

@@ -18,9 +18,9 @@ namespace {
 
 using Reason = PlanRefusal::Reason;
 
-// The longest edge of a tree: Euclidean, in joint space (rad, m).
+// Maximum length of a tree's edge: Euclidean, in joint space (rad, m).
 constexpr double kStep = 1.2;
-// Comparing so many pairs of nodes takes as long as one evaluation.
+// Node comparisons that take as long as one evaluation.
 constexpr std::uint64_t kCompared = 250;
 
 std::string mm(double metres) {
@@ -52,7 +52,7 @@ std::string in_words(const LineChecker::Answer& answer) {
   return armloom::in_words(*answer.proximity, answer.moves_m);
 }
 
-// Limits; of joints without any, half a turn beyond where the way begins and ends.
+// Limits; for joints without limits, half a turn beyond start and goals.
 JointRoom room_of(const Cell& cell, const Arm& arm, const Eigen::VectorXd& start,
                   const std::vector<Eigen::VectorXd>& goals) {
   JointRoom room{start, start};
@@ -69,7 +69,6 @@ JointRoom room_of(const Cell& cell, const Arm& arm, const Eigen::VectorXd& start
   return room;
 }
 
-// One request on its way.
 class Search {
  public:
   Search(const PlanningScenePtr& scene, const PlanRequest& request)
@@ -95,10 +94,10 @@ class Search {
     for (const std::size_t goal : goals_) search.goals.push_back(request_.goals[goal]);
     auto points = grow_trees(search);
     if (!points) {
-      if (cancelled()) return refuse({Reason::cancelled, "planning was cancelled"});
-      return refuse({Reason::not_found, "no way was found within " +
+      if (cancelled()) return refuse({Reason::cancelled, "planning was canceled"});
+      return refuse({Reason::not_found, "no path was found within " +
                                             std::to_string(request_.budget) +
-                                            " evaluations; there may be one"});
+                                            " evaluations; one may still exist"});
     }
     shorten(*points, {[this](const auto& a, const auto& b) { return is_free(a, b); }, search.stop,
                       request_.seed});
@@ -112,8 +111,8 @@ class Search {
   [[nodiscard]] bool stop() const {
     return lines_.evaluations() + compared_ / kCompared >= request_.budget || cancelled();
   }
-  // Before each edge, RRT-Connect compares a sample with all nodes of a tree. For arms with few
-  // joints this takes longer than the edges, so that the budget counts it too.
+  // Before each edge, RRT-Connect compares a sample with all nodes of a tree. With few joints this
+  // takes longer than the edges, so the budget includes it.
   [[nodiscard]] bool joins(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
     compared_ += nodes_;
     const bool free = is_free(from, to);
@@ -133,7 +132,7 @@ class Search {
     return {std::move(points), goal, lines_.evaluations()};
   }
 
-  // Fills goals_ with those that the arm may stand at, the nearest first.
+  // Fills goals_ with free goals, nearest first.
   std::optional<PlanRefusal> check_ends() {
     if (auto refusal = outside(cell_, arm_, start_, kStart)) return refusal;
     if (const auto answer = lines_.state(start_); answer.kind != LineChecker::Kind::free) {
@@ -203,10 +202,10 @@ std::string in_words(const Proximity& p, double moves_m) {
       p.clearance_m > 0.0 ? " is " + mm(p.clearance_m) + " from " : std::string(" touches ");
   std::string text = p.body_a + distance + p.body_b;
   const bool is_contact_alone = p.limit_m <= kTouching_m;  // a clearance of zero
-  text += "; " + (is_contact_alone ? "contact is not allowed" : mm(p.limit_m) + " are asked");
+  text += "; " + (is_contact_alone ? "contact is not allowed" : mm(p.limit_m) + " are required");
   if (p.clearance_m < p.limit_m) return text;
-  if (moves_m > 0.0) return text + ", and " + mm(moves_m) + " on top for the tracking error";
-  return text + ", which is not proven with the tracking error on top";
+  if (moves_m > 0.0) return text + ", plus " + mm(moves_m) + " for the tracking error";
+  return text + ", which could not be certified with the tracking error added";
 }
 
 tl::expected<JointWay, PlanRefusal> Planner::plan(const PlanRequest& request) const {

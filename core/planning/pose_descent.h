@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// From the arm's joints at `q` downhill to where the chain's link is at X_WL, in the world: damped
-// steps, each within the joints' limits. Where it ends need not be there. Inside of core/planning.
+// Moves the arm's joints from `q` toward the pose X_WL (in the world) of the chain's link: damped
+// steps within the joints' limits. The result may miss the pose. Internal to core/planning.
 [[nodiscard]] Eigen::VectorXd descend(const Cell& cell, const Arm& arm, const KdlChain& chain,
                                       const Eigen::Isometry3d& X_WL, Eigen::VectorXd q);
 

@@ -16,7 +16,7 @@ namespace {
 
 using Reason = PlanRefusal::Reason;
 
-// Further seeds: the Halton sequence over the joints' ranges.
+// More seeds: the Halton sequence over the joints' ranges.
 constexpr int kFurtherSeeds = 40;
 
 class PoseSearch {
@@ -63,7 +63,7 @@ class PoseSearch {
     return seeds;
   }
 
-  // Whole turns off, toward where the joint stands, within its limits.
+  // Removes whole turns, toward the current position, within limits.
   void unwind(Eigen::VectorXd& q) const {
     constexpr double kTurn = 2.0 * std::numbers::pi;
     for (Eigen::Index j = 0; j < q.size(); ++j) {
@@ -99,7 +99,7 @@ class PoseSearch {
     refusal.link = link;
     if (nearest_.q.size() == 0) return refusal;
     char text[96];
-    std::snprintf(text, sizeof text, "; the nearest that was found is %.4g mm and %.3g degrees off",
+    std::snprintf(text, sizeof text, "; the nearest pose found is %.4g mm and %.3g degrees off",
                   1e3 * nearest_.off_m, nearest_.off_rad * 180.0 / std::numbers::pi);
     refusal.detail += text;
     refusal.nearest = nearest_.q;

@@ -8,7 +8,7 @@ namespace {
 
 using Points = std::vector<Eigen::VectorXd>;
 
-// From each point the farthest one that a line reaches.
+// From each kept point, keeps the farthest point on a free line.
 void leave_out(Points& points, const Shortening& by) {
   Points kept{points.front()};
   for (std::size_t from = 0; from + 1 < points.size();) {
@@ -67,7 +67,7 @@ void shorten(Points& points, const Shortening& by) {
     if (whole - length_of(next) > 0.01 * whole) failures = 0;
     points = std::move(next);
   }
-  // Places that fell on points, and corners that no longer are.
+  // Drops points that became unnecessary.
   leave_out(points, by);
 }
 

@@ -17,11 +17,11 @@ namespace {
 
 using Reason = PlanRefusal::Reason;
 
-// The motion is looked at so closely that the link goes about this far in between.
+// The link moves about this far between samples.
 constexpr double kLook_m = 1e-4;
 constexpr double kLook_rad = 1e-3;
 // Softened corners of the joints' path (TimingOptions::off_path), rad or m: less than a tenth of
-// the tolerance even at the end of a long arm.
+// the tolerance even for a long arm.
 constexpr double kOffPath = 1e-4;
 
 class ToolLine {
@@ -35,7 +35,6 @@ class ToolLine {
     length_ = (goal.X_WL.translation() - from_.translation()).norm();
   }
 
-  // Joint positions along it.
   [[nodiscard]] tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal> follow() {
     const auto chain = chain_to(cell_, goal_.arm, goal_.link, X_WL_);
     if (!chain) {
@@ -43,7 +42,7 @@ class ToolLine {
                                         "link " + cell_.link(goal_.link).name +
                                             " is not moved by the joints of arm " + arm_.name});
     }
-    // However long it is said to be: no arm gets that far.
+    // Bounds lines that no arm could reach.
     const double steps =
         std::min(1e6, std::max(length_ / kLineStep_m, std::abs(angle_) / kLineStep_rad));
     const int count = std::max(4, static_cast<int>(std::ceil(steps)));
@@ -60,8 +59,8 @@ class ToolLine {
     return points;
   }
 
-  // How the motion leaves the line. Between two looks the link is no farther off than at the nearer
-  // one and half of what it goes in between.
+  // Returns a refusal if the motion leaves the line. Between two samples the link is no farther off
+  // than at the nearer sample, plus half of its motion.
   [[nodiscard]] std::optional<PlanRefusal> leaves(const Trajectory& motion,
                                                   const std::vector<Eigen::VectorXd>& points) {
     const double looks = std::max({length_ / kLook_m, std::abs(angle_) / kLook_rad, 100.0});
@@ -92,14 +91,14 @@ class ToolLine {
     return std::nullopt;
   }
 
-  // That ends the line there.
+  // Returns a refusal at this share of the line.
   [[nodiscard]] PlanRefusal refusal(double share, const std::string& why) const {
     const std::string& link = cell_.link(goal_.link).name;
     PlanRefusal broken{Reason::line_broken, link + ", " + place(share) + ": " + why};
     broken.link = link;
     return broken;
   }
-  // Where the link is at that instant, for people.
+  // Describes the link's place at that instant.
   [[nodiscard]] std::string place_of(const Trajectory& motion, Duration when) {
     Eigen::VectorXd q;
     motion.sample_positions(when, q);
@@ -115,7 +114,7 @@ class ToolLine {
     return X;
   }
 
-  // Of a pose near it; where it only turns, by the angle.
+  // Returns the share of a pose near the line; by the angle if the link only turns.
   [[nodiscard]] double share_of(const Eigen::Isometry3d& X) const {
     double share = 0.0;
     if (length_ > kLineWithin_m) {
@@ -142,8 +141,7 @@ class ToolLine {
     const Joint& joint = cell_.joint(arm_.joints[static_cast<std::size_t>(farthest)]);
     if (jump > kLineJump || !q.allFinite()) {
       return refusal(share, joint.name + " would have to jump by " + text(jump) + " " +
-                                joint.unit() +
-                                " within one step: the line leads past a singular place");
+                                joint.unit() + " within one step: the line passes a singularity");
     }
     const Eigen::Isometry3d off = along(share).inverse() * pose_at(q);
     const double off_rad = Eigen::AngleAxisd(off.linear()).angle();
@@ -153,7 +151,7 @@ class ToolLine {
       if (q[j] > at.lower && q[j] < at.upper) continue;
       return refusal(share, at.name + " is at its limit there");
     }
-    return refusal(share, "the arm does not reach on");
+    return refusal(share, "the arm cannot reach farther");
   }
 
   [[nodiscard]] static std::string text(double value) {
@@ -178,7 +176,7 @@ class ToolLine {
   double length_ = 0.0;
 };
 
-// How far along them the arm keeps its distances; nothing: not even at the first.
+// Returns the last point up to which the arm keeps its clearances; nullopt if the first does not.
 NearestFree last_free(const PlanningScenePtr& scene, const PlanRequest& request,
                       const std::vector<Eigen::VectorXd>& points) {
   LineChecker lines(scene, request.arm, request.at, scene->cell().checking.tracking_error_rad,
@@ -192,9 +190,8 @@ NearestFree last_free(const PlanningScenePtr& scene, const PlanRequest& request,
 }
 
 PlanRefusal blocked_by(const Conflict& found, const std::string& place, NearestFree nearest) {
-  const std::string what = found.proximity.body_a.empty()
-                               ? "that nothing is too close is not proven"
-                               : in_words(found.proximity);
+  const std::string what = found.proximity.body_a.empty() ? "clearance could not be certified"
+                                                          : in_words(found.proximity);
   PlanRefusal blocked{Reason::line_blocked, what + ", " + place};
   if (!found.proximity.body_a.empty()) blocked.proximity = found.proximity;
   blocked.nearest = std::move(nearest.q);

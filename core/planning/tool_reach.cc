@@ -30,8 +30,8 @@ Result<LinkId> tool_of(const Cell& cell, const Arm& arm, const std::optional<std
                          name.value_or("")});
 }
 
-// The tool cannot get farther from the first joint: the links between the joints, end to end, and
-// what prismatic joints add.
+// Bounds the tool's distance from the first joint: the links end to end, plus travel of prismatic
+// joints.
 double farthest(const Cell& cell, const Arm& arm, LinkId tool, const LinkPoses& X_WL) {
   double sum = 0.0;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
@@ -62,7 +62,6 @@ const std::array<Eigen::Matrix3d, kReachDirections>& turns() {
   return kTurns;
 }
 
-// One arm on its way over the grid.
 class ToolSweep {
  public:
   ToolSweep(const PlanningScenePtr& scene, ArmId arm, LinkId tool)
@@ -74,7 +73,7 @@ class ToolSweep {
     stands_.fill(cell_.arm(arm).home);
   }
 
-  // Each search begins where the last one of its direction ended.
+  // Starts from the last solution of the direction.
   bool reaches(const Eigen::Vector3d& place, std::size_t direction) {
     Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
     X_WL.translation() = place;
@@ -112,7 +111,7 @@ struct ReachBall {
   double radius_m;
 };
 
-// Places lie at multiples of the step.
+// Grid points are multiples of the step.
 ReachGrid grid_over(const std::vector<ReachBall>& balls, double step_m) {
   Eigen::Vector3d lower = Eigen::Vector3d::Constant(1e9), upper = -lower;
   for (const ReachBall& ball : balls) {
@@ -182,8 +181,8 @@ Result<ToolReach> tool_reach(const PlanningScenePtr& scene, const ReachQuestion&
   if (reach.grid.places() > kReachPlacesMax) {
     return failure(Problem{ProblemKind::invalid, "too-many-places", "--step",
                            "the grid has " + std::to_string(reach.grid.places()) +
-                               " places, at most " + std::to_string(kReachPlacesMax) +
-                               " are looked at: give a larger step",
+                               " places, but at most " + std::to_string(kReachPlacesMax) +
+                               " are checked: give a larger step",
                            question.step_m});
   }
   for (std::size_t a = 0; a < reach.arms.size(); ++a) {

@@ -13,15 +13,15 @@
 
 namespace armloom {
 
-// Where the tools of a cell's arms get to: poses on a grid that all arms share.
+// The poses that the tools of a cell's arms reach, on a grid that all arms share.
 
 struct ReachQuestion {
   double step_m = 0.1;  // of the grid
-  // The tool, with or without the robot's prefix; absent: the link of each arm's last joint.
+  // The tool, with or without the robot's prefix; by default the link of each arm's last joint.
   std::optional<std::string> link = {};
 };
 
-// Places, x fastest, then y, then z.
+// Grid points, x fastest, then y, then z.
 struct ReachGrid {
   Eigen::Vector3d first = Eigen::Vector3d::Zero();  // in the world (m)
   double step_m = 0.0;
@@ -34,16 +34,16 @@ struct ReachGrid {
 struct ArmReach {
   ArmId arm;
   LinkId tool;
-  Eigen::Vector3d base;                  // where its first joint is (m)
-  std::vector<std::uint8_t> directions;  // by place: in so many ways the tool gets there
+  Eigen::Vector3d base;                  // of its first joint (m)
+  std::vector<std::uint8_t> directions;  // by place: number of directions reached
 };
 
 struct ToolReach {
   ReachGrid grid;
-  std::vector<ArmReach> arms;  // as the cell has them
+  std::vector<ArmReach> arms;  // in the cell's order
 
-  [[nodiscard]] std::size_t poses(const ArmReach& arm) const;   // of the grid's, all directions
-  [[nodiscard]] std::size_t places(const ArmReach& arm) const;  // in any direction
+  [[nodiscard]] std::size_t poses(const ArmReach& arm) const;   // reached, in all directions
+  [[nodiscard]] std::size_t places(const ArmReach& arm) const;  // reached in any direction
   [[nodiscard]] std::size_t shared(const ArmReach& a, const ArmReach& b) const;
 };
 
@@ -51,10 +51,10 @@ struct ToolReach {
 inline constexpr std::size_t kReachDirections = 5;
 inline constexpr std::size_t kReachPlacesMax = 200'000;
 
-// A pose counts as reached where inverse kinematics (pose_goal.h) finds joint positions in which
-// the arm keeps its distance from the scene and from itself, other arms gone. The grid covers a
-// ball about the first joint of each arm that its tool cannot leave. Deterministic. Problems:
-// "--link" (an arm has no such link), "--step" (too many places).
+// Returns poses as reached if inverse kinematics (pose_goal.h) finds joint positions at which the
+// arm keeps its clearance from the scene and itself; other arms are ignored. The grid covers a ball
+// about each arm's first joint that its tool cannot leave. Deterministic. Problems: "--link" (an
+// arm has no such link), "--step" (too many places).
 [[nodiscard]] Result<ToolReach> tool_reach(const PlanningScenePtr& scene,
                                            const ReachQuestion& question);
 

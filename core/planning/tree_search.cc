@@ -32,7 +32,7 @@ void set(ob::State* state, const Eigen::VectorXd& q) {
   }
 }
 
-// OMPL's own numbers come from one source of the whole process, so that they do not repeat.
+// Replaces OMPL's process-wide random source, which is not repeatable.
 class SeededSampler final : public ob::StateSampler {
  public:
   SeededSampler(const ob::StateSpace* space, const JointRoom& room, std::uint64_t seed)
@@ -46,7 +46,7 @@ class SeededSampler final : public ob::StateSampler {
     }
     set(state, q);
   }
-  // RRT-Connect asks for neither.
+  // RRT-Connect uses neither.
   void sampleUniformNear(ob::State* state, const ob::State*, double) override {
     sampleUniform(state);
   }
@@ -94,7 +94,7 @@ std::shared_ptr<ob::SpaceInformation> space_for(const TreeSearch& search) {
     return std::make_shared<SeededSampler>(of, search.room, search.seed);
   });
   auto information = std::make_shared<ob::SpaceInformation>(space);
-  information->setStateValidityChecker([](const ob::State*) { return true; });  // edges tell
+  information->setStateValidityChecker([](const ob::State*) { return true; });  // edges are checked
   information->setMotionValidator(std::make_shared<ProvenLines>(information, search));
   information->setup();
   return information;

@@ -13,40 +13,43 @@
 
 namespace armloom {
 
-// What distinguishes one way of sharing the workspace from another. Pure. A new policy is one file
-// in core/policies, its name in policy_names.h and a case in make_policy().
+// A rule for sharing the workspace. Pure. To add a policy, write one file in core/policies, its
+// name in policy_names.h and a case in make_policy().
 class Policy {
  public:
   virtual ~Policy() = default;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
 
-  // What geometry is asked of candidates.
+  // How candidates are checked.
   [[nodiscard]] virtual CheckMethod method() const = 0;
-  // Who passes first where candidates meet what is admitted, or what stands against it.
+  // Decides the passing orders between candidates and admitted motions, or returns the blockers.
   [[nodiscard]] virtual PassingOrders decide(const OrderQuestion& question) const = 0;
 
-  // Policies with rounds: the jobs of the present one, which state.round holds as it was.
+  // Returns the jobs of the present round, given the previous one in state.round. For policies with
+  // rounds.
   [[nodiscard]] virtual Round next_round(const State& /*state*/) const { return {}; }
-  // The job that this one, which waits, has to wait for before it is judged; or nothing.
+  // Returns the job that the waiting `job` must wait for before it is checked; nullopt if there is
+  // none.
   [[nodiscard]] virtual std::optional<JobId> place_taken_by(const State& /*state*/,
                                                             const Record& /*job*/) const {
     return std::nullopt;
   }
-  // True if a place opens as soon as those that have one only wait for those that have none.
+  // True if a place becomes free as soon as all jobs that have a place wait only for jobs without
+  // one.
   [[nodiscard]] virtual bool opens_places() const { return false; }
-  // Whether a job that has waited for long holds others back.
+  // True if an aged job holds other jobs back.
   [[nodiscard]] virtual bool lets_jobs_age() const { return true; }
-  // Of each lane so many legs are admitted at most, the one under way included.
+  // Largest number of jobs per arm that are admitted together, including the running one.
   [[nodiscard]] virtual std::size_t horizon() const { return 1; }
-  // Whether orders are chosen anew when something comes otherwise than expected.
+  // True if orders are chosen again when motions deviate from the prediction.
   [[nodiscard]] virtual bool weighs_again() const { return false; }
-  // Whether a job that cannot go alone is tried together with others that wait.
+  // True if a job that cannot be admitted alone is tried together with other waiting jobs.
   [[nodiscard]] virtual bool admits_groups() const { return false; }
 };
 
-// The policies by name, with the cell's settings. Problem (invalid, "unknown-policy"): the name is
-// none of policy_names().
+// Returns the named policy with the cell's settings. Problem (invalid, "unknown-policy"): the name
+// is not in policy_names().
 [[nodiscard]] Result<std::unique_ptr<const Policy>> make_policy(std::string_view name,
                                                                 const Cell& cell);
 

@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-// In order of ambition; each is made by make_policy() (policy.h).
+// In order of ambition; make_policy() (policy.h) makes each.
 enum class PolicyName {
   sequential,
   lockstep,
@@ -40,7 +40,7 @@ enum class PolicyName {
 }
 [[nodiscard]] std::vector<std::string> policy_names();
 
-// Problem (invalid, "unknown-policy"): none is called so.
+// Problem (invalid, "unknown-policy"): no policy has this name.
 [[nodiscard]] Result<PolicyName> policy_named(std::string_view name);
 
 }  // namespace armloom

@@ -9,30 +9,29 @@
 
 namespace armloom {
 
-// What is known of a motion besides its progress.
+// Knowledge about a motion besides its progress.
 struct Outlook {
-  bool keeps_its_place = false;  // has been overtaken long enough
-  // Its arms have stood for so long without a reason of ours: they are expected to do so for as
-  // long again.
+  bool keeps_its_place = false;  // was overtaken long enough
+  // How long its arms have rested without being held back by orders; they are predicted to rest for
+  // as long again.
   Duration stands_for{};
-  double pace = 1.0;  // of cell time for one of its trajectory, as measured: it goes on so
+  double pace = 1.0;  // cell time per trajectory time, as measured and predicted
 };
 
-// A motion that is admitted, or is to be. Of one arm the motions follow each other as they stand in
-// the list that they are given in; each begins where the one before ends.
+// A motion that is admitted, or a candidate. In a list of motions, those of one arm are in running
+// order; each begins where the previous one ends.
 struct CoordinatedMotion {
   JobId job;
   std::vector<ArmId> arms;
   Duration duration;
-  Duration progress{};   // as measured
-  Duration authority{};  // granted so far: no way back behind it
-  std::optional<Duration> held_at =
-      {};  // an arm rests in its way there, and no motion takes it away
+  Duration progress{};                   // as measured
+  Duration authority{};                  // granted so far; never reduced
+  std::optional<Duration> held_at = {};  // limit set by an arm at rest in its path
   int priority = 0;
-  Duration horizon{};  // how far ahead of its progress its authority may reach
+  Duration horizon{};  // how far its authority may exceed its progress
   Outlook outlook = {};
 
-  // Has passed what ends at `to`; its goal it never passes.
+  // Returns true if the motion has passed an interval that ends at `to`; never for its goal.
   [[nodiscard]] bool is_beyond(Duration to) const { return to < progress && to < duration; }
 };
 

@@ -9,19 +9,18 @@
 
 namespace armloom {
 
-// Which motions follow each other on the arms that they share. Of one arm they do so in the order
-// of the list. Indices into it.
+// Which motions follow each other on shared arms, in list order. Motions are indices into the list.
 class MotionChains {
  public:
   explicit MotionChains(const std::vector<CoordinatedMotion>& motions);
 
-  // The motions right before it on its arms, each once.
+  // Returns the motions directly before it on its arms, each once.
   [[nodiscard]] const std::vector<std::size_t>& before(std::size_t motion) const {
     return before_[motion];
   }
-  // Some arm of it is at its start now.
+  // Returns true if one of its arms rests at its start now.
   [[nodiscard]] bool stands(std::size_t motion) const { return stands_[motion]; }
-  // Each of its arms moves on from its goal.
+  // Returns true if each of its arms has a later motion.
   [[nodiscard]] bool moves_on(std::size_t motion) const { return moves_on_[motion]; }
 
  private:

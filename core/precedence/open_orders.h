@@ -10,63 +10,63 @@
 
 namespace armloom {
 
-// One region of two motions (indices), and who may go first in it.
+// A conflict region of two motions (indices), and which may pass first.
 struct OpenOrder {
   std::size_t a;
   std::size_t b;
-  ConflictRegion region;  // of a new one, what still lies ahead
+  ConflictRegion region;  // only the part still ahead
   bool a_may = true;
   bool b_may = true;
-  bool prefers_a = true;                               // of two that are as good
-  bool a_first = true;                                 // as it is set
+  bool prefers_a = true;
+  bool a_first = true;                                 // the present setting
   bool at_start = false;                               // the second waits at its start
-  bool is_open = false;                                // nobody waits for it yet
-  std::array<std::optional<Precedence>, 4> made = {};  // by a_first and at_start; once asked for
+  bool is_open = false;                                // undecided: delays no motion
+  std::array<std::optional<Precedence>, 4> made = {};  // cache, by a_first and at_start
 };
 
-// Orders that are one: all take the same side, or the other one where `turned`. So do the regions
-// on both sides of a rest between two motions of an arm, where the same other one passes.
+// Orders that are decided together, with equal or `turned` sides. For example, the regions before
+// and after an arm's rest that the same other motion passes.
 struct OrderChoice {
   struct Member {
     std::size_t order;
     bool turned;
   };
   std::vector<Member> members;
-  std::vector<bool> options = {};  // values of "a goes first" of the first member, preferred first
-  bool at_start = false;           // as it is set
+  std::vector<bool> options = {};  // values of "a first" of the first member, preferred first
+  bool at_start = false;           // the present setting
 };
 
-// Who may pass first in all regions of what is admitted and of candidates: what a search for orders
-// begins with, and sets. An order may be turned as long as the one who would have to wait has no
-// authority in the region; nobody is made to go back.
+// The open decisions in all regions of admitted motions and candidates. An order can be reversed
+// until the motion that would have to wait has authority in the region, because no motion is made
+// to go back.
 class OpenOrders {
  public:
   explicit OpenOrders(const OrderQuestion& question);
 
   [[nodiscard]] const std::vector<CoordinatedMotion>& motions() const { return motions_; }
   [[nodiscard]] std::size_t first_candidate() const { return first_candidate_; }
-  // No other motion of its arms comes before it.
+  // Returns true if no other motion of its arms precedes it.
   [[nodiscard]] bool leads(std::size_t motion) const { return chains_.before(motion).empty(); }
-  // Those of the past first, `decided` of them.
+  // Existing orders first, `decided` of them.
   [[nodiscard]] const std::vector<OpenOrder>& orders() const { return orders_; }
   [[nodiscard]] std::size_t decided() const { return decided_; }
-  // Unless blocked, each has an option, and is set to the first of them.
+  // Unless blocked, each choice has an option, and its first option is set.
   [[nodiscard]] std::vector<OrderChoice>& choices() { return choices_; }
   [[nodiscard]] bool blocked() const { return !answer_.blockers.empty(); }
 
-  // `at_start`: who passes second shall not have to stop on its way for it, but waits at its start
-  // if it is there.
+  // `at_start`: the second motion waits at its start, if still there, instead of on its path.
   void set(OrderChoice& choice, bool value, bool at_start = false);
-  // Nobody waits for it in predictions, until it is set.
+  // Makes the choice delay no motion in predictions.
   void leave_open(const OrderChoice& choice);
-  // When somebody would have to wait for this side of it, but goes on; nothing: it holds by itself.
+  // Returns when the prediction first violates this side of the choice: the second motion enters a
+  // region before the first has left it; nullopt if never.
   [[nodiscard]] std::optional<Duration> broken_at(const OrderChoice& choice, bool value,
                                                   const Prediction& prediction);
-  // As the orders are set; or of what is admitted alone, as that has been decided.
+  // Predict with the orders as set, or only with existing ones among admitted motions.
   [[nodiscard]] Prediction predicted();
   [[nodiscard]] Prediction predicted_before();
 
-  // The answers: as the orders are set; or not, because of these orders, or of a ring of waits.
+  // The answers: admitted as set; refused because of these orders; stuck in a cycle.
   [[nodiscard]] PassingOrders admitted(Prediction prediction);
   [[nodiscard]] PassingOrders refused(const std::vector<std::size_t>& because);
   [[nodiscard]] PassingOrders stuck(const Prediction& prediction);

@@ -8,42 +8,46 @@
 
 namespace armloom {
 
-// The orders that cost least, by branch and bound over predictions. A choice that is left open
-// delays nobody, so that what is predicted without it bounds from below what follows with it; the
-// first one that the motions then break is decided next, both ways. What nobody breaks need not be
-// decided: it is as it comes. (As conflict-based search does with paths: Sharon et al. 2015; over
-// the disjunctive graph of job shops: Carlier and Pinson 1989.)
+// Finds the orders with the least cost, by branch and bound over predictions. Relaxation: undecided
+// orders impose no waits, so the predicted cost is a lower bound. Branching: on the first undecided
+// order that the prediction violates. Orders that are not violated need no decision. (Similar to
+// conflict-based search for paths, Sharon et al. 2015; on the disjunctive graph of job shops,
+// Carlier and Pinson 1989.)
 //
-// A budget of predictions bounds it; what is best by then counts. Deterministic.
+// A budget of predictions bounds the search; the best orders found by then are taken.
+// Deterministic.
 //
-// Cost: when the last arm has done its work, what waits behind included, and a share of the sum of
-// the arms' ends; and for a motion that is the first of its arms kWeightOfPriority times its end
-// for each smaller priority that another one has. So of two that meet alike the urgent one passes
-// first, but not at any price. Where work is known to wait behind the motions, the arm that is done
-// last is told by it, and the sum counts kWeightOfSumBeforeMore; where there is none, whatever
-// comes next will want any arm, and each counts kWeightOfSum.
+// The cost is the sum of
+// - the time at which the last arm has done its work, including work_behind,
+// - the sum of the arms' ends, times weight_of_sum(), and
+// - for each motion that is the first of its arms, kWeightOfPriority times its end for each smaller
+//   priority of another motion. So of two equal motions the urgent one passes first, but not at any
+//   price.
+// If work is known behind the motions, it shows which arm finishes last, and the sum has the
+// smaller weight kWeightOfSumBeforeMore. If not, the next job may need any arm, and the weight is
+// kWeightOfSum.
 class OrderSearch {
  public:
   inline static constexpr double kWeightOfSum = 0.25;
   inline static constexpr double kWeightOfSumBeforeMore = 0.1;
   inline static constexpr double kWeightOfPriority = 0.2;
   inline static constexpr std::size_t kPredictionsMax = 300;
-  // So many orders are followed in all of them together: a prediction takes as long as there are
-  // orders, and of long horizons there are thousands.
+  // Bounds predictions x orders of a search: a prediction takes time proportional to the orders, of
+  // which long horizons have thousands.
   inline static constexpr std::size_t kOrdersFollowedMax = 100'000;
   inline static constexpr std::size_t kPredictionsLeast = 20;
 
-  // `work_behind` by ArmId: of jobs that are not among the motions.
+  // `work_behind`: by ArmId, of jobs that are not among the motions.
   OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind);
 
   [[nodiscard]] static double weight_of_sum(const std::vector<Duration>& work_behind);
 
-  // Sets the choices; returns what is predicted then. Somebody is stuck: no orders were found in
-  // which everything comes to its end.
+  // Sets the choices and returns the prediction with them. If `stuck` is not empty, no orders were
+  // found with which all motions reach their ends.
   [[nodiscard]] Prediction run();
 
  private:
-  // One of OrderChoice::options, or none yet; who passes second waits on its way or at its start.
+  // Index into OrderChoice::options, or open; the second waits on its path or at its start.
   struct Side {
     enum : signed char { open, first, other } side = open;
     bool at_start = false;
@@ -52,7 +56,7 @@ class OrderSearch {
     std::vector<Side> sides;  // by choice
     Prediction prediction;
     double cost;         // s
-    std::size_t number;  // in order of making
+    std::size_t number;  // order of creation
   };
 
   [[nodiscard]] static bool is_later(const Node& a, const Node& b);
@@ -70,7 +74,7 @@ class OrderSearch {
   OpenOrders& open_;
   const std::vector<Duration>& work_behind_;
   double weight_of_sum_;
-  std::vector<double> urgency_;  // by motion: smaller priorities, while it is the first of its arms
+  std::vector<double> urgency_;  // by motion: smaller priorities, if it is the first of its arms
   std::vector<Node> waiting_;    // a heap
   std::optional<Node> best_;
   std::size_t made_ = 0;

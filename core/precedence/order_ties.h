@@ -7,8 +7,8 @@
 
 namespace armloom {
 
-// Of each order, those that are decided with it: where one region ends at a rest of an arm and
-// another one begins there, in the way of the same other motion.
+// For each order, the orders that are decided together with it: one region ends at an arm's rest,
+// the other begins there, and the same other motion passes both.
 class OrderTies {
  public:
   OrderTies(const std::vector<OpenOrder>& orders, const std::vector<CoordinatedMotion>& motions,

@@ -14,47 +14,46 @@
 
 namespace armloom {
 
-// What keeps a motion from being admitted, or, where it is, from going on.
+// The reason why a motion is not admitted or, if admitted, cannot go on.
 struct Blocker {
   JobId blocked;
   std::optional<JobId> other;  // the motion that passes first, or that it cannot pass ...
-  std::optional<ArmId> arm;    // ... or the arm that rests in its way
-  Proximity proximity;         // evidence; body_a is the blocked one's
+  std::optional<ArmId> arm;    // ... or the arm at rest in its path
+  Proximity proximity;         // evidence; body_a belongs to `blocked`
   Duration own_time;
   Duration other_time;
 };
 
-// Who is to pass first in the candidates' regions, beside what is admitted?
+// The question of which motion passes first in the regions between candidates and admitted motions.
 struct OrderQuestion {
   const std::vector<CoordinatedMotion>& admitted;
-  const std::vector<Precedence>& precedences;  // between these
+  const std::vector<Precedence>& precedences;  // between the admitted motions
   const std::vector<CoordinatedMotion>& candidates;
   const std::vector<PairRegions>& regions;
-  const std::vector<Duration>& work_behind;  // by ArmId: of jobs that are in neither list
+  const std::vector<Duration>& work_behind;  // by ArmId: of jobs in neither list
 };
 
-// The answer: who passes first in every region, or what stands against it.
+// The passing order in every region, or the blockers.
 struct PassingOrders {
-  std::vector<Precedence> precedences;  // of every region, if admitted; those of before included
+  std::vector<Precedence> precedences;  // all, if admitted; existing orders included
   Prediction prediction;                // of the admitted motions, then the candidates
-  std::vector<Blocker> blockers;        // of candidates; empty: admitted
-  std::vector<ArmId> in_the_way;  // arms that end or rest in the way: a next motion of theirs might
-                                  // open it; ascending
+  std::vector<Blocker> blockers;        // of candidates; empty if admitted
+  std::vector<ArmId> in_the_way;  // arms that end or rest in a path and whose next motion might
+                                  // clear it; ascending
 };
 
-// The orders under which everything comes to its end that cost least (order_search.h). Orders of
-// before are turned where that helps.
+// Returns the orders with the least cost with which all motions reach their ends (order_search.h).
+// Reverses existing orders if that helps.
 [[nodiscard]] PassingOrders cheapest_orders(const OrderQuestion& question);
 
-// Of one candidate: the orders in which all go on by the clock. What is admitted is predicted; the
-// candidate begins so much later than now that it passes each region before or after the other
-// without a stop on its way; it is the least such time, and no more than `latest` where given. From
-// then on the orders count, not the times: it begins when those it lets pass are as far as they
-// were to be then. Orders of before stay.
+// Returns orders by the clock for one candidate: its earliest start, at most `latest` from now,
+// with which it passes each region before or after the predicted admitted motion, without a stop.
+// From then on the orders apply, not the times: it begins when the motions that it lets pass have
+// progressed as predicted. Existing orders are kept.
 [[nodiscard]] PassingOrders orders_in_time(const OrderQuestion& question,
                                            std::optional<Duration> latest);
 
-// None: the candidates go beside what meets them nowhere.
+// Returns no orders: admits candidates only if they have no conflict region.
 [[nodiscard]] PassingOrders orders_apart(const OrderQuestion& question);
 
 }  // namespace armloom

@@ -9,34 +9,34 @@
 
 namespace armloom {
 
-// Who waits stays so far short of a region: what its arm then meets in another motion of the other
-// one, whose regions have an outline of their own, begins no earlier than where it stands.
+// Distance at which a waiting motion stops before a region, so that regions with other motions of
+// that arm, which have slightly different outlines, begin no earlier than its position.
 inline constexpr Duration kShortOf = std::chrono::milliseconds(20);
 
 // The passing order in one conflict region of two motions: `first` leaves every box before `second`
-// comes to it. Compared by progress (trajectory time), never by clocks, so that it holds however
-// late either of them is (an action dependency between two plans: Hoenig et al. 2019).
+// enters it. Compares progress (trajectory time), never clocks, so it holds however late either
+// motion is (an action dependency between two plans: Hoenig et al. 2019).
 class Precedence {
  public:
-  // `region` is of motions A and B in this order. `waits_at_start`: the second does not leave its
-  // start before it can pass without a stop, if from then on both go on by the clock.
+  // `region` is of motions A and B in this order. `waits_at_start`: the second leaves its start
+  // only when it can pass without a stop, if both then go on by the clock.
   Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first,
              bool waits_at_start = false);
 
   [[nodiscard]] JobId first() const { return first_; }
   [[nodiscard]] JobId second() const { return second_; }
   [[nodiscard]] bool waits_at_start() const { return waits_at_start_; }
-  // With times of `first` as A's; body_a of the evidence is first's.
+  // Times of `first` are A's; body_a of the evidence belongs to `first`.
   [[nodiscard]] const ConflictRegion& region() const { return region_; }
 
-  // While the progress of `first` is less than `until`, the authority of `second` is no more than
-  // `limit`. Both grow from step to step; beyond the last there is no limit.
+  // While the progress of `first` is less than `until`, the authority of `second` is at most
+  // `limit`. Both grow from step to step; after the last step there is no limit.
   struct Step {
     Duration until;
     Duration limit;
   };
   [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
-  // The authority of `second`; nothing: not limited any more.
+  // Returns the largest authority of `second`; nullopt if it is no longer limited.
   [[nodiscard]] std::optional<Duration> limit(Duration progress_of_first) const;
 
  private:

@@ -10,17 +10,18 @@
 
 namespace armloom {
 
-// A motion as the prediction sees it.
+// A motion as input of the prediction.
 struct MotionAhead {
-  Duration progress;                        // where it is
+  Duration progress;                        // its present progress
   Duration duration;                        // of its trajectory
   std::span<const std::size_t> after = {};  // motions of the same arms that end before it begins
-  std::optional<Duration> held_at = {};     // goes no farther than this, as things are
-  Duration stands_for{};                    // before it goes on
-  double pace = 1.0;                        // of time for one of its trajectory
+  std::optional<Duration> held_at = {};     // does not go beyond this progress
+  Duration stands_for{};                    // rests for so long before it goes on
+  double pace = 1.0;                        // cell time per trajectory time
 };
 
-// `second` may pass as Precedence says when `first` has got far enough. Indices into the motions.
+// `second` may pass, as Precedence says, when `first` has progressed far enough. Indices of
+// motions.
 struct Dependency {
   std::size_t first;
   std::size_t second;
@@ -31,45 +32,44 @@ struct Dependency {
   return pace == 1.0 ? way : from_seconds(to_seconds(way) * pace);
 }
 
-// When everything goes as fast as its trajectory and its pace say, and waits where it has to. All
-// times count from now.
+// The predicted times if every motion keeps its pace and waits where it must. Times are relative to
+// now.
 class Prediction {
  public:
-  // How a motion advances: at `progress` at `time`, from there at its pace to the next entry.
+  // A motion is at `progress` at `time`, and continues at its pace to the next entry.
   struct Stage {
     Duration progress;
     Duration time;
   };
-  // What it takes for so much of a motion's way.
+  // Returns the time that the motion takes for `way` of trajectory time.
   [[nodiscard]] Duration time_for(std::size_t motion, Duration way) const {
     return paced(way, pace_[motion]);
   }
-  // Up to where it comes; empty: it never begins.
+  // Up to where it gets; empty if it never begins.
   [[nodiscard]] std::span<const Stage> stages(std::size_t motion) const {
     return {stages_.data() + first_[motion], count_[motion]};
   }
-  // When the motion comes to `progress`, and when it goes on from there; nothing: never.
+  // Return when the motion reaches `progress`, and when it continues from there; nullopt: never.
   [[nodiscard]] std::optional<Duration> comes_to(std::size_t motion, Duration progress) const;
   [[nodiscard]] std::optional<Duration> goes_beyond(std::size_t motion, Duration progress) const;
 
-  std::vector<Duration> begins = {};    // leaves its start; zero: has begun
-  std::vector<Duration> ends = {};      // of motions that come to their end
-  std::vector<std::size_t> stuck = {};  // ascending: motions that never do: they wait in a ring
-  std::vector<std::size_t> ring = {};   // one of these rings: each waits for the next, the last for
-                                        // the first
+  std::vector<Duration> begins = {};    // when it leaves its start; zero if it has begun
+  std::vector<Duration> ends = {};      // of motions that reach their end
+  std::vector<std::size_t> stuck = {};  // ascending: motions that never end
+  std::vector<std::size_t> ring = {};   // a cycle of waits, or one motion at its held_at
  private:
   friend class Race;
   std::vector<Stage> stages_ = {};
-  std::vector<std::size_t> first_ = {};  // of each motion's stages
+  std::vector<std::size_t> first_ = {};  // index of each motion's first stage
   std::vector<std::size_t> count_ = {};
   std::vector<double> pace_ = {};
 };
 
-// What a stop on the way and the start after it cost besides the wait.
+// Time added by a stop on the path and the start after it.
 inline constexpr Duration kPauseLoss = std::chrono::milliseconds(300);
 
-// The precedences of motions, and their orders per arm, as one graph over progress: it is acyclic
-// exactly when nobody is stuck. Linear in the steps of all precedences, but for sorting them.
+// Predicts from the precedences and running orders, one graph over progress: it is acyclic exactly
+// if `stuck` is empty. Linear in the steps of all precedences, except for sorting them.
 [[nodiscard]] Prediction predict(const std::vector<MotionAhead>& motions,
                                  const std::vector<Dependency>& dependencies);
 

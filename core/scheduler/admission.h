@@ -11,25 +11,26 @@
 
 namespace armloom {
 
-// What is asked of geometry, one question at a time, and what an answer means: these go, with these
-// orders; or more is asked; or they wait. Admission and the orders that it makes are one step.
+// Asks geometry one question at a time and handles the answer: jobs are admitted with passing
+// orders, more is asked, or jobs wait. Admission and the resulting orders are one step.
 class Admission {
  public:
-  // The next question, if none is open: motions that another scene may endanger first, then jobs to
-  // whose start arms are to be brought (whether they could run from there), arms that could open a
-  // ring, jobs whose turn it is, arms that could go aside. Whether jobs have been put off on the
-  // way: then who waits for whom is another. `turns`: as they are.
+  // Asks the next question if none is open, in this order: motions that a changed scene may
+  // endanger; jobs to be moved to their start (are they feasible from there?); retreats that could
+  // open a deadlock cycle; jobs whose turn it is; other retreats. Returns true if jobs were
+  // deferred meanwhile, because this changes the waits. `turns` must be current.
   [[nodiscard]] bool ask_next(State& state, const Turns& turns, const WaitCycles& cycles);
-  // The answer to the open question. One on an older version is void and asked again.
+  // Handles the answer to the open question. An answer for an older version is void; the question
+  // is asked again.
   void on(const Judged& input, State& state, WaitCycles& cycles);
 
  private:
   enum class Purpose {
-    start,    // of a job that waits
-    option,   // the same, of one of several that could take a turn
-    itself,   // of a job alone, from where it begins, though its arms are elsewhere
-    recheck,  // of a motion that is under way or scheduled
-    yield,    // whether an arm could go aside, and the job then pass
+    start,    // of a waiting job
+    option,   // the same, for one of several options of a turn
+    itself,   // a job alone, from its start, although its arms are elsewhere
+    recheck,  // a motion that is under way or scheduled
+    yield,    // can an arm retreat, and does the job then pass?
   };
   struct OpenQuestion {
     Version version;
@@ -37,9 +38,10 @@ class Admission {
     Purpose purpose;
     std::optional<YieldTrial> yield = {};
     std::vector<Passage> passages = {};  // Question::passages
-    bool is_only_option = false;         // nothing else could take the turn
+    bool is_only_option = false;         // no other option could take the turn
   };
-  // Policies that admit groups: everything that waits is tried as one; if that fails, these alone.
+  // For policies that admit groups: all waiting jobs are tried as one group; if that fails,
+  // `alone`.
   struct Together {
     Version version;
     std::vector<JobId> alone;

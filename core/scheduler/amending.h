@@ -5,10 +5,9 @@
 
 namespace armloom {
 
-// What of a job is changed while it has not ended. With another priority everything that waits is
-// judged again, and an answer that is still to come is void: from now on who goes first is decided
-// by it, and by which order admitted motions pass, where the policy weighs that again. What the
-// server does on the job's behalf is as urgent as the job.
+// Changes the terms of a job that has not ended. A new priority makes open answers void; all
+// waiting jobs are checked again, and the policy may re-optimize passing orders. Jobs that the
+// server has added for this job get the same priority.
 void amend(State& state, const Amend& input);
 
 }  // namespace armloom

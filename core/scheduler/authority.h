@@ -4,14 +4,14 @@
 
 namespace armloom {
 
-// How far each motion that is admitted may go: orders, held by authority over progress.
+// Movement authority of admitted motions, as far as passing orders allow.
 
-// Tells what is admitted to its arms when precedence lets it leave its place, and how much farther
-// what is under way may go.
+// Dispatches admitted motions that precedence lets leave, and extends the authority of motions
+// under way.
 void dispatch_ready(State& state);
-// The same of what waits for this motion, and of itself: it has moved.
+// Does the same for the motion that moved and for motions that wait for it.
 void extend_authority(State& state, JobId moved);
-// At rest at its limit a running motion pauses; what it loses there is no overrun.
+// Notes when a motion pauses at its limit; time lost there is no overrun.
 void see_pauses(State& state, Record& record, Duration progress_before);
 
 }  // namespace armloom

@@ -51,7 +51,7 @@ void fail_overdue(State& state, Record& record) {
   give_up(state, record,
           {AfterStop::Then::fail, Reason::overrun,
            "has not moved for " + seconds_text(stood) +
-               ", and has had its duration by duration_scaling and duration_margin"});
+               ", and has exceeded its duration with duration_scaling and duration_margin"});
 }
 
 std::optional<TimePoint> deadline_of(const Job& job) {

@@ -7,19 +7,19 @@
 
 namespace armloom {
 
-// What geometry is asked, from where things stand now: about these jobs, beside everything else
-// that is admitted.
+// Returns the question to geometry about these jobs, against all admitted motions at their present
+// progress.
 [[nodiscard]] Question question_now(const State& state, const std::vector<JobId>& candidates);
-// About this job alone, its arms being where it begins.
+// Returns a question about this job alone, with its arms at its start.
 [[nodiscard]] Question question_by_itself(const State& state, const Job& job);
-// How far the arms of the job are from its path where it sets out: Motion::off_path.
+// Returns the distance of the job's arms from the start of its path: Motion::off_path.
 [[nodiscard]] double off_path_of(const State& state, const Record& record);
-// A job's motion, to be ordered beside what is admitted.
+// Returns the job's motion as a candidate for passing orders.
 [[nodiscard]] CoordinatedMotion as_candidate(const Job& job);
-// Where all stand when what is admitted has run; and what comes before that job on its arm, if
-// given.
+// Returns the positions of all arms after all admitted jobs, and, with `job`, after the jobs before
+// it on its arm.
 [[nodiscard]] Configuration rest_after_admitted(const State& state, const Job* job = nullptr);
-// Passages, to be asked besides.
+// Adds passages to the question.
 void add_passages(Question& question, const std::vector<Passage>& unknown, const State& state);
 
 }  // namespace armloom

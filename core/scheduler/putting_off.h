@@ -6,28 +6,29 @@
 
 namespace armloom {
 
-// What becomes of a job that was judged and does not go.
+// Defers or fails a job that was checked and not admitted.
 
-// Precondition of all but hold_back(): it waits.
+// Precondition of all functions but hold_back(): the job waits.
 void note_found(Record& record, std::vector<Wait> waits);
-// Into the backlog, until what holds it back is another.
+// Moves the job to the backlog if it is the first of its arms.
 void put_off(State& state, Record& record, std::vector<Wait> waits);
-// Where its way begins in something that no job moves (Job::stands_in): nothing is asked about it.
+// Defers a job that cannot be planned because of an object (Job::stands_in). Returns false for
+// other jobs.
 [[nodiscard]] bool put_off_where_it_stands(State& state, Record& record);
-// Not the backlog: it could go, or soon could, but for those that have to come before it.
+// Keeps the job queued: it is blocked only by jobs that must go first.
 void wait_behind(State& state, Record& record, JobId first);
-// So it is in the sequence; when that is another one, it is judged again.
+// The same, until `first` no longer precedes it in the safe sequence.
 void wait_in_turn(State& state, Record& record, JobId first);
-// Whether its arms would hit themselves or each other: then it has failed, unless it has begun.
+// Fails a job that has not begun if the verdict has a self-collision. Returns true if so.
 [[nodiscard]] bool fails_by_itself(State& state, Record& record, const Verdict& verdict);
-// For what the verdict found; or it fails by itself.
+// Defers the job with the verdict's conflicts, or fails it.
 void refuse(State& state, Record& record, const Verdict& verdict);
-// An admitted one, that another scene endangers: it is stopped.
+// Brakes an admitted job that the changed scene blocks.
 void hold_back(State& state, Record& record, const Verdict& verdict);
 
-// Where the budget of evaluations has ended it is not put off yet, but judged again with a larger
-// one when its turn comes, behind those that are judged with less. So often at most that a job that
-// cannot be decided takes no time from others each time that something changes.
+// Returns true if the evaluation budget was exhausted and the job will be checked again with a
+// larger one, after jobs with smaller budgets. Limited, so that an undecidable job does not take
+// time from others after every change.
 [[nodiscard]] bool is_asked_again(Record& record, const Verdict& verdict);
 
 }  // namespace armloom

@@ -16,76 +16,75 @@
 
 namespace armloom {
 
-// The pure heart: queue, backlog, lanes and orders, stops. A deterministic state machine without
-// threads, clock, sockets or geometry. The way of a job through its rooms: README.md.
+// The core of Armloom: queue, backlog, arm queues, passing orders, stops. A deterministic state
+// machine without threads, clock, sockets or geometry. README.md lists its modules.
 //
-// What is admitted, under every policy, is a motion in the precedence graph (precedence_graph.h):
-// it is granted authority as far as the orders let it, and waits at its start or pauses on its way
-// where they do not. The policy chooses the orders; nothing that moves counts on times, so that
-// late arms disturb nobody, and braking ones need not be waited for. Under timed_discrete there are
-// none.
+// Under every policy an admitted job is a motion in the precedence graph (precedence_graph.h): it
+// gets authority as far as the orders allow, and otherwise waits at its start or pauses on its
+// path. The policy chooses the orders (none under timed_discrete). Motions do not rely on times, so
+// late arms disturb no other arm.
 //
-// Whatever changes what is admitted, or where arms rest, makes a new version: a verdict on an older
-// one is void and asked again, and every waiting job is tried again on the new one.
+// Every change of the admitted motions, or of an arm's rest, makes a new version: a verdict for an
+// older version is void, and every waiting job is checked again.
 //
-// An arm that comes to rest off its plan (canceled, faulted) holds those that would pass there
-// where they may be. A scene that changes may endanger motions that were admitted before: these are
-// judged again, and those in conflict are held until the way is free.
+// An arm that rests elsewhere than planned (canceled, faulted) blocks the motions that would pass
+// there. After a scene change, admitted motions are checked again and stopped if in conflict.
 class Scheduler {
  public:
-  // `rest` is where every joint stands at the beginning. The policy is not null. Jobs of former
-  // runs have the ids below `first`, and may come with them.
+  // `rest`: the initial position of every joint. The policy is not null. Jobs of earlier sessions
+  // have ids below `first`.
   Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
             JobId first = JobId{1});
-  // As it would be at `now` amid motions that are under way, each at its progress, nothing having
-  // been decided between them: for questions about what else could go (Trial). At most one of an
-  // arm; their ids grow. `rest` is where these set out.
+  // The state at `now` with motions under way, each at its progress, without orders between them:
+  // for questions about further jobs (Trial). At most one motion per arm; their ids grow. `rest`:
+  // the positions where these motions started.
   Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
             const std::vector<Motion>& under_way, TimePoint now);
 
-  // Time never goes backwards (throws std::invalid_argument). An input that names an unknown or
-  // ended job is ignored. Effects are to be carried out in order. Throws std::logic_error where an
-  // invariant (invariants.h) is broken: then nothing that it says is to be relied on.
+  // Handles one input and returns the effects, to be carried out in order. Throws
+  // std::invalid_argument if `now` decreases, and std::logic_error if an invariant (invariants.h)
+  // is broken: then nothing that it returned is reliable. Inputs for unknown or ended jobs are
+  // ignored.
   [[nodiscard]] std::vector<Effect> step(const Input& input, TimePoint now);
 
-  // Where every joint stands, as far as it is not in motion; there where it set out.
+  // Returns the rest position of every joint; for a moving joint the position where it started.
   [[nodiscard]] const Configuration& rest() const { return state_.arms.rest(); }
-  // Where every joint will stand when all accepted jobs have succeeded: a new job has to begin
+  // Returns where every joint will be when all accepted jobs have succeeded. A new job must begin
   // there.
   [[nodiscard]] Configuration predicted_rest() const;
-  // Arms of which that is an estimate: the last goal is a pose, and not planned yet.
+  // Returns the arms for which predicted_rest() is an estimate: the last goal is an unplanned pose,
+  // or a goal may still go to this or another arm.
   [[nodiscard]] std::vector<ArmId> open_ends() const;
 
-  // What the next job is to be called: not what an effect has called one of the scheduler's own.
+  // Returns the id of the next job. Effects may use it up for the scheduler's own jobs.
   [[nodiscard]] JobId next_job() const { return state_.jobs.next_id(); }
-  // The last WakeAt.
+  // Returns the time of the last WakeAt.
   [[nodiscard]] std::optional<TimePoint> wakes_at() const { return wake_at_; }
   [[nodiscard]] const Policy& policy() const { return *state_.policy; }
-  // Nothing is admitted, so that it may be another one (ChangePolicy).
+  // Returns true if no motion is admitted, so that ChangePolicy has an effect.
   [[nodiscard]] bool may_change_policy() const { return state_.graph.motions().empty(); }
-  // By the clock, of the one candidate of a question that is open: when it could begin beside what
-  // is admitted, from now. Nothing: not, as things stand.
+  // Returns the earliest start by the clock, from now, of the single candidate of an open question;
+  // nullopt if there is none.
   [[nodiscard]] std::optional<Duration> earliest_start(const Question& question,
                                                        const Verdict& verdict) const;
 
-  // When what is admitted is expected to move.
   [[nodiscard]] PredictedTimeline timeline(TimePoint now) const {
     return predicted_timeline(state_, now);
   }
 
-  [[nodiscard]] const Job* find(JobId job) const;   // null: unknown or forgotten
+  [[nodiscard]] const Job* find(JobId job) const;   // null if unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
   // Returns true if a job that has not ended moves the arm, or will.
   [[nodiscard]] bool has_job(ArmId arm) const { return !state_.jobs.queues()[arm].empty(); }
   [[nodiscard]] bool stopped(ArmId arm) const { return state_.arms.is_stopped(arm); }
-  // Nothing: it is not stopped.
+  // Returns nullopt if the arm is not stopped.
   [[nodiscard]] const std::optional<std::string>& stop_cause(ArmId arm) const {
     return state_.arms.stop_cause(arm);
   }
-  [[nodiscard]] std::optional<JobId> occupant(ArmId arm) const;  // in motion or held on this arm
-  // All that is admitted comes to its end by its orders. For tests.
+  [[nodiscard]] std::optional<JobId> occupant(ArmId arm) const;  // in motion, braking or held
+  // Returns true if all admitted motions can reach their ends by their orders. For tests.
   [[nodiscard]] bool is_acyclic() const { return state_.graph.is_acyclic(); }
-  // Ended jobs are kept until forgotten, so that the caller can read how they ended.
+  // Forgets an ended job. Until then the caller can read its result.
   void forget(JobId ended);
 
  private:
@@ -103,9 +102,9 @@ class Scheduler {
   State state_;
   WaitCycles cycles_;
   Admission admission_;
-  std::optional<TimePoint> deadline_;   // of jobs and rings
-  std::optional<TimePoint> weighs_at_;  // whether all goes as expected
-  std::optional<TimePoint> wake_at_;    // the earlier one
+  std::optional<TimePoint> deadline_;   // of jobs and deadlock cycles
+  std::optional<TimePoint> weighs_at_;  // when to compare with the prediction
+  std::optional<TimePoint> wake_at_;    // the earlier of both
 };
 
 }  // namespace armloom

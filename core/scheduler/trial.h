@@ -7,10 +7,9 @@
 
 namespace armloom {
 
-// What would become of a job if it were submitted in this instant: a copy of the scheduler is
-// walked on with real answers while time stands still, until the job has had its turn, and until it
-// is known what becomes of a ring that it closes. What it says is what the scheduler would do,
-// because it is what the scheduler does. Pure.
+// Finds the outcome of a job if it were submitted now: runs a copy of the scheduler with real
+// answers, at constant time, until the job has had its turn and any deadlock cycle that it closes
+// is resolved. So the result is exactly what the scheduler would do. Pure.
 //
 //   while (true) {
 //     if (auto question = trial.next()) trial.answer(verdict);
@@ -19,36 +18,38 @@ namespace armloom {
 //   }
 class Trial {
  public:
-  // What the scheduler has asked and was not answered yet.
+  // The scheduler's open questions.
   struct Open {
     std::optional<Question> question = {};
     std::vector<PlanMotion> plans = {};
   };
-  // `asked` is one of the jobs that come now, in this order.
+  // `asked`: one of `jobs`, which are submitted in this order.
   Trial(Scheduler scheduler, Open open, const std::vector<Submit>& jobs, JobId asked,
         TimePoint now);
 
-  // What has to be answered next; nothing: a way has to be planned, or the outcome is known.
+  // Returns the question to be answered next; nullopt if a plan is needed or the outcome is known.
   [[nodiscard]] std::optional<Question> next() const;
   void answer(Verdict verdict);
-  // Precondition: next() is nothing. Nothing: the outcome is known.
+  // Returns the plan to be made next; nullopt if the outcome is known. Precondition: next() returns
+  // nullopt.
   [[nodiscard]] std::optional<PlanMotion> next_plan() const;
   void answer(const PlanMade& made);
 
   struct Outcome {
     Verdict::Kind kind;
-    std::optional<Duration> starts_in;  // from now; not free: if it could begin then by the clock
-    std::vector<Wait> waits;            // for what; free: before it starts
+    std::optional<Duration> starts_in;  // from now; not free: the earliest start by the clock
+    std::vector<Wait> waits;            // free: until it starts
     std::optional<ClearanceBound> clearance_bound;
-    std::uint64_t evaluations = 0;                      // for questions about it
-    std::optional<Duration> approach = {};              // so long its arms take to where it begins
-    Job job = {.id = JobId{0}, .trajectory = nullptr};  // as it was left
+    std::uint64_t evaluations = 0;                      // for questions about the job
+    std::optional<Duration> approach = {};              // time until its arms are at its start
+    Job job = {.id = JobId{0}, .trajectory = nullptr};  // its final state in the trial
   };
-  // Precondition: next() and next_plan() are nothing. Of a job whose arms are brought to its start
-  // first, and that is not admitted with them: of those motions. It is judged itself in its turn.
+  // Returns the outcome. Precondition: next() and next_plan() return nullopt. If the arms must
+  // first be moved to the job's start and the job is not admitted together with that motion, the
+  // outcome describes that motion; the job itself is checked when its turn comes.
   [[nodiscard]] Outcome outcome() const;
 
-  // A job that waits behind so many judgements of others is told what it waits for then.
+  // Limits of a trial. A job that waits behind more checks gets the waits found so far.
   static constexpr int kJudgementsMax = 500;
   static constexpr int kPlansMax = 20;
 
@@ -64,12 +65,12 @@ class Trial {
   JobId job_;
   TimePoint now_;
   Open open_;
-  std::vector<JobId> approaches_;  // of the job
+  std::vector<JobId> approaches_;  // moves to the job's start
   int judgements_ = 0;
   int plans_ = 0;
-  std::optional<Verdict> last_;       // on it alone or with others
-  std::optional<Duration> by_clock_;  // when it could begin, as last found
-  std::vector<Wait> waits_;           // as last told
+  std::optional<Verdict> last_;       // about the job, alone or with others
+  std::optional<Duration> by_clock_;  // its earliest start, as last found
+  std::vector<Wait> waits_;           // as last published
   std::uint64_t evaluations_ = 0;
 };
 

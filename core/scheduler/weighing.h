@@ -7,19 +7,18 @@
 
 namespace armloom {
 
-// Chooses the orders of all that is admitted anew where something is not as expected: late, early,
-// stopped, given up. Nobody's authority is taken back; whoever is late may lose its turn.
+// Re-optimizes the orders of all admitted motions if one deviates from its prediction: late, early,
+// stopped, abandoned. Granted authority is not taken back; a late motion may lose its turn.
 void weigh_again(State& state);
 
-// Whether something is, as things are.
+// Returns true if any admitted motion deviates from its prediction.
 [[nodiscard]] bool is_off_course(const State& state);
 
-// When that is to be looked at without another input; nothing: never.
+// Returns when to check for deviations without another input; nullopt: never.
 [[nodiscard]] std::optional<TimePoint> weighs_next(const State& state);
 
-// Before orders are chosen for what is admitted and these jobs: what waits behind all of them
-// counts for the choice, what stands though nothing of ours holds it is expected to do so for as
-// long again, what is slow to stay so, and who has been overtaken for long is overtaken no more.
+// Updates the precedence graph before orders are chosen for the admitted motions and these jobs:
+// the work behind them, predicted rests and paces, and motions that may not be overtaken again.
 void prepare_choice(State& state, const std::vector<JobId>& jobs);
 
 }  // namespace armloom

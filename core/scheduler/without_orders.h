@@ -6,15 +6,14 @@
 
 namespace armloom {
 
-// Policies without passing orders (timed_discrete): nothing holds a motion back where another one
-// has stopped in its way, so both are compared again.
+// For policies without passing orders (timed_discrete).
 
-// An arm begins to brake, or has come to rest elsewhere than at its goal. Motions that are under
-// way are compared again; those that a stop has kept at their starts wait in the queue again.
+// When an arm brakes or rests off its goal: compares all motions under way again, and returns jobs
+// that a stop keeps at their start to the queue.
 void compare_again(State& state);
-// The same where an arm under way is seen to stand: late, stalled.
+// The same when an arm under way is found at rest: late, stalled.
 void see_standing(State& state);
-// When one is, if none of them moves before.
+// Returns when that is due next.
 [[nodiscard]] std::optional<TimePoint> stands_next(const State& state);
 
 }  // namespace armloom

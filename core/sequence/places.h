@@ -11,17 +11,17 @@
 
 namespace armloom {
 
-// Where an arm rests. While one is held, whoever else asks for the same place is given that one:
-// compare pointers. What is known of a place is kept by its id, which is the same whenever somebody
-// asks for it: who holds one for how long, as a dry run does, changes nothing for others.
+// The rest position of an arm. While a place exists, equal requests return the same pointer, so
+// places are compared by pointer. Knowledge about a place is stored by its id, which does not
+// depend on the lifetime of the object: a dry run that holds places affects no other caller.
 struct Place {
-  std::uint64_t id;  // of arm and rounded q; two places share one with a probability of 2^-64
+  std::uint64_t id;  // hash of arm and rounded q; collisions have probability 2^-64
   ArmId arm;
   Eigen::VectorXd q;  // of the arm's joints, in its order (rad, m)
 };
 using PlacePtr = std::shared_ptr<const Place>;
 
-// Gives places. Two that differ by no more than rounding are one, mostly.
+// Returns shared places. Two positions that differ by rounding only give, mostly, the same place.
 class Places {
  public:
   inline static constexpr double kRounding = 1e-6;  // rad, m
@@ -33,7 +33,7 @@ class Places {
   void drop_unused();
 
   std::map<Key, std::weak_ptr<const Place>> known_;
-  std::size_t dropped_at_ = 64;  // when there are so many
+  std::size_t dropped_at_ = 64;  // size at which unused entries are dropped
 };
 
 }  // namespace armloom

@@ -13,46 +13,42 @@
 
 namespace armloom {
 
-// A job that waits, as a leg of the lanes of its arms: from rest to rest.
+// A waiting job as a leg of the sequence: from rest to rest.
 struct WaitingLeg {
   JobId job;
   std::vector<ArmId> arms;
   std::vector<PlacePtr> from;  // by arm, as in `arms`
   std::vector<PlacePtr> to;
-  std::vector<JobId> after = {};  // it does not begin before these, as long as they wait
-  // Of the job's motions, which one: what was answered about another one is not known of it.
+  std::vector<JobId> after = {};  // does not begin before these waiting jobs
+  // Revision of the job's motion; cached answers for other revisions do not apply.
   std::uint64_t motion = 0;
-  // Its way is still to be planned, from wherever its arm will stand and past where all others will
-  // when the legs given before it are done: these it is taken to pass. Of other places an estimate
-  // of its way is asked.
+  // The path is still to be planned, around all other arms when the legs before it are done: it is
+  // assumed to pass those. For other places the estimate is checked.
   bool is_estimate = false;
-  // Its arms are brought to where it begins, wherever they stand, by ways that are estimates too.
+  // Its arms are moved to its start from wherever they are, on estimated paths.
   bool is_approached = false;
 };
 
-// Does this leg find its way free while an arm that it does not move rests there?
+// Is the leg's path free while an arm that it does not move rests at `place`?
 struct Passage {
   JobId leg;
   PlacePtr place;
   std::uint64_t motion = 0;  // WaitingLeg::motion
-  PlacePtr from = nullptr;   // not null: its arm is brought from there to where the leg begins
+  PlacePtr from = nullptr;   // if set: asks about the move from there to the leg's start
 };
 
-// The banker's question (Dijkstra 1965) with places in the way instead of money: when all that is
-// admitted has come to its end, can everything that waits still be done, at least one after the
-// other? The order of submission is the first witness of it; where that is not kept, another one is
-// sought near the front of it. As long as an admission leaves such a sequence, what could be done
-// in turn can still be done.
+// Dijkstra's banker's algorithm (1965) with places instead of money: when all admitted jobs have
+// ended, can all waiting jobs still be done, at least one after the other? The order of submission
+// is the first witness. If an admission breaks it, another order of the first legs is searched.
 //
-// Geometry is asked as little as possible: what is not known about a leg is asked when that is
-// among the first kKnownAhead of the sequence, or would be done after an admission instead of
-// before it; until then it is taken to be free. What was answered is kept for each leg and place.
+// Geometry is queried only about the first kKnownAhead legs and about legs that an admission
+// overtakes. Until then an unknown passage is assumed free. Answers are cached by leg and place.
 //
-// A leg for which no sequence is known is in none, nor is what follows it; nobody waits for it.
-// Pure.
+// A leg without a known sequence, and all that follows it, is in none; no job waits for it. Pure.
 class SafeSequence {
  public:
-  // Legs that begin no farther than this from where their arms will stand follow on.
+  // `start_tolerance`: largest distance between a leg's start and its arm's position for the leg to
+  // follow on.
   explicit SafeSequence(double start_tolerance) : tolerance_(start_tolerance) {}
   SafeSequence(const SafeSequence& other);
   SafeSequence(SafeSequence&&) = default;
@@ -60,44 +56,45 @@ class SafeSequence {
   ~SafeSequence() = default;
 
   inline static constexpr std::size_t kKnownAhead = 16;
-  inline static constexpr std::size_t kUnknownMax = 128;  // passages that are asked at once
-  inline static constexpr std::size_t kSearched = 20;     // legs that are put into another order
-  inline static constexpr std::size_t kStatesMax = 1000;  // of a search
+  inline static constexpr std::size_t kUnknownMax = 128;  // passages in one query
+  inline static constexpr std::size_t kSearched = 20;     // legs that a search reorders
+  inline static constexpr std::size_t kStatesMax = 1000;  // states per search
 
-  // A leg comes to the end of its lanes. Precondition: renew() has been called once.
+  // Adds a leg at the end of its arm queues. Precondition: renew() has been called once.
   void append(WaitingLeg leg);
-  // A leg that was not admitted is no more. Where others may not follow on then: false, renew().
+  // Removes a leg that was not admitted. Returns false if later legs may no longer follow on; then
+  // call renew().
   [[nodiscard]] bool remove(JobId job);
-  // These legs have been admitted, as after() was asked: their arms will stand at their ends.
+  // Records the admission that after() was last asked about: the arms will be at these legs' ends.
   void admitted(const std::vector<JobId>& group);
-  // Everything anew: where arms stand at the end of what is admitted, and what waits, in an order
-  // that every lane allows. What is known of legs is kept; those that were there before keep their
-  // order in the sequence.
+  // Rebuilds the sequence from the arms' places after all admitted jobs and the waiting legs, in an
+  // order that every arm queue allows. Keeps cached answers and the order of known legs.
   void renew(std::vector<PlacePtr> stands, const std::vector<WaitingLeg>& legs);
 
-  // Answers to Passages; of two arms: they never meet, wherever they are.
+  // Store answers: for a passage; for two arms that never meet at any position.
   void learn(const Passage& passage, bool free);
   void learn_apart(ArmId a, ArmId b) {
     apart_[a.index()][b.index()] = apart_[b.index()][a.index()] = true;
   }
   void forget_passages();
 
-  // Of two legs, as the sequence is now; one that is in none comes after all. False: the first one
-  // is in none. Linear in its place.
+  // Returns true if `first` precedes `other`; legs in no sequence come last. False if `first` is in
+  // no sequence. Linear in its position.
   [[nodiscard]] bool goes_before(JobId first, JobId other) const;
-  // Whether it is in the sequence, as far as is known; true: nothing is known of it.
+  // Returns true if the job is in the sequence, or unknown.
   [[nodiscard]] bool has_place(JobId job) const;
-  // It begins where the legs before it will leave its arms.
+  // Returns true if the job begins where the legs before it leave its arms, or is unknown.
   [[nodiscard]] bool follows_on(JobId job) const;
 
   struct Outlook {
-    std::vector<Passage> unknown;  // to be learnt first; then ask again
-    std::vector<Passage> ahead;    // good to know in time, to see dead ends from afar
-    std::optional<JobId> first;    // has to be done before them
-    bool all = true;               // else some legs are in no sequence, even then
+    std::vector<Passage> unknown;  // must be learned first; then call after() again
+    std::vector<Passage> ahead;    // useful to learn ahead of time, to see dead ends early
+    std::optional<JobId> first;    // must be done before the group
+    bool all = true;               // false if some legs remain in no sequence
   };
-  // What remains if these legs are admitted now: a sequence, where nothing is unknown or first.
-  // Precondition: each is the first of its lanes, but for others of them that are named before it.
+  // Returns what remains if these legs are admitted now: a sequence exists if `unknown` and `first`
+  // are empty. Precondition: each is the first of its arm queues, except for members of the group
+  // named before it.
   [[nodiscard]] Outlook after(const std::vector<JobId>& group);
 
  private:
@@ -108,14 +105,14 @@ class SafeSequence {
   };
   struct Leg : WaitingLeg {
     Free free = {};
-    std::vector<Approach> approaches = {};  // of arms that are brought to where it begins
-    std::vector<std::uint64_t> seen = {};   // Place::id by arm: it passes where they stand so
+    std::vector<Approach> approaches = {};  // moves of arms to its start
+    std::vector<std::uint64_t> seen = {};   // Place::id by arm for which it is known to pass
     bool placed = false;                    // in sequence_, else in unplaced_
-    bool cut = false;                       // does not begin where its lanes lead
+    bool cut = false;                       // does not begin where its arm queues lead
   };
   using Legs = std::list<Leg>;
   using Order = std::vector<Leg*>;
-  using State = std::vector<PlacePtr>;  // by ArmId: where it rests
+  using State = std::vector<PlacePtr>;  // by ArmId: its place
   enum class Passes { free, blocked, unknown };
   struct Walk {
     std::vector<Passage> unknown;
@@ -123,7 +120,7 @@ class SafeSequence {
   };
   struct Concerned {
     Order legs;
-    std::size_t overtaken = 0;  // of these, the first ones: they would have been done before
+    std::size_t overtaken = 0;  // the first `overtaken` legs would have been done before the group
   };
   class Search;
 
@@ -143,16 +140,16 @@ class SafeSequence {
   void take_out(Leg& leg);
 
   double tolerance_;
-  State stands_;  // at the end of what is admitted
-  State ends_;    // at the end of everything
+  State stands_;  // when all admitted jobs have ended
+  State ends_;    // when all jobs have ended
   Legs sequence_;
-  Legs unplaced_;                           // in no sequence; none before what it follows
-  std::vector<std::size_t> unplaced_legs_;  // by ArmId: how many
+  Legs unplaced_;  // in no sequence; none precedes a leg that it depends on
+  std::vector<std::size_t> unplaced_legs_;  // by ArmId: number of legs
   std::unordered_map<JobId, Legs::iterator> index_;
   std::vector<std::vector<bool>> apart_;  // by ArmId, ArmId
-  bool tried_ = false;                    // in vain to place more, as things are
-  std::vector<JobId> asked_;              // after() was asked last about these
-  Order found_;                           // what to begin the sequence with then
+  bool tried_ = false;                    // placing more legs failed, and nothing has changed since
+  std::vector<JobId> asked_;              // the group of the last after() call
+  Order found_;                           // the new front of the sequence for it
 };
 
 }  // namespace armloom

@@ -31,8 +31,8 @@ std::string digits(double value, int count) {
   return text;
 }
 
-// "3.41 rad/s exceeds 2.175", with as many digits as tell the two apart. `nominal` is the limit
-// without tolerances: what people find in the cell.
+// Returns "3.41 rad/s exceeds 2.175", with enough digits to tell the two apart. `nominal` is the
+// cell's limit without tolerances.
 std::string excess_text(const Joint& joint, const Quantity& quantity, double value,
                         const Bounds& nominal) {
   const bool is_position = quantity.bit == kPosition.bit;
@@ -44,7 +44,7 @@ std::string excess_text(const Joint& joint, const Quantity& quantity, double val
          digits(limit, count);
 }
 
-// Walks the waypoints once; each step checks a waypoint and the segment that ends there.
+// Checks each waypoint and the segment that ends there.
 class LimitCheck {
  public:
   LimitCheck(const TrajectoryRequest& request, const std::vector<Duration>& times,
@@ -77,7 +77,7 @@ class LimitCheck {
     return k == 0 || k + 1 == request_.points.size();
   }
 
-  // What the segments are made of: velocities at both ends are exactly zero.
+  // Sets velocities at both ends to exactly zero.
   [[nodiscard]] KnotState knot(std::size_t k, std::size_t j) const {
     const WaypointRequest& point = request_.points[k];
     return {point.positions[j], is_end(k) ? 0.0 : point.velocities[j],
@@ -147,7 +147,7 @@ class LimitCheck {
     return segment;
   }
 
-  // A quantity that is broken at one of the two waypoints has been reported there.
+  // Quantities broken at one of the two waypoints were reported there.
   void check_between(std::size_t k, std::size_t j, const Polynomial& p, double duration_s) {
     const Polynomial v = derivative(p);
     const Polynomial a = derivative(v);
@@ -185,7 +185,7 @@ class LimitCheck {
   ProblemList& problems_;
   const double share_;
   const bool quintic_;
-  // By joint: bits of the quantities that the waypoint before (this waypoint) breaks by itself.
+  // By joint: bits of the quantities that the previous (this) waypoint breaks.
   std::vector<std::uint8_t> broken_before_;
   std::vector<std::uint8_t> broken_;
 };

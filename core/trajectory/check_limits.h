@@ -8,10 +8,10 @@
 #include "core/trajectory/trajectory.h"
 #include "core/trajectory/validate.h"
 
-// Inside of core/trajectory: the last stage of validate().
+// Internal to core/trajectory: the last stage of validate().
 namespace armloom {
 
-// Collects problems in the order found and drops what comes after the first kProblemsMax.
+// Collects the first kProblemsMax problems in the order found.
 class ProblemList {
  public:
   void add(Problem problem) {
@@ -25,12 +25,12 @@ class ProblemList {
   Problems problems_;
 };
 
-// Six significant digits at most: "3.41", "1e-06", "nan".
+// Formats with at most six significant digits: "3.41", "1e-06", "nan".
 [[nodiscard]] std::string to_text(double value);
 
-// The motion of a request whose names and shape are right: its segments, with rest and limits
-// checked. `times` are those of the waypoints, ascending from zero. After the first kProblemsMax
-// problems it stops; segments are complete only if `problems` stays empty.
+// Returns the segments of a request with valid names and shape, and checks rest and limits. `times`
+// are those of the waypoints, ascending from zero. Stops after kProblemsMax problems; segments are
+// complete only if `problems` stays empty.
 [[nodiscard]] std::vector<Segment> checked_segments(const TrajectoryRequest& request,
                                                     const std::vector<Duration>& times,
                                                     const std::vector<JointId>& joints,

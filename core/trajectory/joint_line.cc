@@ -27,7 +27,7 @@ WaypointRequest at_rest(const Eigen::VectorXd& position, double time_s) {
   return {{position.begin(), position.end()}, zeros, zeros, time_s};
 }
 
-// p(h - t) by its coefficients of t^k: the Taylor polynomial about h with every odd sign changed.
+// Turns p(t) into p(h - t): the Taylor polynomial about h with odd signs changed.
 void reverse(Eigen::Matrix<double, Eigen::Dynamic, 6>& c, double h) {
   for (Eigen::Index j = 0; j < c.rows(); ++j) {
     for (Eigen::Index k = 0; k < 5; ++k) {
@@ -53,7 +53,7 @@ Result<TrajectoryPtr> joint_line(const Cell& cell, const std::vector<JointId>& j
     duration_s = std::max(duration_s, least_duration_s(joint, std::abs(to[j] - from[j])));
   }
   duration_s /= cell.execution.velocity_scaling_factor;
-  // Times are whole nanoseconds: never one too few.
+  // Round up to whole nanoseconds.
   duration_s = std::min(std::ceil(duration_s * 1e9) / 1e9, 2 * kDurationMax_s);
   request.points = {at_rest(from, 0.0), at_rest(to, duration_s)};
   return validate(request, cell);

@@ -15,7 +15,7 @@ constexpr double kBinomial[kDegree + 1][kDegree + 1] = {
     {1, 3, 3, 1, 0, 0}, {1, 4, 6, 4, 1, 0}, {1, 5, 10, 10, 5, 1},
 };
 
-// p(t + shift_s): repeated Horner steps.
+// Returns p(t + shift_s) by Horner steps.
 Polynomial shifted(Polynomial p, double shift_s) {
   for (int i = 0; i < kDegree; ++i) {
     for (int k = kDegree - 1; k >= i; --k) {
@@ -25,8 +25,8 @@ Polynomial shifted(Polynomial p, double shift_s) {
   return p;
 }
 
-// On [0, duration_s]: b[i] = sum over k <= i of C(i, k) / C(n, k) * c[k] duration^k. A polynomial
-// of lower degree is written in degree 5 all the same: that only makes its bounds tighter.
+// On [0, duration_s]: b[i] = sum over k <= i of C(i, k) / C(n, k) * c[k] duration^k. Lower degrees
+// are also written in degree 5: that only tightens the bounds.
 Bernstein bernstein(const Polynomial& p, double duration_s) {
   std::array<double, kDegree + 1> scaled{};
   double power = 1.0;
@@ -41,8 +41,7 @@ Bernstein bernstein(const Polynomial& p, double duration_s) {
   return b;
 }
 
-// de Casteljau at the middle: the Bernstein coefficients of both halves, only averages, so that
-// rounding does not grow.
+// Bisects by de Casteljau: only averages, so rounding does not grow.
 void halve(const Bernstein& b, Bernstein& left, Bernstein& right) {
   right = b;
   for (std::size_t i = 0; i <= kDegree; ++i) {
@@ -53,8 +52,8 @@ void halve(const Bernstein& b, Bernstein& left, Bernstein& right) {
 
 double slack(double value) { return kLimitSlack * std::max(1.0, std::abs(value)); }
 
-// Branch and bound for the largest value above a limit. A part whose bound is not above the best
-// value that is already reached cannot matter.
+// Branch and bound for the largest value above a limit. Skips parts whose bound is not above the
+// best value reached.
 class Maximum {
  public:
   explicit Maximum(double limit) : best_(limit + slack(limit)) {}
@@ -65,7 +64,7 @@ class Maximum {
     const double bound = *std::max_element(b.begin(), b.end());
     if (bound <= best_ + slack(best_)) return;
     const double middle_s = 0.5 * (from_s + to_s);
-    if (depth == kDepthMax) return reach(bound, middle_s);  // undecided counts as broken
+    if (depth == kDepthMax) return reach(bound, middle_s);  // undecided: exceeded
     Bernstein left;
     Bernstein right;
     halve(b, left, right);
@@ -75,7 +74,7 @@ class Maximum {
   [[nodiscard]] const std::optional<Extreme>& found() const { return found_; }
 
  private:
-  // The gap shrinks by four at each level: far more than any slack needs.
+  // The gap shrinks by four at each level: ample for any slack.
   static constexpr int kDepthMax = 60;
 
   void reach(double value, double t_s) {
@@ -137,8 +136,8 @@ double magnitude(const Polynomial& p, double t_s) {
 
 Bounds bounds(const Polynomial& p, double from_s, double to_s) {
   const Bernstein b = bernstein(shifted(p, from_s), to_s - from_s);
-  // Fewer than 32 roundings lie on the way to a coefficient, each at most half an epsilon of a
-  // partial sum, and no partial sum is larger than the magnitude.
+  // A coefficient has fewer than 32 roundings, each at most half an epsilon of a partial sum, and
+  // no partial sum exceeds the magnitude.
   const double rounding = 32.0 * std::numeric_limits<double>::epsilon() * magnitude(p, to_s);
   const auto [lowest, highest] = std::minmax_element(b.begin(), b.end());
   return {*lowest - rounding, *highest + rounding};
@@ -146,7 +145,7 @@ Bounds bounds(const Polynomial& p, double from_s, double to_s) {
 
 std::optional<Extreme> worst_outside(const Polynomial& p, double duration_s,
                                      const Bounds& allowed) {
-  // Most are far inside: they get nowhere near.
+  // Most are far inside.
   const double swing = magnitude(p, duration_s) - std::abs(p[0]);
   if (p[0] - swing >= allowed.lower && p[0] + swing <= allowed.upper) return std::nullopt;
 

@@ -6,28 +6,28 @@
 namespace armloom {
 
 // One joint's piece of a trajectory: p(t) = sum of c[k] t^k, k = 0..5, with t in seconds since the
-// piece began; p in rad (m for prismatic joints). Lower degrees have zeros at the end.
+// piece began; p in rad (m for prismatic joints). Lower degrees end with zeros.
 inline constexpr int kDegree = 5;
 using Polynomial = std::array<double, kDegree + 1>;
 
-// What is asked for at one end of a piece; rad, rad/s, rad/s^2.
+// State at one end of a piece; rad, rad/s, rad/s^2.
 struct KnotState {
   double position = 0.0;
   double velocity = 0.0;
-  double acceleration = 0.0;  // not read by cubic()
+  double acceleration = 0.0;  // ignored by cubic()
 };
 
-// The only cubic (quintic) with these states at t = 0 and t = duration_s: Hermite interpolation,
-// as ROS's joint_trajectory_controller does it. Precondition: duration_s > 0. For extreme input the
-// coefficients may overflow to infinity or NaN; magnitude() says so.
+// Returns the only cubic (quintic) with these states at t = 0 and t = duration_s: Hermite
+// interpolation, as in ROS's joint_trajectory_controller. Precondition: duration_s > 0.
+// Coefficients of extreme input may overflow to infinity or NaN; check magnitude().
 [[nodiscard]] Polynomial cubic(const KnotState& from, const KnotState& to, double duration_s);
 [[nodiscard]] Polynomial quintic(const KnotState& from, const KnotState& to, double duration_s);
 
 [[nodiscard]] double evaluate(const Polynomial& p, double t_s);
 [[nodiscard]] Polynomial derivative(const Polynomial& p);
 
-// sum of |c[k]| t^k, t_s >= 0: no value of p on [-t_s, t_s] is larger. Not finite where p has a
-// coefficient that is not, or overflows.
+// Returns sum of |c[k]| t^k, t_s >= 0: a bound of |p| on [-t_s, t_s]. Not finite if a coefficient
+// is not, or if the sum overflows.
 [[nodiscard]] double magnitude(const Polynomial& p, double t_s);
 
 struct Bounds {
@@ -36,9 +36,9 @@ struct Bounds {
 };
 
 // Encloses every value of p on [from_s, to_s], rounding included: the range of the Bernstein
-// coefficients there (p is a convex combination of them, Farouki 2012), widened by the rounding
-// error of computing them. The gap to the true range shrinks with the square of the interval.
-// Precondition: 0 <= from_s <= to_s, magnitude(p, to_s) finite.
+// coefficients there (Farouki 2012), widened by their rounding error. The gap to the true range
+// shrinks with the square of the interval. Precondition: 0 <= from_s <= to_s, magnitude(p, to_s)
+// finite.
 [[nodiscard]] Bounds bounds(const Polynomial& p, double from_s, double to_s);
 
 struct Extreme {
@@ -46,10 +46,10 @@ struct Extreme {
   double value;  // of p at t_s
 };
 
-// Where p leaves `allowed` furthest on [0, duration_s]; nothing if it does not leave it. Decided on
-// bounds, never on samples: subdivides until each part is proven inside or less than kLimitSlack
-// (relative above 1, else absolute) away from a value that is reached. So what is accepted exceeds
-// by at most 2 kLimitSlack, and what is refused does exceed. Bounds may be infinite.
+// Returns where p leaves `allowed` furthest on [0, duration_s], or nullopt if it stays inside.
+// Decided by bounds, never by samples: subdivides until each part is proven inside or less than
+// kLimitSlack (relative above 1, else absolute) away from a value that is reached. So an accepted p
+// exceeds by at most 2 kLimitSlack, and a refused p does exceed. Bounds may be infinite.
 // Precondition: duration_s >= 0, magnitude(p, duration_s) finite.
 inline constexpr double kLimitSlack = 1e-9;
 [[nodiscard]] std::optional<Extreme> worst_outside(const Polynomial& p, double duration_s,

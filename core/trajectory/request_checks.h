@@ -6,8 +6,8 @@
 
 #include "core/trajectory/check_limits.h"
 
-// Inside of core/trajectory: the stages of validate() that a request without times goes through,
-// too. Slugs and sentences: validate.h.
+// Internal to core/trajectory: stages of validate() that also apply to requests without times.
+// Slugs and messages: validate.h.
 namespace armloom {
 
 [[nodiscard]] std::string pointer_to(std::size_t waypoint);  // "/points/3"
@@ -20,9 +20,9 @@ struct Names {
 
 [[nodiscard]] Names resolve_names(const TrajectoryRequest& request, const Cell& cell,
                                   ProblemList& problems);
-// Whether there are waypoints, and not too many or too few.
+// Returns true if the number of waypoints is allowed.
 [[nodiscard]] bool check_count(const TrajectoryRequest& request, ProblemList& problems);
-// One finite number for each joint.
+// Requires one finite number for each joint.
 void check_numbers(std::size_t k, const char* member, const std::vector<double>& numbers,
                    const TrajectoryRequest& request, ProblemList& problems);
 

@@ -7,7 +7,7 @@
 
 namespace armloom {
 
-// These joints stand at `position` (in their order) of the configuration; all others as they did.
+// Sets these joints to `position` (in their order); others stay.
 inline void set_joints(Configuration& q, const std::vector<JointId>& joints,
                        const Eigen::VectorXd& position) {
   for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -19,7 +19,7 @@ inline void set_joints(Configuration& q, const Trajectory& trajectory,
   set_joints(q, trajectory.joints(), position);
 }
 
-// The arm's joints are where the motion ends; those that it does not move, as before.
+// Moves the arm's joints to the motion's goal; joints outside the motion stay.
 inline void follow_to_end(Configuration& q, const Cell& cell, ArmId arm, const Trajectory& motion) {
   for (std::size_t j = 0; j < motion.joints().size(); ++j) {
     const JointId joint = motion.joints()[j];
@@ -28,7 +28,7 @@ inline void follow_to_end(Configuration& q, const Cell& cell, ArmId arm, const T
   }
 }
 
-// Where these joints stand, in their order.
+// Returns the positions of these joints, in their order.
 [[nodiscard]] inline Eigen::VectorXd joints_of(const Configuration& q,
                                                const std::vector<JointId>& joints) {
   Eigen::VectorXd position(static_cast<Eigen::Index>(joints.size()));

@@ -7,18 +7,17 @@
 namespace armloom {
 namespace {
 
-constexpr double kDecelerationMax_1_s = 50.0;  // as core/arm/rate_law.h has it
+constexpr double kDecelerationMax_1_s = 50.0;  // as in core/arm/rate_law.h
 constexpr double kDecelerationMin_1_s = 1e-3;
 
-// Where a joint is fast it does not accelerate as it does elsewhere on a long segment: so these are
-// looked at in stretches.
+// Long segments are divided into stretches: a joint's top speed and acceleration rarely coincide.
 constexpr double kStretch_s = 0.05;
 constexpr double kStretchesMax = 32.0;  // of a segment
 
 struct Stretch {
   double from_s;
   double to_s;
-  double deceleration_1_s;  // that every state on it allows
+  double deceleration_1_s;  // possible in every state
 };
 
 double deceleration_on(const Cell& cell, const Trajectory& trajectory,
@@ -55,7 +54,7 @@ double stopping_reach_s(const Cell& cell, const Trajectory& trajectory) {
   const std::vector<Stretch> stretches = stretches_of(cell, trajectory);
   double longest_s = 0.0;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
-    // The weakest of all stretches that it may pass says how many these are.
+    // The weakest deceleration determines how many stretches may be passed.
     double least = stretches[i].deceleration_1_s;
     for (std::size_t k = i + 1; k < stretches.size(); ++k) {
       if (stretches[k].from_s > stretches[i].to_s + 0.5 / least) break;

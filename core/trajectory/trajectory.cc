@@ -12,7 +12,7 @@ namespace {
 
 using Coefficients = Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, 6>>;
 
-// Horner for all joints in one pass; `out` has the right size or is resized by Eigen.
+// Horner's scheme for all joints; Eigen resizes `out` if needed.
 void positions_at(const Coefficients& c, double t, Eigen::VectorXd& out) {
   out.noalias() =
       ((((c.col(5) * t + c.col(4)) * t + c.col(3)) * t + c.col(2)) * t + c.col(1)) * t + c.col(0);
@@ -38,7 +38,7 @@ std::array<double, 6> shifted(const Coefficients& c, Eigen::Index j, double t) {
   return p;
 }
 
-// Largest |p(t) - p[0]| for |t| <= h, at most.
+// Bounds |p(t) - p[0]| for |t| <= h.
 double swing(const std::array<double, 6>& p, double h) {
   double sum = 0.0;
   for (std::size_t k = 5; k >= 1; --k) sum = (sum + std::abs(p[k])) * h;
@@ -128,7 +128,7 @@ std::size_t Trajectory::bytes() const {
 }
 
 std::size_t Trajectory::segment_at(Duration progress) const {
-  // std::upper_bound with the branch replaced by arithmetic: which half it is, is unpredictable.
+  // std::upper_bound without its unpredictable branch.
   const Duration* first = starts_.data();
   std::size_t count = starts_.size();
   while (count > 1) {

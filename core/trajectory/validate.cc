@@ -50,7 +50,7 @@ void check_members(const TrajectoryRequest& request, ProblemList& problems) {
   }
 }
 
-// The time of waypoint k; nothing, and a problem, if it can be no time at all.
+// Returns the time of waypoint k, or nullopt with a problem.
 std::optional<Duration> read_time(std::size_t k, double time_s, ProblemList& problems) {
   if (time_s >= 0.0 && time_s <= kDurationMax_s) return from_seconds(time_s);
   const std::string pointer = pointer_to(k) + "/time_from_start";
@@ -71,7 +71,7 @@ std::optional<Duration> read_time(std::size_t k, double time_s, ProblemList& pro
   } else if (time_s <= -1.0 || from_seconds(time_s) < Duration::zero()) {
     problems.add({ProblemKind::invalid, "negative-time", pointer, found + "is negative", time_s});
   } else {
-    return Duration::zero();  // by less than a nanosecond
+    return Duration::zero();  // less than a nanosecond below
   }
   return std::nullopt;
 }

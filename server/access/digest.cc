@@ -33,7 +33,7 @@ std::string sha256_hex(std::string_view text) {
 std::string random_hex() {
   Bytes bytes{};
   if (RAND_bytes(bytes.data(), static_cast<int>(bytes.size())) != 1) {
-    throw std::runtime_error("the system gives no random numbers");
+    throw std::runtime_error("the system cannot provide random numbers");
   }
   return hex_of(bytes);
 }

@@ -5,11 +5,11 @@
 
 namespace armloom {
 
-// SHA-256, as 64 small hexadecimal digits.
+// Returns the SHA-256 of `text` as 64 lowercase hexadecimal digits.
 [[nodiscard]] std::string sha256_hex(std::string_view text);
-// 256 random bits that nobody can guess, likewise.
+// Returns 256 unpredictable random bits in the same form.
 [[nodiscard]] std::string random_hex();
-// In a time that does not depend on where they differ.
+// Compares in a time that does not depend on where the texts differ.
 [[nodiscard]] bool equal_in_constant_time(std::string_view a, std::string_view b);
 
 }  // namespace armloom

@@ -5,11 +5,11 @@
 
 namespace armloom {
 
-// What a client may do; each may what those before it may, too.
+// What a client may do. Each role includes the roles before it.
 enum class Role {
-  viewer,   // look
-  operate,  // and move arms, stop them, change the scene
-  admin,    // and see who did what
+  viewer,   // read
+  operate,  // move and stop arms, change the scene
+  admin,    // read the audit trail
 };
 // "viewer", "operator", "admin"
 [[nodiscard]] constexpr const char* to_string(Role role) {

@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Another one after every change, of who may read it, too.
+// Changes whenever the file or its permissions change.
 std::string stamp_of(const std::filesystem::path& file) {
   struct stat status {};
   if (stat(file.c_str(), &status) != 0) return "";
@@ -30,7 +30,7 @@ void TokenBook::look() {
   const Problem& problem = read.error().front();
   const bool is_gone = problem.kind == ProblemKind::not_found;
   if (is_gone) tokens_.clear();
-  note(problem.detail + (is_gone ? ": nobody is let in" : ": the tokens of before stay in force"));
+  note(problem.detail + (is_gone ? ": no token is valid" : ": the previous tokens stay valid"));
 }
 
 void TokenBook::note(std::optional<std::string> fault) {

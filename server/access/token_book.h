@@ -11,24 +11,24 @@
 
 namespace armloom {
 
-// Who has shown a token.
+// The client to whom a token was given.
 struct Caller {
   std::string name;
   Role role = Role::viewer;
 };
 
-// The tokens of a server as their file has them now: what is added or revoked counts at once. A
-// file with a mistake in it does not: those that were read before it stay, so that a slip of
-// whoever edits it takes Stop from nobody. Without a file nobody has one. One thread.
+// The tokens of a server. Changes of their file apply at once. An invalid file is ignored and the
+// previous tokens stay valid, so that an editing mistake locks no operator out of Stop. Without a
+// file there are no tokens. One thread.
 class TokenBook {
  public:
   using Told = std::function<void(const std::string&)>;
 
-  // `told`: what is wrong with the file, once for each time that it is; null: nobody listens.
+  // `told` is called with each new fault of the file; may be null.
   TokenBook(TokenFile file, Told told) : file_(std::move(file)), told_(std::move(told)) {}
 
   [[nodiscard]] std::optional<Caller> caller(std::string_view token);
-  // What is wrong with the file now.
+  // Returns the present fault of the file, or nullopt.
   [[nodiscard]] std::optional<std::string> fault();
 
  private:
@@ -36,7 +36,7 @@ class TokenBook {
   void note(std::optional<std::string> fault);
   TokenFile file_;
   Told told_;
-  std::optional<std::string> stamp_;  // of the file as it was looked at
+  std::optional<std::string> stamp_;  // of the file when last read
   std::vector<KeptToken> tokens_;
   std::optional<std::string> fault_;
 };

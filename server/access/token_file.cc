@@ -49,15 +49,15 @@ tl::unexpected<Problems> cannot_write(const std::filesystem::path& file, int err
               file.string()});
 }
 
-// The file that takes the place of another one is read by the same: root changes what a service's
-// user may read.
+// Gives the new file owner and mode of the replaced file, because root edits files that a service's
+// user must read.
 bool takes_owner_and_mode(int fd, const std::filesystem::path& of) {
   struct stat kept {};
   if (stat(of.c_str(), &kept) != 0) return errno == ENOENT;
   return fchown(fd, kept.st_uid, kept.st_gid) == 0 && fchmod(fd, kept.st_mode & 0777U) == 0;
 }
 
-// Others that change the file wait.
+// Makes other processes that change the file wait.
 class Locked {
  public:
   explicit Locked(const std::filesystem::path& file) {
@@ -83,7 +83,7 @@ Result<std::vector<KeptToken>> TokenFile::read() const {
     return failure(Problem{ProblemKind::not_found, "no-tokens", "--tokens",
                            file_.string() +
                                " cannot be read: " + std::generic_category().message(errno) +
-                               "; `armloom token add` makes it",
+                               "; create it with `armloom token add`",
                            file_.string()});
   }
   std::vector<KeptToken> tokens;
@@ -106,7 +106,7 @@ Result<std::vector<KeptToken>> TokenFile::read() const {
   }
   if (in.bad()) {
     return failure(Problem{ProblemKind::invalid, "bad-token-file", "--tokens",
-                           file_.string() + " cannot be read: it is no file of lines",
+                           file_.string() + " cannot be read: it is not a text file",
                            file_.string()});
   }
   return tokens;
@@ -163,7 +163,7 @@ Result<void> TokenFile::revoke(const std::string& name) {
   if (!tokens) return failure(std::move(tokens.error()));
   if (std::erase_if(*tokens, [&](const KeptToken& token) { return token.name == name; }) == 0) {
     return failure(Problem{ProblemKind::not_found, "no-such-token", "--name",
-                           "there is no token of \"" + name + "\"", name});
+                           "no token has the name \"" + name + "\"", name});
   }
   return write(*tokens);
 }

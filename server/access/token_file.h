@@ -10,26 +10,27 @@
 
 namespace armloom {
 
-// A token as it is kept: what it is itself is known only to whom it was given.
+// A stored token. Only its digest is kept, so the token itself cannot be recovered.
 struct KeptToken {
-  std::string name;  // of whom it was given to
+  std::string name;  // of the client
   Role role = Role::viewer;
   std::string digest;   // SHA-256 of the token
   std::string made_at;  // RFC 3339
 };
 
-// The file of a server's tokens: a line each, "name role digest made_at". Changed whole or not at
-// all, and by one process at a time; who reads it sees the change at once.
+// The token file of a server: lines of "name role digest made_at". A change replaces the whole
+// file, by one process at a time.
 class TokenFile {
  public:
   explicit TokenFile(std::filesystem::path file) : file_(std::move(file)) {}
 
-  // Problems: it is not there or cannot be read (not_found), a line is no token (invalid).
+  // Problems: the file is missing or unreadable (not_found), or a line is invalid (invalid).
   [[nodiscard]] Result<std::vector<KeptToken>> read() const;
-  // A new token, which is said this once. The file is made if there is none, readable by its owner
-  // alone. Problems: the name is none, or is taken (conflict); it cannot be written (unavailable).
+  // Returns a new token, which cannot be shown again. Creates a missing file, readable only by its
+  // owner. Problems: the name is invalid or in use (conflict); the file cannot be written
+  // (unavailable).
   [[nodiscard]] Result<std::string> add(const std::string& name, Role role);
-  // Problem (not_found): there is none of that name.
+  // Problem (not_found): no token has this name.
   [[nodiscard]] Result<void> revoke(const std::string& name);
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }

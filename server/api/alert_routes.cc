@@ -1,4 +1,3 @@
-// What somebody has to see to, and who has.
 #include <algorithm>
 #include <iterator>
 #include <ranges>
@@ -11,7 +10,7 @@ namespace armloom {
 namespace {
 
 void get_alerts(Call call) {
-  // Behind the events that were told before: a stop is answered before it stands here.
+  // Posted after all earlier events, because a stop is answered before its alert is listed here.
   call.parts.post([&parts = call.parts, respond = call.respond] {
     const auto& alerts = parts.alerts.alerts();
     AlertList list;
@@ -20,7 +19,7 @@ void get_alerts(Call call) {
   });
 }
 
-// A token's name is proven, what a client says of itself is not.
+// Prefers the token's name, which is proven, to the name that the client sends.
 std::string who_of(const Guard& guard, const std::optional<Caller>& caller, const AlertsSeen& seen,
                    const std::string& peer) {
   if (guard.asks() && caller) return caller->name;
@@ -30,13 +29,13 @@ std::string who_of(const Guard& guard, const std::optional<Caller>& caller, cons
 std::optional<Refusal> unknown_of(const AlertBook& book, const AlertsSeen& seen) {
   for (std::size_t i = 0; i < seen.ids.size(); ++i) {
     if (book.find(seen.ids[i]) != nullptr) continue;
-    return Refusal{404, "not-found", "there is no alert \"" + seen.ids[i] + "\", or not any more",
+    return Refusal{404, "not-found",
+                   "no alert \"" + seen.ids[i] + "\": it never existed or is no longer kept",
                    "/ids/" + std::to_string(i), seen.ids[i]};
   }
   return std::nullopt;
 }
 
-// Those that nobody has acknowledged yet.
 std::vector<std::string> unseen_of(const AlertBook& book, const AlertsSeen& seen) {
   std::vector<std::string> unseen;
   std::ranges::copy_if(seen.ids, std::back_inserter(unseen),
@@ -86,23 +85,23 @@ std::vector<Route> alert_routes() {
             .path = api_path("/alerts"),
             .id = "listAlerts",
             .tag = "service",
-            .summary = "Warnings and errors, and who has seen to them; newest first",
+            .summary = "List warnings and errors with their acknowledgements, newest first",
             .text =
-                "1,000 at most: what somebody has seen to goes first, and errors last. With "
-                "`--data` those of former runs, too."};
+                "Keeps at most 1,000 alerts: beyond that, acknowledged alerts are dropped first "
+                "and errors last. With `--data`, alerts of earlier sessions are included."};
   get.outcomes = {outcome(200, "The alerts", alert_list_format())};
   get.run = get_alerts;
   Route seen{.method = "POST",
              .path = api_path("/alerts/acknowledge"),
              .id = "acknowledgeAlerts",
              .tag = "service",
-             .summary = "Say that somebody has seen to alerts",
+             .summary = "Acknowledge alerts",
              .text =
-                 "All of them or, where one is not known, none. Whoever was the first one "
-                 "stays. With `--data` it is on disk when it is answered. Others hear of it by "
-                 "an event."};
+                 "Acknowledges all listed alerts, or none if one of them is unknown. The first "
+                 "acknowledgement of an alert is kept. With `--data`, the acknowledgement is on "
+                 "disk before the answer. Event subscribers are informed."};
   seen.reads = body(alerts_seen_format(), {{"none", R"({"ids": [], "who": "Ada"})"}});
-  seen.outcomes = {outcome(200, "These alerts as they are now", alert_list_format())};
+  seen.outcomes = {outcome(200, "The acknowledged alerts", alert_list_format())};
   seen.refuses = {404, 422, 507};
   seen.who = Who::commander;
   seen.role = Role::operate;

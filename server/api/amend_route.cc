@@ -1,4 +1,3 @@
-// PATCH /jobs/{id}: what was asked for is changed.
 #include <utility>
 
 #include "server/api/job_answers.h"
@@ -46,19 +45,18 @@ Route amend_route() {
               .path = api_path("/jobs/{id}"),
               .id = "amendJob",
               .tag = "jobs",
-              .summary = "Change what was asked for of a job"};
+              .summary = "Change a job"};
   route.text =
-      "Its priority, its time in the backlog, what becomes of it then, its name; whatever is "
-      "absent "
-      "stays. It counts at once: with another priority everything that waits is judged again, in "
-      "the order that follows from it. With `--data` it is on disk when it is answered. `If-Match` "
-      "holds as long as nobody else has changed the job, whatever else has happened to it. 409 "
-      "when it has ended.";
+      "Changes priority, backlog timeout, timeout action and name until the job has ended; absent "
+      "members keep their values. The change applies at once: a new priority makes the scheduler "
+      "check all waiting jobs again in the new order. With `--data`, the change is on disk before "
+      "the answer. `If-Match` fails only if another client changed the job; progress and waits do "
+      "not matter. 409 if the job has ended.";
   route.parameters = {if_match_parameter()};
   route.reads =
       body(job_amendment_format(), {{"sooner", R"({"priority": 5})"},
                                     {"later", R"({"priority": -1, "backlog_timeout_s": 600})"}});
-  route.outcomes = {outcome(200, "The job as it is now", job_format())};
+  route.outcomes = {outcome(200, "The changed job", job_format())};
   route.outcomes.front().has_tag = true;
   route.refuses = {404, 409, 412, 422, 507};
   route.who = Who::commander;

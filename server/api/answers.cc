@@ -38,14 +38,15 @@ Response refusal_response(const Refusal& refusal) {
 }
 
 Response done_but_not_stored(Refusal refusal) {
-  refusal.detail = "this is done, but the next run may not know of it: " + refusal.detail;
+  refusal.detail =
+      "done, but not stored: after a restart the server may not know of it: " + refusal.detail;
   return refusal_response(refusal);
 }
 
 Response no_such(const char* what, const std::string& name) {
   return problem_response(
       {Problem{ProblemKind::not_found, std::string("no-such-") + what, "request target",
-               std::string("there is no ") + what + " \"" + name + "\"", name}});
+               std::string("no such ") + what + " \"" + name + "\"", name}});
 }
 
 Response located(Response response, const std::string& path) {

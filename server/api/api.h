@@ -7,8 +7,8 @@
 
 namespace armloom {
 
-// The interface of one run of the server: every verb of all_routes(). All parts outlive the API,
-// which outlives the router's calls.
+// The HTTP interface of one server session. The parts must outlive it, and it must outlive the
+// router's calls.
 class Api {
  public:
   explicit Api(ApiParts parts)

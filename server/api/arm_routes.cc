@@ -15,14 +15,15 @@ void list_arms(Call call) {
   call.respond(answer(200, arm_list_format(), arms));
 }
 
-// The arm that the path names; nothing: it is answered that there is none.
+// Returns the arm in the path; answers 404 and returns nullopt if there is none.
 std::optional<ArmId> named_arm(const Call& call) {
   const auto arm = call.parts.cell->find_arm(call.arguments.front());
   if (!arm) call.respond(no_such("arm", call.arguments.front()));
   return arm;
 }
 
-// Does change(executive, arms) to one arm, before all that waits, and answers with what it is then.
+// Runs change(executive, arms) ahead of everything that waits for the strand, and answers with the
+// arm.
 template <class Change>
 void with_arm(Call& call, Change change) {
   const auto arm = named_arm(call);
@@ -45,7 +46,7 @@ void get_arm(Call call) {
 void stop_arm(Call call) {
   with_arm(call, [](Executive& executive, const Arms& arms) { executive.stop(arms, "operator"); });
 }
-// Arms are not let go while it cannot be put down that they move.
+// Answers 503 and returns true while no motion can be stored.
 bool is_held_by_store(const Call& call) {
   auto refusal = refusal_of_store(call.parts);
   if (!refusal) return false;
@@ -97,35 +98,41 @@ Route command(const char* path, const char* id, const char* summary) {
 
 std::vector<Route> arm_routes() {
   Route stop_one = command("/arms/{name}/stop", "stopArm", "Stop one arm");
-  stop_one.outcomes = {outcome(202, "It brakes on its path and holds", arm_format())};
+  stop_one.outcomes = {outcome(202, "The arm brakes on its path and stays stopped", arm_format())};
   stop_one.refuses = {404};
   stop_one.is_never_limited = true;
   stop_one.run = stop_arm;
-  Route resume_one = command("/arms/{name}/resume", "resumeArm", "Let one arm go on");
-  resume_one.outcomes = {outcome(202, "Its job goes on when that is free", arm_format())};
+  Route resume_one = command("/arms/{name}/resume", "resumeArm", "Resume one arm");
+  resume_one.outcomes = {outcome(
+      202, "The arm is resumed; its job continues as soon as its path is certified collision-free",
+      arm_format())};
   resume_one.refuses = {404};
   resume_one.run = resume_arm;
   Route stop = command("/stop", "stopAll", "Stop every arm");
-  stop.outcomes = {outcome(202, "They brake on their paths and hold", stopped_format())};
+  stop.outcomes = {
+      outcome(202, "All arms brake on their paths and stay stopped", stopped_format())};
   stop.is_never_limited = true;
   stop.run = stop_all;
-  Route resume = command("/resume", "resumeAll", "Let every arm go on");
-  resume.outcomes = {outcome(202, "Jobs go on when that is free", stopped_format())};
+  Route resume = command("/resume", "resumeAll", "Resume all arms");
+  resume.outcomes = {outcome(
+      202,
+      "All arms are resumed; jobs continue as soon as their paths are certified collision-free",
+      stopped_format())};
   resume.run = resume_all;
   return {
       {.method = "GET",
        .path = api_path("/arms"),
        .id = "listArms",
        .tag = "arms",
-       .summary = "All arms",
-       .outcomes = {outcome(200, "The arms, measured", arm_list_format())},
+       .summary = "List all arms",
+       .outcomes = {outcome(200, "All arms with their measured positions", arm_list_format())},
        .run = list_arms},
       {.method = "GET",
        .path = api_path("/arms/{name}"),
        .id = "getArm",
        .tag = "arms",
-       .summary = "One arm",
-       .outcomes = {outcome(200, "The arm, measured", arm_format())},
+       .summary = "Get one arm",
+       .outcomes = {outcome(200, "The arm with its measured position", arm_format())},
        .refuses = {404},
        .run = get_arm},
       stop_one,

@@ -10,9 +10,9 @@ namespace armloom {
 namespace {
 
 QueryPart<AuditQuery> time(std::string name, std::optional<std::int64_t> AuditFilter::*where,
-                           std::string told) {
-  const std::string rule = name + " is a time of RFC 3339, as 2026-11-21T09:33:00Z";
-  return {{std::move(name), std::move(told), {{"type", "string"}}},
+                           std::string description) {
+  const std::string rule = name + " must be an RFC 3339 time, for example 2026-11-21T09:33:00Z";
+  return {{std::move(name), std::move(description), {{"type", "string"}}},
           [where, rule](const std::string& value, AuditQuery& out) {
             out.*where = read_rfc3339(value);
             return out.*where ? std::nullopt : std::optional(rule);
@@ -25,13 +25,18 @@ const QueryFormat<AuditQuery>& audit_query() {
   using Query = AuditQuery;
   static const QueryFormat<Query> format(
       {
-          query::text<Query>("who", &Query::who, "The token's name; empty: where none was shown"),
-          query::text<Query>("from", &Query::from, "The address that it came from"),
-          query::text<Query>("method", &Query::method, "POST, DELETE, ..."),
-          query::text<Query>("path", &Query::path, "What the path begins with"),
-          query::whole_number<Query>("status", &Query::status, 100, 599, "Of the answer"),
-          time("since", &Query::since_ms, "Answered then or later: RFC 3339"),
-          time("before", &Query::before_ms, "Answered earlier: RFC 3339"),
+          query::text<Query>(
+              "who", &Query::who,
+              "Only requests of this token (its name); empty: only requests without a token"),
+          query::text<Query>("from", &Query::from, "Only requests from this IP address"),
+          query::text<Query>("method", &Query::method,
+                             "Only this HTTP method, for example POST or DELETE"),
+          query::text<Query>("path", &Query::path, "Only paths that begin with this text"),
+          query::whole_number<Query>("status", &Query::status, 100, 599,
+                                     "Only answers with this HTTP status"),
+          time("since", &Query::since_ms,
+               "Only requests answered at this time or later (RFC 3339)"),
+          time("before", &Query::before_ms, "Only requests answered before this time (RFC 3339)"),
           query::limit<Query>(&Query::limit),
           query::cursor<Query>(&Query::below),
       },

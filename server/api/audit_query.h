@@ -7,7 +7,6 @@
 
 namespace armloom {
 
-// The query of GET /audit-log.
 struct AuditQuery : AuditFilter {
   std::size_t limit = query::kPage;
 };

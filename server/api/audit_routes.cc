@@ -1,4 +1,3 @@
-// Who did what, from where.
 #include <utility>
 
 #include "server/api/audit_query.h"
@@ -17,7 +16,7 @@ AuditRecord record_of(const AuditEntry& entry) {
 AuditPage page_of(const AuditEntries& found, std::size_t limit) {
   AuditPage page{.entries = {}, .damaged = found.damaged, .next_cursor = {}};
   for (const AuditEntry& entry : found.entries) {
-    if (page.entries.size() == limit) {  // one more than a page holds: there is more
+    if (page.entries.size() == limit) {  // there is a next page
       page.next_cursor = std::to_string(entry.number + 1);
       break;
     }
@@ -31,8 +30,8 @@ void get_audit(Call call) {
   const auto query = audit_query().read(call.request.target);
   if (!query) return call.respond(problem_response(query.error()));
   if (parts.keeper == nullptr) {
-    return call.respond(
-        refusal_response({404, "not-kept", "who did what is kept with --data alone", "--data"}));
+    return call.respond(refusal_response(
+        {404, "not-kept", "the audit log is kept only by a server started with --data", "--data"}));
   }
   parts.aside([&parts, query = *query, respond = std::move(call.respond)] {
     auto entries =
@@ -47,21 +46,21 @@ void get_audit(Call call) {
 }  // namespace
 
 std::vector<Route> audit_routes() {
-  return {
-      {.method = "GET",
-       .path = api_path("/audit-log"),
-       .id = "listAuditLog",
-       .tag = "service",
-       .summary = "Who did what, when, from where; newest first",
-       .text =
-           "Everything but what only looks, and everything that was refused for want of a "
-           "token or a role. Kept with `--data`: the last 100,000 that did something, and the last "
-           "100,000 that were refused (4xx), which displace nothing of the former.",
-       .parameters = audit_query().parameters(),
-       .outcomes = {outcome(200, "A page", audit_page_format())},
-       .refuses = {404, 422},
-       .role = Role::admin,
-       .run = get_audit}};
+  return {{.method = "GET",
+           .path = api_path("/audit-log"),
+           .id = "listAuditLog",
+           .tag = "service",
+           .summary = "List the audit log, newest first",
+           .text =
+               "Records who sent each request that changes something, and each request that was "
+               "refused for a missing token or role, with time, address and status. Kept only with "
+               "`--data`: the last 100,000 successful entries and, separately, the last 100,000 "
+               "refused ones (4xx), so that refused requests cannot displace successful ones.",
+           .parameters = audit_query().parameters(),
+           .outcomes = {outcome(200, "A page of the audit log", audit_page_format())},
+           .refuses = {404, 422},
+           .role = Role::admin,
+           .run = get_audit}};
 }
 
 }  // namespace armloom

@@ -1,4 +1,4 @@
-// POST /batches: several jobs at once.
+// POST /batches.
 #include <algorithm>
 #include <cstddef>
 #include <memory>
@@ -20,11 +20,10 @@ namespace {
 
 using Results = std::vector<Result<ListedJob>>;  // one for each job of the batch
 
-// A batch that is being answered.
 struct Batch {
   BatchRequest request;
   SentRequestPtr sent;
-  KnownJobs known;  // what of it was accepted before
+  KnownJobs known;  // jobs accepted before
 
   [[nodiscard]] bool is_new(std::size_t place) const {
     return request.jobs[place].job.has_value() && known[place].empty();
@@ -47,7 +46,7 @@ Response batch_response(bool atomic, const Results& results, const WallClock& cl
   return answer(202, batch_accepted_format(), jobs, &clock);
 }
 
-// What the store has to say of it first. The answer, where it cannot be submitted.
+// Returns the answer if the store refuses the batch.
 std::optional<Response> refused_by_store(const ApiParts& parts, Batch& batch) {
   Problems problems;
   if (parts.keeper == nullptr) return std::nullopt;
@@ -67,7 +66,6 @@ std::optional<Response> refused_by_store(const ApiParts& parts, Batch& batch) {
   return problem_response(problems);
 }
 
-// All were accepted before.
 void answer_known_batch(const ApiParts& parts, const BatchPtr& batch, const Respond& respond) {
   look_at(parts, batch->known, [&parts, batch, respond](const Results& results) {
     std::vector<ListedJob> jobs;
@@ -80,8 +78,8 @@ void answer_known_batch(const ApiParts& parts, const BatchPtr& batch, const Resp
   });
 }
 
-// Every job with its answer, in its place: of those that are new, of those that were accepted
-// before, and of those that could not be read.
+// Merges the results of new jobs, jobs accepted before and unreadable jobs, in the order of the
+// batch.
 Results merged(const Batch& batch, const std::vector<Result<JobView>>& submitted, Results before) {
   Results results;
   auto next_new = submitted.begin();
@@ -99,10 +97,10 @@ Results merged(const Batch& batch, const std::vector<Result<JobView>>& submitted
   return results;
 }
 
-// What is to be put down, and said, of a batch that the executive has taken.
+// The jobs to store and the answer, for a batch taken by the executive.
 struct Taken {
   std::vector<JobKeeper::AcceptedJob> accepted = {};
-  KnownJobs ids;  // of these, in their places
+  KnownJobs ids;  // ids of accepted jobs by position
   Response response = {};
 };
 
@@ -123,7 +121,7 @@ Taken taken(const Batch& batch, const std::vector<Result<JobView>>& submitted, R
   return all;
 }
 
-// What is said and stored is written aside: of a thousand jobs that takes long.
+// Writes on another thread, because a thousand jobs take long.
 void tell(const ApiParts& parts, const BatchPtr& batch,
           const std::shared_ptr<const Executive::BatchAnswers>& submitted, const Respond& respond) {
   look_at(parts, batch->known, [&parts, batch, submitted, respond](const Results& before) {
@@ -142,7 +140,7 @@ void tell(const ApiParts& parts, const BatchPtr& batch,
   });
 }
 
-// By the executive, part by part: control cycles and stops go on between. `then` on the server's
+// Submits the jobs in chunks, between control cycles and stops. Calls `then` on the server's
 // thread.
 void take(const ApiParts& parts, std::vector<JobRequest> jobs, bool atomic,
           std::function<void(const std::shared_ptr<const Executive::BatchAnswers>&)> then) {
@@ -163,9 +161,9 @@ void take(const ApiParts& parts, std::vector<JobRequest> jobs, bool atomic,
 
 Problem partly_known(std::ptrdiff_t place, const std::string& id) {
   return {ProblemKind::conflict, "partly-accepted", "/jobs/" + std::to_string(place),
-          "this job was accepted before, as \"" + id +
-              "\", and others of the batch were not, or are "
-              "forgotten",
+          "job already accepted as \"" + id +
+              "\", but other jobs of this batch were not (or are forgotten); submit the missing "
+              "jobs alone",
           id};
 }
 
@@ -204,7 +202,7 @@ void post_batch(Call call) {
       submit_batch(parts, batch, ending);
     });
   };
-  // Motions are validated where they are read: the strand has no time for that.
+  // Validate here: the strand has no time.
   const auto read = [cell = parts.cell](std::string_view text) {
     auto batch = read_batch_submission(text);
     if (!batch) return batch;
@@ -221,28 +219,27 @@ void post_batch(Call call) {
 }  // namespace
 
 Route batch_route() {
-  return {
-      .method = "POST",
-      .path = api_path("/batches"),
-      .id = "submitBatch",
-      .tag = "jobs",
-      .summary = "Submit several jobs at once",
-      .text =
-          "Atomic (the default): all are accepted or none, and the problem's pointers begin "
-          "with /jobs/<index>. A job may come `after` an earlier one of the batch. Sent again with "
-          "the same body, by `Idempotency-Key` or the ids of all its jobs: the same jobs; of one "
-          "that is not atomic what was refused is tried again.",
-      .parameters = {idempotency_parameter()},
-      .reads = body(batch_request_format(), {{"both", example_batch()}}),
-      .outcomes = {outcome(200, "All were accepted before: as they are now",
-                           batch_accepted_format()),
-                   outcome(202, "All were accepted", batch_accepted_format()),
-                   outcome(207, "With \"atomic\": false, an answer for each",
-                           batch_results_format())},
-      .refuses = {409, 422, 507},
-      .who = Who::commander,
-      .role = Role::operate,
-      .run = post_batch};
+  return {.method = "POST",
+          .path = api_path("/batches"),
+          .id = "submitBatch",
+          .tag = "jobs",
+          .summary = "Submit several jobs at once",
+          .text =
+              "An atomic batch (the default) is accepted as a whole or not at all; problem "
+              "pointers begin with /jobs/<index>. A job may name an earlier job of the batch in "
+              "`after`. A repeated request (same `Idempotency-Key` or same ids of all jobs, same "
+              "body) returns the same jobs; for a non-atomic batch, refused jobs are retried.",
+          .parameters = {idempotency_parameter()},
+          .reads = body(batch_request_format(), {{"both", example_batch()}}),
+          .outcomes = {outcome(200, "All jobs were accepted before; returns their present state",
+                               batch_accepted_format()),
+                       outcome(202, "All jobs were accepted", batch_accepted_format()),
+                       outcome(207, "With `\"atomic\": false`: one result per job",
+                               batch_results_format())},
+          .refuses = {409, 422, 507},
+          .who = Who::commander,
+          .role = Role::operate,
+          .run = post_batch};
 }
 
 }  // namespace armloom

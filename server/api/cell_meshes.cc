@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kTypes{
     {{".stl", "model/stl"}, {".obj", "model/obj"}, {".dae", "model/vnd.collada+xml"}}};
 
-constexpr const char* kGone = "the mesh can no longer be read";
+constexpr const char* kGone = "the mesh file can no longer be read";
 constexpr const char* kOtherType = "application/octet-stream";
 
 Response not_found(const std::string& name, const std::string& why) {

@@ -11,24 +11,22 @@
 
 namespace armloom {
 
-// The mesh files that the cell names, for the dashboard: those of the robots' URDFs, visuals too,
-// and of the objects at start. A request holds a name of mesh_address.h, never a path.
+// Serves the mesh files of URDFs (visuals included) and of objects at start. A request contains a
+// name of mesh_address.h, never a path.
 class CellMeshes {
  public:
   explicit CellMeshes(const Cell& cell);
 
-  // Of what may be served.
   [[nodiscard]] static std::vector<std::string> content_types();
 
-  // 404 for a name that is none of these, and for a file that has gone or grown over kMaxMeshBytes.
-  // 503 when there are too few file descriptors to look. Who asks while another one still reads it
-  // gets the same bytes.
+  // Answers 404 if the name is unknown, or the file is gone or exceeds kMaxMeshBytes; 503 if no
+  // file descriptor is left. Concurrent requests share the bytes.
   [[nodiscard]] Response answer(const Request& request, const std::string& name);
 
  private:
   struct Place {
-    std::filesystem::path file;  // where it truly was at start: no link leads elsewhere later
-    std::string stamp;           // of `bytes`
+    std::filesystem::path file;  // canonical at start, so that no later link redirects it
+    std::string stamp;           // file stamp of `bytes`
     std::weak_ptr<const std::string> bytes;
     std::string tag;
   };

@@ -39,24 +39,25 @@ void get_mesh(Call call) { call.respond(call.meshes.answer(call.request, call.ar
 
 std::vector<Route> cell_routes() {
   const Schema file{{"type", "string"}, {"format", "binary"}};
-  Outcome mesh{200, "The file"};
+  Outcome mesh{200, "The mesh file"};
   for (const std::string& type : CellMeshes::content_types()) mesh.content.push_back({type, file});
   return {
       {.method = "GET",
        .path = api_path("/cell"),
        .id = "getCell",
        .tag = "cell",
-       .summary = "Robots, joints, settings",
-       .outcomes = {outcome(200, "The cell as the dashboard needs it", cell_view_format())},
+       .summary = "Get the cell: robots, joints, settings",
+       .outcomes = {outcome(200, "The cell", cell_view_format())},
        .run = get_cell},
       {.method = "PUT",
        .path = api_path("/policy"),
        .id = "changePolicy",
        .tag = "cell",
        .summary = "Change the policy",
-       .text = "Whenever no job is admitted. What waits is judged anew. Until the next start.",
+       .text = "Possible only while no job is admitted. All waiting jobs are checked again under "
+               "the new policy. The change lasts until the server restarts.",
        .reads = body(policy_choice_format(), {{"coordinated", R"({"policy": "coordinated"})"}}),
-       .outcomes = {outcome(200, "In force", policy_choice_format())},
+       .outcomes = {outcome(200, "The policy now in force", policy_choice_format())},
        .refuses = {409, 422},
        .who = Who::commander,
        .role = Role::operate,
@@ -65,7 +66,7 @@ std::vector<Route> cell_routes() {
        .path = api_path(kMeshFolder + std::string("{name}")),
        .id = "getMesh",
        .tag = "cell",
-       .summary = "A mesh that a robot or an object names",
+       .summary = "Get a mesh file of a robot or an object",
        .outcomes = {mesh},
        .refuses = {404},
        .run = get_mesh},

@@ -1,4 +1,3 @@
-// What the jobs at hand would have come to under other policies.
 #include <memory>
 #include <utility>
 
@@ -36,7 +35,8 @@ void post_comparison(Call call) {
 }
 
 Response nothing_compared() {
-  return refusal_response({404, "not-found", "nothing was compared yet: POST /comparison does it",
+  return refusal_response({404, "not-found",
+                           "no comparison exists: start one with POST /comparison",
                            "request target", api_path("/comparison")});
 }
 
@@ -59,15 +59,15 @@ std::vector<Route> comparison_routes() {
              .path = api_path("/comparison"),
              .id = "comparePolicies",
              .tag = "cell",
-             .summary = "Run the jobs at hand under every policy, in simulation"};
+             .summary = "Simulate the submitted jobs under several policies"};
   post.text =
-      "What was submitted since the server began, the last 500 jobs or 16 MiB of them, each at its "
-      "time, among the objects that the scene has now, with nobody who cancels, stops or makes "
-      "faults. Where jobs came before these, each arm begins where its first trajectory does. "
-      "Nothing in the cell changes or waits for it. GET tells how far it is; one at a time.";
+      "Simulates the jobs submitted since the server started (at most the last 500 jobs or 16 "
+      "MiB), each at its submission time, with the present scene and without cancels, stops and "
+      "faults. If older jobs are left out, each arm begins at the start of its first trajectory. "
+      "The cell is not affected. One comparison runs at a time; GET returns its progress.";
   post.reads = body(comparison_inquiry_format(),
                     {{"all", "{}"}, {"two", R"({"policies": ["sequential", "coordinated"]})"}});
-  post.outcomes = {outcome(202, "It has begun", comparison_format())};
+  post.outcomes = {outcome(202, "The comparison has started", comparison_format())};
   post.refuses = {409, 422};
   post.who = Who::commander;
   post.role = Role::operate;
@@ -76,17 +76,18 @@ std::vector<Route> comparison_routes() {
             .path = api_path("/comparison"),
             .id = "getComparison",
             .tag = "cell",
-            .summary = "How far the comparison is, and what came of it"};
-  get.outcomes = {outcome(200, "The one under way, or the last one", comparison_format())};
+            .summary = "Get the progress and the results of the comparison"};
+  get.outcomes = {outcome(200, "The running or the latest comparison", comparison_format())};
   get.refuses = {404};
   get.run = get_comparison;
   Route cancel{.method = "DELETE",
                .path = api_path("/comparison"),
                .id = "cancelComparison",
                .tag = "cell",
-               .summary = "Give up the comparison under way"};
-  cancel.text = "The runs that are done stay.";
-  cancel.outcomes = {outcome(200, "As it is now", comparison_format())};
+               .summary = "Cancel the running comparison"};
+  cancel.text = "Keeps the results of policies that were simulated completely.";
+  cancel.outcomes = {outcome(200, "The canceled comparison, or the last one if none is running",
+                             comparison_format())};
   cancel.refuses = {404};
   cancel.who = Who::commander;
   cancel.role = Role::operate;

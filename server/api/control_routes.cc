@@ -1,4 +1,3 @@
-// Control, and jogging (hold-to-run): motions that continue only while a client renews a lease.
 #include <chrono>
 #include <memory>
 #include <utility>
@@ -33,16 +32,16 @@ void tell_all(const ApiParts& parts, const std::string& what) {
 void let_go(const ApiParts& parts, const std::optional<Control::Move>& move) {
   if (!move) return;
   parts.loop.post_urgent([job = move->job](Executive& executive) {
-    static_cast<void>(executive.cancel(job));  // it may have ended
+    static_cast<void>(executive.cancel(job));  // the job may have ended
   });
 }
 
-// Returns the control after checking its holder: control ends when the holder's token was revoked.
-// Call it once in a request and keep the result, because a token can be revoked at any time.
+// Returns the control; ends it if the holder's token was revoked. Call it once per request and keep
+// the result, because a token can be revoked at any time.
 Control& control_of(const ApiParts& parts) {
   const auto& holder = parts.control.holder();
   if (holder && holder->token && !parts.guard.caller(holder->token)) {
-    tell_all(parts, "nobody has control: the token of " + holder->who + " was revoked");
+    tell_all(parts, "no client has control: the token of " + holder->who + " was revoked");
     let_go(parts, parts.control.end());
   }
   return parts.control;
@@ -80,7 +79,7 @@ void release_control(Call call) {
     const auto move = control.give_back(shown.control);
     if (!move) return respond(problem_response(move.error()));
     let_go(parts, *move);
-    tell_all(parts, "nobody has control");
+    tell_all(parts, "no client has control");
     respond(answer(200, control_format(), view_of(control)));
   };
   read_body(parts, call.request, call.respond, read_control_key, give_back);
@@ -104,7 +103,7 @@ Response jog_response(int status, const Result<JobView>& job, const ApiParts& pa
   return response;
 }
 
-// Returns the jog as a job, read like a body of POST /jobs.
+// Returns the job of a jog.
 Result<JobRequest> job_of(const JogRequest& hold, const std::string& arm) {
   auto read = read_job_submission(job_text_of(hold, arm));
   if (!read) return failure(std::move(read.error()));
@@ -122,8 +121,8 @@ Problems in_words_of_jog(Problems problems) {
   return problems;
 }
 
-// Submits the job and starts its lease in one step, so that the arm can never move without a lease.
-// Jog jobs are not stored.
+// Submits the job and starts its lease in one step, so that the arm never moves without a lease.
+// Jogs are not stored.
 void begin_jog(Call call) {
   const ApiParts& parts = call.parts;
   const std::string arm = call.arguments.front();
@@ -169,13 +168,13 @@ void renew_jog(Call call) {
     if (!move || move->arm != arm) {
       return respond(
           problem_response({Problem{ProblemKind::conflict, "not-jogging", "",
-                                    "arm " + arm + " is not being jogged: begin with POST", arm}}));
+                                    "arm " + arm + " is not being jogged: start with POST", arm}}));
     }
     if (!control.renew(parts.jog_lease, now())) {
       let_go(parts, move);
       return respond(problem_response({Problem{
           ProblemKind::conflict, "jog-lease-expired", "",
-          "the jog lease of arm " + arm + " expired before this renewal: the arm brakes", arm}}));
+          "jog lease of arm " + arm + " expired before this renewal; the arm is stopping", arm}}));
     }
     ask_urgently(
         parts,
@@ -205,42 +204,43 @@ std::vector<Route> control_routes() {
             .path = api_path("/control"),
             .id = "getControl",
             .tag = "arms",
-            .summary = "Who may jog arms"};
-  get.outcomes = {outcome(200, "Who has control", control_format())};
+            .summary = "Get the client that may jog arms"};
+  get.outcomes = {outcome(200, "The client that has control, or null", control_format())};
   get.run = get_control;
-  Route take = command("POST", "/control", "takeControl", "Take control, to jog arms");
+  Route take = command("POST", "/control", "takeControl", "Take control in order to jog arms");
   take.text =
-      "One client at a time has control. While another client has it, the answer is 409, unless "
-      "`take` is true: then that client's jog motion brakes on its path. Jobs need no control.";
+      "One client at a time has control. While another client has it, the answer is 409 unless "
+      "`take` is true; then control changes hands and the other client's jog motion brakes on its "
+      "path. Jobs need no control.";
   take.reads = body(control_request_format(), {{"ada", R"({"who": "Ada", "take": true})"}});
-  take.outcomes = {
-      outcome(200, "The caller has control; the answer has its key", control_taken_format())};
+  take.outcomes = {outcome(200, "The caller has control; `key` authorizes its jog requests",
+                           control_taken_format())};
   take.refuses = {409, 422};
   take.run = post_control;
   Route release = command("POST", "/control/release", "releaseControl", "Give control back");
   release.reads = body(control_key_format(), {{"key", R"({"control": "0f1e-2d3c"})"}});
-  release.outcomes = {outcome(200, "Nobody has control", control_format())};
+  release.outcomes = {outcome(200, "No client has control", control_format())};
   release.refuses = {409, 422};
   release.run = release_control;
   Route begin = command("POST", "/arms/{name}/jog", "jogArm", "Jog an arm (hold-to-run)");
   begin.text =
-      "Submits a slow job that is planned and checked like any other. It continues only while PUT "
-      "renews it within `lease_s`. Otherwise the control cycle cancels it and the arm brakes on "
-      "its "
-      "path. DELETE /jobs/{id} stops it at once. Jog jobs are not stored, with --data neither.";
+      "Submits a slow job that is planned and checked like any other. The motion continues only "
+      "while PUT renews its lease within `lease_s`; otherwise the control cycle cancels the job "
+      "and the arm brakes on its path. DELETE /jobs/{id} stops it at once. Jog jobs are never "
+      "stored, even with `--data`.";
   begin.reads = body(
       jog_request_format(),
       {{"ready",
         R"({"control": "0f1e-2d3c", "to": {"named": "ready"}, "velocity_scaling_factor": 0.1})"}});
-  begin.outcomes = {outcome(202, "The lease runs from now on", jog_format())};
+  begin.outcomes = {outcome(202, "Accepted; the lease starts now", jog_format())};
   begin.refuses = {404, 409, 422};
   begin.run = begin_jog;
   Route renew = command("PUT", "/arms/{name}/jog", "renewJog", "Renew the lease of a jog");
   renew.text =
-      "409 if the motion has ended, if the caller does not have control, or if the last renewal is "
-      "older than `lease_s`: then the motion has been canceled.";
+      "409 if the motion has ended, if the caller does not have control, or if the lease has "
+      "expired; then the motion has been canceled.";
   renew.reads = body(control_key_format(), {{"key", R"({"control": "0f1e-2d3c"})"}});
-  renew.outcomes = {outcome(200, "The motion continues", jog_format())};
+  renew.outcomes = {outcome(200, "The lease is renewed", jog_format())};
   renew.refuses = {404, 409, 422};
   renew.run = renew_jog;
   return {get, take, release, begin, renew};

@@ -11,9 +11,8 @@
 namespace armloom {
 namespace {
 
-constexpr std::size_t kSnapshotEnded = 200;  // ended jobs that a new subscriber is told
+constexpr std::size_t kSnapshotEnded = 200;  // ended jobs in a snapshot
 
-// Where a reader was, and what it wants to hear.
 struct StreamQuery {
   std::optional<std::string> stream;
   std::optional<std::string> since;
@@ -26,10 +25,12 @@ std::vector<QueryPart<StreamQuery>> resume_parts() {
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     const bool is_read = !value.empty() && std::ranges::all_of(value, is_digit);
     return is_read ? std::nullopt
-                   : std::optional("since is the number of an event, found \"" + value + "\"");
+                   : std::optional("since must be the seq of an event, found \"" + value + "\"");
   };
-  return {query::text<Query>("stream", &Query::stream, "With since: resume there"),
-          {{"since", "The last seq that was seen", {{"type", "string"}, {"pattern", "^[0-9]+$"}}},
+  return {query::text<Query>("stream", &Query::stream, "With since: the stream to resume"),
+          {{"since",
+            "The last seq that the subscriber has received",
+            {{"type", "string"}, {"pattern", "^[0-9]+$"}}},
            number}};
 }
 const QueryFormat<StreamQuery>& socket_query() {
@@ -39,14 +40,14 @@ const QueryFormat<StreamQuery>& socket_query() {
 const QueryFormat<StreamQuery>& events_query() {
   static const QueryFormat<StreamQuery> format = [] {
     auto parts = resume_parts();
-    parts.push_back(query::flag("poses", &StreamQuery::poses, "1: state frames too"));
+    parts.push_back(query::flag("poses", &StreamQuery::poses, "1: send state frames, too"));
     return QueryFormat<StreamQuery>(std::move(parts), ProblemKind::malformed);
   }();
   return format;
 }
 
-// A `Last-Event-ID: <stream>:<seq>` is newer than what the address says: a browser repeats the
-// address when it comes back.
+// Returns where to resume. `Last-Event-ID: <stream>:<seq>` takes precedence, because a reconnecting
+// browser repeats the original query.
 StreamQuery place_of(const Request& request, StreamQuery asked) {
   if (!request.last_event_id) return asked;
   const std::string& id = *request.last_event_id;
@@ -70,8 +71,8 @@ std::string snapshot_text(const ApiParts& parts, const Status& status, const Wal
 
 void write_snapshot(const ApiParts& parts);
 
-// Every event up to `seq` was posted to this thread before the text: what follows `seq` in the hub
-// is what the snapshot lacks. Readers for whom the hub does not reach back so far wait again.
+// Subscribes newcomers. All events up to `seq` were posted to this thread before the text, so later
+// events complete the snapshot. If the hub has dropped them, newcomers wait again.
 void welcome(const ApiParts& parts, const std::vector<ApiParts::Newcomer>& newcomers,
              std::uint64_t seq, const Hub::Text& text) {
   for (const ApiParts::Newcomer& newcomer : newcomers) {
@@ -85,7 +86,7 @@ void welcome(const ApiParts& parts, const std::vector<ApiParts::Newcomer>& newco
   if (!parts.newcomers->waiting.empty()) write_snapshot(parts);
 }
 
-// One snapshot for all that wait as the first does: with a gap, or without.
+// Writes a snapshot for all newcomers with the same `gap` as the first.
 void write_snapshot(const ApiParts& parts) {
   parts.newcomers->is_one_written = true;
   std::vector<ApiParts::Newcomer>& waiting = parts.newcomers->waiting;
@@ -104,9 +105,8 @@ void write_snapshot(const ApiParts& parts) {
       });
 }
 
-// Calls then(subscription). It resumes where the reader was; otherwise, and when those events are
-// gone
-// ("gap"), it begins with a snapshot.
+// Resumes at `place` if its events are still kept, else begins with a snapshot ("gap" if `place`
+// was given).
 void subscribe(const ApiParts& parts, const StreamQuery& place,
                std::function<void(SubscriptionPtr)> then) {
   if (place.since) {
@@ -151,7 +151,7 @@ void open_socket(Call call) {
   if (call.request.upgrade) return stream(call, 101, true, *std::move(asked));
   call.respond(refusal_response({426,
                                  "upgrade-required",
-                                 "this is a WebSocket",
+                                 "this address serves WebSocket only: send an upgrade request",
                                  std::nullopt,
                                  std::nullopt,
                                  {{"Upgrade", "websocket"}}}));
@@ -164,29 +164,35 @@ std::vector<Route> event_routes() {
                .path = api_path("/events"),
                .id = "streamEvents",
                .tag = "events",
-               .summary = "Events as Server-Sent Events",
-               .text = "Too old, or of another run: a new snapshot with \"gap\": true.",
+               .summary = "Subscribe to events as Server-Sent Events",
+               .text =
+                   "A subscriber resumes with `Last-Event-ID`, or `stream` and `since`. If those "
+                   "events are no longer kept or belong to another session, a new snapshot with "
+                   "`\"gap\": true` is sent.",
                .parameters = events_query().parameters(),
                .run = get_events};
-  events.parameters.push_back(
-      {"Last-Event-ID", "<stream>:<seq>: resume there", {{"type", "string"}}, false, "header"});
-  events.outcomes = {{200,
-                      "Each event: `id: <stream>:<seq>`, `data: <envelope>`. A snapshot first, "
-                      "unless the reader resumes; a comment every 15 s.",
-                      {{"text/event-stream", message_schema()}}}};
+  events.parameters.push_back({"Last-Event-ID",
+                               "`<stream>:<seq>` of the last event received; resumes after it",
+                               {{"type", "string"}},
+                               false,
+                               "header"});
+  events.outcomes = {
+      {200,
+       "Each event has `id: <stream>:<seq>` and `data: <envelope>`. The stream begins with a "
+       "snapshot unless it is resumed. A comment line is sent after 15 s without events.",
+       {{"text/event-stream", message_schema()}}}};
 
   Route socket{.method = "GET",
                .path = api_path("/ws"),
                .id = "openWebSocket",
                .tag = "events",
-               .summary = "Events and poses on a WebSocket",
+               .summary = "Subscribe to events and state frames over WebSocket",
                .parameters = socket_query().parameters(),
                .refuses = {426},
                .who = Who::commander,
                .run = open_socket};
-  socket.outcomes = {{101,
-                      "The same envelopes as `/events`, one in each text message (schema Message), "
-                      "and state frames."}};
+  socket.outcomes = {
+      {101, "One envelope per text message (schema Message), as on `/events`, and state frames."}};
   return {events, socket};
 }
 

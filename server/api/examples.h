@@ -4,12 +4,11 @@
 
 namespace armloom {
 
-// Bodies for people to try on the two-Panda cell.
+// Example bodies for the two-Panda cell.
 
-// A motion of an arm that stands at home, times as ROS 2 has them. `head`: members before it, with
-// a comma behind each.
+// Returns a motion from home with ROS 2 times. `head`: members before it, each with a comma.
 [[nodiscard]] std::string example_job(const std::string& head, const std::string& arm);
-// The same for ROS 1 and nested as MoveIt prints it.
+// Returns a job with ROS 1 times and MoveIt's nesting.
 [[nodiscard]] std::string example_moveit_job();
 [[nodiscard]] std::string example_batch();
 

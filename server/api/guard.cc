@@ -23,19 +23,21 @@ std::string Guard::client(const Request& request) {
 std::optional<Refusal> Guard::refusal(const Request& request, Role needed) {
   const auto who = caller(request.token);
   if (!who) {
-    return Refusal{401,
-                   "not-authenticated",
-                   request.token ? "the token is none of this server's, or was revoked"
-                                 : "a token is needed: Authorization: Bearer <token>, or log in at "
-                                   "/login; `armloom token add` makes one",
-                   "Authorization",
-                   std::nullopt,
-                   {kHowToShowAToken}};
+    return Refusal{
+        401,
+        "not-authenticated",
+        request.token
+            ? "the token is unknown or was revoked: get a new one from `armloom token add`"
+            : "a token is required: send Authorization: Bearer <token>, or log in at /login; "
+              "`armloom token add` makes one",
+        "Authorization",
+        std::nullopt,
+        {kHowToShowAToken}};
   }
   if (who->role >= needed) return std::nullopt;
   return Refusal{403, "not-permitted",
-                 std::string("this needs the role ") + to_string(needed) + ", and the token of \"" +
-                     who->name + "\" has " + to_string(who->role),
+                 std::string("this request requires the role ") + to_string(needed) +
+                     "; the token \"" + who->name + "\" has the role " + to_string(who->role),
                  "Authorization", to_string(who->role)};
 }
 

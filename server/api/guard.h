@@ -10,27 +10,26 @@
 
 namespace armloom {
 
-// Who may what: with a file of tokens whoever shows one of them may what its role says; without one
-// everybody may everything. On the server's thread.
-// With every 401 (RFC 9110, 15.5.2).
+// Header of every 401 answer (RFC 9110, 15.5.2).
 inline const std::pair<std::string, std::string> kHowToShowAToken{"WWW-Authenticate",
                                                                   "Bearer realm=\"armloom\""};
 
+// Access control. With a token file, a request may do what its token's role allows; without the
+// file, everything. Used on the server's thread.
 class Guard {
  public:
-  // `tokens`: the file; nothing: there is none. `tls`: cookies go through TLS only. `told`: as
-  // TokenBook has it.
+  // `tls`: marks cookies Secure.
   Guard(const std::optional<std::filesystem::path>& tokens, bool tls, TokenBook::Told told);
 
   [[nodiscard]] bool asks() const { return book_.has_value(); }
   [[nodiscard]] bool is_tls() const { return tls_; }
-  // Whose token this is; nothing: nobody's. Where no tokens are asked for: everybody's.
+  // Returns the token's caller, or nullopt. Without a token file, every caller is an unnamed admin.
   [[nodiscard]] std::optional<Caller> caller(const std::optional<std::string>& token);
-  // By which limits know whoever asks: the token's name, or the address.
+  // Returns the key for rate limits: the token's name, or the address.
   [[nodiscard]] std::string client(const Request& request);
-  // What is wrong with the file of tokens.
+  // Returns the fault of the token file, or nullopt.
   [[nodiscard]] std::optional<std::string> fault() { return book_ ? book_->fault() : std::nullopt; }
-  // Why this may not be done.
+  // Returns why the request is forbidden, or nullopt.
   [[nodiscard]] std::optional<Refusal> refusal(const Request& request, Role needed);
 
  private:

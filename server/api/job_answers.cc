@@ -41,22 +41,24 @@ bool is_as_tagged(const IfMatch& if_match, const std::optional<JobView>& job) {
 std::optional<Response> bad_if_match(const Request& request) {
   const IfMatch& asked = request.if_match;
   if (!asked || is_tag_list(*asked)) return std::nullopt;
-  return refusal_response(
-      {400, "bad-if-match", "If-Match is \"*\" or entity tags, in quotes", "If-Match", asked});
+  return refusal_response({400, "bad-if-match",
+                           "If-Match must be \"*\" or a list of entity tags in quotes", "If-Match",
+                           asked});
 }
 
 Parameter if_match_parameter() {
   return {"If-Match",
-          "The `ETag` of the job as it was read: 412 when it was changed since",
+          "`ETag` of the job as the client read it; 412 if the job was changed since",
           {{"type", "string"}},
           false,
           "header"};
 }
 
 Response was_changed_since(const std::string& key, const IfMatch& if_match) {
-  return refusal_response({412, "precondition-failed",
-                           "job \"" + key + "\" was changed since: read it again", "If-Match",
-                           if_match});
+  return refusal_response(
+      {412, "precondition-failed",
+       "job \"" + key + "\" has changed since the ETag in If-Match; fetch it again", "If-Match",
+       if_match});
 }
 
 Response refused_command(const ApiParts& parts, const std::string& key, const Problems& problems) {

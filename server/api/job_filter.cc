@@ -12,8 +12,8 @@ const QueryFormat<JobFilter>& job_query() {
   static const QueryFormat<Query> format(
       {
           query::one_of("state", &Query::state, job_state_format()->schema(Way::in),
-                        "In this state"),
-          query::text<Query>("arm", &Query::arm, "That move this arm"),
+                        "Only jobs in this state"),
+          query::text<Query>("arm", &Query::arm, "Only jobs that move this arm"),
           query::limit<Query>(&Query::limit),
           query::cursor<Query>(&Query::before),
       },

@@ -19,17 +19,17 @@ namespace armloom {
 // The query of GET /jobs: ?state=&arm=&limit=&cursor=
 struct JobFilter {
   std::optional<JobState> state;
-  std::string arm;  // empty: any
+  std::string arm;  // any arm if empty
   std::size_t limit = query::kPage;
   std::optional<std::uint64_t> before;  // the cursor: only jobs submitted before this one
 };
 
 [[nodiscard]] const QueryFormat<JobFilter>& job_query();
-// Problems (invalid), besides those of the query itself: an arm that the cell has not.
+// Problems (invalid): those of the query; an unknown arm.
 [[nodiscard]] Result<JobFilter> read_job_filter(const Target& target, const Cell& cell);
 
-// Returns a page of the jobs that the executive knows and of older ones as they are stored: the
-// latter newest first, within the filter, and none of the former.
+// Merges the executive's jobs and the `stored` jobs into a page. Precondition: `stored` is
+// filtered, newest first, and has no job of the executive.
 [[nodiscard]] JobPage select(const Status& status, std::vector<StoredJob> stored,
                              const JobFilter& filter, const WallClock& clock, JobTexts& texts);
 

@@ -17,7 +17,7 @@
 namespace armloom {
 namespace {
 
-// Returns the jobs that only the store has, one more than a page holds.
+// Returns jobs that only the store has, one more than a page at most.
 Result<std::vector<StoredJob>> stored_jobs(const JobHistory& history, const JobFilter& filter,
                                            const JobSheet& known) {
   std::vector<StoredJob> jobs;
@@ -66,7 +66,6 @@ void get_job(Call call) {
   call.respond(*stored ? job_answer(**stored) : no_such("job", key));
 }
 
-// What becomes of a command to one job that has not ended: `command(executive, key)`.
 template <class Command>
 void command_job(Call call, Command command) {
   if (const auto bad = bad_if_match(call.request)) return call.respond(*bad);
@@ -81,7 +80,7 @@ void command_job(Call call, Command command) {
        if_match = call.request.if_match](const Commanded& done) {
         if (!done) return respond(refused_command(parts, key, done.error()));
         if (!*done) return respond(was_changed_since(key, if_match));
-        // Who commands may rely on it, whatever happens to the server.
+        // stored first, because clients rely on the answer
         const auto tell = [&parts, respond, job = **done](std::optional<Refusal> refusal) {
           if (!refusal) return respond(answer(202, job_format(), job, &parts.clock));
           respond(done_but_not_stored(*std::move(refusal)));
@@ -107,9 +106,10 @@ const QueryFormat<DiagramQuery>& diagram_query() {
   using Query = DiagramQuery;
   static const QueryFormat<Query> format(
       {
-          query::required_text("with", &Query::with, "The other job"),
-          query::flag("cells", &Query::cells,
-                      "0: without them, for who has them and asks what lies ahead by now"),
+          query::required_text("with", &Query::with, "Id of the other job"),
+          query::flag(
+              "cells", &Query::cells,
+              "0: omit the cells, for example to refresh only the progress and the first contact"),
       },
       ProblemKind::malformed);
   return format;
@@ -160,7 +160,7 @@ void get_queue(Call call) {
 
 void get_timeline(Call call) {
   const ApiParts& parts = call.parts;
-  // Of the strand only what is admitted is asked, which are few jobs.
+  // The strand provides only the few admitted jobs.
   const auto write = [&parts, respond = call.respond](const TimelineView& timeline) {
     parts.listings.write(
         [cell = parts.cell, timeline](JobTexts&) {
@@ -177,16 +177,16 @@ Route of_one(const char* method, const char* path, const char* id, const char* s
 }
 
 Route replan_route() {
-  Route replan = of_one("POST", "/jobs/{id}/replan", "replanJob", "Another way for a job");
+  Route replan = of_one("POST", "/jobs/{id}/replan", "replanJob", "Replan a job");
   replan.text =
-      "From where its arm stands to where the job ends (of a trajectory: its last waypoint; what "
-      "it "
-      "was to do on the way is lost), past what rests there, as fast as its own way was at its "
-      "fastest. A job in motion brakes on its path first; until the answer is there it stays where "
-      "it is (`waits_on` has the kind `plan`). Then it waits under its id like one that has just "
-      "come, or keeps its own way where there is no other: its member `replan` says which. 409 "
-      "when it has ended, moves several arms, ends where it begins, or is the server's own.";
-  replan.outcomes = {outcome(202, "Another way is being looked for", job_format())};
+      "Plans a new path from the arm's present position to the job's end, around everything at "
+      "rest; for a trajectory, the end is its last waypoint and its other waypoints are lost. The "
+      "speed is at most that of the original path. A moving job first brakes on its path and stays "
+      "there until the plan is ready (`waits_on` has the kind `plan`). The job then waits like a "
+      "new one under the same id, or keeps its own path if there is no other; member `replan` "
+      "reports the outcome. 409 if the job has ended, moves several arms, ends where it begins, or "
+      "was created by the server.";
+  replan.outcomes = {outcome(202, "Replanning has started", job_format())};
   replan.parameters = {if_match_parameter()};
   replan.refuses = {404, 409, 412, 507};
   replan.who = Who::commander;
@@ -197,13 +197,12 @@ Route replan_route() {
 
 Route diagram_route() {
   Route diagram =
-      of_one("GET", "/jobs/{id}/diagram", "getDiagram", "The coordination diagram of two jobs");
+      of_one("GET", "/jobs/{id}/diagram", "getDiagram", "Get the coordination diagram of two jobs");
   diagram.text =
-      "What the motions of two jobs do to each other, wherever each is on its own way: rectangles "
-      "of trajectory time of A (the job of the path) and B (`with`) that are certified free, in "
-      "conflict, or undecided, down to 5 ms where that takes no more than 64,000 cells. Jobs that "
-      "have ended are drawn while they are known. 422 when both are the same job, or move only the "
-      "same arm.";
+      "Shows for each pair of positions on the two motions whether they conflict: rectangles of "
+      "trajectory time of A (the job in the path) and B (`with`) that are certified free, in "
+      "conflict, or undecided, refined down to 5 ms within 64,000 cells. Ended jobs are included "
+      "while they are known. 422 if both are the same job, or move only the same arm.";
   diagram.parameters = diagram_query().parameters();
   diagram.outcomes = {outcome(200, "The diagram", diagram_format())};
   diagram.refuses = {404, 422};
@@ -212,14 +211,15 @@ Route diagram_route() {
 }
 
 Route timeline_route() {
-  Route timeline = of_one("GET", "/timeline", "getTimeline", "When each arm is expected to move");
+  Route timeline =
+      of_one("GET", "/timeline", "getTimeline", "Get the predicted times of all admitted motions");
   timeline.text =
-      "Of every arm the legs that are admitted, with the times that follow from who passes first, "
-      "if everything goes as fast as its trajectory says; their pauses, and for whom. What stands "
-      "for a reason of its own (late, stalled, stopped until it is resumed) is expected to do so "
-      "for as long again as it has. Orders may be chosen anew when something comes otherwise, or "
-      "something else comes: a prediction, no promise.";
-  timeline.outcomes = {outcome(200, "Lane by lane, as things are", timeline_format())};
+      "Lists the admitted motions of every arm with their predicted start and end, their pauses "
+      "and the cause of each pause. The prediction assumes that all motions run at the speed of "
+      "their trajectories, in the present passing order. A delay with a cause of its own (late, "
+      "stalled, stopped until resumed) is assumed to last as long again as it has lasted so far. "
+      "Later events or jobs may change passing orders, so the times are not guaranteed.";
+  timeline.outcomes = {outcome(200, "The predicted motions of each arm", timeline_format())};
   timeline.run = get_timeline;
   return timeline;
 }
@@ -233,26 +233,26 @@ std::vector<Route> job_routes() {
   list.refuses = {422};
   list.run = list_jobs;
 
-  Route get = of_one("GET", "/jobs/{id}", "getJob", "One job");
+  Route get = of_one("GET", "/jobs/{id}", "getJob", "Get one job");
   get.outcomes = {outcome(200, "The job", job_format())};
   get.outcomes.front().has_tag = true;
   get.refuses = {404};
   get.run = get_job;
 
   Route cancel = of_one("DELETE", "/jobs/{id}", "cancelJob", "Cancel a job");
-  cancel.text =
-      "An arm in motion brakes on its path; the others go on. 409 when the job has ended.";
-  cancel.outcomes = {
-      outcome(202, "Canceled, or \"stopping\" until its arm is at rest", job_format())};
+  cancel.text = "A moving arm brakes on its path; other arms continue. 409 if the job has ended.";
+  cancel.outcomes = {outcome(
+      202, "The job is canceled; `stopping` is true until its arm is at rest", job_format())};
   cancel.parameters = {if_match_parameter()};
   cancel.refuses = {404, 409, 412, 507};
   cancel.who = Who::commander;
   cancel.role = Role::operate;
   cancel.run = cancel_job;
 
-  Route queue = of_one("GET", "/queue", "getQueue", "What waits, and why, and what runs");
+  Route queue = of_one("GET", "/queue", "getQueue", "Get all waiting and running jobs");
   queue.outcomes = {
-      outcome(200, "Queue, backlog with reasons, scheduled, running", queue_format())};
+      outcome(200, "Jobs in the queue, in the backlog (with reasons), scheduled and running",
+              queue_format())};
   queue.run = get_queue;
 
   return {

@@ -13,7 +13,7 @@ namespace {
 constexpr int kNice = 10;
 constexpr std::size_t kKeptAnyway = 1024;  // texts
 
-// An instant that is still to come may be told with another wall time later.
+// Returns false while the job's future start may get another wall time (WallClock).
 bool is_written_for_good(const JobView& job) {
   return !job.times.scheduled_at || is_terminal(job.state);
 }

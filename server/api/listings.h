@@ -14,32 +14,31 @@
 
 namespace armloom {
 
-// The JSON of jobs, written once for each change of a job. Not thread-safe.
+// Caches the JSON of jobs until they change. Not thread-safe.
 class JobTexts {
  public:
   [[nodiscard]] ListedJob of(const JobSheet::JobPtr& job, const WallClock& clock);
   [[nodiscard]] std::vector<ListedJob> of(const std::vector<JobSheet::JobPtr>& jobs,
                                           const WallClock& clock);
-  // Forgets texts that no list has used since the call before, if they are the larger part.
+  // Drops texts unused since the previous call, if they are the majority.
   void end_list();
 
  private:
   struct Entry {
     JobSheet::JobPtr job;
     JobText text;
-    std::uint64_t list = 0;  // the last one that used it
+    std::uint64_t list = 0;  // last list that used the entry
   };
   std::unordered_map<std::uint64_t, Entry> entries_;  // by JobId
   std::uint64_t list_ = 1;
-  std::size_t used_ = 0;  // entries, by this list
+  std::size_t used_ = 0;  // entries used by the present list
 };
 
-// A thread that writes long lists of jobs, so that neither the strand nor the server's thread does.
-// It gives way to both.
+// Writes long lists on a low-priority thread of its own.
 class Listings {
  public:
   using Post = std::function<void(std::function<void()>)>;
-  // `post` hands a task to the server's thread.
+  // `post` runs a task on the server's thread.
   explicit Listings(Post post);
 
   using Write = std::function<std::string(JobTexts&)>;
@@ -49,7 +48,7 @@ class Listings {
  private:
   Post post_;
   JobTexts texts_;  // the worker's
-  Worker worker_;   // the last: it ends first
+  Worker worker_;   // last member: destroyed first
 };
 
 }  // namespace armloom

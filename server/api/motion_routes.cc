@@ -25,13 +25,13 @@ std::vector<Route> motion_routes() {
        .path = api_path("/jobs/{id}/trajectory"),
        .id = "getTrajectory",
        .tag = "jobs",
-       .summary = "How a job moves",
+       .summary = "Get the trajectory of a job",
        .text =
-           "The motion that is executed, or will be: made, where the job had no times; planned, "
-           "where it had a goal (until then the straight way, as an estimate); of the "
-           "alternatives the one that is taken, or likeliest. 404 also of jobs that have been "
-           "forgotten: only a file of a former run has them.",
-       .outcomes = {outcome(200, "The motion", job_motion_format())},
+           "Returns the motion that the job executes or will execute. For `retime` it is the timed "
+           "trajectory; for a goal the planned one (before planning, a straight-line estimate); "
+           "for `alternatives` the selected or most likely one. 404 if the job is unknown or "
+           "forgotten; the trajectories of earlier sessions are in their recordings only.",
+       .outcomes = {outcome(200, "The trajectory", job_motion_format())},
        .refuses = {404},
        .run = get_trajectory},
   };

@@ -16,43 +16,44 @@ namespace {
 
 constexpr const char* kSchemas = "#/components/schemas/";
 
-// What may be refused: by status, the name of the response and what it means.
+// Responses of refusals: component name and description by status.
 struct RefusalText {
   const char* name;
   const char* text;
 };
 const std::map<int, RefusalText>& refusal_texts() {
   static const std::map<int, RefusalText> texts{
-      {400, {"BadRequest", "The request, its target or its JSON cannot be read"}},
+      {400, {"BadRequest", "The request, its target or its JSON is malformed"}},
       {401,
-       {"NotAuthenticated",
-        "No token was shown, or none of this server's, or one that was revoked"}},
+       {"NotAuthenticated", "The request has no token, or its token is unknown or was revoked"}},
       {403,
        {"ForeignOrigin",
-        "A page of another site may not command this server, nor may a Host that is neither an IP "
-        "address nor localhost nor given with --allow-host; nor may a token whose role does not "
-        "allow it"}},
-      {404, {"NotFound", "There is no such thing"}},
-      {409, {"Conflict", "It contradicts the present state"}},
-      {412, {"PreconditionFailed", "It is not any more as If-Match has it: read it again"}},
-      {413, {"TooLarge", "Over a stated bound: 8 MiB, 10,000 waypoints"}},
+        "The request is forbidden: the token's role does not allow it, a page of another site sent "
+        "it (see `--allow-origin`), or its Host is neither an IP address nor localhost nor given "
+        "with `--allow-host`"}},
+      {404, {"NotFound", "Not found"}},
+      {409, {"Conflict", "The request conflicts with the present state"}},
+      {412,
+       {"PreconditionFailed", "The job has changed since the ETag in If-Match; fetch it again"}},
+      {413, {"TooLarge", "The body exceeds a limit, for example 8 MiB or 10,000 waypoints"}},
       {415, {"WrongMediaType", "The body must be application/json"}},
-      {417, {"ExpectationFailed", "The only Expect served is 100-continue"}},
+      {417, {"ExpectationFailed", "The only supported Expect is 100-continue"}},
       {422,
        {"Unprocessable",
-        "It can be read but can never be right: the place and the value found are named"}},
-      {426, {"UpgradeRequired", "Not a WebSocket handshake"}},
+        "The request is well-formed but its content is invalid; the problem names the place and "
+        "the value found"}},
+      {426, {"UpgradeRequired", "The request is not a WebSocket handshake"}},
       {429,
        {"TooMany",
-        "More requests or jobs a second, or more connections, than one client may have, or all "
-        "together. `Retry-After` says when to come again"}},
-      {414, {"TargetTooLong", "A request line of more than 16 KiB"}},
-      {431, {"HeaderTooLarge", "A header of more than 16 KiB"}},
+        "The client, or all clients together, exceed a limit of requests or jobs per second or of "
+        "connections. `Retry-After` says when to retry"}},
+      {414, {"TargetTooLong", "The request line exceeds 16 KiB"}},
+      {431, {"HeaderTooLarge", "The header exceeds 16 KiB"}},
       {503,
        {"Unavailable",
-        "Right, but not now: the queue is full, the server ends, or too many connections are "
-        "open, or what the server keeps cannot be written"}},
-      {507, {"StorageFull", "There is no space left to store it: nothing was accepted"}}};
+        "The request is valid but cannot be served now: the queue is full, the server is shutting "
+        "down, too many connections are open, or the data folder cannot be written"}},
+      {507, {"StorageFull", "No disk space is left to store the request"}}};
   return texts;
 }
 
@@ -62,25 +63,27 @@ Schema header() {
       {"version", "1"},
       {"summary", "An execution server for robot cells in which several arms share one workspace."},
       {"description",
-       "Clients post joint trajectories; each one starts the moment it is safe beside "
-       "everything that is already moving, or waits in the backlog with the reason.\n\nLengths "
-       "are in m, angles in rad, times in s (keys end in `_s`, cell time) or RFC 3339 (`_at`, "
-       "wall time). Every path also answers HEAD where it answers GET, and 405 with `Allow` "
-       "otherwise. Errors are RFC 9457 problem documents that name the place and the value "
-       "found."},
+       "Clients post joint trajectories, goals or batches of jobs. Armloom starts each motion as "
+       "soon as it is certified collision-free with respect to everything already moving, and "
+       "keeps the rest in a backlog together with the reason each job waits. Armloom runs "
+       "simulated arms only and is not a safety system: Stop is an operational stop and does not "
+       "replace an emergency stop.\n\nLengths are in m, angles in rad. Times are seconds of cell "
+       "time (keys end in `_s`) or RFC 3339 wall time (`_at`). Every path that serves GET also "
+       "serves HEAD; other methods are answered 405 with `Allow`. Errors are RFC 9457 problem "
+       "documents that name the place and the value found."},
       {"license", {{"name", "BSD-3-Clause"}, {"identifier", "BSD-3-Clause"}}}};
 }
 
 Schema tags() {
   const std::pair<const char*, const char*> all[] = {
-      {"jobs", "Trajectories to be executed"},
-      {"arms", "Where they are; stop and resume"},
-      {"scene", "Objects that may be in the way"},
-      {"events", "Everything that happens, live"},
-      {"cell", "What the cell consists of"},
-      {"recordings", "What was written down of each run"},
+      {"jobs", "Submit, check, plan and control jobs"},
+      {"arms", "Positions of arms; stop, resume and jog"},
+      {"scene", "Objects of the planning scene"},
+      {"events", "Live events"},
+      {"cell", "The cell, its policy and its meshes"},
+      {"recordings", "Recordings of this and earlier sessions"},
       {"simulation", "Speed and faults of simulated arms"},
-      {"service", "The server itself"}};
+      {"service", "Health, metrics, alerts, audit log and log-in"}};
   Schema list = Schema::array();
   for (const auto& [name, text] : all) list.push_back({{"name", name}, {"description", text}});
   return list;
@@ -120,11 +123,11 @@ Schema outcome_of(const Outcome& outcome) {
   for (const auto& [type, schema] : outcome.content) response["content"][type]["schema"] = schema;
   response["headers"] = headers_of_all();
   if (outcome.has_location) {
-    response["headers"]["Location"] = {{"description", "Where it can be read"},
+    response["headers"]["Location"] = {{"description", "Path of the created resource"},
                                        {"schema", {{"type", "string"}}}};
   }
   if (outcome.has_tag) {
-    response["headers"]["ETag"] = {{"description", "For If-Match and If-None-Match"},
+    response["headers"]["ETag"] = {{"description", "Entity tag for If-Match and If-None-Match"},
                                    {"schema", {{"type", "string"}}}};
   }
   return response;
@@ -185,21 +188,21 @@ Schema refusals() {
   return responses;
 }
 
-// Asked for where the server was started with tokens. What a token may is its role's: `x-role` of
-// an operation is the least that it takes.
+// `x-role` of an operation is the lowest role that may call it.
 Schema security_schemes() {
-  return {{"token",
-           {{"type", "http"},
-            {"scheme", "bearer"},
-            {"description", "Of `armloom token add`; asked for where `serve` has --tokens"}}},
-          {"cookie",
-           {{"type", "apiKey"},
-            {"in", "cookie"},
-            {"name", std::string(kTokenCookie)},
-            {"description", "The same token, as POST /session sets it for browsers"}}}};
+  return {
+      {"token",
+       {{"type", "http"},
+        {"scheme", "bearer"},
+        {"description",
+         "A token printed by `armloom token add`; required if the server runs with `--tokens`"}}},
+      {"cookie",
+       {{"type", "apiKey"},
+        {"in", "cookie"},
+        {"name", std::string(kTokenCookie)},
+        {"description", "The same token as a cookie, set by POST /session for browsers"}}}};
 }
 
-// How readers tell messages apart.
 void add_discriminator(Schema& message) {
   Schema mapping = Schema::object();
   for (const auto& [type, name] : message_types()) mapping[type] = kSchemas + name;
@@ -222,11 +225,11 @@ const Schema& openapi_document() {
     const Schema responses = refer_to_names(refusals(), kSchemas, schemas);
     add_discriminator(schemas["Message"]);
     whole["components"] = {{"schemas", std::move(schemas)}, {"responses", responses}};
-    whole["components"]["headers"]["RequestId"] = {{"description",
-                                                    "Names the request, in the server's log, too: "
-                                                    "the request's own X-Request-Id where it sends "
-                                                    "one of 1 to 128 characters of [A-Za-z0-9._-]"},
-                                                   {"schema", {{"type", "string"}}}};
+    whole["components"]["headers"]["RequestId"] = {
+        {"description",
+         "Id of the request, also in the server's log: the X-Request-Id of the request if it has 1 "
+         "to 128 characters of [A-Za-z0-9._-], else a generated id"},
+        {"schema", {{"type", "string"}}}};
     whole["components"]["securitySchemes"] = security_schemes();
     return whole;
   }();

@@ -51,7 +51,8 @@ Result<void> check_content_type(const Request& request) {
   const std::string encoding = request.content_encoding.value_or("identity");
   if (small(encoding) != "identity") {
     return unsupported("unsupported-encoding", "Content-Encoding",
-                       "the body must come as it is (identity)", encoding);
+                       "the body must not be encoded: Content-Encoding must be identity or absent",
+                       encoding);
   }
   return {};
 }

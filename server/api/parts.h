@@ -31,32 +31,31 @@ class Comparison;
 class Control;
 class Listings;
 
-// What the verbs of one run of the server work with; everything in it outlives them. The verbs run
-// on the server's thread. A command to the executive is posted to its strand and answered when it
-// has come back, so that nothing there waits. What clients read comes from the loop's board.
+// Parts used by all routes, which outlive them. Routes run on the server's thread. Commands go to
+// the executive's strand and return asynchronously; reads use the loop's board.
 struct ApiParts {
   CellPtr cell;
   std::string stream;
-  WallClock& clock;  // the server's thread's
+  WallClock& clock;  // used on the server's thread
   RealTimeLoop& loop;
   Hub& hub;
   const RecentStates& states;
-  Recording* recording;  // null: none
-  JobKeeper* keeper;     // null: jobs end with the server
+  Recording* recording;  // null if nothing is recorded
+  JobKeeper* keeper;     // null if jobs are not stored
   AlertBook& alerts;
-  std::function<void(std::function<void()>)> post;         // to the server's thread, in order
-  std::function<void(std::function<void()>)> post_urgent;  // before all of these
+  std::function<void(std::function<void()>)> post;  // runs a task on the server's thread, in order
+  std::function<void(std::function<void()>)> post_urgent;  // ahead of tasks from `post`
   Guard& guard;
-  // To a thread for what takes long and needs nothing of this.
+  // Runs a long task on a worker thread; it must not use the parts.
   std::function<void(std::function<void()>)> aside;
   Listings& listings;
   Metrics& metrics;
   ClientLimits& limits;
   Comparison& comparison;
   Control& control;
-  std::optional<std::filesystem::path> data;  // where recordings lie; absent: nowhere
-  std::chrono::milliseconds jog_lease;       // a move by hand goes on for so long without word
-  // Readers of events that wait for a snapshot: all that wait when it is begun share it.
+  std::optional<std::filesystem::path> data;  // folder of recordings, if any
+  std::chrono::milliseconds jog_lease;        // jogs are canceled after this time without renewal
+  // Subscribers that wait for a snapshot share the next one.
   struct Newcomer {
     bool gap;
     std::function<void(SubscriptionPtr)> then;
@@ -65,12 +64,12 @@ struct ApiParts {
   std::shared_ptr<JobsAtHand> at_hand = std::make_shared<JobsAtHand>();
   struct Newcomers {
     std::vector<Newcomer> waiting = {};
-    bool is_one_written = false;  // a snapshot for those that came before
+    bool is_one_written = false;
   };
   std::shared_ptr<Newcomers> newcomers = std::make_shared<Newcomers>();
 };
 
-// Runs ask(executive) on the strand, then then(its answer) on the server's thread.
+// Runs ask(executive) on the strand, then then(result) on the server's thread.
 template <class Ask, class Then>
 void ask(const ApiParts& parts, Ask ask, Then then) {
   parts.loop.post([&parts, ask = std::move(ask), then = std::move(then)](Executive& executive) {
@@ -79,7 +78,7 @@ void ask(const ApiParts& parts, Ask ask, Then then) {
   });
 }
 
-// The same before all that waits for the strand, and for the server's thread.
+// Like ask(), but ahead of everything that waits on both.
 template <class Ask, class Then>
 void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
   parts.loop.post_urgent([&parts, ask = std::move(ask),
@@ -89,21 +88,21 @@ void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
   });
 }
 
-// Why nothing can be stored at present, where there is a store.
+// Returns why the store refuses writes, if it does.
 [[nodiscard]] std::optional<Refusal> refusal_of_store(const ApiParts& parts);
 
-// So many more jobs that whoever asks submits; answered, where they are too many.
+// Counts `jobs` against the client's limit; answers 429 and returns true beyond it.
 [[nodiscard]] bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jobs,
                               const Respond& respond);
 
-// Problem (unsupported): the body is not said to be JSON in UTF-8, or is encoded.
+// Checks the Content-Type. Problem (unsupported): not JSON in UTF-8, or encoded.
 [[nodiscard]] Result<void> check_content_type(const Request& request);
 
-// Larger bodies are read aside: others are served meanwhile.
+// Larger bodies are read on a worker thread.
 inline constexpr std::size_t kReadAtOnceMax = 64 * 1024;
 
-// The body as read(text) -> Result<...> makes it out, to then(value) on the server's thread;
-// problems are answered.
+// Reads the body with read(text) -> Result and calls then(value) on the server's thread, or answers
+// the problems.
 template <class Read, class Then>
 void read_body(const ApiParts& parts, const Request& request, const Respond& respond, Read read,
                Then then) {

@@ -15,7 +15,7 @@ Response plan_response(const Result<PlanOutcome>& result) {
   return refused;
 }
 
-// Whoever asked has gone: nobody waits for it any more.
+// Plans a motion; `gone` drops the plan if the client has disconnected.
 void post_plan(Call call) {
   const auto plan = [&parts = call.parts, respond = call.respond,
                      gone = call.request.gone](PlanInquiry read) {
@@ -38,16 +38,16 @@ std::vector<Route> plan_routes() {
        .id = "planMotion",
        .tag = "jobs",
        .summary = "Plan a motion to a goal without executing it",
-       .text =
-           "Beside everything that stands still, and the arms that will, proven for its whole "
-           "length. Where there is no plan the problem's type ends with why: "
-           "start-in-collision, goal-in-collision, goal-not-reached, outside-limits, not-found.",
+       .text = "Plans a motion around everything at rest, and around the arms at their predicted "
+               "end positions. The motion is certified collision-free over its whole duration. If "
+               "there is no plan, the problem's type ends with the reason: start-in-collision, "
+               "goal-in-collision, goal-not-reached, outside-limits, not-found, line-broken or "
+               "line-blocked.",
        .reads = body(plan_inquiry_format(),
                      {{"named", R"({"arm": "left", "to": {"named": "ready"}})"},
                       {"pose", R"({"arm": "left", "to": {"pose": {"link": "left_panda_link8", )"
                                R"("xyz": [0, 0.2, 0.5], "rpy": [3.14, 0, 0]}}, "seed": 7})"}}),
-       .outcomes = {outcome(200, "The motion, and what would become of it as a job",
-                            plan_format())},
+       .outcomes = {outcome(200, "The motion, with its verdict as a job", plan_format())},
        .refuses = {422},
        .who = Who::commander,
        .run = post_plan},

@@ -15,34 +15,34 @@
 
 namespace armloom {
 
-// A parameter of a query, described once: how it is read into a T, and what /openapi.json says.
+// A query parameter: how to read it, and its entry in /openapi.json.
 template <class T>
 struct QueryPart {
-  Parameter told;
-  // Takes its value; or says what is wrong with it.
+  Parameter parameter;
+  // Stores the value; returns what is wrong with it, or nullopt.
   std::function<std::optional<std::string>(const std::string& value, T& out)> take;
 };
 
-// The query of one verb.
 template <class T>
 class QueryFormat {
  public:
-  // `bad`: what a value is that cannot be read: `invalid` (422) or `malformed` (400).
+  // `bad`: `invalid` (422) or `malformed` (400).
   QueryFormat(std::vector<QueryPart<T>> parts, ProblemKind bad)
       : parts_(std::move(parts)), bad_(bad) {}
 
-  // Problems, one for each parameter that cannot be read, or is missing (malformed). Those that no
-  // part knows are the router's to refuse.
+  // Reads a query. Problems: unreadable or missing parameters. The router refuses unknown
+  // parameters.
   [[nodiscard]] Result<T> read(const Target& target) const {
     T query{};
     Problems problems;
     for (const QueryPart<T>& part : parts_) {
-      const std::string& name = part.told.name;
+      const std::string& name = part.parameter.name;
       const auto value = target.parameter(name);
-      if (!value && !part.told.required) continue;
-      auto fault = value ? part.take(*value, query) : std::optional(name + " is missing");
+      if (!value && !part.parameter.required) continue;
+      auto fault = value ? part.take(*value, query)
+                         : std::optional(name + " is missing: add it to the query");
       if (!fault) continue;
-      const bool is_missing = part.told.required && value.value_or("").empty();
+      const bool is_missing = part.parameter.required && value.value_or("").empty();
       problems.push_back({is_missing ? ProblemKind::malformed : bad_,
                           is_missing ? "missing-parameter" : "bad-parameter", "?" + name,
                           *std::move(fault), value.value_or("")});
@@ -53,7 +53,7 @@ class QueryFormat {
 
   [[nodiscard]] std::vector<Parameter> parameters() const {
     std::vector<Parameter> all;
-    for (const QueryPart<T>& part : parts_) all.push_back(part.told);
+    for (const QueryPart<T>& part : parts_) all.push_back(part.parameter);
     return all;
   }
 
@@ -64,7 +64,7 @@ class QueryFormat {
 
 namespace query {
 
-// Whether all of it is a whole number within these bounds, which `out` is then.
+// Sets `out` and returns true if the text is an integer within the bounds.
 template <class Number>
 [[nodiscard]] bool read_between(const std::string& text, Number lowest, Number highest,
                                 Number& out) {
@@ -76,36 +76,35 @@ template <class Number>
   return true;
 }
 
-// T is named, so that members of what it derives from can be given, too: text<AuditQuery>(...).
+// Name T explicitly if the member is of its base class: text<AuditQuery>(...).
 
-// Any text.
 template <class T, class Of, class Text>
-[[nodiscard]] QueryPart<T> text(std::string name, Text Of::*where, std::string told) {
-  return {{std::move(name), std::move(told), {{"type", "string"}}},
+[[nodiscard]] QueryPart<T> text(std::string name, Text Of::*where, std::string description) {
+  return {{std::move(name), std::move(description), {{"type", "string"}}},
           [where](const std::string& value, T& out) {
             out.*where = value;
             return std::optional<std::string>();
           }};
 }
 
-// A text that has to be there.
+// A non-empty text.
 template <class T>
 [[nodiscard]] QueryPart<T> required_text(std::string name, std::string T::*where,
-                                         std::string told) {
-  return {{name, std::move(told), {{"type", "string"}, {"minLength", 1}}, true},
+                                         std::string description) {
+  return {{name, std::move(description), {{"type", "string"}, {"minLength", 1}}, true},
           [name, where](const std::string& value, T& out) {
             out.*where = value;
-            return value.empty() ? std::optional(name + " is empty") : std::nullopt;
+            return value.empty() ? std::optional(name + " must not be empty") : std::nullopt;
           }};
 }
 
 template <class T, class Of, class Number, class Value>
 [[nodiscard]] QueryPart<T> whole_number(std::string name, Number Of::*where, Value lowest,
-                                        Value highest, std::string told) {
-  const std::string rule = name + " is an integer within " + std::to_string(lowest) + ".." +
+                                        Value highest, std::string description) {
+  const std::string rule = name + " must be an integer within " + std::to_string(lowest) + ".." +
                            std::to_string(highest) + ", found \"";
   return {{std::move(name),
-           std::move(told),
+           std::move(description),
            {{"type", "integer"}, {"minimum", lowest}, {"maximum", highest}}},
           [where, lowest, highest, rule](const std::string& value, T& out) {
             Value number{};
@@ -115,46 +114,45 @@ template <class T, class Of, class Number, class Value>
           }};
 }
 
-// One of an enumeration, by its name.
 template <class T, class E>
 [[nodiscard]] QueryPart<T> one_of(std::string name, std::optional<E> T::*where, Schema schema,
-                                  std::string told) {
-  const std::string rule = "no " + name + " is called \"";
-  return {{std::move(name), std::move(told), std::move(schema)},
+                                  std::string description) {
+  const std::string rule = "unknown " + name + " \"";
+  return {{std::move(name), std::move(description), std::move(schema)},
           [where, rule](const std::string& value, T& out) {
             out.*where = value_named<E>(value);
             return out.*where ? std::nullopt : std::optional(rule + value + "\"");
           }};
 }
 
-// Of a list: so many entries make a page, at most.
-inline constexpr std::size_t kPage = 100;  // when none is asked for
+// Entries of a page.
+inline constexpr std::size_t kPage = 100;  // default
 inline constexpr std::size_t kPageMax = 1000;
 template <class T>
 [[nodiscard]] QueryPart<T> limit(std::size_t T::*where) {
   return whole_number<T>("limit", where, std::size_t{1}, kPageMax,
-                         "At most so many, " + std::to_string(kPage) + " unless given");
+                         "Number of entries per page; default " + std::to_string(kPage) + "");
 }
 
-// Where the page before ended, in the server's own words.
+// The end of the previous page, encoded by the server.
 template <class T, class Of>
 [[nodiscard]] QueryPart<T> cursor(std::optional<std::uint64_t> Of::*where) {
-  return {{"cursor", "next_cursor of the page before", {{"type", "string"}}},
+  return {{"cursor", "`next_cursor` of the previous page", {{"type", "string"}}},
           [where](const std::string& value, T& out) -> std::optional<std::string> {
             std::uint64_t number = 0;
             if (!read_between<std::uint64_t>(value, 0, ~std::uint64_t{0}, number)) {
-              return "this is no cursor that the server gave: \"" + value + "\"";
+              return "not a cursor of this server (use next_cursor of the previous page): \"" +
+                     value + "\"";
             }
             out.*where = number;
             return std::nullopt;
           }};
 }
 
-// 0 or 1.
 template <class T>
-[[nodiscard]] QueryPart<T> flag(std::string name, bool T::*where, std::string told) {
-  const std::string rule = name + " is 0 or 1, found \"";
-  return {{std::move(name), std::move(told), {{"type", "string"}, {"enum", {"0", "1"}}}},
+[[nodiscard]] QueryPart<T> flag(std::string name, bool T::*where, std::string description) {
+  const std::string rule = name + " must be 0 or 1, found \"";
+  return {{std::move(name), std::move(description), {{"type", "string"}, {"enum", {"0", "1"}}}},
           [where, rule](const std::string& value, T& out) {
             out.*where = value == "1";
             const bool is_read = value == "0" || value == "1";

@@ -31,7 +31,7 @@ RecordingView view_of(const KeptRecording& kept, bool is_running) {
   return view;
 }
 
-// Up to the end of the last line that is there.
+// Returns the size up to the last complete line.
 tl::expected<std::size_t, NoFile> whole_lines(const OpenFile& file) {
   constexpr std::size_t kPiece = std::size_t{64} * 1024;
   for (std::size_t end = file.size(); end > 0;) {
@@ -44,7 +44,7 @@ tl::expected<std::size_t, NoFile> whole_lines(const OpenFile& file) {
   return 0;
 }
 
-// One of those that are open, until it is closed.
+// Counts an open file until it is closed.
 struct Counted {
   explicit Counted(std::shared_ptr<std::atomic<std::size_t>> of)
       : open(std::move(of)), others(open->fetch_add(1)) {}
@@ -53,7 +53,7 @@ struct Counted {
   Counted& operator=(const Counted&) = delete;
 
   std::shared_ptr<std::atomic<std::size_t>> open;
-  std::size_t others;  // that were open before
+  std::size_t others;
   std::optional<OpenFile> file = {};
 };
 
@@ -85,7 +85,8 @@ tl::expected<RecordingFiles::Opened, NoFile> RecordingFiles::open(const std::str
   const fs::path path = *folder / file;
   auto opened = OpenFile::open(path, std::numeric_limits<std::size_t>::max());
   if (!opened) return tl::unexpected(opened.error());
-  if (opened->place() != path) return tl::unexpected(NoFile::absent);  // a link led elsewhere
+  if (opened->place() != path)
+    return tl::unexpected(NoFile::absent);  // reached through a symbolic link
   const OpenFile& held = counted->file.emplace(std::move(*opened));
   Opened result{std::shared_ptr<const OpenFile>(counted, &held), held.size()};
   if (!is_running(name)) return result;

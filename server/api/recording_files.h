@@ -14,15 +14,14 @@
 
 namespace armloom {
 
-// The recordings in a data folder, for who reads them over HTTP. A request holds the name of a
-// recording and of one of its files, never a path. Thread-safe: asked aside, as disks are slow.
+// Recordings for HTTP clients. A request contains the names of a recording and of its file, never a
+// path. Thread-safe; call it on a worker thread.
 class RecordingFiles {
  public:
-  // At once; one more is busy: each holds a file descriptor for as long as its reader takes.
+  // Files open at once; each holds a descriptor while its client reads.
   inline static constexpr std::size_t kOpenMax = 32;
 
-  // `data`: absent: there are none. `running`: the one that is being written, if any; outlives
-  // this.
+  // `running`: the recording being written, or null; must outlive this object.
   RecordingFiles(std::optional<std::filesystem::path> data, const Recording* running)
       : data_(std::move(data)), running_(running) {}
 
@@ -31,10 +30,9 @@ class RecordingFiles {
 
   struct Opened {
     std::shared_ptr<const OpenFile> file;
-    std::size_t size = 0;  // so much of it is handed out
+    std::size_t size = 0;  // bytes to hand out
   };
-  // A file that is no link, in a folder of the data folder that is none. Of one that is being
-  // written so much as is there, in whole lines.
+  // Refuses symbolic links. Of a recording in progress only complete lines are available.
   [[nodiscard]] tl::expected<Opened, NoFile> open(const std::string& name,
                                                   const std::string& file) const;
 

@@ -1,4 +1,3 @@
-// What runs of the server have written down, handed out.
 #include <functional>
 #include <memory>
 #include <utility>
@@ -14,7 +13,7 @@ Response no_such_file(const std::string& name) {
                                    "request target", "no recording has the file " + name, name}});
 }
 
-// Does it aside, when what was measured until now is in the files of the recording that is written.
+// Runs `look` on a worker thread when all measured states are in the files.
 void look_aside(const ApiParts& parts, std::function<void()> look) {
   if (parts.recording == nullptr) return parts.aside(std::move(look));
   ask(
@@ -35,7 +34,7 @@ void get_recordings(Call call) {
   });
 }
 
-// Each piece is read aside: who reads a large file from a slow disk holds up nobody.
+// Reads pieces on a worker thread, because disks are slow.
 PiecedBody body_of(const ApiParts& parts, RecordingFiles::Opened opened) {
   return {opened.size, [&parts, file = std::move(opened.file)](
                            std::uintmax_t from, std::size_t count, PiecedBody::Then then) {
@@ -79,22 +78,22 @@ std::vector<Route> recording_routes() {
              .path = api_path("/recordings"),
              .id = "listRecordings",
              .tag = "recordings",
-             .summary = "The recordings in the server's data folder"};
+             .summary = "List the recordings in the server's data folder"};
   list.text =
-      "Each run with `--data` writes one; `--keep-recordings` and the like say how long they stay.";
-  list.outcomes = {outcome(200, "All of them", recording_list_format())};
+      "Each session with `--data` writes one recording. `--keep-recordings`, "
+      "`--keep-recording-days` and `--keep-recording-mb` bound how many are kept.";
+  list.outcomes = {outcome(200, "All recordings", recording_list_format())};
   list.run = get_recordings;
   Route file{.method = "GET",
              .path = api_path("/recordings/{name}/{file}"),
              .id = "getRecordingFile",
              .tag = "recordings",
-             .summary = "A file of a recording"};
+             .summary = "Download a file of a recording"};
   file.text =
-      "One of those that the list names, as it is on the disk: `armloom audit`, `armloom replay` "
-      "and the dashboard read them. `inputs.jsonl` and `jobs.json` hold what clients asked for, "
-      "as `GET /jobs/{id}/trajectory` tells it, and neither tokens nor keys: who may look at the "
-      "cell may read them. Of the recording that is being written so much as there is, in whole "
-      "lines; its `jobs.json` lacks its end. 503: too many are being read.";
+      "Returns one of the listed files, for `armloom audit`, `armloom replay` and the dashboard. "
+      "`inputs.jsonl` and `jobs.json` contain the requests of clients but no tokens or keys, so "
+      "every role may read them. A recording in progress is returned up to its last complete line; "
+      "its `jobs.json` lacks the end. 503 if too many files are being read.";
   file.outcomes = {{200,
                     "The file",
                     {{"application/octet-stream", {{"type", "string"}, {"format", "binary"}}}}}};

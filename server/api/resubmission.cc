@@ -9,7 +9,7 @@ namespace armloom {
 namespace {
 
 constexpr std::size_t kKeyMax = 255;
-constexpr char kNameEnds = '\x1f';  // of a token, before the key; in none of both
+constexpr char kNameEnds = '\x1f';  // separates the token's name from the key; occurs in neither
 
 AcceptedRequests::Names names_of(const SentRequest& sent) {
   AcceptedRequests::Names names;
@@ -22,11 +22,11 @@ AcceptedRequests::Names names_of(const SentRequest& sent) {
 
 Problem other_body(const std::string& key) {
   return {ProblemKind::conflict, "idempotency-key-in-use", "Idempotency-Key",
-          "a request with another body was accepted under this Idempotency-Key",
-          key.substr(key.find(kNameEnds) + 1)};  // all of it where no token is asked for
+          "this Idempotency-Key was already used with a different body",
+          key.substr(key.find(kNameEnds) + 1)};  // the whole key if no token is required
 }
 
-// By the key. Problem (conflict): it was another request's.
+// Finds jobs by the key. Problem (conflict): the key had another body.
 Result<void> recall_key(const ApiParts& parts, const SentRequest& sent, KnownJobs& known) {
   if (sent.key.empty()) return {};
   const auto put = [&](std::size_t place, const std::string& id) {
@@ -46,8 +46,7 @@ Result<void> recall_key(const ApiParts& parts, const SentRequest& sent, KnownJob
   return {};
 }
 
-// By the client's own id. One of another body is no matter of this: it is refused as any is whose
-// id is in use.
+// Finds a job by the client's id. submit() refuses an id that had another body.
 Result<void> recall_id(const ApiParts& parts, const SentRequest::Job& job, std::string& known) {
   if (job.id.empty() || !known.empty()) return {};
   if (const auto* before = parts.accepted->find(AcceptedRequests::name_of_id(job.id))) {
@@ -73,10 +72,11 @@ Result<KnownJobs> known_of(const ApiParts& parts, const SentRequest& sent) {
 }
 
 Problem forgotten(const std::string& id) {
-  return {ProblemKind::conflict, "job-forgotten", "",
-          "this was accepted before, as job \"" + id +
-              "\", which has ended so long ago that nothing is known of it; it is not run again",
-          id};
+  return {
+      ProblemKind::conflict, "job-forgotten", "",
+      "already accepted as job \"" + id +
+          "\", which ended and was forgotten; it is not run again. Use a new id to run it again",
+      id};
 }
 
 Result<ListedJob> stored_or_forgotten(const ApiParts& parts, const std::string& id) {
@@ -92,8 +92,8 @@ Result<ListedJob> stored_or_forgotten(const ApiParts& parts, const std::string& 
 Parameter idempotency_parameter() {
   return {
       "Idempotency-Key",
-      "The request's own name: sent again with the same body it gives the same jobs, also after "
-      "the server was started again (with `--data`); with another body: 409",
+      "Client-chosen name of the request. A request with the same key and body returns the same "
+      "jobs, also after a restart with `--data`; the same key with another body is answered 409",
       {{"type", "string"}, {"minLength", 1}, {"maxLength", kKeyMax}},
       false,
       "header"};
@@ -108,7 +108,7 @@ Result<std::string> idempotency_key(const ApiParts& parts, const Request& reques
     return who ? who->name + kNameEnds + key : key;
   }
   return failure(Problem{ProblemKind::malformed, "bad-idempotency-key", "Idempotency-Key",
-                         "an Idempotency-Key is 1 to 255 printable characters of ASCII",
+                         "an Idempotency-Key must have 1 to 255 printable ASCII characters",
                          key.substr(0, kKeyMax)});
 }
 
@@ -128,7 +128,7 @@ void recall(const ApiParts& parts, const SentRequestPtr& sent, Respond respond,
 }
 
 void note_accepted(const ApiParts& parts, const SentRequest& sent, const KnownJobs& accepted) {
-  if (parts.keeper != nullptr) return;  // the store knows
+  if (parts.keeper != nullptr) return;  // the store has it
   AcceptedRequests::Accepted by_key{sent.digest, {}};
   for (std::size_t i = 0; i < accepted.size(); ++i) {
     if (accepted[i].empty()) continue;

@@ -12,46 +12,43 @@
 
 namespace armloom {
 
-// A request for jobs, as far as it has to be known should it be sent again.
+// Recognizes a repeated submission.
 struct SentRequest {
-  std::string key;     // Idempotency-Key, with the token's name before it; empty: none
-  std::string digest;  // of its body
+  std::string key;     // Idempotency-Key, preceded by the token's name; empty if none
+  std::string digest;  // digest of the body
   struct Job {
-    std::string id;  // the client's; empty: none
+    std::string id;  // chosen by the client, or empty
     std::string digest;
   };
-  std::vector<Job> jobs;  // in their places
+  std::vector<Job> jobs;  // in the order of the request
 };
 using SentRequestPtr = std::shared_ptr<const SentRequest>;
 
-// Of its jobs those that were accepted before: their ids, in their places; empty: not accepted.
+// Ids of jobs accepted before, by position; "" if not accepted.
 using KnownJobs = std::vector<std::string>;
 
 [[nodiscard]] Parameter idempotency_parameter();
-// Each token has its own: SentRequest::key. Problem (malformed): an Idempotency-Key that is none.
+// Returns SentRequest::key. Problem (malformed): an invalid Idempotency-Key.
 [[nodiscard]] Result<std::string> idempotency_key(const ApiParts& parts, const Request& request);
 
-// Looks whether the request has come before, and calls then(known, respond); while one of the same
-// key or id is being answered it waits for that. The key with another body is answered: 409.
+// Calls then(jobs accepted before, respond). Waits while the same key or id is being answered.
+// Answers 409 if the key had another body.
 void recall(const ApiParts& parts, const SentRequestPtr& sent, Respond respond,
             std::function<void(const KnownJobs&, const Respond&)> then);
 
-// Of its jobs these were accepted, in their places. Before the client is told.
+// Remembers the accepted jobs. Call it before answering.
 void note_accepted(const ApiParts& parts, const SentRequest& sent, const KnownJobs& accepted);
 
-// It was answered with these, accepted before, in their places: its key is its own from now on,
-// also where they were known by their ids.
+// Binds the key to jobs accepted before, even if found by id.
 void note_answered(const ApiParts& parts, const SentRequest& sent, const KnownJobs& known);
 
 [[nodiscard]] RequestOrigin origin_of(const SentRequest& sent, std::size_t place);
 
-// Jobs that the executive has accepted are only said to be when they are on disk, where there is a
-// store. `answer` is called when the client may be told.
+// Calls `answer` when the jobs are on disk, if there is a store.
 void acknowledge(const ApiParts& parts, std::vector<JobKeeper::AcceptedJob> jobs,
                  const Respond& respond, std::function<Response()> answer);
 
-// The jobs of these ids as they are now; empty ids are passed over. Problem (conflict): it has
-// ended so long ago that nothing is known of it.
+// Passes the jobs to `then`; skips empty ids. Problem (conflict): the job was forgotten.
 void look_at(const ApiParts& parts, const KnownJobs& ids,
              std::function<void(std::vector<Result<ListedJob>>)> then);
 

@@ -12,18 +12,16 @@
 
 namespace armloom {
 
-// One call of a verb: what it works with, what was asked, whom to answer. `parts`, `meshes` and
-// `recordings` outlive every answer; the request is only valid during the call.
+// One call of a route. The parts outlive every answer; the request is valid only during the call.
 struct Call {
   const ApiParts& parts;
   CellMeshes& meshes;
   const RecordingFiles& recordings;
   const Request& request;
-  const Router::Arguments& arguments;  // what stood in the path for {id}
+  const Router::Arguments& arguments;  // values of {id} and the like in the path
   Respond respond;
 };
 
-// A parameter of the query, or a header field that the verb reads.
 struct Parameter {
   std::string name;
   std::string text;
@@ -49,28 +47,27 @@ struct Outcome {
   bool has_tag = false;  // ETag
 };
 
-// A verb of the interface: the one description from which come dispatch, `Allow`, and its place in
-// /openapi.json. A new verb is one of these, and its function.
+// A route; dispatch, `Allow` and /openapi.json follow from it.
 struct Route {
   std::string method;
-  std::string path;  // whole, with {id} where anything may stand
+  std::string path;  // full path; {id} matches any segment
   std::string id;    // operationId
   std::string tag;
   std::string summary;
-  std::string text = "";  // empty: the summary says it all
+  std::string text = "";  // empty if the summary is enough
   std::vector<Parameter> parameters = {};
   std::optional<Body> reads = {};
   std::vector<Outcome> outcomes;
-  std::vector<int> refuses = {};  // beside what common_refusals() has
+  std::vector<int> refuses = {};  // in addition to common_refusals()
   Who who = Who::reader;
-  std::optional<Role> role = Role::viewer;  // none: no token is needed
-  bool is_never_limited = false;            // whatever else its client asks for (ClientLimits)
-  void (*run)(Call call);  // null: the dashboard's files, which the router leaves to others
+  std::optional<Role> role = Role::viewer;  // nullopt if no token is required
+  bool is_never_limited = false;            // exempt from ClientLimits
+  void (*run)(Call call);                   // not served by the router if null
 
   [[nodiscard]] Rights rights() const { return {who, role, is_never_limited}; }
 };
 
-// The routes by resource. All of them, in the order in which they are tried.
+// Routes by resource, in the order in which they are matched.
 [[nodiscard]] std::vector<Route> job_routes();         // /jobs, /queue, /timeline
 [[nodiscard]] std::vector<Route> motion_routes();      // /jobs/{id}/trajectory
 [[nodiscard]] std::vector<Route> submission_routes();  // POST /jobs, /batches, /check
@@ -78,7 +75,7 @@ struct Route {
 [[nodiscard]] Route amend_route();
 [[nodiscard]] std::vector<Route> plan_routes();        // /plan
 [[nodiscard]] std::vector<Route> arm_routes();         // /arms, /stop, /resume
-[[nodiscard]] std::vector<Route> control_routes();     // /control, holding to run
+[[nodiscard]] std::vector<Route> control_routes();     // /control, /arms/{name}/jog
 [[nodiscard]] std::vector<Route> scene_routes();       // /scene
 [[nodiscard]] std::vector<Route> cell_routes();        // /cell and its meshes
 [[nodiscard]] std::vector<Route> comparison_routes();  // /comparison
@@ -92,14 +89,12 @@ struct Route {
 [[nodiscard]] std::vector<Route> service_routes();     // /healthz, /docs, ...
 [[nodiscard]] const std::vector<Route>& all_routes();
 
-// What every verb may answer when a request cannot be served, and what comes to that with a body
-// (415) and with a command (403).
+// Refusals of every route, plus 415 for bodies and 403 for commands.
 [[nodiscard]] std::vector<int> common_refusals(const Route& route);
 
-// "/jobs" as it is called.
+// Adds the prefix: "/jobs" becomes "/api/v1/jobs".
 [[nodiscard]] std::string api_path(const std::string& path);
 
-// What a verb reads and what it answers, by their formats.
 template <class T>
 [[nodiscard]] Body body(const FormatPtr<T>& format,
                         std::vector<std::pair<std::string, std::string>> examples) {

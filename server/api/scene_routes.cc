@@ -8,10 +8,8 @@
 namespace armloom {
 namespace {
 
-constexpr std::size_t kObjectsMax =
-    1000;  // that clients may set into the scene, the cell's included
+constexpr std::size_t kObjectsMax = 1000;  // including those of the cell file
 
-// What a change of the scene has come to.
 struct Changed {
   std::uint64_t version;
   bool created;
@@ -19,10 +17,10 @@ struct Changed {
 
 Result<Changed> add(Executive& executive, const CollisionObject& object) {
   if (executive.scene().objects().size() >= kObjectsMax) {
-    return failure(Problem{
-        ProblemKind::unavailable, "scene-full", "",
-        "the scene holds " + std::to_string(kObjectsMax) + " objects already; take some away first",
-        static_cast<double>(kObjectsMax)});
+    return failure(Problem{ProblemKind::unavailable, "scene-full", "",
+                           "the scene holds " + std::to_string(kObjectsMax) +
+                               " objects, the maximum: remove some first",
+                           static_cast<double>(kObjectsMax)});
   }
   if (auto added = executive.scene().add(object); !added) return failure(std::move(added.error()));
   return Changed{executive.scene().version(), true};
@@ -39,8 +37,7 @@ void get_scene(Call call) {
   call.respond(answer(200, scene_format(), *call.parts.loop.board().read().scene));
 }
 
-// Who commands may rely on it, whatever happens to the server. `text`: as it was asked for; none:
-// the object is taken away.
+// Answers when the change is stored. `text`: the object as sent; nullopt if removed.
 void respond_when_stored(const ApiParts& parts, const std::string& name,
                          std::optional<std::string> text, const Respond& respond,
                          Response response) {
@@ -51,7 +48,7 @@ void respond_when_stored(const ApiParts& parts, const std::string& name,
                        });
 }
 
-// change: add or put, on the strand. `name`: of the path, if it has one.
+// `change`: add or put. `name`: from the path, if any.
 template <class Change>
 void set_object(Call& call, const std::optional<std::string>& name, Change change) {
   const auto set = [&parts = call.parts, respond = call.respond, text = call.request.body,
@@ -77,7 +74,7 @@ void set_object(Call& call, const std::optional<std::string>& name, Change chang
 void post_object(Call call) { set_object(call, std::nullopt, add); }
 void put_object(Call call) { set_object(call, call.arguments.front(), put); }
 
-// What is in the way of arms is not taken away while that cannot be put down, as no arm is let go.
+// Removes nothing while the removal cannot be stored.
 void delete_object(Call call) {
   if (const auto refusal = refusal_of_store(call.parts)) {
     return call.respond(refusal_response(*refusal));
@@ -105,19 +102,20 @@ std::vector<Route> scene_routes() {
        .path = api_path("/scene"),
        .id = "getScene",
        .tag = "scene",
-       .summary = "The objects of the scene",
-       .outcomes = {outcome(200, "Objects and version", scene_format())},
+       .summary = "Get the objects of the scene",
+       .outcomes = {outcome(200, "The objects and the version of the scene", scene_format())},
        .run = get_scene},
       {.method = "POST",
        .path = objects,
        .id = "addObject",
        .tag = "scene",
        .summary = "Add an object",
-       .text = "409 when the name is in use, or the object would stand in an arm.",
+       .text = "409 if the name is in use, or if the object would overlap an arm.",
        .reads = body(object_request_format(),
                      {{"rod", R"({"name": "rod", "cylinder": [0.015, 0.5], "xyz": [0, 0.9, 0.4], )"
                               R"("rpy": [0, 0, 0]})"}}),
-       .outcomes = {created(201, "Added; every motion is judged again", scene_change_format())},
+       .outcomes = {created(201, "The object is added and all motions are checked against it",
+                            scene_change_format())},
        .refuses = {409, 422, 507},
        .who = Who::commander,
        .role = Role::operate,
@@ -129,8 +127,8 @@ std::vector<Route> scene_routes() {
        .summary = "Create or replace an object",
        .reads = body(named_object_request_format(),
                      {{"box", R"({"box": [0.1, 0.1, 0.1], "xyz": [0, 0.9, 0.2]})"}}),
-       .outcomes = {outcome(200, "Replaced", scene_change_format()),
-                    created(201, "Created", scene_change_format())},
+       .outcomes = {outcome(200, "The object is replaced", scene_change_format()),
+                    created(201, "The object is created", scene_change_format())},
        .refuses = {409, 422, 507},
        .who = Who::commander,
        .role = Role::operate,
@@ -140,7 +138,7 @@ std::vector<Route> scene_routes() {
        .id = "removeObject",
        .tag = "scene",
        .summary = "Remove an object",
-       .outcomes = {outcome(200, "Removed", scene_version_format())},
+       .outcomes = {outcome(200, "The object is removed", scene_version_format())},
        .refuses = {404, 507},
        .who = Who::commander,
        .role = Role::operate,

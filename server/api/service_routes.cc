@@ -10,7 +10,6 @@
 namespace armloom {
 namespace {
 
-// One that is built in: `bytes` are made once.
 Response fresh(const Request& request, const char* content_type, const ServedBytes& bytes) {
   Response response = answer_bytes(request, bytes, content_type);
   response.headers.emplace_back("Cache-Control", "no-cache");
@@ -20,16 +19,14 @@ ServedBytes served_text(std::string_view text) { return served(std::string(text)
 
 void get_health(Call call) { call.respond(answer(200, health_format(), Health{})); }
 
-// Why the server is not what it should be: what keeps arms where they are, whom it does not know,
-// what is lost.
+// Returns why the server is not ready, or nullopt.
 std::optional<Refusal> why_not_ready(const ApiParts& parts) {
   if (auto refusal = refusal_of_store(parts)) {
     refusal->status = 503;
     return refusal;
   }
-  if (parts.guard.fault()) {  // whoever asks here has shown no token
-    return Refusal{503, "tokens-unreadable",
-                   "the file of tokens has a mistake, or is not there: the log says which",
+  if (parts.guard.fault()) {  // no details: this route needs no token
+    return Refusal{503, "tokens-unreadable", "token file missing or invalid; see the log",
                    "--tokens"};
   }
   const auto lost = parts.recording != nullptr ? parts.recording->fault() : std::nullopt;
@@ -51,7 +48,7 @@ void get_metrics(Call call) {
   const Metrics::Readings readings{
       .readers = parts.hub.readers(),
       .frames_dropped = parts.hub.frames_dropped(),
-      .readers_sent_away = parts.hub.readers_sent_away(),
+      .subscribers_disconnected = parts.hub.subscribers_disconnected(),
       .recording_lost = parts.recording != nullptr && parts.recording->fault(),
       .storage_failed = refusal_of_store(parts).has_value()};
   call.respond(Response{200,
@@ -105,33 +102,36 @@ std::vector<Route> service_routes() {
   const Content html{"text/html", {{"type", "string"}}};
   const Content style{"text/css", {{"type", "string"}}};
   const Content script{"text/javascript", {{"type", "string"}}};
-  Route dashboard = of_server("/", "dashboard", "The dashboard", {200, "A page", {html}}, nullptr);
-  dashboard.outcomes.push_back({303, "To /login: a token is needed"});
+  Route dashboard =
+      of_server("/", "dashboard", "The dashboard", {200, "The page", {html}}, nullptr);
+  dashboard.outcomes.push_back({303, "Redirect to /login: a token is required"});
   dashboard.refuses = {404};
-  Route health = of_server("/healthz", "health", "Is the process there?",
-                           outcome(200, "It is", health_format()), get_health);
-  Route ready = of_server("/readyz", "ready", "Does the executive answer?",
-                          outcome(200, "It does", ready_format()), get_ready);
-  health.who = ready.who = Who::anyone;  // probes come by any name
+  Route health = of_server("/healthz", "health", "Check that the process is running",
+                           outcome(200, "The process is running", health_format()), get_health);
+  Route ready =
+      of_server("/readyz", "ready",
+                "Check that the executive responds and storage, tokens and recording work",
+                outcome(200, "The server is ready", ready_format()), get_ready);
+  health.who = ready.who = Who::anyone;  // probes may use any Host
   std::vector<Route> routes{
       health,
       ready,
-      of_server("/metrics", "metrics", "Figures for Prometheus",
-                {200, "Text format 0.0.4", {{"text/plain", {{"type", "string"}}}}}, get_metrics),
-      of_server("/openapi.json", "openapi", "This document",
+      of_server("/metrics", "metrics", "Get metrics for Prometheus",
+                {200, "Prometheus text format 0.0.4", {{"text/plain", {{"type", "string"}}}}},
+                get_metrics),
+      of_server("/openapi.json", "openapi", "Get this document",
                 {200, "OpenAPI 3.1", {{"application/json", object}}}, get_openapi),
-      of_server("/cell.schema.json", "cellSchema",
-                "The JSON schema of cell files, as editors use it",
+      of_server("/cell.schema.json", "cellSchema", "Get the JSON schema of cell files, for editors",
                 {200, "JSON Schema, draft 2020-12", {{"application/schema+json", object}}},
                 get_cell_schema),
-      of_server("/docs", "docs", "This document for people", {200, "A page", {html}}, get_docs),
-      of_server("/docs.css", "docsStyle", "Of that page", {200, "A style sheet", {style}},
-                get_docs_style),
-      of_server("/docs.js", "docsScript", "Of that page", {200, "A script", {script}},
+      of_server("/docs", "docs", "Read this document as a page", {200, "A page", {html}}, get_docs),
+      of_server("/docs.css", "docsStyle", "Get the style sheet of /docs",
+                {200, "A style sheet", {style}}, get_docs_style),
+      of_server("/docs.js", "docsScript", "Get the script of /docs", {200, "A script", {script}},
                 get_docs_script),
       dashboard,
   };
-  for (Route& route : routes) {  // what the program is can be known; what it does cannot
+  for (Route& route : routes) {  // only the metrics reveal what the cell does
     if (route.path != "/metrics") route.role = std::nullopt;
   }
   return routes;

@@ -1,4 +1,4 @@
-// Logging in with a token, for browsers: programs send it with each request.
+// Log-in for browsers. Programs send the token with each request.
 #include <string>
 #include <utility>
 
@@ -19,7 +19,7 @@ Session session_of(Guard& guard, const std::optional<std::string>& token) {
   return session;
 }
 
-// No script reads it, and no other site's page sends it.
+// Makes a cookie that is hidden from scripts and not sent from pages of other sites.
 std::string cookie(const Guard& guard, const std::string& token, const char* more) {
   return std::string(kTokenCookie) + "=" + token + "; Path=/; HttpOnly; SameSite=Strict" +
          (guard.is_tls() ? "; Secure" : "") + more;
@@ -38,12 +38,13 @@ void log_in(Call call) {
   const auto enter = [&parts = call.parts, respond = call.respond](const LogIn& read) {
     const Session session = session_of(parts.guard, read.token);
     if (!session.role || (session.auth_required && !may_stand_in_a_cookie(read.token))) {
-      return respond(refusal_response({401,
-                                       "not-authenticated",
-                                       "the token is none of this server's, or was revoked",
-                                       "/token",
-                                       std::nullopt,
-                                       {kHowToShowAToken}}));
+      return respond(refusal_response(
+          {401,
+           "not-authenticated",
+           "the token is unknown or was revoked: get a new one from `armloom token add`",
+           "/token",
+           std::nullopt,
+           {kHowToShowAToken}}));
     }
     Response response = answer(200, session_format(), session);
     if (session.auth_required) {
@@ -88,23 +89,25 @@ Route of_session(const char* method, const char* path, const char* id, const cha
 }  // namespace
 
 std::vector<Route> session_routes() {
-  Route get = of_session("GET", "", "getSession", "Who asks, and what they may", get_session);
-  get.outcomes = {outcome(200, "By the token that came along", session_format())};
+  Route get = of_session("GET", "", "getSession", "Get the caller's name and role", get_session);
+  get.outcomes = {
+      outcome(200, "The session of the token that the request carries", session_format())};
   Route enter = of_session("POST", "", "logIn", "Log in with a token", log_in);
   enter.text =
-      "Sets a cookie that no script can read: for browsers. Programs send "
-      "`Authorization: Bearer <token>`.";
+      "Checks the token and sets it as a cookie that scripts cannot read, for browsers. Programs "
+      "send `Authorization: Bearer <token>` instead.";
   enter.reads = body(log_in_format(), {{"token", R"({"token": "armloom_0123456789abcdef"})"}});
-  enter.outcomes = {outcome(200, "The cookie is set", session_format())};
+  enter.outcomes = {outcome(200, "The token is valid and the cookie is set", session_format())};
   enter.refuses = {401, 422};
   enter.who = Who::commander;
-  Route leave = of_session("DELETE", "", "logOut", "Forget the cookie", log_out);
-  leave.outcomes = {{204, "It is forgotten"}};
+  Route leave = of_session("DELETE", "", "logOut", "Log out", log_out);
+  leave.outcomes = {{204, "The cookie is removed"}};
   leave.who = Who::commander;
   for (Route* route : {&get, &enter, &leave}) route->path = api_path("/session");
-  Route login = of_session("GET", "/login", "loginPage", "Where people log in", get_login);
+  Route login = of_session("GET", "/login", "loginPage", "Get the log-in page", get_login);
   login.outcomes = {{200, "A page", {{"text/html", {{"type", "string"}}}}}};
-  Route script = of_session("GET", "/login.js", "loginScript", "Of that page", get_login_script);
+  Route script = of_session("GET", "/login.js", "loginScript", "Get the script of the log-in page",
+                            get_login_script);
   script.outcomes = {{200, "A script", {{"text/javascript", {{"type", "string"}}}}}};
   return {get, enter, leave, login, script};
 }

@@ -8,7 +8,7 @@
 namespace armloom {
 namespace {
 
-// The speed changes on the strand, where cell time and wall time are known together.
+// Changes the speed on the strand, where cell time and wall time are known together.
 void put_speed(Call call) {
   struct Change {
     TimePoint time;
@@ -67,9 +67,10 @@ std::vector<Route> simulation_routes() {
        .path = api_path("/sim/speed"),
        .id = "setSpeed",
        .tag = "simulation",
-       .summary = "Set the simulation's speed",
+       .summary = "Set the speed of cell time",
        .reads = body(speed_format(), {{"double", R"({"speed": 2.0})"}}),
-       .outcomes = {outcome(200, "In force from the next control cycle on", speed_format())},
+       .outcomes = {outcome(200, "The new speed applies from the next control cycle on",
+                            speed_format())},
        .refuses = {422},
        .who = Who::commander,
        .role = Role::operate,
@@ -81,7 +82,7 @@ std::vector<Route> simulation_routes() {
        .summary = "Inject a fault into a simulated arm",
        .reads = body(fault_request_format(),
                      {{"slow", R"({"arm": "left", "kind": "slow", "value": 0.5, "for_s": 2})"}}),
-       .outcomes = {created(201, "Injected", fault_format())},
+       .outcomes = {created(201, "The fault is injected", fault_format())},
        .refuses = {422},
        .who = Who::commander,
        .role = Role::operate,
@@ -91,7 +92,7 @@ std::vector<Route> simulation_routes() {
        .id = "removeFault",
        .tag = "simulation",
        .summary = "Remove a fault",
-       .outcomes = {{204, "Removed"}},
+       .outcomes = {{204, "The fault is removed"}},
        .refuses = {404},
        .who = Who::commander,
        .role = Role::operate,

@@ -1,4 +1,4 @@
-// Where the arms were over the last minutes.
+// Writes a hundred thousand numbers on a worker thread.
 #include <memory>
 
 #include "server/api/route.h"
@@ -7,7 +7,6 @@
 namespace armloom {
 namespace {
 
-// The frames are only pointed to here; to write down a hundred thousand numbers is done aside.
 void get_states(Call call) {
   const ApiParts& parts = call.parts;
   parts.aside([&parts, frames = parts.states.frames(), respond = std::move(call.respond)] {
@@ -30,11 +29,12 @@ std::vector<Route> state_routes() {
             .path = api_path("/states"),
             .id = "listStates",
             .tag = "arms",
-            .summary = "Where every joint was measured over the last five minutes"};
+            .summary = "Get the measured joint positions of the last five minutes"};
   get.text =
-      "Ten times a second of wall time, for who comes only now: from here on events bring frames "
-      "of type `state`, at 30 Hz. At 1 kHz, and for longer, recordings have it.";
-  get.outcomes = {outcome(200, "What is kept", measured_states_format())};
+      "Ten samples per second of wall time, for clients that connect later. From then on, events "
+      "bring frames of type `state` at 30 Hz. Recordings made with `--record` contain all states "
+      "at 1 kHz.";
+  get.outcomes = {outcome(200, "Samples of the last five minutes", measured_states_format())};
   get.run = get_states;
   return {get};
 }

@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-// What the store has to say of it first. The answer, where it cannot be submitted.
+// Returns the answer if the store refuses the job.
 std::optional<Response> refused_by_store(const ApiParts& parts, JobRequest& job) {
   if (parts.keeper == nullptr) return std::nullopt;
   if (const auto refusal = parts.keeper->refusal()) return refusal_response(*refusal);
@@ -19,7 +19,6 @@ std::optional<Response> refused_by_store(const ApiParts& parts, JobRequest& job)
   return std::nullopt;
 }
 
-// It was accepted before: as it is now.
 void answer_known_job(const ApiParts& parts, const SentRequestPtr& sent, const KnownJobs& known,
                       const Respond& respond) {
   look_at(parts, known, [&parts, sent, known, respond](const std::vector<Result<ListedJob>>& jobs) {
@@ -107,16 +106,16 @@ std::vector<Route> submission_routes() {
        .id = "submitJob",
        .tag = "jobs",
        .summary = "Submit a job",
-       .text =
-           "Refused (422) when it can never run: limits, names, shape, or it does not begin "
-           "where its arm will stand. An id in use: 409. With `--data` it is on disk when it is "
-           "said to be accepted, and there again when the server is; a full disk: 507. Sent again "
-           "with the same body, by `id` or `Idempotency-Key`: the same job.",
+       .text = "422 if the job can never run: limits, names, shape, or a start where its arm will "
+               "not be. 409 if the id is in use with another body. With `--data` the job is on "
+               "disk before the answer and survives a restart; 507 if the disk is full. A repeated "
+               "request (same `id` or `Idempotency-Key`, same body) returns the same job.",
        .parameters = {idempotency_parameter()},
        .reads = body(job_request_format(),
                      {{"reach", example_job(head, "left")}, {"moveit", example_moveit_job()}}),
-       .outcomes = {created(200, "It was accepted before: as it is now", job_format()),
-                    created(202, "Accepted; it may still wait in the backlog", job_format())},
+       .outcomes = {created(200, "The job was accepted before; returns its present state",
+                            job_format()),
+                    created(202, "The job is accepted; it may wait in the backlog", job_format())},
        .refuses = {409, 422, 507},
        .who = Who::commander,
        .role = Role::operate,
@@ -126,11 +125,11 @@ std::vector<Route> submission_routes() {
        .path = api_path("/check"),
        .id = "checkJob",
        .tag = "jobs",
-       .summary = "Judge a job without submitting it",
-       .text = "As if it were to start now, beside everything that holds a reservation. Nothing "
-               "changes.",
+       .summary = "Check a job without submitting it",
+       .text = "Checks the job as if it started now, against everything that holds a reservation. "
+               "Changes nothing.",
        .reads = body(job_request_format(), {{"reach", example_job("", "left")}}),
-       .outcomes = {outcome(200, "What the admission code says", verdict_format())},
+       .outcomes = {outcome(200, "The verdict of the admission code", verdict_format())},
        .refuses = {409, 422},
        .who = Who::commander,
        .run = post_check},

@@ -10,19 +10,17 @@
 
 namespace armloom {
 
-// A cell file (JSON, // and /* */ comments allowed) as plain data. Strict: unknown keys, wrong
-// types and numbers out of range are problems, places are JSON pointers into the file, all are
-// returned. Relative paths are resolved against `folder`. Robots' files are not opened.
+// Reads a cell file (JSON with comments). Returns all problems with JSON pointers. Resolves
+// relative paths against `folder`; does not open the robots' files.
 [[nodiscard]] Result<CellDescription> read_cell_text(std::string_view text,
                                                      const std::filesystem::path& folder);
 
-// The same as far as it can be read: what is wrong is in `faults` (empty before), and left at its
-// default in the description.
+// Reads as much as possible; faulty members keep their defaults. Precondition: `faults` is empty.
 [[nodiscard]] CellDescription read_cell_text(std::string_view text,
                                              const std::filesystem::path& folder, Problems& faults);
 
-// The same cell file with other paths, comments lost: what `path_of` says of each, which is
-// resolved against `folder`. Precondition: read_cell_text(text, folder) succeeded.
+// Replaces each path p by path_of(p resolved against `folder`); drops comments. Precondition:
+// read_cell_text(text, folder) succeeded.
 [[nodiscard]] std::string with_cell_paths(
     std::string_view text, const std::filesystem::path& folder,
     const std::function<std::string(const std::filesystem::path&)>& path_of);

@@ -16,19 +16,19 @@ namespace {
 FormatPtr<CheckingSettings> checking_format() {
   using Checking = CheckingSettings;
   return object<Checking>({
-      field("time_step_s", &Checking::time_step, seconds(Checking::time_step_range),
-            "Time between the instants that the policy timed_discrete compares."),
+      field(
+          "time_step_s", &Checking::time_step, seconds(Checking::time_step_range),
+          "Time step of the policy timed_discrete, which compares motions only at these instants."),
       field("tracking_error_rad", &Checking::tracking_error_rad,
             number(Checking::tracking_error_range),
-            "How far each joint may be off its path: every proof covers it."),
-      field(
-          "delay_s", &Checking::delay, seconds(Checking::delay_range),
-          "How far a motion is expected to be behind its plan: controllers with a larger lag_s are "
-          "warned of. Motions go by measured progress, so nothing that is certified depends on "
-          "it."),
+            "Largest deviation of a joint from its path; all certificates cover it."),
+      field("delay_s", &Checking::delay, seconds(Checking::delay_range),
+            "Expected delay of a motion behind its plan; `validate` warns of controllers with a "
+            "larger lag_s. Certificates do not depend on it, because motions are coordinated by "
+            "measured progress."),
       field("limit_tolerance", &Checking::limit_tolerance, number(Checking::limit_tolerance_range),
-            "Share by which a trajectory may exceed a limit of velocity, acceleration or jerk "
-            "between its waypoints."),
+            "Share by which a trajectory may exceed a velocity, acceleration or jerk limit between "
+            "its waypoints."),
   });
 }
 
@@ -36,25 +36,24 @@ FormatPtr<SchedulingSettings> scheduling_format() {
   using Scheduling = SchedulingSettings;
   return object<Scheduling>({
       field("policy", &Scheduling::policy, one_of(known_policies()),
-            "The rule by which jobs start; `armloom compare` shows what each makes of your jobs."),
+            "Policy that decides when jobs start; `armloom compare` simulates your jobs under each "
+            "policy."),
       field("backlog_timeout_s", &Scheduling::backlog_timeout,
             seconds(Scheduling::backlog_timeout_range),
-            "A job that has waited so long in the backlog expires, unless it says otherwise."),
+            "Time in the backlog after which a job expires; a job can override it."),
       field("aging_s", &Scheduling::aging, seconds(Scheduling::aging_range),
-            "A job that has waited so long is overtaken no more."),
+            "After waiting this long, a job can no longer be overtaken."),
       field("on_idle_blocker", &Scheduling::on_idle_blocker, choice<OnIdleBlocker>(),
-            "An arm without a job in the way of one, and jobs that wait for each other: park sends "
-            "an arm aside, replan plans another way to where the job ends (what its trajectory was "
-            "to do on the way is lost) and parks where there is none, report only tells of it."),
-      field(
-          "horizon_steps", &Scheduling::horizon_steps, integer(Scheduling::horizon_steps_range),
-          "Of each arm so many jobs are admitted together, the one under way included; who passes "
-          "first is chosen for all of them (coordinated only). Decisions take longer with the "
-          "square of it: above 12 tens of milliseconds."),
+            "Action when an idle arm or a deadlock cycle blocks a job. park: move an arm out of "
+            "the way (retreat). replan: plan another path to the job's end, losing the rest of its "
+            "trajectory; park if there is no path. report: only report the blockade."),
+      field("horizon_steps", &Scheduling::horizon_steps, integer(Scheduling::horizon_steps_range),
+            "Number of jobs per arm that are scheduled together, including the running one (policy "
+            "coordinated only). Decision time grows quadratically: tens of milliseconds above 12."),
       field("on_restart", &Scheduling::on_restart, choice<OnRestart>(),
-            "What a server with `--data` that is started again does with jobs that had not ended: "
-            "ask stops all arms until they are resumed, continue goes on with those that had not "
-            "begun."),
+            "Action after a restart of a server with `--data` for jobs that had not ended. ask: "
+            "all arms stay stopped until they are resumed. continue: jobs that had not begun "
+            "continue by themselves."),
   });
 }
 
@@ -62,11 +61,11 @@ FormatPtr<MonitorSettings> monitor_format() {
   using Monitor = MonitorSettings;
   return object<Monitor>({
       field("rate_hz", &Monitor::rate_hz, number(Monitor::rate_range),
-            "How often the measured state is looked at."),
+            "Rate at which the measured state is checked."),
       field("reaction_s", &Monitor::reaction, seconds(Monitor::reaction_range),
-            "Time from a finding to the first arm that brakes."),
+            "Time from a finding to the start of braking."),
       field("stop_clearance_m", &Monitor::stop_clearance_m, number(Monitor::stop_clearance_range),
-            "Links closer than this stop their arms. At most clearance_m."),
+            "Clearance below which the monitor stops the arms. At most clearance_m."),
   });
 }
 
@@ -75,20 +74,19 @@ FormatPtr<ExecutionSettings> execution_format() {
   return object<Execution>({
       field("start_tolerance_rad", &Execution::start_tolerance_rad,
             number(Execution::start_tolerance_range),
-            "How far an arm may stand from where its job begins."),
+            "Largest deviation of an arm from the start of its job."),
       field("duration_scaling", &Execution::duration_scaling,
             number(Execution::duration_scaling_range),
-            "A motion fails as overrun when it takes longer than this times its duration, plus the "
-            "margin, and has not moved for 10 s."),
+            "A motion fails as overrun if it takes longer than its duration times this factor plus "
+            "duration_margin_s, and has not moved for 10 s."),
       field("duration_margin_s", &Execution::duration_margin,
             seconds(Execution::duration_margin_range),
-            "The margin of that; larger where arms may stall for longer."),
+            "Margin added to the scaled duration; increase it if arms may stall for longer."),
       field("velocity_scaling_factor", &Execution::velocity_scaling_factor,
             number(Execution::velocity_scaling_range),
-            "As MoveIt's default: the share of the joints' speeds of every motion whose times the "
-            "server makes: goals, paths to be timed, other ways, ways aside. A request's own "
-            "velocity_scaling_factor takes its place. Trajectories with times are run as they are "
-            "given."),
+            "Default velocity scaling for every motion that the server time-parameterizes: goals, "
+            "`retime`, replans and retreats. As in MoveIt; a request can override it. Trajectories "
+            "with times run as given."),
   });
 }
 
@@ -96,22 +94,22 @@ PartPtr<CellDescription> make_settings_part() {
   using Description = CellDescription;
   return parts<Description>({
       field("clearance_m", &Description::clearance_m, number(Description::clearance_range),
-            "What every admitted motion keeps from other arms and the scene."),
+            "Clearance that every admitted motion keeps from other arms and the scene."),
       field("self_clearance_m", &Description::self_clearance_m,
             number(Description::clearance_range),
-            "What an arm's own links keep from each other; at most clearance_m counts."),
+            "Clearance between links of the same arm; limited to clearance_m."),
       field("mount_clearance_m", &Description::mount_clearance_m,
             number(Description::clearance_range),
-            "What an arm keeps from the link that carries it: clearance_m unless given, as that "
-            "link may be a table; at most clearance_m counts. Less (0.005) where an "
-            "arm folds on its own base or works beside its own body."),
+            "Clearance between an arm and the link that carries it; limited to clearance_m. "
+            "Default: clearance_m, because that link may be a table. Set it lower (0.005) if an "
+            "arm folds onto its own base or works next to its own body."),
       field("checking", &Description::checking, checking_format(),
-            "What the checks of motions allow for."),
-      field("scheduling", &Description::scheduling, scheduling_format(), "Which job goes when."),
+            "Tolerances of the collision checks."),
+      field("scheduling", &Description::scheduling, scheduling_format(), "Scheduling of jobs."),
       field("monitor", &Description::monitor, monitor_format(),
-            "The watch over the measured state of all arms."),
+            "Monitoring of the measured state of all arms."),
       field("execution", &Description::execution, execution_format(),
-            "When a motion may begin and when it has failed; the defaults are MoveIt's."),
+            "Tolerances for starting and finishing motions; the defaults are MoveIt's."),
   });
 }
 
@@ -148,16 +146,17 @@ std::string settings_text(const CellDescription& settings) {
 const Format<CellDescription>& cell_format() {
   using Description = CellDescription;
   static const FormatPtr<Description> format = object<Description>({
-      ignored<Description>("$schema", path(),
-                           "This schema: editors check and complete the file by it."),
-      required("name", &Description::name, name(), "The cell's name."),
+      ignored<Description>(
+          "$schema", path(),
+          "Path of this JSON schema; editors use it to check and complete the file."),
+      required("name", &Description::name, name(), "Name of the cell."),
       required("robots", &Description::robots, list(robot_format(), {.fewest = 1}),
-               "The robots with their arms."),
+               "Robots with their arms."),
       field("objects", &Description::objects, list(scene_object_format()),
-            "The scene at start: tables, fixtures, fences."),
+            "Collision objects at start: tables, fixtures, fences."),
       field("allowed_collisions", &Description::allowed_collisions, list(pair_of(name())),
-            "Pairs that may touch: two links, or a link and an object; links with their prefix. "
-            "Nothing checks them."),
+            "Pairs that may touch: two links, or a link and an object; link names include the "
+            "prefix. Collisions of these pairs are not checked."),
       settings_part(),
   });
   return *format;

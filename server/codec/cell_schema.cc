@@ -10,8 +10,8 @@ const Schema& cell_schema() {
     Schema whole{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                  {"title", "Armloom cell file"},
                  {"description",
-                  "The robots of a cell, their arms, the scene and the settings. JSON, in which // "
-                  "and /* */ comments are allowed."}};
+                  "The robots of a cell, their arms, the scene and the settings. JSON with // and "
+                  "/* */ comments."}};
     whole.update(cell_format().schema(Way::in));
     return whole;
   }();
@@ -24,17 +24,17 @@ std::string cell_reference_text() {
   return R"(<!-- Written by `armloom schema --markdown`: change the descriptions in server/codec/*_format.cc, not this file. -->
 # The cell file
 
-What a cell file holds: robots with their arms, the scene, and the settings. It is JSON in which `//`
-and `/* */` comments are allowed. Positions are metres, angles radians, times seconds; keys carry
-their unit. Paths count from the folder of the file. Unknown fields, wrong types and values out of
-range are refused, all at once, each with its place (a JSON pointer) and the value found.
+A cell file describes the robots with their arms, the scene, and the settings. It is JSON with `//`
+and `/* */` comments. Positions are in meters, angles in radians, times in seconds; keys carry their
+unit. Relative paths start at the folder of the file. Unknown fields, wrong types and values out of
+range are reported all at once, each with its place (a JSON pointer) and the value found.
 
-- `armloom import --urdf FILE --srdf FILE --out FILE` writes one from a robot's own files.
-- `armloom validate --cell FILE` says what a cell holds, or everything that is wrong with it.
-- Editors check and complete it with `"$schema": "cell.schema.json"`: the path to the file of that name
-  here. `armloom schema` prints it, and a server has it at `/cell.schema.json`.
+- `armloom import --urdf FILE --srdf FILE --out FILE` writes a cell file from a robot's own files.
+- `armloom validate --cell FILE` prints what a cell contains, or all of its faults.
+- Editors check and complete a file with `"$schema": "cell.schema.json"`, the path of that file in
+  this folder. `armloom schema` prints the schema, and a server serves it at `/cell.schema.json`.
 
-The smallest one:
+The smallest cell file:
 
 ```json
 {

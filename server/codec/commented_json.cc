@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::size_t kColumns = 100;
 
-// `{"a": [1, 2]}` on one line.
 std::string on_one_line(const Schema& value) {
   if (!value.is_structured()) return value.dump();
   std::string text(1, value.is_array() ? '[' : '{');
@@ -55,7 +54,7 @@ class CommentedWriter {
     return &(*schema)["items"];
   }
 
-  // Whether something inside would have a comment.
+  // Returns true if a member would get a comment.
   bool has_comment(const Schema& value, const Schema* schema, const std::string& pointer) const {
     for (const auto& [key, member] : value.items()) {
       std::string place = pointer;
@@ -79,7 +78,7 @@ class CommentedWriter {
       std::string place = pointer;
       append_key(place, key);
       const Schema* inner = below(schema, key);
-      if (pointer.empty() && !first) out_ += '\n';  // sections stand apart
+      if (pointer.empty() && !first) out_ += '\n';  // an empty line between sections
       first = false;
       if (inner != nullptr && described_.insert(inner).second && inner->contains("description")) {
         write_comment((*inner)["description"]);
@@ -116,7 +115,7 @@ class CommentedWriter {
     for (const std::string& note : notes->second) write_comment(note);
   }
 
-  // Words wrapped behind "// ". What would not be a comment any more (a line end) becomes a space.
+  // Writes a comment; line ends become spaces, because the rest would not be a comment.
   void write_comment(const std::string& text) {
     std::istringstream words(text);
     std::string word;

@@ -11,41 +11,36 @@
 
 namespace armloom {
 
-// JSON Schema (draft 2020-12); keys keep the order in which they are described.
+// JSON Schema (draft 2020-12); keys keep their order.
 using Schema = nlohmann::ordered_json;
 
-// Whose JSON a schema describes: what may come in, or what the server says. What is said has every
-// member that a default would stand for.
+// Input of clients or output of the server. In output, members with defaults are always present.
 enum class Way { in, out };
 
-// What becomes of each path in a text.
 using PathMap = std::function<std::string(const std::string&)>;
 
-// Describes the JSON of a value. One description makes the reader, the writer, the schema and, from
-// the schema, the reference for people. Small formats (scalar_formats.h) are combined to lists,
-// objects (object_format.h) and whole files (cell_format.h). Immutable, and shared by threads.
+// Describes the JSON form of a value; reader, writer, schema and reference follow from it.
+// Immutable, and shared by threads.
 //
-// The type of the value is erased, so that formats are compiled once instead of once for each T:
-// `out` and `value` are addresses. FormatPtr<T> below is the typed handle, with which the compiler
-// checks the types in the description of a message.
+// The value's type is erased, so that formats are compiled once: `out` and `value` are addresses.
+// FormatPtr<T> is the typed handle.
 class AnyFormat {
  public:
   AnyFormat() = default;
   AnyFormat(const AnyFormat&) = delete;
   AnyFormat& operator=(const AnyFormat&) = delete;
   virtual ~AnyFormat() = default;
-  // Reads into `out`, which holds the defaults. Faults go to the node's list, with place and value;
-  // `out` must not be used then.
+  // Reads into `out`, which holds the defaults. Faults are added to the node's list; then `out`
+  // must not be used.
   virtual void read_any(const JsonNode& node, void* out) const = 0;
   virtual void write_any(JsonWriter& out, const void* value) const = 0;
   [[nodiscard]] virtual Schema schema(Way way) const = 0;
-  // Replaces the paths in a JSON value that is to be read as this format. What does not fit the
-  // format stays as it is: the reader will say so.
+  // Replaces paths in a value before it is read; ignores what does not fit the format.
   virtual void map_paths(nlohmann::json& /*value*/, const PathMap& /*map*/) const {}
 };
 
-// A std::shared_ptr that is copied and destroyed by functions in format.cc instead of inline:
-// descriptions of messages make thousands of temporary ones.
+// A std::shared_ptr that is copied and destroyed out of line, because descriptions create thousands
+// of temporaries.
 template <class Any>
 class SharedAny {
  public:
@@ -62,8 +57,7 @@ class SharedAny {
 };
 using AnyFormatPtr = SharedAny<AnyFormat>;
 
-// An AnyFormat of values of type T. To keep it, copy it: a reference from `*format_pointer` is
-// valid only as long as the FormatPtr.
+// Copy it to keep it: a reference from `*format_pointer` lives only as long as the FormatPtr.
 template <class T>
 class Format {
  public:
@@ -90,7 +84,7 @@ class FormatPtr {
   Format<T> format_;
 };
 
-// The base class of formats that are written by hand for a T.
+// Base class of handwritten formats.
 template <class T>
 class CustomFormat : public AnyFormat {
  public:
@@ -103,14 +97,13 @@ class CustomFormat : public AnyFormat {
   }
 };
 
-// Kind: a CustomFormat.
 template <class Kind, class... Arguments>
 [[nodiscard]] FormatPtr<typename Kind::Value> make_format(Arguments&&... arguments) {
   return FormatPtr<typename Kind::Value>(
       AnyFormatPtr(new Kind(std::forward<Arguments>(arguments)...)));
 }
 
-// A value as a schema shows it: a default, a bound. Whole numbers stand without a point.
+// Returns a value for a schema; whole numbers have no decimal point.
 [[nodiscard]] Schema as_json(double number);
 [[nodiscard]] Schema as_json(const JsonWriter& written);
 [[nodiscard]] Schema as_json(const AnyFormat& format, const void* value);

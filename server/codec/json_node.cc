@@ -11,7 +11,19 @@ namespace {
 
 using nlohmann::json;
 
-// What was found, short enough for one sentence.
+// Fields of requests and cell files that version 0.2 renamed.
+constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
+    {"approach", "move_to_start"}, {"horizon_legs", "horizon_steps"}, {"order", "reorderable"}};
+
+std::optional<std::string_view> renamed(std::string_view key,
+                                        std::span<const std::string_view> known) {
+  const auto it =
+      std::ranges::find(kRenamed, key, &std::pair<std::string_view, std::string_view>::first);
+  const bool is_known = it != std::end(kRenamed) && std::ranges::count(known, it->second) > 0;
+  return is_known ? std::optional(it->second) : std::nullopt;
+}
+
+// Returns the found value, shortened to fit into a sentence.
 std::variant<std::monostate, double, std::string> shown(const json& value) {
   static constexpr std::size_t kShown = 80;
   if (value.is_number()) return value.get<double>();
@@ -27,7 +39,7 @@ bool is_whole_double(const json& value) {
   return value.is_number_float() && value.get<double>() == std::trunc(value.get<double>());
 }
 
-// Precondition: a whole number. None: beyond what the type holds.
+// Returns nullopt if out of range. Precondition: a whole number.
 std::optional<std::int64_t> whole_within_int64(const json& value) {
   constexpr double kBeyond = 9223372036854775808.0;  // 2^63
   if (value.is_number_float()) {
@@ -90,11 +102,14 @@ bool JsonNode::object(std::span<const std::string_view> known) const {
       list += list.empty() ? "" : ", ";
       list += name;
     }
+    const auto now = renamed(it.key(), known);
     const auto meant = nearest_name(it.key(), known);
     JsonNode(it.value(), *this, it.key())
         .invalid("unknown-field",
                  "unknown field \"" + it.key() + "\"" +
-                     (meant ? ", did you mean \"" + std::string(*meant) + "\"?" : ";") +
+                     (now     ? ", renamed to \"" + std::string(*now) + "\" in version 0.2;"
+                      : meant ? ", did you mean \"" + std::string(*meant) + "\"?"
+                              : ";") +
                      " known here: " + list);
   }
   return true;

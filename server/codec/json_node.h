@@ -14,33 +14,32 @@
 
 namespace armloom {
 
-// A JSON value and its place, read strictly: every fault lands in the list that the root was given
-// (at most kFaultsMax), reading goes on, and the caller looks at the list when it is through.
-// A node is a view on the value and on the node that it came from: both have to outlive it.
-// Wrong types are `malformed`; what is readable but cannot be right is `invalid`.
+// A JSON value with its place. Faults go to the root's list and reading continues. The value and
+// the parent node must outlive the node. Wrong types are `malformed`; impossible values are
+// `invalid`.
 class JsonNode {
  public:
   inline static constexpr std::size_t kFaultsMax = 20;
 
-  // `prefix` stands in front of every pointer ("/3/job" for a body inside a jobs file).
+  // `prefix` precedes every pointer ("/3/job").
   JsonNode(const nlohmann::json& value, std::string_view prefix, Problems& faults)
       : value_(&value), key_(prefix), faults_(&faults) {}
 
   [[nodiscard]] std::string pointer() const;
   [[nodiscard]] const nlohmann::json& raw() const { return *value_; }
 
-  // Whether it is an object; each key that is not `known` is a fault.
+  // Returns true for an object; reports unknown keys.
   [[nodiscard]] bool object(std::span<const std::string_view> known) const;
   [[nodiscard]] bool object(std::initializer_list<std::string_view> known) const {
     return object(std::span(known.begin(), known.size()));
   }
   [[nodiscard]] bool has(std::string_view key) const { return value_->contains(key); }
-  // Calls read(member) when the member is there. Precondition: object() was true.
+  // Precondition: object() returned true.
   template <class Read>
   void optional(std::string_view key, Read read) const {
     if (const auto it = value_->find(key); it != value_->end()) read(JsonNode(*it, *this, key));
   }
-  // The same; a fault when the member is missing.
+  // Also reports a missing member.
   template <class Read>
   void required(std::string_view key, Read read) const {
     if (const auto it = value_->find(key); it != value_->end()) {
@@ -49,13 +48,13 @@ class JsonNode {
       missing(key);
     }
   }
-  // Calls read(element) for each element; a fault when it is no array.
+  // Reports a value that is not an array.
   template <class Read>
   void each(Read read) const {
     if (!array()) return;
     for (std::size_t i = 0; i < value_->size(); ++i) read(JsonNode((*value_)[i], *this, i));
   }
-  template <class Read>  // read(key, member), in the order of the keys
+  template <class Read>  // calls read(key, member), ordered by key
   void members(Read read) const {
     if (!is_object()) return;
     for (auto it = value_->begin(); it != value_->end(); ++it) {
@@ -63,17 +62,15 @@ class JsonNode {
     }
   }
 
-  // Scalars into `out`; on a fault `out` stays as it is and the answer is false.
+  // On a fault, these return false and leave `out` unchanged.
   bool read(double& out) const;
   bool read(std::string& out) const;
   bool read(bool& out) const;
-  // 1.0 and 1e3 are integers, too: by JSON Schema, which cannot tell them from 1 and 1000.
+  // Accepts 1.0 and 1e3 as integers, like JSON Schema.
   bool read_integer(std::int64_t& out, std::int64_t lowest, std::int64_t highest) const;
   bool read(std::vector<double>& out) const;
   bool read(std::vector<std::string>& out) const;
-  // A number in a closed interval.
   bool read_within(double& out, double lowest, double highest) const;
-  // Exactly `size` numbers.
   bool read_numbers(double* out, std::size_t size) const;
 
   [[nodiscard]] bool array() const;

@@ -6,7 +6,7 @@
 
 namespace armloom {
 
-// One step of a JSON pointer (RFC 6901) at the end of `pointer`.
+// Appends one step to a JSON pointer (RFC 6901).
 inline void append_key(std::string& pointer, std::string_view key) {
   pointer += '/';
   for (const char c : key) {

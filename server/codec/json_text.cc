@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-// Receives the parser's events and builds the value, keeping the way to the present place.
+// Builds the value and keeps the path to it.
 class StrictBuilder {
  public:
   explicit StrictBuilder(std::string_view text) : text_(text) {}
@@ -46,12 +46,12 @@ class StrictBuilder {
   }
 
   bool parse_error(std::size_t position, const std::string&, const json::exception& error) {
-    // The library counts from one and stands behind the last character that it read.
+    // The library counts from one, after the last character read.
     const std::size_t offset = std::min(position > 0 ? position - 1 : 0, text_.size());
     const bool out_of_range = error.id == 406;
     const std::string found = token_around(offset);
-    std::string detail = out_of_range    ? "the number is beyond what a double can hold"
-                         : found.empty() ? "the text ends too early"
+    std::string detail = out_of_range    ? "the number exceeds the range of a double"
+                         : found.empty() ? "the text ends before the JSON value is complete"
                                          : "this is not JSON";
     return refuse("malformed-json", where(offset) + ": " + detail, found);
   }
@@ -59,7 +59,7 @@ class StrictBuilder {
   [[nodiscard]] json take() { return std::move(root_); }
   [[nodiscard]] Problem problem() const { return problem_; }
 
-  // "line 3, column 14", counted from one, columns in bytes.
+  // Returns "line 3, column 14": counted from one, columns in bytes.
   [[nodiscard]] std::string where(std::size_t offset) const {
     const std::string_view before = text_.substr(0, offset);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
@@ -70,8 +70,8 @@ class StrictBuilder {
  private:
   struct Level {
     json* value;
-    std::string key;       // of the member being read, in an object
-    json* slot = nullptr;  // where its value goes
+    std::string key;       // key of the member being read
+    json* slot = nullptr;  // place for its value
   };
 
   bool put(json value) {
@@ -89,7 +89,7 @@ class StrictBuilder {
   bool open(json container) {
     if (levels_.size() >= kJsonDepthMax) {
       return refuse_size("nesting-too-deep",
-                         "nested more than " + std::to_string(kJsonDepthMax) + " levels deep");
+                         "nested more than" + std::to_string(kJsonDepthMax) + " levels deep");
     }
     if (!count_part()) return false;
     json* place = &root_;
@@ -103,7 +103,7 @@ class StrictBuilder {
       *parent.slot = std::move(container);
       place = parent.slot;
     }
-    // Stays valid while open: nothing is added to the parent before this one is closed.
+    // Stays valid: nothing is added to the parent before this container is closed.
     levels_.push_back(Level{place, {}, nullptr});
     return true;
   }
@@ -136,7 +136,7 @@ class StrictBuilder {
     problem_.detail = std::move(detail);
     if (!found.empty()) problem_.value = std::move(found);
     for (const Level& level : levels_) {
-      if (level.value->is_array()) {  // an element that is open is in its array already
+      if (level.value->is_array()) {  // an open element is already in its array
         const bool innermost = &level == &levels_.back();
         append_index(problem_.pointer, level.value->size() - (innermost ? 0 : 1));
       } else if (level.slot != nullptr) {
@@ -146,7 +146,7 @@ class StrictBuilder {
     return false;
   }
 
-  // What stands at `offset`, up to the next delimiter: enough to recognise it.
+  // Returns the token at `offset`, for the message.
   [[nodiscard]] std::string token_around(std::size_t offset) const {
     static constexpr std::string_view kDelimiters = " \t\r\n,:[]{}";
     static constexpr std::size_t kShown = 40;
@@ -178,7 +178,7 @@ Result<nlohmann::json> parse_json(std::string_view text, JsonComments comments) 
   StrictBuilder builder(text);
   if (const std::size_t nul = text.find('\0'); nul != text.npos) {
     return failure(Problem{ProblemKind::malformed, "malformed-json", "",
-                           builder.where(nul) + ": a NUL byte stands in the text", "\\u0000"});
+                           builder.where(nul) + ": the text contains a NUL byte", "\\u0000"});
   }
   const bool ignore_comments = comments == JsonComments::allowed;
   if (!json::sax_parse(text.begin(), text.end(), &builder, json::input_format_t::json, true,

@@ -8,8 +8,8 @@
 namespace armloom {
 namespace {
 
-// Length of the well-formed UTF-8 sequence at the front of `text`, zero when there is none
-// (Unicode 15, table 3-7).
+// Returns the length of the UTF-8 sequence at the front, or zero if malformed (Unicode 15, table
+// 3-7).
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);

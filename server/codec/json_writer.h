@@ -15,15 +15,13 @@ namespace armloom {
 
 class WallClock;
 
-// Writes JSON text front to back, keys in the order in which they are given, without spaces.
-// Numbers are written in the shortest form that reads back the same; numbers that JSON does not
-// have (NaN, infinities) become null, -0 becomes 0, bytes that are not UTF-8 become U+FFFD: the
-// text is always valid JSON. Nesting is the caller's duty: each begin has its end, each key its
-// value.
+// Writes JSON without spaces. Numbers read back the same. The text is always valid: NaN and
+// infinities become null, -0 becomes 0, invalid UTF-8 becomes U+FFFD. The caller must balance begin
+// and end.
 class JsonWriter {
  public:
   JsonWriter() = default;
-  // Knows the wall time of cell times. `clock` outlives the writer; null: it knows none.
+  // `clock` gives wall time and must outlive the writer; null if unknown.
   explicit JsonWriter(const WallClock* clock) : clock_(clock) {}
 
   JsonWriter& begin_object() { return open('{'); }
@@ -37,7 +35,7 @@ class JsonWriter {
   JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
   JsonWriter& value(double number);
   JsonWriter& value(std::nullptr_t) { return raw("null"); }
-  // Seconds; divided, not multiplied, so that a whole millisecond is written as one.
+  // Divides instead of multiplying, so that a whole millisecond is exact.
   JsonWriter& value(Duration time) { return value(static_cast<double>(time.count()) / 1e9); }
   JsonWriter& value(TimePoint time) { return value(time.time_since_epoch()); }
   template <class T>
@@ -60,12 +58,12 @@ class JsonWriter {
     for (const T& item : list) value(item);
     return end_array();
   }
-  // Rounded to `decimals` (0..9) places: short, for poses that are only looked at.
+  // Rounds to `decimals` (0..9) places.
   JsonWriter& rounded(double number, int decimals);
-  // Keys that end in _at are only written where wall time is known: not in a simulated run.
+  // Returns false in a simulated session: keys ending in _at are not written.
   [[nodiscard]] bool knows_wall_time() const { return clock_ != nullptr; }
-  JsonWriter& wall_time(std::optional<TimePoint> time);  // absent: null
-  // Text that is JSON already.
+  JsonWriter& wall_time(std::optional<TimePoint> time);  // nullopt is written as null
+  // Writes `json`, which must be valid.
   JsonWriter& raw(std::string_view json);
 
   template <class T>
@@ -84,7 +82,7 @@ class JsonWriter {
 
   const WallClock* clock_ = nullptr;
   std::string out_;
-  bool comma_ = false;  // something stands before, on this level
+  bool comma_ = false;  // a value precedes on this level
 };
 
 }  // namespace armloom

@@ -4,8 +4,7 @@
 
 namespace armloom::formats {
 
-// Members that came later: this version tells them always, but what older ones stored and recorded
-// lacks them and is read, too.
+// Makes members optional when reading, because older versions did not write them.
 [[nodiscard]] AnyPartPtr later(const AnyPartPtr& part);
 template <class T>
 [[nodiscard]] PartPtr<T> later(const PartPtr<T>& part) {

@@ -9,14 +9,14 @@ bool is_readable(const JsonNode& array, const ListSize& size) {
   if (!size.most || found <= *size.most) return true;
   array.fault(ProblemKind::too_large, "too-many-" + size.what,
               std::to_string(found) + " " + size.noun + ", at most " + std::to_string(*size.most) +
-                  " are read");
+                  " are allowed");
   return false;
 }
 
 void check_fewest(const JsonNode& array, const ListSize& size) {
   if (array.raw().size() >= size.fewest) return;
   array.invalid("too-few", "at least " + (size.fewest == 1 ? "one" : std::to_string(size.fewest)) +
-                               " is expected here, found " + std::to_string(array.raw().size()));
+                               " is required here, found " + std::to_string(array.raw().size()));
 }
 
 namespace {
@@ -96,7 +96,7 @@ class PairFormat final : public AnyFormat {
     if (!node.array()) return;
     if (node.raw().size() != 2) {
       return node.invalid("wrong-size",
-                          "expected a pair, found " + std::to_string(node.raw().size()));
+                          "expected an array of 2, found " + std::to_string(node.raw().size()));
     }
     std::ptrdiff_t next = first_;
     node.each([&](const JsonNode& element) {

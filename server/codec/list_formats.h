@@ -12,8 +12,7 @@
 
 namespace armloom::formats {
 
-// How many elements a list may have. One with more than `most` is not read at all: the fault
-// "too-many-<what>" counts them as `noun`.
+// A list with more than `most` is not read: fault "too-many-<what>", counted as `noun`.
 struct ListSize {
   std::size_t fewest = 0;
   std::optional<std::size_t> most = {};
@@ -43,7 +42,6 @@ inline constexpr ListOperations kListOperations{
     },
     [](const void* list) { return static_cast<const std::vector<T>*>(list)->size(); }, sizeof(T)};
 
-// A JSON array of elements that all have one format.
 [[nodiscard]] AnyFormatPtr list(const AnyFormatPtr& element, ListSize size,
                                 const ListOperations& operations);
 template <class T>
@@ -68,7 +66,7 @@ inline constexpr DictionaryOperations kDictionaryOperations{
       }
     }};
 
-// A JSON object whose keys are names of the user's: {"torso_lift_joint": 0.1}.
+// Describes an object with user-defined keys: {"torso_lift_joint": 0.1}.
 [[nodiscard]] AnyFormatPtr dictionary(const AnyFormatPtr& member,
                                       const DictionaryOperations& operations);
 template <class T>
@@ -76,7 +74,7 @@ template <class T>
   return FormatPtr<std::map<std::string, T>>(dictionary(member->any(), kDictionaryOperations<T>));
 }
 
-// An array of exactly two: ["table", "panda_link0"].
+// Describes an array of two: ["table", "panda_link0"].
 [[nodiscard]] AnyFormatPtr pair_of(const AnyFormatPtr& element, std::ptrdiff_t first,
                                    std::ptrdiff_t second);
 template <class T>

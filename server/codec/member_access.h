@@ -9,7 +9,7 @@
 
 namespace armloom::formats {
 
-// A reference to a function that takes the address of a value. The function must outlive it.
+// The function must outlive the reference.
 template <class Void>
 class AddressFunction {
  public:
@@ -25,8 +25,8 @@ class AddressFunction {
 using UseValue = AddressFunction<const void>;
 using FillValue = AddressFunction<void>;
 
-// Returns the offset of the member in a T (bytes). In the Itanium C++ ABI (GCC, and Clang except on
-// Windows) a pointer to a data member is this offset.
+// Offset in bytes: a pointer to a data member in the Itanium C++ ABI (GCC; Clang except on
+// Windows).
 template <class T, class Where>
 [[nodiscard]] std::ptrdiff_t offset_of(Where T::*where) {
   static_assert(sizeof where == sizeof(std::ptrdiff_t) && !std::is_function_v<Where>);
@@ -49,16 +49,16 @@ template <class M>
   }
 }
 
-// Gives access to a value in an object whose type is erased, by an offset or by two functions.
+// Access to a value in an object of erased type, by an offset or two functions.
 class Access {
  public:
   // Calls use(object's value), unless the object has none.
   using Use = void (*)(const Access&, const void* object, const UseValue& use);
-  // Calls fill(a place to read into), then stores in the object what was read.
+  // Calls fill(storage for the value), then stores the value read in the object.
   using Fill = void (*)(const Access&, void* object, const FillValue& fill);
 
   explicit Access(std::ptrdiff_t offset) : Access(offset, nullptr, nullptr) {}
-  // `state`: the functions get it by state(). If a function is null, `state` must be the offset.
+  // `state`: for the functions. If a function is null, it must be the offset.
   template <class State>
   Access(const State& state, Use use, Fill fill) : use_(use), fill_(fill) {
     static_assert(std::is_trivially_copyable_v<State> && sizeof(State) <= sizeof state_);
@@ -79,7 +79,6 @@ class Access {
   [[nodiscard]] const State& state() const {
     return *std::launder(reinterpret_cast<const State*>(state_));
   }
-  // The member at the offset.
   template <class Member>
   [[nodiscard]] const Member& member(const void* object) const {
     return *static_cast<const Member*>(address_at(object, state<std::ptrdiff_t>()));
@@ -95,7 +94,6 @@ class Access {
   alignas(std::max_align_t) std::byte state_[40];
 };
 
-// Access to a member that may have no value.
 template <class T, class M>
 [[nodiscard]] Access member_access(std::optional<M> T::*where) {
   using Maybe = std::optional<M>;
@@ -109,7 +107,7 @@ template <class T, class M>
         fill(maybe ? &*maybe : &maybe.emplace(fresh<M>()));
       });
 }
-// Access to a list, dictionary or text; an empty one counts as no value.
+// An empty list, dictionary or text means no value.
 template <class T, class M>
 [[nodiscard]] Access unless_empty(M T::*where) {
   return Access(

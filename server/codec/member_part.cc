@@ -1,13 +1,13 @@
 #include "server/codec/member_part.h"
 
 #include "server/codec/later_part.h"
+#include "server/codec/output_part.h"
 #include "server/codec/part_groups.h"
-#include "server/codec/told_part.h"
 
 namespace armloom::formats {
 namespace {
 
-// A default that is worth a word: an object's are those of its members.
+// Returns false for empty lists and objects, whose defaults are not worth showing.
 bool is_telling(const Schema& fallback) {
   return !fallback.is_object() && !(fallback.is_array() && fallback.empty());
 }
@@ -51,7 +51,7 @@ class MemberPart : public AnyPart {
   Access access_;
 };
 
-class ToldPart final : public MemberPart {
+class OutputPart final : public MemberPart {
  public:
   using MemberPart::MemberPart;
   void read_any(const JsonNode&, void*) const override {}
@@ -152,22 +152,23 @@ AnyPartPtr member_part(Need need, std::string_view key, std::string_view text,
   return member_part(need, key, text, format, Access(offset));
 }
 
-AnyPartPtr told_part(Need need, std::string_view key, std::string_view text,
-                     const AnyFormatPtr& format, const Access& access) {
-  return AnyPartPtr(new ToldPart({std::string(key), std::string(text), need, {}}, format, access));
+AnyPartPtr output_part(Need need, std::string_view key, std::string_view text,
+                       const AnyFormatPtr& format, const Access& access) {
+  return AnyPartPtr(
+      new OutputPart({std::string(key), std::string(text), need, {}}, format, access));
 }
 
-AnyPartPtr told_part(Need need, std::string_view key, std::string_view text,
-                     const AnyFormatPtr& format, std::ptrdiff_t offset) {
-  return told_part(need, key, text, format, Access(offset));
+AnyPartPtr output_part(Need need, std::string_view key, std::string_view text,
+                       const AnyFormatPtr& format, std::ptrdiff_t offset) {
+  return output_part(need, key, text, format, Access(offset));
 }
 
 AnyPartPtr constant_part(std::string_view key, const Schema& value) {
   return AnyPartPtr(new ConstantPart(key, value));
 }
 
-AnyPartPtr told_times(std::string_view what, std::ptrdiff_t offset, bool may_lack,
-                      std::string_view text) {
+AnyPartPtr output_times(std::string_view what, std::ptrdiff_t offset, bool may_lack,
+                        std::string_view text) {
   return AnyPartPtr(new ToldTimes(what, offset, may_lack, text));
 }
 
@@ -182,7 +183,7 @@ void describe_member(Schema& object, const MemberText& member, Schema schema,
   if (member.need == Need::required || always_told) {
     object["required"].push_back(member.key);
   } else if (way == Way::out) {
-    // It is said, or it is not there.
+    // Optional in output.
   } else if (member.stated) {
     schema["default"] = *member.stated;
   } else if (fallback && is_telling(*fallback)) {

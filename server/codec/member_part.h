@@ -14,19 +14,17 @@ namespace armloom::formats {
 
 enum class Need { required, optional };
 
-// What the schema says of a member besides its format.
 struct MemberText {
   std::string key;
-  std::string text;  // one sentence or two
+  std::string text;  // one or two sentences
   Need need = Need::optional;
-  std::optional<Schema> stated;  // default, where the value itself has none
+  std::optional<Schema> stated;  // default, if not that of the object
 };
 
-// `fallback`: what an absent one means; none: it is then simply not there.
+// `fallback`: default of an absent member, if any.
 void describe_member(Schema& object, const MemberText& member, Schema schema,
                      const std::optional<Schema>& fallback, Way way);
 
-// One member of the object.
 [[nodiscard]] AnyPartPtr member_part(MemberText text, const AnyFormatPtr& format,
                                      const Access& access);
 [[nodiscard]] AnyPartPtr member_part(Need need, std::string_view key, std::string_view text,
@@ -34,8 +32,7 @@ void describe_member(Schema& object, const MemberText& member, Schema schema,
 [[nodiscard]] AnyPartPtr member_part(Need need, std::string_view key, std::string_view text,
                                      const AnyFormatPtr& format, std::ptrdiff_t offset);
 
-// Returns the Access of a list, dictionary or text, and the offset of any other member. Empty
-// lists, dictionaries and texts are left out when written, because an absent member means the same.
+// Empty lists, dictionaries and texts are not written, because an absent member means the same.
 template <class M, class T>
 [[nodiscard]] auto field_access(M T::*where) {
   if constexpr (requires(const M& value) { value.empty(); }) {
@@ -52,14 +49,13 @@ template <class T, class Where, class M>
 [[nodiscard]] PartPtr<T> member(MemberText text, Where T::*where, const FormatPtr<M>& format) {
   return PartPtr<T>(member_part(std::move(text), format->any(), Access(field_access<M>(where))));
 }
-// Get(const T&) returns the value, or an optional that is empty if the member is absent. Put(T&, M)
-// stores the value that was read.
+// Get(const T&) returns the value or an optional; Put(T&, M) stores the value read.
 template <class T, class M, class Get, class Put>
 [[nodiscard]] PartPtr<T> member(MemberText text, const FormatPtr<M>& format, Get get, Put put) {
   return PartPtr<T>(member_part(std::move(text), format->any(), computed_access<T, M>(get, put)));
 }
 
-// The usual ones: key, member, format, what it means.
+// Common forms: key, member, format, description.
 template <class T, class Where, class M>
 [[nodiscard]] PartPtr<T> required(std::string_view key, Where T::*where, const FormatPtr<M>& format,
                                   std::string_view text) {
@@ -77,15 +73,14 @@ template <class T, class Where, class M>
                 format);
 }
 
-// A member that is always there, empty or not.
+// Always written, even if empty.
 template <class T, class M>
 [[nodiscard]] PartPtr<T> always(std::string_view key, M T::*where,
                                 const std::type_identity_t<FormatPtr<M>>& format,
                                 std::string_view text = "") {
   return PartPtr<T>(member_part(Need::required, key, text, format->any(), offset_of(where)));
 }
-// As above, converted: `spell` makes the written value of the member, `mean` the member of the
-// value that was read.
+// `spell` converts the member to its written form, `mean` back.
 template <class T, class Where, class M, class Spell, class Mean>
 [[nodiscard]] PartPtr<T> always(std::string_view key, Where T::*where, const FormatPtr<M>& format,
                                 std::string_view text, Spell spell, Mean mean) {
@@ -95,9 +90,9 @@ template <class T, class Where, class M, class Spell, class Mean>
       [where, mean](T& to, M value) { to.*where = mean(std::move(value)); });
 }
 
-// A value that is told only where it is not the usual one.
+// Written only if different from `usual`, the default.
 template <class T, class M>
-[[nodiscard]] PartPtr<T> unless_usual(std::string_view key, M T::*where,
+[[nodiscard]] PartPtr<T> omit_default(std::string_view key, M T::*where,
                                       std::type_identity_t<M> usual, const FormatPtr<M>& format,
                                       std::string_view text) {
   return member<T>(
@@ -109,7 +104,6 @@ template <class T, class M>
       [where](T& to, M value) { to.*where = std::move(value); });
 }
 
-// A member that is allowed and means nothing here.
 template <class T, class M>
 [[nodiscard]] PartPtr<T> ignored(std::string_view key, const FormatPtr<M>& format,
                                  std::string_view text) {
@@ -118,7 +112,7 @@ template <class T, class M>
       [](const T&) { return std::optional<M>(); }, [](T&, const M&) {});
 }
 
-// A part that is read, described as what may come in, and never written.
+// Makes a part that is read and never written.
 [[nodiscard]] AnyPartPtr read_only(const AnyPartPtr& part);
 template <class T>
 [[nodiscard]] PartPtr<T> read_only(const PartPtr<T>& part) {

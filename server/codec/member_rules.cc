@@ -14,7 +14,7 @@ std::string listed(const std::vector<std::string>& keys) {
   return text;
 }
 
-// A rule of its own beside those that the object has.
+// Adds a rule to the "allOf" of the schema.
 void add_rule(Schema& object, Schema rule) {
   if (!object.contains("allOf")) object["allOf"] = Schema::array();
   object["allOf"].push_back(std::move(rule));
@@ -33,7 +33,7 @@ class CountRule final : public AnyPart {
     const std::string expected = how_many_ == HowMany::exactly_one ? "exactly" : "at most";
     object.invalid(
         how_many_ == HowMany::exactly_one ? "not-exactly-one" : "more-than-one",
-        expected + " one of " + listed(keys_) + " is expected, found " + std::to_string(count));
+        expected + " one of " + listed(keys_) + " is required, found " + std::to_string(count));
   }
   void describe_any(Schema& object, const void*, Way) const override {
     if (how_many_ == HowMany::exactly_one) {
@@ -77,7 +77,8 @@ class CompanionPart final : public AroundPart {
   void check(const JsonNode& object, std::string_view key) const {
     if (!object.has(key) || object.has(companion_)) return;
     object.optional(key, [&](const JsonNode& node) {
-      node.invalid("without-companion", "only a " + companion_ + " has a " + std::string(key));
+      node.invalid("without-companion",
+                   "\"" + std::string(key) + "\" requires \"" + companion_ + "\"");
     });
   }
 
@@ -86,10 +87,9 @@ class CompanionPart final : public AroundPart {
   std::vector<std::string_view> keys_;
 };
 
-// Makes the requirements that the part added to `object` hold only if `key` is absent. `before`:
-// the description without the part.
+// Makes the part's requirements apply only without `key`. `before`: the schema without the part.
 void describe_unless(Schema& object, const std::string& key, const Schema& before) {
-  // The entries of a list that `before` does not have; they are taken out.
+  // Takes out the entries that `before` does not have.
   const auto take_new = [&](const char* list) {
     const Schema all = object.value(list, Schema::array());
     const Schema old = before.value(list, Schema::array());
@@ -102,7 +102,7 @@ void describe_unless(Schema& object, const std::string& key, const Schema& befor
   if (!needed.empty()) rules.push_back({{"required", needed}});
   for (const Schema& rule : rules) {
     Schema either{has(key)};
-    if (rule.contains("anyOf")) {  // of another one around the same part
+    if (rule.contains("anyOf")) {  // made by an outer UnlessPart
       either.insert(either.end(), rule["anyOf"].begin(), rule["anyOf"].end());
     } else {
       either.push_back(rule);

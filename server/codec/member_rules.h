@@ -23,7 +23,7 @@ template <class T>
   return PartPtr<T>(count_rule(HowMany::at_most_one, std::move(keys)));
 }
 
-// The part, which has no meaning without the member `companion`, and is not written without it.
+// Requires the member `companion`; not written without it.
 [[nodiscard]] AnyPartPtr only_with(std::string_view companion, const Access& access,
                                    const AnyPartPtr& part);
 template <class T, class M>
@@ -32,27 +32,25 @@ template <class T, class M>
   return PartPtr<T>(only_with(companion, member_access(where), part.any()));
 }
 
-// Returns a part that applies only to objects without the member `key`. `may_be`: false if no
-// object has it.
+// Applies only to objects without the member `key`. `may_be`: false if no object has it.
 [[nodiscard]] AnyPartPtr unless(std::string_view key, const AnyPartPtr& part, bool may_be);
 template <class T>
 [[nodiscard]] PartPtr<T> unless(std::string_view key, const PartPtr<T>& part) {
   return PartPtr<T>(unless(key, part.any(), true));
 }
-// The same beside a member that is refused (not_served): that is fault enough.
+// Like unless(), if not_served() refuses `key`, so that only one fault is reported.
 template <class T>
 [[nodiscard]] PartPtr<T> unless_refused(std::string_view key, const PartPtr<T>& part) {
   return PartPtr<T>(unless(key, part.any(), false));
 }
 
-// A member that clients may know of and that is not served: at all, or but for one value, which is
-// what is done anyway. Everything else is the fault `slug` with `sentence`.
+// A known but unsupported member, except for the value `but_for`. Fault: `slug`, `sentence`.
 struct NotServed {
   std::string key;
   std::string slug;
   std::string sentence;
   std::optional<nlohmann::json> but_for = {};
-  std::string text = "";  // for the schema, which does not know the member when nothing is served
+  std::string text = "";  // for the schema; unused if no value is supported
 };
 [[nodiscard]] AnyPartPtr not_served_part(NotServed rule);
 template <class T>

@@ -6,10 +6,10 @@
 
 namespace armloom::formats {
 
-// Calls use(an object that holds the defaults).
+// Calls use(object with the defaults).
 using WithDefaults = void (*)(const UseValue& use);
 
-// A JSON object; keys that no part knows are faults.
+// Describes an object; unknown keys are faults.
 [[nodiscard]] AnyFormatPtr object_format(AnyParts parts, WithDefaults with_defaults);
 template <class T>
 [[nodiscard]] FormatPtr<T> object(const PartList<T>& parts) {

@@ -9,8 +9,8 @@
 
 namespace armloom::formats {
 
-// A part of the description of a JSON object: one member, several members that form one value, or a
-// rule about members. The type of the object is erased as in AnyFormat.
+// One member of an object, several members that form a value, or a rule about members. The type is
+// erased as in AnyFormat.
 class AnyPart {
  public:
   AnyPart() = default;
@@ -19,16 +19,13 @@ class AnyPart {
   virtual ~AnyPart() = default;
   virtual void list_keys(std::vector<std::string_view>& /*keys*/) const {}
   virtual void read_any(const JsonNode& object, void* out) const = 0;
-  // Writes keys and values.
   virtual void write_any(JsonWriter& /*out*/, const void* /*value*/) const {}
-  // Adds "properties" and "required" to the schema of the object. `defaults` holds the values that
-  // absent members stand for.
+  // Adds "properties" and "required" to the object's schema.
   virtual void describe_any(Schema& object, const void* defaults, Way way) const = 0;
   virtual void map_paths(nlohmann::json& /*object*/, const PathMap& /*map*/) const {}
 };
 using AnyPartPtr = SharedAny<AnyPart>;
 
-// A part of objects that stand for a T.
 template <class T>
 class PartPtr {
  public:
@@ -41,7 +38,7 @@ class PartPtr {
   AnyPartPtr any_;
 };
 
-// The base class of parts that are written by hand for a T.
+// Base class of handwritten parts.
 template <class T>
 class CustomPart : public AnyPart {
  public:
@@ -56,7 +53,6 @@ class CustomPart : public AnyPart {
   }
 };
 
-// Kind: a CustomPart.
 template <class Kind, class... Arguments>
 [[nodiscard]] PartPtr<typename Kind::Value> make_part(Arguments&&... arguments) {
   return PartPtr<typename Kind::Value>(AnyPartPtr(new Kind(std::forward<Arguments>(arguments)...)));
@@ -65,7 +61,6 @@ template <class Kind, class... Arguments>
 using AnyParts = std::vector<AnyPartPtr>;
 void add_part(AnyParts& parts, const AnyPartPtr& part);
 
-// Parts of objects that stand for a T.
 template <class T>
 class PartList {
  public:

@@ -8,14 +8,13 @@
 
 namespace armloom::formats {
 
-// Several parts as one.
 [[nodiscard]] AnyPartPtr parts(AnyParts of_it);
 template <class T>
 [[nodiscard]] PartPtr<T> parts(PartList<T> of_it) {
   return PartPtr<T>(parts(of_it.any()));
 }
 
-// The base class of parts that wrap one other part and override some of its functions.
+// Base class of parts that wrap another part.
 class AroundPart : public AnyPart {
  public:
   explicit AroundPart(const AnyPartPtr& part) : part_(part) {}
@@ -35,8 +34,7 @@ class AroundPart : public AnyPart {
   AnyPartPtr part_;
 };
 
-// Members that describe a T by the members of a Words: `spell` makes the Words of the T (Spell may
-// return a reference), `mean` makes the T of the Words.
+// `spell` converts a T to Words (it may return a reference), `mean` converts Words to a T.
 template <class T, class Words, class Spell>
 class SpeltPart final : public AroundPart {
  public:
@@ -66,7 +64,7 @@ template <class T, class Words, class Spell>
   return PartPtr<T>(AnyPartPtr(new SpeltPart<T, Words, Spell>(parts(words.any()), spell, mean)));
 }
 
-// Members of this object that make up one value of it: xyz and rpy of a pose.
+// Members of the same JSON object: xyz and rpy of a pose.
 [[nodiscard]] AnyPartPtr inlined(std::ptrdiff_t offset, const AnyPartPtr& part);
 template <class T, class M>
 [[nodiscard]] PartPtr<T> inlined(M T::*where, const PartPtr<M>& part) {

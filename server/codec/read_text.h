@@ -8,7 +8,7 @@
 
 namespace armloom {
 
-// A JSON text as its format makes it out: all faults, with pointers into the text.
+// Reads a JSON text. Returns all faults, with pointers into the text.
 template <class T>
 [[nodiscard]] Result<T> read_text(const Format<T>& format, std::string_view text) {
   const auto body = parse_json(text, JsonComments::refused);
@@ -20,7 +20,7 @@ template <class T>
   return value;
 }
 
-// The value as JSON text. `clock`: null where wall time is not known.
+// `clock`: null if wall time is unknown.
 template <class T>
 [[nodiscard]] std::string text_of(const Format<T>& format, const T& value,
                                   const WallClock* clock = nullptr) {

@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Takes its parts from the front of a text; once one is not there, nothing more is right.
+// Reads parts from the front of a text; after the first mismatch everything is wrong.
 class TimeText {
  public:
   explicit TimeText(std::string_view text) : text_(text) {}
@@ -17,14 +17,14 @@ class TimeText {
     for (std::size_t i = 0; i < count; ++i) number = 10 * number + digit();
     return number;
   }
-  // One of these; the one that it was.
+  // Reads one of the `wanted` characters and returns it.
   char one_of(std::string_view wanted) {
     const char found = text_.empty() ? '\0' : text_.front();
     is_right_ = is_right_ && !text_.empty() && wanted.find(found) != std::string_view::npos;
     if (is_right_) text_.remove_prefix(1);
     return found;
   }
-  // ".125", or nothing of it.
+  // Reads an optional fraction, ".125".
   int milliseconds() {
     if (text_.empty() || text_.front() != '.') return 0;
     int sum = 0;

@@ -16,18 +16,18 @@ namespace {
 constexpr Range kHeld{-1000.0, 1000.0};  // rad or m
 
 struct LimitText {
-  const char* angular;  // the key with angular and with linear units
+  const char* angular;  // key with angular, and with linear units
   const char* linear;
   const char* text;
-  std::optional<Schema> stated = {};  // its default
+  std::optional<Schema> stated = {};
 };
 
-// A limit by its two names: of joints that turn, and of those that slide.
+// Describes a limit by two keys: for revolute and for prismatic joints.
 PartPtr<JointLimitsDescription> limit(const LimitText& said,
                                       std::optional<double> JointLimitsDescription::*where,
                                       Range range) {
   using Limits = JointLimitsDescription;
-  // What was given by neither name is written by the first.
+  // A limit given by neither key is written with the angular key.
   const auto part = [&](const char* key, bool is_linear, const char* words) {
     return member<Limits>(
         {key, words, Need::optional, said.stated}, number(range),
@@ -40,7 +40,7 @@ PartPtr<JointLimitsDescription> limit(const LimitText& said,
         });
   };
   return parts<Limits>({part(said.angular, false, said.text),
-                        part(said.linear, true, "The same of a joint that slides."),
+                        part(said.linear, true, "Likewise, for a prismatic joint."),
                         at_most_one<Limits>({said.angular, said.linear})});
 }
 
@@ -48,26 +48,26 @@ FormatPtr<JointLimitsDescription> limits_format() {
   using Limits = JointLimitsDescription;
   return object<Limits>({
       limit({"lower_rad", "lower_m",
-             "Lowest position: narrows the URDF's limits, or gives what it lacks."},
+             "Lowest position: narrows the URDF's limit, or sets a missing one."},
             &Limits::lower, kAnyNumber),
-      limit({"upper_rad", "upper_m", "Highest position, in the same way."}, &Limits::upper,
-            kAnyNumber),
+      limit({"upper_rad", "upper_m", "Highest position, likewise."}, &Limits::upper, kAnyNumber),
       limit({"velocity_rad_s", "velocity_m_s",
-             "Highest velocity: at most the URDF's, or what it lacks."},
+             "Highest velocity: at most the URDF's, or a missing one."},
             &Limits::velocity, kPositive),
       limit({"acceleration_rad_s2", "acceleration_m_s2",
-             "Highest acceleration: before that of joint_limits; URDFs have none.",
+             "Highest acceleration; overrides joint_limits. URDFs have none.",
              as_json(kDefaultAcceleration)},
             &Limits::acceleration, kPositive),
-      limit({"jerk_rad_s3", "jerk_m_s3", "Highest jerk, in the same way.", as_json(kDefaultJerk)},
+      limit({"jerk_rad_s3", "jerk_m_s3", "Highest jerk; overrides joint_limits. URDFs have none.",
+             as_json(kDefaultJerk)},
             &Limits::jerk, kPositive),
       limit({"brake_rad_s2", "brake_m_s2",
-             "Deceleration that a stop may use; twice the acceleration unless given."},
+             "Deceleration of a stop; default: twice the acceleration."},
             &Limits::brake, kPositive),
   });
 }
 
-// "home": values, or the name of a state.
+// Member "home": positions, or the name of a state.
 struct Home {
   std::vector<double> values;
   std::string state;
@@ -98,9 +98,9 @@ class HomeFormat final : public CustomFormat<Home> {
 PartPtr<ArmDescription> home_part() {
   return member<ArmDescription>(
       {"home",
-       "Where the arm begins and parks: the joints' positions in the group's order (rad, "
-       "m), or the name of a state of the group in the SRDF. Every joint at zero, or at "
-       "the limit next to it, unless given.",
+       "Start and parking configuration: joint positions in the group's order (rad, m), or the "
+       "name of a state of the group in the SRDF. Default: every joint at zero, or at the limit "
+       "closest to zero.",
        Need::optional,
        {}},
       make_format<HomeFormat>(),
@@ -116,27 +116,28 @@ PartPtr<ArmDescription> home_part() {
 
 FormatPtr<ArmDescription> arm_description_format() {
   return object<ArmDescription>({
-      required("name", &ArmDescription::name, name(), "The arm's name; unique in the cell."),
+      required("name", &ArmDescription::name, name(), "Name of the arm; unique in the cell."),
       required("group", &ArmDescription::group, name(),
-               "The group of the SRDF that the arm consists of: a chain, or joints."),
+               "SRDF group that makes up the arm: a chain, or joints."),
       home_part(),
       field("gripper", &ArmDescription::gripper, dictionary(number(kHeld)),
-            "Where joints of the arm's gripper stand at the start (rad, m), by joint name without "
-            "the prefix; at zero, or at the limit next to it, unless given. Jobs move them."),
+            "Start positions of the gripper's joints (rad, m), by joint name without prefix. "
+            "Default: zero, or the limit closest to zero. Jobs can move these joints."),
       field("limits", &ArmDescription::limits, dictionary(limits_format()),
-            "Limits of joints of the arm and its gripper, by joint name without the prefix. They "
-            "come before those of joint_limits and of the URDF."),
+            "Limits of joints of the arm and its gripper, by joint name without prefix. They take "
+            "precedence over joint_limits and the URDF."),
   });
 }
 
 FormatPtr<ControllerDescription> controller_format() {
   using Controller = ControllerDescription;
   return object<Controller>({
-      field("type", &Controller::type, one_of({"sim"}), "What moves the arms: simulated ones."),
+      field("type", &Controller::type, one_of({"sim"}),
+            "Kind of controller; only simulated arms are available."),
       field("lag_s", &Controller::lag, seconds(Controller::lag_range),
-            "How far a measured position is behind the commanded one, along the path."),
+            "Delay of the measured position behind the commanded one, along the path."),
       field("noise_rad", &Controller::noise_rad, number(Controller::noise_range),
-            "Standard deviation of measured positions."),
+            "Standard deviation of the noise of measured positions."),
   });
 }
 
@@ -145,27 +146,26 @@ FormatPtr<ControllerDescription> controller_format() {
 FormatPtr<RobotDescription> robot_format() {
   using Robot = RobotDescription;
   return object<Robot>({
-      required("name", &Robot::name, name(), "The robot's name; unique in the cell."),
-      required("urdf", &Robot::urdf, path(), "The robot's URDF."),
-      required(
-          "srdf", &Robot::srdf, path(),
-          "The robot's SRDF: groups, named states, pairs of links that need no check. Pairs of "
-          "different arms, or of an arm and what stands beside its mount, are checked all the "
-          "same unless they are proven out of reach."),
+      required("name", &Robot::name, name(), "Name of the robot; unique in the cell."),
+      required("urdf", &Robot::urdf, path(), "Path of the URDF."),
+      required("srdf", &Robot::srdf, path(),
+               "Path of the SRDF: groups, named states, pairs of links that need no check. "
+               "Disabled pairs of different arms, or of an arm and bodies other than its mount, "
+               "are still checked unless they are proven out of reach."),
       field("joint_limits", &Robot::joint_limits, path(),
-            "MoveIt's joint_limits.yaml: velocities and accelerations of joints."),
+            "Path of MoveIt's joint_limits.yaml: velocity and acceleration limits."),
       field("prefix", &Robot::prefix, text(),
-            "Stands before every joint and link name of the robot: left_ makes left_joint_1."),
+            "Prefix of every joint and link name of the robot: left_ makes left_joint_1."),
       field("base", &Robot::X_WB, object<Eigen::Isometry3d>({pose_part()}),
-            "Where the root link of the URDF stands in the world."),
+            "Pose of the URDF's root link in the world."),
       field("packages", &Robot::packages, dictionary(path()),
-            "The folder of each package that the URDF names: package://name/..."),
+            "Folder of each package in the URDF's package://name/... paths."),
       field("fixed", &Robot::fixed, dictionary(number(kHeld)),
-            "Joints that are held at a value (rad, m), as a torso under two arms: without the "
-            "prefix. No job moves them."),
+            "Fixed joints with their positions (rad, m), for example a torso under two arms; names "
+            "without prefix. No job moves them."),
       required("arms", &Robot::arms, list(arm_description_format(), {.fewest = 1}),
-               "The robot's arms."),
-      field("controller", &Robot::controller, controller_format(), "What moves the robot."),
+               "Arms of the robot."),
+      field("controller", &Robot::controller, controller_format(), "Controller of the robot."),
   });
 }
 

@@ -5,7 +5,7 @@
 
 namespace armloom {
 
-// The part of the description of a cell file (cell_format.h) that tells of a robot and its arms.
+// Describes a robot and its arms in a cell file (cell_format.h).
 [[nodiscard]] FormatPtr<RobotDescription> robot_format();
 
 }  // namespace armloom

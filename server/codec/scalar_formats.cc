@@ -84,7 +84,7 @@ class NameFormat : public TextFormat {
   explicit NameFormat(std::string what) : what_(std::move(what)) {}
   void read(const JsonNode& node, std::string& out) const override {
     if (node.read(out) && out.empty())
-      node.invalid("empty-" + what_, "a " + what_ + " is expected, found nothing");
+      node.invalid("empty-" + what_, "a " + what_ + " is required, found an empty string");
   }
   Schema schema(Way) const override { return {{"type", "string"}, {"minLength", 1}}; }
 
@@ -115,7 +115,7 @@ class OneOfFormat final : public TextFormat {
   std::vector<std::string> names_;
 };
 
-// Numbers in an array of fixed size, whatever holds them.
+// An array of fixed size, in any container.
 template <class Numbers, std::size_t size>
 class NumbersFormat final : public CustomFormat<Numbers> {
  public:

@@ -19,13 +19,13 @@ inline constexpr Range kPositive{0.0, std::numeric_limits<double>::infinity(), t
 [[nodiscard]] FormatPtr<double> number(Range range);
 [[nodiscard]] FormatPtr<Duration> seconds(Range range);
 [[nodiscard]] FormatPtr<std::string> text();
-// A text that is not empty.
+// A text that must not be empty.
 [[nodiscard]] FormatPtr<std::string> name();
-// A path, not empty: what map_paths() changes, unless it is an address (https://...).
+// A path, not empty; map_paths() changes it unless it is a URL (https://...).
 [[nodiscard]] FormatPtr<std::string> path();
 // One of a few names.
 [[nodiscard]] FormatPtr<std::string> one_of(std::vector<std::string> names);
-// Exactly so many numbers, each in the range.
+// An array of fixed size whose numbers are in the range.
 [[nodiscard]] FormatPtr<Eigen::Vector3d> vector3(Range range);
 template <std::size_t size>
 [[nodiscard]] FormatPtr<std::array<double, size>> numbers(Range range);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr Range kLength{0.0, 1000.0, true};                           // m
 constexpr Range kPosition{-1000.0, 1000.0};                           // m
-constexpr Range kAngle{-6.3, 6.3, false, "; degrees go to rpy_deg"};  // rad: a turn
+constexpr Range kAngle{-6.3, 6.3, false, "; degrees go to rpy_deg"};  // rad: a full turn
 constexpr Range kAngleDegrees{-3600.0, 3600.0};
 
 struct ShapeWords {
@@ -47,22 +47,22 @@ Shape shape_of_words(const ShapeWords& words) {
 
 PartList<ShapeWords> primitives() {
   return {
-      field("box", &ShapeWords::box, vector3(kLength), "A box: its full side lengths, in metres."),
+      field("box", &ShapeWords::box, vector3(kLength), "A box: full side lengths, in meters."),
       field("cylinder", &ShapeWords::cylinder, numbers<2>(kLength),
-            "A cylinder along z: radius and full length, in metres."),
-      field("sphere", &ShapeWords::sphere, numbers<1>(kLength), "A sphere: radius, in metres."),
+            "A cylinder along z: radius and full length, in meters."),
+      field("sphere", &ShapeWords::sphere, numbers<1>(kLength), "A sphere: radius, in meters."),
   };
 }
 
 PartPtr<Shape> shape_part() {
   PartList<ShapeWords> parts = primitives();
-  parts.add(
-      {field("mesh", &ShapeWords::mesh, path(),
-             "A mesh (STL, OBJ, DAE): a file. All that it encloses counts as solid, cavities too."),
-       only_with("mesh", &ShapeWords::mesh,
-                 field("scale", &ShapeWords::scale, vector3(kAnyNumber),
-                       "Of a mesh: factors along x, y, z of the file's lengths.", Schema{1, 1, 1})),
-       exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"})});
+  parts.add({field("mesh", &ShapeWords::mesh, path(),
+                   "A mesh: path of an STL, OBJ or DAE file. Everything that it encloses is "
+                   "treated as solid, cavities included."),
+             only_with("mesh", &ShapeWords::mesh,
+                       field("scale", &ShapeWords::scale, vector3(kAnyNumber),
+                             "Scale factors of a mesh along x, y and z.", Schema{1, 1, 1})),
+             exactly_one<ShapeWords>({"box", "cylinder", "sphere", "mesh"})});
   return spelt(parts, shape_in_words, shape_of_words);
 }
 
@@ -77,12 +77,12 @@ PartPtr<Shape> primitive_part() {
 PartPtr<Eigen::Isometry3d> pose_part(Need xyz) {
   return spelt(
       PartList<PoseWords>{
-          member({"xyz", "Position in metres.", xyz, std::nullopt}, &PoseWords::xyz_m,
+          member({"xyz", "Position, in meters.", xyz, std::nullopt}, &PoseWords::xyz_m,
                  vector3(kPosition)),
           field("rpy", &PoseWords::rpy_rad, vector3(kAngle),
-                "Roll, pitch, yaw about fixed axes, in rad, as in a URDF."),
+                "Roll, pitch, yaw about fixed axes, in radians, as in a URDF."),
           read_only(field("rpy_deg", &PoseWords::rpy_deg, vector3(kAngleDegrees),
-                          "The same in degrees: instead of rpy.")),
+                          "Roll, pitch, yaw in degrees, instead of rpy.")),
           read_only(at_most_one<PoseWords>({"rpy", "rpy_deg"})),
       },
       pose_in_words, pose_of_words);
@@ -91,7 +91,7 @@ PartPtr<Eigen::Isometry3d> pose_part(Need xyz) {
 FormatPtr<ObjectDescription> scene_object_format() {
   static const FormatPtr<ObjectDescription> format = object<ObjectDescription>({
       required("name", &ObjectDescription::name, name(),
-               "The object's name; unique in the cell, and no link's or robot's name."),
+               "Name of the object; unique in the cell, and not the name of a link or robot."),
       inlined(&ObjectDescription::shape, shape_part()),
       inlined(&ObjectDescription::X_WO, pose_part()),
   });

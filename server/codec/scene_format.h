@@ -8,7 +8,7 @@
 
 namespace armloom {
 
-// Parts of the description of a cell file (cell_format.h): what stands where.
+// Parts of the cell file's description (cell_format.h) for poses, shapes and objects.
 
 // Members xyz and rpy.
 [[nodiscard]] formats::PartPtr<Eigen::Isometry3d> pose_part(

@@ -6,9 +6,8 @@
 
 namespace armloom {
 
-// The schema with {"$ref": place + name} in the place of each named part (formats::named), whose
-// own schema goes to `parts`, by name. Throws std::logic_error when two different schemas have one
-// name.
+// Replaces each named part (formats::named) by {"$ref": place + name} and adds its schema to
+// `parts`. Throws std::logic_error if a name has two schemas.
 [[nodiscard]] Schema refer_to_names(const Schema& schema, const std::string& place, Schema& parts);
 
 }  // namespace armloom

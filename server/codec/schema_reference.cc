@@ -47,7 +47,7 @@ std::string array_words(const Schema& schema) {
   return words;
 }
 
-// "m, 0 to 1"
+// Returns, for example, "m, 0 to 1".
 std::string type_words(const Schema& schema, const std::string& key) {
   if (schema.contains("anyOf")) {
     std::vector<std::string> words;
@@ -121,7 +121,7 @@ class ReferenceWriter {
     }
   }
   std::string take() {
-    text_.pop_back();  // the empty line behind the last section
+    text_.pop_back();  // the empty line after the last section
     return std::move(text_);
   }
 

@@ -20,7 +20,7 @@ std::string uuid(std::uint64_t high, std::uint64_t low, unsigned version) {
 }  // namespace
 
 std::string stream_of_seed(std::uint64_t seed) {
-  // splitmix64 (Steele, Lea, Flood 2014): two well mixed words from one seed.
+  // splitmix64 (Steele, Lea, Flood 2014)
   const auto next = [&seed] {
     std::uint64_t z = (seed += 0x9E37'79B9'7F4A'7C15ULL);
     z = (z ^ (z >> 30U)) * 0xBF58'476D'1CE4'E5B9ULL;

@@ -32,7 +32,7 @@ class IntegerFormat final : public CustomFormat<int> {
   int highest_;
 };
 
-// What clients say; up to here every integer is a number of JSON (RFC 8259, 6).
+// Every integer up to here is exact in JSON (RFC 8259, 6).
 constexpr std::int64_t kLargestCount = std::int64_t{1} << 53;
 
 class CountFormat final : public CustomFormat<std::uint64_t> {
@@ -231,7 +231,7 @@ void refuse_choice(const JsonNode& node, const std::string& found,
   for (std::size_t i = 0; i < known.size(); ++i) {
     names += (i == 0 ? "\"" : i + 1 == known.size() ? " or \"" : ", \"") + known[i] + "\"";
   }
-  node.invalid("unknown-choice", "it is \"" + found + "\", expected " + names);
+  node.invalid("unknown-choice", "found \"" + found + "\", expected " + names);
 }
 
 Schema named_schema(std::string_view name, std::string_view text, Schema schema) {

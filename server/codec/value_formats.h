@@ -13,22 +13,19 @@
 
 namespace armloom::formats {
 
-// More small formats, of what travels over HTTP.
-
 [[nodiscard]] FormatPtr<bool> flag();
 [[nodiscard]] FormatPtr<int> integer(int lowest, int highest);
-[[nodiscard]] FormatPtr<int> integer(const NumberRange& range);  // of whole ends
-[[nodiscard]] FormatPtr<std::uint64_t> count();                  // from zero on
-// As number(kAnyNumber) in a list, quicker: trajectories hold ten thousands.
+[[nodiscard]] FormatPtr<int> integer(const NumberRange& range);  // bounds must be whole
+[[nodiscard]] FormatPtr<std::uint64_t> count();                  // zero or more
+// Faster than list(number(kAnyNumber)): trajectories have tens of thousands of numbers.
 [[nodiscard]] FormatPtr<std::vector<double>> number_list();
 // Cell time in seconds.
 [[nodiscard]] FormatPtr<TimePoint> cell_time();
 [[nodiscard]] FormatPtr<TimePoint> cell_time(double highest_s);
-// An empty text is null.
+// A text; an empty text is written as null.
 [[nodiscard]] FormatPtr<std::string> text_or_null();
 
-// A text with a rule. What breaks it is told by `slug` and `sentence`; `said` is what a schema can
-// say of the rule.
+// Breaking the rule is the fault `slug` with `sentence`; `said` describes it in the schema.
 struct TextRule {
   bool (*holds)(std::string_view);
   std::string slug;
@@ -37,7 +34,7 @@ struct TextRule {
 };
 [[nodiscard]] FormatPtr<std::string> text(TextRule rule);
 
-// What is read over or stands for itself: any value of a JSON type; empty: of any.
+// An ignored value of this JSON type; of any type if "".
 struct Anything {};
 [[nodiscard]] FormatPtr<Anything> anything(std::string type);
 
@@ -56,7 +53,6 @@ inline constexpr OptionalOperations kOptionalOperations{
     [](void* maybe) -> void* { return &static_cast<std::optional<T>*>(maybe)->emplace(); },
     [](void* maybe) { static_cast<std::optional<T>*>(maybe)->reset(); }};
 
-// A value that may be null.
 [[nodiscard]] AnyFormatPtr nullable(const AnyFormatPtr& format,
                                     const OptionalOperations& operations);
 template <class T>
@@ -64,12 +60,10 @@ template <class T>
   return FormatPtr<std::optional<T>>(nullable(format->any(), kOptionalOperations<T>));
 }
 
-// Says that `found` is none of the names that are known.
 void refuse_choice(const JsonNode& node, const std::string& found,
                    const std::vector<std::string>& known);
 
-// Operations on an enumeration (core/base/enumeration.h) whose type is erased, for choice formats.
-// Its values count from zero.
+// Operations on an enumeration (core/base/enumeration.h), numbered from zero.
 struct ChoiceOperations {
   const char* (*name)(std::size_t value);  // null if the number is no value
   std::size_t (*value)(const void* choice);
@@ -86,8 +80,8 @@ template <class E>
   return FormatPtr<E>(choice(kChoiceOperations<E>));
 }
 
-// What other descriptions refer to by name: "Job". In the schema it stands as {"$name", "$of"}
-// until references are made of that (schema_names.h). `text` may be empty.
+// Names a format, so that schemas can refer to it. The schema has {"$name", "$of"} until
+// refer_to_names(). `text` may be empty.
 [[nodiscard]] Schema named_schema(std::string_view name, std::string_view text, Schema schema);
 [[nodiscard]] AnyFormatPtr named(std::string_view name, std::string_view text,
                                  const AnyFormatPtr& format);

@@ -16,7 +16,7 @@ void write_finding(JsonWriter& out, const AuditFinding& finding) {
   out.field("distance_m", finding.distance_m).end_object();
 }
 
-// The last line: {"contact": null | {...}, "smallest_clearance_m", "time_s", "links", "states"}.
+// Returns {"contact": null | {...}, "smallest_clearance_m", "time_s", "links", "states"}.
 std::string report_json(const AuditReport& report) {
   JsonWriter out;
   out.begin_object().key("contact");
@@ -62,7 +62,7 @@ int audit_recording(const AuditOptions& options) {
   std::error_code ec;
   if (!std::filesystem::is_directory(options.recording, ec)) {
     complain("", {Problem{ProblemKind::not_found, "no-folder", "--recording",
-                          "there is no folder " + options.recording, options.recording}});
+                          "no such folder: " + options.recording, options.recording}});
     return kExitBadInput;
   }
   std::vector<std::string> warnings;

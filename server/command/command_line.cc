@@ -20,25 +20,27 @@ void add_jobs(CLI::App& command, std::string& file) {
 }
 
 void add_policy(CLI::App& command, std::string& policy) {
-  command.add_option("--policy", policy, "instead of the cell's");
+  command.add_option("--policy", policy, "policy to use instead of the cell's");
 }
 
-// The parser's own reading of an unsigned number takes -1 for the largest one.
+// Checks a seed, because the parser would accept -1 as the largest unsigned number.
 std::string not_a_seed(const std::string& text) {
   std::uint64_t seed = 0;
   const char* end = text.data() + text.size();
   const auto [stop, ec] = std::from_chars(text.data(), end, seed);
   if (ec == std::errc{} && stop == end) return {};
-  return text + " is no whole number from 0 to 18446744073709551615";
+  return text + " is not an integer from 0 to 18446744073709551615";
 }
 
-void add_seed(CLI::App& command, std::uint64_t& seed, const char* of = "of the arms' noise") {
+void add_seed(CLI::App& command, std::uint64_t& seed,
+              const char* of = "seed of the simulated arms' noise") {
   command.add_option("--seed", seed, of)->check(not_a_seed)->capture_default_str();
 }
 
 Command validate_command(CLI::App& app) {
   const auto file = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("validate", "say what a cell holds, or its faults");
+  CLI::App* command =
+      app.add_subcommand("validate", "print what a cell contains, or all of its faults");
   add_cell(*command, *file);
   return {command, [file] { return validate_cell(*file); }};
 }
@@ -50,9 +52,10 @@ Command schema_command(CLI::App& app) {
   };
   const auto what = std::make_shared<What>();
   CLI::App* command =
-      app.add_subcommand("schema", "print the JSON schema of cell files, as editors use it");
-  command->add_flag("--markdown", what->markdown, "the reference for people instead");
-  command->add_flag("--openapi", what->openapi, "the description of the HTTP interface instead")
+      app.add_subcommand("schema", "print the JSON schema of cell files, for editors");
+  command->add_flag("--markdown", what->markdown, "print the reference as Markdown instead");
+  command
+      ->add_flag("--openapi", what->openapi, "print the OpenAPI document of the HTTP API instead")
       ->excludes("--markdown");
   return {command,
           [what] { return what->openapi ? print_openapi() : print_cell_schema(what->markdown); }};
@@ -62,41 +65,43 @@ Command import_command(CLI::App& app) {
   const auto options = std::make_shared<ImportOptions>();
   CLI::App* command =
       app.add_subcommand("import", "write a cell file from a robot's URDF and SRDF");
-  command->add_option("--urdf", options->urdf, "URDF; repeated for several: one for each --robot")
+  command
+      ->add_option("--urdf", options->urdf, "URDF file; repeat for several robots, one per --robot")
       ->required()
       ->allow_extra_args(false);
-  command
-      ->add_option("--srdf", options->srdf,
-                   "SRDF; repeated, the first for the first URDF, and so on")
+  command->add_option("--srdf", options->srdf, "SRDF file; one for each --urdf, in the same order")
       ->required()
       ->allow_extra_args(false);
   command
       ->add_option("--joint-limits", options->joint_limits,
-                   "MoveIt's joint_limits.yaml; repeated as --urdf is")
+                   "MoveIt's joint_limits.yaml; none, or one for each --urdf, in the same order")
       ->allow_extra_args(false);
   command
       ->add_option("--robot", options->robots,
-                   "a robot and where it stands, as left:x=-0.75,yaw_deg=90 (x, y, z in m; "
-                   "roll_deg, pitch_deg, yaw_deg); may be repeated")
+                   "name and base pose of a robot, for example left:x=-0.75,yaw_deg=90 (x, y, z in "
+                   "m; roll_deg, pitch_deg, yaw_deg); may be repeated")
       ->type_name("NAME[:...]")
       ->allow_extra_args(false);
   command
       ->add_option("--package", options->packages,
-                   "where package://NAME/ is; else it is looked for above the URDF")
+                   "folder of package://NAME/ (default: searched above the URDF); may be repeated")
       ->type_name("NAME=FOLDER")
       ->allow_extra_args(false);
-  command->add_option("--prefix", options->prefix,
-                      "of joints and links; several robots have their names as prefixes");
-  command->add_option("--name", options->name, "of the cell (that of --out)");
-  command->add_option("--out", options->out,
-                      "cell file, with paths relative to it (stdout, with absolute ones)");
+  command->add_option(
+      "--prefix", options->prefix,
+      "prefix of joints and links of a single robot; several robots use their names");
+  command->add_option("--name", options->name,
+                      "name of the cell (default: name of the --out file)");
+  command->add_option(
+      "--out", options->out,
+      "cell file to write, with paths relative to it (default: stdout, with absolute paths)");
   return {command, [options] { return import_robots(*options); }};
 }
 
 Command check_command(CLI::App& app) {
   const auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
-      app.add_subcommand("check", "judge jobs against each other without running them");
+      app.add_subcommand("check", "check jobs against each other without running them");
   add_cell(*command, options->cell_file);
   add_jobs(*command, options->jobs_file);
   add_policy(*command, options->policy);
@@ -106,81 +111,88 @@ Command check_command(CLI::App& app) {
 Command plan_command(CLI::App& app) {
   const auto options = std::make_shared<PlanOptions>();
   CLI::App* command =
-      app.add_subcommand("plan", "a job that brings an arm to a goal, all others at home");
+      app.add_subcommand("plan", "plan a job that moves an arm to a goal, all other arms at home");
   add_cell(*command, options->cell_file);
-  auto* which = command->add_option_group("who goes there");
-  which->add_option("--arm", options->arm, "which one");
-  which->add_option("--arms", options->arms, "whichever of these, as left,right, is there first")
+  auto* which = command->add_option_group("arm to move");
+  which->add_option("--arm", options->arm, "arm to move");
+  which
+      ->add_option("--arms", options->arms,
+                   "candidate arms, for example left,right; the fastest one moves")
       ->delimiter(',');
   which->require_option(1);
   command
       ->add_option("--to", options->to,
-                   "a named state, or JSON: {\"joints\": [...]}, {\"pose\": {\"link\", "
+                   "goal: a named state, or JSON: {\"joints\": [...]}, {\"pose\": {\"link\", "
                    "\"xyz\", \"rpy\"}}")
       ->required();
-  command->add_option("--from", options->from, "where it stands: a named state or joints (home)");
-  add_seed(*command, options->seed, "of the search");
+  command->add_option("--from", options->from, "start: a named state or joints (default: home)");
+  add_seed(*command, options->seed, "seed of the search");
   command
       ->add_option("--budget", options->budget,
-                   "evaluations that the search may take, for each arm (400000)")
+                   "maximum number of evaluations of the search, for each arm (default: 400000)")
       ->check(CLI::Range(1, kPlanBudgetMax));
-  command->add_option("--out", options->out, "file of the job, a body of POST /jobs (stdout)");
+  command->add_option("--out", options->out,
+                      "file to write the job to, a body of POST /jobs (default: stdout)");
   return {command, [options] { return plan_way(*options); }};
 }
 
 Command reach_command(CLI::App& app) {
   const auto options = std::make_shared<ReachOptions>();
   CLI::App* command = app.add_subcommand(
-      "reach", "what each arm's tool reaches, and where the arms' reach overlaps");
+      "reach", "print what each arm's tool reaches, and where the arms' reach overlaps");
   add_cell(*command, options->cell_file);
-  command->add_option("--step", options->step_m, "between places of the grid, m")
+  command->add_option("--step", options->step_m, "spacing of the grid in m")
       ->check(CLI::Range(0.01, 1.0))
       ->capture_default_str();
   command->add_option("--link", options->link,
-                      "the tool, with or without prefix (the link of the last joint)");
+                      "tool link, with or without prefix (default: link of the last joint)");
   command->add_option("--picture", options->picture,
-                      "SVG file: what is reached, from above and from the side");
-  command->add_flag("--json", options->json, "instead of tables");
+                      "SVG file to write: reach seen from above and from the side");
+  command->add_flag("--json", options->json, "print JSON instead of tables");
   return {command, [options] { return show_reach(*options); }};
 }
 
 Command simulate_command(CLI::App& app) {
   const auto options = std::make_shared<SimulateOptions>();
-  CLI::App* command = app.add_subcommand("simulate", "run jobs on simulated time");
+  CLI::App* command =
+      app.add_subcommand("simulate", "simulate a jobs file as fast as the machine allows");
   add_cell(*command, options->cell_file);
   add_jobs(*command, options->jobs_file);
   add_policy(*command, options->policy);
   add_seed(*command, options->seed);
-  command->add_option("--out", options->out, "folder for the recording");
+  command->add_option("--out", options->out, "folder to write the recording to");
   command->add_option("--faults", options->faults_file, "faults file (JSON)");
   return {command, [options] { return simulate_jobs(*options); }};
 }
 
 Command compare_command(CLI::App& app) {
   const auto options = std::make_shared<CompareOptions>();
-  CLI::App* command =
-      app.add_subcommand("compare", "run the same jobs under several policies: a table");
+  CLI::App* command = app.add_subcommand(
+      "compare", "simulate the same jobs under several policies and print a table");
   add_cell(*command, options->cell_file);
   add_jobs(*command, options->jobs_file);
-  command->add_option("--policies", options->policies, "names, a comma between (all)");
+  command->add_option("--policies", options->policies,
+                      "policies to compare, separated by commas (default: all)");
   add_seed(*command, options->seed);
-  command->add_option("--out", options->out, "folder for compare.csv and compare.svg");
+  command->add_option("--out", options->out, "folder to write compare.csv and compare.svg to");
   return {command, [options] { return compare_policies(*options); }};
 }
 
 Command replay_command(CLI::App& app) {
   const auto options = std::make_shared<ReplayOptions>();
-  CLI::App* command = app.add_subcommand(
-      "replay", "run a recording of `serve --data` again, and compare its events");
+  CLI::App* command =
+      app.add_subcommand("replay", "replay a recording of `serve --data` and compare its events");
   auto* replayed_data =
-      command->add_option("--data", options->data, "data folder: the newest run in it");
+      command->add_option("--data", options->data, "data folder; replays its newest recording");
   auto* replayed_folder =
-      command->add_option("--recording", options->recording, "this one instead: its folder");
+      command->add_option("--recording", options->recording, "folder of the recording to replay");
   replayed_data->excludes(replayed_folder);
   command->require_option(1, 0);
-  command->add_option("--until", options->until_s, "so far, in seconds of cell time (all)")
+  command
+      ->add_option("--until", options->until_s,
+                   "end of the replay in seconds of cell time (default: end of the recording)")
       ->check(CLI::Range(0.0, 1e9));
-  command->add_option("--out", options->out, "folder for the events of the replay");
+  command->add_option("--out", options->out, "folder to write the replayed events to");
   return {command, [options] { return replay_recording(*options); }};
 }
 
@@ -192,54 +204,62 @@ std::vector<std::string> job_states() {
 
 Command history_command(CLI::App& app) {
   const auto options = std::make_shared<HistoryOptions>();
-  CLI::App* command = app.add_subcommand("history", "print the jobs of a data folder, one a line");
-  command->add_option("--data", options->data, "folder of `serve --data`")->required();
-  command->add_option("--state", options->state, "only those in this state")
+  CLI::App* command =
+      app.add_subcommand("history", "print the jobs of a data folder, one per line");
+  command->add_option("--data", options->data, "folder given to `serve --data`")->required();
+  command->add_option("--state", options->state, "print only jobs in this state")
       ->check(CLI::IsMember(job_states()));
-  command->add_option("--arm", options->arm, "only those that move this arm");
-  command->add_flag("--csv", options->csv, "as CSV instead of JSON lines");
+  command->add_option("--arm", options->arm, "print only jobs that move this arm");
+  command->add_flag("--csv", options->csv, "print CSV instead of JSON lines");
   return {command, [options] { return print_history(*options); }};
 }
 
 Command token_command(CLI::App& app) {
   const auto options = std::make_shared<TokenOptions>();
-  CLI::App* command = app.add_subcommand("token", "who may use a server that asks for tokens");
+  CLI::App* command = app.add_subcommand("token", "add, list or revoke access tokens of a server");
   command->require_subcommand(1);
   const auto add = [&](TokenOptions::What what, const char* name, const char* text) {
     CLI::App* one = command->add_subcommand(name, text);
-    one->add_option("--tokens", options->file, "file of `serve --tokens`")->required();
+    one->add_option("--tokens", options->file, "token file given to `serve --tokens`")->required();
     if (what != TokenOptions::What::list) {
-      one->add_option("--name", options->name, "of whom or what has it")->required();
+      one->add_option("--name", options->name, "name of the person or program that uses the token")
+          ->required();
     }
     if (what == TokenOptions::What::add) {
-      one->add_option("--role", options->role, "viewer, operator or admin")->required();
+      one->add_option("--role", options->role, "role of the token: viewer, operator or admin")
+          ->required();
     }
     one->callback([options, what] { options->what = what; });
   };
-  add(TokenOptions::What::add, "add", "make one, which is printed this once");
-  add(TokenOptions::What::list, "list", "names and roles");
-  add(TokenOptions::What::revoke, "revoke", "it is worth nothing from now on");
+  add(TokenOptions::What::add, "add", "create a token and print it, this once only");
+  add(TokenOptions::What::list, "list", "list names, roles and creation times of all tokens");
+  add(TokenOptions::What::revoke, "revoke", "revoke a token; takes effect at once");
   return {command, [options] { return change_tokens(*options); }};
 }
 
 Command audit_command(CLI::App& app) {
   const auto options = std::make_shared<AuditOptions>();
-  CLI::App* command = app.add_subcommand("audit", "re-check a recording for contacts");
+  CLI::App* command =
+      app.add_subcommand("audit", "check a recording for contacts, independently of the server");
   add_cell(*command, options->cell_file);
-  command->add_option("--recording", options->recording, "folder with states.csv")->required();
-  command->add_option("--step", options->step_s, "largest step between states, in seconds")
+  command
+      ->add_option("--recording", options->recording,
+                   "folder of the recording; must contain states.csv")
+      ->required();
+  command
+      ->add_option("--step", options->step_s,
+                   "largest time step between checked states, in seconds")
       ->check(CLI::Range(1e-6, 10.0))
       ->capture_default_str();
   return {command, [options] { return audit_recording(*options); }};
 }
 
-// What a variable that is not set leaves behind is no value: without its tokens a server would let
-// everybody in.
+// Refuses empty values, which unset shell variables leave: `--tokens ""` would admit every request.
 void refuse_empty_values(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     if (option->get_items_expected_max() == 0) continue;  // a flag
     option->check([](const std::string& value) {
-      return value.empty() ? std::string("is empty: give it a value, or leave the option out")
+      return value.empty() ? std::string("is empty: give it a value or leave the option out")
                            : std::string();
     });
   }

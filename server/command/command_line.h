@@ -6,15 +6,13 @@
 
 namespace armloom {
 
-// A command of the program, and what does it when it was asked for: its exit code.
+// A subcommand; `run` returns the exit code.
 struct Command {
   CLI::App* parser;
   std::function<int()> run;
 };
 
-// `serve`, which has the most options.
 [[nodiscard]] Command serve_command(CLI::App& app);
-// All of them, with their options.
 [[nodiscard]] std::vector<Command> add_commands(CLI::App& app);
 
 }  // namespace armloom

@@ -19,7 +19,7 @@ class Nobody final : public Observer {
   void on_state(const StateFrame&) override {}
 };
 
-// "a,b": both names. Problems: an unknown one, or one that is there twice.
+// Reads "a,b". Problems: an unknown or repeated name.
 Result<std::vector<std::string>> read_policies(const std::string& text) {
   if (text.empty()) return known_policies();
   std::vector<std::string> names;
@@ -32,14 +32,14 @@ Result<std::vector<std::string>> read_policies(const std::string& text) {
     }
     if (std::ranges::find(names, name) != names.end()) {
       return failure(Problem{ProblemKind::invalid, "twice", "--policies",
-                             "policy \"" + name + "\" is named twice", name});
+                             "policy \"" + name + "\" is listed twice: remove one", name});
     }
     names.push_back(std::move(name));
   }
   return names;
 }
 
-// What an arm has to move when all jobs of the file, or all that succeeded, have run; per arm.
+// Return the planned time in motion per arm: of all jobs of the file, and of all that succeeded.
 std::vector<Duration> work_of_file(const JobsFile& file, const Cell& cell) {
   std::vector<Duration> work(cell.arms.size());
   for (const TrajectoryPtr& trajectory : file.trajectories) {
@@ -78,7 +78,7 @@ Result<ComparedRun> run(const std::string& policy, const CellPtr& cell, const Jo
                      .wall = result->wall};
 }
 
-// The files of --out: opened before anything runs, written when everything has.
+// Opened before the simulation, written after it.
 struct Files {
   std::ofstream csv;
   std::ofstream svg;
@@ -132,7 +132,7 @@ int compare_policies(const CompareOptions& options) {
     files->svg << comparison_svg(comparison) << std::flush;
     if (!files->csv || !files->svg) {
       return refuse("", {Problem{ProblemKind::unavailable, "cannot-write", "--out",
-                                 "the files could not be written whole", options.out}});
+                                 "the files could not be written completely", options.out}});
     }
   }
   return all_ended ? kExitDone : kExitFound;

@@ -17,7 +17,6 @@ std::string fixed(double number, int decimals) {
 }
 std::string seconds(Duration time, int decimals) { return fixed(to_seconds(time), decimals); }
 
-// Of the run's makespan.
 std::optional<double> share(Duration part, const ComparedRun& run) {
   const auto whole = run.makespan();
   if (!whole) return std::nullopt;
@@ -31,7 +30,7 @@ std::size_t jobs_run(const Comparison& comparison) {
   return std::max<std::size_t>(comparison.jobs, 1);
 }
 
-// "1 expired, 2 refused"
+// Returns, for example, "1 expired, 2 refused".
 std::string other_ends(const RunSummary& summary) {
   std::string text;
   for (const auto& [state, count] : summary.jobs) {
@@ -52,7 +51,7 @@ std::string in_a_cell(const std::string& text) {
   return escaped;
 }
 
-// Code points: what a cell is wide, near enough.
+// Returns the number of code points, roughly the width.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -63,13 +62,13 @@ using Row = std::vector<std::string>;
 Row heading(const Comparison& comparison) {
   Row row = {"policy", "succeeded", "other ends", "makespan, s"};
   row.push_back(comparison.busiest.empty()
-                    ? "the busiest arm's work"
-                    : "the busiest arm's work (" + in_a_cell(comparison.busiest) + ", " +
+                    ? "busiest arm's work"
+                    : "busiest arm's work (" + in_a_cell(comparison.busiest) + ", " +
                           seconds(comparison.busiest_work, 2) + " s)");
   for (const std::string& arm : comparison.arms) row.push_back(in_a_cell(arm) + " moves");
   for (const char* name :
-       {"two or more move", "mean wait, s", "longest wait, s", "smallest clearance, mm",
-        "monitor stops", "judgements", "judging, ms per job", "wall time, s"}) {
+       {"two or more arms move", "mean wait, s", "longest wait, s", "smallest clearance, mm",
+        "monitor stops", "checks", "checking, ms per job", "wall time, s"}) {
     row.emplace_back(name);
   }
   return row;
@@ -97,7 +96,7 @@ Row cells_of(const ComparedRun& run, const Comparison& comparison) {
   return row;
 }
 
-// Names stand left, figures right.
+// Names are aligned left, numbers right.
 bool is_text(std::size_t column) { return column == 0 || column == 2; }
 
 std::string padded(const Row& row, const std::vector<std::size_t>& widths) {
@@ -160,11 +159,11 @@ Row csv_row(const ComparedRun& run, const Comparison& comparison) {
 // ---- SVG ----
 
 struct Picture {
-  static constexpr double kBars_x = 150.0;  // where they begin
-  static constexpr double kBars_w = 420.0;  // of the longest
+  static constexpr double kBars_x = 150.0;
+  static constexpr double kBars_w = 420.0;
   static constexpr double kTop_y = 62.0;
   static constexpr double kRow_h = 28.0;
-  static constexpr double kWidth = 780.0;  // leaves room for ends behind the longest bar
+  static constexpr double kWidth = 780.0;  // room for text after the bars
 
   std::string text;
 

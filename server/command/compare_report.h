@@ -10,42 +10,39 @@
 
 namespace armloom {
 
-// One run of the jobs under one policy.
 struct ComparedRun {
   std::string policy;
   RunSummary summary;
   RunFigures figures;
   Judging judging;
   bool all_ended = false;
-  // Time in motion, as planned, of the arm that has most of it in the jobs that succeeded: no order
-  // of these jobs can take less.
+  // Planned motion of the busiest arm in succeeded jobs: a lower bound of the makespan.
   Duration least{};
-  Duration wall{};  // of the machine
+  Duration wall{};  // wall time
 
-  // Absent: no job started, or the time limit came first.
+  // Returns nullopt if no job started or the time limit was reached.
   [[nodiscard]] std::optional<Duration> makespan() const;
 };
 
 struct Comparison {
   std::string cell;
   std::vector<std::string> arms;
-  std::size_t jobs = 0;     // in the file
-  std::string busiest;      // the arm that has most to do in the whole file; empty: no jobs
-  Duration busiest_work{};  // its time in motion, as planned
+  std::size_t jobs = 0;  // in the file
+  std::string busiest;   // arm with the most planned motion; "" without jobs
+  Duration busiest_work{};
   std::uint64_t seed = 1;
   std::vector<ComparedRun> runs;
 };
 
-// One table in GitHub's Markdown, its columns aligned, a row for each run. A figure that a run does
-// not have is "-". The last two columns are times of the machine, everything else is the same for
-// the same seed.
+// Returns an aligned Markdown table, a row per policy. All but the last two columns, which are
+// machine times, depend only on the seed.
 [[nodiscard]] std::string comparison_markdown(const Comparison& comparison);
 
-// The same as RFC 4180 has it, with "\n": first a line of names, units last; a figure that a run
-// does not have is empty.
+// Returns CSV as in RFC 4180, but with "\n". Units are at the end of column names; missing values
+// are empty.
 [[nodiscard]] std::string comparison_csv(const Comparison& comparison);
 
-// Bars of the makespans, and the busiest arm's own work as a line, as SVG 1.1 by itself.
+// Returns an SVG with a bar for each makespan and a line at the busiest arm's work.
 [[nodiscard]] std::string comparison_svg(const Comparison& comparison);
 
 }  // namespace armloom

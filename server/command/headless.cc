@@ -20,7 +20,7 @@ Problems read_trajectories(JobsFile& file, const Cell& cell) {
     const std::string& key = file.jobs[i].job.key;
     if (!key.empty() && !keys.insert(key).second) {
       faults.push_back(Problem{ProblemKind::conflict, "id-in-use", place + "/id",
-                               "the id is used by an earlier job of the file", key});
+                               "the id is already used by an earlier job of the file", key});
     }
     std::vector<TrajectoryPtr> motions;
     for (const auto& [where, asked] : file.jobs[i].job.motions()) {
@@ -36,7 +36,7 @@ Problems read_trajectories(JobsFile& file, const Cell& cell) {
   return faults;
 }
 
-// ", waits for arm right"; without its detail where `said` has it already.
+// Returns, for example, ", waits for arm right"; omits a detail that `said` has.
 std::string waits_for(const WaitView& wait, const std::string& said) {
   std::string text = std::string(", waits for ") + to_string(wait.kind);
   const bool names_arm = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::stop;
@@ -88,12 +88,13 @@ void complain_of_refusals(const SimulationResult& result, const std::string& job
 void complain_of_ends(const SimulationResult& result, const std::string& under) {
   const std::string begin = "armloom: " + (under.empty() ? "" : under + ": ");
   if (!result.all_ended) {
-    std::cerr << begin << (result.settled ? "nothing can happen any more" : "every limit is over")
-              << " at " << to_seconds(result.ended_at) << " s, and not all jobs have ended\n";
+    std::cerr << begin
+              << (result.settled ? "nothing can move any more" : "all time limits have passed")
+              << " at " << to_seconds(result.ended_at) << " s, but not all jobs have ended\n";
   }
   for (const JobView& job : result.jobs) {
     if (job.state == JobState::succeeded || (job.system_job && is_terminal(job.state))) continue;
-    std::string said = is_terminal(job.state) ? "" : "did not end, it is ";
+    std::string said = is_terminal(job.state) ? "" : "did not end; its state is ";
     said += to_string(job.state);
     if (!job.detail().empty()) said += ": " + job.detail();
     for (const WaitView& wait : job.waits_on) said += waits_for(wait, said);

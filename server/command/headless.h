@@ -10,27 +10,23 @@
 
 namespace armloom {
 
-// What the commands share that run a jobs file on simulated time.
-
 struct JobsFile {
   std::string text;
   std::vector<TimedJob> jobs;
-  std::vector<TrajectoryPtr> trajectories;  // of the jobs
+  std::vector<TrajectoryPtr> trajectories;  // first trajectory of each job that has one
 
-  [[nodiscard]] TimePoint first_submit() const;  // TimePoint::max() without jobs
+  [[nodiscard]] TimePoint first_submit() const;  // TimePoint::max() if there are no jobs
 };
-// Reads the file and finds every fault that no order of events can cure: trajectories beyond the
-// cell's limits, ids used twice. On faults says each on stderr and returns nothing.
+// Prints faults that do not depend on the course of events (limits, duplicate ids) and returns
+// nullopt if there are any.
 [[nodiscard]] std::optional<JobsFile> load_jobs(const std::string& file, const Cell& cell);
 
-// Jobs that were refused at their time, each with its place in the file, on stderr. `under`: the
-// policy, where there are several runs.
+// Prints jobs refused on submission, with their places. `under`: the policy, if several are
+// simulated.
 void complain_of_refusals(const SimulationResult& result, const std::string& jobs_file,
                           const std::string& under = "");
 
-// Whether the run ended before its jobs, each job of a client that did not succeed, and each that
-// did not end, and what it waits for if it has not ended, on stderr: counts alone do not tell.
-// `under` as above.
+// Prints each client's job that did not succeed, and what it waits for.
 void complain_of_ends(const SimulationResult& result, const std::string& under = "");
 
 }  // namespace armloom

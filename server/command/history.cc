@@ -1,4 +1,3 @@
-// What a data folder holds of jobs, those of former runs too: as JSON lines or CSV.
 #include <cctype>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -11,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// RFC 4180: quoted where it has to be.
+// Quotes a CSV field if necessary (RFC 4180).
 std::string csv_quoted(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string quotes = "\"";
@@ -19,8 +18,7 @@ std::string csv_quoted(const std::string& text) {
   return quotes + '"';
 }
 
-// CSV is opened with a spreadsheet: what a client wrote must not be a formula there. JSON lines
-// have it as it was written.
+// Prevents formula injection: a spreadsheet must not take a client's text for a formula.
 std::string csv_field(const std::string& text) {
   const bool may_be_formula =
       !text.empty() && std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos;

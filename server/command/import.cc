@@ -14,13 +14,12 @@ Problem at_option(std::string option, std::string why) {
   return {ProblemKind::invalid, "bad-option", std::move(option), std::move(why), {}};
 }
 
-// As many as URDFs: the n-th belongs to the n-th.
 void check_number(const std::string& option, std::size_t given, std::size_t urdfs,
                   Problems& problems) {
   if (given == urdfs) return;
-  problems.push_back(at_option(option, "there are " + std::to_string(urdfs) + " --urdf and " +
-                                           std::to_string(given) + " " + option +
-                                           ": the first belongs to the first, and so on"));
+  problems.push_back(at_option(option, std::to_string(urdfs) + " --urdf but " +
+                                           std::to_string(given) + " " + option + ": give one " +
+                                           option + " for each --urdf, in the same order"));
 }
 
 Result<ImportRequest> request_of(const ImportOptions& options) {
@@ -45,7 +44,7 @@ Result<ImportRequest> request_of(const ImportOptions& options) {
     if (equals == 0 || equals == text.npos) {
       problems.push_back(at_option("--package", "in \"" + text + "\": expected NAME=FOLDER"));
     } else if (!fs::is_directory(folder, error)) {
-      problems.push_back(at_option("--package", "in \"" + text + "\": there is no such folder"));
+      problems.push_back(at_option("--package", "in \"" + text + "\": no such folder"));
     } else {
       request.packages[text.substr(0, equals)] = folder.string();
     }
@@ -63,12 +62,12 @@ Result<ImportRequest> request_of(const ImportOptions& options) {
   return request;
 }
 
-// Never over a file that is there: somebody may have worked on it.
+// Writes a new file; never overwrites one, because it may have manual changes.
 bool write_new(const fs::path& file, const std::string& text) {
   std::error_code error;
   if (fs::exists(file, error)) {
-    complain("",
-             {at_option("--out", file.string() + " exists already: remove it, or give another")});
+    complain("", {at_option("--out",
+                            file.string() + " already exists: remove it, or give another file")});
     return false;
   }
   std::ofstream stream(file);

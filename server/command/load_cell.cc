@@ -12,7 +12,7 @@
 namespace armloom {
 namespace {
 
-// Nothing runs here: the executive is only built, to learn what it would refuse.
+// The executive is created only to learn what it would refuse.
 class NoJudgements final : public JudgementService {
  public:
   void ask(Question, PlanningScenePtr, std::function<void(Verdict)>) override {}
@@ -32,13 +32,12 @@ bool is_at_or_below(const std::string& pointer, const std::string& above) {
          (pointer.size() == above.size() || pointer[above.size()] == '/');
 }
 
-// Adds what building the cell found, but for what may only follow from a fault of the cell file: at
-// its place, above or below it.
+// Adds problems of building the cell, except those that may follow from faults of the file.
 void add_what_is_independent(const Problems& found, Problems& problems) {
   const Problems faults = problems;
   for (const Problem& problem : found) {
     const bool follows = std::any_of(faults.begin(), faults.end(), [&](const Problem& fault) {
-      // Of text that is no JSON nothing was read.
+      // Nothing was read from malformed JSON.
       return fault.slug == "malformed-json" || fault.slug == "duplicate-key" ||
              fault.pointer.empty() || fault.pointer.front() != '/' ||
              is_at_or_below(problem.pointer, fault.pointer) ||

@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {
-    std::cerr << "armloom: stopped by a fault of its own: " << error.what() << '\n';
+    std::cerr << "armloom: stopped by an internal error: " << error.what() << '\n';
     return 70;  // EX_SOFTWARE
   }
 }

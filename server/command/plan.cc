@@ -14,7 +14,7 @@
 namespace armloom {
 namespace {
 
-// What was said, and the place in it: "--to /pose/xyz".
+// Returns, for example, "--to /pose/xyz".
 std::string place_in(const char* option, std::string_view pointer) {
   return std::string(option) + (pointer.empty() ? "" : " ") + std::string(pointer);
 }
@@ -26,7 +26,6 @@ tl::unexpected<Problems> at_option(const char* option, Problems problems) {
 
 using RefusedArm = std::pair<std::string, PlanRefusal>;
 
-// Of several arms each one's, with the kind of the first.
 void say(const std::vector<RefusedArm>& refused) {
   const PlanRefusal& first = refused.front().second;
   std::string detail;
@@ -37,7 +36,7 @@ void say(const std::vector<RefusedArm>& refused) {
     evaluations += refusal.evaluations;
   }
   if (first.reason == PlanRefusal::Reason::not_found) {
-    detail += ": a larger --budget or another --seed may find it";
+    detail += ": increase --budget or try another --seed";
   }
   std::cerr << "armloom: no plan: " << detail << '\n';
   JsonWriter out;
@@ -63,7 +62,6 @@ void say(const std::vector<RefusedArm>& refused) {
   std::cout << out.text() << '\n';
 }
 
-// The body of POST /jobs.
 std::string job_text(const std::string& arm, const std::string& to,
                      const TrajectoryRequest& request) {
   JsonWriter out;
@@ -74,7 +72,6 @@ std::string job_text(const std::string& arm, const std::string& to,
   return out.take();
 }
 
-// For each arm that may go.
 Result<std::vector<PlanQuestion>> questions_of(const PlanOptions& options, const Cell& cell) {
   const auto said = read_plan_goal(options.to);
   if (!said) return at_option("--to", said.error());
@@ -110,7 +107,7 @@ Result<std::vector<PlanQuestion>> questions_of(const PlanOptions& options, const
   return questions;
 }
 
-// The one that is there first; or none, and why.
+// Returns the shortest motion, or nullopt; adds the reasons of other arms to `refused`.
 std::optional<std::pair<std::string, PlannedMotion>> first_there(
     const PlanningScenePtr& scene, const std::vector<PlanQuestion>& questions,
     std::vector<RefusedArm>& refused) {
@@ -156,8 +153,9 @@ int plan_way(const PlanOptions& options) {
     }
   }
   std::cerr << "armloom: " << arm << " in " << to_seconds(planned.timed.trajectory->duration())
-            << " s, by " << planned.way.points.size() - 2 << " corners, " << planned.way.length()
-            << " of joint space; " << planned.way.evaluations << " evaluations\n";
+            << " s, path with " << planned.way.points.size() - 2 << " corners, length "
+            << planned.way.length() << " in joint space; " << planned.way.evaluations
+            << " evaluations\n";
   return kExitDone;
 }
 

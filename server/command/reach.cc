@@ -17,7 +17,7 @@ double share(std::size_t part, std::size_t whole) {
 struct Extent {
   Eigen::Vector3d lower, upper;
 };
-// Of the places that the arm reaches; all zero: none.
+// Returns the bounding box of the reached positions; zero if there are none.
 Extent extent_of(const ToolReach& reach, const ArmReach& arm) {
   Extent extent{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   bool any = false;
@@ -37,12 +37,12 @@ std::size_t by_either(const ToolReach& reach, const ArmReach& a, const ArmReach&
 
 void print_table(const ToolReach& reach, const Cell& cell) {
   const std::size_t places = reach.grid.places();
-  std::printf("%d x %d x %d places %g m apart, %zu directions of the tool at each\n\n",
+  std::printf("%d x %d x %d positions, %g m apart, %zu tool directions at each\n\n",
               reach.grid.count[0], reach.grid.count[1], reach.grid.count[2], reach.grid.step_m,
               kReachDirections);
   std::printf(
-      "| arm | tool | poses reached | places reached | x, m | y, m | z, m |\n"
-      "|---|---|--:|--:|--:|--:|--:|\n");
+      "| arm | tool | poses reached | positions reached | x, m | y, m | z, m "
+      "|\n|---|---|--:|--:|--:|--:|--:|\n");
   for (const ArmReach& arm : reach.arms) {
     const auto [lower, upper] = extent_of(reach, arm);
     std::printf("| %s | %s | %.1f %% | %.1f %% |", cell.arm(arm.arm).name.c_str(),
@@ -53,7 +53,7 @@ void print_table(const ToolReach& reach, const Cell& cell) {
     std::printf("\n");
   }
   if (reach.arms.size() < 2) return;
-  std::printf("\n| both | places | of what either reaches |\n|---|--:|--:|\n");
+  std::printf("\n| both arms | positions | share of what either reaches |\n|---|--:|--:|\n");
   for (std::size_t a = 0; a < reach.arms.size(); ++a) {
     for (std::size_t b = a + 1; b < reach.arms.size(); ++b) {
       const ArmReach &one = reach.arms[a], &other = reach.arms[b];

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kColours[] = {"#1f77b4", "#d95f02", "#1b9e77", "#7570b3",
                                     "#e7298a", "#66a61e", "#a6761d", "#666666"};
-constexpr double kScale = 240.0;  // pixels a metre
+constexpr double kScale = 240.0;  // pixels per meter
 constexpr double kMargin = 56.0;  // pixels
 constexpr double kGap = 64.0;
 constexpr double kHead = 64.0;
@@ -26,7 +26,7 @@ std::string formatted(const char* format, double a, double b = 0.0, double c = 0
   return text;
 }
 
-// The grid seen along one axis: x to the right, `up` upward.
+// A view along one axis: x to the right, `up` upward.
 class View {
  public:
   View(const ToolReach& reach, std::size_t up, double left)
@@ -36,7 +36,7 @@ class View {
   [[nodiscard]] double height() const { return kScale * grid_.step_m * grid_.count[up_]; }
 
   void draw(std::string& svg) const {
-    const char* title = up_ == 1 ? "from above" : "from the side";
+    const char* title = up_ == 1 ? "seen from above" : "seen from the side";
     svg += formatted("<text x=\"%.1f\" y=\"%.1f\" font-weight=\"bold\">", left_, kHead - 12) +
            title + "</text>\n";
     svg += formatted("<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" ", left_, kHead,
@@ -52,7 +52,7 @@ class View {
   [[nodiscard]] std::size_t columns() const {
     return static_cast<std::size_t>(grid_.count[0]) * static_cast<std::size_t>(grid_.count[up_]);
   }
-  // So many places of the column the arm reaches.
+  // Returns the number of reached positions in the column.
   [[nodiscard]] int reached(std::size_t arm, std::size_t column) const {
     const auto nx = static_cast<std::size_t>(grid_.count[0]);
     const auto ny = static_cast<std::size_t>(grid_.count[1]);
@@ -92,7 +92,7 @@ class View {
     }
     svg += "</g>\n";
   }
-  // The same place, not only the same column.
+  // Returns true if several arms reach the same position in the column.
   [[nodiscard]] bool is_shared(std::size_t column) const {
     const auto nx = static_cast<std::size_t>(grid_.count[0]);
     const auto ny = static_cast<std::size_t>(grid_.count[1]);
@@ -117,7 +117,7 @@ class View {
                      pixel_up(base[static_cast<Eigen::Index>(up_)])) +
            "fill=\"" + colour_of(arm) + "\" stroke=\"#fff\" stroke-width=\"2\"/>\n";
   }
-  // Every half metre.
+  // Labels every half meter.
   void draw_axis(std::string& svg) const {
     svg += "<g fill=\"#555\">\n";
     const auto last = [&](std::size_t axis) {
@@ -141,7 +141,7 @@ class View {
   const ToolReach& reach_;
   const ReachGrid& grid_;
   std::size_t up_;
-  std::size_t along_;  // seen along this axis
+  std::size_t along_;  // axis of the view
   double left_;
 };
 
@@ -166,8 +166,8 @@ std::string reach_picture(const ToolReach& reach, const Cell& cell) {
     x += 34 + 8.0 * static_cast<double>(name.size());
   }
   svg += formatted(
-      "<rect x=\"%.1f\" y=\"14\" width=\"12\" height=\"12\" fill=\"none\" "
-      "stroke=\"#222\"/>\n<text x=\"%.1f\" y=\"24\">reached by several</text>\n",
+      "<rect x=\"%.1f\" y=\"14\" width=\"12\" height=\"12\" fill=\"none\" stroke=\"#222\"/>\n<text "
+      "x=\"%.1f\" y=\"24\">reached by several arms</text>\n",
       x, x + 18);
   above.draw(svg);
   side.draw(svg);

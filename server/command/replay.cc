@@ -1,4 +1,3 @@
-// A recording run again from its log of inputs, and its events compared.
 #include "server/replay/replay.h"
 
 #include <algorithm>
@@ -18,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// The newest of those in the folder, itself among them.
+// Returns the newest recording in the folder; the folder itself may be one.
 std::optional<fs::path> newest_recording(const fs::path& data) {
   std::error_code ec;
   std::optional<fs::path> newest;
@@ -34,7 +33,7 @@ std::optional<fs::path> newest_recording(const fs::path& data) {
   return newest;
 }
 
-// Wall time is none of what follows from the inputs.
+// Removes wall times, which do not follow from the inputs.
 void drop_wall_time(Json& value) {
   if (value.is_object()) {
     for (auto it = value.begin(); it != value.end();) {
@@ -49,13 +48,12 @@ std::vector<std::string> whole_lines(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) {
-    if (in.eof()) break;  // it was being written when the server ended
+    if (in.eof()) break;  // incomplete last line of a killed server
     lines.push_back(std::move(line));
   }
   return lines;
 }
 
-// Not open where none is asked for.
 Result<std::ofstream> open_events(const std::string& folder) {
   if (folder.empty()) return std::ofstream();
   std::error_code ec;
@@ -66,10 +64,9 @@ Result<std::ofstream> open_events(const std::string& folder) {
                          "the folder " + folder + " cannot be written", folder});
 }
 
-// Compares what is told with what was, event by event.
 class EventComparison final : public Observer {
  public:
-  // `out`: what is told goes there, too, where it is open.
+  // `out`: receives the replayed events, if open.
   EventComparison(std::vector<std::string> recorded, std::ofstream out)
       : recorded_(std::move(recorded)), out_(std::move(out)) {}
   void on_event(const Event& event) override {
@@ -81,13 +78,12 @@ class EventComparison final : public Observer {
   void on_tick(TimePoint, const Configuration&) override {}
   void on_state(const StateFrame&) override {}
 
-  // Of the last event that was recorded.
   [[nodiscard]] TimePoint end() const {
     if (recorded_.empty()) return TimePoint{};
     const Json last = Json::parse(recorded_.back(), nullptr, false);
     return TimePoint(from_seconds(last.value("t_s", 0.0)));
   }
-  // Of what was recorded until then, something is missing here.
+  // Reports a difference if an event recorded until `time` was not replayed.
   void expect_all_until(TimePoint time) {
     if (differs_ || events_ >= recorded_.size()) return;
     const Json next = Json::parse(recorded_[events_], nullptr, false);
@@ -99,9 +95,9 @@ class EventComparison final : public Observer {
   };
   [[nodiscard]] const std::optional<Difference>& difference() const { return differs_; }
   [[nodiscard]] std::size_t events() const { return events_; }
-  // With one that was recorded; the others came after what was on disk when the server ended.
+  // Returns the number of compared events; later ones were not on disk when the server ended.
   [[nodiscard]] std::size_t compared() const { return std::min(events_, recorded_.size()); }
-  // Nothing that could differ was recorded.
+  // Returns true if no event was recorded.
   [[nodiscard]] bool is_void() const { return compared() == 0 && events_ > 0; }
   [[nodiscard]] bool is_written() const { return !out_.is_open() || out_.good(); }
 
@@ -128,7 +124,7 @@ struct Run {
   TimePoint ended{};
 };
 
-// All lines until then; problems of the log.
+// Replays all lines until `until`. Problems: faults of the log.
 Result<Run> run(Replay& replay, const std::vector<std::string>& lines,
                 std::optional<TimePoint> until) {
   Run done;
@@ -151,7 +147,7 @@ int tell(const fs::path& folder, const Run& done, const EventComparison& compari
               << "armloom: replayed: " << difference->replayed << '\n';
   } else if (comparison.compared() < comparison.events()) {
     std::cerr << "armloom: " << comparison.compared() << " of " << comparison.events()
-              << " events are compared: events.jsonl has no more\n";
+              << " events compared: events.jsonl has no more\n";
   }
   JsonWriter out;
   out.begin_object().field("recording", folder.string()).field("ended_s", done.ended);
@@ -173,10 +169,11 @@ int replay_recording(const ReplayOptions& options) {
   const auto lines = folder ? whole_lines(*folder / InputFile::kName) : std::vector<std::string>{};
   if (lines.empty()) {
     const std::string& asked = options.recording.empty() ? options.data : options.recording;
-    return refuse(
-        "", {Problem{ProblemKind::not_found, "no-log",
-                     options.recording.empty() ? "--data" : "--recording",
-                     "there is no " + std::string(InputFile::kName) + " in " + asked, asked}});
+    return refuse("", {Problem{ProblemKind::not_found, "no-log",
+                               options.recording.empty() ? "--data" : "--recording",
+                               "no " + std::string(InputFile::kName) + " in " + asked +
+                                   ": record with `serve --data`",
+                               asked}});
   }
   const auto loaded = load_cell((*folder / "cell.json").string());
   if (!loaded) return kExitBadInput;
@@ -185,7 +182,7 @@ int replay_recording(const ReplayOptions& options) {
   EventComparison comparison(whole_lines(*folder / "events.jsonl"), *std::move(out));
   auto replay = Replay::begin(loaded->cell, lines.front(), comparison);
   if (!replay) return refuse((*folder / InputFile::kName).string(), replay.error());
-  // Nothing is known of what came after the last line.
+  // The inputs after the last line are unknown.
   const TimePoint end =
       std::max(comparison.end(), Replay::time_of(lines.back()).value_or(TimePoint{}));
   std::optional<TimePoint> until;

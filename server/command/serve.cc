@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "127.0.0.1:8080", "[::1]:8080"
+// Parses "127.0.0.1:8080" or "[::1]:8080".
 bool parse_listen(const std::string& text, std::string& address, std::uint16_t& port) {
   const std::size_t colon = text.rfind(':');
   if (colon == text.npos || colon == 0) return false;
@@ -35,8 +35,7 @@ bool parse_listen(const std::string& text, std::string& address, std::uint16_t& 
   return ec == std::errc{} && stop == end;
 }
 
-// The dashboard as built: beside the repository's build folder, where it was installed, or beside
-// the binary.
+// Returns web/dist of the repository, the installed folder, or `web` next to the binary.
 fs::path web_folder(const std::string& asked) {
   if (!asked.empty()) return asked;
   std::error_code ec;
@@ -48,10 +47,9 @@ fs::path web_folder(const std::string& asked) {
   return folder / "web";
 }
 
-// Each connection is a file descriptor: takes as many as the system gives, leaves some for files
-// and returns how many connections there may be.
+// Raises the limit of file descriptors and returns the number of connections that it allows.
 std::size_t connections_within_descriptors(std::size_t wanted) {
-  // Files and the reserve of HttpServer, 64 each at most: half of the descriptors, if they are few.
+  // For files and the reserve of HttpServer, 64 each; half of all if few.
   constexpr rlim_t kOther = 128;
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
@@ -62,7 +60,6 @@ std::size_t connections_within_descriptors(std::size_t wanted) {
   return static_cast<std::size_t>(limit.rlim_cur - std::min<rlim_t>(kOther, limit.rlim_cur / 2));
 }
 
-// No client takes all that there is.
 void limit_clients(const ServeOptions& options, ServiceOptions& service) {
   const double requests = options.requests_per_s, jobs = options.jobs_per_s;
   service.limits = {.requests = {requests, 2 * requests},
@@ -72,26 +69,25 @@ void limit_clients(const ServeOptions& options, ServiceOptions& service) {
   service.connections_per_client_max = options.connections_per_client;
 }
 
-// Of who may use it: whoever can reach an address that is not the machine's own has to show a
-// token, and nobody between may read it.
+// Checks that an address that other machines can reach has tokens, and TLS to protect them.
 void find_faults_of_access(const ServeOptions& options, const std::string& address,
                            const Result<std::vector<KeptToken>>& tokens, Problems& problems) {
   if (options.tls_certificate.empty() != options.tls_key.empty()) {
     problems.push_back(Problem{ProblemKind::invalid, "half-of-tls", "--tls-key",
-                               "--tls-certificate and --tls-key go together"});
+                               "--tls-certificate and --tls-key must be given together"});
   }
   const bool asks = !options.tokens.empty(), is_sealed = !options.tls_certificate.empty();
   if (reach_of(address) == Reach::others && !(asks && is_sealed)) {
-    const std::string danger =
-        asks ? "whoever is between could read the tokens that are shown at " + address
-             : "whoever reaches " + address + " could move the arms";
+    const std::string danger = asks ? "tokens sent to " + address + " could be read on the network"
+                                    : "everybody who can reach " + address + " could move the arms";
     const std::string how =
-        "--tokens FILE (`armloom token add --tokens FILE --name NAME --role operator` makes it)";
+        "--tokens FILE (create it with `armloom token add --tokens FILE --name NAME --role "
+        "operator`)";
     problems.push_back(Problem{ProblemKind::invalid, "open-to-others", "--listen",
                                danger + ": give " + (asks ? "" : how) +
                                    (asks || is_sealed ? "" : ", ") +
                                    (is_sealed ? "" : "--tls-certificate and --tls-key") +
-                                   "; or listen on 127.0.0.1, behind a proxy or a tunnel",
+                                   "; or listen on 127.0.0.1 behind a proxy or a tunnel",
                                address});
   }
   if (!tokens) problems.insert(problems.end(), tokens.error().begin(), tokens.error().end());
@@ -103,31 +99,32 @@ std::string dashboard_address(const std::string& scheme, const std::string& addr
   return scheme + "://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port) + "/";
 }
 
-// What cannot be followed, so that it is said before anything listens.
+// Faults to report before the server listens.
 Problems faults_of(const ServeOptions& options) {
   Problems problems;
   std::error_code ec;
   if (!options.web.empty() && !fs::is_directory(options.web, ec)) {
     problems.push_back(Problem{ProblemKind::not_found, "no-folder", "--web",
-                               "there is no folder " + options.web, options.web});
+                               "no such folder: " + options.web, options.web});
   }
   for (const std::string& name : options.allowed_hosts) {
     if (valid_authority(name) && name.find(':') == name.npos) continue;
     problems.push_back(Problem{ProblemKind::invalid, "bad-name", "--allow-host",
-                               "expected a host's name without a port", name});
+                               "expected a host name without a port", name});
   }
   for (const std::string& origin : options.allowed_origins) {
     const std::size_t scheme = origin.find("://");
     const bool is_web = origin.starts_with("http://") || origin.starts_with("https://");
     if (is_web && valid_authority(origin.substr(scheme + 3))) continue;
     problems.push_back(Problem{ProblemKind::invalid, "bad-origin", "--allow-origin",
-                               "expected an origin, as in https://station.example:8443", origin});
+                               "expected an origin, for example https://station.example:8443",
+                               origin});
   }
   return problems;
 }
 
-// To stderr, by a thread of its own: who reads it slowly holds up nobody, and loses the oldest
-// lines.
+// Logs on a thread of its own: a slow stderr reader never blocks the server; the oldest lines are
+// lost.
 Log log_of(const std::string& format) {
   constexpr std::size_t kLinesMax = 8192;
   spdlog::init_thread_pool(kLinesMax, 1);
@@ -157,7 +154,7 @@ RecordingBounds recording_bounds(const ServeOptions& options) {
   return bounds;
 }
 
-// The log is whole when the process ends.
+// Flushes the log before the process ends.
 struct LogEnds {
   ~LogEnds() { spdlog::shutdown(); }
 };
@@ -171,10 +168,9 @@ int serve(const ServeOptions& options) {
   if (!loaded) return kExitBadInput;
   ServiceOptions service_options;
   if (!parse_listen(options.listen, service_options.address, service_options.port)) {
-    complain("",
-             {Problem{ProblemKind::invalid, "bad-address", "--listen",
-                      "expected ADDRESS:PORT, as in 127.0.0.1:8080, which is this machine alone",
-                      options.listen}});
+    complain("", {Problem{ProblemKind::invalid, "bad-address", "--listen",
+                          "expected ADDRESS:PORT, for example 127.0.0.1:8080 for this machine only",
+                          options.listen}});
     return kExitBadInput;
   }
   Problems faults = faults_of(options);
@@ -194,7 +190,7 @@ int serve(const ServeOptions& options) {
   service_options.speed = options.speed;
   service_options.policy = options.policy;
   service_options.web = web_folder(options.web);
-  (void)umask(umask(0) | S_IRWXO);  // who did what from where is not everybody's to read
+  (void)umask(umask(0) | S_IRWXO);  // other users must not read the audit log
   if (!options.data.empty()) service_options.data = options.data;
   service_options.record_states = options.record;
   service_options.store.retention.jobs_max = options.keep_jobs;
@@ -208,7 +204,7 @@ int serve(const ServeOptions& options) {
   service_options.logged_requests = logged_requests(options.log_requests);
   service_options.kept_recordings = recording_bounds(options);
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file may not grow: said as any other that cannot be written
+  std::signal(SIGXFSZ, SIG_IGN);  // report a file size limit as a write error
 
   auto service = Service::start(loaded->cell, {loaded->file, loaded->text}, service_options);
   if (!service) {
@@ -227,7 +223,8 @@ int serve(const ServeOptions& options) {
         {"speed", options.speed}}});
   if (service_options.tokens && tokens->empty()) {
     log({LogLine::Level::warning,
-         "nobody is let in: there is no token; `armloom token add` makes one",
+         "the token file has no token, so all requests are refused: create one with `armloom token "
+         "add`",
          {{"tokens", service_options.tokens->string()}}});
   }
   if (const auto folder = (*service)->recorded_to()) {
@@ -239,7 +236,7 @@ int serve(const ServeOptions& options) {
             << std::endl;
   (*service)->run(true);
   const auto lost = (*service)->close();
-  if (lost) log({LogLine::Level::error, "not all is written: " + *lost});
+  if (lost) log({LogLine::Level::error, "not everything was written: " + *lost});
   log({LogLine::Level::info, "stopped"});
   return lost ? kExitNotWritten : kExitDone;
 }

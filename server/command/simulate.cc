@@ -13,7 +13,7 @@
 namespace armloom {
 namespace {
 
-// Writes the recording, and counts what the figures do not say.
+// Writes the recording and counts backlogged jobs.
 class Watcher final : public Observer {
  public:
   Watcher(Recording* recording, std::string stream)
@@ -110,9 +110,9 @@ int simulate_jobs(const SimulateOptions& options) {
   complain_of_ends(*result);
   if (recording != nullptr) recording->close();
   if (const auto fault = recording != nullptr ? recording->fault() : std::nullopt) {
-    return refuse("",
-                  {Problem{ProblemKind::unavailable, "cannot-write", "--out",
-                           "the recording could not be written whole: " + *fault, options.out}});
+    return refuse(
+        "", {Problem{ProblemKind::unavailable, "cannot-write", "--out",
+                     "the recording could not be written completely: " + *fault, options.out}});
   }
   const std::string& policy = options.policy.empty() ? cell.scheduling.policy : options.policy;
   std::cout << summary_json(policy, watcher.backlogged(), summarise(*result, first_submit), *result,

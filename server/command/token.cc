@@ -1,4 +1,3 @@
-// Who may use a server: `armloom token add`, `list` and `revoke`.
 #include <iostream>
 
 #include "core/base/enumeration.h"
@@ -21,12 +20,12 @@ int add(TokenFile& file, const TokenOptions& options) {
   const auto role = value_named<Role>(options.role);
   if (!role) {
     return refuse("", {Problem{ProblemKind::invalid, "bad-role", "--role",
-                               "a role is viewer, operator or admin", options.role}});
+                               "the role must be viewer, operator or admin", options.role}});
   }
   const auto token = file.add(options.name, *role);
   if (!token) return refuse("", token.error());
   std::cout << *token << std::endl;
-  std::cerr << "armloom: this is the only time that it is shown\n";
+  std::cerr << "armloom: keep this token; it cannot be shown again\n";
   return kExitDone;
 }
 

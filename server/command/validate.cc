@@ -38,7 +38,7 @@ std::string counted_shapes(const Cell& cell, const std::vector<LinkId>& links) {
   return text.empty() ? "none" : text;
 }
 
-// `marked` limits are defaults.
+// `marked`: the limit is a default.
 void print_limit(double limit, bool marked = false) {
   std::cout << std::setw(9) << no_minus_zero(limit) << (marked ? '*' : ' ');
 }
@@ -104,14 +104,14 @@ void print_cell(const Cell& cell) {
 
 void print_shapes(const std::vector<ShapeReport>& report) {
   std::cout << std::left << std::setw(34) << "link or object" << std::right << std::setw(14)
-            << "convex shapes" << std::setw(10) << "capsules" << std::setw(24)
-            << "capsules stand off" << '\n';
+            << "convex shapes" << std::setw(10) << "capsules" << std::setw(24) << "capsule excess"
+            << '\n';
   for (const ShapeReport& body : report) {
-    std::ostringstream millimetres;
-    millimetres << std::fixed << std::setprecision(1) << 1000.0 * body.excess_m << " mm";
+    std::ostringstream millimeters;
+    millimeters << std::fixed << std::setprecision(1) << 1000.0 * body.excess_m << " mm";
     std::cout << std::left << std::setw(34) << body.body << std::right << std::setw(14)
               << body.convex_shapes << std::setw(10) << body.capsules << std::setw(24)
-              << millimetres.str() << '\n';
+              << millimeters.str() << '\n';
   }
 }
 

@@ -4,8 +4,8 @@
 
 namespace armloom {
 
-// Text as it stands in XML (SVG), also between double quotes. XML 1.0 has no way to write control
-// characters: '?'.
+// Escapes XML text, also for use between double quotes. Control characters, which XML 1.0 does not
+// have, become '?'.
 [[nodiscard]] std::string xml_escaped(const std::string& text);
 
 }  // namespace armloom

@@ -18,7 +18,7 @@
 namespace armloom {
 namespace {
 
-// Whatever else runs here goes first. Of the calling thread alone, on Linux.
+// Gives the lowest priority to the calling thread; on Linux, to no other thread.
 void give_way() {
   constexpr int kNicest = 19;
   static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNicest));
@@ -31,13 +31,13 @@ class Nobody final : public Observer {
   void on_state(const StateFrame&) override {}
 };
 
-// What came before the jobs is taken as done.
+// Predecessors outside of these jobs are taken as succeeded.
 std::vector<TimedJob> timed_jobs(const std::vector<JobsAtHand::Job>& jobs, const Cell& cell) {
   std::vector<TimedJob> timed;
   std::set<std::string> keys;
   for (const JobsAtHand::Job& job : jobs) {
     auto request = read_job_text(*job.body);
-    if (!request) continue;  // it was accepted, so that it can be read
+    if (!request) continue;  // accepted jobs can be read
     validate_ahead(*request, cell);
     request->key = job.key;
     for (const std::string& before : request->after) {
@@ -50,8 +50,8 @@ std::vector<TimedJob> timed_jobs(const std::vector<JobsAtHand::Job>& jobs, const
   return timed;
 }
 
-// The cell as the jobs found it: with these objects, and, where jobs came before them, each arm
-// where its first trajectory begins.
+// Returns the cell as the jobs found it: with the question's objects and, if earlier jobs are left
+// out, each arm at the start of its first trajectory.
 CellPtr cell_of(const Cell& cell, const Comparison::Question& question,
                 const std::vector<TimedJob>& jobs) {
   const auto as_found = std::make_shared<Cell>(cell);
@@ -123,12 +123,12 @@ Comparison::~Comparison() { cancel(); }
 Result<ComparisonView> Comparison::start(Question question) {
   if (latest_ && latest_->state == ComparisonState::running) {
     return failure(Problem{ProblemKind::conflict, "comparison-under-way", "",
-                           "another comparison is under way: DELETE it, or wait for it"});
+                           "another comparison is running: DELETE it, or wait for its end"});
   }
   const auto& jobs = question.taken.jobs;
   if (jobs.empty()) {
     return failure(Problem{ProblemKind::conflict, "no-jobs", "/since_s",
-                           "no job was submitted since then, or since the server began"});
+                           "no job was submitted since then, or since the server started"});
   }
   ComparisonView view;
   view.jobs = jobs.size();
@@ -151,7 +151,7 @@ void Comparison::cancel() {
   latest_->state = ComparisonState::canceled;
 }
 
-// What is said of one that was cancelled comes too late.
+// Drops updates of a comparison that has been canceled.
 void Comparison::tell(const Cancelled& of, std::function<void(ComparisonView&)> change) {
   post_([this, of, change = std::move(change)] {
     if (!of->load()) change(*latest_);

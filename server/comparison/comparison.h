@@ -16,28 +16,27 @@
 
 namespace armloom {
 
-// What the same jobs would have come to under other policies: each is run in simulation, one after
-// the other, on a thread of its own that gives way to all others. One comparison at a time; the
-// last one is kept. On the server's thread.
+// Results of the same jobs under other policies: simulated in sequence on a thread of lowest
+// priority. One comparison at a time; the latest is kept. Use on the server's thread.
 class Comparison {
  public:
-  // More evaluations than this and a run is given up: on one core some minutes.
+  // Limit for each simulation: some minutes on one core.
   inline static constexpr std::uint64_t kEvaluationsMax = 50'000'000;
 
-  // `post`: to the server's thread; it outlives this.
+  // `post` runs a task on the server's thread, which outlives this.
   Comparison(CellPtr cell, std::function<void(std::function<void()>)> post);
-  ~Comparison();  // waits until the run has noticed
+  ~Comparison();  // waits for the thread
 
   struct Question {
     ComparisonInquiry inquiry;
     JobsAtHand::Taken taken;
-    std::vector<CollisionObject> objects;  // of the scene as it is
-    std::string in_force;                  // the policy
+    std::vector<CollisionObject> objects;  // of the present scene
+    std::string in_force;                  // policy
   };
-  // Problems: conflict, while one is under way, or when there is no job.
+  // Problem (conflict): a comparison is under way, or there are no jobs.
   [[nodiscard]] Result<ComparisonView> start(Question question);
   [[nodiscard]] const std::optional<ComparisonView>& latest() const { return latest_; }
-  // One that is under way ends as canceled, with the runs that are done.
+  // Ends a comparison under way as canceled, with its finished runs.
   void cancel();
 
  private:
@@ -49,7 +48,7 @@ class Comparison {
   CellPtr cell_;
   std::function<void(std::function<void()>)> post_;
   std::optional<ComparisonView> latest_;
-  Cancelled cancelled_;  // of the latest one
+  Cancelled cancelled_;  // of latest_
   Worker worker_;
 };
 

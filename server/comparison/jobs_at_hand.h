@@ -11,8 +11,8 @@
 
 namespace armloom {
 
-// The jobs that clients submitted in this run of the server, as they came, oldest first: so many
-// and so large at most, the oldest go first. On the server's thread.
+// Jobs that clients submitted in this session, oldest first. Beyond the bounds, the oldest are
+// dropped. Use on the server's thread.
 class JobsAtHand {
  public:
   struct Job {
@@ -29,8 +29,8 @@ class JobsAtHand {
 
   void note(Job job);
 
-  // Those since `from`, all of them without one. `whole`: nothing came before them, so that the
-  // arms were at home when the first one did.
+  // The jobs since `from`, or all without `from`. `whole`: there were no earlier jobs, so the first
+  // job found all arms at home.
   struct Taken {
     std::vector<Job> jobs;
     bool whole = true;

@@ -11,18 +11,18 @@
 
 namespace armloom {
 
-// After this much cell time something is wrong: every job has waited as long as it may and run as
-// long as it may, one after the other.
+// Returns the cell time by which all jobs end even if each waits and runs as long as permitted, one
+// after the other.
 [[nodiscard]] TimePoint time_limit(const std::vector<TimedJob>& jobs,
                                    const std::vector<FaultRequest>& faults, const Cell& cell);
 
-// Of the clients' jobs; moves aside of the server's own are not counted.
+// Summary of the clients' jobs, without the server's own.
 struct RunSummary {
-  Duration makespan{};  // from the first submission to the last end; zero: no job started
-  // To the end of the run where that is later, as with jobs that do not end and go on moving arms:
-  // what the arms' busy times are shares of.
+  Duration makespan{};  // first submission to last end; zero if no job started
+  // As makespan, but to the end of the run if that is later, because jobs that do not end still
+  // move arms. The arms' busy shares refer to it.
   Duration span{};
-  // Every terminal state and "refused"; other states only when the time limit came first.
+  // All terminal states and "refused". Other states only if the time limit was reached.
   std::map<std::string, std::size_t> jobs;
   Duration wait_mean{};  // of jobs that started, from submission to start
   Duration wait_max{};

@@ -9,7 +9,8 @@ Result<Control::Taken> Control::take(const std::string& who, bool from_another,
                                      std::optional<std::string> token) {
   if (holder_ && !from_another) {
     return failure(Problem{ProblemKind::conflict, "control-is-held", "",
-                           holder_->who + " has control; \"take\": true takes it", holder_->who});
+                           holder_->who + " has control; send \"take\": true to take it over",
+                           holder_->who});
   }
   Taken taken{random_hex(), holder_ ? holder_->move : std::nullopt};
   holder_ = Holder{who, std::move(token), std::chrono::system_clock::now()};
@@ -39,8 +40,9 @@ bool Control::renew(std::chrono::milliseconds lease, Time now) {
 Result<void> Control::check(const std::string& key) const {
   if (holder_ && equal_in_constant_time(key, key_)) return {};
   return failure(Problem{ProblemKind::conflict, "not-in-control", "/control",
-                         holder_ ? holder_->who + " has control, not who shows this key"
-                                 : std::string("nobody has control: POST /control takes it")});
+                         holder_
+                             ? holder_->who + " has control; this key is not valid"
+                             : std::string("no client has control: take it with POST /control")});
 }
 
 }  // namespace armloom

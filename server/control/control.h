@@ -9,40 +9,41 @@
 
 namespace armloom {
 
-// Who may move arms by hand: one client at a time, who shows a key that nobody else was told. It
-// may be given back, or taken by another. Jobs of programs need no control. On the server's thread.
+// Control: the right to jog arms. At most one client has it and shows a secret key. The client may
+// give it back, and another client may take it over. Jobs need no control. Use on the server's
+// thread.
 class Control {
  public:
-  // On the machine's own clock: the cell's stands still while the process is stopped.
+  // A machine clock, because the cell's clock stops with the process.
   using Time = std::chrono::steady_clock::time_point;
   struct Move {
     std::string arm;
     std::string job;  // its key
-    Time held_at{};   // when it was said last that the button is held
+    Time held_at{};   // last report that the button is held
   };
   struct Holder {
-    std::string who;                   // for people
-    std::optional<std::string> token;  // by which it was taken, where tokens are asked for
+    std::string who;                   // display name
+    std::optional<std::string> token;  // used to take control, if tokens are required
     std::chrono::system_clock::time_point since;
-    std::optional<Move> move = {};  // the last that was begun by hand
+    std::optional<Move> move = {};  // last jog
   };
   struct Taken {
     std::string key;                  // the secret
-    std::optional<Move> interrupted;  // the move of whoever held it before: to be cancelled
+    std::optional<Move> interrupted;  // jog of the previous holder; must be canceled
   };
-  // Problem (conflict): somebody else holds it, and it is not to be taken `from_another`.
+  // Problem (conflict): another client has control, and `from_another` is false.
   [[nodiscard]] Result<Taken> take(const std::string& who, bool from_another,
                                    std::optional<std::string> token = {});
-  // The last move of who gives it back. Problem: that of check().
+  // Returns the client's last jog. Problem: as check().
   [[nodiscard]] Result<std::optional<Move>> give_back(const std::string& key);
-  // Takes it from whoever holds it, for nobody; their last move. Precondition: somebody does.
+  // Revokes control and returns the last jog. Precondition: a client has control.
   std::optional<Move> end();
-  // Problem (conflict): the key is not that of who holds it.
+  // Problem (conflict): the key does not belong to the client in control.
   [[nodiscard]] Result<void> check(const std::string& key) const;
-  // Precondition: somebody holds it.
+  // Precondition: a client has control.
   void begin(Move move) { holder_->move = std::move(move); }
-  // Its button is said to be held at `now`: whether the word came within the lease. One that comes
-  // late finds that the move is over. Precondition: somebody holds it, and moves something.
+  // Renews the jog's lease at `now`. Returns false if the lease has expired: the jog is then over.
+  // Precondition: a client has control and has begun a jog.
   [[nodiscard]] bool renew(std::chrono::milliseconds lease, Time now);
 
   [[nodiscard]] const std::optional<Holder>& holder() const { return holder_; }

@@ -33,7 +33,7 @@ void AlertBook::happened(const Event& event) {
   if (keeper_ != nullptr) keeper_->store().keep(std::move(alert));
 }
 
-// What somebody has seen goes first, and errors last; of these the oldest.
+// Returns the oldest acknowledged alert, else the oldest warning, else the oldest error.
 std::deque<StoredAlert>::const_iterator AlertBook::least_needed() const {
   const auto oldest = [&](auto goes) { return std::ranges::find_if(alerts_, goes); };
   const auto seen = oldest([](const StoredAlert& one) { return one.acknowledged.has_value(); });

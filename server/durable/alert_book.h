@@ -14,19 +14,19 @@
 
 namespace armloom {
 
-// Warnings and errors, kAlertsKept of them: what nobody has acknowledged yet, errors first of all,
-// and the newest. With a keeper they outlive the process. On the server's thread.
+// The last kAlertsKept warnings and errors. Acknowledged alerts are dropped first, errors last. A
+// keeper persists them. Use on the server's thread.
 class AlertBook {
  public:
-  // `keeper`: null: they end with the server; it outlives this, as `clock` does.
+  // `keeper` may be null; alerts then end with the server. `keeper` and `clock` outlive this.
   AlertBook(std::string stream, const WallClock& clock, JobKeeper* keeper);
 
   void happened(const Event& event);
   [[nodiscard]] const std::deque<StoredAlert>& alerts() const { return alerts_; }  // oldest first
   [[nodiscard]] const StoredAlert* find(const std::string& id) const;
 
-  // Whoever was the first one stays. `then` is called when it is on disk, or with the reason why
-  // not yet. Precondition: find() knows all of them.
+  // The first acknowledgement stays. `then` is called when it is on disk, or with the reason why
+  // not yet. Precondition: find() knows all ids.
   void acknowledge(const std::vector<std::string>& ids, const std::string& who,
                    std::function<void(std::optional<Refusal>)> then);
 

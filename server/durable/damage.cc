@@ -9,17 +9,16 @@ namespace armloom {
 namespace {
 
 constexpr const char* kWhatToSeeTo =
-    "; all arms are stopped: jobs that wait may be done already, so cancel those before you resume";
+    "; all arms are stopped. Waiting jobs may already have run: cancel those before you resume";
 
 std::string sentence_of_jobs(const std::vector<std::string>& ids) {
-  constexpr std::size_t kNamed = 10;  // what is left of a sentence
+  constexpr std::size_t kNamed = 10;  // listed; the rest are counted
   std::string named;
   for (std::size_t i = 0; i < std::min(kNamed, ids.size()); ++i) {
     named += (i == 0 ? "\"" : ", \"") + ids[i] + '"';
   }
   if (ids.size() > kNamed) named += " and " + std::to_string(ids.size() - kNamed) + " more";
-  return "jobs that cannot be read, or are not as they were written: " + named +
-         "; none of them is begun";
+  return "jobs that cannot be read or are damaged: " + named + "; they are not started";
 }
 
 }  // namespace
@@ -29,30 +28,29 @@ Alert alert_of(const Damage& damage) {
   if (damage.is_behind) {
     found.push_back(
         std::string(
-            "it holds less than the former run had written (its log armloom.db-wal is damaged, cut "
-            "off or gone, or armloom.db is an older copy): the last jobs, changes and stops may be "
-            "missing") +
+            "it holds less than the previous session wrote (its log armloom.db-wal is damaged, "
+            "truncated or gone, or armloom.db is an older copy): the last jobs, changes and stops "
+            "may be missing") +
         kWhatToSeeTo);
   }
   if (damage.is_unmarked) {
     found.push_back(
-        std::string("armloom.mark beside armloom.db is gone or cannot be read, or armloom.db is a "
-                    "copy without it: whether the last jobs, changes and stops are there is not "
-                    "known") +
+        std::string("armloom.mark is missing or unreadable, or armloom.db was copied without it: "
+                    "the last jobs, changes and stops may be missing") +
         kWhatToSeeTo);
   }
   if (damage.lost_jobs > 0) {
-    found.push_back(std::to_string(damage.lost_jobs) +
-                    (damage.lost_jobs == 1 ? " job is" : " jobs are") +
-                    " gone but for what the client had sent, and not begun");
+    found.push_back("for " + std::to_string(damage.lost_jobs) +
+                    (damage.lost_jobs == 1 ? " job" : " jobs") +
+                    " only the client's request could be recovered; not started");
   }
   if (!damage.jobs.empty()) found.push_back(sentence_of_jobs(damage.jobs));
   if (damage.alerts + damage.audit > 0) {
     found.push_back(std::to_string(damage.alerts) + " alerts and " + std::to_string(damage.audit) +
-                    " entries of the audit trail are not as they were written, and left out");
+                    " entries of the audit trail are damaged, and left out");
   }
   if (damage.stops) {
-    found.push_back("which arms were stopped is not as it was written: all are, until resumed");
+    found.push_back("the list of stopped arms is damaged: all arms are stopped until resumed");
   }
   std::string text = "the data folder is damaged: ";
   for (const std::string& one : found) text += (&one == &found.front() ? "" : "; ") + one;

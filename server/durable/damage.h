@@ -5,8 +5,7 @@
 
 namespace armloom {
 
-// What people are told of what the data folder holds and cannot be read, or is not as it was
-// written. Precondition: there is some.
+// Returns the alert on damaged contents of the data folder. Precondition: there is damage.
 [[nodiscard]] Alert alert_of(const Damage& damage);
 
 }  // namespace armloom

@@ -28,7 +28,7 @@ Result<void> JobKeeper::look_up(JobRequest& job) const {
     if (!found) return failure(found.error());
     if (*found && (*found)->has_ended) {
       return failure(Problem{ProblemKind::conflict, "id-in-use", "/id",
-                             "id \"" + job.key + "\" is that of a job that has ended", job.key});
+                             "id \"" + job.key + "\" belongs to a job that has ended", job.key});
     }
   }
   for (const std::string& before : job.after) {
@@ -68,7 +68,7 @@ void JobKeeper::accept(std::vector<AcceptedJob> jobs,
                  [this, keys = std::move(keys), then = std::move(then)](bool is_written) {
                    if (!is_written) {
                      loop_->post_urgent([keys](Executive& executive) {
-                       for (const std::string& key : keys) executive.withdraw(key);
+                       for (const std::string& key : keys) executive.roll_back(key);
                      });
                    }
                    tell(is_written, then);
@@ -97,9 +97,10 @@ void JobKeeper::when_written(std::function<void(std::optional<Refusal>)> then) {
 std::optional<Refusal> JobKeeper::refusal() const {
   const auto fault = store_->fault();
   if (!fault) return std::nullopt;
-  return Refusal{fault->is_full ? 507 : 503, fault->is_full ? "storage-full" : "storage-failed",
-                 "jobs cannot be stored at present, and arms stay where they are: " + fault->text,
-                 "--data", fault->text};
+  return Refusal{
+      fault->is_full ? 507 : 503, fault->is_full ? "storage-full" : "storage-failed",
+      "jobs cannot be stored at present, so none is accepted and no arm starts: " + fault->text,
+      "--data", fault->text};
 }
 
 void JobKeeper::about_to_move(JobId job, std::function<void()> written) {

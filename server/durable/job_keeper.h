@@ -17,42 +17,42 @@
 
 namespace armloom {
 
-// Sees to it that jobs outlive the process: between what the executive tells and the store. Calls
-// come from the server's thread but for those of StartLog, which come from the strand.
+// Makes jobs outlive the process: passes the executive's changes to the store. Call on the server's
+// thread; StartLog's functions on the strand.
 class JobKeeper final : public StartLog {
  public:
   // Problems: those of JobStore::open().
   [[nodiscard]] static Result<std::unique_ptr<JobKeeper>> open(const std::filesystem::path& folder,
                                                                StoreOptions options);
-  // Before anything else is called. Both outlive the keeper's callers; `post`: to the server's
-  // thread.
+  // Call first. Both outlive the keeper's callers. `post` runs a task on the server's thread.
   void serve(const WallClock& clock, std::function<void(std::function<void()>)> post) {
     clock_ = &clock;
     post_ = std::move(post);
   }
   void runs_on(RealTimeLoop& loop) { loop_ = &loop; }
 
-  // What a client may not be told to be accepted. Problems: the id is an ended job's.
-  // Predecessors that have succeeded long ago, or in a former run, are noted in the request.
+  // Checks a request before acceptance. Problem: its id is an ended job's. Adds to the request
+  // which predecessors succeeded long ago or in an earlier session.
   [[nodiscard]] Result<void> look_up(JobRequest& job) const;
-  // As told by the executive now.
+  // Records the job's state as published by the executive now.
   void see(const JobView& job);
   struct AcceptedJob {
     JobView job;
     std::string body;
     RequestOrigin origin;
-    std::optional<StoredJob> row = {};  // row_of() it, where that was made aside
+    std::optional<StoredJob> row = {};  // row_of(job), if already made
   };
-  // Jobs that it has accepted: `then` is called when they are on disk, or with the reason why not;
-  // they are withdrawn then.
+  // Persists accepted jobs. Calls `then` when they are on disk, or with the reason why not; then
+  // they are rolled back.
   void accept(std::vector<AcceptedJob> jobs, std::function<void(std::optional<Refusal>)> then);
-  // It was changed: `then` is called when that is on disk, or with the reason why not yet.
+  // Persists a job's amendments. Calls `then` when they are on disk, or with the reason why not
+  // yet.
   void amend(const JobView& job, std::function<void(std::optional<Refusal>)> then);
-  // An object of the scene was changed: `then` as of amend().
+  // Persists a change of a scene object; `then` as in amend().
   void change(StoredObject object, std::function<void(std::optional<Refusal>)> then);
-  // When all that was told before is on disk, or with the reason why not yet.
+  // Calls `then` when all earlier changes are on disk, or with the reason why not yet.
   void when_written(std::function<void(std::optional<Refusal>)> then);
-  // Why nothing can be accepted, nor any arm be let go, at present.
+  // Returns why no job can be accepted and no arm may start at present, or nullopt.
   [[nodiscard]] std::optional<Refusal> refusal() const;
   void stopped(std::vector<std::string> arms) { store_->stopped(std::move(arms)); }
 
@@ -66,7 +66,7 @@ class JobKeeper final : public StartLog {
 
  private:
   JobKeeper() = default;
-  // Calls `then`, on the server's thread, with the reason why it is not written, if it is not.
+  // Calls `then` on the server's thread, with the reason if nothing was written.
   void tell(bool is_written, const std::function<void(std::optional<Refusal>)>& then) const;
 
   const WallClock* clock_ = nullptr;
@@ -77,7 +77,7 @@ class JobKeeper final : public StartLog {
   std::unique_ptr<JobHistory> lists_;
 };
 
-// Without its origin.
+// Returns the job's row, without its origin.
 [[nodiscard]] StoredJob row_of(const JobView& job, const WallClock& clock);
 
 }  // namespace armloom

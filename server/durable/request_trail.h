@@ -11,15 +11,15 @@
 
 namespace armloom {
 
-// Who did something, or was not let do it, is put down; and told in the log, where that is wanted.
-// On the server's thread.
+// Writes changes and refusals to the audit trail, and requests to the log if wanted. Use on the
+// server's thread.
 class RequestTrail {
  public:
-  // `keeper`: null: nothing is kept; it outlives what was handed to follow().
+  // `keeper` may be null; then there is no audit trail. It outlives what follow() returns.
   RequestTrail(JobKeeper* keeper, Log log, LoggedRequests logged)
       : keeper_(keeper), log_(std::move(log)), logged_(logged) {}
 
-  // Hands the answer to `respond` when the request is put down. `who`: the token's name, or empty.
+  // Returns a callback that records the request, then responds. `who`: token name, or empty.
   [[nodiscard]] Respond follow(const Request& request, std::string who, Respond respond) const;
 
  private:

@@ -21,7 +21,6 @@
 namespace armloom {
 namespace {
 
-// An object that could not be restored as clients of the former run had left it.
 struct ObjectNotPutBack {
   std::string name;
   std::string why;  // a sentence
@@ -35,14 +34,14 @@ Result<void> put_back(const StoredObject& stored, LiveScene& scene) {
   return is_there ? scene.replace(std::move(*object)) : scene.add(std::move(*object));
 }
 
-// Restores the scene of the former run and returns what could not be restored. Call it on the
+// Restores the scene of the previous session and returns what could not be restored. Call it on the
 // strand, before any arm moves.
 std::vector<ObjectNotPutBack> put_back(const std::vector<LeftObject>& objects, LiveScene& scene) {
   std::vector<ObjectNotPutBack> not_done;
   for (const LeftObject& left : objects) {
-    const std::string what = "object \"" + left.object.name + "\" is not as it was: ";
+    const std::string what = "object \"" + left.object.name + "\" cannot be restored: ";
     if (left.is_damaged) {
-      not_done.push_back({left.object.name, what + "it is damaged in the data folder"});
+      not_done.push_back({left.object.name, what + "its record in the data folder is damaged"});
     } else if (const auto done = put_back(left.object, scene); !done) {
       not_done.push_back({left.object.name, what + problem_sentence("", done.error().front())});
     }
@@ -50,7 +49,7 @@ std::vector<ObjectNotPutBack> put_back(const std::vector<LeftObject>& objects, L
   return not_done;
 }
 
-// A view that was damaged may be no JSON any more: then nothing but its id is told of the job.
+// A damaged view may not be JSON. Then only the job's id is published.
 nlohmann::ordered_json view_of(const StoredJob& job, const WallClock& clock) {
   auto view = nlohmann::ordered_json::parse(job.view, nullptr, false);
   if (view.is_object()) return view;
@@ -58,7 +57,7 @@ nlohmann::ordered_json view_of(const StoredJob& job, const WallClock& clock) {
   return nlohmann::ordered_json::parse(text_of(*job_format(), nothing, &clock), nullptr, false);
 }
 
-// The job as it was told last, ended as this run begins.
+// Returns the job as last published, but ended at the start of this session.
 StoredJob ended(StoredJob job, JobState state, Reason reason, const std::string& detail,
                 const WallClock& clock) {
   const auto now = clock.wall_at(TimePoint{});
@@ -103,8 +102,8 @@ Result<Restart> Restart::prepare(JobKeeper& keeper) {
   if (!keeper.store().flush()) {
     const auto fault = keeper.store().fault();
     return failure(Problem{ProblemKind::unavailable, "cannot-write", "--data",
-                           "the jobs of the data folder cannot be written: " +
-                               (fault ? fault->text : std::string("not known why"))});
+                           "the jobs in the data folder cannot be written: " +
+                               (fault ? fault->text : std::string("unknown reason"))});
   }
   return restart;
 }
@@ -129,23 +128,23 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
   constexpr auto kInterrupted = JobState::interrupted;
   constexpr auto kRestart = Reason::server_restart;
   if (left.is_damaged) {
-    return write_off_unreadable(job, "it is damaged in the data folder: not as it was written");
+    return write_off_unreadable(job, "its record in the data folder is damaged (wrong checksum)");
   }
   if (left.may_have_moved) {
     return write_off(job, kInterrupted, kRestart, "the server ended while it was under way");
   }
-  // The server's own, or one whose client has no answer.
+  // A server-initiated job, or a job whose client got no answer.
   if (!left.body) return write_off(job, kInterrupted, kRestart, "the server ended before it began");
   auto read = read_job_submission(*left.body);
   if (!read) {
     return write_off_unreadable(
-        job, "it can no longer be read: " + problem_sentence("", read.error().front()));
+        job, "its request can no longer be read: " + problem_sentence("", read.error().front()));
   }
   JobRequest& request = read->request;
   if (left.amended) {
     const auto amendment = read_job_amendment(*left.amended);
     if (!amendment) {
-      return write_off_unreadable(job, "what was changed of it can no longer be read: " +
+      return write_off_unreadable(job, "its amendments can no longer be read: " +
                                            problem_sentence("", amendment.error().front()));
     }
     apply(*amendment, request);
@@ -158,8 +157,7 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
   }
   for (const std::string& before : request.after) {
     if (ids_waiting_.contains(before)) continue;
-    const auto found =
-        keeper.history().find(before);  // none: it ended so long ago that it is deleted
+    const auto found = keeper.history().find(before);  // nullopt: deleted long after its end
     const bool has_succeeded =
         found && (!*found || (*found)->state == to_string(JobState::succeeded));
     if (!has_succeeded) {
@@ -178,11 +176,11 @@ std::string Restart::summary() const {
     return std::to_string(count) + (count == 1 ? one : more);
   };
   std::string words =
-      "the server was started again: " + counted(stored_.size(), " job waits", " jobs wait");
+      "the server was restarted: " + counted(stored_.size(), " job waits", " jobs wait");
   if (!written_off_.empty()) {
     words += ", " + counted(written_off_.size(), " was interrupted", " were interrupted");
   }
-  return words + "; resume to go on";
+  return words + "; resume to continue";
 }
 
 void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
@@ -190,34 +188,34 @@ void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
   const auto not_put_back = put_back(objects_, executive.scene());
   for (const ObjectNotPutBack& one : not_put_back) {
     executive.alert({Alert::Level::error, one.why});
-    // It is told, and the next run begins with what is there.
+    // Forgets the change. The alert reports it once; the next session starts without it.
     keeper.store().change({.name = one.name}, [](bool) {});
   }
   const bool asks = cell.scheduling.on_restart == OnRestart::ask;
   if (asks && (!waiting_.empty() || !written_off_.empty())) {
     stop_all(executive, summary());
   } else if (!not_put_back.empty()) {
-    stop_all(executive, "the scene is not what it was before the server was started again");
+    stop_all(executive, "the scene could not be restored after the server was restarted");
   } else if (!knows_stops_) {
-    stop_all(executive, "which arms were stopped when the former run ended is not known");
+    stop_all(executive, "it is unknown which arms were stopped when the previous session ended");
   } else {
     std::vector<ArmId> arms;
     for (const std::string& name : stopped_arms_) {
       if (const auto arm = cell.find_arm(name)) arms.push_back(*arm);
     }
-    if (!arms.empty()) executive.stop(arms, "stopped before the server was started again");
+    if (!arms.empty()) executive.stop(arms, "stopped before the server was restarted");
   }
   const auto answers = executive.restore(std::move(waiting_));
   for (std::size_t i = 0; i < answers.size(); ++i) {
     if (answers[i]) continue;
     const Problem& why = answers[i].error().front();
     const bool after = why.pointer.starts_with("/after");
-    keeper.post(
-        [&keeper, off = WrittenOff{stored_[i], after ? JobState::failed : JobState::interrupted,
-                                   after ? Reason::predecessor_failed : Reason::server_restart,
-                                   "the cell no longer fits it: " + problem_sentence("", why)}] {
-          keeper.store().see(ended(off.job, off.state, off.reason, off.detail, keeper.clock()));
-        });
+    keeper.post([&keeper, off = WrittenOff{
+                              stored_[i], after ? JobState::failed : JobState::interrupted,
+                              after ? Reason::predecessor_failed : Reason::server_restart,
+                              "the job no longer fits the cell: " + problem_sentence("", why)}] {
+      keeper.store().see(ended(off.job, off.state, off.reason, off.detail, keeper.clock()));
+    });
   }
 }
 

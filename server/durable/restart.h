@@ -10,20 +10,21 @@
 
 namespace armloom {
 
-// What becomes of the jobs that had not ended when a former run did: those that had not begun are
-// submitted again, with the ids, the order and the conditions that they had. Those that had, or may
-// have, are `interrupted`, what came `after` one of them fails, and what the cell no longer fits is
-// interrupted, too.
+// Restores the jobs that the previous session left.
+// - Jobs that had not begun are submitted again, with their ids, order and conditions.
+// - Jobs that had or may have begun become `interrupted`; jobs `after` them fail.
+// - Jobs that no longer fit the cell become `interrupted`, too.
 class Restart {
  public:
-  // Writes off what has to be, on disk when this returns. Problem (unavailable): it cannot be
-  // written.
+  // Ends the jobs that cannot be restored; this is on disk on return. Problem (unavailable): the
+  // store cannot be written.
   [[nodiscard]] static Result<Restart> prepare(JobKeeper& keeper);
 
-  // The first thing that the executive does. Makes the scene what clients had made of it, then
-  // stops arms: all of them where the cell says `ask` and something was left, where the scene could
-  // not be made what it was, or where it is not known which arms were stopped when the former run
-  // ended, else those that were. `keeper` outlives it.
+  // The executive's first task. Restores the scene, then stops
+  // - all arms, if the cell says `ask` and jobs were left, if the scene could not be restored
+  //   completely, or if it is unknown which arms were stopped at the end of the previous session;
+  // - otherwise the arms that were stopped then.
+  // `keeper` outlives the executive's tasks.
   void go_on(Executive& executive, const Cell& cell, JobKeeper& keeper);
 
  private:
@@ -36,12 +37,12 @@ class Restart {
   void sort_out(const LeftJob& left, const JobKeeper& keeper);
   [[nodiscard]] bool failed_before(const JobRequest& request) const;
   void write_off(const StoredJob& job, JobState state, Reason reason, std::string detail);
-  // What of the jobs is lost for that they cannot be read.
+  // Writes off a job that cannot be read, and records the damage.
   void write_off_unreadable(const StoredJob& job, std::string detail);
   [[nodiscard]] std::string summary() const;
 
   std::vector<RestoredJob> waiting_;
-  std::vector<StoredJob> stored_;  // as waiting_
+  std::vector<StoredJob> stored_;  // parallel to waiting_
   std::vector<WrittenOff> written_off_;
   std::unordered_set<std::string> ids_waiting_;
   std::unordered_set<std::string> ids_written_off_;

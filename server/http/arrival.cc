@@ -10,7 +10,7 @@ namespace {
 
 namespace http = boost::beast::http;
 
-// What is known without the body: a fault of the header, or that nobody serves it.
+// Returns the request without its body, or the response to an invalid header.
 tl::expected<Request, Response> head_of(const RequestParser& parser, const Site& site) {
   const RequestHeader& header = parser.get();
   const auto refused = [&](const Refusal& why) { return tl::unexpected(site.refuse(why)); };
@@ -24,13 +24,13 @@ tl::expected<Request, Response> head_of(const RequestParser& parser, const Site&
   return std::move(*request);
 }
 
-// Whether the client waits to be asked for its body (RFC 9110, 10.1.1).
+// Returns true if the client waits for 100 Continue (RFC 9110, 10.1.1).
 bool waits_to_be_asked(const RequestParser& parser) {
   return parser.get().version() >= 11 && parser.get().count(http::field::expect) > 0 &&
          !parser.is_done();
 }
 
-// Of a body that does not count; whether another request may follow on the connection.
+// Returns true if the whole body has arrived.
 bool is_all_here(const Connection& connection, const RequestParser& parser) {
   const auto left = parser.content_length_remaining();
   return parser.is_done() || (left && connection.buffer.size() >= *left);
@@ -58,9 +58,9 @@ Awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection
   if (const auto why = terms.refusal ? terms.refusal(*request) : std::nullopt) {
     co_return tl::unexpected<NotArrived>(site.refuse(*why));
   }
-  // Before the body, whose trailers are none of the header's fields.
+  // Copied before the body is read, because the parser adds trailers to the header.
   RequestHeader header = parser.get().base();
-  // No stop waits for what a body would say.
+  // A stop does not wait for its body.
   if (site.is_never_limited(*request) && !is_all_here(connection, parser)) {
     request->body = std::make_shared<const std::string>();
     const Delivery delivery{header.version(), false, false};

@@ -9,25 +9,23 @@
 
 namespace armloom {
 
-// A request as it was read, with what its answer needs.
 struct Arrived {
   Request request;
   RequestHeader header;
   Delivery delivery;
   MemoryBudget::Charge charge;  // of the body
 };
-// Why there is none, to be said; absent: there is nobody to say it to.
+// The response to send if no request was read; nullopt if no client is left to answer.
 using NotArrived = std::optional<Response>;
 
-// How a request is read.
 struct Terms {
   ReadTimes times;
-  // Why it is not served, as is known by its header; null: nothing is refused so.
+  // Returns why the request is refused after its header, or nullopt. May be null.
   std::function<std::optional<Refusal>(const Request&)> refusal = {};
 };
 
-// The next request of the connection. What was read of one that is refused is forgotten before the
-// refusal can be said: that takes time.
+// Reads the next request. Releases a refused request's memory before sending the refusal, which
+// takes time.
 Awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection, const Site& site,
                                                           const Terms& terms);
 

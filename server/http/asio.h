@@ -1,6 +1,6 @@
 #pragma once
 
-// The one way in which asio is included: awaitable.hpp of Boost 1.74 forgets <utility>.
+// Include asio only through this header: awaitable.hpp of Boost 1.74 forgets <utility>.
 // clang-format off: first of all
 #include <utility>
 // clang-format on

@@ -1,4 +1,4 @@
-// The one place where the bodies of asio and Beast are compiled (…_SEPARATE_COMPILATION).
+// Compiles the function bodies of asio and Beast (…_SEPARATE_COMPILATION).
 // clang-format off: <utility> first, awaitable.hpp of Boost 1.74 forgets it
 #include <boost/asio/impl/src.hpp>
 #include <boost/asio/ssl/impl/src.hpp>

@@ -70,7 +70,7 @@ Awaitable<void> send(Connection& connection, Response response, Delivery deliver
   co_await send_pieces(connection.stream, *response.pieces, kWriteTime, ec);
 }
 
-// Closing a socket with unread input would reset it.
+// Reads unread input first: closing the socket before would reset the connection.
 Awaitable<void> linger(Connection& connection) {
   static constexpr std::size_t kDrainMax = 2 * kBodyMax;
   ErrorCode ec;

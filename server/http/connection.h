@@ -10,34 +10,32 @@
 
 namespace armloom {
 
-// What is read ahead: a whole header, or a piece of a body with the chunk line or the trailers that
-// stand before it. More than that of them is refused.
+// Read buffer: a whole header, or a piece of a body with its chunk line or trailers, which must not
+// be longer.
 inline constexpr std::size_t kBufferMax = 32 * 1024;
 
-// One connection, with what its requests share.
 struct Connection {
   Connection(Transport transport, MemoryBudget& budget)
       : stream(std::move(transport)), memory(budget) {}
   Transport stream;
   boost::beast::flat_buffer buffer{kBufferMax};
   MemoryBudget& memory;
-  std::string request_id = {};  // of the request that is read or answered
+  std::string request_id = {};  // of the current request
 };
 
-// How an answer stands on the wire, as the request wants it.
+// How the request wants its response to be sent.
 struct Delivery {
   unsigned version = 11;
   bool keep_alive = false;
-  bool without_body = false;  // of a HEAD
+  bool without_body = false;  // for HEAD
 };
 
-// Sends a whole answer, with the headers that every answer has; a time limit is on it.
+// Sends a whole response with the common headers, within a time limit.
 Awaitable<void> send(Connection& connection, Response response, Delivery delivery, ErrorCode& ec);
 
-// Ends a connection so that the peer can still read the answer.
+// Ends a connection so that the client can still read the response.
 Awaitable<void> linger(Connection& connection);
 
-// Says why, and ends the connection.
 Awaitable<void> refuse(Connection& connection, Response why);
 
 }  // namespace armloom

@@ -21,7 +21,6 @@ void skip(std::string_view& text, std::string_view what) {
   text.remove_prefix(std::min(text.size(), text.find_first_not_of(what)));
 }
 
-// Takes a tag from the front of the text.
 bool take_tag(std::string_view& text) {
   if (text.starts_with("W/")) text.remove_prefix(2);
   if (!text.starts_with('"')) return false;

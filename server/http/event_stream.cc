@@ -40,7 +40,7 @@ class SentEvents final : public StreamCarrier {
   }
 
   Executor executor() override { return stream_.get_executor(); }
-  // A client has nothing to say here; that it has gone is what is waited for.
+  // Discards input. Only the end of the connection matters.
   Awaitable<void> read_until_closed() override {
     std::array<char, 1024> sink;
     ErrorCode ec;

@@ -6,9 +6,9 @@
 
 namespace armloom {
 
-// Answers with the subscription as Server-Sent Events ("id: <id>:<seq>", "data: <envelope>") until
-// either side ends it. When nothing was sent for site.keep_alive, a comment line keeps the proxies
-// between from closing the connection. `only_head`: of a HEAD.
+// Responds with the subscription as Server-Sent Events ("id: <id>:<seq>", "data: <envelope>") until
+// either side ends it. After each silence of site.keep_alive, sends a comment line, so that proxies
+// do not close the connection. `only_head`: for HEAD.
 Awaitable<void> serve_event_stream(Transport stream, const Request& request, EventStream events,
                                    const Site& site, bool only_head);
 

@@ -102,7 +102,7 @@ std::optional<AbsoluteTarget> split_absolute_target(std::string_view target) {
   return split;
 }
 
-// 128 bits are 22 digits of which the last one has four bits to spare, and two for padding.
+// 128 bits are 22 base64 digits, the last with four spare bits, and two padding characters.
 bool is_websocket_key(std::string_view key) {
   static constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -111,7 +111,7 @@ bool is_websocket_key(std::string_view key) {
          kDigits.find(key[21]) % 16 == 0;
 }
 
-bool may_command(const std::string& host, const HostRule& rule) {
+bool is_allowed_host(const std::string& host, const HostRule& rule) {
   in6_addr address{};
   if (inet_pton(AF_INET, host.c_str(), &address) == 1) return true;
   if (inet_pton(AF_INET6, host.c_str(), &address) == 1) return true;

@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-// The fields of a request's header that decide where its body ends and whom it is for.
+// Header fields that decide where the body ends and which host the request addresses.
 struct FramingFields {
   bool http_1_1 = true;
   std::vector<std::string_view> hosts;               // value of each Host field
@@ -22,35 +22,35 @@ struct FramingFault {
   std::optional<std::string> value;  // of the field
 };
 
-// Why the request must be refused with 400 and its connection closed (RFC 9112, 3.2 and 6.3): the
-// parser lets a Transfer-Encoding other than "chunked" pass and would read the body as a second
-// request, and does not look at Host at all. Empty: sound.
+// Returns why the request must be refused with 400 and its connection closed (RFC 9112, 3.2 and
+// 6.3); nullopt if its framing is sound. Beast's parser does not check Host, and accepts any
+// Transfer-Encoding, so that it would read the body as a second request (request smuggling).
 [[nodiscard]] std::optional<FramingFault> framing_fault(const FramingFields& fields);
 
-// Host, or the authority of an Origin: a name, IPv4 or [IPv6], with an optional port.
+// Checks a Host, or the authority of an Origin: a name, IPv4 or [IPv6], with an optional port.
 [[nodiscard]] bool valid_authority(std::string_view text);
 
-// Whether a browser's Origin ("http://host:port") is the site itself. Pages of other sites must not
-// stop arms or post jobs through the visitor's browser. `is_sealed`: the site is served over TLS,
-// so that its pages are https; without TLS of its own it may still stand behind a proxy that has
-// it.
+// Returns true if a browser's Origin ("http://host:port") is this site. Protects against CSRF:
+// pages of other sites must not stop arms or post jobs through a visitor's browser. `is_sealed`:
+// the site uses TLS, so the Origin must be https. Otherwise any scheme is accepted, because a proxy
+// may add TLS.
 [[nodiscard]] bool same_origin(std::string_view origin, std::string_view host, bool is_sealed);
 
-// The host of an authority, in small letters, without port, brackets and a last dot.
+// Returns the host of an authority in lowercase, without port, brackets and trailing dot.
 [[nodiscard]] std::string host_of(std::string_view authority);
 
-// A target in absolute-form ("http://host:port/path?query"), in its two parts; absent: it is not,
-// or its authority is not valid. An empty path is "/".
+// An absolute-form target ("http://host:port/path?query"), split; an empty path becomes "/".
+// split_absolute_target() returns nullopt for another form or an invalid authority.
 struct AbsoluteTarget {
   std::string authority;
   std::string rest;
 };
 [[nodiscard]] std::optional<AbsoluteTarget> split_absolute_target(std::string_view target);
 
-// Whether `key` is sixteen bytes in base64 (RFC 6455, 4.1).
+// Checks that `key` is sixteen bytes in base64 (RFC 6455, 4.1).
 [[nodiscard]] bool is_websocket_key(std::string_view key);
 
-// Whether the server may be asked by this name.
-[[nodiscard]] bool may_command(const std::string& host, const HostRule& rule);
+// Checks a host name (of host_of()) of any request against the allow-list.
+[[nodiscard]] bool is_allowed_host(const std::string& host, const HostRule& rule);
 
 }  // namespace armloom

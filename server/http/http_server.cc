@@ -21,11 +21,11 @@ namespace {
 
 using Acceptor = asio::basic_socket_acceptor<asio::ip::tcp, Executor>;
 
-constexpr std::chrono::milliseconds kReadToTheEnd{500};  // for readers to read to the end
-constexpr std::size_t kReservedMax = 64;                 // connections beyond those that are served
-// Of those who come at once so many are taken before others have a turn.
+constexpr std::chrono::milliseconds kReadToTheEnd{500};  // for clients to read the close reason
+constexpr std::size_t kReservedMax = 64;                 // slots beyond connections_max
+// Connections accepted before other tasks get a turn.
 constexpr int kTakenAtOnce = 16;
-// For arms to come to rest: with the closing of connections, the process ends within two seconds.
+// Time for arms to come to rest. The whole shutdown takes two seconds at most.
 constexpr std::chrono::milliseconds kWindDownMax{1200};
 
 Problem cannot_listen(const std::string& address, std::uint16_t port, const std::string& why) {
@@ -34,7 +34,7 @@ Problem cannot_listen(const std::string& address, std::uint16_t port, const std:
                  "cannot listen on " + place + ": " + why, place};
 }
 
-// Its address; empty: it is gone already.
+// Returns the client's address, or "" if it has disconnected.
 std::string client_of(const Socket& socket) {
   ErrorCode ec;
   const auto peer = socket.remote_endpoint(ec);
@@ -60,8 +60,8 @@ class HttpServer::Impl {
     ErrorCode ec;
     const auto ip = asio::ip::make_address(address, ec);
     if (ec)
-      return cannot_listen(address, port,
-                           "not an IP address; names are not looked up, localhost is 127.0.0.1");
+      return cannot_listen(
+          address, port, "not an IP address; names are not resolved, use 127.0.0.1 for localhost");
     const asio::ip::tcp::endpoint endpoint(ip, port);
     acceptor_.open(endpoint.protocol(), ec);
     if (!ec) acceptor_.set_option(asio::socket_base::reuse_address(true), ec);
@@ -85,7 +85,7 @@ class HttpServer::Impl {
     if (until_signal) {
       signals_.add(SIGINT);
       signals_.add(SIGTERM);
-      // The terminal is closed; but nohup has said that this is nothing to us.
+      // SIGHUP means that the terminal was closed. Under nohup it is ignored.
       struct sigaction hangup {};
       if (sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN) {
         signals_.add(SIGHUP);
@@ -104,7 +104,7 @@ class HttpServer::Impl {
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
 
  private:
-  // Nobody new; what runs comes to rest. A second signal does not wait for that.
+  // Accepts no more connections and brings all arms to rest. A second signal skips the wait.
   void wind_down() {
     ErrorCode ignored;
     acceptor_.close(ignored);
@@ -119,7 +119,7 @@ class HttpServer::Impl {
     site_.wind_down([this] { asio::post(io_, [this] { end(); }); });
   }
 
-  // Subscriptions are told that the server ends, and connections get a moment to read it.
+  // Ends all subscriptions, and gives clients a moment to read the reason.
   void end() {
     if (std::exchange(told_readers_, true)) return;
     site_.end();
@@ -135,17 +135,17 @@ class HttpServer::Impl {
   }
 
   [[nodiscard]] Refusal too_many() const {
-    const std::string why = connections_.open < connections_.max
-                                ? "the system gives no more file descriptors"
-                                : std::to_string(connections_.max) +
-                                      " connections are open, more are not served at once";
+    const std::string why =
+        connections_.open < connections_.max
+            ? "the system has no free file descriptors"
+            : std::to_string(connections_.max) + " connections are open, which is the limit";
     return {503, "too-many-connections", why, std::nullopt, std::nullopt, {{"Retry-After", "1"}}};
   }
   [[nodiscard]] Refusal too_many_of(const std::string& client) const {
     return {429,
             "too-many-connections",
             std::to_string(site_.connections_per_client_max) + " connections are open from " +
-                client + ", more are not served to one client",
+                client + ", which is the limit for one client",
             std::nullopt,
             client,
             {{"Retry-After", "1"}}};
@@ -158,7 +158,6 @@ class HttpServer::Impl {
     reserve_.fill();
   }
 
-  // Precondition: there is room.
   void reserve(Socket socket, const Refusal& why) {
     std::string client = client_of(socket);
     Transport transport(std::move(socket), tls_);
@@ -184,7 +183,7 @@ class HttpServer::Impl {
     spawn(io_.get_executor(), serve(std::move(socket), client));
   }
 
-  // The system gives no descriptor for whoever comes, but by the reserve.
+  // Accepts with a descriptor of the reserve.
   ErrorCode take_in_reserve() {
     ErrorCode ec = asio::error::no_descriptors;
     if (!reserve_.make_room()) return ec;
@@ -198,7 +197,7 @@ class HttpServer::Impl {
     return ec;
   }
 
-  // Some of those who wait; why there are no more.
+  // Returns the error that ended accepting.
   ErrorCode take_some() {
     ErrorCode ec;
     for (int taken = 0; !ec && taken < kTakenAtOnce; ++taken) {
@@ -228,7 +227,7 @@ class HttpServer::Impl {
 
   Site site_;  // outlives the connections, which end with io_
   std::optional<MemoryBudget> memory_;
-  TlsContextPtr tls_;  // null: without
+  TlsContextPtr tls_;  // null without TLS
   Reserve reserve_;
   asio::io_context io_{1};
   PostedTasks posted_{io_};
@@ -238,7 +237,7 @@ class HttpServer::Impl {
   struct Connections {
     const std::size_t max;
     std::size_t open = 0;
-    std::unordered_map<std::string, std::size_t> of_client = {};  // of these, by address
+    std::unordered_map<std::string, std::size_t> of_client = {};  // open connections by address
   };
   Connections connections_;
   bool ending_ = false;

@@ -11,45 +11,42 @@
 
 namespace armloom {
 
-// Files in PEM: a certificate with those between it and its root, and its key.
+// PEM files: certificate chain (without the root) and private key.
 struct TlsFiles {
   std::string certificate;
   std::string key;
 };
 
-// Who can reach a server that listens there: nobody (it is no IP address), this machine alone, or
-// others too.
+// Clients that can reach a listener on the address; `nobody` if it is not an IP address.
 enum class Reach { nobody, this_machine, others };
 [[nodiscard]] Reach reach_of(const std::string& address);
 
-// The listening socket and the one thread on which every connection is served.
+// The listening socket and the one thread that serves every connection.
 class HttpServer {
  public:
-  // Binds and listens; nothing is accepted before run(). Port zero: any free one. Whoever connects
-  // while `connections_max` are open, or when the system gives no more descriptors, is served in
-  // the reserve (session.h): a stop is taken, any other request answered 503
-  // ("too-many-connections"). When dozens come at once, the first of them are closed without a
-  // word. Problem (unavailable, "cannot-listen"): the address is no IP address, or the port is in
-  // use.
+  // Binds and listens; accepts no connection before run(). Port zero takes any free port. When
+  // `connections_max` connections are open, or the system has no free file descriptor, a new
+  // connection is served in the reserve (session.h): a stop is served, any other request answered
+  // 503 ("too-many-connections"). A full reserve drops connections without an answer. Problem
+  // (unavailable, "cannot-listen"): the address is not an IP address, or the port is in use.
   [[nodiscard]] static Result<std::unique_ptr<HttpServer>> listen(const std::string& address,
                                                                   std::uint16_t port,
                                                                   std::size_t connections_max);
   ~HttpServer();
 
-  // From now on, before run(), every connection goes through TLS (1.2 or later). Problem (invalid):
-  // a file cannot be read, or the key is not the certificate's.
+  // Serves every connection over TLS (1.2 or later). Call before run(). Problem (invalid): a file
+  // cannot be read, or the key does not match the certificate.
   [[nodiscard]] Result<void> use_tls(const TlsFiles& files);
 
   [[nodiscard]] std::uint16_t port() const;
 
-  // Serves `site` on the calling thread until stop(), or until SIGINT, SIGTERM or SIGHUP if those
-  // are to be watched: then every subscription says why it closes first. Connections are closed.
+  // Serves `site` on the calling thread until stop() or, with `until_signal`, until SIGINT, SIGTERM
+  // or SIGHUP, after which every subscription gets the reason. Then closes all connections.
   void run(Site site, bool until_signal);
 
-  // Thread-safe. Runs `task` on the server's thread, soon, in the order posted; whoever is at a
-  // socket has a turn between.
+  // Thread-safe. Runs `task` soon on the server's thread, in order. Sockets are served in between.
   void post(std::function<void()> task);
-  // Before all that was posted and has not run.
+  // Like post(), but ahead of the queue of post().
   void post_urgent(std::function<void()> task);
   void stop();  // thread-safe
 

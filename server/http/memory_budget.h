@@ -5,9 +5,9 @@
 
 namespace armloom {
 
-// What all connections together may hold of bodies that come and answers that go. Small amounts are
-// free, so that a stop is taken whoever fills the rest; who asks for more than is left is refused.
-// Not thread-safe: on the server's thread. Outlives its charges.
+// Limits the memory of request and response bodies of all connections together. Small charges are
+// free, so that a stop always gets through; larger ones are refused when the budget is exhausted.
+// Use on the server's thread. Outlives its charges.
 class MemoryBudget {
  public:
   inline static constexpr std::size_t kFree = 16 * 1024;  // of each charge
@@ -29,7 +29,8 @@ class MemoryBudget {
       if (budget_ != nullptr) budget_->used_ -= held_;
     }
 
-    // Whether there was room to hold so many bytes, free ones included; else it holds what it did.
+    // Grows the charge to `bytes`, free ones included. Returns false, without change, if there is
+    // no room.
     [[nodiscard]] bool grow_to(std::size_t bytes) {
       const std::size_t wanted = bytes > kFree ? bytes - kFree : 0;
       if (budget_ == nullptr || wanted <= held_) return true;

@@ -61,7 +61,7 @@ Result<Target> parse_target(std::string_view text) {
   for (const char c : raw_path) slashes_raw += c == '/' ? 1U : 0U;
   for (const char c : *path) slashes += c == '/' ? 1U : 0U;
   if (slashes != slashes_raw || path->find('\\') != path->npos || path->find('\0') != path->npos) {
-    return bad_target("the path holds an encoded slash, a backslash or NUL", raw_path);
+    return bad_target("the path contains an encoded slash, a backslash or NUL", raw_path);
   }
   target.path = *path;
   if (mark == text.npos) return target;
@@ -89,9 +89,10 @@ std::optional<Problem> unknown_parameter(const Target& target,
     if (std::ranges::find(known, name) != known.end()) continue;
     std::string names;
     for (const std::string& one : known) names += (names.empty() ? "" : ", ") + one;
-    return bad_parameter(name, value,
-                         "unknown parameter \"" + name +
-                             (known.empty() ? "\"; there are none here" : "\"; known: " + names));
+    return bad_parameter(
+        name, value,
+        "unknown parameter \"" + name +
+            (known.empty() ? "\"; no parameters are accepted here" : "\"; known: " + names));
   }
   return std::nullopt;
 }

@@ -16,9 +16,9 @@
 
 namespace armloom {
 
-// The target of a request, percent-decoded: "/api/v1/jobs?state=running".
+// A percent-decoded request target: "/api/v1/jobs?state=running".
 struct Target {
-  std::string path;  // begins with '/', holds no NUL and no encoded slash or backslash
+  std::string path;  // begins with '/', without NUL, encoded slash or backslash
   std::map<std::string, std::string> query;
 
   [[nodiscard]] std::optional<std::string> parameter(const std::string& name) const {
@@ -26,18 +26,18 @@ struct Target {
     return it == query.end() ? std::nullopt : std::optional(it->second);
   }
 };
-// Problem (malformed): no absolute path, a fragment, a broken or forbidden escape, a parameter that
-// occurs twice.
+// Problem (malformed): not an absolute path, a fragment, a broken or forbidden escape, or a
+// parameter that occurs twice.
 [[nodiscard]] Result<Target> parse_target(std::string_view text);
 
-// The first parameter of the query that is not `known`, as a problem (malformed) that names it.
+// Returns a problem (malformed) that names a query parameter not in `known`, or nullopt.
 [[nodiscard]] std::optional<Problem> unknown_parameter(const Target& target,
                                                        const std::vector<std::string>& known);
 
-// `text` as one segment of a path: everything but unreserved characters percent-encoded.
+// Returns `text` as one path segment, with all but unreserved characters percent-encoded.
 [[nodiscard]] std::string url_segment(std::string_view text);
 
-// Why a request is refused. Plain data: how it is told is the site's.
+// Why a request is refused. Plain data; the site formats the response.
 struct Refusal {
   int status;
   std::string slug;    // stable name for programs
@@ -48,66 +48,66 @@ struct Refusal {
 };
 [[nodiscard]] Refusal refusal_of(int status, const Problem& problem);
 
-// A whole request, framing checked. Plain data: handlers know nothing of sockets.
+// A whole request with checked framing. Handlers do not see sockets.
 struct Request {
-  std::string method;  // "GET"; a HEAD comes as GET, its answer loses the body later
+  std::string method;  // "GET" for HEAD, too; its body is dropped when sent
   Target target;
   std::optional<std::string> content_type = {};
   std::optional<std::string> content_encoding = {};
-  std::optional<std::string> last_event_id = {};  // of a reader of events who comes back
+  std::optional<std::string> last_event_id = {};  // of a subscriber that reconnects
   std::optional<std::string> if_none_match = {};
   std::optional<std::string> if_match = {};
-  std::optional<std::string> token = {};  // shown as Bearer, or in the cookie that a log-in sets
-  std::string peer = {};                  // the address that it came from
-  std::string id = {};                    // told in X-Request-Id: the client's, or one of ours
-  std::optional<std::string> idempotency_key = {};  // names the request, should it come again
-  std::string accept_encoding = {};                 // all of it, commas between
-  std::optional<Refusal> stranger = {};          // why whoever asks may not even read; absent: may
-  std::optional<std::string> cross_origin = {};  // the page of another site that asks and may
-  std::optional<Refusal> foreign = {};           // why whoever asks may not command; absent: may
-  bool upgrade = false;                          // wants a WebSocket
-  // Set when nobody waits for the answer any more: the connection has gone, or it took too long.
+  std::optional<std::string> token = {};            // from the Bearer header or the log-in cookie
+  std::string peer = {};                            // client address
+  std::string id = {};                              // for X-Request-Id: the client's, or generated
+  std::optional<std::string> idempotency_key = {};  // identifies a repeated request
+  std::string accept_encoding = {};                 // all values, comma-separated
+  std::optional<Refusal> stranger = {};             // if set, the client may not even read
+  std::optional<std::string> cross_origin = {};     // allowed Origin of another site
+  std::optional<Refusal> foreign = {};              // if set, the client may only read
+  bool upgrade = false;                             // wants a WebSocket
+  // True once no client waits for the response: it disconnected, or the response took too long.
   std::shared_ptr<std::atomic<bool>> gone = std::make_shared<std::atomic<bool>>(false);
   std::shared_ptr<const std::string> body = std::make_shared<const std::string>();
 };
 
-// Why a reader of the event stream is sent away.
+// Why a subscriber is disconnected.
 struct CloseReason {
   enum class Why { too_slow, server_ends, not_permitted };
   Why why;
   std::string text;
 };
 
-// One reader of the event stream, as a WebSocket or SSE sees it. All calls on the server's thread.
+// One subscriber of events, as WebSocket and SSE use it. Call on the server's thread.
 class Subscription {
  public:
   struct Message {
     std::shared_ptr<const std::string> text;
-    std::optional<std::uint64_t> seq;  // none: a pose frame, which may be passed over
+    std::optional<std::uint64_t> seq;  // nullopt for a pose frame, which may be skipped
   };
   virtual ~Subscription() = default;
-  // The next message to send; absent: nothing at present.
+  // Returns the next message to send, or nullopt if there is none yet.
   virtual std::optional<Message> next() = 0;
-  // Absent while the reader may stay.
+  // Returns nullopt while the subscriber may stay.
   [[nodiscard]] virtual std::optional<CloseReason> close_reason() const = 0;
-  // `call` is called whenever next() or close_reason() may have something new.
+  // `call` is called when the results of next() or close_reason() may have changed.
   virtual void on_news(std::function<void()> call) = 0;
 };
 using SubscriptionPtr = std::shared_ptr<Subscription>;
 
-// A subscription as the answer to a request: on a WebSocket (status 101), or as Server-Sent Events.
+// A subscription as a response: over a WebSocket (status 101) or Server-Sent Events.
 struct EventStream {
   SubscriptionPtr subscription;
-  std::string id;                        // stands before the number of each event: "<id>:<seq>"
-  bool frames = true;                    // messages without a number, too
-  std::function<bool()> permitted = {};  // whether its reader still may; null: always
+  std::string id;                        // prefix of event ids: "<id>:<seq>"
+  bool frames = true;                    // also send messages without seq
+  std::function<bool()> permitted = {};  // may the subscriber stay? May be null.
 };
 
-// A body that is too large to be held: it is read a piece at a time, as its reader takes it.
+// A body too large for memory, read in pieces.
 struct PiecedBody {
-  std::uintmax_t size = 0;  // in bytes; known before
-  // Hands so many bytes from `from` on to `then`, once, on the server's thread; absent: they cannot
-  // be read any more, and the connection is cut.
+  std::uintmax_t size = 0;  // in bytes
+  // Passes `count` bytes starting at `from` to `then`, once, on the server's thread; nullopt if
+  // they are unreadable, which cuts the connection.
   using Then = std::function<void(std::optional<std::string>)>;
   std::function<void(std::uintmax_t from, std::size_t count, Then then)> read = {};
 };
@@ -118,53 +118,55 @@ struct Response {
   std::string body = {};
   std::vector<std::pair<std::string, std::string>> headers = {};
   std::optional<EventStream> events = {};
-  std::shared_ptr<const std::string> shared = {};  // instead of `body`: many read the same bytes
-  std::optional<PiecedBody> pieces = {};           // instead of `body`
-  bool is_routine = false;  // a command of which no trace is kept, as it comes ten times a second
+  // instead of `body`, if many responses share the bytes
+  std::shared_ptr<const std::string> shared = {};
+  std::optional<PiecedBody> pieces = {};  // instead of `body`
+  bool is_routine = false;                // a frequent command that leaves no audit entry
 };
 
-// To be called exactly once, on the server's thread.
+// Call exactly once, on the server's thread.
 using Respond = std::function<void(Response)>;
 using WriteRefusal = std::function<Response(const Refusal&)>;
 
-// Lets the page that asked read the answer (CORS), where it may.
+// Adds CORS headers if the requesting page's origin is allowed.
 void answer_across_origins(const Request& request, Response& response);
 
-// Makes a 304 of an answer whose ETag the request names in If-None-Match (RFC 9110, 13.1.2).
+// Turns the response into a 304 if If-None-Match lists its ETag (RFC 9110, 13.1.2).
 void answer_conditionally(const Request& request, Response& response);
 
-// By which names the server may be asked: a page whose name an attacker lets point here is of
-// the same origin to a browser, and only its Host tells. IP addresses and localhost always may.
+// Host allow-list against DNS rebinding: a page whose DNS name resolves to this server is
+// same-origin to the browser; only the Host header gives it away. IP addresses and localhost are
+// always allowed.
 struct HostRule {
-  std::vector<std::string> names;    // further ones
+  std::vector<std::string> names;    // further allowed names
   std::vector<std::string> origins;  // of other sites whose pages may command: "https://a.example"
-  bool any_plain = false;  // and every name without a dot: no site on the internet has one
-  bool is_sealed = false;  // by TLS: its own pages are https
+  bool any_plain = false;            // also allow names without a dot, which no internet site has
+  bool is_sealed = false;            // TLS is used: own pages are https
 };
 
-// The cookie in which a browser keeps its token.
+// The cookie that stores a browser's token.
 inline constexpr std::string_view kTokenCookie = "armloom_token";
 
-// What the listener serves. All functions are called on the server's thread; `handle` answers
-// through its callback, at once or later. The request is only valid during the call.
+// The application behind the listener. All functions are called on the server's thread. `handle`
+// may answer later, but its request is only valid during the call.
 struct Site {
   std::function<void(const Request&, Respond)> handle;
-  // The answer to a request that is refused whatever its body says; absent: `handle` answers it.
+  // Returns the refusal if it does not depend on the body; nullopt if `handle` must answer.
   std::function<std::optional<Response>(const Request&)> refuse_unread;
-  WriteRefusal refuse;  // what is wrong with HTTP itself: framing, limits, targets
-  // Whether this request is served however many connections are open, and before its body is here.
+  WriteRefusal refuse;  // formats errors of HTTP itself: framing, limits, targets
+  // Returns true if the request is exempt from connection limits and does not wait for its body.
   std::function<bool(const Request&)> is_never_limited;
-  // The server is asked to end: bring everything to rest, then call `done` (from any thread).
+  // Graceful shutdown: brings all arms to rest, then calls `done` (from any thread).
   std::function<void(std::function<void()> done)> wind_down;
-  std::function<void()> end;  // the server ends: every subscription says why it closes
-  HostRule hosts;             // by which names requests may come
-  std::chrono::milliseconds keep_alive{15'000};     // no event for so long: a comment line is sent
-  std::chrono::milliseconds send_time{30'000};      // that one message may take; then it is cut
-  int send_buffer = 128 * 1024;                     // of a stream: bounds how old a pose can arrive
-  std::chrono::milliseconds read_time{10'000};      // for a whole header, and for a whole body
-  std::size_t memory_max = std::size_t{64} << 20U;  // of large bodies and answers, all together
-  std::size_t connections_per_client_max = ~std::size_t{0};  // of one address; more: 429
-  std::function<void()> on_limited_connection = {};          // is told of each
+  std::function<void()> end;  // shutdown: gives every subscription its close reason
+  HostRule hosts;             // allowed hosts
+  std::chrono::milliseconds keep_alive{15'000};  // silence before a keep-alive comment line
+  std::chrono::milliseconds send_time{30'000};   // for one message of a stream, which is then cut
+  int send_buffer = 128 * 1024;                  // of a stream: limits the age of received poses
+  std::chrono::milliseconds read_time{10'000};   // for a whole header, and for a whole body
+  std::size_t memory_max = std::size_t{64} << 20U;  // of large bodies and responses together
+  std::size_t connections_per_client_max = ~std::size_t{0};  // of one address; beyond: 429
+  std::function<void()> on_limited_connection = {};          // called for each beyond
 };
 
 }  // namespace armloom

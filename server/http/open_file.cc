@@ -12,7 +12,7 @@ namespace armloom {
 namespace fs = std::filesystem;
 
 Refusal too_many_files() {
-  return {503,          "server-busy", "too many files and connections are open to read this one",
+  return {503,          "server-busy", "too many files and connections are open; retry later",
           std::nullopt, std::nullopt,  {{"Retry-After", "1"}}};
 }
 
@@ -27,7 +27,7 @@ tl::expected<OpenFile, NoFile> OpenFile::open(const fs::path& path, std::size_t 
   if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) return tl::unexpected(NoFile::absent);
   file.size_ = static_cast<std::size_t>(status.st_size);
   if (file.size_ > size_max) return tl::unexpected(NoFile::absent);
-  // The kernel's name of what is open: nothing between looking and opening.
+  // The kernel's path of the open file, which avoids a race between check and open.
   std::error_code ec;
   file.place_ = fs::read_symlink("/proc/self/fd/" + std::to_string(fd), ec);
   if (ec) return tl::unexpected(NoFile::absent);
@@ -63,7 +63,7 @@ tl::expected<std::string, NoFile> OpenFile::read(std::size_t from, std::size_t s
     const auto at = static_cast<off_t>(from + done);
     const ssize_t got = pread(fd_, bytes.data() + done, size - done, at);
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return tl::unexpected(NoFile::absent);  // it shrinks under us
+    if (got <= 0) return tl::unexpected(NoFile::absent);  // the file has shrunk
     done += static_cast<std::size_t>(got);
   }
   return bytes;

@@ -10,30 +10,30 @@
 
 namespace armloom {
 
-// Why a file is not read: there is none to be read (any more), or just now there are too few file
-// descriptors, which says nothing of the file.
+// Why a file cannot be read. absent: it is missing, not a regular file, too large or has shrunk.
+// busy: too few file descriptors or memory at present, which says nothing about the file.
 enum class NoFile { absent, busy };
-// How the latter is told.
+// Returns the refusal for NoFile::busy.
 [[nodiscard]] Refusal too_many_files();
 
-// A file that is open for reading, and where it truly is: what a name leads to may change at any
-// time, what is open does not.
+// An open file with its real path. A path may later lead to another file.
 class OpenFile {
  public:
-  // A regular file of at most `size_max` bytes; links are followed.
+  // Opens a regular file of at most `size_max` bytes. Follows links.
   [[nodiscard]] static tl::expected<OpenFile, NoFile> open(const std::filesystem::path& path,
                                                            std::size_t size_max);
   ~OpenFile();
   OpenFile(OpenFile&& other) noexcept;
   OpenFile& operator=(OpenFile&&) = delete;
 
-  [[nodiscard]] const std::filesystem::path& place() const { return place_; }  // without links
+  [[nodiscard]] const std::filesystem::path& place() const { return place_; }  // links resolved
   [[nodiscard]] bool is_inside(const std::filesystem::path& canonical_folder) const;
-  // Changes when the file is another one, or written to.
+  // Changes if the file is replaced or written to.
   [[nodiscard]] const std::string& stamp() const { return stamp_; }
-  [[nodiscard]] std::size_t size() const { return size_; }  // as it was opened
+  [[nodiscard]] std::size_t size() const { return size_; }  // when opened
   [[nodiscard]] tl::expected<std::string, NoFile> read() const { return read(0, size_); }
-  // Exactly `size` bytes from `from` on, however it grows; absent: it has shrunk since.
+  // Returns exactly `size` bytes starting at `from`, even if the file grows; absent if it has
+  // shrunk.
   [[nodiscard]] tl::expected<std::string, NoFile> read(std::size_t from, std::size_t size) const;
 
  private:

@@ -9,10 +9,10 @@
 
 namespace armloom {
 
-inline constexpr std::size_t kPieceSize = 64 * 1024;  // what is held of a PiecedBody at a time
+inline constexpr std::size_t kPieceSize = 64 * 1024;  // in memory at a time
 
-// Sends it to its end, after the header; each piece may take so long. An error, too: a piece cannot
-// be read, so that the length that was said is not reached and the connection is of no more use.
+// Sends the whole body, after the header. `time` limits each piece. After an error, also if a piece
+// cannot be read, the response is incomplete and the connection unusable.
 Awaitable<void> send_pieces(Transport& stream, const PiecedBody& body,
                             std::chrono::milliseconds time, ErrorCode& ec);
 

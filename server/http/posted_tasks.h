@@ -11,10 +11,9 @@
 
 namespace armloom {
 
-// Tasks that other threads give the one that serves connections, run in the order posted, a
-// millisecond's worth at a time: asio looks at sockets only when all that was ready before has run,
-// and thousands of events of one batch would keep a stop waiting there. How many wait is bounded by
-// who posts them.
+// Tasks of other threads for the server's thread. Runs them in order, about a millisecond at a
+// time: asio polls sockets only when all ready handlers have run, so thousands of events would
+// delay a stop. Callers must limit the queue.
 class PostedTasks {
  public:
   using Task = std::function<void()>;
@@ -53,7 +52,7 @@ class PostedTasks {
   asio::io_context& io_;
   std::mutex mutex_;
   std::deque<Task> tasks_;
-  bool has_turn_ = false;  // a turn is coming or under way
+  bool has_turn_ = false;  // run_some() is posted or running
 };
 
 }  // namespace armloom

@@ -5,8 +5,7 @@
 namespace armloom {
 namespace {
 
-// What was read in the instant in which the time was over goes on with its next piece: that is
-// ended, too.
+// The reader may start another read just after cancel(), which must be canceled, too.
 constexpr std::chrono::milliseconds kAgain{50};
 
 }  // namespace

@@ -9,11 +9,11 @@ namespace armloom {
 
 class Transport;
 
-// As long as this lives, what is read of a connection has to come in time. When it has not, reading
-// is ended, again and again; the connection goes on, so that its peer can be told.
+// Cancels reads that do not finish in time, repeatedly, while this object lives. The connection
+// stays open, so that the client can be answered.
 class ReadDeadline {
  public:
-  // `stream` outlives it. There is no other deadline on it meanwhile.
+  // `stream` outlives it. Replaces the stream's own deadline.
   ReadDeadline(Transport& stream, std::chrono::milliseconds time);
   ~ReadDeadline();
   ReadDeadline(const ReadDeadline&) = delete;
@@ -24,7 +24,7 @@ class ReadDeadline {
  private:
   struct Watch {
     Timer timer;
-    Transport* stream;  // null: nobody reads any more
+    Transport* stream;  // null after destruction
     bool is_over = false;
   };
   static void wait(const std::shared_ptr<Watch>& watch, std::chrono::milliseconds time);

@@ -11,8 +11,8 @@
 
 namespace armloom {
 
-// A body that takes memory as its bytes come, whatever its header promises, and no more than all
-// bodies together may (error not_enough_memory). For Beast's parser.
+// A body for Beast's parser that allocates as bytes arrive. Fails with not_enough_memory if the
+// budget of all bodies is exhausted.
 struct RequestBody {
   struct value_type {
     std::string text;

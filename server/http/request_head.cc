@@ -28,20 +28,18 @@ std::optional<std::string> one_of(const RequestHeader& header, beast::string_vie
   return it == header.end() ? std::nullopt : std::optional(std::string(it->value()));
 }
 
-// Why whoever comes by this name may not even read: a page whose own name an attacker lets point
-// here is of the same origin to a browser.
+// Returns a refusal, even to read, for a host that is not allowed (DNS rebinding).
 std::optional<Refusal> foreign_host(const std::string& authority, const HostRule& hosts) {
   const std::string host = host_of(authority);
-  if (authority.empty() || may_command(host, hosts)) return std::nullopt;
+  if (authority.empty() || is_allowed_host(host, hosts)) return std::nullopt;
   return Refusal{403, "foreign-host",
-                 "this server is known by its IP address, as localhost and by the names given with "
-                 "--allow-host, not as \"" +
-                     host + "\"",
+                 "host \"" + host +
+                     "\" is not allowed: use an IP address, localhost or a name given with "
+                     "--allow-host",
                  std::nullopt, host};
 }
 
-// Why whoever asks may only read. A browser names the page that asks: other sites may not change
-// anything, nor listen.
+// Returns a refusal to command or subscribe for a page of another site.
 std::optional<Refusal> foreign_origin(const RequestHeader& header, const std::string& authority,
                                       const HostRule& hosts) {
   const auto origin = header.find(http::field::origin);
@@ -52,7 +50,7 @@ std::optional<Refusal> foreign_origin(const RequestHeader& header, const std::st
                  std::nullopt, std::string(origin->value())};
 }
 
-// "Bearer <token>", or the cookie. Of several cookies of that name the first.
+// Returns the token of "Bearer <token>", or else of the first cookie of that name.
 std::optional<std::string> token_of(const RequestHeader& header) {
   static constexpr std::string_view kScheme = "bearer ";
   const std::string authorization = one_of(header, "Authorization").value_or("");
@@ -73,7 +71,7 @@ std::optional<std::string> token_of(const RequestHeader& header) {
   return std::nullopt;
 }
 
-// The page's own, where pages of that site may command.
+// Returns the Origin if its pages may command, or nullopt.
 std::optional<std::string> allowed_origin(const RequestHeader& header, const HostRule& hosts) {
   auto origin = one_of(header, "Origin");
   const bool may =
@@ -124,7 +122,7 @@ std::optional<Refusal> settle_version(char* line, std::size_t size) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   const bool whole = version.size() == 8 && version.starts_with("HTTP/") && is_digit(version[5]) &&
                      version[6] == '.' && is_digit(version[7]);
-  if (!whole) return std::nullopt;  // the parser says what is wrong
+  if (!whole) return std::nullopt;  // the parser reports the fault
   if (version[5] != '1') {
     return Refusal{505, "http-version-not-supported", "HTTP/1.1 and HTTP/1.0 are served",
                    std::nullopt, std::string(version)};

@@ -12,20 +12,19 @@ namespace armloom {
 
 using RequestHeader = boost::beast::http::request_header<>;
 
-// What must be refused before the body is read; the connection ends with it.
+// Returns a refusal if the header is invalid. The connection must then be closed.
 [[nodiscard]] std::optional<Refusal> header_refusal(const RequestHeader& header);
 
-// Makes ready what Beast does not take of a request's first line, which begins at `data` (RFC 9112,
-// 2.3, and RFC 9110, 2.5): a higher minor version becomes 1.1 in place; another major one is
-// refused.
+// Adapts the version in a request line for Beast (RFC 9112, 2.3, and RFC 9110, 2.5). A higher minor
+// version becomes 1.1 in place; another major version is refused.
 [[nodiscard]] std::optional<Refusal> settle_version(char* line, std::size_t size);
 
-// Whether the header asks for a WebSocket, and what is wrong with how it does (RFC 6455, 4.2.1).
+// Returns true for a WebSocket upgrade; handshake_fault() returns its fault (RFC 6455, 4.2.1).
 [[nodiscard]] bool is_handshake(const RequestHeader& header);
 [[nodiscard]] std::optional<Refusal> handshake_fault(const RequestHeader& header);
 
-// The request, all but its body. Its target may have a host of its own, which counts instead of
-// Host (RFC 9112, 3.2.2). Refusal: the target cannot be read.
+// Returns the request without its body. A host in the target takes precedence over Host (RFC 9112,
+// 3.2.2). Refusal: the target is invalid.
 [[nodiscard]] tl::expected<Request, Refusal> request_of(const RequestHeader& header,
                                                         const HostRule& hosts);
 

@@ -20,12 +20,12 @@ std::string_view held(const Connection& connection) {
 }
 
 NoRequest too_late(const char* what) {
-  return {Refusal{408, "request-timeout", std::string("the ") + what + " did not come in time"}};
+  return {Refusal{408, "request-timeout", std::string("the ") + what + " did not arrive in time"}};
 }
 
 Refusal bad_request(std::string detail) { return {400, "bad-request", std::move(detail)}; }
 
-// An error of the parser or of the socket; what the buffer holds tells which limit it was.
+// Maps an error of the parser or the socket; `buffered` shows which limit was exceeded.
 NoRequest stopped_by(ErrorCode ec, std::string_view buffered) {
   if (ec == boost::system::errc::not_enough_memory) {
     return {Refusal{503,
@@ -43,19 +43,19 @@ NoRequest stopped_by(ErrorCode ec, std::string_view buffered) {
   if (ec == http::error::header_limit) {
     return {Refusal{431, "header-too-large", "the header may have at most 16 KiB"}};
   }
-  // A chunk's line begins with the end of the one before.
+  // A chunk's line begins with the CRLF that ends the previous chunk.
   const std::size_t line = buffered.starts_with("\r\n") ? 2 : 0;
   const bool in_chunk_line = buffered.find("\r\n", line) == buffered.npos;
   if (ec == http::error::bad_chunk_extension ||
       (ec == http::error::buffer_overflow && in_chunk_line)) {
     return {bad_request(
-        "a chunk's size is no hexadecimal number, or its chunk extensions are broken, or have more "
-        "than 16 KiB in all")};
+        "a chunk's size is not a hexadecimal number, or its chunk extensions are invalid or exceed "
+        "16 KiB in total")};
   }
   if (ec == http::error::buffer_overflow) {
     return {Refusal{431, "header-too-large", "the trailers may have at most 16 KiB"}};
   }
-  return {bad_request("this is not HTTP/1.1: " + ec.message())};
+  return {bad_request("the request is not HTTP/1.1: " + ec.message())};
 }
 
 Awaitable<void> read_some(Connection& connection, std::size_t max, ErrorCode& ec) {
@@ -63,7 +63,7 @@ Awaitable<void> read_some(Connection& connection, std::size_t max, ErrorCode& ec
   connection.buffer.commit(size);
 }
 
-// Reads until `is_read`, the parser's test for the header or for the whole request, is true.
+// Reads until `is_read` is true.
 Awaitable<void> parse(Connection& connection, RequestParser& parser,
                       bool (RequestParser::*is_read)() const, ErrorCode& ec) {
   while (!ec && !(parser.*is_read)()) {
@@ -80,14 +80,14 @@ Awaitable<void> parse(Connection& connection, RequestParser& parser,
   }
 }
 
-// Until a whole first line is there, or more than a header may have.
+// Reads until the first line is complete or too long.
 Awaitable<std::optional<NoRequest>> read_first_line(Connection& connection) {
   ErrorCode ec;
   for (std::size_t empty = 0;;) {
     while (held(connection).starts_with("\r\n")) {
       connection.buffer.consume(2);
       if (++empty > kEmptyLinesMax) {
-        co_return NoRequest{bad_request("empty lines stand where a request should begin")};
+        co_return NoRequest{bad_request("too many empty lines before a request")};
       }
     }
     const std::string_view text = held(connection);
@@ -99,7 +99,7 @@ Awaitable<std::optional<NoRequest>> read_first_line(Connection& connection) {
       co_return NoRequest{
           Refusal{414, "target-too-long", "a request line may have at most 16 KiB"}};
     }
-    // The parser may say early what is no HTTP; but what was not sent cannot be judged.
+    // The parser needs a whole line, because settle_version() may change it.
     co_await read_some(connection, 4096, ec);
     if (ec) co_return NoRequest{};
   }

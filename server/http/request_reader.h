@@ -8,23 +8,22 @@
 
 namespace armloom {
 
-// Why no request came of it: `refusal` is to be said, none: the peer has gone, or has begun none.
+// `refusal` is nullopt if the client disconnected or sent nothing.
 struct NoRequest {
   std::optional<Refusal> refusal = {};
 };
 
 struct ReadTimes {
   std::chrono::milliseconds idle;  // until the first bytes of a request
-  std::chrono::milliseconds read;  // from then on for its header, and for its body
+  std::chrono::milliseconds read;  // then for the header, and for the body
 };
 
-// Waits for the next request's first bytes, then reads its header. An empty line before it is read
-// over.
+// Waits for the next request and reads its header. Skips a few empty lines before it.
 Awaitable<std::optional<NoRequest>> read_header(Connection& connection, RequestParser& parser,
                                                 ReadTimes times);
 
-// Reads the body, at most kBodyMax of it, and of what stands around its chunks no more than of a
-// header. `ask_for_it`: 100 Continue goes before.
+// Reads the body, at most kBodyMax. Limits chunk extensions and trailers, too. `ask_for_it`: sends
+// 100 Continue first.
 Awaitable<std::optional<NoRequest>> read_body(Connection& connection, RequestParser& parser,
                                               std::chrono::milliseconds read_time, bool ask_for_it);
 

@@ -11,11 +11,10 @@
 
 namespace armloom {
 
-// Places for connections beyond those that are served, in which a stop is taken all the same. A
-// file descriptor is held for each, so that there is one when the system gives no other. For one
-// more connection than there are places one has to go: the oldest of the client that has most, so
-// that whoever holds them all cannot keep others out; never one whose request is being answered.
-// On the server's thread.
+// Extra connection slots, in which a stop is served when no regular connection is left. Each free
+// slot keeps a file descriptor, in case the system has none. When all slots are taken, a new
+// connection evicts the oldest of the client with most, so that no client locks out others. A
+// connection being answered is never evicted. Use on the server's thread.
 class Reserve {
  public:
   explicit Reserve(std::size_t places) : places_(places) {}
@@ -23,14 +22,14 @@ class Reserve {
   Reserve(const Reserve&) = delete;
   Reserve& operator=(const Reserve&) = delete;
 
-  // Takes the descriptors that are missing, as far as they can be had: at the start, and when a
-  // connection of the reserve has ended.
+  // Takes missing descriptors, as far as available. Call at the start and after each reserve
+  // connection.
   void fill();
-  // Gives a descriptor back to the system, for one more connection. False: there is none.
+  // Frees a descriptor for another connection, if necessary by eviction. Returns false on failure.
   bool make_room();
 
-  // That a connection is in it, for which make_room() was called. The reserve outlives it, and so
-  // does `socket`, which is closed when the connection has to go.
+  // A connection's slot. Precondition: make_room() returned true. The reserve and `socket` outlive
+  // it; eviction closes `socket`.
   class Place {
    public:
     Place(Reserve& reserve, Socket& socket, std::string client)
@@ -41,7 +40,7 @@ class Reserve {
     Place(const Place&) = delete;
     Place& operator=(const Place&) = delete;
 
-    // From when its request is read until the answer is written. False: it has been let go.
+    // Prevents eviction while the request is answered. Returns false if already evicted.
     bool keep(bool is_kept);
 
    private:
@@ -58,9 +57,9 @@ class Reserve {
   bool let_one_go();
 
   std::size_t places_;
-  std::vector<int> held_;  // descriptors
+  std::vector<int> held_;  // spare descriptors
   std::uint64_t next_number_ = 0;
-  std::map<std::uint64_t, Inside> inside_;  // in the order in which they came
+  std::map<std::uint64_t, Inside> inside_;  // oldest first
 };
 
 }  // namespace armloom

@@ -32,7 +32,7 @@ std::optional<Router::Arguments> match(const std::vector<std::string>& pattern,
   return arguments;
 }
 
-// A page of another site asks before it sends what a form could not (CORS).
+// Answers OPTIONS, including CORS preflight requests.
 Response options_of(const Request& request, const std::string& allow) {
   Response response{204, "", "", {{"Allow", allow}}};
   if (!request.cross_origin) return response;
@@ -52,7 +52,8 @@ void Router::add(std::string method, std::string_view pattern, Rights rights, An
                           std::move(answer), std::move(parameters)});
 }
 
-// Of what is served there; "*": anywhere. HEAD goes with GET, and OPTIONS with all.
+// Returns the methods served at the path ("*": at any path). HEAD goes with GET, and OPTIONS with
+// all.
 std::string Router::allowed_at(const std::string& path) const {
   std::set<std::string> methods;
   const bool everywhere = path == "*";

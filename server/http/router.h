@@ -13,56 +13,55 @@
 
 namespace armloom {
 
-// Whose requests are served. Anyone's, by whatever name they come, and however much else comes from
-// there: probes. Readers': those that come by a name that is the server's, pages of other sites
-// among them (a browser does not show them the answer). Commanders': of those, the site's own
-// pages, and programs.
+// Clients that a route serves.
+// - anyone: any Host, and no rate limit (probes);
+// - reader: an allowed Host; also pages of other sites, but browsers hide the response from them;
+// - commander: an allowed Host, and no Origin of another site unless it is allowed.
 enum class Who { anyone, reader, commander };
 
-// Whose requests a route serves, and what the token that they show has to allow. No role: none is
-// needed.
+// Clients of a route, and the role that their token needs; nullopt if no token is needed.
 struct Rights {
   Who who = Who::reader;
   std::optional<Role> role = Role::viewer;
   bool is_never_limited = false;
 
-  // Among the requests that its client may ask so many of.
+  // Returns true if the rate limit applies to the request.
   [[nodiscard]] bool is_counted() const { return !is_never_limited && who != Who::anyone; }
 };
 
-// Which function answers which method and path. A pattern is a path in which {id} stands for any
-// one non-empty segment: "/jobs/{id}".
+// Maps method and path to a handler. In a pattern, {id} stands for any one non-empty segment:
+// "/jobs/{id}".
 class Router {
  public:
-  // What the {...} stood for, in order.
+  // Values of the {...} segments, in order.
   using Arguments = std::vector<std::string>;
   using Answer = std::function<void(const Request&, const Arguments&, Respond)>;
 
   explicit Router(WriteRefusal refuse) : refuse_(std::move(refuse)) {}
 
-  // `parameters`: those that the query may have.
+  // `parameters`: allowed query parameters.
   void add(std::string method, std::string_view pattern, Rights rights, Answer answer,
            std::vector<std::string> parameters = {});
-  // Is told of every answer that dispatch() gives: method, the pattern that fits ("": none),
-  // status, and how long it took.
+  // Called for every response of dispatch() with method, pattern (or ""), status and duration.
   using Watch =
       std::function<void(const std::string&, const std::string&, int, std::chrono::nanoseconds)>;
   void watch(Watch watch) { watch_ = std::move(watch); }
-  // Says why whoever asks lacks a role; absent: they have it. Without a guard everyone has each.
+  // Returns why the client lacks the role, or nullopt. Without a guard, every client has every
+  // role.
   using Guard = std::function<std::optional<Refusal>(const Request&, Role)>;
   void guard(Guard guard) { guard_ = std::move(guard); }
-  // Says why this request is one too many; absent: it is not. Asked before anything else.
+  // Returns why the request exceeds a limit, or nullopt. Called before any other check.
   using Limit = std::function<std::optional<Refusal>(const Request&)>;
   void limit(Limit limit) { limit_ = std::move(limit); }
-  // Answers requests for paths that no pattern fits (the dashboard's files), without their bodies.
+  // Answers requests whose path matches no pattern (the dashboard's files), without their bodies.
   void otherwise(std::function<Response(const Request&)> answer) { otherwise_ = std::move(answer); }
 
-  // What the limit says, 403 when a stranger, or a foreign page, asks for what is not for such,
-  // what the guard says, 400 when the query has an unknown parameter (not for what otherwise()
-  // answers), 404 when nothing fits the path, 405 with Allow when only the method does not fit.
-  // OPTIONS is answered here: 204 with Allow.
+  // Answers with the first that applies: the limit's refusal, 403 (Host or Origin not allowed), the
+  // guard's refusal, 400 (a route's unknown query parameter), 405 with Allow (another method would
+  // match), 204 with Allow for OPTIONS, the route's function, otherwise(), 404.
   void dispatch(const Request& request, Respond respond) const;
-  // What dispatch() will answer whatever the body says; absent: a route's function answers.
+  // Returns the response of dispatch(), apart from its limit, if independent of the body, else
+  // nullopt.
   [[nodiscard]] std::optional<Response> refuse_unread(const Request& request) const;
   [[nodiscard]] bool is_never_limited(const Request& request) const {
     return is_never_limited(find(request));

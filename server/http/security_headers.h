@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// What every answer says to a browser: nothing here may be framed or embedded by other sites (a
-// click on an invisible frame stopped cells), nothing is what its type does not say.
+// Headers of every response. Other sites may not frame or embed anything (by clickjacking, pages
+// stopped cells), and browsers may not guess content types.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kSecurityHeaders{{
     {"X-Content-Type-Options", "nosniff"},
     {"X-Frame-Options", "DENY"},
@@ -16,11 +16,11 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kS
     {"Referrer-Policy", "no-referrer"},
 }};
 
-// Of answers that are no pages; a page has one of its own, which says what it may load.
+// For responses that are not pages.
 inline constexpr std::string_view kNoPagePolicy =
     "default-src 'none'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
 
-// Of the files of a page: its own files, and nothing else.
+// For the files of a page: they load only files of this site.
 inline constexpr std::string_view kPagePolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; font-src 'self'; img-src 'self'; "
     "connect-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";

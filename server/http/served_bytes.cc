@@ -11,13 +11,13 @@
 namespace armloom {
 namespace {
 
-constexpr std::size_t kPackFrom = 1024;  // below, one packet holds it anyway
+constexpr std::size_t kPackFrom = 1024;  // smaller bytes fit one packet anyway
 
 std::string gzipped(const std::string& bytes) {
   static constexpr int kGzip = 15 + 16;  // the largest window; a gzip header instead of zlib's
   z_stream stream{};
   if (deflateInit2(&stream, 6, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
-    throw std::runtime_error("zlib cannot begin");
+    throw std::runtime_error("zlib cannot start compressing");
   }
   std::string out(deflateBound(&stream, bytes.size()), '\0');
   stream.next_in = const_cast<Bytef*>(reinterpret_cast<const Bytef*>(bytes.data()));
@@ -27,11 +27,11 @@ std::string gzipped(const std::string& bytes) {
   const int ended = deflate(&stream, Z_FINISH);
   out.resize(stream.total_out);
   deflateEnd(&stream);
-  if (ended != Z_STREAM_END) throw std::runtime_error("zlib cannot end");
+  if (ended != Z_STREAM_END) throw std::runtime_error("zlib cannot finish compressing");
   return out;
 }
 
-// "gzip;q=0.5" as its name and whether its weight is more than zero.
+// A coding such as "gzip;q=0.5": name, and whether its weight is above zero.
 struct Coding {
   std::string name;
   bool wanted = true;

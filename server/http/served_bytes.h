@@ -8,20 +8,19 @@
 
 namespace armloom {
 
-// Bytes that many readers get: held once, with their name for caches and, where that is smaller,
-// packed by gzip.
+// Bytes for many clients: stored once, with an entity tag and, if smaller, compressed by gzip.
 struct ServedBytes {
   std::shared_ptr<const std::string> plain;
-  std::shared_ptr<const std::string> packed;  // null: not worth it
-  std::string tag;                            // of the plain ones, without quotes
+  std::shared_ptr<const std::string> packed;  // null if not smaller
+  std::string tag;                            // of `plain`, without quotes
 };
-// `text`: whether packing is tried.
+// `text`: tries compression.
 [[nodiscard]] ServedBytes served(std::string bytes, bool text);
 
-// Whether a reader takes gzip (RFC 9110, 12.5.3).
+// Returns true if the client accepts gzip (RFC 9110, 12.5.3).
 [[nodiscard]] bool accepts_gzip(std::string_view accept_encoding);
 
-// 200 with the bytes as the reader takes them, ETag and Vary.
+// Returns 200 with the bytes in an encoding that the client accepts, ETag and Vary.
 [[nodiscard]] Response answer_bytes(const Request& request, const ServedBytes& bytes,
                                     std::string content_type);
 

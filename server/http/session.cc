@@ -12,7 +12,7 @@
 namespace armloom {
 namespace {
 
-// What arrives while an answer is made is the next request, or that the peer has gone.
+// Sets `gone` if the client disconnects before the response. Other input is its next request.
 void watch_peer(Socket& socket, std::shared_ptr<std::atomic<bool>> gone) {
   socket.async_wait(Socket::wait_read, [&socket, gone = std::move(gone)](ErrorCode over) {
     if (over) return;
@@ -23,7 +23,6 @@ void watch_peer(Socket& socket, std::shared_ptr<std::atomic<bool>> gone) {
   });
 }
 
-// Hands the request to the site and waits for its answer.
 Awaitable<Response> answer(const Site& site, const Request& request, Socket& socket) {
   struct Pending {
     explicit Pending(const Executor& executor)
@@ -47,7 +46,7 @@ Awaitable<Response> answer(const Site& site, const Request& request, Socket& soc
   co_return site.refuse({503, "no-answer", "the server did not answer in time"});
 }
 
-// Answers of which others hold no copy take memory until they are read.
+// Charges the response to the memory budget unless its bytes are shared.
 Response within_memory(Response response, MemoryBudget::Charge& charge, const Site& site) {
   const std::size_t held = response.pieces ? kPieceSize : response.body.size();
   if (response.shared || charge.grow_to(held)) return response;
@@ -68,7 +67,7 @@ Awaitable<bool> deliver(Connection& connection, Response response, Delivery deli
   co_return !ec && delivery.keep_alive;
 }
 
-// One request and its answer. Whether another may follow on the connection.
+// Serves one request. Returns true if another may follow on the connection.
 Awaitable<bool> serve_request(Connection& connection, const Site& site) {
   const Terms terms{{kIdleTime, site.read_time}};
   auto arrived = co_await read_request(connection, site, terms);
@@ -104,7 +103,7 @@ Awaitable<void> serve_connection(Transport transport, const Site& site, MemoryBu
     while (co_await serve_request(connection, site)) {
     }
   } catch (const std::bad_alloc&) {
-    // This connection's: it is closed, the others go on.
+    // Out of memory: closes this connection only.
   }
 }
 
@@ -125,7 +124,7 @@ Awaitable<void> serve_in_reserve(Transport transport, Reserve::Place& place, Ref
   Response response = co_await answer(site, arrived->request, connection.stream.socket());
   answer_across_origins(arrived->request, response);
   arrived->delivery.keep_alive = false;
-  place.keep(false);  // it is short: written at once, whoever does not read it
+  place.keep(false);  // may be evicted: the response is short and written at once
   co_await deliver(connection, std::move(response), arrived->delivery, site);
 }
 

@@ -9,19 +9,18 @@
 namespace armloom {
 
 inline constexpr std::size_t kBodyMax = 8 * 1024 * 1024;  // beyond: 413
-inline constexpr std::size_t kHeaderMax = 16 * 1024;      // beyond: 431; of trailers twice that
+inline constexpr std::size_t kHeaderMax = 16 * 1024;      // beyond: 431; for trailers twice that
 inline constexpr std::chrono::seconds kIdleTime{60};      // between requests of one connection
 inline constexpr std::chrono::seconds kWriteTime{30};     // for a whole response, or a piece of one
-// In the reserve, for each of: TLS, the first bytes, the header, the body.
+// In the reserve, for each of: TLS handshake, first bytes, header, body.
 inline constexpr std::chrono::seconds kReserveTime{1};
 
-// Serves one connection until it ends: requests one after the other, or one upgrade to a WebSocket.
-// Runs on the server's thread; `site` and
-// `memory` outlive it.
+// Serves one connection until it ends: requests in sequence, or one upgrade to a WebSocket. Runs on
+// the server's thread; `site` and `memory` outlive it.
 Awaitable<void> serve_connection(Transport transport, const Site& site, MemoryBudget& memory);
 
-// Serves the first request if that is never limited, as a stop is; says `why` to any other, and to
-// who asks nothing soon. Then the connection is closed.
+// Serves the first request if it is never limited (a stop). Answers `why` to any other request, and
+// to a client that sends none in time. Then closes the connection.
 Awaitable<void> serve_in_reserve(Transport transport, Reserve::Place& place, Refusal why,
                                  const Site& site, MemoryBudget& memory);
 

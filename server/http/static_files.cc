@@ -59,7 +59,7 @@ StaticFiles::StaticFiles(fs::path folder, WriteRefusal refuse)
   std::error_code ec;
   const fs::recursive_directory_iterator end;
   for (fs::recursive_directory_iterator it(folder_, ec); !ec && it != end; it.increment(ec)) {
-    (void)look_up(it->path().lexically_relative(folder_));  // what is not there is said when asked
+    (void)look_up(it->path().lexically_relative(folder_));  // errors are reported on request
   }
 }
 
@@ -79,7 +79,7 @@ tl::expected<ServedBytes, NoFile> StaticFiles::look_up(const fs::path& relative)
   ServedBytes read = served(std::move(*bytes), is_text(type_of(relative)));
   const std::size_t size = read.plain->size() + (read.packed ? read.packed->size() : 0);
   if (known != held_.end() || held_bytes_ + size > kHeldMax) {
-    held_.clear();  // the folder was built anew, most likely
+    held_.clear();  // the folder was probably rebuilt
     held_bytes_ = 0;
   }
   held_bytes_ += size;

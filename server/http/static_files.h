@@ -12,14 +12,13 @@
 
 namespace armloom {
 
-// The files of a folder, as the dashboard needs them: GET only, "/" is index.html, MIME types by
-// extension. Files under /assets carry a hash in their names and may be cached for ever, the rest
-// is asked for again, by its ETag. Nothing outside the folder is served, not by "..", not through a
-// link, and no file whose name begins with a dot. Each file is held once, packed where that pays,
-// for as long as it is as it was read; all of them have at most 64 MiB.
+// The dashboard's folder: GET only, "/" is index.html. Files under /assets have hashed names and
+// are cached forever; others are revalidated by ETag. Hidden files, and files outside the folder
+// (by ".." or a link), are not served. Unchanged files stay in memory, compressed if smaller, 64
+// MiB at most.
 class StaticFiles {
  public:
-  // Reads the folder. One that does not exist (yet) is looked for again at each request.
+  // Reads the folder. A missing folder is tried again at each request.
   StaticFiles(std::filesystem::path folder, WriteRefusal refuse);
   [[nodiscard]] Response answer(const Request& request);
 
@@ -33,7 +32,7 @@ class StaticFiles {
 
   std::filesystem::path folder_;
   WriteRefusal refuse_;
-  std::map<std::filesystem::path, Held> held_;  // by place
+  std::map<std::filesystem::path, Held> held_;  // by real path
   std::size_t held_bytes_ = 0;
 };
 

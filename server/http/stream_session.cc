@@ -9,12 +9,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What a reader that is too far behind has left for the message that it is at, to be told why.
+// Time for a slow subscriber's current message, before it is sent the reason.
 constexpr std::chrono::seconds kLastMessage{2};
-// Whether a reader that nothing is told still may be here.
+// Interval at which an idle subscriber's permission is checked.
 constexpr std::chrono::seconds kLooksAgain{1};
 
-// What reader and writer of one stream share.
+// State shared by the reading and the writing coroutine of one stream.
 class Session : public std::enable_shared_from_this<Session> {
  public:
   Session(std::shared_ptr<StreamCarrier> on, SubscriptionPtr of)
@@ -23,7 +23,7 @@ class Session : public std::enable_shared_from_this<Session> {
         news(carrier->executor()),
         deadline_(carrier->executor()) {}
 
-  // The message under way may take so long.
+  // Starts the deadline of a message.
   void begin_sending(std::chrono::milliseconds time) {
     sending_ = true;
     cut_at_ = Clock::now() + time;
@@ -42,19 +42,19 @@ class Session : public std::enable_shared_from_this<Session> {
 
   std::shared_ptr<StreamCarrier> carrier;
   SubscriptionPtr subscription;
-  Timer news;  // cancelled when there is something to do
+  Timer news;  // canceled when there is something to do
   bool closed = false;
 
  private:
-  // The timer is left running while messages come and go: it looks at what is under way when it
-  // expires. With thousands of readers, setting it for each message cost more than sending that.
+  // Not reset for each message: with thousands of subscribers that cost more than sending. On
+  // expiry, the timer checks the current message.
   void watch_deadline() {
     if (is_watched_ && deadline_.expiry() <= cut_at_) return;
     is_watched_ = true;
     deadline_.expires_at(cut_at_);
     deadline_.async_wait([self = weak_from_this()](ErrorCode ec) {
       const auto session = self.lock();
-      if (ec || !session) return;  // set anew, or gone
+      if (ec || !session) return;  // reset, or gone
       session->is_watched_ = false;
       if (!session->sending_) return;
       if (Clock::now() < session->cut_at_) return session->watch_deadline();
@@ -63,7 +63,7 @@ class Session : public std::enable_shared_from_this<Session> {
   }
 
   Timer deadline_;
-  Clock::time_point cut_at_{};  // of the message under way
+  Clock::time_point cut_at_{};  // of the current message
   bool is_watched_ = false;
   bool sending_ = false;
   bool hurried_ = false;
@@ -91,7 +91,7 @@ Awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier
   spawn(carrier->executor(), watch(session));
   ErrorCode ec;
   const auto is_permitted = [&events] { return !events.permitted || events.permitted(); };
-  // Counted from the last byte sent: news that this reader does not get wakes it, too.
+  // Counted from the last byte sent, because skipped frames wake this, too.
   auto keep_alive_at = after(times.keep_alive);
   while (!ec && !session->closed) {
     auto reason = session->subscription->close_reason();

@@ -18,12 +18,12 @@ namespace {
 
 namespace ssl = asio::ssl;
 
-// The library says of a file that is not there no more than that it cannot be used.
+// The TLS library reports the same error for a missing and for an invalid file.
 Problem unusable(const char* option, const std::string& file, const char* expected,
                  const ErrorCode& why) {
   const bool is_readable = std::ifstream(file).good();
   return {ProblemKind::invalid, "bad-certificate", option,
-          is_readable ? file + " holds no " + expected + " (" + why.message() + ")"
+          is_readable ? file + " contains no " + expected + " (" + why.message() + ")"
                       : file + " cannot be read: " + std::generic_category().message(errno),
           file};
 }

@@ -21,12 +21,10 @@ namespace armloom {
 struct TlsFiles;
 using TlsContextPtr = std::shared_ptr<asio::ssl::context>;
 
-// What connections are encrypted with. Problem (invalid): a file cannot be read, or they do not
-// fit.
+// Problem (invalid): a file cannot be read, or key and certificate do not match.
 [[nodiscard]] Result<TlsContextPtr> tls_context(const TlsFiles& files);
 
-// The handler of an operation, with its type erased: so the operations are compiled once instead of
-// once for each handler.
+// A type-erased completion handler, so that operations are compiled only once.
 class Completion {
  public:
   template <class Handler>
@@ -81,14 +79,12 @@ class Transport {
   void expires_never();
   void cancel();  // reads and writes under way end with an error
   void close();
-  // Where the other end is: an IP address.
+  // Returns the IP address of the other end, or "" if it is unknown.
   [[nodiscard]] std::string peer() const;
 
   // Call it first. Returns false if the TLS handshake fails or takes longer than `time`.
   Awaitable<bool> shake_hands(std::chrono::milliseconds time);
-  // Waits for bytes and returns their number.
   Awaitable<std::size_t> read_some(asio::mutable_buffer to, ErrorCode& ec);
-  // Writes both buffers completely.
   Awaitable<void> write(asio::const_buffer first, asio::const_buffer second, ErrorCode& ec);
 
   template <class Buffers, class Token>

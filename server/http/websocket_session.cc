@@ -17,9 +17,8 @@ namespace {
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 
-constexpr std::chrono::seconds kIdle{
-    30};  // then the peer is pinged, and dropped if it stays silent
-constexpr std::size_t kMessageMax = 4096;  // that a client may send
+constexpr std::chrono::seconds kIdle{30};  // then ping; drop if silent
+constexpr std::size_t kMessageMax = 4096;  // of a client
 
 constexpr std::uint16_t kCloseCodeMax = 4999;
 
@@ -61,7 +60,7 @@ class WebSocket final : public StreamCarrier, public std::enable_shared_from_thi
     co_await socket_.async_accept(upgrade, into(ec));
   }
 
-  // With one type of handler, so that Beast's operation is compiled once.
+  // Uses one handler type, so that Beast's operation is compiled once.
   template <class Token>
   auto start_close(const websocket::close_reason& reason, Token&& token) {
     return asio::async_initiate<Token, void(ErrorCode)>(
@@ -89,13 +88,12 @@ class WebSocket final : public StreamCarrier, public std::enable_shared_from_thi
     const websocket::close_reason said(code, reason.text.substr(0, 120));
     co_await start_close(said, into(ec));
   }
-  void close() override {}  // the closing handshake, or the timeout, has done it
+  void close() override {}  // done by the closing handshake or the timeout
   void cut() override { socket_.next_layer().close(); }
 
  private:
-  // Beast answers a close with its own code, knows which are reserved (RFC 6455, 7.4), and takes
-  // those beyond the last one that there is for good: to such a one the answer is ours, which is
-  // there before.
+  // Beast echoes close codes and rejects reserved codes (RFC 6455, 7.4), but accepts codes beyond
+  // the last valid code. For these, sends protocol_error before Beast answers.
   void answer_close() {
     if (socket_.reason().code <= kCloseCodeMax) return;
     start_close(websocket::close_code::protocol_error, [self = shared_from_this()](ErrorCode) {});

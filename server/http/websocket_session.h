@@ -9,9 +9,8 @@
 
 namespace armloom {
 
-// Accepts the upgrade and sends what the subscription has until either side ends it. What the
-// client sends is read and ignored. A subscription that says why it closes is closed with that
-// reason.
+// Accepts the upgrade and sends the subscription's messages until either side ends it. Ignores
+// client messages. Closes with the subscription's reason, if any.
 Awaitable<void> serve_websocket(Transport stream, RequestHeader upgrade, std::string request_id,
                                 EventStream events, const Site& site);
 

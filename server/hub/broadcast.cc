@@ -56,7 +56,7 @@ void Broadcast::on_stops(const std::vector<ArmId>& stopped) {
   if (parts_.keeper == nullptr) return;
   std::vector<std::string> names;
   for (ArmId arm : stopped) names.push_back(parts_.cell->arm(arm).name);
-  // Before whoever asked for it is answered, who is told that way, too.
+  // The urgent queue also carries the reply to the requester, so the stop is recorded before.
   parts_.post_urgent([this, names = std::move(names)] { parts_.keeper->stopped(names); });
 }
 

@@ -18,27 +18,28 @@
 
 namespace armloom {
 
-// Carries what the executive tells from its strand to the server's thread, where each event is
-// written as JSON once, kept in the hub and recorded. On the strand it only copies.
+// Carries the executive's events and states from its strand to the server's thread, which writes
+// each event as JSON once, keeps it in the hub and records it. On the strand, only copies.
 class Broadcast final : public Observer {
  public:
-  inline static constexpr std::chrono::milliseconds kFramePeriod{33};  // of wall time, at least
-  // Sent to all readers together: more readers get them less often, so that who comes is served.
+  inline static constexpr std::chrono::milliseconds kFramePeriod{33};  // minimum, in wall time
+  // Limit for all subscribers together: with more subscribers, each gets fewer frames, so that the
+  // server can still answer requests.
   inline static constexpr std::size_t kFramesPerSecond = 20'000;
 
   struct Parts {
     CellPtr cell;
     std::string stream;
-    WallClock& clock;  // the server's thread's
+    WallClock& clock;  // of the server's thread
     Hub& hub;
     RecentStates& states;
-    Recording* recording;  // null: none
-    JobKeeper* keeper;     // null: jobs end with the server
+    Recording* recording;  // may be null
+    JobKeeper* keeper;     // null if jobs end with the server
     AlertBook& alerts;
     std::function<void(std::function<void()>)> post;         // to the server's thread, in order
-    std::function<void(std::function<void()>)> post_urgent;  // before all of these
+    std::function<void(std::function<void()>)> post_urgent;  // ahead of `post`
     Log log;
-    std::function<void(Alert)> tell;  // as an event, and whoever wants alerts: on the executive
+    std::function<void(Alert)> tell;  // raises an alert on the executive
     Metrics& metrics;
   };
   explicit Broadcast(Parts parts) : parts_(std::move(parts)) {}
@@ -55,7 +56,7 @@ class Broadcast final : public Observer {
 
   Parts parts_;
   bool said_lost_ = false;
-  std::chrono::steady_clock::time_point next_frame_{};  // the strand's
+  std::chrono::steady_clock::time_point next_frame_{};  // of the strand
   std::atomic<std::size_t> readers_{0};
 };
 

@@ -34,9 +34,9 @@ class Hub::Reader final : public Subscription {
 
   void on_news(std::function<void()> call) override { news_ = std::move(call); }
 
-  // Whether it had read the one before.
+  // Returns true if the previous frame had been read.
   bool offer(const Text& frame) { return std::exchange(frame_, frame) == nullptr; }
-  // Whether it has fallen too far behind since it was last asked.
+  // Returns true once when the subscriber has fallen too far behind.
   bool falls_behind() { return is_too_slow() && !std::exchange(fallen_, true); }
   void tell() {
     if (news_) news_();
@@ -46,7 +46,7 @@ class Hub::Reader final : public Subscription {
   bool is_too_slow() const { return !first_ && behind() > hub_.ring_.size(); }
   std::size_t behind() const { return static_cast<std::size_t>(hub_.last_seq_ - read_); }
 
-  const Hub& hub_;  // the hub outlives every call, not necessarily every reader
+  const Hub& hub_;  // the hub outlives calls, but not every subscriber
   std::uint64_t read_;
   Text first_;
   Text frame_;
@@ -96,7 +96,7 @@ void Hub::tell_readers() {
   for (const auto& weak : readers_) {
     const auto reader = weak.lock();
     if (!reader) continue;
-    if (reader->falls_behind()) ++readers_sent_away_;
+    if (reader->falls_behind()) ++subscribers_disconnected_;
     reader->tell();
   }
 }

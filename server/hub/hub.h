@@ -12,35 +12,33 @@
 
 namespace armloom {
 
-// Where events become messages for many readers. Holds the latest events in a ring, bounded in
-// events and in bytes, from which every reader is served at its own pace and can resume; a reader
-// that falls farther behind than the ring is sent away and told so: events are never skipped in
-// silence. Pose frames are not kept: a reader gets the newest one when it has no event left to
-// read. Not thread-safe: everything on the server's thread.
+// Distributes events to many subscribers. Keeps the latest events, limited in number and bytes;
+// each subscriber reads them at its own pace and can resume. A subscriber that falls farther behind
+// is disconnected with the reason: no event is skipped silently. Pose frames are not kept: a
+// subscriber that has read all events gets the newest frame. Use on the server's thread.
 class Hub {
  public:
   using Text = std::shared_ptr<const std::string>;
   inline static constexpr std::size_t kRing = 16'384;                   // events
-  inline static constexpr std::size_t kBytes = std::size_t{32} << 20U;  // of all of them
+  inline static constexpr std::size_t kBytes = std::size_t{32} << 20U;  // of all events
 
   explicit Hub(std::size_t ring = kRing, std::size_t bytes = kBytes)
       : capacity_(ring), bytes_max_(bytes) {}
 
-  // Precondition: seq follows the one before by one (throws std::logic_error): the log has no
-  // holes.
+  // Precondition: `seq` is the previous number plus one (throws std::logic_error).
   void publish(std::uint64_t seq, Text event);
   void publish_frame(Text frame);
 
-  // A reader that gets `first` and then every event after `since`.
-  // Null: the events after `since` are not all in the ring, or `since` is still to come.
+  // Returns a subscriber that gets `first`, then every event after `since`. Returns null if these
+  // events are not all kept, or `since` has not happened yet.
   [[nodiscard]] SubscriptionPtr resume(std::uint64_t since, Text first = nullptr);
 
-  // Sends every reader away, those to come as well, each when it has read what there is.
+  // Disconnects present and future subscribers, each after its last event.
   void end();
 
   [[nodiscard]] std::size_t readers();
   [[nodiscard]] std::uint64_t frames_dropped() const { return frames_dropped_; }
-  [[nodiscard]] std::uint64_t readers_sent_away() const { return readers_sent_away_; }
+  [[nodiscard]] std::uint64_t subscribers_disconnected() const { return subscribers_disconnected_; }
 
  private:
   class Reader;
@@ -48,12 +46,12 @@ class Hub {
 
   std::size_t capacity_;
   std::size_t bytes_max_;
-  std::size_t bytes_ = 0;  // in the ring
+  std::size_t bytes_ = 0;  // kept
   std::deque<Text> ring_;  // ends with the event last_seq_
   std::uint64_t last_seq_ = 0;
   bool ended_ = false;
   std::uint64_t frames_dropped_ = 0;
-  std::uint64_t readers_sent_away_ = 0;
+  std::uint64_t subscribers_disconnected_ = 0;
   std::vector<std::weak_ptr<Reader>> readers_;
 };
 

@@ -10,9 +10,9 @@
 
 namespace armloom {
 
-// Where every joint was measured over the last minutes, for who comes only now: a ring of
-// kFramesMax frames, one each kPeriod of wall time at most, so that it spans five minutes and takes
-// some 250 kB and 24 kB for each joint. Not thread-safe: the server's thread.
+// Measured positions of all joints in the last five minutes, for clients that connect later:
+// kFramesMax frames, at most one per kPeriod of wall time. Takes about 250 kB and 24 kB per joint.
+// Use on the server's thread.
 class RecentStates {
  public:
   using Clock = std::chrono::steady_clock;
@@ -25,10 +25,10 @@ class RecentStates {
   };
   using FramePtr = std::shared_ptr<const Frame>;
 
-  // `now`, the wall's, and `time` do not go backwards from call to call.
+  // Precondition: `now` (wall time) and `time` do not decrease between calls.
   void take(TimePoint time, const Configuration& q, Clock::time_point now);
 
-  // Oldest first; immutable, so that they may be read elsewhere.
+  // Oldest first. Immutable, so other threads may read them.
   [[nodiscard]] const std::deque<FramePtr>& frames() const { return frames_; }
 
  private:

@@ -26,14 +26,14 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-// Which of two candidates goes, and why: nothing when both can be arms.
+// The candidate to drop, and why. weigh() returns nullopt if both can be arms.
 struct Loser {
   bool is_first;
   std::string why;
 };
 std::optional<Loser> weigh(const RobotTree& tree, const GroupChoice& first, const JointSet& a,
                            const GroupChoice& second, const JointSet& b) {
-  if (a == b) return Loser{false, "it holds the same joints as " + first.group};
+  if (a == b) return Loser{false, "it has the same joints as " + first.group};
   if (share_a_joint(a, b)) {
     if (share_a_torso(tree, a, b)) return std::nullopt;
     if (!holds(a, b) && !holds(b, a)) return Loser{false, "it shares joints with " + first.group};
@@ -41,7 +41,7 @@ std::optional<Loser> weigh(const RobotTree& tree, const GroupChoice& first, cons
     const bool smaller_stays = 2 * std::min(a.size(), b.size()) >= std::max(a.size(), b.size());
     const std::string& other = first_is_larger == smaller_stays ? second.group : first.group;
     return Loser{first_is_larger == smaller_stays,
-                 smaller_stays ? "it is " + other + " and joints above or below it"
+                 smaller_stays ? "it contains " + other + " and joints above or below it"
                                : "it is a part of " + other};
   }
   const bool first_above = is_above(tree, a, b);
@@ -59,7 +59,7 @@ void leave_out(GroupChoice& choice, std::string why) {
   choice.why = std::move(why);
 }
 
-// Candidates that stand side by side, of those that `is_part` names: the largest first.
+// Returns candidates that satisfy `is_part` and are side by side, preferring larger groups.
 template <class IsPart>
 std::vector<const GroupChoice*> side_by_side(const RobotTree& tree, const RobotSemantics& semantics,
                                              const std::vector<GroupChoice>& choices,
@@ -90,7 +90,7 @@ std::string listed(const std::vector<const GroupChoice*>& choices) {
   return listed(names);
 }
 
-// What moves two others that are no smaller.
+// Drops groups that move two others, each at least as large.
 void leave_out_torsos(const RobotTree& tree, const RobotSemantics& semantics,
                       std::vector<GroupChoice>& choices) {
   for (GroupChoice& torso : choices) {
@@ -103,7 +103,7 @@ void leave_out_torsos(const RobotTree& tree, const RobotSemantics& semantics,
   }
 }
 
-// Groups that are two others by their joints: two by two an arm may seem a small part of them.
+// Drops groups that consist of two others by their joints, of which an arm may be a small part.
 void leave_out_unions(const RobotTree& tree, const RobotSemantics& semantics,
                       std::vector<GroupChoice>& choices) {
   for (GroupChoice& whole : choices) {
@@ -118,7 +118,7 @@ void leave_out_unions(const RobotTree& tree, const RobotSemantics& semantics,
   }
 }
 
-// Arms whose pieces are groups, too: the pieces go. Of other groups the ones made of subgroups go.
+// Keeps arms that consist of groups, and drops these parts. Drops other groups made of subgroups.
 void put_pieces_together(const RobotTree& tree, const RobotSemantics& semantics,
                          const GroupNames& names, std::vector<GroupChoice>& choices) {
   std::vector<GroupChoice*> smallest_first;
@@ -179,7 +179,7 @@ std::vector<GroupChoice> choose_arm_groups(const RobotTree& tree, const RobotSem
     if (parts != names.parts.end() && !is_chain(tree, known->second)) {
       leave_out(choice, "it is made of " + listed(parts->second));
     } else if (known->second.empty()) {
-      leave_out(choice, "it holds no movable joint");
+      leave_out(choice, "it has no movable joint");
     } else if (names.end_effectors.contains(group)) {
       leave_out(choice, "it is an end effector");
     }

@@ -10,11 +10,11 @@
 
 namespace armloom {
 
-// What the text of an SRDF says of its groups besides their joints.
+// SRDF group data besides joints.
 struct GroupNames {
-  std::vector<std::string> in_order;                      // of the file
-  std::map<std::string, std::vector<std::string>> parts;  // groups that a group is made of
-  std::set<std::string> end_effectors;                    // groups that an <end_effector> names
+  std::vector<std::string> in_order;                      // in file order
+  std::map<std::string, std::vector<std::string>> parts;  // named subgroups of a group
+  std::set<std::string> end_effectors;                    // groups of <end_effector>
 };
 // Precondition: read_srdf has read the text.
 [[nodiscard]] GroupNames read_group_names(const std::string& srdf_text);
@@ -22,20 +22,23 @@ struct GroupNames {
 struct GroupChoice {
   std::string group;
   bool is_arm = false;
-  std::string why;  // half a sentence, why it is none: "made of left_arm, right_arm"
+  std::string why;  // reason if not an arm: "it is made of left_arm, right_arm"
 };
-// Which groups are the robot's arms, in the order of the file. An arm is a group of joints of its
-// own: no end effector, not made of arms (by name, or two that stand side by side by their joints)
-// nor of an arm and a gripper, sharing no joint with another arm but those of a torso at its base,
-// not above or below a larger one nor above two (a torso, a gripper), and of three joints at least
-// where there is such a one. A chain of groups that each are no arm for itself is one arm, as an
-// upper arm and a forearm. Of two that hold the same joints the first; of two where one holds the
-// other the smaller, unless that is less than half of it (a wrist).
+// Selects the groups that become arms, in file order. A group is an arm if it
+// - is not an end effector,
+// - is not made of arms (by name, or by joints side by side), or of an arm and a gripper,
+// - shares joints with another arm only in a torso at its base,
+// - is neither above nor below a larger arm, nor above two (a torso, a gripper), and
+// - has at least three joints, if any group has.
+// A chain of groups, none of which is an arm by itself (upper arm, forearm), forms one arm. Of two
+// groups with equal joints the first is taken; of two nested groups the smaller, unless it has less
+// than half the joints (a wrist).
 [[nodiscard]] std::vector<GroupChoice> choose_arm_groups(const RobotTree& tree,
                                                          const RobotSemantics& semantics,
                                                          const GroupNames& names);
 
-// Movable joints above an arm that are in none or in several, as a torso: by index in the tree.
+// Returns movable joints above an arm that are in no arm or in several (a torso), by index in the
+// tree.
 [[nodiscard]] std::set<std::size_t> joints_above_arms(const RobotTree& tree,
                                                       const RobotSemantics& semantics,
                                                       const std::vector<GroupChoice>& choices);

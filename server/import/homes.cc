@@ -11,11 +11,11 @@ namespace armloom {
 namespace {
 
 constexpr std::size_t kMadeUp = 300;
-constexpr double kMadeUpClearance_m = 0.1;  // room to leave a home by
+constexpr double kMadeUpClearance_m = 0.1;  // room to leave the home
 
 double zero_of(const Joint& joint) { return std::clamp(0.0, joint.lower, joint.upper); }
 
-// The n-th number of the van der Corput sequence to a base: evenly spread over 0..1.
+// Returns the n-th van der Corput number to a base: evenly spread over 0..1.
 double van_der_corput(std::size_t n, std::size_t base) {
   double number = 0.0;
   double digit = 1.0;
@@ -26,8 +26,8 @@ double van_der_corput(std::size_t n, std::size_t base) {
   return number;
 }
 
-// Halton's points (van der Corput's to one prime for each joint) in a box around zero that grows to
-// the limits, in whole milliradians: the numbers are for people to read and change.
+// Returns Halton's n-th point in a box around zero that grows to the joint limits. Rounded to
+// milliradians for readability.
 Eigen::VectorXd made_up(const Cell& cell, const Arm& arm, std::size_t n) {
   static constexpr std::array<std::size_t, 12> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
   const double share = static_cast<double>(n) / static_cast<double>(kMadeUp);

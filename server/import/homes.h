@@ -8,28 +8,27 @@
 
 namespace armloom {
 
-// A place where an arm may begin: a named state of its group, every joint at zero, or one that was
-// made up.
+// A possible home: a named state, every joint at zero, or a generated configuration.
 struct HomeCandidate {
   enum class Kind { named, zero, made_up } kind;
-  std::string state;  // of a named one
+  std::string state;  // name, if named
   Eigen::VectorXd q;
 };
-// How much the name of a state speaks of a home; smaller is more.
+// Returns the rank of a state name as a home; smaller is better.
 [[nodiscard]] std::size_t home_rank(std::string name);
 
-// Of one arm, the best first: states whose names speak of home, other states, zero; then
-// configurations made up around zero, ever farther away, the same in every call.
+// Returns an arm's candidates, best first: states with names for homes, other states, zero,
+// generated configurations ever farther from zero. Deterministic.
 [[nodiscard]] std::vector<HomeCandidate> home_candidates(const Cell& cell, const Arm& arm);
 
-// For each arm the candidate with which all stand free; with none, each one's best, and `is_free`
-// is false.
+// Homes at which all arms keep their clearance. If none are found, `is_free` is false and each arm
+// has its best candidate.
 struct Homes {
   std::vector<HomeCandidate> of_arm;
-  std::vector<HomeCandidate> wanted;  // what would have been taken first
+  std::vector<HomeCandidate> wanted;  // first choices
   bool is_free = false;
 };
-// Problems: as find_free_homes.
+// Problems: those of find_free_homes.
 [[nodiscard]] Result<Homes> choose_homes(const CellPtr& cell);
 
 }  // namespace armloom

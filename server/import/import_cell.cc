@@ -49,13 +49,14 @@ class CellImport {
       for (const ImportedRobot& source : sources_) placements_.push_back({source.name, {}});
     }
     if (sources_.size() > 1 && sources_.size() != placements_.size()) {
-      return refused("--urdf", "there are " + std::to_string(sources_.size()) + " and " +
+      return refused("--urdf", std::to_string(sources_.size()) + " --urdf but " +
                                    std::to_string(placements_.size()) +
                                    " --robot: give one URDF for all robots, or one for each");
     }
     if (placements_.size() > 1 && !request_.prefix.empty()) {
-      return refused("--prefix", "several robots have their names as prefixes: \"" +
-                                     placements_.front().name + "_\"");
+      return refused("--prefix",
+                     "several robots use their names as prefixes, omit this option: \"" +
+                         placements_.front().name + "_\"");
     }
     return true;
   }
@@ -64,7 +65,7 @@ class CellImport {
     return sources_.size() == 1 ? sources_.front() : sources_[robot];
   }
 
-  // A sentence about a place of the file: there and on stderr.
+  // Adds a sentence about a place in the file, to the file's comments and to stderr.
   void remark(const std::string& pointer, const std::string& sentence) {
     notes_[pointer].push_back(sentence);
     remarks_.push_back(pointer + ": " + sentence);
@@ -93,7 +94,7 @@ class CellImport {
                                          : placement.name + "_" + group;
     }
     cell_.robots.push_back(std::move(robot));
-    // What is true of the files is said once.
+    // Remarks on shared files are added once.
     if (r == 0 || sources_.size() > 1) remark_on(source, "/robots/" + std::to_string(r));
   }
 
@@ -104,22 +105,23 @@ class CellImport {
                                     "=FOLDER.");
     }
     for (const auto& [package, folder] : source.packages.guessed) {
-      remark(pointer + "/packages", "The folder of the package " + package + " is a guess: " +
-                                        folder + " has another name, and a file of it lies there.");
+      remark(pointer + "/packages", "The folder of the package " + package +
+                                        " is a guess: " + folder +
+                                        " contains a file of the package, but has another name.");
     }
     for (const HeldJoint& joint : source.held) {
       remark(pointer + "/fixed",
-             joint.name + " moves arms and is no single one's: held " +
-                 (joint.state.empty() ? "at zero, or the limit next to it."
-                                      : "where the state " + joint.state + " has it."));
+             joint.name + " moves arms and belongs to no single arm: fixed " +
+                 (joint.state.empty() ? "at zero, or at the nearest limit."
+                                      : "at its value in the state " + joint.state + "."));
     }
     for (const GroupChoice& group : source.left_out) {
-      remark(pointer + "/arms", "The group " + group.group + " is no arm here: " + group.why + ".");
+      remark(pointer + "/arms",
+             "The group " + group.group + " is not used as an arm: " + group.why + ".");
     }
     remark_on_guesses(source, pointer);
   }
 
-  // Of each arm: what was guessed for its joints.
   void remark_on_guesses(const ImportedRobot& source, const std::string& pointer) {
     for (std::size_t a = 0; a < source.guesses.size(); ++a) {
       std::string joints;
@@ -129,7 +131,7 @@ class CellImport {
       if (joints.empty()) continue;
       remark(pointer + "/arms/" + std::to_string(a) + "/limits",
              source.files.urdf.filename().string() + " does not give all limits of " + joints +
-                 ": these are guesses, slow and short. Write what the robot really allows.");
+                 ": these are cautious guesses. Replace them with the robot's real limits.");
     }
   }
 
@@ -145,7 +147,7 @@ class CellImport {
     }
   }
 
-  // Where the cell does not load, who loads it will say why: homes are then those that are wanted.
+  // If the cell cannot be built, sets no homes; loading the cell will report why.
   void set_homes() {
     const auto cell = build_cell(cell_);
     if (!cell) return;
@@ -161,8 +163,8 @@ class CellImport {
     }
     if (!homes->is_free) {
       remark("/robots",
-             "No homes were found in which all arms stand free: move the bases apart, "
-             "or give homes yourself.");
+             "No homes were found at which all arms keep their clearance: move the bases apart, "
+             "or set homes yourself.");
     }
   }
 
@@ -176,22 +178,23 @@ class CellImport {
     }
     if (home.kind == wanted.kind && home.state == wanted.state) {
       if (home.kind == Kind::zero) {
-        remark(pointer, "The SRDF has no state of the group: every joint is at zero.");
+        remark(pointer, "The SRDF has no state of the group, so every joint is at zero.");
       }
       return;
     }
-    const std::string not_free =
-        wanted.kind == Kind::named
-            ? "In the state " + wanted.state + " arm " + arm.name + " does not stand free here"
-            : "With every joint at zero arm " + arm.name + " does not stand free here";
+    const std::string not_free = wanted.kind == Kind::named
+                                     ? "In the state " + wanted.state + " arm " + arm.name +
+                                           " is too close to other arms or objects here"
+                                     : "With every joint at zero arm " + arm.name +
+                                           " is too close to other arms or objects here";
     if (home.kind == Kind::made_up) {
       remark(pointer, not_free +
-                          ", nor in another state of the SRDF: this home was made up. "
-                          "Look at it before you use it, or move the bases apart.");
+                          ", and other states of the SRDF do not help: this home was generated. "
+                          "Check it before you use it, or move the bases apart.");
     } else if (home.kind == Kind::zero) {
       remark(pointer, not_free + ": every joint is at zero instead.");
     } else {
-      remark(pointer, not_free + ": " + home.state + " is taken instead.");
+      remark(pointer, not_free + ": " + home.state + " is used instead.");
     }
   }
 
@@ -208,9 +211,10 @@ class CellImport {
     }
     std::string from;
     for (const std::string& name : names) from += (from.empty() ? "" : ", ") + name;
-    notes_[""] = {"Written by armloom import from " + from +
-                  ". Positions are metres, angles radians, times seconds; every setting stands at "
-                  "its default."};
+    notes_[""] = {
+        "Written by armloom import from " + from +
+        ". Positions are in meters, angles in radians, times in seconds; every setting has "
+        "its default."};
     JsonWriter out;
     cell_format().write(out, cell);
     return commented_json(Schema::parse(out.text()), cell_schema(), notes_);

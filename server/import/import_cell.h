@@ -12,33 +12,32 @@
 
 namespace armloom {
 
-// A robot as MoveIt has it.
+// A robot's files, as for MoveIt.
 struct RobotFiles {
   std::filesystem::path urdf;
   std::filesystem::path srdf;
-  std::filesystem::path joint_limits;  // empty: none
+  std::filesystem::path joint_limits;  // may be empty
 };
 
 struct ImportRequest {
-  std::string cell;               // its name; empty: of the robots
+  std::string cell;               // name; if empty, made from the robots' names
   std::vector<RobotFiles> files;  // one for all robots, or one for each
-  std::vector<Placement> robots;  // empty: one for each of `files`, called as its URDF says
-  std::string prefix;             // of a single robot; several have their names as prefixes
-  std::map<std::string, std::string> packages;  // package -> folder; others are looked for
-  // Paths in the cell file are relative to this folder; none: they are absolute.
+  std::vector<Placement> robots;  // if empty: one for each of `files`, named by its URDF
+  std::string prefix;             // of a single robot; several use their names
+  std::map<std::string, std::string> packages;  // package -> folder; others are searched
+  // Paths in the cell file are relative to this folder; absolute if nullopt.
   std::optional<std::filesystem::path> folder;
 };
 
 struct ImportedCell {
   std::string text;                  // of a cell file, with comments
-  std::vector<std::string> remarks;  // what was chosen, guessed or not found; in the comments, too
+  std::vector<std::string> remarks;  // choices, guesses and missing files; also in the comments
 };
 
-// A cell file for robots described by URDF and SRDF: their arms (choose_arm_groups), homes
-// (choose_homes), joints held above arms, the folders of packages, and every setting at its
-// default. It need not load: what is wrong with it, load_cell says. Problems: the files cannot be
-// read, or no group is an arm; prefixes or numbers of files that do not fit together, at the option
-// of the command line.
+// Returns a cell file for robots with URDF and SRDF: arms (choose_arm_groups), homes
+// (choose_homes), fixed joints, package folders and default settings. load_cell may still refuse
+// it. Problems: the files cannot be read; no group is an arm; prefixes or file counts do not fit
+// together (at the command-line option).
 [[nodiscard]] Result<ImportedCell> import_cell(const ImportRequest& request);
 
 }  // namespace armloom

@@ -17,14 +17,14 @@
 namespace armloom {
 namespace {
 
-// Cautious limits that no real robot falls short of.
+// Cautious limits, within those of any real robot.
 constexpr double kAngle_rad = 1.0;
 constexpr double kSpeed_rad_s = 0.5;
 constexpr double kLength_m = 0.1;
 constexpr double kSpeed_m_s = 0.05;
 
-// Returns, by joint, cautious guesses of the limits that a cell needs and that neither the URDF nor
-// joint_limits.yaml (`file`, null if there is none) gives. The user is to replace them.
+// Returns cautious guesses, by joint, of required limits that neither the URDF nor
+// joint_limits.yaml (`file`, may be null) gives. The user must replace them.
 std::map<std::string, JointLimitsDescription> guess_limits(const RobotTree& tree,
                                                            const RobotSemantics::JointSet& joints,
                                                            const LimitsFile* file) {
@@ -61,7 +61,8 @@ std::string name_in(const std::string& urdf_text) {
   return name == nullptr || *name == '\0' ? "robot" : name;
 }
 
-// Where the states of the SRDF have a joint; those whose names speak of home come first.
+// Returns the joint's value in an SRDF state, preferring names for homes; else zero, or the nearest
+// limit.
 HeldJoint hold(const RobotTree& tree, const RobotSemantics& semantics, std::size_t joint) {
   const TreeLink& link = tree.links[joint];
   double nearest_to_zero = std::max(0.0, link.joint.limits.lower.value_or(0.0));
@@ -81,7 +82,7 @@ HeldJoint hold(const RobotTree& tree, const RobotSemantics& semantics, std::size
   return held;
 }
 
-// With the names of the SRDF that the URDF does not have, as most often these are why.
+// Adds SRDF names that the URDF lacks, the most frequent cause.
 tl::unexpected<Problems> no_arm(const RobotSemantics& semantics,
                                 const std::vector<GroupChoice>& choices, const Problems& warnings) {
   std::string why;
@@ -91,8 +92,8 @@ tl::unexpected<Problems> no_arm(const RobotSemantics& semantics,
   Problems problems{{ProblemKind::invalid,
                      "no-arm",
                      semantics.file + ": robot",
-                     semantics.file + ": robot: no group of it is an arm" +
-                         (choices.empty() ? ", it has none" : why),
+                     semantics.file + ": robot: no group is an arm" +
+                         (choices.empty() ? ", because the file has no groups" : why),
                      {}}};
   std::ranges::copy_if(warnings, std::back_inserter(problems), [](const Problem& warning) {
     return warning.slug == "unknown-name" || warning.slug == "other-robot";

@@ -7,14 +7,14 @@
 namespace armloom {
 namespace {
 
-// Of the groups that a chain consists of, the largest one with a joint.
+// Returns the largest piece of a chain that contains the joint.
 const JointSet& piece_with(const std::vector<JointSet>& pieces, std::size_t joint) {
   return *std::ranges::max_element(
       pieces, {}, [&](const JointSet& piece) { return piece.contains(joint) ? piece.size() : 0; });
 }
 
-// What a group consists of: candidates within it, and where it names subgroups, the joints that it
-// lists beside them. Empty where other groups have some of its joints (an end effector, a torso).
+// Returns the pieces of a group: candidates within it and, if it names subgroups, its other joints.
+// Empty if other joints remain, or are in another group (an end effector, a torso).
 std::vector<JointSet> pieces_of(const GroupChoice& whole, const RobotSemantics& semantics,
                                 const GroupNames& names, const std::vector<GroupChoice>& choices) {
   const JointSet& joints = semantics.groups.at(whole.group);
@@ -47,7 +47,7 @@ bool is_one_arm(const GroupChoice& whole, const RobotTree& tree, const RobotSema
   const auto largest = std::ranges::max(pieces, {}, &JointSet::size).size();
   const auto is_small = [&](const JointSet& piece) { return 2 * piece.size() < largest; };
   const JointSet& last = piece_with(pieces, *joints.rbegin());
-  // A wrist of one joint moves a gripper, a gripper moves no other group.
+  // A one-joint wrist moves a gripper; a gripper moves no other group.
   const bool moves_others = std::ranges::any_of(semantics.groups, [&](const auto& group) {
     return !group.second.empty() && !share_a_joint(joints, group.second) &&
            is_above(tree, last, group.second);

@@ -10,7 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Package -> files in it that the URDF names.
 std::map<std::string, std::set<std::string>> named_files(const std::string& urdf) {
   static constexpr std::string_view kScheme = "package://";
   std::map<std::string, std::set<std::string>> files;
@@ -24,7 +23,7 @@ std::map<std::string, std::set<std::string>> named_files(const std::string& urdf
   return files;
 }
 
-// A URDF often names more files than are there (visuals that were left out): one is enough.
+// Requires one file only, because a URDF often names missing files (omitted visuals).
 bool holds_one(const fs::path& folder, const std::set<std::string>& files) {
   std::error_code error;
   return std::ranges::any_of(

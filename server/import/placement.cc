@@ -43,14 +43,14 @@ double* member_of(PoseWords& base, std::string_view key) {
   return nullptr;
 }
 
-// One KEY=NUMBER; what is wrong with it, or nothing.
+// Reads one KEY=NUMBER. Returns the fault, or "".
 std::string read_member(std::string_view one, PoseWords& base) {
   const std::size_t equals = one.find('=');
   const std::string_view key = one.substr(0, equals);
   double* member = member_of(base, key);
-  if (member == nullptr) return "\"" + std::string(key) + "\" is not known";
+  if (member == nullptr) return "\"" + std::string(key) + "\" is an unknown key";
   const auto number = equals == one.npos ? std::nullopt : number_of(one.substr(equals + 1));
-  if (!number) return "\"" + std::string(one) + "\" gives no number";
+  if (!number) return "\"" + std::string(one) + "\" is not KEY=NUMBER";
   *member = key.ends_with("_deg") ? *number * std::numbers::pi / 180.0 : *number;
   return {};
 }

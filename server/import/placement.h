@@ -7,15 +7,14 @@
 
 namespace armloom {
 
-// A robot of the cell to come, as `armloom import --robot` gives it.
+// A robot as given with `armloom import --robot`.
 struct Placement {
   std::string name;
   PoseWords base;
 };
 
-// "right:x=0.75,yaw_deg=180" or only a name: x, y, z in metres, roll_deg, pitch_deg, yaw_deg in
-// degrees about fixed axes; what is left out is zero. Problem: at "--robot", with all that is
-// wrong.
+// Reads "right:x=0.75,yaw_deg=180" or a name alone: x, y, z in meters; roll_deg, pitch_deg, yaw_deg
+// in degrees about fixed axes; zero by default. Problem: at "--robot", with all faults.
 [[nodiscard]] Result<Placement> read_placement(const std::string& text);
 
 }  // namespace armloom

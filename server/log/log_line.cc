@@ -13,15 +13,15 @@ namespace {
 
 using Value = decltype(LogLine::fields)::value_type::second_type;
 
-// As JSON escapes it, with the quotes.
+// Returns JSON text, with the quotes.
 std::string in_quotes(std::string_view text) {
   JsonWriter out;
   out.value(text);
   return out.take();
 }
 
-// Of text in which JSON has escaped what it must: what a terminal, or who reads it there, may be
-// misled by, too (C1 controls, ends of lines, marks of the direction of writing).
+// Escapes characters in JSON text that may mislead a terminal or its reader: C1 controls, line
+// separators and bidirectional marks.
 std::string for_terminals(const std::string& text) {
   std::string out;
   out.reserve(text.size());
@@ -51,7 +51,6 @@ void write(JsonWriter& out, const Value& value) {
   std::visit([&](const auto& what) { out.value(what); }, value);
 }
 
-// Words stand as they are.
 std::string shown(const Value& value) {
   const auto* text = std::get_if<std::string>(&value);
   if (text == nullptr) {

@@ -11,7 +11,7 @@
 
 namespace armloom {
 
-// One line of the server's log: a sentence for people, and what programs look for.
+// A line of the server's log: a sentence for people, and fields for programs.
 struct LogLine {
   enum class Level { info, warning, error };
   Level level = Level::info;
@@ -32,13 +32,13 @@ struct LogLine {
 
 using Log = std::function<void(const LogLine&)>;
 
-// "the sentence key=value key="a value"": whatever clients put into it stays on this line, and a
-// terminal shows it as text: control characters and what is no UTF-8 stand as escapes.
+// Returns "the sentence key=value key="a value"". Escapes control characters and invalid UTF-8, so
+// that client input stays on the line and does not control a terminal.
 [[nodiscard]] std::string text_of(const LogLine& line);
-// The same as one JSON object: at (RFC 3339, UTC), level, message, then the fields.
+// Returns one JSON object: at (RFC 3339, UTC), level, message, then the fields.
 [[nodiscard]] std::string json_of(const LogLine& line, std::chrono::system_clock::time_point at);
 
-// Which requests are told in the log.
+// Requests that are logged.
 enum class LoggedRequests { none, commands, all };
 
 }  // namespace armloom

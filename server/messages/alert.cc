@@ -2,10 +2,10 @@
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/rfc3339.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/who.h"
 
@@ -15,36 +15,41 @@ using namespace formats;
 
 FormatPtr<AlertList> alert_list_format() {
   using Seen = StoredAlert::Acknowledgement;
-  static const auto seen =
-      named("Acknowledgement", "",
-            object<Seen>({
-                told("who", &Seen::who, text(), "The token's name, or whoever said to be it"),
-                told(
-                    "at", [](const Seen& s) { return rfc3339(s.at_ms); }, text(), "RFC 3339, UTC"),
-            }));
-  static const auto alert = named(
-      "KeptAlert", "What somebody has to see to, until somebody has.",
-      object<StoredAlert>({
-          told("id", &StoredAlert::id, text(), "`<stream>:<seq>` of the event that told it"),
-          told(
-              "at", [](const StoredAlert& a) { return rfc3339(a.at_ms); }, text(), "RFC 3339, UTC"),
-          told("level", &StoredAlert::level, text(), "warning, error"),
-          told("text", &StoredAlert::text, text()),
-          told("acknowledged", &StoredAlert::acknowledged, nullable(seen), "null: by nobody yet"),
+  static const auto seen = named(
+      "Acknowledgement", "",
+      object<Seen>({
+          output_only(
+              "who", &Seen::who, text(),
+              "The token's name; without tokens, the name that the client gave, or its address"),
+          output_only(
+              "at", [](const Seen& s) { return rfc3339(s.at_ms); }, text(), "RFC 3339, UTC"),
       }));
-  static const auto format =
-      named("AlertList", "",
-            object<AlertList>({told("alerts", &AlertList::alerts, list(alert), "Newest first")}));
+  static const auto alert = named(
+      "KeptAlert", "A warning or error, kept until it is acknowledged.",
+      object<StoredAlert>({
+          output_only("id", &StoredAlert::id, text(),
+                      "`<stream>:<seq>` of the event that reported the alert"),
+          output_only(
+              "at", [](const StoredAlert& a) { return rfc3339(a.at_ms); }, text(), "RFC 3339, UTC"),
+          output_only("level", &StoredAlert::level, text(), "`warning` or `error`"),
+          output_only("text", &StoredAlert::text, text()),
+          output_only("acknowledged", &StoredAlert::acknowledged, nullable(seen),
+                      "null while nobody has acknowledged the alert"),
+      }));
+  static const auto format = named(
+      "AlertList", "",
+      object<AlertList>({output_only("alerts", &AlertList::alerts, list(alert), "Newest first")}));
   return format;
 }
 
 FormatPtr<AlertsSeen> alerts_seen_format() {
   static const auto format = named(
-      "AlertsSeen", "Somebody has seen to these alerts.",
+      "AlertsSeen", "Acknowledges these alerts.",
       object<AlertsSeen>({
-          required("ids", &AlertsSeen::ids, list(text()), "Of `GET /alerts`"),
-          field("who", &AlertsSeen::who, who_format(),
-                "Whoever does it; where tokens are asked for, the token's name counts instead"),
+          required("ids", &AlertsSeen::ids, list(text()), "Ids of alerts from `GET /alerts`"),
+          field(
+              "who", &AlertsSeen::who, who_format(),
+              "Name of the person who acknowledges; with tokens, the token's name applies instead"),
       }));
   return format;
 }

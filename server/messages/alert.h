@@ -11,13 +11,13 @@
 
 namespace armloom {
 
-// The answer to GET /alerts, and to an acknowledgement.
+// GET /alerts
 struct AlertList {
   std::vector<StoredAlert> alerts;
 };
 [[nodiscard]] FormatPtr<AlertList> alert_list_format();
 
-// Somebody has seen to these.
+// POST /alerts/acknowledge
 struct AlertsSeen {
   std::vector<std::string> ids;
   std::optional<std::string> who = {};

@@ -7,17 +7,16 @@
 
 namespace armloom {
 
-// Arms and the server's own state, as they are told.
 [[nodiscard]] FormatPtr<ArmView> arm_format();
 [[nodiscard]] FormatPtr<std::vector<ArmView>> arm_list_format();
 
-// The answer to POST /stop and /resume.
+// Answer to POST /stop and /resume.
 struct Stopped {
   bool stopped;
 };
 [[nodiscard]] FormatPtr<Stopped> stopped_format();
 
-// The answers to GET /healthz and /readyz.
+// Answers to GET /healthz and /readyz.
 struct Health {};
 [[nodiscard]] FormatPtr<Health> health_format();
 struct Ready {

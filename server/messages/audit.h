@@ -9,7 +9,6 @@
 
 namespace armloom {
 
-// That someone did, or was not let do, something.
 struct AuditRecord {
   std::string at;                  // RFC 3339
   std::optional<std::string> who;  // the token's name
@@ -19,7 +18,7 @@ struct AuditRecord {
   int status = 0;
 };
 
-// The answer to GET /audit-log.
+// Answer to GET /audit-log.
 struct AuditPage {
   std::vector<AuditRecord> entries;  // newest first
   std::uint64_t damaged = 0;

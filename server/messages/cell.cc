@@ -9,9 +9,9 @@
 #include "core/executive/known_policies.h"
 #include "server/codec/cell_format.h"
 #include "server/codec/list_formats.h"
+#include "server/codec/output_part.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/scene_format.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/mesh_address.h"
 #include "server/messages/scene.h"
@@ -37,15 +37,16 @@ FormatPtr<CellArmView> arm_view_format() {
   return named(
       "CellArm", "",
       object<View>({
-          told(
+          output_only(
               "name", [](const View& view) { return view.arm->name; }, text()),
-          told(
-              "group", [](const View& view) { return view.arm->group; }, text(), "Of the SRDF"),
-          told("joints", &View::joints, list(text())),
-          told("gripper_joints", &View::gripper_joints, list(text())),
-          told(
+          output_only(
+              "group", [](const View& view) { return view.arm->group; }, text(),
+              "Group of the SRDF"),
+          output_only("joints", &View::joints, list(text())),
+          output_only("gripper_joints", &View::gripper_joints, list(text())),
+          output_only(
               "home", [](const View& view) { return numbers_of(view.arm->home); }, number_list()),
-          told("named_states", named_states, dictionary(number_list())),
+          output_only("named_states", named_states, dictionary(number_list())),
       }));
 }
 
@@ -57,25 +58,25 @@ std::map<std::string, std::string> mesh_addresses(const CellRobotView& view) {
 
 FormatPtr<CellRobotView> robot_view_format() {
   using View = CellRobotView;
-  return named(
-      "CellRobot", "",
-      object<View>({
-          told(
-              "name", [](const View& view) { return view.robot->name; }, text()),
-          told(
-              "prefix", [](const View& view) { return view.robot->prefix; }, text()),
-          told(
-              "base", [](const View& view) { return view.robot->X_WB; },
-              object<Eigen::Isometry3d>({pose_part()})),
-          told(
-              "urdf", [](const View& view) { return view.robot->urdf_text; }, text(),
-              "XML, names without prefix"),
-          told(
-              "srdf", [](const View& view) { return view.robot->srdf_text; }, text(), "XML"),
-          told("meshes", mesh_addresses, dictionary(text()),
-               "Address of each mesh that the URDF names"),
-          told("arms", &View::arms, list(arm_view_format())),
-      }));
+  return named("CellRobot", "",
+               object<View>({
+                   output_only(
+                       "name", [](const View& view) { return view.robot->name; }, text()),
+                   output_only(
+                       "prefix", [](const View& view) { return view.robot->prefix; }, text()),
+                   output_only(
+                       "base", [](const View& view) { return view.robot->X_WB; },
+                       object<Eigen::Isometry3d>({pose_part()})),
+                   output_only(
+                       "urdf", [](const View& view) { return view.robot->urdf_text; }, text(),
+                       "Text of the URDF; names without the prefix"),
+                   output_only(
+                       "srdf", [](const View& view) { return view.robot->srdf_text; }, text(),
+                       "Text of the SRDF"),
+                   output_only("meshes", mesh_addresses, dictionary(text()),
+                               "Path of each mesh file, by the name that the URDF uses"),
+                   output_only("arms", &View::arms, list(arm_view_format())),
+               }));
 }
 
 bool is_simulated(const CellView& view) {
@@ -83,18 +84,17 @@ bool is_simulated(const CellView& view) {
                              [](const Robot& robot) { return robot.controller.type == "sim"; });
 }
 
-// A limit that the joint does not have is null.
 PartPtr<CellJointView> limit(const char* key, double Joint::*where) {
-  return told(
+  return output_only(
       key,
       [where](const CellJointView& view) {
         const double limit = view.joint->*where;
         return std::abs(limit) < kFarthestPosition ? std::optional(limit) : std::nullopt;
       },
-      nullable(number(kAnyNumber)), "null: none");
+      nullable(number(kAnyNumber)), "null if the joint has no such limit");
 }
 PartPtr<CellJointView> bound(const char* key, double Joint::*where) {
-  return told(
+  return output_only(
       key, [where](const CellJointView& view) { return view.joint->*where; }, number(kPositive));
 }
 
@@ -103,16 +103,16 @@ FormatPtr<CellJointView> joint_view_format() {
   return named(
       "CellJoint", "",
       object<View>({
-          told(
+          output_only(
               "name", [](const View& view) { return view.joint->name; }, text()),
-          told("arm", &View::arm, text_or_null(), "null: of none"),
+          output_only("arm", &View::arm, text_or_null(), "Arm of the joint; null if no arm has it"),
           limit("lower", &Joint::lower),
           limit("upper", &Joint::upper),
           bound("velocity_max", &Joint::velocity_max),
           bound("acceleration_max", &Joint::acceleration_max),
           bound("jerk_max", &Joint::jerk_max),
           bound("brake", &Joint::brake),
-          told(
+          output_only(
               "unit", [](const View& view) { return view.joint->unit(); }, one_of({"rad", "m"})),
       }));
 }
@@ -157,16 +157,18 @@ FormatPtr<CellView> cell_view_format() {
   static const auto format =
       named("Cell", "",
             object<View>({
-                told(
+                output_only(
                     "name", [](const View& view) { return view.cell->name; }, text()),
-                told("policy", &View::policy, text(), "In force"),
-                told("speed", &View::speed, number(kPositive), "Cell seconds per wall second"),
-                told("simulated", is_simulated, flag(), "No drive moves: every arm is simulated"),
-                told("robots", &View::robots, list(robot_view_format())),
-                told(
+                output_only("policy", &View::policy, text(), "Present policy"),
+                output_only("speed", &View::speed, number(kPositive),
+                            "Seconds of cell time per second of wall time"),
+                output_only("simulated", is_simulated, flag(),
+                            "true if every arm is simulated, so that no real drive moves"),
+                output_only("robots", &View::robots, list(robot_view_format())),
+                output_only(
                     "objects", [](const View& view) { return &view.cell->objects; },
                     list(object_format())),
-                told("joints", &View::joints, list(joint_view_format())),
+                output_only("joints", &View::joints, list(joint_view_format())),
                 inlined(&View::settings, settings_part()),
             }));
   return format;
@@ -176,7 +178,7 @@ FormatPtr<PolicyChoice> policy_choice_format() {
   static const auto format = named(
       "PolicyChoice", "",
       object<PolicyChoice>({required("policy", &PolicyChoice::policy, one_of(known_policies()),
-                                     "The one that decides from now on")}));
+                                     "The policy that applies from now on")}));
   return format;
 }
 

@@ -8,8 +8,7 @@
 
 namespace armloom {
 
-// The answer to GET /cell: what the dashboard has to know, names instead of ids. URDF and SRDF are
-// texts, meshes addresses, by the name that the URDF has for them.
+// Answer to GET /cell, with names instead of ids. Meshes are paths, by their name in the URDF.
 struct CellArmView {
   const Arm* arm;
   std::vector<std::string> joints;
@@ -21,24 +20,24 @@ struct CellRobotView {
 };
 struct CellJointView {
   const Joint* joint;
-  std::string arm;  // empty: of none
+  std::string arm;  // empty if no arm has the joint
 };
 struct CellView {
   const Cell* cell;
-  std::string policy;  // in force
-  double speed;        // in force
+  std::string policy;  // present policy
+  double speed;        // present speed
   std::vector<CellRobotView> robots;
   std::vector<CellJointView> joints;
-  CellDescription settings;  // its settings alone
+  CellDescription settings;  // only the settings are filled in
 };
 
-// `cell` outlives the view.
 struct PolicyChoice {
   std::string policy;
 };
 [[nodiscard]] FormatPtr<PolicyChoice> policy_choice_format();
 
 [[nodiscard]] CellDescription settings_of(const Cell& cell);
+// `cell` must outlive the view.
 [[nodiscard]] CellView view_of(const Cell& cell, std::string policy, double speed);
 [[nodiscard]] FormatPtr<CellView> cell_view_format();
 

@@ -5,9 +5,9 @@
 #include "core/executive/known_policies.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 
 namespace armloom {
@@ -22,10 +22,11 @@ FormatPtr<ComparisonInquiry> comparison_inquiry_format() {
           field(
               "policies", &Inquiry::policies,
               list(one_of(known_policies()), {.most = known_policies().size(), .noun = "policies"}),
-              "To run the jobs under, in this order; none: all"),
+              "Policies to simulate, in this order; all if empty"),
           field("since_s", &Inquiry::since, cell_time(),
-                "Only jobs that were submitted at this cell time or later"),
-          field("seed", &Inquiry::seed, count(), "Of the simulated arms: the same one repeats it"),
+                "Includes only jobs submitted at this cell time or later"),
+          field("seed", &Inquiry::seed, count(),
+                "Seed of the simulation; the same seed gives the same result"),
       }));
   return format;
 }
@@ -38,7 +39,7 @@ Result<ComparisonInquiry> read_comparison_inquiry(std::string_view text) {
     if (std::find(names.begin(), name, *name) == name) continue;
     return failure(Problem{ProblemKind::invalid, "twice",
                            "/policies/" + std::to_string(name - names.begin()),
-                           "policy \"" + *name + "\" is named twice", *name});
+                           "policy \"" + *name + "\" is listed twice: remove one", *name});
   }
   return inquiry;
 }
@@ -48,30 +49,40 @@ namespace {
 FormatPtr<PolicyRun> policy_run_format() {
   using Run = PolicyRun;
   return named(
-      "PolicyRun", "What would have become of the jobs under this policy: simulated.",
+      "PolicyRun", "Simulated outcome of the jobs under one policy.",
       object<Run>({
-          told("policy", &Run::policy, text()),
-          told("succeeded", &Run::succeeded, count()),
-          told("expired", &Run::expired, count()),
-          told("failed", &Run::failed, count()),
-          told("canceled", &Run::canceled, count(), "By the server: interrupted ones, too"),
-          told("refused", &Run::refused, count(),
-               "When they came: they would not have begun where their arm would have stood"),
-          told("unfinished", &Run::unfinished, count(),
-               "When nothing could happen any more, or the run was given up"),
-          told("backlogged", &Run::backlogged, count(), "Waited in the backlog, at least once"),
-          told("makespan_s", &Run::makespan, nullable(seconds({0.0})),
-               "From the first submission to the last end; null: not all ended, or none started"),
-          told("makespan_ratio", &Run::makespan_ratio, nullable(number({0.0})),
-               "makespan_s, divided by that of `sequential`; null: not known"),
-          told("wait_mean_s", &Run::wait_mean, seconds({0.0}), "From submission to start"),
-          told("wait_max_s", &Run::wait_max, seconds({0.0})),
-          told("min_clearance_m", &Run::min_clearance_m, nullable(number(kAnyNumber)),
-               "The smallest that the monitor saw; null: never near"),
-          told("monitor_stops", &Run::monitor_stops, count()),
-          told("evaluations", &Run::evaluations, count(), "Combined states looked at to decide"),
-          told("given_up", &Run::given_up, flag(),
-               "It took more evaluations than one run may: figures are of what was done by then"),
+          output_only("policy", &Run::policy, text()),
+          output_only("succeeded", &Run::succeeded, count()),
+          output_only("expired", &Run::expired, count()),
+          output_only("failed", &Run::failed, count()),
+          output_only("canceled", &Run::canceled, count(),
+                      "Canceled by the server, interrupted jobs included"),
+          output_only(
+              "refused", &Run::refused, count(),
+              "Refused on submission, because the job would not begin where its arm would be"),
+          output_only(
+              "unfinished", &Run::unfinished, count(),
+              "Not ended when nothing could move any more, or when the simulation was given up"),
+          output_only("backlogged", &Run::backlogged, count(),
+                      "Waited in the backlog at least once"),
+          output_only(
+              "makespan_s", &Run::makespan, nullable(seconds({0.0})),
+              "From the first submission to the last end; null if a job did not end or no job "
+              "started"),
+          output_only("makespan_ratio", &Run::makespan_ratio, nullable(number({0.0})),
+                      "`makespan_s` divided by that of `sequential`; null if unknown"),
+          output_only("wait_mean_s", &Run::wait_mean, seconds({0.0}),
+                      "Mean time from submission to start"),
+          output_only("wait_max_s", &Run::wait_max, seconds({0.0})),
+          output_only("min_clearance_m", &Run::min_clearance_m, nullable(number(kAnyNumber)),
+                      "Smallest clearance that the monitor measured; null if no pair came close"),
+          output_only("monitor_stops", &Run::monitor_stops, count()),
+          output_only("evaluations", &Run::evaluations, count(),
+                      "State checks that the decisions took"),
+          output_only(
+              "given_up", &Run::given_up, flag(),
+              "true if the simulation exceeded its limit of evaluations; the results cover the "
+              "part before"),
       }));
 }
 
@@ -79,19 +90,20 @@ FormatPtr<PolicyRun> policy_run_format() {
 
 FormatPtr<ComparisonView> comparison_format() {
   using View = ComparisonView;
-  static const auto format =
-      named("Comparison", "The same jobs under several policies, in simulation.",
-            object<View>({
-                told("state", &View::state, choice<ComparisonState>()),
-                told("jobs", &View::jobs, count(), "That are compared"),
-                told("first_s", &View::first, cell_time(), "When the first of them was submitted"),
-                told("last_s", &View::last, cell_time(), "And the last"),
-                told("in_force", &View::in_force, text(),
-                     "The policy, when the comparison was asked for"),
-                told("policies", &View::policies, list(text()), "In the order of the runs"),
-                told("runs", &View::runs, list(policy_run_format()), "Those that are done"),
-                told("detail", &View::detail, text(), "Why it failed; else empty"),
-            }));
+  static const auto format = named(
+      "Comparison", "Simulations of the same jobs under several policies.",
+      object<View>({
+          output_only("state", &View::state, choice<ComparisonState>()),
+          output_only("jobs", &View::jobs, count(), "Number of compared jobs"),
+          output_only("first_s", &View::first, cell_time(), "Submission time of the first job"),
+          output_only("last_s", &View::last, cell_time(), "Submission time of the last job"),
+          output_only("in_force", &View::in_force, text(),
+                      "The server's policy when the comparison was requested"),
+          output_only("policies", &View::policies, list(text()),
+                      "Compared policies, in the order of `runs`"),
+          output_only("runs", &View::runs, list(policy_run_format()), "Finished simulations"),
+          output_only("detail", &View::detail, text(), "Reason of the failure; empty otherwise"),
+      }));
   return format;
 }
 

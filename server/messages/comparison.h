@@ -12,34 +12,33 @@
 
 namespace armloom {
 
-// The body of POST /comparison.
+// Body of POST /comparison.
 struct ComparisonInquiry {
-  std::vector<std::string> policies = {};  // none: all
-  std::optional<TimePoint> since = {};     // jobs that were submitted from then on; absent: all
+  std::vector<std::string> policies = {};  // all if empty
+  std::optional<TimePoint> since = {};     // first submission time; all jobs if nullopt
   std::uint64_t seed = 1;
 };
 [[nodiscard]] FormatPtr<ComparisonInquiry> comparison_inquiry_format();
-// Problems: those of the shape; a policy that is named twice.
+// Reads the body. Problems: its shape; a repeated policy.
 [[nodiscard]] Result<ComparisonInquiry> read_comparison_inquiry(std::string_view text);
 
-// What became of the jobs under one policy, in simulation.
 struct PolicyRun {
   std::string policy;
   std::uint64_t succeeded = 0;
   std::uint64_t expired = 0;
   std::uint64_t failed = 0;
-  std::uint64_t canceled = 0;    // by the server: interrupted ones, too
-  std::uint64_t refused = 0;     // at their time: they did not begin where their arm would stand
-  std::uint64_t unfinished = 0;  // when nothing could happen any more, or the run was given up
-  std::uint64_t backlogged = 0;  // waited in the backlog, at least once
-  std::optional<Duration> makespan = {};      // absent: not all ended, or none started
-  std::optional<double> makespan_ratio = {};  // makespan, of that of `sequential`
+  std::uint64_t canceled = 0;                 // by the server; includes interrupted jobs
+  std::uint64_t refused = 0;                  // would not have begun where the arm would be
+  std::uint64_t unfinished = 0;               // nothing could move any more, or given up
+  std::uint64_t backlogged = 0;               // at least once
+  std::optional<Duration> makespan = {};      // nullopt if a job did not end or none started
+  std::optional<double> makespan_ratio = {};  // divided by the makespan of `sequential`
   Duration wait_mean{};                       // from submission to start
   Duration wait_max{};
-  std::optional<double> min_clearance_m = {};  // absent: never near
+  std::optional<double> min_clearance_m = {};  // nullopt if no pair came close
   std::uint64_t monitor_stops = 0;
   std::uint64_t evaluations = 0;
-  bool given_up = false;  // it took more evaluations than one run may
+  bool given_up = false;  // exceeded the limit of evaluations
 };
 
 enum class ComparisonState { running, done, canceled, failed };
@@ -57,16 +56,16 @@ enum class ComparisonState { running, done, canceled, failed };
   return nullptr;
 }
 
-// The answer to POST and GET /comparison.
+// Answer to POST and GET /comparison.
 struct ComparisonView {
   ComparisonState state = ComparisonState::running;
   std::uint64_t jobs = 0;
-  TimePoint first{};  // submission, in the cell's time
+  TimePoint first{};  // submission, cell time
   TimePoint last{};
-  std::string in_force;               // the policy, when it was asked for
+  std::string in_force;               // policy at the time of the request
   std::vector<std::string> policies;  // in the order of the runs
-  std::vector<PolicyRun> runs = {};   // that are done
-  std::string detail = {};            // why it failed
+  std::vector<PolicyRun> runs = {};   // finished
+  std::string detail = {};            // reason of a failure
 };
 [[nodiscard]] FormatPtr<ComparisonView> comparison_format();
 

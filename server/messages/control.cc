@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job.h"
 #include "server/messages/job_request.h"
@@ -18,14 +18,14 @@ using namespace formats;
 
 FormatPtr<ControlRequest> control_request_format() {
   using Asked = ControlRequest;
-  static const auto format =
-      named("ControlRequest", "",
-            object<Asked>({
-                field("who", &Asked::who, who_format(),
-                      "Name shown for the caller; with tokens, the token's name applies instead"),
-                field("take", &Asked::take, flag(),
-                      "Take control from its present holder: their jog motion brakes on its path"),
-            }));
+  static const auto format = named(
+      "ControlRequest", "",
+      object<Asked>({
+          field("who", &Asked::who, who_format(),
+                "Name shown for the caller; with tokens, the token's name applies instead"),
+          field("take", &Asked::take, flag(),
+                "Take control from its present holder, whose jog motion then brakes on its path"),
+      }));
   return format;
 }
 
@@ -37,14 +37,14 @@ namespace {
 
 FormatPtr<ControlView::Holder> holder_format() {
   using Holder = ControlView::Holder;
-  static const auto format =
-      named("ControlHolder", "",
-            object<Holder>({
-                told("who", &Holder::who, text()),
-                told("since_at", &Holder::since_at, text(), "RFC 3339, UTC"),
-                told("arm", &Holder::arm, nullable(text()), "The arm that the holder jogged last"),
-                told("job", &Holder::job, nullable(job_id_format()), "The job of that jog"),
-            }));
+  static const auto format = named(
+      "ControlHolder", "",
+      object<Holder>({
+          output_only("who", &Holder::who, text()),
+          output_only("since_at", &Holder::since_at, text(), "RFC 3339, UTC"),
+          output_only("arm", &Holder::arm, nullable(text()), "The arm that the holder jogged last"),
+          output_only("job", &Holder::job, nullable(job_id_format()), "The job of that jog"),
+      }));
   return format;
 }
 
@@ -54,8 +54,8 @@ FormatPtr<ControlView> control_format() {
   static const auto format =
       named("Control", "Who may jog arms: one client at a time.",
             object<ControlView>({
-                told("holder", &ControlView::holder, nullable(holder_format()),
-                     "null if nobody has control"),
+                output_only("holder", &ControlView::holder, nullable(holder_format()),
+                            "null if no client has control"),
             }));
   return format;
 }
@@ -64,9 +64,9 @@ FormatPtr<ControlView> control_taken_format() {
   static const auto format =
       named("ControlTaken", "",
             object<ControlView>({
-                told("holder", &ControlView::holder, nullable(holder_format())),
-                told_if("key", &ControlView::key, text(),
-                        "Secret, required by every jog request; returned only here"),
+                output_only("holder", &ControlView::holder, nullable(holder_format())),
+                output_if("key", &ControlView::key, text(),
+                          "Secret, required by every jog request; returned only here"),
             }));
   return format;
 }
@@ -112,9 +112,9 @@ FormatPtr<JogView> jog_format() {
   static const auto format =
       named("Jog", "A jog motion in its present state.",
             object<JogView>({
-                told("job", &JogView::job, job_format()),
-                told("lease_s", &JogView::lease_s, number(kPositive),
-                     "The arm brakes if no renewal arrives for this long (wall time)"),
+                output_only("job", &JogView::job, job_format()),
+                output_only("lease_s", &JogView::lease_s, number(kPositive),
+                            "The arm brakes if no renewal arrives for this long (wall time)"),
             }));
   return format;
 }

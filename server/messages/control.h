@@ -19,12 +19,12 @@ struct ControlRequest {
 [[nodiscard]] FormatPtr<ControlRequest> control_request_format();
 [[nodiscard]] Result<ControlRequest> read_control_request(std::string_view text);
 
-// Who has control. Answers to GET /control have no key.
+// The client that has control. Only the answer to POST /control has the key.
 struct ControlView {
   struct Holder {
     std::string who;
     std::string since_at;            // RFC 3339, UTC
-    std::optional<std::string> arm;  // that the holder jogged last
+    std::optional<std::string> arm;  // last jogged by the holder
     std::optional<std::string> job;
   };
   std::optional<Holder> holder;

@@ -5,9 +5,9 @@
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/arm.h"
 #include "server/messages/job.h"
@@ -28,28 +28,30 @@ FormatPtr<MonitorEvent> monitor_event_format() {
   return named(
       "MonitorFinding", "",
       object<Told>({
-          told(
+          output_only(
               "kind", [](const Told& event) { return event.finding.kind; }, choice<Kind>()),
-          told("arms", &Told::arms, list(text())),
-          told("links", links, pair_of(text())),
-          told(
+          output_only("arms", &Told::arms, list(text())),
+          output_only("links", links, pair_of(text())),
+          output_only(
               "clearance_m", [](const Told& event) { return event.finding.proximity.clearance_m; },
-              number(kAnyNumber), "Found"),
-          told(
+              number(kAnyNumber), "Clearance found"),
+          output_only(
               "limit_m", [](const Told& event) { return event.finding.limit_m; },
-              number(kAnyNumber), "What it should have been"),
-          told("stopped", &Told::stopped, list(text()), "Arms that were told to stop"),
+              number(kAnyNumber), "Clearance required"),
+          output_only("stopped", &Told::stopped, list(text()), "Arms that the monitor stopped"),
       }));
 }
 
 FormatPtr<ProgressBox> progress_box_format() {
   using Box = ProgressBox;
-  return named("ProgressBox", "Two stretches of two motions. Trajectory time.",
+  return named("ProgressBox", "A rectangle of two motions. Times are trajectory time.",
                object<Box>({
-                   told("from_s", &Box::from_a, seconds(kAnyNumber), "Of the arm's own motion"),
-                   told("to_s", &Box::to_a, seconds(kAnyNumber)),
-                   told("other_from_s", &Box::from_b, seconds(kAnyNumber), "Of the other motion"),
-                   told("other_to_s", &Box::to_b, seconds(kAnyNumber)),
+                   output_only("from_s", &Box::from_a, seconds(kAnyNumber),
+                               "Interval of the arm's own motion"),
+                   output_only("to_s", &Box::to_a, seconds(kAnyNumber)),
+                   output_only("other_from_s", &Box::from_b, seconds(kAnyNumber),
+                               "Interval of the other motion"),
+                   output_only("other_to_s", &Box::to_b, seconds(kAnyNumber)),
                }));
 }
 
@@ -59,21 +61,24 @@ FormatPtr<GuardEvent> guard_event_format() {
   const auto region = [](const Told& event) { return event.refusal.region; };
   return named(
       "GuardFinding",
-      "The authority guard kept an arm from what the scheduler had granted. This is a defect of "
-      "the "
-      "scheduler; nothing has moved",
+      "The authority guard refused movement authority that the scheduler had granted. This is a "
+      "defect of the scheduler; the arm has not moved.",
       object<Told>({
-          told(
+          output_only(
               "kind", [](const Told& event) { return event.refusal.why; },
               choice<GuardRefusal::Why>(),
-              "Why: no certificate covers it, it meets a conflict region, the arm is on another "
-              "motion, or the arms of one motion are too far apart on it"),
-          told("arm", &Told::arm, text()),
-          told("job", &Told::job, text()),
-          told("other_arm", &Told::other_arm, text(), "Empty: the scene, or the motion's own arms"),
-          told("other_job", &Told::other_job, text(), "That the other arm was on last; or empty"),
-          told("asked", asked, progress_box_format(), "From where the arms are to their authority"),
-          told_if("region", region, progress_box_format(), "The first rectangle that is met"),
+              "Reason. `uncertified`: no certificate covers the authority; `region`: it enters a "
+              "conflict region out of order; `busy`: the arm is on another motion; `out_of_step`: "
+              "the arms of one motion are too far apart on it"),
+          output_only("arm", &Told::arm, text()),
+          output_only("job", &Told::job, text()),
+          output_only("other_arm", &Told::other_arm, text(),
+                      "Other arm; empty for the scene or the motion's own arms"),
+          output_only("other_job", &Told::other_job, text(), "Last job of the other arm, or empty"),
+          output_only("asked", asked, progress_box_format(),
+                      "From the present progress of both arms to their authority"),
+          output_if("region", region, progress_box_format(),
+                    "The first rectangle of the conflict region that was entered"),
       }));
 }
 
@@ -81,8 +86,8 @@ FormatPtr<Alert> alert_format() {
   using Level = Alert::Level;
   return named("Alert", "",
                object<Alert>({
-                   told("level", &Alert::level, choice<Level>()),
-                   told("text", &Alert::text, text()),
+                   output_only("level", &Alert::level, choice<Level>()),
+                   output_only("text", &Alert::text, text()),
                }));
 }
 
@@ -92,24 +97,24 @@ FormatPtr<SnapshotView> snapshot_format() {
   return named(
       "Snapshot", "",
       object<View>({
-          told(
+          output_only(
               "cell", [](const View& view) { return view.cell->name; }, text()),
-          told(
+          output_only(
               "policy", [](const View& view) { return view.snapshot->queue.policy; }, text()),
-          told("speed", &View::speed, number(kPositive)),
-          told(
+          output_only("speed", &View::speed, number(kPositive)),
+          output_only(
               "stopped", [](const View& view) { return view.snapshot->queue.stopped; }, flag()),
-          told(
+          output_only(
               "arms", [](const View& view) { return &view.snapshot->arms; }, list(arm_format())),
-          told(
+          output_only(
               "jobs", [](const View& view) { return view.jobs; }, list(listed_job_format()),
-              "All that have not ended, and the 200 that ended last"),
-          told(
+              "All jobs that have not ended, and the 200 that ended last"),
+          output_only(
               "queue", [](const View& view) { return &view.snapshot->queue; }, queue_ids_format()),
-          told(
+          output_only(
               "objects", [](const View& view) { return &view.snapshot->scene.objects; },
               list(object_format())),
-          told_if("gap", gap, flag(), "Events are missing before this"),
+          output_if("gap", gap, flag(), "true if events before this snapshot were lost"),
       }));
 }
 
@@ -124,7 +129,7 @@ struct Envelope {
   const T* data;
 };
 
-// "at": wall time, where the writer knows it.
+// Member "at": wall time, if the writer knows it.
 class AtPart final : public AnyPart {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("at"); }
@@ -135,7 +140,7 @@ class AtPart final : public AnyPart {
     }
   }
   void describe_any(Schema& object, const void*, Way way) const override {
-    describe_member(object, {"at", "Wall time", Need::required, {}},
+    describe_member(object, {"at", "Wall time of the event", Need::required, {}},
                     {{"type", "string"}, {"format", "date-time"}}, std::nullopt, way);
   }
 };
@@ -148,12 +153,12 @@ FormatPtr<std::string> stream_format() {
 PartPtr<EventHead> head_part(const char* type) {
   using Head = EventHead;
   return parts<Head>({
-      told(
+      output_only(
           "stream", [](const Head& head) { return head.stream; }, stream_format(),
-          "Of this run of the server"),
-      told("seq", &Head::seq, count(), "Without holes within a stream"),
+          "UUID of this server session"),
+      output_only("seq", &Head::seq, count(), "Number of the event; consecutive within a stream"),
       constant<Head>("type", type),
-      told("t_s", &Head::time, cell_time(), "Cell time"),
+      output_only("t_s", &Head::time, cell_time(), "Cell time of the event"),
       PartPtr<Head>(AnyPartPtr(new AtPart)),
   });
 }
@@ -161,7 +166,7 @@ PartPtr<EventHead> head_part(const char* type) {
 template <class T>
 struct EventKind {
   const char* type;
-  const char* name;  // of the schema
+  const char* name;
   FormatPtr<Envelope<T>> format;
 };
 template <class T>
@@ -171,11 +176,10 @@ EventKind<T> event_kind(const char* type, const char* name, const FormatPtr<T>& 
           named(name, "",
                 object<E>({
                     inlined(&E::head, head_part(type)),
-                    told("data", &E::data, data),
+                    output_only("data", &E::data, data),
                 }))};
 }
 
-// The one table of what is told: types, names of schemas, formats.
 struct Kinds {
   EventKind<SnapshotView> snapshot = event_kind("snapshot", "SnapshotEvent", snapshot_format());
   EventKind<JobView> job = event_kind("job", "JobEvent", job_format());
@@ -204,7 +208,7 @@ const Kinds& kinds() {
   return kinds;
 }
 
-// Poses are only looked at.
+// Poses are for display only.
 class Rounded final : public CustomFormat<double> {
  public:
   void read(const JsonNode&, double&) const override {}
@@ -230,24 +234,27 @@ FormatPtr<NearView> near_format() {
     return std::pair(near.proximity->body_a, near.proximity->body_b);
   };
   return object<View>({
-      told("arms", arms, list(text(), {.fewest = 1, .most = 2}),
-           "Two, or one and the scene: an object, or a link that no arm moves"),
-      told(
+      output_only(
+          "arms", arms, list(text(), {.fewest = 1, .most = 2}),
+          "Two arms; or one arm if the other body is an object or a link that no arm moves"),
+      output_only(
           "m", [](const View& near) { return near.proximity->clearance_m; }, rounded()),
-      told("links", links, pair_of(text())),
+      output_only("links", links, pair_of(text())),
   });
 }
 
 FormatPtr<ArmAuthority> authority_format() {
   using Told = ArmAuthority;
-  return named("ArmAuthority", "What an arm may do of a motion. Trajectory time.",
-               object<Told>({
-                   told("arm", &Told::arm, text()),
-                   told("job", &Told::job, text()),
-                   told("progress_s", &Told::progress, seconds(kAnyNumber), "Measured"),
-                   told("authority_s", &Told::authority, seconds({0.0}),
-                        "It may go so far, and stops there unless more is granted"),
-               }));
+  return named(
+      "ArmAuthority",
+      "Progress and movement authority of an arm on its motion. Times are trajectory time.",
+      object<Told>({
+          output_only("arm", &Told::arm, text()),
+          output_only("job", &Told::job, text()),
+          output_only("progress_s", &Told::progress, seconds(kAnyNumber), "Measured progress"),
+          output_only("authority_s", &Told::authority, seconds({0.0}),
+                      "Movement authority: the arm stops here unless more is granted"),
+      }));
 }
 
 struct FrameView {
@@ -255,7 +262,7 @@ struct FrameView {
   const Cell* cell;
   double speed;
 };
-// {"<joint>": rad}, in the order of the cell.
+// Writes {"<joint>": position} in the cell's joint order.
 class PosesFormat final : public CustomFormat<FrameView> {
  public:
   void read(const JsonNode&, FrameView&) const override {}
@@ -282,21 +289,22 @@ FormatPtr<FrameView> frame_format() {
     for (const Proximity& proximity : view.frame->clearance) all.push_back({&proximity, view.cell});
     return all;
   };
-  static const auto format =
-      named("StateFrame", "Poses, about 30 Hz of wall time; dropped for slow readers.",
-            object<View>({
-                constant<View>("type", "state"),
-                told(
-                    "t_s", [](const View& view) { return view.frame->time; }, cell_time()),
-                told(
-                    "q", [](const View& view) { return &view; }, make_format<PosesFormat>(),
-                    "Every joint of the cell, rad or m"),
-                told("clearance", near, list(near_format())),
-                told(
-                    "motions", [](const View& view) { return &view.frame->motions; },
-                    list(authority_format()), "Of every arm that has been told to move"),
-                told("speed", &View::speed, number(kPositive), "Cell seconds per wall second"),
-            }));
+  static const auto format = named(
+      "StateFrame", "Measured positions at about 30 Hz of wall time; dropped for slow subscribers.",
+      object<View>({
+          constant<View>("type", "state"),
+          output_only(
+              "t_s", [](const View& view) { return view.frame->time; }, cell_time()),
+          output_only(
+              "q", [](const View& view) { return &view; }, make_format<PosesFormat>(),
+              "Position of every joint of the cell, by name: rad or m"),
+          output_only("clearance", near, list(near_format())),
+          output_only(
+              "motions", [](const View& view) { return &view.frame->motions; },
+              list(authority_format()), "One entry for each arm that has a motion"),
+          output_only("speed", &View::speed, number(kPositive),
+                      "Seconds of cell time per second of wall time"),
+      }));
   return format;
 }
 
@@ -331,7 +339,7 @@ Schema message_schema() {
   Schema all = Schema::array();
   kinds().each([&](const auto& kind) { all.push_back(kind.format->schema(Way::out)); });
   all.push_back(frame_format()->schema(Way::out));
-  return named_schema("Message", "What WebSocket and SSE carry.", {{"oneOf", std::move(all)}});
+  return named_schema("Message", "A message on WebSocket or SSE.", {{"oneOf", std::move(all)}});
 }
 
 }  // namespace armloom

@@ -14,30 +14,28 @@
 
 namespace armloom {
 
-// What WebSocket, SSE and recordings carry. `clock` is null in a simulated run: keys ending in
-// `_at`, and `at`, are then absent.
+// Messages on WebSocket and SSE and in recordings. `clock`: null in a simulated session; then `at`
+// and keys ending in `_at` are absent.
 
-// One envelope {"stream", "seq", "type", "t_s", "at", "data"}.
+// Returns {"stream", "seq", "type", "t_s", "at", "data"}.
 [[nodiscard]] std::string event_json(const Event& event, const std::string& stream,
                                      const WallClock* clock);
 
-// The envelope that a new subscriber gets first.
+// The first envelope of a new subscriber.
 struct SnapshotView {
-  const Snapshot* snapshot;  // but for its jobs
+  const Snapshot* snapshot;  // without its jobs
   const std::vector<ListedJob>* jobs;
   const Cell* cell;
   double speed;
-  bool gap;  // events were lost since the subscriber was here last
+  bool gap;  // events since the last visit were lost
 };
 [[nodiscard]] std::string snapshot_json(const SnapshotView& view, const std::string& stream,
                                         const WallClock& clock);
 
-// A pose frame, without stream and seq; positions rounded to 1e-6. `speed`: cell seconds per wall
-// second.
+// Positions are rounded to 1e-6. `speed`: cell seconds per wall second.
 [[nodiscard]] std::string state_json(const StateFrame& frame, const Cell& cell, double speed);
 
-// The schema of all of these, as one; the types by which it tells them apart, with their schemas'
-// names.
+// Return the schema of all messages, and their types with the names of their schemas.
 [[nodiscard]] Schema message_schema();
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> message_types();
 

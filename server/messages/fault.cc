@@ -6,9 +6,9 @@
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 
 namespace armloom {
@@ -22,12 +22,11 @@ using FaultKind = ArmFault::Kind;
 constexpr double kFaultTimeMax_s = 1e6;
 constexpr std::size_t kFaultsFileMax = 10'000;
 
-// The one table of kinds: what they are called, and the highest value that they may have.
 struct KindRule {
   FaultKind kind;
   const char* name;
-  double value_max;  // zero: it has no value
-  bool lasts;        // and may have a duration
+  double value_max;  // highest `value`; zero if the kind has none
+  bool lasts;        // may have `for_s`
 };
 constexpr std::array<KindRule, 5> kKinds{
     {{FaultKind::stall, "stall", 0.0, true},
@@ -55,10 +54,11 @@ class KindFormat final : public CustomFormat<FaultKind> {
     for (const KindRule& rule : kKinds)
       known += (known.empty() ? "" : ", ") + std::string(rule.name);
     if (to_come) {
-      node.invalid("unsupported-fault",
-                   "the simulated arms have no \"" + name + "\" yet; they have " + known);
+      node.invalid(
+          "unsupported-fault",
+          "fault \"" + name + "\" is not implemented by simulated arms; available: " + known);
     } else {
-      node.invalid("unknown-fault", "no fault is called \"" + name + "\"; known are " + known);
+      node.invalid("unknown-fault", "unknown fault \"" + name + "\"; available: " + known);
     }
   }
   void write(JsonWriter& out, const FaultKind& kind) const override {
@@ -79,7 +79,7 @@ bool has_known_kind(const JsonNode& fault) {
   return std::ranges::any_of(kKinds, [&](const KindRule& rule) { return name == rule.name; });
 }
 
-// "for_s" and "value", which are as the kind has them: read after it, if it is known.
+// "for_s" and "value" depend on the kind, so they are read after it.
 class KindsOwn final : public CustomPart<FaultRequest> {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override {
@@ -90,7 +90,8 @@ class KindsOwn final : public CustomPart<FaultRequest> {
     const KindRule& rule = rule_of(fault.kind);
     object.optional("for_s", [&](const JsonNode& node) {
       if (rule.lasts) return seconds({0.0, kFaultTimeMax_s})->read(node, fault.lasting.emplace());
-      node.invalid("no-duration", "a fault strikes once and has no duration");
+      node.invalid("no-duration",
+                   "a fault of kind \"fault\" occurs once and has no duration: remove for_s");
     });
     if (rule.value_max > 0.0) {
       object.required("value", [&](const JsonNode& node) {
@@ -98,19 +99,23 @@ class KindsOwn final : public CustomPart<FaultRequest> {
       });
     } else {
       object.optional("value", [&](const JsonNode& node) {
-        node.invalid("no-value", std::string("a ") + rule.name + " has no value");
+        node.invalid("no-value",
+                     std::string("a fault of kind \"") + rule.name + "\" has no value: remove it");
       });
     }
   }
   void describe(Schema& object, const FaultRequest&, Way way) const override {
-    describe_member(
-        object,
-        {"for_s", "Default: until removed. Not with fault, which strikes once", Need::optional, {}},
-        seconds({0.0, kFaultTimeMax_s})->schema(way), std::nullopt, way);
+    describe_member(object,
+                    {"for_s",
+                     "Duration; default: until the fault is removed. Not allowed for `fault`, "
+                     "which occurs once",
+                     Need::optional,
+                     {}},
+                    seconds({0.0, kFaultTimeMax_s})->schema(way), std::nullopt, way);
     describe_member(object,
                     {"value",
-                     "slow: share of the speed, 0..1; late_start: seconds; not with the "
-                     "others",
+                     "`slow`: share of the speed, 0 to 1; `late_start`: delay in seconds; not "
+                     "allowed for other kinds",
                      Need::optional,
                      {}},
                     number({0.0, kFaultTimeMax_s})->schema(way), std::nullopt, way);
@@ -129,27 +134,28 @@ class KindsOwn final : public CustomPart<FaultRequest> {
   }
 };
 
-// What is told of a value, or of an end, is as the kind has it.
+// Checks a logged fault against its kind.
 class WithinKind final : public CustomPart<FaultRequest> {
  public:
   void read(const JsonNode& object, FaultRequest& fault) const override {
     const KindRule& rule = rule_of(fault.kind);
     if (fault.value < 0.0 || fault.value > rule.value_max || (fault.lasting && !rule.lasts)) {
-      object.invalid("out-of-range", std::string("a ") + rule.name + " has no such value or end");
+      object.invalid("out-of-range",
+                     std::string("value or duration not allowed for \"") + rule.name + "\"");
     }
   }
   void describe(Schema&, const FaultRequest&, Way) const override {}
 };
 
-// A fault as it is told: all members, always.
+// Describes all members, as the server returns them.
 PartPtr<FaultRequest> told_members(FormatPtr<TimePoint> at, FormatPtr<Duration> lasting) {
   using Fault = FaultRequest;
   return parts<Fault>({
       always("arm", &Fault::arm, text()),
       always("kind", &Fault::kind, kind_format()),
-      always("at_s", &Fault::at, nullable(std::move(at)), "Cell time; null: at once"),
+      always("at_s", &Fault::at, nullable(std::move(at)), "Start in cell time; null: at once"),
       always("for_s", &Fault::lasting, nullable(std::move(lasting)),
-             "null: until removed; of a fault: until it has struck"),
+             "null: until removed, or for `fault` until it has occurred"),
       always("value", &Fault::value, number(kAnyNumber)),
       make_part<WithinKind>(),
   });
@@ -158,9 +164,9 @@ PartPtr<FaultRequest> told_members(FormatPtr<TimePoint> at, FormatPtr<Duration> 
 FormatPtr<FaultRequest> make_fault_format(Need time_needed) {
   using Fault = FaultRequest;
   return object<Fault>({
-      required("arm", &Fault::arm, text(), "Whose"),
-      required("kind", &Fault::kind, kind_format(), "What goes wrong"),
-      member({"at_s", "Cell time; default: now", time_needed, {}}, &Fault::at,
+      required("arm", &Fault::arm, text(), "Arm that gets the fault"),
+      required("kind", &Fault::kind, kind_format(), "Kind of fault"),
+      member({"at_s", "Start in cell time; default: now", time_needed, {}}, &Fault::at,
              cell_time(kFaultTimeMax_s)),
       make_part<KindsOwn>(),
   });
@@ -169,13 +175,13 @@ FormatPtr<FaultRequest> make_fault_format(Need time_needed) {
 }  // namespace
 
 FormatPtr<FaultRequest> fault_request_format() {
-  static const auto format = named(
-      "FaultRequest",
-      "A fault of a simulated arm. stall: it stays where it is on its path; slow: it follows it at "
-      "a share of its speed; late_start: each motion begins late; drop_feedback: what it told last "
-      "is told again; fault: the controller gives up, once, from at_s on: in the motion that moves "
-      "then, else as soon as the next one moves.",
-      make_fault_format(Need::optional));
+  static const auto format =
+      named("FaultRequest",
+            "A fault of a simulated arm. `stall`: stays where it is on its path. `slow`: follows "
+            "its path at a share of its speed. `late_start`: begins each motion late. "
+            "`drop_feedback`: repeats its last feedback. `fault`: the controller fails once, from "
+            "`at_s` on: during the present motion, else as soon as the next motion moves.",
+            make_fault_format(Need::optional));
   return format;
 }
 
@@ -196,7 +202,7 @@ Result<std::vector<FaultRequest>> read_faults_text(std::string_view text, const 
     root.each([&](const JsonNode& node) {
       node.optional("arm", [&](const JsonNode& n) {
         if (!n.raw().is_string() || cell.find_arm(fault->arm)) return;
-        n.invalid("unknown-arm", "no arm of the cell is named \"" + fault->arm + "\"");
+        n.invalid("unknown-arm", "the cell has no arm \"" + fault->arm + "\"");
       });
       ++fault;
     });
@@ -210,7 +216,7 @@ FormatPtr<FaultView> fault_format() {
   static const auto format =
       named("Fault", "",
             object<View>({
-                told(
+                output_only(
                     "id", [](const View& view) { return std::to_string(view.id); }, text()),
                 inlined(&View::fault, told_members(cell_time(), seconds(kAnyNumber))),
             }));
@@ -230,7 +236,7 @@ FormatPtr<SimulationSpeed> speed_format() {
   static const auto format =
       named("Speed", "",
             object<Speed>({required("speed", &Speed::speed, number({Speed::kMin, Speed::kMax}),
-                                    "Cell seconds per wall second")}));
+                                    "Seconds of cell time per second of wall time")}));
   return format;
 }
 

@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "server/codec/list_formats.h"
+#include "server/codec/output_part.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job_request.h"
 #include "server/messages/job_terms.h"
@@ -18,47 +18,54 @@ namespace {
 constexpr Range kShare{0.0, 1.0};
 
 FormatPtr<Reason> reason_format() {
-  return named("Reason", "A closed list; core/scheduler/README.md explains each.",
+  return named("Reason", "Why a job ended. core/scheduler/README.md explains each reason.",
                choice<Reason>());
 }
 
 FormatPtr<JobResultView> result_format() {
   return object<JobResultView>({
-      told("reason", &JobResultView::reason, reason_format()),
-      told("detail", &JobResultView::detail, text()),
+      output_only("reason", &JobResultView::reason, reason_format()),
+      output_only("detail", &JobResultView::detail, text()),
   });
 }
 
 FormatPtr<ChoiceView> choice_format() {
   return object<ChoiceView>({
-      told("candidates", &ChoiceView::candidates, list(text()),
-           "Jobs that could have taken the turn, or arms that could have done it: as it was first"),
-      told("selected", &ChoiceView::selected, text(), "One of these"),
-      told("time_saved_s", &ChoiceView::time_saved_s, nullable(number(kAnyNumber)),
-           "By so much the plan costs less than with the first, or a goal's job arrives sooner; "
-           "null: that is taken, or could not go"),
-      told("detail", &ChoiceView::detail, text()),
+      output_only(
+          "candidates", &ChoiceView::candidates, list(text()),
+          "Jobs that could have gone first, or arms that could have done the job, when the choice "
+          "was first made"),
+      output_only("selected", &ChoiceView::selected, text(), "The selected candidate"),
+      output_only(
+          "time_saved_s", &ChoiceView::time_saved_s, nullable(number(kAnyNumber)),
+          "Gain over the first candidate: lower plan cost, or for a goal earlier arrival; null if "
+          "the first candidate is selected or could not go"),
+      output_only("detail", &ChoiceView::detail, text()),
   });
 }
 FormatPtr<AnotherWayView> another_way_format() {
   using View = AnotherWayView;
   using Cause = AnotherWay::Cause;
   return object<View>({
-      told("done", &View::done, count(), "So many times it was given another way"),
-      told("planning", &View::is_open, flag(), "One is being looked for: it stays where it is"),
-      told("cause", &View::cause, choice<Cause>(),
-           "Of the last time: POST /jobs/{id}/replan, on_timeout, or on_idle_blocker"),
-      told("refused", &View::refusal, nullable(text()), "Why it kept its own, the last time"),
+      output_only("done", &View::done, count(), "Number of successful replans"),
+      output_only("planning", &View::is_open, flag(),
+                  "true while a path is being planned; the arm waits on its path"),
+      output_only(
+          "cause", &View::cause, choice<Cause>(),
+          "Cause of the last replan: POST /jobs/{id}/replan, on_timeout, or on_idle_blocker"),
+      output_only("refused", &View::refusal, nullable(text()),
+                  "Reason why the last replan failed and the job kept its path; else null"),
   });
 }
 FormatPtr<DetourView> detour_format() {
   return object<DetourView>({
-      told("candidates_evaluated", &DetourView::candidates_evaluated, count(),
-           "So many ways around"),
-      told("selected", &DetourView::is_selected, flag(), "It goes by one of them"),
-      told("time_saved_s", &DetourView::time_saved_s, nullable(number(kPositive)),
-           "By so much sooner it arrives by that, as it was predicted; null: none is taken, or the "
-           "shortest way could not go as things stood"),
+      output_only("candidates_evaluated", &DetourView::candidates_evaluated, count(),
+                  "Number of detours evaluated"),
+      output_only("selected", &DetourView::is_selected, flag(), "true if the job takes a detour"),
+      output_only(
+          "time_saved_s", &DetourView::time_saved_s, nullable(number(kPositive)),
+          "Predicted earlier arrival by the detour; null if none is selected, or if the shortest "
+          "path was blocked"),
   });
 }
 std::optional<std::vector<std::string>> alternatives_of(const JobWaysView& ways) {
@@ -73,66 +80,71 @@ PartPtr<CheckView> make_verdict_part() {
   using View = CheckView;
   using Kind = Verdict::Kind;
   return parts<View>({
-      told("verdict", &View::kind, choice<Kind>()),
-      told("earliest_start_s", &View::earliest_start_s, nullable(number({0.0})),
-           "From now; 0 where it would start at once, null when not known"),
-      told("clearance_bound_m", &View::clearance_bound_m, nullable(number(kAnyNumber)),
-           "What is proven to be kept between arms, and by arms from what stands still: the least "
-           "that any such pair was held to"),
-      told("self_clearance_bound_m", &View::self_clearance_bound_m, nullable(number(kAnyNumber)),
-           "The same of the links of one arm from each other"),
-      told("waits_on", &View::waits_on, list(wait_format()),
-           "As the job's own would be: of a free one, what it would wait for before it starts"),
-      told("conflicts", &View::conflicts, list(wait_format()), "The same, where it is not free"),
-      told("evaluations", &View::evaluations, count()),
-      told("scene_version", &View::scene_version, count()),
-      told_if("choice", &View::choice, choice_format(),
-              "Of a goal that several arms could go to: which one would"),
-      told_if("move_to_start_s", &View::move_to_start_s, number({0.0}),
-              "Of a job that asks for an approach: so long its arms would take to where it begins. "
-              "The verdict is of that motion; where it would not be admitted together with it, the "
-              "job is judged again when it is there"),
-      told_if("result", &View::result, result_format(), "It would end at once, without moving"),
+      output_only("verdict", &View::kind, choice<Kind>()),
+      output_only("earliest_start_s", &View::earliest_start_s, nullable(number({0.0})),
+                  "Delay until the earliest start; 0 for an immediate start, null if unknown"),
+      output_only("clearance_bound_m", &View::clearance_bound_m, nullable(number(kAnyNumber)),
+                  "Certified clearance between arms and between arms and objects: the smallest one "
+                  "required of any such pair"),
+      output_only("self_clearance_bound_m", &View::self_clearance_bound_m,
+                  nullable(number(kAnyNumber)), "Certified clearance between links of one arm"),
+      output_only(
+          "waits_on", &View::waits_on, list(wait_format()),
+          "What the job would wait for; a job with verdict `free` may still wait before it starts"),
+      output_only("conflicts", &View::conflicts, list(wait_format()),
+                  "Conflicts found, in the form of `waits_on`; empty if `verdict` is `free`"),
+      output_only("evaluations", &View::evaluations, count()),
+      output_only("scene_version", &View::scene_version, count()),
+      output_if("choice", &View::choice, choice_format(),
+                "For a goal with several candidate arms: the arm that would be selected"),
+      output_if("move_to_start_s", &View::move_to_start_s, number({0.0}),
+                "For a job with `move_to_start`: duration of the motion to its start. The verdict "
+                "covers that motion; if the job cannot be admitted together with it, the job is "
+                "checked again at the start"),
+      output_if("result", &View::result, result_format(),
+                "Result of a job that would end at once without moving"),
   });
 }
 
 PartPtr<JobTimesView> times_part() {
   return parts<JobTimesView>({
-      told_times("submitted", &JobTimesView::submitted_at, "When it was accepted"),
-      told_if("backlogged_s", &JobTimesView::backlogged_at, cell_time(),
-              "When it first was found in conflict, in cell time; absent: never"),
-      told_if("expires_s", &JobTimesView::expires_at, cell_time(),
-              "When it is given up if nothing changes, in cell time: while it waits in the "
-              "backlog, or on its path for what no job moves"),
-      told_times("scheduled", &JobTimesView::scheduled_at, "When it starts; null: not planned"),
-      told_times("started", &JobTimesView::started_at, "When it began to move; null: not yet"),
-      told_times("ended", &JobTimesView::ended_at, "When it ended; null: not yet"),
+      output_times("submitted", &JobTimesView::submitted_at, "Time of acceptance"),
+      output_if("backlogged_s", &JobTimesView::backlogged_at, cell_time(),
+                "Cell time of the first conflict; absent if there was none"),
+      output_if("expires_s", &JobTimesView::expires_at, cell_time(),
+                "Cell time at which the job expires if nothing changes, while it waits in the "
+                "backlog, or on its path for something that no job moves"),
+      output_times("scheduled", &JobTimesView::scheduled_at,
+                 "Scheduled start; null if not scheduled"),
+      output_times("started", &JobTimesView::started_at, "Start of motion; null before it"),
+      output_times("ended", &JobTimesView::ended_at, "End; null before it"),
   });
 }
 
 PartPtr<JobMotionView> motion_part() {
   return parts<JobMotionView>({
-      told("progress", &JobMotionView::progress, number(kShare), "Share of the trajectory's time"),
-      told("duration_s", &JobMotionView::duration, seconds(kPositive), "Of the trajectory"),
-      told_if("planned", &JobMotionView::planned, flag(),
-              "Of a goal: whether its way is planned; until then duration_s is an "
-              "estimate"),
-      told("stopping", &JobMotionView::stopping, flag(), "Brakes on its path"),
+      output_only("progress", &JobMotionView::progress, number(kShare),
+                  "Share of the trajectory's time, 0 to 1"),
+      output_only("duration_s", &JobMotionView::duration, seconds(kPositive),
+                  "Duration of the trajectory; an estimate until a goal is planned"),
+      output_if("planned", &JobMotionView::planned, flag(),
+                "For a goal: true if the path is planned"),
+      output_only("stopping", &JobMotionView::stopping, flag(),
+                  "true while the job brakes on its path"),
   });
 }
 
 PartPtr<JobWaysView> ways_part() {
   return parts<JobWaysView>({
-      told_if("alternatives", alternatives_of, list(text()),
-              "Arms of which one does it; `arms` is that one, or the likeliest "
-              "while it waits"),
-      told_if("replan", &JobWaysView::another_way, another_way_format(),
-              "Other ways that were looked for, to where its own ends"),
-      told_if("detour", &JobWaysView::detour, detour_format(),
-              "Of a goal whose shortest way would have to wait: ways around what "
-              "others hold"),
-      told_if("choice", &JobWaysView::choice, choice_format(),
-              "Why it was taken before others, or by this arm"),
+      output_if("alternatives", alternatives_of, list(text()),
+                "Candidate arms; `arms` has the selected arm, or the most likely one while the job "
+                "waits"),
+      output_if("replan", &JobWaysView::another_way, another_way_format(), "Replans of the job"),
+      output_if("detour", &JobWaysView::detour, detour_format(),
+                "For a goal whose shortest path would have to wait: detours around the motions of "
+                "other arms"),
+      output_if("choice", &JobWaysView::choice, choice_format(),
+                "Why this job went before others, or why this arm was selected"),
   });
 }
 
@@ -140,52 +152,58 @@ PartPtr<JobWaysView> ways_part() {
 
 FormatPtr<JobState> job_state_format() {
   static const auto format =
-      named("JobState", "The last five are terminal: a job reaches exactly one of them.",
+      named("JobState",
+            "State of a job. The last five are terminal; every job reaches exactly one of them.",
             choice<JobState>());
   return format;
 }
 
 FormatPtr<WaitView> wait_format() {
   using Kind = Wait::Kind;
-  static const auto format =
-      named("Wait", "What a job waits for, with the evidence.",
-            object<WaitView>({
-                told("kind", &WaitView::kind, choice<Kind>()),
-                told("id", &WaitView::job, text_or_null(), "The other job"),
-                told("arm", &WaitView::arm, text_or_null(), "The other arm"),
-                told("links", &WaitView::links, list(text(), {.most = 2}),
-                     "Own link, then the other's, or an object; empty without evidence"),
-                told("own_time_s", &WaitView::own_time_s, nullable(number(kAnyNumber)),
-                     "From the start of this trajectory"),
-                told("other_time_s", &WaitView::other_time_s, nullable(number(kAnyNumber)),
-                     "From the start of the other's"),
-                told("clearance_m", &WaitView::clearance_m, nullable(number(kAnyNumber)),
-                     "Distance found; zero or less in contact"),
-                told_if("detail", detail_of, text(), "Of a stop: its cause"),
-                told_if("progress", &WaitView::progress, number(kShare),
-                        "Of a check: the share of its budget that it has used; most end early"),
-            }));
+  static const auto format = named(
+      "Wait", "A reason to wait, with the evidence.",
+      object<WaitView>({
+          output_only("kind", &WaitView::kind, choice<Kind>()),
+          output_only("id", &WaitView::job, text_or_null(), "Id of the other job"),
+          output_only("arm", &WaitView::arm, text_or_null(), "Name of the other arm"),
+          output_only(
+              "links", &WaitView::links, list(text(), {.most = 2}),
+              "Link of this job's arm, then the other link or object; empty without evidence"),
+          output_only("own_time_s", &WaitView::own_time_s, nullable(number(kAnyNumber)),
+                      "Time of the conflict from the start of this trajectory"),
+          output_only("other_time_s", &WaitView::other_time_s, nullable(number(kAnyNumber)),
+                      "Time of the conflict from the start of the other trajectory"),
+          output_only("clearance_m", &WaitView::clearance_m, nullable(number(kAnyNumber)),
+                      "Distance found; zero or negative in contact"),
+          output_if("detail", detail_of, text(), "Details, for example the cause of a stop"),
+          output_if(
+              "progress", &WaitView::progress, number(kShare),
+              "For a running check: share of its limit of evaluations used so far; most checks "
+              "end early"),
+      }));
   return format;
 }
 
 FormatPtr<JobView> job_format() {
   using View = JobView;
   static const auto format = named(
-      "Job", "A job as the server gives it.",
+      "Job", "A job with its present state.",
       object<View>({
-          told("id", &View::key, job_id_format()),
-          told("name", &View::name, text(), "For people; may be empty"),
-          told("state", &View::state, job_state_format()),
-          told("arms", &View::arms, list(text()), "That it moves"),
+          output_only("id", &View::key, job_id_format()),
+          output_only("name", &View::name, text(), "Display name; may be empty"),
+          output_only("state", &View::state, job_state_format()),
+          output_only("arms", &View::arms, list(text()), "Arms that the job moves"),
           inlined(&View::terms, job_terms_part()),
           inlined(&View::times, times_part()),
           inlined(&View::motion, motion_part()),
-          told("waits_on", &View::waits_on, list(wait_format()), "Empty when it does not wait"),
+          output_only("waits_on", &View::waits_on, list(wait_format()),
+                      "Reasons to wait; empty if the job does not wait"),
           inlined(&View::ways, ways_part()),
-          told("cycle", &View::cycle, list(text()),
-               "The deadlock that it is part of, itself first: each waits for the next one, the "
-               "last for the first. Else empty"),
-          told("result", &View::result, nullable(result_format()), "null until terminal"),
+          output_only("cycle", &View::cycle, list(text()),
+                      "Ids of the deadlock cycle that contains the job, itself first; each job "
+                      "waits for the next, the last for the first. Empty if there is none"),
+          output_only("result", &View::result, nullable(result_format()),
+                      "Result of an ended job; else null"),
       }));
   return format;
 }
@@ -197,7 +215,7 @@ const PartPtr<CheckView>& verdict_part() {
 
 FormatPtr<CheckView> verdict_format() {
   static const auto format =
-      named("Verdict", "The answer of the admission code to: what if this job came now?",
+      named("Verdict", "The result of checking a job as if it were submitted now.",
             object<CheckView>({make_verdict_part()}));
   return format;
 }

@@ -12,28 +12,24 @@
 
 namespace armloom {
 
-// Jobs as the server tells them, and what is told of several. Each is described once: its format
-// writes it and gives its schema.
-
 [[nodiscard]] FormatPtr<JobState> job_state_format();
 [[nodiscard]] FormatPtr<WaitView> wait_format();
 [[nodiscard]] FormatPtr<JobView> job_format();
-// Which jobs are in which list, by their ids.
+// Ids of the jobs in each list of the queue.
 [[nodiscard]] FormatPtr<QueueView> queue_ids_format();
 
-// As the executive has it, or JSON already: as it was written for another list before, or as it was
-// told last if only the store has it.
+// From the executive, or as JSON: cached, or from the store.
 using JobText = std::shared_ptr<const std::string>;
 using ListedJob = std::variant<JobView, JobText>;
 [[nodiscard]] FormatPtr<ListedJob> listed_job_format();
-// The answer to GET /jobs.
+// Answer to GET /jobs.
 struct JobPage {
   std::vector<ListedJob> jobs;  // newest first
   std::optional<std::string> next_cursor;
 };
 [[nodiscard]] FormatPtr<JobPage> job_page_format();
 
-// The answer to GET /queue.
+// Answer to GET /queue.
 struct QueueJobs {
   std::string policy;
   bool stopped;
@@ -41,11 +37,11 @@ struct QueueJobs {
 };
 [[nodiscard]] FormatPtr<QueueJobs> queue_format();
 
-// The answers to POST /batches, atomic and not.
+// Answers to POST /batches: atomic, and not atomic.
 [[nodiscard]] FormatPtr<std::vector<ListedJob>> batch_accepted_format();
 [[nodiscard]] FormatPtr<std::vector<Result<ListedJob>>> batch_results_format();
 
-// The answer to "what if"; its members alone, so that others can stand beside them.
+// Answer to POST /check; verdict_part() has its members alone.
 [[nodiscard]] FormatPtr<CheckView> verdict_format();
 [[nodiscard]] const formats::PartPtr<CheckView>& verdict_part();
 

@@ -13,9 +13,9 @@ using namespace formats;
 FormatPtr<JobAmendment> job_amendment_format() {
   using Amendment = JobAmendment;
   static const auto format =
-      named("JobAmendment", "What is to be changed; what is absent stays.",
+      named("JobAmendment", "Members to change; absent members keep their values.",
             object<Amendment>({
-                field("name", &Amendment::name, job_name_format(), "For people"),
+                field("name", &Amendment::name, job_name_format(), "Display name"),
                 inlined(&Amendment::terms, amended_terms_part()),
             }));
   return format;

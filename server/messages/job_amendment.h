@@ -9,13 +9,12 @@
 
 namespace armloom {
 
-// The body of PATCH /jobs/{id}: members of POST /jobs that can be changed; absent ones stay.
+// Body of PATCH /jobs/{id}; absent members keep their values.
 [[nodiscard]] FormatPtr<JobAmendment> job_amendment_format();
 [[nodiscard]] Result<JobAmendment> read_job_amendment(std::string_view text);
 
-// All of it as the job has it now.
+// Returns an amendment with the job's present values.
 [[nodiscard]] JobAmendment amendable_of(const JobView& job);
-// What was asked for, and changed later.
 void apply(const JobAmendment& amendment, JobRequest& request);
 
 }  // namespace armloom

@@ -1,9 +1,8 @@
-// Jobs in pages, queues and answers to batches.
 #include <memory>
 
 #include "server/codec/list_formats.h"
+#include "server/codec/output_part.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job.h"
 #include "server/messages/problem.h"
@@ -44,16 +43,16 @@ class BatchResultFormat final : public CustomFormat<Result<ListedJob>> {
  private:
   inline static constexpr int kAccepted = 202;
   FormatPtr<ListedJob> accepted_ = object<ListedJob>({
-      told(
+      output_only(
           "status", [](const ListedJob&) { return kAccepted; }, integer(kAccepted, kAccepted)),
-      told(
+      output_only(
           "job", [](const ListedJob& job) { return &job; }, listed_job_format()),
   });
   FormatPtr<Problems> refused_ = object<Problems>({
-      told(
+      output_only(
           "status", [](const Problems& why) { return status_of(why.front().kind); },
           integer(400, 599)),
-      told(
+      output_only(
           "problem", [](const Problems& why) { return document_of(why); }, problem_format()),
   });
 };
@@ -62,16 +61,16 @@ template <class T>
 FormatPtr<std::vector<T>> listed(const char* name, const char* key, FormatPtr<T> element) {
   using List = std::vector<T>;
   return named(name, "",
-               object<List>({told(
+               object<List>({output_only(
                    key, [](const List& all) { return &all; }, list(std::move(element)))}));
 }
 
 PartPtr<QueueView> ids(const char* key, std::vector<std::string> QueueView::*where) {
-  return told(key, where, list(text()));
+  return output_only(key, where, list(text()));
 }
 PartPtr<QueueJobs> jobs(const char* key, std::vector<ListedJob> QueueJobs::*where,
                         const char* text = "") {
-  return told(key, where, list(listed_job_format()), text);
+  return output_only(key, where, list(listed_job_format()), text);
 }
 
 }  // namespace
@@ -85,25 +84,25 @@ FormatPtr<JobPage> job_page_format() {
   static const auto format =
       named("JobPage", "",
             object<JobPage>({
-                told("jobs", &JobPage::jobs, list<ListedJob>(listed_job_format())),
-                told("next_cursor", &JobPage::next_cursor, nullable(text()),
-                     "For ?cursor=; null on the last page"),
+                output_only("jobs", &JobPage::jobs, list<ListedJob>(listed_job_format())),
+                output_only("next_cursor", &JobPage::next_cursor, nullable(text()),
+                            "Value for `?cursor=` to get the next page; null on the last page"),
             }));
   return format;
 }
 
 FormatPtr<QueueView> queue_ids_format() {
   const auto policy = [](const QueueView& view) { return std::optional(view.policy); };
-  static const auto format = named(
-      "QueueIds", "",
-      object<QueueView>({
-          told_if("policy", policy, text(), "In force; recordings from before it was told lack it"),
-          told("stopped", &QueueView::stopped, flag(), "Every arm is stopped"),
-          ids("queued", &QueueView::queued),
-          ids("backlog", &QueueView::backlog),
-          ids("scheduled", &QueueView::scheduled),
-          ids("running", &QueueView::running),
-      }));
+  static const auto format =
+      named("QueueIds", "",
+            object<QueueView>({
+                output_if("policy", policy, text(), "Present policy; absent in old recordings"),
+                output_only("stopped", &QueueView::stopped, flag(), "true if every arm is stopped"),
+                ids("queued", &QueueView::queued),
+                ids("backlog", &QueueView::backlog),
+                ids("scheduled", &QueueView::scheduled),
+                ids("running", &QueueView::running),
+            }));
   return format;
 }
 
@@ -111,12 +110,12 @@ FormatPtr<QueueJobs> queue_format() {
   static const auto format =
       named("Queue", "",
             object<QueueJobs>({
-                told("policy", &QueueJobs::policy, text(), "In force"),
-                told("stopped", &QueueJobs::stopped, flag(), "Every arm is stopped"),
+                output_only("policy", &QueueJobs::policy, text(), "Present policy"),
+                output_only("stopped", &QueueJobs::stopped, flag(), "true if every arm is stopped"),
                 jobs("queued", &QueueJobs::queued),
                 jobs("backlog", &QueueJobs::backlog),
                 jobs("scheduled", &QueueJobs::scheduled),
-                jobs("running", &QueueJobs::running, "With those that hold"),
+                jobs("running", &QueueJobs::running, "Running and paused jobs"),
             }));
   return format;
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job_request.h"
 #include "server/messages/trajectory_request.h"
@@ -15,7 +15,7 @@ using namespace formats;
 
 namespace {
 
-// Splines of the fifth degree need accelerations; cubic ones would be other curves with them.
+// A quintic segment needs accelerations; a cubic one would become another curve with them.
 bool is_cubic(const Segment& segment) { return segment.coefficients.rightCols<2>().isZero(0.0); }
 
 WaypointRequest waypoint_of(const Trajectory& trajectory, Duration at, bool with_accelerations) {
@@ -46,14 +46,15 @@ TrajectoryRequest request_of(const Trajectory& trajectory, const Cell& cell) {
 
 FormatPtr<JobMotion> job_motion_format() {
   using Told = JobMotion;
-  static const auto format =
-      named("JobMotion", "How a job moves its arms.",
-            object<Told>({
-                told("id", &Told::job, job_id_format(), "Of the job"),
-                told("duration_s", &Told::duration, seconds(kPositive)),
-                told("trajectory", &Told::trajectory, told_trajectory_format(),
-                     "As POST /jobs takes it: it makes the same motion"),
-            }));
+  static const auto format = named(
+      "JobMotion", "The motion of a job.",
+      object<Told>({
+          output_only("id", &Told::job, job_id_format(), "Id of the job"),
+          output_only("duration_s", &Told::duration, seconds(kPositive)),
+          output_only(
+              "trajectory", &Told::trajectory, told_trajectory_format(),
+              "The trajectory in the form of POST /jobs; submitting it gives the same motion"),
+      }));
   return format;
 }
 

@@ -9,11 +9,10 @@
 
 namespace armloom {
 
-// A trajectory as one that would be posted to make it: at its waypoints, with accelerations where
-// it needs them.
+// Returns a request for the same trajectory, with accelerations if a segment needs them.
 [[nodiscard]] TrajectoryRequest request_of(const Trajectory& trajectory, const Cell& cell);
 
-// The answer to GET /jobs/{id}/trajectory.
+// Answer to GET /jobs/{id}/trajectory.
 struct JobMotion {
   std::string job;  // key
   Duration duration;

@@ -43,8 +43,8 @@ void slow_down(TrajectoryRequest& trajectory, double factor) {
   }
 }
 
-// The jobs of a batch, read after "atomic" and "reorderable": alone each has its own answer, with
-// places in its own body.
+// Read after "atomic" and "reorderable". In a non-atomic batch each job is read alone, with
+// pointers into its own body.
 class BatchJobs final : public CustomPart<BatchRequest> {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("jobs"); }
@@ -89,8 +89,8 @@ Result<Submission<T>> read_submission(const Format<T>& format, std::string_view 
 
 FormatPtr<std::vector<TimedJob>> jobs_file_format() {
   static const auto format = list(object<TimedJob>({
-      required("at", &TimedJob::at, cell_time(kTimeMax_s), "When it is submitted, in cell time"),
-      required("job", &TimedJob::job, job_request_format(), "The body of POST /jobs"),
+      required("at", &TimedJob::at, cell_time(kTimeMax_s), "Submission time, in cell time"),
+      required("job", &TimedJob::job, job_request_format(), "Body of POST /jobs"),
   }));
   return format;
 }
@@ -99,10 +99,9 @@ PartPtr<JobRequest> retime_part() {
   using Request = JobRequest;
   return member<Request>(
       {"retime",
-       "Times, velocities and accelerations are made: the fastest within the "
-       "joints' limits along the waypoints (corners are cut by 0.01 rad at "
-       "most), at rest at both ends. What the waypoints have of them is read "
-       "over. A move_to is timed so with or without it",
+       "Time-parameterizes the waypoints: as fast as the joints' limits allow, at rest at both "
+       "ends, corners cut by at most 0.01 rad. Times, velocities and accelerations of the "
+       "waypoints are ignored. A `move_to` is always time-parameterized",
        Need::optional, Schema(false)},
       flag(), [](const Request&) { return std::optional<bool>(); },
       [](Request& request, bool retime) {
@@ -116,10 +115,9 @@ PartPtr<JobRequest> velocity_scaling_part() {
   using Request = JobRequest;
   return member<Request>(
       {"velocity_scaling_factor",
-       "As MoveIt's: the share of its speed at which the trajectory is run. It is "
-       "stretched in time before anything is checked. Absent: as it is given; of what "
-       "the server times (move_to, retime) the cell's "
-       "execution.velocity_scaling_factor",
+       "Velocity scaling as in MoveIt: stretches the trajectory in time before it is checked. "
+       "Default: 1 for a trajectory with times; the cell's `execution.velocity_scaling_factor` for "
+       "`move_to` and `retime`",
        Need::optional,
        {}},
       number({kVelocityScalingMin, 1.0}), [](const Request&) { return std::optional<double>(); },
@@ -132,12 +130,13 @@ PartPtr<JobRequest> velocity_scaling_part() {
 }  // namespace
 
 FormatPtr<std::string> job_id_format() {
-  static const auto format = named(
-      "JobId", "The client's choice, or the server's.",
-      text(TextRule{is_key,
-                    "bad-id",
-                    "an id is 1 to 128 characters of A-Z a-z 0-9 . _ -",
-                    {{"pattern", "^[A-Za-z0-9._-]{1,128}$"}, {"not", {{"enum", {".", ".."}}}}}}));
+  static const auto format =
+      named("JobId", "Id of a job, chosen by the client or the server.",
+            text(TextRule{
+                is_key,
+                "bad-id",
+                "an id must have 1 to 128 characters of A-Z a-z 0-9 . _ - and must not be . or ..",
+                {{"pattern", "^[A-Za-z0-9._-]{1,128}$"}, {"not", {{"enum", {".", ".."}}}}}}));
   return format;
 }
 
@@ -149,7 +148,7 @@ bool is_job_name(std::string_view name) {
 FormatPtr<std::string> job_name_format() {
   return text(TextRule{is_job_name,
                        "bad-name",
-                       "a name is at most 256 characters without control characters",
+                       "a name must have at most 256 characters and no control characters",
                        {{"maxLength", kJobNameMax}, {"pattern", R"(^[^\u0000-\u001f]*$)"}}});
 }
 
@@ -158,37 +157,37 @@ FormatPtr<JobRequest> job_request_format() {
   static const auto format = named(
       "JobRequest", "",
       object<Request>({
-          field("id", &Request::key, job_id_format(), "Absent: the server gives one"),
-          field("name", &Request::name, job_name_format(),
-                "For people; without control characters"),
+          field("id", &Request::key, job_id_format(),
+                "Id of the job; default: the server assigns one"),
+          field("name", &Request::name, job_name_format(), "Display name; no control characters"),
           inlined(&Request::terms, job_terms_part()),
           field("after", &Request::after,
                 list(job_id_format(), {.most = kAfterMax, .noun = "ids", .what = "predecessors"}),
-                "Jobs that have to succeed first"),
+                "Ids of jobs that must succeed first"),
           not_served<Request>(
               {"steps", "not-served",
-               "\"steps\" are not served by this version; give one \"trajectory\""}),
+               "\"steps\" are not supported by this version: give one \"trajectory\""}),
           unless_refused(
               "steps",
-              unless("alternatives",
-                     unless("move_to", required("trajectory", &Request::trajectory,
-                                                trajectory_request_format(), "The motion")))),
+              unless("alternatives", unless("move_to", required("trajectory", &Request::trajectory,
+                                                                trajectory_request_format(),
+                                                                "Motion of the job")))),
           field("alternatives", &Request::alternatives,
                 list(trajectory_request_format(),
                      {.fewest = 2, .most = kAlternativesMax, .noun = "trajectories"}),
-                "Instead of a trajectory: the same work by several arms, each back to where it "
-                "begins; one of them does it"),
+                "Alternatives to `trajectory`: the same work by different arms, each returning to "
+                "where it begins; exactly one is executed"),
           field("move_to", &Request::move_to, plan_goal_format(),
-                "Instead of a trajectory: where `arm` is to go. The way is planned from where it "
-                "will be when the jobs before it have run, and again where that has changed"),
-          field("arm", &Request::arm, formats::name(), "With move_to: which arm goes there"),
+                "Alternative to `trajectory`: a goal for `arm`. The path is planned from where the "
+                "arm will be after its earlier jobs, and planned again if that changes"),
+          field("arm", &Request::arm, formats::name(), "With `move_to`: the arm that moves"),
           field("arms", &Request::arms,
                 list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
-                "With move_to, instead of arm: the way is planned for each of these, and the one "
-                "that arrives first takes it"),
+                "With `move_to`, instead of `arm`: candidate arms. A path is planned for each; the "
+                "arm that arrives first takes the job"),
           at_most_one<Request>({"arm", "arms"}),
           at_most_one<Request>({"trajectory", "alternatives", "move_to"}),
-          // Both are read after the trajectory, which they time and stretch.
+          // Read after the trajectory, which they change.
           retime_part(),
           velocity_scaling_part(),
       }));
@@ -196,14 +195,14 @@ FormatPtr<JobRequest> job_request_format() {
 }
 
 FormatPtr<BatchRequest> batch_request_format() {
-  static const auto format =
-      named("BatchRequest", "",
-            object<BatchRequest>({
-                field("atomic", &BatchRequest::atomic, flag(), "All admitted or none"),
-                field("reorderable", &BatchRequest::reorderable, flag(),
-                      "Default of every job in the batch that does not set it"),
-                make_part<BatchJobs>(),
-            }));
+  static const auto format = named(
+      "BatchRequest", "",
+      object<BatchRequest>({
+          field("atomic", &BatchRequest::atomic, flag(), "true: all jobs are accepted or none"),
+          field("reorderable", &BatchRequest::reorderable, flag(),
+                "Default of `reorderable` for the jobs of the batch"),
+          make_part<BatchJobs>(),
+      }));
   return format;
 }
 

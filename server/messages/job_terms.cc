@@ -22,19 +22,18 @@ FormatPtr<Duration> backlog_timeout_format() { return seconds({0.0, kTimeMax_s})
 PartPtr<JobTerms> job_terms_part() {
   using Terms = JobTerms;
   return parts<Terms>({
-      field("priority", &Terms::priority, priority_format(), "Larger goes first"),
+      field("priority", &Terms::priority, priority_format(), "Priority; larger goes first"),
       field("backlog_timeout_s", &Terms::backlog_timeout, backlog_timeout_format(),
-            "Longest time in the backlog. Default: the cell's"),
-      later(field(
-          "on_timeout", &Terms::on_timeout, choice<OnTimeout>(),
-          "Action on backlog timeout. \"abort\": the job expires. \"replan\": the server plans "
-          "another path from the arm's position to the job's end, around what rests in "
-          "its way; the job expires if there is no path, and after the third replan")),
-      unless_usual("move_to_start", &Terms::move_to_start, MoveToStart::none, choice<MoveToStart>(),
-                   "\"plan\": the arms need not be where the trajectory begins. The server first "
-                   "moves each arm that is elsewhere to the start, slowly, on a planned path"),
-      unless_usual("reorderable", &Terms::reorderable, false, flag(),
-                   "Allows the scheduler to reorder this job among reorderable jobs of the same "
+            "Longest time in the backlog; default: the cell's"),
+      later(field("on_timeout", &Terms::on_timeout, choice<OnTimeout>(),
+                  "Action on backlog timeout. `abort`: the job expires. `replan`: the server plans "
+                  "another path from the arm's position to the job's end, around everything at "
+                  "rest; the job expires if there is no path, and after the third replan")),
+      omit_default("move_to_start", &Terms::move_to_start, MoveToStart::none, choice<MoveToStart>(),
+                   "`plan`: the arms need not be at the start of the trajectory; the server first "
+                   "moves each of them there on a planned path, slowly"),
+      omit_default("reorderable", &Terms::reorderable, false, flag(),
+                   "true: the scheduler may reorder this job among reorderable jobs of the same "
                    "arm that begin and end at the same configuration"),
   });
 }
@@ -42,9 +41,10 @@ PartPtr<JobTerms> job_terms_part() {
 PartPtr<AmendedTerms> amended_terms_part() {
   using Terms = AmendedTerms;
   return parts<Terms>({
-      field("priority", &Terms::priority, priority_format(), "Larger goes first"),
+      field("priority", &Terms::priority, priority_format(), "Priority; larger goes first"),
       field("backlog_timeout_s", &Terms::backlog_timeout, backlog_timeout_format(),
-            "Measured from the job's first conflict, so a short timeout can end the job at once"),
+            "Longest time in the backlog, measured from the first conflict; a short timeout can "
+            "end the job at once"),
       field("on_timeout", &Terms::on_timeout, choice<OnTimeout>(), "Action on backlog timeout"),
   });
 }

@@ -5,10 +5,9 @@
 
 namespace armloom {
 
-// The terms of a job, each described once: the body of POST /jobs is read by it, and every job that
-// the server tells of is written by it.
+// Terms of a job, for requests and answers.
 [[nodiscard]] formats::PartPtr<JobTerms> job_terms_part();
-// Those that PATCH /jobs/{id} changes.
+// For PATCH /jobs/{id}.
 [[nodiscard]] formats::PartPtr<AmendedTerms> amended_terms_part();
 
 }  // namespace armloom

@@ -2,8 +2,8 @@
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 
 namespace armloom {
@@ -12,7 +12,7 @@ using namespace formats;
 
 namespace {
 
-// As those of a pose frame: they are only looked at.
+// Positions are for display only, as in state frames.
 class RoundedPositions final : public CustomFormat<Configuration> {
  public:
   void read(const JsonNode&, Configuration&) const override {}
@@ -30,11 +30,14 @@ FormatPtr<MeasuredStates> measured_states_format() {
   static const auto format =
       named("MeasuredStates", "",
             object<MeasuredStates>({
-                told("stream", &MeasuredStates::stream, text(), "The run, as events name it"),
-                told("joints", &MeasuredStates::joints, list(text()), "Every joint of the cell"),
-                told("t_s", &MeasuredStates::times, list(cell_time()), "Ascending"),
-                told("q", &MeasuredStates::q, list(make_format<RoundedPositions>()),
-                     "At each of these times, in the order of the joints: rad or m"),
+                output_only("stream", &MeasuredStates::stream, text(),
+                            "UUID of the server session, as in events"),
+                output_only("joints", &MeasuredStates::joints, list(text()),
+                            "Names of all joints of the cell"),
+                output_only("t_s", &MeasuredStates::times, list(cell_time()),
+                            "Cell times of the samples, ascending"),
+                output_only("q", &MeasuredStates::q, list(make_format<RoundedPositions>()),
+                            "Positions at each time, in the order of `joints`: rad or m"),
             }));
   return format;
 }

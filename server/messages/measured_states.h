@@ -9,12 +9,12 @@
 
 namespace armloom {
 
-// The answer to GET /states: joint positions over the last minutes, as columns.
+// Answer to GET /states, column by column.
 struct MeasuredStates {
   std::string stream;
   std::vector<std::string> joints;
   std::vector<TimePoint> times;  // ascending
-  std::vector<Configuration> q;  // at each of these, in the order of the joints; rad or m
+  std::vector<Configuration> q;  // per time, in the order of joints; rad or m
 };
 [[nodiscard]] FormatPtr<MeasuredStates> measured_states_format();
 

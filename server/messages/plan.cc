@@ -2,9 +2,9 @@
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/job.h"
 #include "server/messages/job_request.h"
@@ -20,21 +20,23 @@ FormatPtr<PlanInquiry> plan_inquiry_format() {
   static const auto format = formats::named(
       "PlanRequest", "",
       object<Inquiry>({
-          unless("arms", required("arm", &Inquiry::arm, name(), "That is to move")),
-          field("arms", &Inquiry::arms,
-                list(name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
-                "Instead: the one of these that would arrive first as a job"),
+          unless("arms", required("arm", &Inquiry::arm, name(), "Arm that moves")),
+          field(
+              "arms", &Inquiry::arms,
+              list(name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
+              "Instead of `arm`: candidate arms; the plan is for the arm that would arrive first"),
           at_most_one<Inquiry>({"arm", "arms"}),
-          required("to", &Inquiry::to, plan_goal_format(), "Where it is to be"),
+          required("to", &Inquiry::to, plan_goal_format(), "Goal of the motion"),
           field("start", &Inquiry::from, plan_goal_format(),
-                "Where it begins, as joints or a named state; absent: where it will be when all "
-                "jobs that are accepted have run"),
-          field("seed", &Inquiry::seed, count(), "Of the search: the same one repeats the plan"),
+                "Start of the motion, as joints or a named state; default: where the arm will be "
+                "after all accepted jobs"),
+          field("seed", &Inquiry::seed, count(),
+                "Seed of the search; the same seed gives the same plan"),
           field("budget", &Inquiry::budget, integer(1, kPlanBudgetMax),
-                "Evaluations (stretches of lines) that the search may take; absent: 400,000. A way "
-                "that there is takes a few thousand mostly. A straight line takes none"),
+                "Maximum number of evaluations (checked line segments) of the search; default: "
+                "400,000. Most plans take a few thousand, a straight line none"),
           field("velocity_scaling_factor", &Inquiry::speed, number({kVelocityScalingMin, 1.0}),
-                "The share of its speed at which it goes; absent: the cell's"),
+                "Velocity scaling, 0 to 1; default: the cell's"),
       }));
   return format;
 }
@@ -47,10 +49,11 @@ namespace {
 
 FormatPtr<OtherArm> other_arm_format() {
   return object<OtherArm>({
-      told("arm", &OtherArm::arm, text()),
-      told("arrives_s", &OtherArm::arrives_s, nullable(number({0.0})),
-           "From now; null: it has no way, or when it could go is not known"),
-      told("detail", &OtherArm::detail, text()),
+      output_only("arm", &OtherArm::arm, text()),
+      output_only(
+          "arrives_s", &OtherArm::arrives_s, nullable(number({0.0})),
+          "Time until arrival, from now; null if the arm has no path or its start time is unknown"),
+      output_only("detail", &OtherArm::detail, text()),
   });
 }
 
@@ -59,37 +62,39 @@ FormatPtr<OtherArm> other_arm_format() {
 FormatPtr<PlanView> plan_format() {
   using View = PlanView;
   static const auto format = formats::named(
-      "Plan", "A motion, not executed.",
+      "Plan", "A planned motion, not executed.",
       object<View>({
-          told("arm", &View::arm, text(), "That goes"),
-          told("others", &View::others, list(other_arm_format()),
-               "Of `arms`, those that would not: when each would arrive, or why it cannot"),
-          told(
+          output_only("arm", &View::arm, text(), "Arm that moves"),
+          output_only("others", &View::others, list(other_arm_format()),
+                      "The other candidate arms: when each would arrive, or why it cannot"),
+          output_only(
               "trajectory", [](const View& plan) { return &plan.motion.timed.request; },
-              told_trajectory_format(), "As POST /jobs takes it"),
-          told(
+              told_trajectory_format(), "The trajectory in the form of POST /jobs"),
+          output_only(
               "duration_s",
               [](const View& plan) { return plan.motion.timed.trajectory->duration(); },
               seconds(kPositive)),
-          told("length", &View::length, number({0.0}), "Of the way in joint space, rad or m"),
-          told("straight_line_length", &View::straight_line_length, number({0.0}),
-               "The same of the straight line"),
-          told(
+          output_only("length", &View::length, number({0.0}),
+                      "Length of the path in joint space, rad or m"),
+          output_only("straight_line_length", &View::straight_line_length, number({0.0}),
+                      "Length of the straight line to the goal in joint space"),
+          output_only(
               "evaluations", [](const View& plan) { return plan.motion.way.evaluations; }, count(),
-              "Stretches of lines that were looked at"),
-          told_if(
+              "Line segments checked by the search"),
+          output_if(
               "verdict",
               [](const View& plan) {
                 return plan.verdict ? std::optional(*plan.verdict) : std::nullopt;
               },
-              verdict_format(), "What POST /check says of it now"),
-          told_if(
+              verdict_format(), "Result of POST /check for this motion now"),
+          output_if(
               "not_checked_reason",
               [](const View& plan) {
                 return plan.verdict ? std::nullopt
                                     : std::optional(document_of(plan.verdict.error()));
               },
-              problem_format(), "Instead: why POST /jobs would refuse it now"),
+              problem_format(),
+              "Instead of `verdict`: why POST /jobs would refuse this motion now"),
       }));
   return format;
 }
@@ -109,7 +114,7 @@ ProblemDocument document_of(const RefusedInquiry& refused) {
                            .detail = refusal.detail,
                            .evaluations = refusal.evaluations};
   if (refusal.reason == PlanRefusal::Reason::not_found) {
-    document.detail += ": a larger budget or another seed may find it";
+    document.detail += ": increase `budget` or try another `seed`";
   }
   if (!refused.pointer.empty()) document.pointer = refused.pointer;
   const bool has_value = !std::holds_alternative<std::monostate>(refused.value);

@@ -8,15 +8,15 @@
 
 namespace armloom {
 
-// The body of POST /plan.
+// Body of POST /plan.
 [[nodiscard]] FormatPtr<PlanInquiry> plan_inquiry_format();
 [[nodiscard]] Result<PlanInquiry> read_plan_inquiry_text(std::string_view text);
 
-// Its answer.
+// Answer to POST /plan.
 [[nodiscard]] FormatPtr<PlanView> plan_format();
-// Or why there is none: status 422.
+// Returns the answer (422) if there is no plan.
 [[nodiscard]] ProblemDocument document_of(const RefusedInquiry& refused);
-// Links that come too close, or the one that is not brought to its pose; empty: none is at fault.
+// Returns the links that come too close, or the link that misses its pose; may be empty.
 [[nodiscard]] std::vector<std::string> links_of(const PlanRefusal& refusal);
 
 }  // namespace armloom

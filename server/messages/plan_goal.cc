@@ -12,21 +12,22 @@ using namespace formats;
 
 FormatPtr<PlanGoal> plan_goal_format() {
   static const FormatPtr<PlanPose> pose = object<PlanPose>({
-      field("link", &PlanPose::link, name(), "With prefix; absent: that of the arm's last joint"),
+      field("link", &PlanPose::link, name(),
+            "Link with prefix; default: the link of the arm's last joint"),
       inlined(&PlanPose::X_WL, pose_part(Need::required)),
   });
   static const FormatPtr<PlanGoal> format =
-      named("Goal", "Where an arm is to be.",
+      named("Goal", "Goal of an arm.",
             object<PlanGoal>({
                 field("joints", &PlanGoal::joints, number_list(),
-                      "rad or m, in the order of the arm's group"),
-                field("named", &PlanGoal::named, name(), "A named state of the SRDF, or home"),
-                field("pose", &PlanGoal::pose, pose, "Of a link, in the world"),
+                      "Joint positions in the order of the arm's group: rad or m"),
+                field("named", &PlanGoal::named, name(), "Named state of the SRDF, or `home`"),
+                field("pose", &PlanGoal::pose, pose, "Pose of a link in the world"),
                 exactly_one<PlanGoal>({"joints", "named", "pose"}),
                 only_with("pose", &PlanGoal::pose,
                           field("cartesian", &PlanGoal::cartesian, flag(),
-                                "With a pose: the link goes there in a straight line of the world, "
-                                "turning evenly, within 1 mm and 0.01 rad at every instant")),
+                                "With `pose`: the link moves in a straight line in the world and "
+                                "rotates uniformly, within 1 mm and 0.01 rad at every instant")),
             }));
   return format;
 }

@@ -7,13 +7,13 @@
 
 namespace armloom {
 
-// Where an arm is to be, as clients say it: one of
+// A goal of an arm, one of
 //   {"joints": [...]}      rad or m, in the order of the arm's group
 //   {"named": "ready"}     a named state of the SRDF, or "home"
 //   {"pose": {"link": "left_tool0", "xyz": [...], "rpy": [...]}}   of a link, in the world
 [[nodiscard]] FormatPtr<PlanGoal> plan_goal_format();
 
-// A name, or the JSON of a goal ("{" begins it), or a list of joint positions ("[").
+// Reads JSON if the text begins with "{", joint positions if with "[", else a name.
 [[nodiscard]] Result<PlanGoal> read_plan_goal(const std::string& text);
 
 }  // namespace armloom

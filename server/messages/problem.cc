@@ -4,9 +4,9 @@
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 
 namespace armloom {
@@ -17,7 +17,6 @@ namespace {
 
 using Value = decltype(Problem::value);
 
-// What was found: a text, a number, or null.
 class ValueFormat final : public CustomFormat<Value> {
  public:
   void read(const JsonNode&, Value&) const override {}
@@ -38,9 +37,9 @@ FormatPtr<Value> value_format() { return make_format<ValueFormat>(); }
 FormatPtr<ProblemDocument::Error> error_format() {
   using Error = ProblemDocument::Error;
   return object<Error>({
-      told("pointer", &Error::pointer, text()),
-      told("detail", &Error::detail, text()),
-      told("value", &Error::value, value_format(), "What was found there"),
+      output_only("pointer", &Error::pointer, text()),
+      output_only("detail", &Error::detail, text()),
+      output_only("value", &Error::value, value_format(), "Value found there"),
   });
 }
 
@@ -75,35 +74,38 @@ int status_of(ProblemKind kind) {
 
 FormatPtr<ProblemDocument> problem_format() {
   using Document = ProblemDocument;
-  static const auto format =
-      named("Problem", "RFC 9457.",
-            object<Document>({
-                told("type", &Document::type,
-                     text(TextRule{is_type,
-                                   "bad-type",
-                                   "a type is a URN of ours",
-                                   {{"pattern", std::string("^") + kTypePrefix + "[a-z0-9-]+$"}}})),
-                told("title", &Document::title, text()),
-                told("status", &Document::status, integer(400, 599)),
-                told("detail", &Document::detail, text(), "One sentence with numbers and units"),
-                told_if("pointer", &Document::pointer, text(),
-                        "JSON pointer into the body; else the place in words"),
-                told_if("value", &Document::value, value_format(), "What was found there"),
-                told_if("errors", errors_of, list(error_format(), {.fewest = 2}),
-                        "When several faults were found: all of them, the first one too"),
-                told_if("links", &Document::links, list(text(), {.fewest = 1, .most = 2}),
-                        "Where there is no plan: the two that come too close, or the one that is "
-                        "not brought to its pose"),
-                told_if("clearance_m", &Document::clearance_m, number(kAnyNumber),
-                        "How close the two come; zero or less in contact"),
-                told_if("required_clearance_m", &Document::required_clearance_m, number({0.0}),
-                        "How far apart they are to be"),
-                told_if("nearest", &Document::nearest, number_list(),
-                        "Joint positions that would do, the nearest that were found: free ones; of "
-                        "a pose that is not reached those that come nearest to it; of a straight "
-                        "line as far as it goes"),
-                told_if("evaluations", &Document::evaluations, count(), "What planning took"),
-            }));
+  static const auto format = named(
+      "Problem", "Problem document (RFC 9457).",
+      object<Document>({
+          output_only(
+              "type", &Document::type,
+              text(TextRule{is_type,
+                            "bad-type",
+                            "the type must begin with urn:armloom:problem:",
+                            {{"pattern", std::string("^") + kTypePrefix + "[a-z0-9-]+$"}}})),
+          output_only("title", &Document::title, text()),
+          output_only("status", &Document::status, integer(400, 599)),
+          output_only("detail", &Document::detail, text(),
+                      "One sentence with the values found and their units"),
+          output_if("pointer", &Document::pointer, text(),
+                    "JSON pointer into the body, or the place in words"),
+          output_if("value", &Document::value, value_format(), "Value found there"),
+          output_if("errors", errors_of, list(error_format(), {.fewest = 2}),
+                    "All faults, if there are several"),
+          output_if(
+              "links", &Document::links, list(text(), {.fewest = 1, .most = 2}),
+              "If planning failed: the two links that come too close, or the link that misses "
+              "its pose"),
+          output_if("clearance_m", &Document::clearance_m, number(kAnyNumber),
+                    "Distance of the two links; zero or negative in contact"),
+          output_if("required_clearance_m", &Document::required_clearance_m, number({0.0}),
+                    "Distance that the two links must keep"),
+          output_if("nearest", &Document::nearest, number_list(),
+                    "Nearest usable joint positions found: collision-free ones; for an unreachable "
+                    "pose, the closest to it; for a straight line, the farthest point on it"),
+          output_if("evaluations", &Document::evaluations, count(),
+                    "Evaluations that planning took"),
+      }));
   return format;
 }
 

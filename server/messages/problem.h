@@ -11,13 +11,12 @@
 
 namespace armloom {
 
-// The HTTP status of a kind of problem.
 [[nodiscard]] int status_of(ProblemKind kind);
 
-// An RFC 9457 problem document. Several problems: the first one at the top, all in `errors`.
+// An RFC 9457 problem document: the first problem, and all in `errors` if there are several.
 struct ProblemDocument {
   struct Error {
-    std::string pointer;  // into the body; else the place in words
+    std::string pointer;  // JSON pointer, or the place in words
     std::string detail;
     decltype(Problem::value) value;
   };
@@ -27,25 +26,25 @@ struct ProblemDocument {
   std::string detail;
   std::optional<std::string> pointer;
   std::optional<decltype(Problem::value)> value;
-  std::vector<Error> errors;  // empty: only the one above
-  // Why there is no plan; absent for all other problems.
-  std::optional<std::vector<std::string>> links = {};  // that come too close, or do not get there
-  std::optional<double> clearance_m = {};              // of these
-  std::optional<double> required_clearance_m = {};     // what they were to keep
-  std::optional<std::vector<double>> nearest = {};     // joint positions that come nearest
+  std::vector<Error> errors;  // empty if there is one problem only
+  // Set only if planning failed.
+  std::optional<std::vector<std::string>> links = {};  // too close, or missing the pose
+  std::optional<double> clearance_m = {};              // distance of these links
+  std::optional<double> required_clearance_m = {};
+  std::optional<std::vector<double>> nearest = {};  // nearest usable joint positions
   std::optional<std::uint64_t> evaluations = {};
 };
 [[nodiscard]] FormatPtr<ProblemDocument> problem_format();
 
-// Precondition: not empty.
+// Precondition: `problems` is not empty.
 [[nodiscard]] ProblemDocument document_of(const Problems& problems);
-// Its `type`, and its `title`: "Limit exceeded".
+// Return "urn:armloom:problem:limit-exceeded", and "Limit exceeded".
 [[nodiscard]] std::string problem_type(const std::string& slug);
 [[nodiscard]] std::string problem_title(const std::string& slug);
 [[nodiscard]] std::string problem_json(const Problems& problems);
 
-// The same for people, one sentence: "config/x.json:/robots/0/urdf: ...". A pointer that is no JSON
-// pointer ("panda.urdf: joint panda_joint3") names its own file.
+// Returns one sentence: "config/x.json:/robots/0/urdf: ...". A place that is not a JSON pointer
+// ("panda.urdf: joint panda_joint3") names its own file.
 [[nodiscard]] std::string problem_sentence(std::string_view file, const Problem& problem);
 
 }  // namespace armloom

@@ -24,9 +24,9 @@ struct RecordingView {
   std::vector<RecordingFileView> files;
 };
 
-// The answer to GET /recordings.
+// Answer to GET /recordings.
 struct RecordingList {
-  bool is_kept = false;  // whether this server writes any
+  bool is_kept = false;  // this server writes recordings
   std::vector<RecordingView> recordings;
 };
 [[nodiscard]] FormatPtr<RecordingList> recording_list_format();

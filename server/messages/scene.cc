@@ -6,10 +6,10 @@
 #include "core/base/plain_name.h"
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
 #include "server/codec/scene_format.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/mesh_address.h"
 
@@ -31,17 +31,15 @@ FormatPtr<std::string> object_name_format() {
 
 FormatPtr<ObjectDescription> make_object_format(Need name) {
   return object<ObjectDescription>({
-      member(
-          {"name",
-           "At most 128 characters; no slash, backslash or control character, not . or .., no name "
-           "of a link or robot",
-           name,
-           {}},
-          &ObjectDescription::name, object_name_format()),
+      member({"name",
+              "Name of at most 128 characters; no slash, backslash or control character, not . or "
+              ".., and not the name of a link or robot",
+              name,
+              {}},
+             &ObjectDescription::name, object_name_format()),
       not_served<ObjectDescription>(
           {"mesh", "unsupported",
-           "meshes are part of the cell file; over HTTP an object is a box, a cylinder or a "
-           "sphere"}),
+           "a mesh can be given in the cell file only; give a box, a cylinder or a sphere"}),
       unless("mesh", inlined(&ObjectDescription::shape, primitive_part())),
       inlined(&ObjectDescription::X_WO, pose_part()),
   });
@@ -67,16 +65,15 @@ class CollisionObjectFormat final : public CustomFormat<CollisionObject> {
 FormatPtr<ObjectDescription> object_request_format() {
   static const auto format =
       named("ObjectRequest",
-            "As in the cell file; exactly one shape, no mesh over HTTP. Pose: default zero.",
+            "An object as in the cell file: exactly one shape, but no mesh. Default pose: zero.",
             make_object_format(Need::required));
   return format;
 }
 
 FormatPtr<ObjectDescription> named_object_request_format() {
-  static const auto format =
-      named("NamedObjectRequest",
-            "As ObjectRequest; the name stands in the path and may be repeated here.",
-            make_object_format(Need::optional));
+  static const auto format = named(
+      "NamedObjectRequest", "Like ObjectRequest; the name is in the path and may be repeated here.",
+      make_object_format(Need::optional));
   return format;
 }
 
@@ -94,13 +91,13 @@ Result<CollisionObject> read_object_text(std::string_view text,
   ObjectDescription object;
   (name ? named_object_request_format() : object_request_format())->read(node, object);
   if (name && object.name.empty() && !node.has("name")) {
-    // The address is read by the same rule.
+    // The name in the path obeys the same rule.
     const nlohmann::json of_address(*name);
     object_name_format()->read(JsonNode(of_address, "/name", faults), object.name);
   } else if (name && node.is_object()) {
     node.optional("name", [&](const JsonNode& n) {
       if (n.raw().is_string() && n.raw() != *name) {
-        n.invalid("name-differs", "the name differs from \"" + *name + "\" in the address");
+        n.invalid("name-differs", "the name differs from the name in the path, \"" + *name + "\"");
       }
     });
   }
@@ -110,7 +107,8 @@ Result<CollisionObject> read_object_text(std::string_view text,
 
 FormatPtr<CollisionObject> object_format() {
   static const auto format = named<CollisionObject>(
-      "Object", "An object of the scene: exactly one shape. A mesh is told by its address.",
+      "Object",
+      "An object of the scene, with exactly one shape. A mesh is given by its path on this server.",
       make_format<CollisionObjectFormat>());
   return format;
 }
@@ -119,8 +117,9 @@ FormatPtr<SceneView> scene_format() {
   static const auto format =
       named("Scene", "",
             object<SceneView>({
-                told("version", &SceneView::version, count(), "Grows with every change"),
-                told("objects", &SceneView::objects, list(object_format())),
+                output_only("version", &SceneView::version, count(),
+                            "Version of the scene; grows with every change"),
+                output_only("objects", &SceneView::objects, list(object_format())),
             }));
   return format;
 }
@@ -128,8 +127,8 @@ FormatPtr<SceneView> scene_format() {
 FormatPtr<SceneChange> scene_change_format() {
   static const auto format = named("SceneChange", "",
                                    object<SceneChange>({
-                                       told("version", &SceneChange::version, count()),
-                                       told("object", &SceneChange::object, object_format()),
+                                       output_only("version", &SceneChange::version, count()),
+                                       output_only("object", &SceneChange::object, object_format()),
                                    }));
   return format;
 }
@@ -137,7 +136,7 @@ FormatPtr<SceneChange> scene_change_format() {
 FormatPtr<std::uint64_t> scene_version_format() {
   static const auto format =
       named("SceneVersion", "",
-            object<std::uint64_t>({told(
+            object<std::uint64_t>({output_only(
                 "version", [](const std::uint64_t& version) { return version; }, count())}));
   return format;
 }

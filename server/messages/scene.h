@@ -13,10 +13,9 @@
 
 namespace armloom {
 
-// Objects of the planning scene, as they come and go over HTTP.
+// Bodies of POST /scene/objects and of PUT, whose path has the name; a name in the body must agree.
+// No meshes: a client cannot name files of the server.
 
-// The body of POST /scene/objects, and with a name of the URL, which one in the body has to agree
-// with, of PUT: an object as in a cell file, but no mesh: a client names no file of the server.
 [[nodiscard]] FormatPtr<ObjectDescription> object_request_format();
 [[nodiscard]] FormatPtr<ObjectDescription> named_object_request_format();
 [[nodiscard]] Result<CollisionObject> read_object_text(std::string_view text,
@@ -24,12 +23,12 @@ namespace armloom {
 
 [[nodiscard]] bool has_object(const std::vector<CollisionObject>& objects, std::string_view name);
 
-// An object as the server tells it: with the address of its mesh, not the file. Others read back,
-// to the digits of their angles.
+// Describes an object with the path of its mesh instead of the file. Other objects read back, up to
+// rounding of angles.
 [[nodiscard]] FormatPtr<CollisionObject> object_format();
 [[nodiscard]] FormatPtr<SceneView> scene_format();
 
-// The answers to changes.
+// Answers to changes of the scene.
 struct SceneChange {
   std::uint64_t version;
   CollisionObject object;

@@ -1,9 +1,9 @@
 #include "server/messages/session.h"
 
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 
 namespace armloom {
@@ -11,9 +11,10 @@ namespace armloom {
 using namespace formats;
 
 FormatPtr<LogIn> log_in_format() {
-  static const auto format =
-      named("LogIn", "",
-            object<LogIn>({required("token", &LogIn::token, text(), "Of `armloom token add`")}));
+  static const auto format = named(
+      "LogIn", "",
+      object<LogIn>(
+          {required("token", &LogIn::token, text(), "Token printed by `armloom token add`")}));
   return format;
 }
 
@@ -21,11 +22,14 @@ Result<LogIn> read_log_in_text(std::string_view text) { return read_text(*log_in
 
 FormatPtr<Session> session_format() {
   static const auto format = named(
-      "Session", "Who asks, and what they may.",
+      "Session", "The caller and its role.",
       object<Session>({
-          told("auth_required", &Session::auth_required, flag(), "Else everybody may everything"),
-          told("name", &Session::name, nullable(text()), "Of the token; null: there is none"),
-          told("role", &Session::role, nullable(choice<Role>()), "null: may nothing but log in"),
+          output_only("auth_required", &Session::auth_required, flag(),
+                      "true if the server requires a token; false if every request is allowed"),
+          output_only("name", &Session::name, nullable(text()),
+                      "Name of the token; null if there is none"),
+          output_only("role", &Session::role, nullable(choice<Role>()),
+                      "Role of the caller; null if it may only log in"),
       }));
   return format;
 }

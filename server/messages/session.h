@@ -10,18 +10,18 @@
 
 namespace armloom {
 
-// The body of POST /session.
+// Body of POST /session.
 struct LogIn {
   std::string token;
 };
 [[nodiscard]] FormatPtr<LogIn> log_in_format();
 [[nodiscard]] Result<LogIn> read_log_in_text(std::string_view text);
 
-// Who asks.
+// Answer to GET and POST /session.
 struct Session {
-  bool auth_required = false;       // of this server
-  std::optional<std::string> name;  // of the token; nothing: none was shown, or none is asked for
-  std::optional<Role> role;         // nothing: may nothing
+  bool auth_required = false;
+  std::optional<std::string> name;  // nullopt without a token
+  std::optional<Role> role;         // nullopt if the caller may only log in
 };
 [[nodiscard]] FormatPtr<Session> session_format();
 

@@ -2,6 +2,6 @@
 
 namespace armloom {
 
-inline constexpr double kTimeMax_s = 1e6;  // of anything that a client names in seconds
+inline constexpr double kTimeMax_s = 1e6;  // limit of all times given by clients
 
 }  // namespace armloom

@@ -5,7 +5,7 @@
 
 namespace armloom {
 
-// The answer to GET /timeline.
+// Answer to GET /timeline.
 [[nodiscard]] FormatPtr<TimelineLanes> timeline_format();
 
 }  // namespace armloom

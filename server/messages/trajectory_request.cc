@@ -14,7 +14,7 @@ using namespace formats;
 
 namespace {
 
-// {"sec", "nanosec"} as ROS 2 prints a time, {"secs", "nsecs"} as ROS 1 does.
+// A ROS time: {"sec", "nanosec"} in ROS 2, {"secs", "nsecs"} in ROS 1.
 struct RosTime {
   int seconds = 0;
   int nanoseconds = 0;
@@ -55,32 +55,34 @@ class TimeFormat final : public CustomFormat<double> {
 
 FormatPtr<WaypointRequest> waypoint_format() {
   using Point = WaypointRequest;
-  const auto time =
-      named<double>("Time", "ROS 2's, ROS 1's, or a number of seconds.", make_format<TimeFormat>());
-  return named("Waypoint", "",
-               object<Point>({
-                   required("positions", &Point::positions, number_list(),
-                            "rad or m, in the order of joint_names"),
-                   field("velocities", &Point::velocities, number_list(),
-                         "Absent: refused, since the motion could not begin and end at rest"),
-                   field("accelerations", &Point::accelerations, number_list(),
-                         "In all waypoints (quintic) or in none (cubic)"),
-                   ignored<Point>("effort", anything("array"), "Read over"),
-                   field("time_from_start", &Point::time_from_start_s, time,
-                         "Absent: refused, unless the job says \"retime\""),
-               }));
+  const auto time = named<double>("Time", "A ROS 2 time, a ROS 1 time, or a number of seconds.",
+                                  make_format<TimeFormat>());
+  return named(
+      "Waypoint", "",
+      object<Point>({
+          required("positions", &Point::positions, number_list(),
+                   "Joint positions in the order of `joint_names`: rad or m"),
+          field("velocities", &Point::velocities, number_list(),
+                "Joint velocities; required unless the job has `retime`, because the motion must "
+                "begin and end at rest"),
+          field("accelerations", &Point::accelerations, number_list(),
+                "Joint accelerations, in all waypoints (quintic splines) or in none (cubic)"),
+          ignored<Point>("effort", anything("array"), "Ignored"),
+          field("time_from_start", &Point::time_from_start_s, time,
+                "Time from the start; required unless the job has `retime`"),
+      }));
 }
 
 FormatPtr<TrajectoryRequest> plain_format() {
   using Trajectory = TrajectoryRequest;
   const ListSize points{.most = kWaypointsMax, .noun = "waypoints"};
-  return named("JointTrajectory", "The shape of trajectory_msgs/JointTrajectory.",
+  return named("JointTrajectory", "A trajectory in the form of trajectory_msgs/JointTrajectory.",
                object<Trajectory>({
                    required("joint_names", &Trajectory::joint_names, list(text()),
-                            "Prefix + URDF name; joints of several arms make one synchronous "
-                            "motion"),
+                            "Names of the joints: prefix + URDF name. Joints of several arms make "
+                            "one synchronous motion"),
                    required("points", &Trajectory::points, list(waypoint_format(), points), ""),
-                   ignored<Trajectory>("header", anything("object"), "Read over"),
+                   ignored<Trajectory>("header", anything("object"), "Ignored"),
                }));
 }
 
@@ -88,12 +90,11 @@ constexpr const char* kNested = "joint_trajectory";
 
 bool is_nested(const JsonNode& node) { return node.raw().is_object() && node.has(kNested); }
 
-// The trajectory inside of a nested one.
 class OnceNested final : public CustomFormat<TrajectoryRequest> {
  public:
   void read(const JsonNode& node, TrajectoryRequest& out) const override {
     if (!is_nested(node)) return plain_->read(node, out);
-    node.invalid("unknown-field", "a trajectory is nested once, not twice");
+    node.invalid("unknown-field", "joint_trajectory must be nested only once");
   }
   void write(JsonWriter& out, const TrajectoryRequest& trajectory) const override {
     plain_->write(out, trajectory);
@@ -104,7 +105,7 @@ class OnceNested final : public CustomFormat<TrajectoryRequest> {
   FormatPtr<TrajectoryRequest> plain_ = plain_format();
 };
 
-// The trajectory of floating joints, which no cell has, as ROS prints one that is empty.
+// ROS prints an empty multi-DOF trajectory; no cell has such joints.
 class EmptyMultiDof final : public CustomFormat<Anything> {
  public:
   void read(const JsonNode& node, Anything&) const override {
@@ -112,7 +113,7 @@ class EmptyMultiDof final : public CustomFormat<Anything> {
     for (const char* part : {"joint_names", "points"}) {
       node.optional(part, [](const JsonNode& n) {
         if (n.array() && !n.raw().empty()) {
-          n.invalid("unsupported", "joints of several degrees of freedom are not moved by any arm");
+          n.invalid("unsupported", "multi-DOF joints are not supported: leave this list empty");
         }
       });
     }
@@ -126,14 +127,14 @@ class EmptyMultiDof final : public CustomFormat<Anything> {
 
 FormatPtr<TrajectoryRequest> nested_format() {
   using Trajectory = TrajectoryRequest;
-  return named("RobotTrajectory", "MoveIt's nesting.",
+  return named("RobotTrajectory", "A trajectory nested as in MoveIt.",
                object<Trajectory>({
                    member<Trajectory>(
                        {kNested, "", Need::required, {}}, make_format<OnceNested>(),
                        [](const Trajectory& whole) { return std::optional(whole); },
                        [](Trajectory& whole, Trajectory read) { whole = std::move(read); }),
                    ignored<Trajectory>("multi_dof_joint_trajectory", make_format<EmptyMultiDof>(),
-                                       "Must be empty"),
+                                       "Must have no joints and no points"),
                }));
 }
 

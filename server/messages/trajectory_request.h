@@ -5,11 +5,10 @@
 
 namespace armloom {
 
-// A trajectory as ROS's tools print it: trajectory_msgs/JointTrajectory, or one level deeper as
-// MoveIt has it ({"joint_trajectory": {...}}). Its shape only; names, sizes, limits and times are
-// validate()'s.
+// Describes trajectory_msgs/JointTrajectory, or MoveIt's nesting ({"joint_trajectory": {...}}).
+// Only the shape is checked; validate() checks names, sizes, limits and times.
 [[nodiscard]] FormatPtr<TrajectoryRequest> trajectory_request_format();
-// As the server tells one: what is said is what may be posted, so there is one schema for both.
+// Describes a trajectory in an answer; the schema is that of requests.
 [[nodiscard]] FormatPtr<TrajectoryRequest> told_trajectory_format();
 
 }  // namespace armloom

@@ -9,7 +9,7 @@
 namespace armloom {
 namespace {
 
-// What \s means in the pattern of a schema, but for what no name may hold.
+// White space of \s in a JSON Schema pattern, without control characters.
 constexpr std::string_view kWhiteSpace[] = {
     " ",  // U+0020, U+00A0, U+1680, U+2000 to U+200A,
           // U+2028, U+2029, U+202F, U+205F, U+3000, U+FEFF
@@ -38,7 +38,7 @@ FormatPtr<std::string> who_format() {
   return formats::text(
       {is_who,
        "bad-name",
-       "who does it is at most 256 characters without control characters, not only white space",
+       "\"who\" must have at most 256 characters, no control characters, and not only white space",
        {{"maxLength", kJobNameMax}, {"pattern", R"(^([^\u0000-\u001f]*\S[^\u0000-\u001f]*)?$)"}}});
 }
 

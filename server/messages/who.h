@@ -6,8 +6,7 @@
 
 namespace armloom {
 
-// Who does something, as they say themselves: a name for people, or nothing. What is blank would be
-// told as nobody.
+// Describes a person's name, which may be empty but not blank.
 [[nodiscard]] FormatPtr<std::string> who_format();
 
 }  // namespace armloom

@@ -30,7 +30,7 @@ double seconds(std::chrono::nanoseconds time) {
 const Buckets kPeriods{0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5, 1.0};
 const Buckets kLatencies{0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5, 1.0, 5.0};
 
-// Objects come and go, and their names are the client's: what is no arm is the scene.
+// Object names are chosen by clients and unbounded, so all objects are "scene".
 std::string side(const std::optional<ArmId>& arm, const Cell& cell) {
   return arm ? cell.arms[arm->index()].name : "scene";
 }
@@ -41,7 +41,7 @@ class Metrics::Impl {
  public:
   Impl(CellPtr cell, double speed) : cell_(std::move(cell)) {
     set_speed(speed);
-    // So that a rate is seen from the first one on.
+    // Makes rates correct from the first event on.
     for (const JobState state : kJobEnds) {
       jobs_.Add({{"outcome", to_string(state)}});
     }
@@ -93,7 +93,7 @@ class Metrics::Impl {
   void answered(const std::string& method, const std::string& route, int status,
                 std::chrono::nanoseconds after) {
     const std::string where = route.empty() ? "other" : route;
-    // A method is what a client likes; a route's is one of few.
+    // Clients may send any method; only a route's methods are few.
     const std::string how = route.empty() ? "any" : method;
     answers_.Add({{"method", how}, {"route", where}, {"status", std::to_string(status)}})
         .Increment();
@@ -108,7 +108,7 @@ class Metrics::Impl {
   std::string text(const Readings& readings) {
     readers_.Set(static_cast<double>(readings.readers));
     raise(frames_dropped_, readings.frames_dropped);
-    raise(sent_away_, readings.readers_sent_away);
+    raise(sent_away_, readings.subscribers_disconnected);
     recording_lost_.Set(readings.recording_lost ? 1 : 0);
     storage_failed_.Set(readings.storage_failed ? 1 : 0);
     return prometheus::TextSerializer().Serialize(registry_.Collect());
@@ -140,7 +140,7 @@ class Metrics::Impl {
     return {periods_.Add(labels, kPeriods), overruns_.Add(labels), worst_.Add(labels)};
   }
 
-  // The strand's; pairs are few and stay.
+  // On the strand. Pairs are few and permanent.
   Nearest& nearest_of(const Proximity& near) {
     std::pair<std::string, std::string> pair{side(near.arm_a, *cell_), side(near.arm_b, *cell_)};
     if (pair.second < pair.first) std::swap(pair.first, pair.second);
@@ -152,7 +152,7 @@ class Metrics::Impl {
     return nearest_.emplace(std::move(pair), nearest).first->second;
   }
 
-  // A job is told once for each change: what is new in it counts.
+  // Counts what is new in a published job.
   void follow(const JobView& job) {
     const auto now = std::chrono::steady_clock::now();
     if (job.state == JobState::queued) {
@@ -183,48 +183,46 @@ class Metrics::Impl {
   CellPtr cell_;
   std::atomic<double> scale_{1.0};
   prometheus::Registry registry_;
-  Family<Counter>& jobs_ = counters("armloom_jobs_total", "Jobs that ended, by how");
-  Family<Counter>& waits_ =
-      counters("armloom_job_waits_total", "Jobs that waited, by each reason that they gave");
+  Family<Counter>& jobs_ = counters("armloom_jobs_total", "Ended jobs, by outcome");
+  Family<Counter>& waits_ = counters("armloom_job_waits_total", "Jobs that waited, by reason");
   Family<Gauge>& waiting_ = gauges("armloom_jobs", "Jobs that have not ended, by state");
-  Gauge& stopped_ = gauges("armloom_stopped", "1: every arm is stopped").Add({});
+  Gauge& stopped_ = gauges("armloom_stopped", "1 if every arm is stopped").Add({});
   Histogram& decisions_ =
-      histograms("armloom_decision_seconds", "From a job's arrival to the first word on it")
+      histograms("armloom_decision_seconds", "Time from a job's arrival to its first decision")
           .Add({}, kLatencies);
   Counter& evaluations_ =
-      counters("armloom_evaluations_total", "Collision evaluations that decisions took").Add({});
+      counters("armloom_evaluations_total", "Collision evaluations for decisions").Add({});
   Family<Gauge>& clearance_ =
-      gauges("armloom_clearance_metres", "Of a pair, as the monitor sees it");
+      gauges("armloom_clearance_metres", "Clearance of a pair, measured by the monitor");
   Family<Gauge>& clearance_min_ =
-      gauges("armloom_clearance_min_metres", "The smallest of a pair since the start");
+      gauges("armloom_clearance_min_metres", "Smallest clearance of a pair since the start");
   std::map<std::pair<std::string, std::string>, Nearest> nearest_;
   Counter& monitor_stops_ =
-      counters("armloom_monitor_findings_total", "What the monitor found wrong").Add({});
+      counters("armloom_monitor_findings_total", "Findings of the monitor").Add({});
   Counter& guard_refusals_ =
-      counters(
-          "armloom_guard_refusals_total",
-          "Grants of authority that the scheduler should not have made; the guard kept them back")
+      counters("armloom_guard_refusals_total",
+               "Invalid grants of authority by the scheduler, refused by the guard")
           .Add({});
   Family<Histogram>& periods_ =
-      histograms("armloom_period_seconds", "Between two rounds of a loop");
+      histograms("armloom_period_seconds", "Time between two cycles of a loop");
   Family<Counter>& overruns_ =
-      counters("armloom_overruns_total", "Rounds that came later than five periods");
-  Family<Gauge>& worst_ = gauges("armloom_period_worst_seconds", "The longest since the start");
+      counters("armloom_overruns_total", "Cycles that began later than five periods");
+  Family<Gauge>& worst_ = gauges("armloom_period_worst_seconds", "Longest period since the start");
   PeriodWatch control_{watch_parts("control"), kControlPeriod, kOverrunPeriods};
   PeriodWatch monitor_{watch_parts("monitor"),
                        std::chrono::duration<double>(1.0 / cell_->monitor.rate_hz),
                        kOverrunPeriods};
   Histogram& stops_ =
-      histograms("armloom_stop_latency_seconds", "From a request to stop to the executive")
+      histograms("armloom_stop_latency_seconds", "Time from a stop request to the executive")
           .Add({}, kLatencies);
   Histogram& transactions_ =
-      histograms("armloom_database_seconds", "Of a transaction with --data, until it was synced")
+      histograms("armloom_database_seconds", "Duration of a transaction with --data, with its sync")
           .Add({}, kLatencies);
   Family<Counter>& answers_ = counters("armloom_http_requests_total", "Requests answered");
   Family<Counter>& limited_ =
-      counters("armloom_limited_total", "What was refused as one too many of a client, or of all");
+      counters("armloom_limited_total", "Requests, jobs and connections refused by a limit");
   Family<Histogram>& took_ =
-      histograms("armloom_http_seconds", "From a whole request to its answer");
+      histograms("armloom_http_seconds", "Time from a whole request to its response");
   Gauge& readers_ = gauges("armloom_event_subscribers", "Readers of events and poses").Add({});
   Counter& frames_dropped_ =
       counters("armloom_frames_dropped_total", "Pose frames that slow readers did not get").Add({});
@@ -232,10 +230,10 @@ class Metrics::Impl {
       counters("armloom_subscribers_disconnected_total", "Readers that fell too far behind")
           .Add({});
   Gauge& recording_lost_ =
-      gauges("armloom_recording_lost", "1: the recording is no longer whole").Add({});
+      gauges("armloom_recording_lost", "1 if the recording is incomplete").Add({});
   Gauge& storage_failed_ =
-      gauges("armloom_storage_failed", "1: jobs cannot be stored, and no arm is let go").Add({});
-  std::map<std::string, Open> open_;  // by key; as many as the executive takes
+      gauges("armloom_storage_failed", "1 if jobs cannot be stored; no arm may start").Add({});
+  std::map<std::string, Open> open_;  // by key; bounded by the executive
 };
 
 Metrics::Metrics(CellPtr cell, double speed)

@@ -10,18 +10,18 @@
 
 namespace armloom {
 
-// Figures of a run of the server for Prometheus (text format 0.0.4), all called "armloom_...".
-// config/grafana/armloom.json shows them. Names and labels are part of the interface.
+// Prometheus metrics of a server session (text format 0.0.4), called "armloom_...", shown by
+// config/grafana/armloom.json. Names and labels are part of the interface.
 class Metrics {
  public:
-  // `speed`: cell seconds per wall second; periods that are longer by that count as kept.
+  // `speed`: cell seconds per wall second. Below 1, periods may be longer accordingly.
   Metrics(CellPtr cell, double speed);
   ~Metrics();
 
   // On the executive's strand, at every control tick and every monitor period.
   void ticked();
   void watched(const StateFrame& frame);
-  void judged(std::uint64_t evaluations);  // a decision's question was answered
+  void judged(std::uint64_t evaluations);  // for one question of a decision
   // Thread-safe.
   void set_speed(double speed);
   void stop_taken(std::chrono::nanoseconds after);  // from the request to the strand
@@ -29,17 +29,17 @@ class Metrics {
 
   // On the server's thread.
   void happened(const Event& event);
-  // Over a limit of clients: "requests", "jobs", "connections".
+  // Refused by a client limit: "requests", "jobs", "connections".
   void limited(const char* what);
-  // `route`: the pattern that fits, "" for none.
+  // `route`: the matching pattern, or "".
   void answered(const std::string& method, const std::string& route, int status,
                 std::chrono::nanoseconds after);
 
-  // What others count, at the moment of asking.
+  // Values counted elsewhere.
   struct Readings {
     std::size_t readers = 0;  // of events and poses
     std::uint64_t frames_dropped = 0;
-    std::uint64_t readers_sent_away = 0;
+    std::uint64_t subscribers_disconnected = 0;
     bool recording_lost = false;
     bool storage_failed = false;
   };

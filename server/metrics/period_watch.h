@@ -12,8 +12,7 @@
 
 namespace armloom {
 
-// How evenly something happens that should happen once in a period. Called by one thread; read by
-// any.
+// Measures how regular a periodic event is. Called by one thread; read by any.
 class PeriodWatch {
  public:
   struct Parts {
@@ -25,7 +24,7 @@ class PeriodWatch {
   PeriodWatch(Parts parts, std::chrono::duration<double> period, double overrun_periods)
       : parts_(parts), overrun_s_(period.count() * overrun_periods) {}
 
-  // `scale`: by how much the period is longer at present.
+  // `scale`: factor on the period at present.
   void happened(double scale) {
     const auto now = std::chrono::steady_clock::now();
     if (last_) {

@@ -1,5 +1,5 @@
-# Runs when it is installed: the systemd unit and /etc/armloom, with the folders of that prefix. Beside
-# /usr these are /etc and /var, as the file system's standard has it; of any other prefix, below it.
+# Runs on installation: writes the systemd unit and the settings with the folders of the prefix. For
+# /usr these are in /etc and /var (Filesystem Hierarchy Standard), otherwise below the prefix.
 get_filename_component(PREFIX "${CMAKE_INSTALL_PREFIX}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_BINARY_DIR}")
 if(PREFIX STREQUAL "/usr")
   set(root "")

@@ -18,7 +18,6 @@ using Packages = std::map<std::string, std::string>;
 
 constexpr const char* kFolder = "files";
 
-// Each file once.
 class Copies {
  public:
   Copies(const fs::path& folder, const CellDescription& cell) : folder_(folder / kFolder) {
@@ -26,7 +25,7 @@ class Copies {
       packages_[robot.urdf].insert(robot.packages.begin(), robot.packages.end());
   }
 
-  // The name of its copy in the folder.
+  // Returns the copy's name in the folder.
   std::string take(const fs::path& file) {
     const auto known = names_.find(file);
     if (known != names_.end()) return known->second;
@@ -65,7 +64,7 @@ class Copies {
   void copy(const fs::path& file, const std::string& name) {
     make_folder();
     std::error_code error;
-    if (fs::equivalent(file, folder_ / name, error)) return;  // the cell is itself such a copy
+    if (fs::equivalent(file, folder_ / name, error)) return;  // the cell is such a copy
     fs::copy_file(file, folder_ / name, fs::copy_options::overwrite_existing, error);
     if (error) note(file, "to " + (folder_ / name).string() + ": " + error.message());
   }
@@ -95,8 +94,9 @@ Result<std::string> copy_cell(const CellFile& source, const fs::path& folder) {
   Copies copies(folder, *cell);
   std::string text =
       with_cell_paths(source.text, source.file.parent_path(), [&](const fs::path& path) {
-        if (fs::is_directory(path)) return std::string(kFolder);  // a package's: what is used of it
-        if (!fs::exists(path)) return path.string();  // a schema that only editors would look for
+        // a package: only its used files are copied
+        if (fs::is_directory(path)) return std::string(kFolder);
+        if (!fs::exists(path)) return path.string();  // a schema, for editors only
         return kFolder + ("/" + copies.take(path));
       });
   if (!copies.fault().empty()) {

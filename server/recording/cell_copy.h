@@ -7,17 +7,17 @@
 
 namespace armloom {
 
-// What the paths of a cell file lead to, copied: so that a recording may be moved to another
-// machine and is still whole. Robots' files and meshes come to the folder "files" beside the copy,
-// those of one name beside each other ("arm.stl", "arm-2.stl"); a URDF names its meshes there.
+// Copies the files that a cell file names, so that a recording stays complete on another machine.
+// Robots' files and meshes go to the folder "files"; equal names get numbers ("arm.stl",
+// "arm-2.stl"). A copied URDF names the copied meshes.
 
 struct CellFile {
   std::filesystem::path file;
   std::string text;
 };
 
-// The text of the cell file for `folder`, comments lost. Precondition: the cell was built from it,
-// so that all that it names is there. Problem (unavailable): something cannot be copied.
+// Copies the files. Returns the cell file's text for `folder`, without comments. Precondition: the
+// cell was built from it. Problem (unavailable): a file cannot be copied.
 [[nodiscard]] Result<std::string> copy_cell(const CellFile& source,
                                             const std::filesystem::path& folder);
 

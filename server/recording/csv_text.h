@@ -10,13 +10,13 @@
 
 namespace armloom {
 
-// `billionths` as a decimal fraction with `decimals` (3 or 9) places, the rest cut off.
+// Appends `billionths` as a decimal fraction, truncated to `decimals` (3 or 9) places.
 void append_fraction(std::string& out, std::int64_t billionths, int decimals);
-// Seconds, in whole milliseconds where that is all there is.
+// Appends seconds with 3 decimals if these are whole milliseconds, else with 9.
 void append_seconds(std::string& out, TimePoint time);
 
 [[nodiscard]] std::vector<std::string_view> split_fields(std::string_view line);
-// A finite number of magnitude 9e8 at most, and nothing else.
+// Returns a finite number of magnitude 9e8 at most; nullopt if the field is anything else.
 [[nodiscard]] std::optional<double> read_number(std::string_view field);
 
 }  // namespace armloom

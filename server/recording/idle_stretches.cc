@@ -33,7 +33,7 @@ IdleWriter::IdleWriter(std::filesystem::path file) : file_(std::move(file)) {
   std::filesystem::remove(file_, ec);
 }
 
-// At once, so that a stretch is told as soon as the row behind it can be in the file.
+// Flushes at once, so that a stretch is in its file before the next row can be.
 void IdleWriter::write(const IdleStretch& stretch) {
   std::string line;
   if (!out_.is_open()) {

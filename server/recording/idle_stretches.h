@@ -9,19 +9,18 @@
 
 namespace armloom {
 
-// While no arm moves, states.csv has the first and the last row, and none between. Which stretches
-// these are stands in a file beside it, states_idle.csv: header `from_s,to_s`, one line for each,
-// both times as in the rows. So what is left out is told from what is lost.
+// A time in which no arm moves: states.csv has its first and last row only. states_idle.csv lists
+// these times (header `from_s,to_s`, times as in the rows), to tell omitted rows from lost rows.
 struct IdleStretch {
   TimePoint from;
   TimePoint to;
   bool operator==(const IdleStretch&) const = default;
 };
 
-// "states_idle.csv" for "states.csv".
+// Returns "states_idle.csv" for "states.csv".
 [[nodiscard]] std::filesystem::path idle_file_of(const std::filesystem::path& states_file);
 
-// Makes the file with the first stretch; one of an earlier recording is removed.
+// Creates the file with the first stretch. Removes a file of an earlier recording.
 class IdleWriter {
  public:
   explicit IdleWriter(std::filesystem::path file);
@@ -33,7 +32,8 @@ class IdleWriter {
   std::ofstream out_;
 };
 
-// In order of time; none where there is no such file. Problems say "states_idle.csv:LINE".
+// Returns the stretches in order of time, none if the file is missing. Problems name
+// "states_idle.csv:LINE".
 [[nodiscard]] Result<std::vector<IdleStretch>> read_idle_stretches(
     const std::filesystem::path& file);
 

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// All that a recording consists of, beside the copies.
+// Files of a recording, without the copies.
 constexpr std::array<std::string_view, 6> kFiles = {"events.jsonl", "states.csv", "states_idle.csv",
                                                     "cell.json",    "jobs.json",  "inputs.jsonl"};
 
@@ -39,7 +39,7 @@ KeptRecording look_at(std::string name, const fs::path& folder) {
     const std::uintmax_t bytes = fs::file_size(file, ec);
     if (ec) continue;
     found.bytes += bytes;
-    if (file.parent_path() != folder) continue;  // a copy is as old as what it was made of
+    if (file.parent_path() != folder) continue;  // copies are not listed
     found.files.push_back({file.filename().string(), bytes});
     const auto written = fs::last_write_time(file, ec);
     if (ec) continue;
@@ -58,7 +58,7 @@ bool is_file_of_recording(std::string_view name) {
   return std::ranges::find(kFiles, name) != kFiles.end();
 }
 
-// The events last: where the rest cannot be removed it still is a recording.
+// Events are last, so that an incompletely removed recording remains a recording.
 std::vector<fs::path> files_of_recording(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code ec;

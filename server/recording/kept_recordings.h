@@ -9,11 +9,11 @@
 
 namespace armloom {
 
-// What lies in a data folder, found by looking each time; any thread. A recording stands in a
-// folder that is named after its begin (Recording::unused_folder), or in the data folder itself,
-// beside files that are not its own. Links are not followed: neither a folder nor a file is one.
+// The recordings in a data folder, searched at each call; any thread. A recording is in a folder
+// named after its start (Recording::unused_folder), or in the data folder itself, among other
+// files. Links are not followed.
 
-// What the one in the data folder itself is called.
+// Name of the recording in the data folder itself.
 inline constexpr std::string_view kInDataFolder = "data";
 
 struct KeptRecording {
@@ -23,27 +23,27 @@ struct KeptRecording {
   };
   std::string name;
   std::filesystem::path folder;
-  std::vector<File> files;   // its own, beside the copies
-  std::uintmax_t bytes = 0;  // with the copies of what the cell names
-  std::optional<std::filesystem::file_time_type> begun = {};  // as its cell.json is old
-  std::filesystem::file_time_type written = std::filesystem::file_time_type::min();  // last
+  std::vector<File> files;                                    // its own, without copies
+  std::uintmax_t bytes = 0;                                   // with copies
+  std::optional<std::filesystem::file_time_type> begun = {};  // modification time of cell.json
+  std::filesystem::file_time_type written = std::filesystem::file_time_type::min();  // last write
 };
 
-// Those that have events, by when they were written, oldest first.
+// Returns the recordings that have events, least recently written first.
 [[nodiscard]] std::vector<KeptRecording> recordings_in(const std::filesystem::path& data);
 
-// Where the recording of this name would stand; nothing: none is called so.
+// Returns the folder for a recording of this name; nullopt if no recording has such a name.
 [[nodiscard]] std::optional<std::filesystem::path> folder_of_recording(
     const std::filesystem::path& data, const std::string& name);
 
-// "events.jsonl", "states.csv", ...: whether a recording has a file of this name of its own.
+// Returns true for the name of a recording's own file: "events.jsonl", "states.csv", ...
 [[nodiscard]] bool is_file_of_recording(std::string_view name);
 
-// What a recording's folder has of it, the copies too; the events are the last.
+// Returns a recording's files, including copies; the events are last.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_recording(
     const std::filesystem::path& folder);
 
-// The folder in it for copies of what the cell names.
+// Returns the subfolder for copies of the cell's files.
 [[nodiscard]] std::filesystem::path copies_of_recording(const std::filesystem::path& folder);
 
 }  // namespace armloom

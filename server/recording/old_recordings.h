@@ -14,34 +14,35 @@
 
 namespace armloom {
 
-// How much of the recordings in a data folder is kept, the one that is being written included; that
-// one stays whatever it takes.
+// Limits for the recordings in a data folder, including the current recording, which is always
+// kept.
 struct RecordingBounds {
   std::optional<std::size_t> count = {};
-  std::optional<std::chrono::days> age = {};  // since it was written last
-  std::optional<std::uintmax_t> bytes = {};   // of all together
+  std::optional<std::chrono::days> age = {};  // since the last write
+  std::optional<std::uintmax_t> bytes = {};   // in total
 
   [[nodiscard]] bool is_any() const { return count || age || bytes; }
 };
 
-// Removes recordings of a data folder until its bounds hold, those first that were written longest
-// ago, and never one in a folder that is in use: of the data folder itself and of folders in it
-// that bear Recording's kind of name the files that Recording makes. Everything else is left alone.
+// Removes recordings, least recently written first, until the limits hold, except in folders in
+// use. Touches only files that Recording makes, in the data folder and in subfolders named by
+// Recording.
 struct RemovedRecording {
   std::filesystem::path folder;
   std::uintmax_t bytes;
-  std::string fault;  // why it could not be removed whole; empty: it was
+  std::string fault;  // why it was not removed completely, or empty
 };
 [[nodiscard]] std::vector<RemovedRecording> remove_old_recordings(
     const std::filesystem::path& data, const RecordingBounds& bounds,
     const std::vector<std::filesystem::path>& in_use, std::filesystem::file_time_type now);
 
-// Does that again and again, on a thread of its own, from its making on.
+// Removes old recordings periodically on its own thread, from construction on.
 class OldRecordings {
  public:
   struct Place {
     std::filesystem::path data;
-    std::vector<std::filesystem::path> in_use;  // folders: of the running one, of its cell file
+    // folders of the current recording and of its cell file
+    std::vector<std::filesystem::path> in_use;
   };
   OldRecordings(Place place, RecordingBounds bounds, std::chrono::milliseconds period,
                 std::function<void(const RemovedRecording&)> tell);  // on that thread
@@ -49,7 +50,7 @@ class OldRecordings {
  private:
   std::mutex mutex_;
   std::condition_variable_any end_;
-  std::jthread thread_;  // the last: it ends first
+  std::jthread thread_;  // last member: ends first
 };
 
 }  // namespace armloom

@@ -74,10 +74,10 @@ std::optional<std::string> Recording::fault() const {
          (why == 0 ? "cannot be written" : std::generic_category().message(why));
 }
 
-// What comes after a gap could not be replayed: a new one begins with a new run.
+// A recording with a gap could not be replayed, so it ends for this session.
 std::string said_of_lost_recording(const std::string& fault) {
-  return "the recording is no longer whole: " + fault +
-         "; the cell goes on without one, until the server is started again and can write one";
+  return "the recording is incomplete: " + fault +
+         "; the cell continues without recording until the server is restarted and can write";
 }
 
 void Recording::event(std::string_view json) {

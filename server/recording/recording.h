@@ -16,18 +16,17 @@
 
 namespace armloom {
 
-// A recording folder being written: events.jsonl, states.csv (if asked for), cell.json with a copy
-// of all that it names (cell_copy.h), jobs.json. Files of an earlier recording are replaced.
-// A disk that fills up does not stop the run; fault() says so, soon: events and jobs are given to
-// the system one by one. Not thread-safe, but states may be written from another thread than the
-// rest.
+// A recording folder being written: events.jsonl, states.csv (if wanted), cell.json with copies of
+// its files (cell_copy.h), jobs.json. Replaces an earlier recording. A full disk does not stop the
+// session; fault() reports it soon, because events and jobs are flushed individually. Not
+// thread-safe, but another thread may write states.
 class Recording {
  public:
-  // `folder`, or when that holds a recording already a new folder in it, named after the present
-  // time ("2026-11-21T09-33-00Z"): a server that starts again loses nothing.
+  // Returns `folder`, or if that holds a recording, a new folder in it named after the present time
+  // ("2026-11-21T09-33-00Z"), so that a restarted server overwrites nothing.
   [[nodiscard]] static std::filesystem::path unused_folder(const std::filesystem::path& folder);
 
-  // Makes the folder. Problem (unavailable): it cannot be written.
+  // Creates the folder. Problem (unavailable): it cannot be written.
   [[nodiscard]] static Result<std::unique_ptr<Recording>> create(
       const std::filesystem::path& folder, const CellFile& source, const Cell& cell,
       bool with_states);
@@ -39,48 +38,49 @@ class Recording {
     states_->write(time, q);
     if (!states_->good()) note_fault("states.csv");
   }
-  // So that whoever reads states.csv now finds what was measured until now. On the thread that
-  // writes states.
+  // Writes all states measured until now to states.csv, for readers. Call on the thread that writes
+  // states.
   void catch_up_states() {
     if (!states_) return;
     errno = 0;
     states_->catch_up();
     if (!states_->good()) note_fault("states.csv");
   }
-  // As StatesWriter::at_rest.
+  // See StatesWriter::at_rest.
   void at_rest(bool at_rest) {
     if (states_) states_->at_rest(at_rest);
   }
-  // Either the whole jobs file at once, or job by job as they are accepted.
+  // Either the whole jobs file, or each job when it is accepted.
   void jobs_file(std::string_view text);
   void job(TimePoint at, std::string_view body);
-  // Ends the files; nothing is written after. Precondition: no other thread writes states any more.
+  // Ends the files. Precondition: no other thread writes states any more.
   void close();
-  // What could not be written first, and why: "events.jsonl: No space left on device". Thread-safe.
+  // Returns the first file that could not be written and why: "events.jsonl: No space left on
+  // device". Thread-safe.
   [[nodiscard]] std::optional<std::string> fault() const;
   [[nodiscard]] bool good() const { return !fault(); }
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
 
  private:
   Recording() = default;
-  void note_fault(const char* file);  // errno says why
+  void note_fault(const char* file);  // with the reason in errno
   std::filesystem::path folder_;
   std::ofstream events_;
   std::optional<StatesWriter> states_;
   std::ofstream jobs_;
-  bool jobs_open_ = false;  // an array that has to be closed
+  bool jobs_open_ = false;  // the array must be closed
   bool closed_ = false;
   std::atomic<const char*> faulty_{nullptr};  // the first file that could not be written
   std::atomic<int> fault_errno_{0};
 };
 
-// What people are told of a fault().
+// Returns the alert text for a fault().
 [[nodiscard]] std::string said_of_lost_recording(const std::string& fault);
 
 inline constexpr std::size_t kTextFileMax = std::size_t{256} << 20U;
 
-// A whole file, or what a pipe holds, as text. Problem: it cannot be read, is a folder or device
-// (which may never end), or is longer than kTextFileMax.
+// Returns the text of a file or pipe. Problem: it cannot be read, is a folder or device (which may
+// never end), or is longer than kTextFileMax.
 [[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& file);
 
 }  // namespace armloom

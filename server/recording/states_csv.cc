@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::size_t kBuffer = 1U << 20U;
 
-// A recording has one row per control tick in which an arm moves. What happened in a longer hole
-// cannot be audited.
+// A recording has one row per control tick in which an arm moves. Motion in a longer gap is
+// unknown.
 constexpr std::size_t kWarningsMax = 10;
 constexpr Duration kGapMax = std::chrono::milliseconds(50);
 
-// While no arm is commanded to move, none should leave where it rests by more than this.
+// Tolerated motion of resting arms while no arm is commanded to move.
 double rest_tolerance(const Cell& cell) { return cell.checking.tracking_error_rad; }
 
-// Reads line after line and keeps the place for problems.
+// Reads line by line and keeps the place for problems.
 class StatesReader {
  public:
   StatesReader(const std::filesystem::path& file, const Cell& cell,
@@ -41,7 +41,7 @@ class StatesReader {
     std::vector<RecordedState> states;
     while (next_line()) {
       if (in_.eof()) {
-        warn("the last row has no end of line: the run was cut off there, the row is left out");
+        warn("the last row has no line end: the recording was cut off there, the row is ignored");
         break;
       }
       RecordedState state{TimePoint{},
@@ -55,17 +55,16 @@ class StatesReader {
     }
     if (states.empty()) return fault("", "there is no row of states", {});
     if (idle_next_ < idle_.size()) {
-      warn("rows are missing: " + idle_file_.filename().string() + " goes on");
+      warn("rows are missing: " + idle_file_.filename().string() + " continues");
     }
     return states;
   }
 
  private:
-  // Where rows were left out because nothing moved, that has been said; a hole it is where they
-  // were not, or something did move.
+  // Warns of a gap between rows that is not recorded as idle, and of motion in an idle stretch.
   void look_between(const RecordedState& before, RecordedState& state) {
     while (idle_next_ < idle_.size() && idle_[idle_next_].to < state.time) {
-      warn("rows are missing before this one, between which nothing moved");
+      warn("rows of an idle stretch are missing before this row");
       ++idle_next_;
     }
     if (idle_next_ < idle_.size() && idle_[idle_next_] == IdleStretch{before.time, state.time}) {
@@ -73,10 +72,10 @@ class StatesReader {
       const double moved = (state.q - before.q).cwiseAbs().maxCoeff();
       state.after_rest = moved <= rest_tolerance(cell_);
       if (!state.after_rest) {
-        warn("arms have moved in what was to be a rest: what happened in between is not known");
+        warn("arms moved in a stretch recorded as idle: motion before this row is unknown");
       }
     } else if (state.time - before.time > kGapMax) {
-      warn("more than 50 ms without a row before this one: what happened in between is not known");
+      warn("more than 50 ms without a row: motion before this row is unknown");
     }
   }
 
@@ -198,7 +197,7 @@ void StatesWriter::write(TimePoint time, const Configuration& q) {
   append(time, q);
 }
 
-// The last row of a stretch, and where rows were left out before it, that they were.
+// Appends the last row of a stretch. Records the stretch if it has omitted rows.
 void StatesWriter::end_rest() {
   if (rows_held_ > 1 || (rows_held_ > 0 && held_at_ - *rest_from_ > kGapMax)) {
     idle_.write({*rest_from_, held_at_});

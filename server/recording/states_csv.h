@@ -15,10 +15,10 @@
 
 namespace armloom {
 
-// states.csv: header `time_s,<joint>,...` in the order of the cell's joints, one row per control
-// tick in which an arm moves; of a stretch in which none does, the first and the last one (see
-// idle_stretches.h). Times in seconds, positions in rad or m with nine decimals: half a nanometre
-// or nanoradian of rounding, and the same bytes for the same run.
+// Writes states.csv: header `time_s,<joint>,...` in the order of the cell's joints, one row per
+// control tick in which an arm moves. An idle stretch has only its first and last row
+// (idle_stretches.h). Times in seconds, positions in rad or m, rounded to nine decimals. Equal runs
+// give equal bytes.
 class StatesWriter {
  public:
   StatesWriter(const std::filesystem::path& file, const Cell& cell);
@@ -26,15 +26,15 @@ class StatesWriter {
   StatesWriter(const StatesWriter&) = delete;
   StatesWriter& operator=(const StatesWriter&) = delete;
 
-  // Of the rows from now on: no arm is commanded to move, or one is (so it begins). A row in which
-  // a joint is farther from where it came to rest than checking.tracking_error is written though.
+  // True if no arm is commanded to move in the following rows; initially false. Rows in which a
+  // joint is farther from its rest position than checking.tracking_error are written all the same.
   void at_rest(bool at_rest) { at_rest_ = at_rest; }
-  // Precondition: |q| < 9e8. About 20 ns for each joint.
+  // Precondition: |q| < 9e8. Takes about 20 ns per joint.
   void write(TimePoint time, const Configuration& q);
-  // Brings the file up to the last row that came, for who reads it meanwhile: a stretch of rest is
-  // ended by it, and begins anew with the next row.
+  // Writes all rows so far, for readers of the file. Ends an idle stretch; the next row starts
+  // another.
   void catch_up();
-  // Writes what is held back. Whether all has been written.
+  // Flushes buffered rows. Returns true if everything was written.
   bool close();
   [[nodiscard]] bool good() const { return out_.good() && idle_.good(); }
 
@@ -47,18 +47,17 @@ class StatesWriter {
   IdleWriter idle_;
   double tolerance_;
   bool at_rest_ = false;
-  std::optional<TimePoint> rest_from_;  // of the present stretch: its first row
+  std::optional<TimePoint> rest_from_;  // first row of the stretch
   Configuration rest_q_;
-  std::size_t rows_held_ = 0;  // since then, of which the last one is to be written
+  std::size_t rows_held_ = 0;  // since then; the last is written later
   TimePoint held_at_{};
   Configuration held_q_;
 };
 
-// Reads such a file strictly: every joint of the cell has its column (in any order, no others),
-// every field is a finite number, times increase. Problems say "states.csv:LINE" and the column.
-// `warnings`, if given, gets a sentence for each hole in the times that is no rest, and for a last
-// row without an end of line, which is left out (the first ten): what can be read, but need not be
-// all that happened.
+// Reads states.csv strictly: a column for each joint of the cell (in any order, no others), finite
+// numbers, increasing times. Problems name "states.csv:LINE" and the column. `warnings`, if given,
+// gets up to ten sentences on gaps that are not idle stretches, and on a last row without line end,
+// which is ignored.
 [[nodiscard]] Result<std::vector<RecordedState>> read_states(
     const std::filesystem::path& file, const Cell& cell,
     std::vector<std::string>* warnings = nullptr);

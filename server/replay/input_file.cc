@@ -19,13 +19,13 @@ void InputFile::came(std::uint64_t ticks, const ExecutiveInput& input) {
   parts_.post([this, line = text_of(*logged_input_format(), {ticks, input})] { write(line); });
 }
 
-// After a gap nothing could be replayed.
+// Stops at the first failure, because a log with a gap cannot be replayed.
 void InputFile::write(const std::string& line) {
   if (said_lost_) return;
   file_ << line << '\n' << std::flush;
   if (file_) return;
   said_lost_ = true;
-  if (parts_.alarm) parts_.alarm("the log of inputs is no longer whole: it cannot be written");
+  if (parts_.alarm) parts_.alarm("the input log is incomplete: it cannot be written");
 }
 
 }  // namespace armloom

@@ -13,14 +13,13 @@
 
 namespace armloom {
 
-// inputs.jsonl of a recording being written, beside its events: an input is there before what
-// follows from it.
+// Writes inputs.jsonl of a recording. An input is written before the events that follow from it.
 class InputFile final : public InputLog {
  public:
   static constexpr const char* kName = "inputs.jsonl";
 
-  // `post`: to the thread that writes events, in order. `alarm`: is told there, once, when the file
-  // cannot be written any more. Problem (unavailable): it cannot be made.
+  // `post` runs a task on the thread that writes events, in order. `alarm` is called there, once,
+  // if the file can no longer be written. Problem (unavailable): the file cannot be created.
   struct Parts {
     std::function<void(std::function<void()>)> post;
     std::function<void(const std::string&)> alarm;  // may be null

@@ -9,9 +9,9 @@
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
+#include "server/codec/output_part.h"
 #include "server/codec/read_text.h"
 #include "server/codec/scalar_formats.h"
-#include "server/codec/told_part.h"
 #include "server/codec/value_formats.h"
 #include "server/messages/fault.h"
 #include "server/messages/job_amendment.h"
@@ -25,7 +25,7 @@ namespace {
 
 using In = ExecutiveInput;
 
-// All that the type can hold, where count() ends with what clients may say.
+// All values of T, while count() only allows values for clients.
 template <class T>
 class WholeFormat final : public CustomFormat<T> {
  public:
@@ -45,7 +45,7 @@ FormatPtr<T> whole() {
   return make_format<WholeFormat<T>>();
 }
 
-// In the client's words, as everything is validated anew.
+// The client's text, which is validated again.
 class BodyFormat final : public CustomFormat<std::shared_ptr<const std::string>> {
  public:
   using Body = std::shared_ptr<const std::string>;
@@ -95,7 +95,7 @@ FormatPtr<In::FormerJob> former_job_format() {
   });
 }
 
-// Angles do not read back to the same matrix: that stands beside them, row by row.
+// Angles do not read back to the same matrix, so the matrix is stored, too, row by row.
 template <class Input>
 PartPtr<Input> object_part() {
   using Rows = std::array<double, 12>;
@@ -128,7 +128,7 @@ PartPtr<Alert> alert_part() {
   });
 }
 
-// What an input is called, and what belongs to it.
+// Name and fields of an input.
 template <class Input>
 struct Kind {
   const char* name;
@@ -141,7 +141,7 @@ struct KindOfEach<std::variant<Inputs...>> {
   using Table = std::tuple<Kind<Inputs>...>;
 };
 
-// The one table of inputs, in their order.
+// The table of inputs, in the order of the variant.
 KindOfEach<decltype(In::what)>::Table kinds() {
   using Waiting = Executive::Waiting;
   return {
@@ -151,7 +151,7 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"went_on", {}},
       {"restore", {always("jobs", &In::Restored::jobs, list(former_job_format()))}},
       {"cancel", {always("job", &In::Canceled::job, text())}},
-      {"withdraw", {always("job", &In::Withdrawn::job, text())}},
+      {"roll_back", {always("job", &In::RolledBack::job, text())}},
       {"hold",
        {always("job", &In::Held::job, text()), nanoseconds_part("until_ns", &In::Held::until)}},
       {"amend",
@@ -177,7 +177,7 @@ KindOfEach<decltype(In::what)>::Table kinds() {
       {"alert", {inlined(&In::Alerted::alert, alert_part())}},
       {"judged",
        {always("evaluations", &In::Judged::evaluations, whole()),
-        unless_usual("interrupted", &In::Judged::interrupted, false, flag(),
+        omit_default("interrupted", &In::Judged::interrupted, false, flag(),
                      "The check was ended early: its verdict is void")}},
       {"certified", {always("evaluations", &In::Certified::evaluations, whole())}},
       {"planned",

@@ -8,12 +8,12 @@
 
 namespace armloom {
 
-// The log of inputs (inputs.jsonl of a recording). First a line of this; then each input with the
-// control cycles that had begun before it: {"ticks": 1204, "input": "cancel", "job": "a"}.
-// What a line holds reads back the same to the last bit (replay.h).
+// The input log (inputs.jsonl of a recording): first a line with InputLogHead, then the inputs,
+// each with the number of control cycles begun before it: {"ticks": 1204, "input": "cancel", "job":
+// "a"}. Values read back the same to the last bit (replay.h).
 struct InputLogHead {
-  static constexpr int kVersion = 1;
-  std::string policy;           // in force
+  static constexpr int kVersion = 2;  // 1: armloom 0.1
+  std::string policy;           // at the start
   std::uint64_t seed = 1;       // of the simulated arms
   std::uint64_t first_job = 1;  // ExecutiveOptions::first_job
   int version = kVersion;

@@ -22,7 +22,7 @@ namespace {
 
 using In = ExecutiveInput;
 
-// A line further away is a damaged one: to go there would take an hour, or for ever.
+// A line further ahead is damaged. Running there would take an hour or more.
 constexpr std::uint64_t kLongestPause = std::chrono::days(31) / kControlPeriod;
 constexpr std::uint64_t kCyclesMax = TimePoint::max().time_since_epoch() / kControlPeriod;
 
@@ -30,14 +30,14 @@ Problem unreadable(const std::string& what) {
   return {ProblemKind::invalid, "bad-input-log", "", what};
 }
 
-// With its place in the line.
+// Returns the problem with its place in the line.
 std::string sentence(const Problem& problem) {
   return (problem.pointer.empty() ? "" : problem.pointer + ": ") + problem.detail;
 }
 
 Problem diverged(const std::string& logged, const std::string& here) {
   return {ProblemKind::conflict, "diverged", "",
-          "the replay is not as the run was: logged is " + logged + ", here came " + here};
+          "the replay diverged: logged " + logged + ", replayed " + here};
 }
 
 JobRequest request_of(const In::AskedJob& asked) {
@@ -87,7 +87,7 @@ class Replay::Impl final : public InputLog {
     const auto line = read_text(*logged_input_format(), text);
     if (!line) return failure(unreadable(sentence(line.error().front())));
     if (line->ticks > loop_->ticks() + kLongestPause) {
-      return failure(unreadable("the line lies more than 31 days behind the one before it"));
+      return failure(unreadable("the line is more than 31 days after the previous line"));
     }
     while (loop_->ticks() < line->ticks) loop_->tick();
     echo_.clear();
@@ -113,7 +113,7 @@ class Replay::Impl final : public InputLog {
     return arms;
   }
 
-  // What an executive does when an input comes.
+  // Repeat what the executive did when the input arrived.
   void comes(const In::Submitted& in) { (void)executive().submit(request_of(in.jobs.front())); }
   void comes(const In::BatchOpened& in) {
     batch_ = executive().open_batch(requests_of(in.jobs), false);
@@ -130,7 +130,7 @@ class Replay::Impl final : public InputLog {
     (void)executive().restore(std::move(jobs));
   }
   void comes(const In::Canceled& in) { (void)executive().cancel(in.job); }
-  void comes(const In::Withdrawn& in) { executive().withdraw(in.job); }
+  void comes(const In::RolledBack& in) { executive().roll_back(in.job); }
   void comes(const In::Held& in) { (void)executive().cancel(in.job, in.until); }
   void comes(const In::Amended& in) { (void)executive().amend(in.job, in.amendment); }
   void comes(const In::Replanned& in) { (void)executive().replan(in.job); }
@@ -154,13 +154,13 @@ class Replay::Impl final : public InputLog {
   CellPtr cell_;
   std::unique_ptr<SteppedLoop> loop_;
   std::shared_ptr<Executive::Batch> batch_;
-  std::vector<std::string> echo_;  // of the present line: what this executive says that came
+  std::vector<std::string> echo_;  // inputs logged by this executive for the present line
 };
 
 Result<std::unique_ptr<Replay>> Replay::begin(CellPtr cell, std::string_view head,
                                               Observer& observer) {
   const auto read = read_text(*input_log_head_format(), head);
-  if (!read) return failure(unreadable("this is no log of inputs of this version of armloom"));
+  if (!read) return failure(unreadable("not an input log of this version of armloom"));
   auto impl = std::make_unique<Impl>(std::move(cell));
   if (auto problems = impl->begin(*read, observer)) return failure(std::move(*problems));
   return std::unique_ptr<Replay>(new Replay(std::move(impl)));

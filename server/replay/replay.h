@@ -10,23 +10,24 @@
 
 namespace armloom {
 
-// Runs an executive again from the log of its inputs (input_format.h): each at the control cycle at
-// which it came, verdicts and plans computed anew. Comes to the same state, and tells `observer`
-// the same events. On one thread.
+// Runs an executive again from its input log (input_format.h): applies each input at its control
+// cycle and computes verdicts and plans again. Reaches the same state and passes the same events to
+// `observer`. One thread.
 class Replay {
  public:
-  // `head`: the first line of the log. Problems: it is none, or another version's; those of
-  // Executive::create(). The observer outlives it.
+  // `head`: first line of the log. Problems: it is invalid or of another version; those of
+  // Executive::create(). The observer outlives this.
   [[nodiscard]] static Result<std::unique_ptr<Replay>> begin(CellPtr cell, std::string_view head,
                                                              Observer& observer);
   ~Replay();
 
-  // The next line: first all cycles before it. Problems: it cannot be read; `diverged`: this
-  // executive is not as the logged one was, as with another program or cell.
+  // Runs all cycles before the next line, then applies the line. Problems: it is invalid;
+  // `diverged`: this executive behaves differently (another program or cell).
   [[nodiscard]] Result<void> take(std::string_view line);
-  // Cycles without inputs.
+  // Runs cycles without inputs.
   void run_until(TimePoint time);
-  // Of the cycle before which the line's input came; nothing: it cannot be read.
+  // Returns the time of the cycle before which the line's input arrived, or nullopt if the line is
+  // invalid.
   [[nodiscard]] static std::optional<TimePoint> time_of(std::string_view line);
 
   [[nodiscard]] const Executive& executive() const;

@@ -133,7 +133,7 @@ class Service::Impl {
 
   ~Impl() { (void)close(); }
 
-  // The store first: what it has written it tells the loop.
+  // Closes the store first, because it posts write completions to the loop.
   std::optional<std::string> close() {
     const auto fault = keeper_ ? keeper_->store().close() : std::nullopt;
     loop_.reset();
@@ -160,7 +160,7 @@ class Service::Impl {
     return std::nullopt;
   }
 
-  // Beside the events: what led to them.
+  // Records the executive's inputs next to the events.
   std::optional<Problems> log_inputs(const CellPtr& cell, ExecutiveOptions& options,
                                      const std::function<void(std::function<void()>)>& post) {
     if (!recording_) return std::nullopt;
@@ -176,7 +176,7 @@ class Service::Impl {
     return std::nullopt;
   }
 
-  // On the store's thread. No arm is let go that could not be put down as moving.
+  // On the store's thread. Stops all arms, because an arm may start only if that can be stored.
   void store_fails(const StoreFault* fault) {
     const std::string text = fault != nullptr
                                  ? "jobs cannot be stored: " + fault->text
@@ -190,7 +190,7 @@ class Service::Impl {
     keeper_->runs_on(*loop_);
     loop_is_there_ = true;
     look_for_damage();
-    // Before whatever comes from outside: nobody reads of a cell whose former run is not restored.
+    // Waits, so that clients see the cell only with the previous session restored.
     std::promise<void> restored;
     loop_->post_urgent([&](Executive& executive) {
       restart.go_on(executive, *cell, *keeper_);
@@ -199,12 +199,12 @@ class Service::Impl {
     restored.get_future().wait();
   }
 
-  // To everybody who is told of the executive's.
+  // Raises the alert on the executive, as its own alerts.
   void tell(Alert alert) {
     loop_->post([alert = std::move(alert)](Executive& executive) { executive.alert(alert); });
   }
 
-  // Aside: of a hundred thousand jobs that takes a tenth of a second.
+  // On the worker: 100,000 jobs take a tenth of a second.
   void look_for_damage() {
     worker_.post([this] {
       const auto damage = keeper_->lists().damage();
@@ -252,7 +252,7 @@ class Service::Impl {
                              "request target", request.target.path});
   }
 
-  // Destroyed from below: first the loop's threads end, last the sockets.
+  // Destroyed from the bottom up: the loop's threads first, sockets after them.
   ServiceOptions options_;
   StaticFiles files_;
   Guard guard_;
@@ -265,7 +265,7 @@ class Service::Impl {
   Router router_{refusal_response};
   std::unique_ptr<JobKeeper> keeper_;
   std::optional<RequestTrail> trail_;
-  std::atomic<bool> loop_is_there_{false};  // what the store's thread asks
+  std::atomic<bool> loop_is_there_{false};  // read by the store's thread
   std::unique_ptr<AlertBook> alerts_;
   std::unique_ptr<Recording> recording_;
   std::optional<OldRecordings> old_recordings_;

@@ -23,40 +23,40 @@ namespace armloom {
 
 struct ServiceOptions {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 8080;                      // zero: any free one
-  double speed = 1.0;                             // cell seconds per wall second
-  std::string policy;                             // empty: the cell's
-  std::vector<std::string> allowed_origins;       // of other sites (HostRule)
-  std::vector<std::string> allowed_hosts;         // names that commands may come to (HostRule)
-  std::optional<std::filesystem::path> tokens;    // file of those that are asked for; none: all may
-  std::optional<TlsFiles> tls;                    // none: without
-  std::filesystem::path web;                      // the dashboard's files
-  std::optional<std::filesystem::path> data;      // where a recording is written; one in
-                                                  // it is kept (Recording::unused_folder)
+  std::uint16_t port = 8080;                    // zero: any free port
+  double speed = 1.0;                           // cell seconds per wall second
+  std::string policy;                           // if empty, the cell's
+  std::vector<std::string> allowed_origins;     // of other sites (HostRule)
+  std::vector<std::string> allowed_hosts;       // allowed Host names, for every request (HostRule)
+  std::optional<std::filesystem::path> tokens;  // token file; without it, all requests are allowed
+  std::optional<TlsFiles> tls;                  // nullopt: plain HTTP
+  std::filesystem::path web;                    // the dashboard's files
+  // folder for jobs and recordings (Recording::unused_folder)
+  std::optional<std::filesystem::path> data;
   StoreOptions store = {};                        // of the jobs in `data`
-  bool record_states = false;                     // states.csv as well
-  std::size_t connections_max = 4096;             // one more is refused with 503
-  std::size_t connections_per_client_max = 4096;  // of one address; one more is refused with 429
+  bool record_states = false;                     // write states.csv, too
+  std::size_t connections_max = 4096;             // beyond: 503
+  std::size_t connections_per_client_max = 4096;  // of one address; beyond: 429
   ClientLimits::Options limits = {};
-  std::chrono::milliseconds keep_alive{15'000};  // of /events, when there are none
+  std::chrono::milliseconds keep_alive{15'000};  // silence of /events before a comment
   std::chrono::milliseconds send_time{30'000};   // for one event of /events, or message of /ws
-  int send_buffer = 128 * 1024;                  // of the socket of a reader of those
+  int send_buffer = 128 * 1024;                  // of a subscriber's socket
   std::chrono::milliseconds read_time{10'000};   // for a request's header, and for its body
-  // What the server has to say beside the answers: what goes wrong, alerts, requests, recordings
-  // that are removed. From any thread; must not block. Null: nobody listens.
+  // Gets faults, alerts, requests and removed recordings, from any thread. Must not block. May be
+  // null.
   Log log = {};
   LoggedRequests logged_requests = LoggedRequests::none;
   RecordingBounds kept_recordings = {};             // in `data`
-  std::chrono::milliseconds jog_lease{500};        // ApiParts
-  std::size_t memory_max = std::size_t{64} << 20U;  // as Site has it
+  std::chrono::milliseconds jog_lease{500};         // ApiParts
+  std::size_t memory_max = std::size_t{64} << 20U;  // see Site
 };
 
-// The server: executive in real time, HTTP, WebSocket, dashboard. One thread for all connections
-// (the caller of run()), one for the executive, one for judgements.
+// The server: executive in real time, HTTP, WebSocket, dashboard. The caller of run() serves all
+// connections; the executive and collision checks have their own threads.
 class Service {
  public:
-  // Listens and begins to run the executive. Problems: those of Executive::create, the port in use,
-  // the data folder not writable.
+  // Listens and starts the executive. Problems: those of Executive::create, the port is in use, the
+  // data folder is not writable.
   [[nodiscard]] static Result<std::unique_ptr<Service>> start(CellPtr cell, const CellFile& source,
                                                               ServiceOptions options);
   ~Service();
@@ -66,8 +66,8 @@ class Service {
   void run(bool until_signal);  // until stop(), or SIGINT, SIGTERM, SIGHUP
   void stop();                  // thread-safe
 
-  // After run(): ends the executive and writes the rest of jobs and recording. What could not be
-  // written, if anything.
+  // Call after run(). Ends the executive and completes jobs and recording on disk. Returns what
+  // could not be written and why, or nullopt.
   [[nodiscard]] std::optional<std::string> close();
 
  private:

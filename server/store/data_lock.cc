@@ -34,10 +34,10 @@ Result<std::unique_ptr<DataLock>> DataLock::take(const std::filesystem::path& fo
   if (file < 0) return cannot_write(folder, std::generic_category().message(errno));
   std::unique_ptr<DataLock> lock(new DataLock(file));
   if (flock(file, LOCK_EX | LOCK_NB) != 0) {
-    return failure(Problem{
-        ProblemKind::unavailable, "data-in-use", "--data",
-        folder.string() + " is in use by " + holder(file) + ": one server for each data folder",
-        folder.string()});
+    return failure(Problem{ProblemKind::unavailable, "data-in-use", "--data",
+                           folder.string() + " is in use by " + holder(file) +
+                               "; give each server its own data folder",
+                           folder.string()});
   }
   const std::string pid = std::to_string(getpid());
   if (ftruncate(file, 0) != 0 || pwrite(file, pid.data(), pid.size(), 0) < 0) {

@@ -7,12 +7,12 @@
 
 namespace armloom {
 
-// That a data folder is this process's, as long as kFile stands in it. Given back when it is
-// destroyed, or with the process, however that ends.
+// Exclusive use of a data folder by this process (a lock on kFile). Released on destruction, or
+// with the process, however it ends.
 class DataLock {
  public:
   static constexpr const char* kFile = "armloom.lock";
-  // Makes the folder. Problem: another process has it, or it cannot be written.
+  // Creates the folder. Problem: another process uses it, or it cannot be written.
   [[nodiscard]] static Result<std::unique_ptr<DataLock>> take(const std::filesystem::path& folder);
   ~DataLock();
   DataLock(const DataLock&) = delete;

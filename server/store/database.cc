@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-constexpr int kBusy_ms = 5000;  // someone else looks at the file, as `armloom history` does
+constexpr int kBusy_ms = 5000;  // another process reads, such as `armloom history`
 
 SqlFault fault_of(sqlite3* database, int code) {
   std::string text = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code);
@@ -34,9 +34,9 @@ void checksum(sqlite3_context* context, int count, sqlite3_value** values) {
   sqlite3_result_int64(context, static_cast<sqlite3_int64>(sum));
 }
 
-// https://sqlite.org/uri.html. Who reads a file in WAL makes files beside it, too. Where the folder
-// does not let anybody (a copy, a mount for reading) and nothing is ahead of the file, nobody
-// writes it, and it is read as it lies there.
+// Returns an SQLite URI for reading (https://sqlite.org/uri.html). A WAL reader must create files
+// in the folder. If the folder is read-only (a copy, a mount) and has no log, no process writes the
+// file, which is then opened as immutable.
 std::string uri_to_read(const std::filesystem::path& file) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(file).string()) {
@@ -192,7 +192,7 @@ Transaction::~Transaction() {
   if (!is_open_) return;
   try {
     database_.run("ROLLBACK");
-  } catch (const SqlFault&) {  // SQLite has rolled it back by itself, as on a full disk
+  } catch (const SqlFault&) {  // SQLite has rolled back, for example on a full disk
   }
 }
 

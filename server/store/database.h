@@ -13,22 +13,21 @@ struct sqlite3_stmt;
 
 namespace armloom {
 
-// What SQLite could not do, and why. Thrown within this folder only; who uses the store gets
-// values.
+// An SQLite error. Thrown within this folder only: callers of the store get values.
 class SqlFault : public std::runtime_error {
  public:
   static constexpr int kNoAccess = 8;  // SQLITE_READONLY
 
   SqlFault(int code, const std::string& text) : std::runtime_error(text), code_(code) {}
-  [[nodiscard]] bool is_full() const;       // no space left, or a quota
-  [[nodiscard]] bool is_corrupt() const;    // what is there is no database, or not whole
-  [[nodiscard]] bool is_of_access() const;  // it cannot be read or written, whatever is there
+  [[nodiscard]] bool is_full() const;       // disk or quota
+  [[nodiscard]] bool is_corrupt() const;    // not a database, or damaged
+  [[nodiscard]] bool is_of_access() const;  // cannot be opened, read or written
 
  private:
   int code_;
 };
 
-// A prepared statement. Parameters and columns are counted from one and from zero, as SQLite does.
+// A prepared statement. Parameters count from one and columns from zero, as in SQLite.
 class Statement {
  public:
   Statement(sqlite3* database, std::string_view sql);
@@ -44,16 +43,14 @@ class Statement {
     return *this;
   }
 
-  // To the next row; false: there is none, and the statement can be bound and run again.
+  // Moves to the next row. Returns false after the last; the statement can then run again.
   [[nodiscard]] bool step();
-  // Runs one that gives no rows.
   void run();
-  // Gives up the rows that were not read.
   void reset();
 
   [[nodiscard]] std::int64_t number(int column) const;
   [[nodiscard]] std::optional<std::int64_t> maybe_number(int column) const;
-  [[nodiscard]] std::string text(int column) const;  // null: empty
+  [[nodiscard]] std::string text(int column) const;  // "" for NULL
   [[nodiscard]] bool is_null(int column) const;
 
  private:
@@ -68,17 +65,16 @@ class Statement {
 // A connection to a database file. Used by one thread at a time.
 class Database {
  public:
-  enum class Access { read, write, make };  // make: to write one that is not there
-  // `vfs`: SQLite's name of the file system that it goes through; empty: the system's.
+  enum class Access { read, write, make };  // make: write a new file
+  // `vfs`: name of SQLite's file system; "" for the system's.
   Database(const std::filesystem::path& file, Access access, const std::string& vfs = {});
 
-  // Kept: when this is closed as the last connection, the log stays as it is. Else, as at first, it
-  // goes into the file and is deleted.
+  // Sets whether closing the last connection keeps the log. By default, closing writes the log into
+  // the file and deletes it.
   void keep_log(bool is_kept);
-  // Opened for writing all the same: the system does not let it be written.
+  // Returns true if the system prevents writing to a database opened for writing.
   [[nodiscard]] bool is_read_only() const;
-  // Makes checksum(...) known to the statements of this connection: of any values, by which one
-  // that has become another one is seen.
+  // Adds an SQL function checksum(...) of any values, to detect damaged rows.
   void know_checksum();
   void run(const std::string& sql);  // one or more statements without rows
   [[nodiscard]] Statement prepare(std::string_view sql) const { return {database_.get(), sql}; }
@@ -92,7 +88,7 @@ class Database {
   std::unique_ptr<sqlite3, Close> database_;
 };
 
-// Rolled back unless commit() has succeeded.
+// Rolls back unless commit() has succeeded.
 class Transaction {
  public:
   explicit Transaction(Database& database) : database_(database) {

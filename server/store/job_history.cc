@@ -11,18 +11,11 @@ namespace {
 
 constexpr auto kAny = std::uint64_t{1} << 62U;
 
-// Of a file that no server has brought up to date yet, too.
-std::string columns_of(const Database& database) {
-  const std::int64_t version = database.number("PRAGMA user_version");
-  const bool has_origins = version >= 2;
-  const std::string is_damaged =
-      version >= kVersionWithSums ? std::string("coalesce(sum != ") + kSumOfJob + ", 0)" : "0";
-  return std::string(
-             "SELECT job.number, job.id, state, has_ended, submitted_ms, ended_ms, arms, view, ") +
-         (has_origins ? "digest, request_key, request_digest, request_place"
-                      : "NULL, NULL AS request_key, NULL, NULL AS request_place") +
-         ", " + is_damaged + " FROM job ";
-}
+const std::string kColumns =
+    std::string(
+        "SELECT job.number, job.id, state, has_ended, submitted_ms, ended_ms, arms, view, digest, "
+        "request_key, request_digest, request_place, sum IS NOT ") +
+    kSumOfJob + " FROM job ";
 
 StoredJob row_of(const Statement& row) {
   return {
@@ -41,7 +34,7 @@ bool is_damaged(const Statement& row) { return row.number(12) != 0; }
 
 StoredJob whole_row_of(const Statement& row) {
   if (!is_damaged(row)) return row_of(row);
-  throw SqlFault(0, "job \"" + row.text(1) + "\" is not as it was written");
+  throw SqlFault(0, "job \"" + row.text(1) + "\" is damaged (wrong checksum)");
 }
 
 }  // namespace
@@ -49,9 +42,11 @@ StoredJob whole_row_of(const Statement& row) {
 class JobHistory::Impl {
  public:
   explicit Impl(const std::filesystem::path& file)
-      : file_(file), database_(file, Database::Access::read), columns_(columns_of(database_)) {
+      : file_(file), database_(file, Database::Access::read) {
+    check_version(database_);
     database_.know_checksum();
-    (void)database_.number("SELECT count(*) FROM job WHERE number = 0");  // it is one of ours
+    // throws if it is not a store
+    (void)database_.number("SELECT count(*) FROM job WHERE number = 0");
   }
 
   template <class Read>
@@ -65,23 +60,22 @@ class JobHistory::Impl {
 
   std::optional<StoredJob> find(const std::string& id) const {
     Statement row =
-        database_.prepare(columns_ + "WHERE id = ?1 AND view != '' ORDER BY number DESC LIMIT 1");
+        database_.prepare(kColumns + "WHERE id = ?1 AND view != '' ORDER BY number DESC LIMIT 1");
     row.bind_all(std::string_view(id));
     return row.step() ? std::optional(whole_row_of(row)) : std::nullopt;
   }
 
   std::vector<StoredJob> of_request(const std::string& key) const {
     Statement row = database_.prepare(
-        columns_ + "WHERE request_key = ?1 AND view != '' ORDER BY request_place, number");
+        kColumns + "WHERE request_key = ?1 AND view != '' ORDER BY request_place, number");
     row.bind_all(std::string_view(key));
     std::vector<StoredJob> jobs;
     while (row.step()) jobs.push_back(whole_row_of(row));
-    if (database_.number("PRAGMA user_version") < kVersionWithRequests) return jobs;
     Statement answered = database_.prepare(
         std::string("SELECT job, digest, place FROM request WHERE key = ?1 AND sum = ") +
         kSumOfRequest);
     answered.bind_all(std::string_view(key));
-    Statement job = database_.prepare(columns_ + "WHERE number = ?1");
+    Statement job = database_.prepare(kColumns + "WHERE number = ?1");
     while (answered.step()) {
       job.bind_all(answered.number(0));
       while (job.step()) {
@@ -96,9 +90,9 @@ class JobHistory::Impl {
 
   AuditEntries audit(const AuditFilter& filter, std::size_t most) const {
     Statement row = database_.prepare(
-        std::string("SELECT number, at_ms, who, peer, method, path, status, coalesce(sum != ") +
+        std::string("SELECT number, at_ms, who, peer, method, path, status, sum IS NOT ") +
         kSumOfAudit +
-        ", 0) AS is_damaged FROM audit WHERE number < ?1 AND (is_damaged OR ((?2 OR who = ?3) AND "
+        " AS is_damaged FROM audit WHERE number < ?1 AND (is_damaged OR ((?2 OR who = ?3) AND "
         "(?4 = '' OR peer = ?4) AND (?5 = '' OR method = upper(?5)) AND substr(path, 1, "
         "length(?6)) = ?6 "
         "AND status = coalesce(?7, status) AND at_ms >= coalesce(?8, at_ms) AND (?9 IS NULL OR "
@@ -124,23 +118,23 @@ class JobHistory::Impl {
 
   Damage damage() const {
     Damage found;
-    if (database_.number("PRAGMA user_version") < kVersionWithAllSums) return found;
     const auto count = [this](const char* table, const char* sum) {
-      return static_cast<std::size_t>(
-          database_.number(std::string("SELECT count(*) FROM ") + table + " WHERE sum != " + sum));
+      return static_cast<std::size_t>(database_.number(std::string("SELECT count(*) FROM ") +
+                                                       table + " WHERE sum IS NOT " + sum));
     };
     found.alerts = count("alert", kSumOfAlert);
     found.audit = count("audit", kSumOfAudit);
-    Statement row = database_.prepare(std::string("SELECT id FROM job WHERE sum != ") + kSumOfJob);
+    Statement row =
+        database_.prepare(std::string("SELECT id FROM job WHERE sum IS NOT ") + kSumOfJob);
     while (row.step()) found.jobs.push_back(row.text(0));
     return found;
   }
 
-  // How many that are damaged were passed over.
+  // Returns the number of damaged jobs passed over.
   std::size_t each(const HistoryFilter& filter, const char* order,
                    const std::function<bool(StoredJob)>& take) const {
     Statement rows = database_.prepare(
-        columns_ +
+        kColumns +
         "WHERE view != '' AND (?1 = '' OR state = ?1) AND (?2 = '' OR EXISTS (SELECT 1 FROM "
         "json_each(iif(json_valid(arms), arms, '[]')) WHERE value = ?2)) AND number < ?3 AND "
         "coalesce(submitted_ms, 0) >= ?4 "
@@ -172,14 +166,13 @@ class JobHistory::Impl {
  private:
   std::filesystem::path file_;
   Database database_;
-  std::string columns_;
 };
 
 Result<std::unique_ptr<JobHistory>> JobHistory::open(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / kStoreFile;
   try {
     return std::unique_ptr<JobHistory>(new JobHistory(std::make_unique<Impl>(file)));
-  } catch (const SqlFault& fault) {
+  } catch (const std::runtime_error& fault) {
     return Impl::cannot_read(file, fault.what());
   }
 }
@@ -216,7 +209,7 @@ Result<void> JobHistory::oldest_first(const HistoryFilter& filter,
   });
   if (!read) return failure(std::move(read.error()));
   if (*read == 0) return {};
-  return impl_->cannot_read(std::to_string(*read) + " jobs are not as they were written");
+  return impl_->cannot_read(std::to_string(*read) + " jobs are damaged (wrong checksum)");
 }
 
 Result<Damage> JobHistory::damage() const {

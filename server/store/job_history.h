@@ -14,48 +14,48 @@
 
 namespace armloom {
 
-// Which jobs are asked for; empty: any.
+// Selects jobs. An empty member matches any.
 struct HistoryFilter {
   std::string state = {};
   std::string arm = {};
-  std::optional<std::uint64_t> before = {};   // number: only those that were accepted earlier
+  std::optional<std::uint64_t> before = {};   // number: accepted earlier
   std::optional<std::int64_t> since_ms = {};  // submitted then or later
 };
 
-// Which entries of the audit trail are asked for; what is empty: any.
+// Selects audit entries. An empty member matches any.
 struct AuditFilter {
-  std::optional<std::string> who = {};  // empty text: those that showed no name
+  std::optional<std::string> who = {};  // "" selects requests without a token
   std::string from = {};
   std::string method = {};
-  std::string path = {};  // begins so
+  std::string path = {};  // a prefix
   std::optional<int> status = {};
   std::optional<std::int64_t> since_ms = {};  // then or later
   std::optional<std::int64_t> before_ms = {};
-  std::optional<std::uint64_t> below = {};  // number: only those that were put down earlier
+  std::optional<std::uint64_t> below = {};  // number: recorded earlier
 };
 
 struct AuditEntries {
   std::vector<AuditEntry> entries = {};  // newest first
-  std::size_t damaged = 0;  // between these: not as they were written, whatever was asked for
+  std::size_t damaged = 0;               // skipped, whatever the filter
 };
 
-// What is not as it was written.
+// Damaged contents of a data folder.
 struct Damage {
   std::vector<std::string> jobs = {};  // their ids
-  std::size_t lost_jobs = 0;           // whose ids are lost, too
+  std::size_t lost_jobs = 0;           // their ids are lost, too
   std::size_t alerts = 0;
   std::size_t audit = 0;     // entries
-  bool stops = false;        // which arms were stopped
-  bool is_behind = false;    // some of what was on disk is gone
-  bool is_unmarked = false;  // some may be
+  bool stops = false;        // list of stopped arms
+  bool is_behind = false;    // some data is lost
+  bool is_unmarked = false;  // some may be lost
 
   [[nodiscard]] bool is_none() const {
     return jobs.empty() && lost_jobs + alerts + audit == 0 && !stops && !is_behind && !is_unmarked;
   }
 };
 
-// Reads what a JobStore has written, while it is written or not. Sees what was on disk when each
-// call began. One thread at a time.
+// Reads what a JobStore has written, also while it writes. Each call sees the state on disk at its
+// start. One thread at a time.
 class JobHistory {
  public:
   // Problem: there is no store, or it cannot be read.
@@ -63,18 +63,17 @@ class JobHistory {
       const std::filesystem::path& folder);
   ~JobHistory();
 
-  // The last one that was accepted under this id. Problem: it is damaged.
+  // Returns the last job accepted under this id. Problem: it is damaged.
   [[nodiscard]] Result<std::optional<StoredJob>> find(const std::string& id) const;
-  // Those that came by a request with this Idempotency-Key, or that one was answered with; their
+  // Returns the jobs created by, or given in answer to, a request with this Idempotency-Key. Their
   // origin is that request.
   [[nodiscard]] Result<std::vector<StoredJob>> of_request(const std::string& key) const;
-  // Who did what, at most so many.
+  // Returns at most `most` audit entries.
   [[nodiscard]] Result<AuditEntries> audit(const AuditFilter& filter, std::size_t most) const;
-  // Newest first, until `take` says enough (false). Those that are damaged are passed over:
-  // damage() tells of them.
+  // Newest first, until `take` returns false. Skips damaged jobs (see damage()).
   [[nodiscard]] Result<void> newest_first(const HistoryFilter& filter,
                                           const std::function<bool(StoredJob)>& take) const;
-  // Oldest first. Problem, when all others were taken: some are damaged.
+  // Oldest first. Problem, after all others were taken: some jobs are damaged.
   [[nodiscard]] Result<void> oldest_first(const HistoryFilter& filter,
                                           const std::function<void(StoredJob)>& take) const;
   [[nodiscard]] Result<Damage> damage() const;

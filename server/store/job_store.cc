@@ -27,10 +27,10 @@ std::string advice(const std::runtime_error& fault) {
   if (of_database != nullptr && of_database->is_full()) return "make room on the disk";
   const bool is_of_system = dynamic_cast<const std::system_error*>(&fault) != nullptr;
   if (is_of_system || (of_database != nullptr && of_database->is_of_access())) {
-    return "see to it that it can be read and written";
+    return "make it readable and writable";
   }
-  return "repair it, put back a copy of the folder, or move it away, with armloom.db-wal and "
-         "armloom.db-shm, to begin with an empty one";
+  return "repair it, restore a copy of the folder, or move it away, with armloom.db-wal and "
+         "armloom.db-shm, to start with an empty store";
 }
 
 tl::unexpected<Problems> cannot_use(const std::filesystem::path& file,
@@ -43,7 +43,7 @@ tl::unexpected<Problems> cannot_use(const std::filesystem::path& file,
 
 void begin(const std::filesystem::path& folder, const std::string& vfs) {
   if (const auto log = log_of(folder); std::filesystem::exists(log)) {
-    throw std::runtime_error("it is gone, and " + log.string() + " beside it may hold jobs");
+    throw std::runtime_error("it is missing, but its log " + log.string() + " may hold jobs");
   }
   { const StoreMark first(folder, std::nullopt); }
   make_store(folder / kStoreFile, vfs);
@@ -116,17 +116,17 @@ class JobStore::Impl {
                             [this] { return !pending_.is_empty(); });
       }
       if (write_pending()) {
-        // Also where something comes all the time.
+        // Also under constant load.
         if (Wall::now() >= cleaned_at_ + kCleaned) clean_up();
         continue;
       }
-      std::unique_lock lock(mutex_);  // a while, before it is tried again
+      std::unique_lock lock(mutex_);  // wait before the next try
       arrived_.wait_for(lock, stop, options_.retry, [] { return false; });
     }
     (void)write_pending();
   }
 
-  // Everything there is; false: it could not be, and is there again.
+  // Writes all pending changes. On failure, puts them back and returns false.
   bool write_pending() {
     Pending batch;
     {
@@ -147,7 +147,7 @@ class JobStore::Impl {
       return false;
     }
     files_.log_has_grown();
-    mark_.written(tables_->commits().value_or(0),
+    mark_.written(tables_->commits(),
                   batch.stops ? std::optional(batch.stops->number) : std::nullopt);
     if (options_.on_written) options_.on_written(Wall::now() - begun);
     bool was_faulty = false;
@@ -183,11 +183,11 @@ class JobStore::Impl {
       if (tables_->clean_up(options_.retention, std::chrono::system_clock::now())) {
         cleaned_at_ -= kCleaned;  // there is more
       }
-    } catch (const SqlFault&) {  // said when something has to be written
+    } catch (const SqlFault&) {  // reported by the next write
     }
   }
 
-  std::unique_ptr<DataLock> lock_;  // the last to go
+  std::unique_ptr<DataLock> lock_;  // destroyed last
   std::unique_ptr<JobTables> tables_;
   StoreMark mark_;
   WatchedFiles files_;
@@ -200,7 +200,7 @@ class JobStore::Impl {
   GivenUpJobs given_up_;
   std::optional<StoreFault> fault_;
   bool is_closed_ = false;
-  Wall::time_point cleaned_at_{};  // the thread's
+  Wall::time_point cleaned_at_{};  // used by the thread only
   std::jthread thread_;
 };
 

@@ -10,43 +10,37 @@ namespace {
 constexpr std::int64_t kCleanedAtOnce = 1000;
 
 Database opened(const std::filesystem::path& file, const std::string& vfs) {
-  // Not even opened: SQLite would remove the log of one that is empty, and that may hold jobs.
+  // Not even opened, because SQLite would delete an empty file's log, which may hold jobs.
   if (std::filesystem::file_size(file) == 0) {
-    throw std::runtime_error("it is corrupt: it is empty, which none of armloom's ever is");
+    throw std::runtime_error("it is corrupt: it is empty, but a store never is");
   }
   Database database(file, Database::Access::write, vfs);
   if (database.is_read_only()) throw SqlFault(SqlFault::kNoAccess, "it is read-only");
-  database.keep_log(true);  // as it is, where the file turns out to be of no use
-  bring_up_to_date(database);
+  database.keep_log(true);  // keeps the log if the file is unusable
+  check_store(database);
   database.know_checksum();
   if (database.text("PRAGMA journal_mode = WAL") != "wal") {
     throw SqlFault(SqlFault::kNoAccess,
-                   "it cannot be written ahead (WAL), as on a network's file system");
+                   "write-ahead logging (WAL) does not work there, as on a network file system");
   }
   database.run("PRAGMA synchronous = FULL; PRAGMA journal_size_limit = " +
                std::to_string(JobTables::kLogKept));
   return database;
 }
 
-// Of jobs that are gone what their clients had sent.
+// Requests whose jobs are lost.
 constexpr const char* kLostJobs =
     "SELECT count(*) FROM body WHERE number NOT IN (SELECT number FROM job)";
 constexpr const char* kForgetLostJobs =
     "DELETE FROM body WHERE number NOT IN (SELECT number FROM job)";
-// Of alerts, as AlertBook has it.
+// Order of alerts, most needed first, as in AlertBook.
 constexpr const char* kNeededFirst =
     "who IS NULL DESC, (who IS NULL AND level = 'error') DESC, number DESC";
-// Of an audit row, as was_refused() has it.
+// As was_refused().
 constexpr const char* kIsRefusal = "(status BETWEEN 400 AND 499)";
 
 std::int64_t as_stored(std::uint64_t number) { return static_cast<std::int64_t>(number); }
 std::uint64_t as_number(std::int64_t stored) { return static_cast<std::uint64_t>(stored); }
-
-std::optional<std::uint64_t> counted(const Database& database) {
-  Statement row = database.prepare("SELECT max(commits) FROM written");
-  if (!row.step() || row.is_null(0)) return std::nullopt;
-  return as_number(row.number(0));
-}
 
 }  // namespace
 
@@ -94,9 +88,8 @@ JobTables::JobTables(const std::filesystem::path& file, const std::string& vfs)
       seal_answer_(database_.prepare(std::string("UPDATE request SET sum = ") + kSumOfRequest +
                                      " WHERE key = ?1 AND place = ?2")),
       count_(database_.prepare("UPDATE written SET commits = ?1")),
-      commits_(counted(database_)) {
-  database_.run(
-      "DELETE FROM job WHERE view = ''");  // never acknowledged, and nothing is known of it
+      commits_(as_number(database_.number("SELECT commits FROM written"))) {
+  database_.run("DELETE FROM job WHERE view = ''");  // never acknowledged
   database_.keep_log(false);
 }
 
@@ -106,9 +99,9 @@ Leftover JobTables::leftover() const {
   Statement jobs = database_.prepare(
       std::string(
           "SELECT job.number, id, state, submitted_ms, arms, view, may_have_moved, body.text, "
-          "body.amended, coalesce(job.sum != ") +
-      kSumOfJob + ", 0) OR coalesce(body.sum != " + kSumOfBody +
-      ", digest IS NOT NULL AND body.number IS NULL) FROM job LEFT JOIN body USING(number) WHERE "
+          "body.amended, job.sum IS NOT ") +
+      kSumOfJob + " OR iif(body.number IS NULL, digest IS NOT NULL, body.sum IS NOT " + kSumOfBody +
+      ") FROM job LEFT JOIN body USING(number) WHERE "
       "has_ended = 0 ORDER BY job.number");
   while (jobs.step()) {
     LeftJob& found = left.jobs.emplace_back();
@@ -124,8 +117,8 @@ Leftover JobTables::leftover() const {
     found.is_damaged = jobs.number(9) != 0;
   }
   left.lost_jobs = static_cast<std::size_t>(database_.number(kLostJobs));
-  Statement arms = database_.prepare(std::string("SELECT name, coalesce(sum != ") + kSumOfStop +
-                                     ", 0) FROM stopped_arm ORDER BY name");
+  Statement arms = database_.prepare(std::string("SELECT name, sum IS NOT ") + kSumOfStop +
+                                     " FROM stopped_arm ORDER BY name");
   while (arms.step()) {
     if (arms.number(1) != 0) {
       left.stops_are_damaged = true;
@@ -133,8 +126,8 @@ Leftover JobTables::leftover() const {
       left.stopped_arms.push_back(arms.text(0));
     }
   }
-  Statement objects = database_.prepare(std::string("SELECT name, text, coalesce(sum != ") +
-                                        kSumOfObject + ", 1) FROM scene_object ORDER BY number");
+  Statement objects = database_.prepare(std::string("SELECT name, text, sum IS NOT ") +
+                                        kSumOfObject + " FROM scene_object ORDER BY number");
   while (objects.step()) {
     LeftObject& found = left.objects.emplace_back();
     found.object.name = objects.text(0);
@@ -143,8 +136,8 @@ Leftover JobTables::leftover() const {
   }
   Statement alerts = database_.prepare(
       std::string("SELECT id, at_ms, level, text, who, acknowledged_ms FROM (SELECT * FROM alert "
-                  "WHERE coalesce(sum = ") +
-      kSumOfAlert + ", 1) ORDER BY " + kNeededFirst + " LIMIT ?1) ORDER BY number");
+                  "WHERE sum IS ") +
+      kSumOfAlert + " ORDER BY " + kNeededFirst + " LIMIT ?1) ORDER BY number");
   alerts.bind_all(std::int64_t{kAlertsKept});
   while (alerts.step()) {
     left.alerts.push_back({alerts.text(0), alerts.number(1), alerts.text(2), alerts.text(3)});
@@ -180,7 +173,7 @@ void JobTables::write(const Pending& changes) {
     answer_.bind_all(key, place, std::string_view(request.key_digest), as_stored(job)).run();
     seal_answer_.bind_all(key, place).run();
   }
-  const std::uint64_t commits = commits_.value_or(0) + 1;
+  const std::uint64_t commits = commits_ + 1;
   count_.bind_all(as_stored(commits)).run();
   transaction.commit();
   commits_ = commits;
@@ -235,9 +228,10 @@ bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::
   Transaction transaction(database_);
   database_.run(kForgetLostJobs);
   const auto remove = [&](const char* which, std::int64_t bound) {
-    Statement statement = database_.prepare(
-        std::string("DELETE FROM job WHERE number IN (") + which +
-        ") AND number < (SELECT max(number) FROM job)");  // numbers are never given again
+    Statement statement =
+        database_.prepare(std::string("DELETE FROM job WHERE number IN (") + which +
+                          // keeps the last number, so that none is reused
+                          ") AND number < (SELECT max(number) FROM job)");
     statement.bind_all(bound, kCleanedAtOnce).run();
     deleted = std::max(deleted, database_.number("SELECT changes()"));
   };

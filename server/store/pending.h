@@ -14,7 +14,7 @@
 
 namespace armloom {
 
-// What of one job is to be written.
+// Unwritten changes of one job.
 struct JobChange {
   std::optional<StoredJob> seen = {};
   std::optional<std::string> body = {};
@@ -23,12 +23,11 @@ struct JobChange {
   bool may_have_moved = false;
 };
 
-// What is to be noted, in the order in which it came. While nothing can be written the first ones
-// of each kind are kept: what was refused, which anybody can bring about as often as they like,
-// takes no place of what was done.
+// Unwritten audit entries, in order. Keeps the first kMax of each kind, so that refusals, which any
+// client can cause, do not displace changes.
 class PendingAudit {
  public:
-  inline static constexpr std::size_t kMax = 10'000;  // of each kind; what comes beyond is not told
+  inline static constexpr std::size_t kMax = 10'000;  // of each kind; later entries are dropped
 
   void add(AuditEntry entry);
   [[nodiscard]] const std::vector<AuditEntry>& entries() const { return entries_; }
@@ -38,17 +37,17 @@ class PendingAudit {
   std::size_t refusals_ = 0;  // of these
 };
 
-// What has come since the store was written last.
+// Changes since the last write.
 struct Pending {
   using Done = std::function<void(bool)>;
   std::map<std::uint64_t, JobChange> jobs = {};  // by number
   struct Stops {
     std::vector<std::string> arms;
-    std::uint64_t number;  // by which StoreMark knows them
+    std::uint64_t number;  // for StoreMark
   };
   std::optional<Stops> stops = {};
   PendingAudit audit = {};
-  std::vector<StoredAlert> alerts = {};              // as they came: of one alert the last counts
+  std::vector<StoredAlert> alerts = {};              // in order; an alert's last state applies
   std::map<std::string, StoredObject> objects = {};  // by name
   struct Answer {
     std::uint64_t job;
@@ -66,7 +65,7 @@ struct Pending {
   };
   std::vector<Start> starts = {};
 
-  // While nothing can be written; what comes beyond is not told.
+  // Limits while writing fails; later entries are dropped.
   inline static constexpr std::size_t kAlertsMax = 10'000;
   inline static constexpr std::size_t kAnswersMax = 10'000;
 
@@ -74,15 +73,15 @@ struct Pending {
     return jobs.empty() && !stops && acceptances.empty() && audit.entries().empty() &&
            alerts.empty() && objects.empty() && answers.empty();
   }
-  // What came after this.
+  // Adds later changes.
   void join(Pending later);
 };
 
-// Jobs that were not accepted: their clients were told so, and nothing of them is ever written.
+// Jobs that were not accepted, as their clients know. Nothing of them is ever written.
 class GivenUpJobs {
  public:
   void add(const std::vector<std::uint64_t>& jobs) { jobs_.insert(jobs.begin(), jobs.end()); }
-  // Takes out what is said of them. With its end the last word of a job is said.
+  // Removes changes of these jobs. A change that ends a job is its last.
   void pass_over(Pending& changes);
 
  private:

@@ -21,7 +21,7 @@ struct Claim {
   bool stops_are_ahead = false;
 };
 
-constexpr std::size_t kSize = 33;  // of the text, always: it is written over in its place
+constexpr std::size_t kSize = 33;  // of the text: overwritten in place
 using Text = std::array<char, kSize + 1>;
 
 Text text_of(const Claim& claim) {
@@ -31,7 +31,7 @@ Text text_of(const Claim& claim) {
   return text;
 }
 
-// Nothing: there is none, or it is none.
+// Returns nullopt if there is no valid mark.
 std::optional<Claim> claim_in(int file) {
   Text text{};
   Claim claim;
@@ -61,14 +61,14 @@ StoreMark::StoreMark(const std::filesystem::path& folder, std::optional<std::uin
     : file_(folder / kFile), commits_(commits.value_or(0)) {
   if (const auto left = claim_in(file_.number)) {
     found_ = {false, left->commits > commits_, left->stops_are_ahead};
-    commits_ = std::max(commits_, left->commits);  // as it is until something is written
+    commits_ = std::max(commits_, left->commits);  // until the next write
   } else {
     found_.is_missing = commits.has_value();
     write_first(folder);
   }
 }
 
-// That there is one outlives a power cut, with its place on the disk: it is never longer.
+// Syncs the file and its folder, so that the mark's existence and space survive a power cut.
 void StoreMark::write_first(const std::filesystem::path& folder) {
   const Text text = text_of({commits_, found_.is_missing});
   const bool is_written =
@@ -93,7 +93,7 @@ void StoreMark::written(std::uint64_t commits, std::optional<std::uint64_t> stop
   write();
 }
 
-// What cannot be written is not claimed; the store is told of it all the same.
+// If this fails, the mark claims less than the store has.
 void StoreMark::write() {
   const bool are_left_unknown =
       found_.is_missing || found_.store_is_behind || found_.stops_are_ahead;

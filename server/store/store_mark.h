@@ -7,32 +7,34 @@
 
 namespace armloom {
 
-// What the store of a data folder must hold at least, in a small file beside it: one that holds
-// less when it is opened again has lost something, as where its log is cut off, damaged or gone,
-// which SQLite takes for the end of it; and whether arms were stopped that it may not know of.
-// It is handed to the system at once, takes no new room on the disk, and outlives the process. Only
-// that there is one is synced: a power cut may leave an older one, which claims less. Thread-safe.
+// High-water mark of the job store, in a small file beside it. Detects on opening that the store
+// lost data (its log is truncated, damaged or gone, which SQLite does not notice), and that its set
+// of stopped arms may be out of date. Writes reach the system at once, need no disk space and
+// outlive the process. Only the file's existence is synced: after a power cut the mark may be older
+// and claim less. Thread-safe.
 class StoreMark {
  public:
   inline static constexpr const char* kFile = "armloom.mark";  // in the data folder
 
-  // What the former run claimed, held against the store as it is.
+  // The claim of the previous session, compared with the store.
   struct Found {
-    bool is_missing = false;  // there is none, or none that can be read
+    bool is_missing = false;  // missing or unreadable
     bool store_is_behind = false;
-    bool stops_are_ahead = false;  // which arms were stopped may not be what the store says
+    bool stops_are_ahead = false;  // the store's stopped arms may be out of date
   };
 
-  // `commits`: that the store has, over all runs; none: it is not made yet, or was an older
-  // version's, which made no mark. Where there is none it is made; before the store is, so that one
-  // without it has lost it. Throws std::system_error.
+  // `commits`: of the store, over all sessions; nullopt if the store does not exist yet. Creates a
+  // missing mark. The mark is created before the store, so that a store without a mark has lost it.
+  // Throws std::system_error.
   StoreMark(const std::filesystem::path& folder, std::optional<std::uint64_t> commits);
 
   [[nodiscard]] const Found& found() const { return found_; }
 
-  // Which arms are stopped is about to be handed to the store; the number by which that is known.
+  // Announces a change of the set of stopped arms, before it is stored. Returns its sequence
+  // number.
   [[nodiscard]] std::uint64_t stops_come();
-  // The store has so many commits, with the stops of this number.
+  // Records that the store has `commits` transactions and, if given, the stop change of that
+  // number.
   void written(std::uint64_t commits, std::optional<std::uint64_t> stops);
 
  private:

@@ -5,18 +5,18 @@
 
 namespace armloom {
 
-// What clients made of an object of the planning scene.
+// A client's change of a scene object.
 struct StoredObject {
   std::string name;
-  std::optional<std::string> text = {};  // as it was asked for (JSON); none: it was taken away
-  // The cell file has one of this name: that it was taken away has to be kept.
+  std::optional<std::string> text = {};  // as requested (JSON); nullopt if removed
+  // The cell file has an object of this name, so a removal must be kept.
   bool is_of_cell = false;
 };
 
-// As the folder had it when it was opened.
+// An object as it was when the folder was opened.
 struct LeftObject {
   StoredObject object;
-  bool is_damaged = false;  // not as it was written: nothing of it but the name is told
+  bool is_damaged = false;  // only the name is reliable
 };
 
 }  // namespace armloom

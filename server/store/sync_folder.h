@@ -4,7 +4,7 @@
 
 namespace armloom {
 
-// So that names that were given in it outlive a power cut. Throws std::system_error.
+// Makes new names in the folder survive a power cut. Throws std::system_error.
 void sync_folder(const std::filesystem::path& folder);
 
 }  // namespace armloom

@@ -1,7 +1,6 @@
 #include "server/store/tables.h"
 
 #include <algorithm>
-#include <iterator>
 #include <string>
 
 #include "server/store/sync_folder.h"
@@ -11,12 +10,12 @@ namespace {
 
 constexpr int kApplication = 0x41726d6c;  // "Arml"
 
-// What each version adds to the one before. Never changed once released: a new one is added.
-constexpr const char* kVersions[] = {
-    // A job as it was told last (`view`, JSON); `number` is the order of acceptance over all runs.
-    // `may_have_moved` is set before it moves. `body`, as the client sent it, is needed to run it,
-    // and dropped when it has ended.
-    R"(
+// `number` of a job is the order of acceptance over all sessions; `view` is its last published view
+// (JSON). `may_have_moved` is set before the job moves. `body`, the client's request, is needed to
+// run the job and deleted when it has ended; `amended` is what was changed since (JSON). The
+// columns request_* name the request that created the job, and the table `request` the other
+// requests that were answered with it (RequestOrigin). `sum` detects damaged rows (kSumOf...).
+constexpr const char* kTables = R"(
     CREATE TABLE job(
       number INTEGER PRIMARY KEY,
       id TEXT NOT NULL,
@@ -26,22 +25,24 @@ constexpr const char* kVersions[] = {
       submitted_ms INTEGER,
       ended_ms INTEGER,
       arms TEXT NOT NULL,
-      view TEXT NOT NULL
+      view TEXT NOT NULL,
+      digest TEXT,
+      request_key TEXT,
+      request_digest TEXT,
+      request_place INTEGER,
+      sum INTEGER
     ) STRICT;
     CREATE INDEX job_by_id ON job(id);
     CREATE INDEX job_left ON job(number) WHERE has_ended = 0;
     CREATE INDEX job_by_end ON job(ended_ms) WHERE has_ended = 1;
-    CREATE TABLE body(number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT;
-    CREATE TABLE stopped_arm(name TEXT PRIMARY KEY) STRICT;
-    )",
-    // By which request a job came (RequestOrigin): one that is sent again is answered with it. And
-    // who did what.
-    R"(
-    ALTER TABLE job ADD COLUMN digest TEXT;
-    ALTER TABLE job ADD COLUMN request_key TEXT;
-    ALTER TABLE job ADD COLUMN request_digest TEXT;
-    ALTER TABLE job ADD COLUMN request_place INTEGER;
     CREATE INDEX job_by_request ON job(request_key) WHERE request_key IS NOT NULL;
+    CREATE TABLE body(
+      number INTEGER PRIMARY KEY,
+      text TEXT NOT NULL,
+      amended TEXT,
+      sum INTEGER
+    ) STRICT;
+    CREATE TABLE stopped_arm(name TEXT PRIMARY KEY, sum INTEGER) STRICT;
     CREATE TABLE audit(
       number INTEGER PRIMARY KEY,
       at_ms INTEGER NOT NULL,
@@ -49,15 +50,9 @@ constexpr const char* kVersions[] = {
       peer TEXT NOT NULL,
       method TEXT NOT NULL,
       path TEXT NOT NULL,
-      status INTEGER NOT NULL
+      status INTEGER NOT NULL,
+      sum INTEGER
     ) STRICT;
-    )",
-    // What was changed of a job after it was accepted (JSON); it lives as long as the body.
-    R"(
-    ALTER TABLE body ADD COLUMN amended TEXT;
-    )",
-    // What somebody had to see to, and who has (StoredAlert).
-    R"(
     CREATE TABLE alert(
       number INTEGER PRIMARY KEY,
       id TEXT NOT NULL UNIQUE,
@@ -65,40 +60,15 @@ constexpr const char* kVersions[] = {
       level TEXT NOT NULL,
       text TEXT NOT NULL,
       who TEXT,
-      acknowledged_ms INTEGER
+      acknowledged_ms INTEGER,
+      sum INTEGER
     ) STRICT;
-    )",
-    // By which a row that was damaged is known (kSumOfJob, kSumOfBody); null: an older version's.
-    R"(
-    ALTER TABLE job ADD COLUMN sum INTEGER;
-    ALTER TABLE body ADD COLUMN sum INTEGER;
-    )",
-    // The same of what people are told and of what they did (kSumOfAlert, kSumOfAudit).
-    R"(
-    ALTER TABLE alert ADD COLUMN sum INTEGER;
-    ALTER TABLE audit ADD COLUMN sum INTEGER;
-    )",
-    // And of which arms are stopped (kSumOfStop).
-    R"(
-    ALTER TABLE stopped_arm ADD COLUMN sum INTEGER;
-    )",
-    // What clients made of the scene's objects (StoredObject), in the order in which they came.
-    R"(
     CREATE TABLE scene_object(
       number INTEGER PRIMARY KEY,
       name TEXT NOT NULL UNIQUE,
       text TEXT,
       sum INTEGER
     ) STRICT;
-    )",
-    // How often it was written (StoreMark); null: not since an older version had it.
-    R"(
-    CREATE TABLE written(commits INTEGER) STRICT;
-    INSERT INTO written VALUES(NULL);
-    )",
-    // Other requests than the one by which it came that were answered with a job, as it was known
-    // by its id (RequestOrigin).
-    R"(
     CREATE TABLE request(
       key TEXT NOT NULL,
       place INTEGER NOT NULL,
@@ -111,19 +81,13 @@ constexpr const char* kVersions[] = {
     CREATE TRIGGER request_goes AFTER DELETE ON job BEGIN
       DELETE FROM request WHERE job = old.number;
     END;
-    )",
-};
-constexpr auto kNewest = static_cast<std::int64_t>(std::size(kVersions));
+    CREATE TABLE written(commits INTEGER NOT NULL) STRICT;
+    INSERT INTO written VALUES(0);
+)";
 
-// All versions or none: a file that is not what its version says is left as it is.
-void upgrade(Database& database, std::int64_t version) {
-  if (version == kNewest) return;
-  Transaction transaction(database);
-  for (std::int64_t next = version; next < kNewest; ++next) database.run(kVersions[next]);
-  database.run("PRAGMA application_id = " + std::to_string(kApplication));
-  database.run("PRAGMA user_version = " + std::to_string(kNewest));
-  transaction.commit();
-}
+// Versions 1 to 10 were of armloom 0.1. A later version that adds to these tables upgrades them
+// here.
+constexpr std::int64_t kVersion = 11;
 
 void check_whole(const Database& database) {
   std::string found = database.text("PRAGMA integrity_check(1)");
@@ -138,30 +102,41 @@ void make_store(const std::filesystem::path& file, const std::string& vfs) {
   for (const char* end : {"", "-journal"}) std::filesystem::remove(unfinished.string() + end);
   {
     Database database(unfinished, Database::Access::make, vfs);
-    upgrade(database, 0);
-    database.run("UPDATE written SET commits = 0");
+    Transaction transaction(database);
+    database.run(kTables);
+    database.run("PRAGMA application_id = " + std::to_string(kApplication));
+    database.run("PRAGMA user_version = " + std::to_string(kVersion));
+    transaction.commit();
   }
   std::filesystem::rename(unfinished, file);
   sync_folder(file.parent_path());
 }
 
-void bring_up_to_date(Database& database) {
+void check_version(const Database& database) {
   const std::int64_t version = database.number("PRAGMA user_version");
   const std::int64_t application = database.number("PRAGMA application_id");
   if (database.number("SELECT count(*) FROM sqlite_schema") == 0) {
-    throw std::runtime_error("it is corrupt: it has no tables, which none of armloom's is without");
+    throw std::runtime_error("it is corrupt: it has no tables");
   }
   if (application != kApplication) throw std::runtime_error("it is another program's database");
-  if (version < 1) {
-    throw std::runtime_error("it is corrupt: tables of version " + std::to_string(version));
+  const std::string tables = "tables of version " + std::to_string(version);
+  if (version < 1) throw std::runtime_error("it is corrupt: " + tables);
+  if (version < kVersion) {
+    throw std::runtime_error(
+        "it was written by armloom 0.1 (" + tables +
+        "), whose jobs this version cannot read: give --data a new folder, and "
+        "read this one with armloom 0.1");
   }
-  if (version > kNewest) {
-    throw std::runtime_error("it was written by a newer version of armloom (tables of version " +
-                             std::to_string(version) + ", this one knows " +
-                             std::to_string(kNewest) + ")");
+  if (version > kVersion) {
+    throw std::runtime_error("it was written by a newer version of armloom (" + tables +
+                             ", this one knows " + std::to_string(kVersion) +
+                             "): update armloom, or give --data a new folder");
   }
+}
+
+void check_store(const Database& database) {
+  check_version(database);
   check_whole(database);
-  upgrade(database, version);
 }
 
 }  // namespace armloom

@@ -10,7 +10,7 @@ namespace armloom {
 
 inline constexpr const char* kStoreFile = "armloom.db";  // in the data folder
 
-// What `sum` of a row is as long as the row is as it was written (Database::know_checksum).
+// The value of `sum` in an intact row (Database::know_checksum).
 inline constexpr const char* kSumOfJob =
     "checksum(job.number, job.id, job.state, job.has_ended, job.may_have_moved, job.submitted_ms, "
     "job.ended_ms, job.arms, job.view, job.digest, job.request_key, job.request_digest, "
@@ -27,18 +27,15 @@ inline constexpr const char* kSumOfObject =
     "checksum(scene_object.number, scene_object.name, scene_object.text)";
 inline constexpr const char* kSumOfRequest =
     "checksum(request.key, request.place, request.digest, request.job)";
-inline constexpr std::int64_t kVersionWithSums = 5;     // of jobs
-inline constexpr std::int64_t kVersionWithAllSums = 6;  // of alerts and the audit trail, too
-inline constexpr std::int64_t kVersionWithRequests = 10;
 
-// Makes a new file with tables and nothing in them. It is made beside its place and put there
-// whole: whatever stands in that place has held jobs, also where it is empty. `vfs`: as Database
-// has it. Throws SqlFault, std::system_error.
+// Creates a store with empty tables under another name, then renames it: thus a file in this place,
+// even an empty file, has held jobs. `vfs` as in Database. Throws SqlFault, std::system_error.
 void make_store(const std::filesystem::path& file, const std::string& vfs);
 
-// Looks the file through, then brings the tables of an older version of the program to this one's,
-// all or nothing: where it throws the file is as it was. Throws SqlFault; std::runtime_error where
-// the file is another program's, a newer version's, has lost its tables or is not whole.
-void bring_up_to_date(Database& database);
+// Checks that this version of Armloom wrote the file. Throws SqlFault, or std::runtime_error if the
+// file is another program's, an older or newer version's, or has lost its tables.
+void check_version(const Database& database);
+// Checks the version and the integrity of the whole file. Throws like check_version.
+void check_store(const Database& database);
 
 }  // namespace armloom

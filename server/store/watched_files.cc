@@ -10,8 +10,8 @@ namespace {
 
 std::string words_of(const PlacedFile& file, const char* how) {
   return file.path().string() + " was " + how +
-         " under the running server: put it back, or stop the server before anything else uses "
-         "the folder";
+         " while the server runs: restore it, or stop the server before another process uses the "
+         "folder";
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ std::optional<WatchedFiles::Lost> WatchedFiles::lost() const {
     if (!file.is_in_place()) return Lost{words_of(file, kGone)};
   }
   if (!log_.is_in_place()) return Lost{words_of(log_, kGone)};
-  if (log_.is_cut_off()) return Lost{words_of(log_, "cut off"), true};
+  if (log_.is_cut_off()) return Lost{words_of(log_, "truncated"), true};
   return std::nullopt;
 }
 

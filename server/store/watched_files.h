@@ -12,8 +12,8 @@
 
 namespace armloom {
 
-// Detects that the file at a path was removed, replaced or cut off since this was made: a process
-// that has the old file open writes where nobody will read. Precondition: the file exists.
+// Detects that a file was removed, replaced or truncated since construction. A process that has the
+// old file open then writes to an unlinked file. Precondition: the file exists.
 class PlacedFile {
  public:
   explicit PlacedFile(std::filesystem::path path) : path_(std::move(path)) {
@@ -26,7 +26,7 @@ class PlacedFile {
     return stat(path_.c_str(), &now) == 0 && now.st_dev == was_.st_dev && now.st_ino == was_.st_ino;
   }
 
-  // Remembers the present length, at most `most`, as the least that the file must keep.
+  // Sets the least length of the file: its present length, at most `most`.
   void has_grown(std::uintmax_t most) {
     struct stat now {};
     if (stat(path_.c_str(), &now) == 0)
@@ -43,14 +43,14 @@ class PlacedFile {
   std::uintmax_t least_ = 0;
 };
 
-// SQLite's log beside the store of a data folder.
+// Returns the path of SQLite's log of a store.
 [[nodiscard]] std::filesystem::path log_of(const std::filesystem::path& folder);
 
-// The files by which a running server holds its data folder: whoever starts on the folder when one
-// of them has gone would not find what is written, nor that it is in use. One thread.
+// The files by which a running server holds its data folder. If a file is gone, a second server
+// finds neither the data nor that the folder is in use. One thread.
 class WatchedFiles {
  public:
-  // Precondition: all of them are there.
+  // Precondition: all files exist.
   explicit WatchedFiles(const std::filesystem::path& folder);
 
   void log_has_grown();
@@ -59,7 +59,7 @@ class WatchedFiles {
     std::string text;
     bool is_log_cut_off = false;
   };
-  // What of them is no longer as it was; the first one.
+  // Returns the first file that is not as it was, or nullopt.
   [[nodiscard]] std::optional<Lost> lost() const;
 
  private:

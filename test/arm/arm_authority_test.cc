@@ -30,7 +30,7 @@ struct Case {
   AccelerationGauge gauge;
 };
 
-TEST(Authority, IsReachedButNeverPassedInTwoHundredRandomCases) {
+TEST(Authority, IsReachedButNeverExceeded) {
   double worst = 0.0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Case c(seed);
@@ -46,7 +46,6 @@ TEST(Authority, IsReachedButNeverPassedInTwoHundredRandomCases) {
       if (feedback.phase == Phase::finished) break;
       ASSERT_EQ(feedback.phase, Phase::moving) << seed;
       at_rest = feedback.measured_progress == authority ? at_rest + 1 : 0;
-      // More of it, now and then on the way and always some time after rest.
       if (at_rest > 50 || c.random() % 400 == 0) {
         authority += share_of(duration / 4, c.random) + 1us;
         c.bench.arm.grant(authority);
@@ -59,7 +58,7 @@ TEST(Authority, IsReachedButNeverPassedInTwoHundredRandomCases) {
   RecordProperty("worst_share", std::to_string(worst));
 }
 
-TEST(Authority, TheArmRestsThereExactlyAndSoonAfterItCould) {
+TEST(Authority, ArmRestsExactlyAtItsAuthority) {
   Case c(5);
   const Duration authority = c.trajectory->duration() / 2;
   c.bench.arm.start(c.trajectory, at(0ms), {}, authority);
@@ -69,7 +68,7 @@ TEST(Authority, TheArmRestsThereExactlyAndSoonAfterItCould) {
   EXPECT_EQ(c.bench.tick_for(1s).measured_progress, authority);
 }
 
-TEST(Authority, ExtendedInTimeItCostsNothing) {
+TEST(Authority, TimelyExtensionCausesNoDelay) {
   Case c(2);
   const Duration duration = c.trajectory->duration();
   c.bench.arm.start(c.trajectory, at(0ms), {}, 800ms);
@@ -82,7 +81,7 @@ TEST(Authority, ExtendedInTimeItCostsNothing) {
   }
 }
 
-TEST(Authority, ZeroAtTheStartHoldsTheArmUntilMoreIsGranted) {
+TEST(Authority, ZeroAuthorityKeepsTheArmAtRest) {
   Case c(1);
   c.bench.arm.start(c.trajectory, at(0ms), {}, 0ms);
   EXPECT_EQ(c.bench.tick_for(100ms).commanded_progress, 0ms);
@@ -91,7 +90,7 @@ TEST(Authority, ZeroAtTheStartHoldsTheArmUntilMoreIsGranted) {
   c.bench.tick_until(Phase::finished);
 }
 
-TEST(Authority, TakenBackTheArmStopsThereOrWhereABrakeWouldHaveStoppedIt) {
+TEST(Authority, ReducedAuthorityStopsNoLaterThanABrake) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     Case c(seed);
     Case braked(seed);
@@ -114,7 +113,7 @@ TEST(Authority, TakenBackTheArmStopsThereOrWhereABrakeWouldHaveStoppedIt) {
   }
 }
 
-TEST(Authority, ABrakeUnderItStopsBeforeItAndContinues) {
+TEST(Authority, BrakeStopsBeforeTheAuthorityAndMotionContinues) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     Case c(seed);
     const Duration duration = c.trajectory->duration();

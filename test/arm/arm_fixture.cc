@@ -31,7 +31,7 @@ struct Waypoint {
   Eigen::VectorXd a;
 };
 
-// The quintic (cubic) through position, velocity (and acceleration) at both ends.
+// Returns the quintic (or cubic) through position and velocity (and acceleration) at both ends.
 Segment piece(const Waypoint& from, const Waypoint& to, Duration start, Duration duration,
               Pieces pieces) {
   const double t = to_seconds(duration);
@@ -72,7 +72,7 @@ std::vector<Segment> joined(const std::vector<Waypoint>& waypoints,
   return segments;
 }
 
-// By which factor the time must grow so that every limit is met.
+// Returns the factor by which the time must grow to meet all limits.
 double needed_slowdown(const Trajectory& trajectory, const Cell& cell) {
   JointState state;
   double needed = 0.0;
@@ -196,7 +196,7 @@ void AccelerationGauge::observe(const ArmFeedback& feedback, bool may_brake) {
   last_.swap(now_);
   trajectory_->sample_positions(feedback.commanded_progress, now_);
   if (++known_ >= 3) {
-    // Progress is a whole number of nanoseconds: each place is off by half of one at most.
+    // Progress is in whole nanoseconds.
     const double rounding = 4.0 * 0.5e-9 * 2.61 / (tick_s * tick_s);
     const Eigen::ArrayXd found =
         (now_ - 2.0 * last_ + before_).array().abs() / (tick_s * tick_s) - rounding;

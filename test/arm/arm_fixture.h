@@ -7,8 +7,8 @@
 
 namespace armloom {
 
-// A cell of two arms, built by hand: seven joints each with a Panda's limits, the first one with a
-// gripper joint besides. JointIds: 0..6 left, 7 left gripper, 8..14 right.
+// A handmade cell: two seven-joint arms with a Panda's limits, the left with a gripper joint.
+// JointIds: 0..6 left, 7 left gripper, 8..14 right.
 struct CellOptions {
   Duration lag = std::chrono::milliseconds(20);
   double noise_rad = 0.0;
@@ -18,8 +18,8 @@ struct CellOptions {
 inline const ArmId kLeft{0};
 inline const ArmId kRight{1};
 
-// Piecewise polynomials through random waypoints, at rest at both ends, scaled in time so that the
-// hardest of velocity and acceleration limits is just met.
+// Polynomials through random waypoints, at rest at both ends; the time just meets the tightest
+// velocity or acceleration limit.
 enum class Pieces {
   quintic,  // acceleration is continuous
   cubic,    // acceleration jumps at the waypoints
@@ -29,10 +29,9 @@ enum class Pieces {
                                               Pieces pieces = Pieces::quintic);
 [[nodiscard]] std::vector<JointId> joints_of(const Cell& cell, ArmId arm);  // without the gripper
 
-// Positions of a controller's joints where `trajectory` starts; joints that are not in it at zero.
+// Returns the controller's joint positions at the start of `trajectory`; other joints are at zero.
 [[nodiscard]] Eigen::VectorXd at_start(const Trajectory& trajectory, const Cell& cell, ArmId arm);
 
-// An arm with its hand-driven clock.
 struct Bench {
   Bench(CellPtr the_cell, ArmId the_arm, const Trajectory& first, std::uint64_t seed = 1)
       : cell(std::move(the_cell)), arm(cell, the_arm, at_start(first, *cell, the_arm), seed) {}
@@ -45,7 +44,7 @@ struct Bench {
     for (const TimePoint end = now + time - kControlPeriod; now < end;) tick();
     return tick();
   }
-  // Until the phase is reached; fails the test after `most` of simulated time.
+  // Fails the test after `most` of simulated time.
   const ArmFeedback& tick_until(ArmFeedback::Phase phase,
                                 Duration most = std::chrono::seconds(120));
 
@@ -54,13 +53,13 @@ struct Bench {
   TimePoint now{};
 };
 
-// The joints' accelerations by second differences of the commanded positions, tick by tick: keeps
-// the largest as a share of what was allowed then.
+// Keeps the largest joint acceleration, by second differences of commanded positions, as a share of
+// the limit at that time.
 class AccelerationGauge {
  public:
   AccelerationGauge(const Cell& cell, TrajectoryPtr trajectory);
   void observe(const ArmFeedback& feedback, bool may_brake);
-  void restart() { known_ = 0; }  // what comes does not continue what was
+  void restart() { known_ = 0; }  // the next positions do not continue the last ones
   [[nodiscard]] double worst_share() const { return worst_share_; }
 
  private:

@@ -11,16 +11,16 @@ namespace {
 using namespace std::chrono_literals;
 using Phase = ArmFeedback::Phase;
 
-TEST(SimulatedArm, IsIdleWhereItStandsUntilTheFirstStart) {
+TEST(SimulatedArm, IsIdleUntilTheFirstStart) {
   Example e;
   const Eigen::VectorXd q = at_start(*e.trajectory, *e.cell, kLeft);
   const ArmFeedback& feedback = e.bench.tick_for(100ms);
   EXPECT_EQ(feedback.phase, Phase::idle);
   EXPECT_EQ(feedback.measured, q);
-  EXPECT_EQ(e.bench.arm.joints().size(), 8u);  // seven and the gripper
+  EXPECT_EQ(e.bench.arm.joints().size(), 8u);  // seven arm joints and the gripper joint
 }
 
-TEST(SimulatedArm, TakesExactlyTheDurationOfItsTrajectoryPlusTheSettlingOfItsLag) {
+TEST(SimulatedArm, TakesTheTrajectorysDurationPlusItsLag) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Example e({}, seed);
     e.start_now();
@@ -38,7 +38,7 @@ TEST(SimulatedArm, TakesExactlyTheDurationOfItsTrajectoryPlusTheSettlingOfItsLag
   }
 }
 
-TEST(SimulatedArm, WithoutLagMeasuresWhatItCommandsAndEndsWithItsTrajectory) {
+TEST(SimulatedArm, MeasuresTheCommandedProgressWithoutLag) {
   Example e({.lag = 0ms});
   e.start_now();
   for (int i = 0; i < 1000; ++i) {
@@ -49,7 +49,7 @@ TEST(SimulatedArm, WithoutLagMeasuresWhatItCommandsAndEndsWithItsTrajectory) {
   EXPECT_LT(e.bench.now - at(e.trajectory->duration()), kControlPeriod);
 }
 
-TEST(SimulatedArm, MeasuredProgressFollowsOneLagBehindOnThePath) {
+TEST(SimulatedArm, MeasuredProgressFollowsTheCommandByTheLag) {
   Example e({.lag = 35ms});
   e.start_now();
   e.bench.tick_for(400ms);
@@ -61,7 +61,7 @@ TEST(SimulatedArm, MeasuredProgressFollowsOneLagBehindOnThePath) {
   }
 }
 
-TEST(SimulatedArm, AStartBetweenTwoTicksLosesNoTime) {
+TEST(SimulatedArm, StartBetweenTwoTicksLosesNoTime) {
   Example e;
   e.bench.tick_for(10ms);
   e.bench.arm.start(e.trajectory, at(12ms + 300us), {}, e.trajectory->duration());
@@ -74,7 +74,7 @@ TEST(SimulatedArm, AStartBetweenTwoTicksLosesNoTime) {
   EXPECT_EQ(feedback.commanded_progress, 500ms + 700us);
 }
 
-TEST(SimulatedArm, AStartInThePastBeginsAtTheNextTick) {
+TEST(SimulatedArm, StartInThePastStartsAtTheNextTick) {
   Example e;
   e.bench.tick_for(100ms);
   e.bench.arm.start(e.trajectory, at(40ms), {}, e.trajectory->duration());
@@ -86,7 +86,6 @@ TEST(SimulatedArm, RunsOneTrajectoryAfterAnother) {
   Example e;
   e.start_now();
   e.bench.tick_until(Phase::finished);
-  // The way back, from where it stands.
   std::vector<Segment> segments;
   Segment back{{}, from_seconds(6.0), {}};
   back.coefficients.setZero(7, 6);
@@ -102,7 +101,7 @@ TEST(SimulatedArm, RunsOneTrajectoryAfterAnother) {
   EXPECT_LT((feedback.measured.head(7) - e.trajectory->start()).norm(), 1e-12);
 }
 
-TEST(SimulatedArm, JointsThatTheTrajectoryDoesNotNameStayWhereTheyAre) {
+TEST(SimulatedArm, JointsOutsideTheTrajectoryDoNotMove) {
   Example e;
   const std::vector<JointId> some{JointId(2), JointId(9),
                                   JointId(3)};  // joint 9 is the right arm's
@@ -141,7 +140,7 @@ TEST(SimulatedArm, ArmsOfOneSynchronousTrajectoryBrakeAndContinueInStep) {
   }
 }
 
-TEST(SimulatedArm, TheSameSeedGivesTheSameBitsAndAnotherSeedDoesNot) {
+TEST(SimulatedArm, IsDeterministicForASeed) {
   const auto run = [](std::uint64_t seed) {
     Example e({.noise_rad = 0.001}, 1);
     Bench bench(e.cell, kLeft, *e.trajectory, seed);
@@ -158,7 +157,7 @@ TEST(SimulatedArm, TheSameSeedGivesTheSameBitsAndAnotherSeedDoesNot) {
   EXPECT_NE(run(3), run(4));
 }
 
-TEST(SimulatedArm, NoiseIsOfTheStatedSizeAndOnlyInWhatIsMeasured) {
+TEST(SimulatedArm, NoiseHasTheStatedSizeAndAffectsOnlyMeasurements) {
   Example e({.noise_rad = 0.05});
   const Eigen::VectorXd q = at_start(*e.trajectory, *e.cell, kLeft);
   double sum = 0.0;
@@ -171,11 +170,11 @@ TEST(SimulatedArm, NoiseIsOfTheStatedSizeAndOnlyInWhatIsMeasured) {
   }
   EXPECT_NEAR(sum / (8.0 * kTicks), 0.0, 1e-3);
   EXPECT_NEAR(std::sqrt(squares / (8.0 * kTicks)), 0.05, 1e-3);
-  e.start_now();  // would throw, had the noise moved the arm past the start tolerance
+  e.start_now();  // throws if the noise had moved the arm past the start tolerance
   e.bench.tick_until(Phase::finished);
 }
 
-TEST(SimulatedArm, AStartSlightlyOffThePathIsPulledIn) {
+TEST(SimulatedArm, StartSlightlyOffThePathIsPulledInSmoothly) {
   Example e;
   Eigen::VectorXd q = at_start(*e.trajectory, *e.cell, kLeft);
   q[1] += 0.009;
@@ -192,17 +191,17 @@ TEST(SimulatedArm, AStartSlightlyOffThePathIsPulledIn) {
   EXPECT_EQ(feedback.measured.head(7), e.trajectory->goal());
 }
 
-TEST(SimulatedArm, RefusesWhatItsCallerMustNotAsk) {
+TEST(SimulatedArm, ThrowsOnViolatedPreconditions) {
   Example e;
   EXPECT_THROW(e.bench.arm.grant(1s), std::logic_error);
-  EXPECT_THROW(e.start_now(1s), std::logic_error);  // stands at the start, not there
+  EXPECT_THROW(e.start_now(1s), std::logic_error);  // the arm is at the start, not at 1 s
   EXPECT_THROW(e.start_now(e.trajectory->duration() + 1ms), std::logic_error);
   EXPECT_THROW(e.start_now(-1ms), std::logic_error);
   EXPECT_THROW(e.bench.arm.start(nullptr, at(0ms), {}, 1s), std::logic_error);
   const TrajectoryPtr foreign =
       random_trajectory(*e.cell, joints_of(*e.cell, kRight), {kRight}, e.random);
   EXPECT_THROW(e.bench.arm.start(foreign, at(0ms), {}, 1s), std::logic_error);
-  EXPECT_EQ(e.bench.tick().phase, Phase::idle);  // none of this has left a trace
+  EXPECT_EQ(e.bench.tick().phase, Phase::idle);  // none of these calls changed the arm
   e.start_now();
   EXPECT_THROW(e.start_now(), std::logic_error);
   EXPECT_THROW(e.bench.arm.release(), std::logic_error);

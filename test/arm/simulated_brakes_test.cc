@@ -1,4 +1,3 @@
-// A simulated arm that brakes, and goes on.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 using Phase = ArmFeedback::Phase;
 
-TEST(SimulatedArm, BrakesWithinTheLimitsAndComesToRestOnItsPath) {
+TEST(SimulatedArm, BrakesWithinTheLimitsAndRestsOnItsPath) {
   for (const double brake : {1.0, 2.0, 4.0}) {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
       Example e({.brake_per_acceleration = brake}, seed);
@@ -46,7 +45,7 @@ TEST(SimulatedArm, BrakesWithinTheLimitsAndComesToRestOnItsPath) {
   }
 }
 
-TEST(SimulatedArm, ABrakeEndsSoon) {
+TEST(SimulatedArm, BrakesInLessThanASecond) {
   Duration longest{};
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Example e({}, seed);
@@ -58,12 +57,12 @@ TEST(SimulatedArm, ABrakeEndsSoon) {
     }
     longest = std::max(longest, e.bench.now - asked);
   }
-  // 2.61 rad/s over (7.5 - 3.75) rad/s^2 is 0.7 s, the lag settles on top of it.
+  // 2.61 rad/s over (7.5 - 3.75) rad/s^2 is 0.7 s, plus the lag.
   EXPECT_LT(longest, 900ms);
   EXPECT_GT(longest, 100ms);
 }
 
-TEST(SimulatedArm, ContinuesAfterABrakeAndEndsAtItsGoal) {
+TEST(SimulatedArm, ContinuesToItsGoalAfterABrake) {
   Example e;
   e.start_now();
   e.bench.tick_for(600ms);
@@ -78,7 +77,7 @@ TEST(SimulatedArm, ContinuesAfterABrakeAndEndsAtItsGoal) {
   EXPECT_EQ(feedback.measured.head(7), e.trajectory->goal());
 }
 
-TEST(SimulatedArm, KeepsItsLimitsThroughBrakesAndContinuationsAtRandomTimes) {
+TEST(SimulatedArm, KeepsItsLimitsThroughRandomBrakesAndContinuations) {
   for (const Pieces pieces : {Pieces::quintic, Pieces::cubic}) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
       std::mt19937_64 random(seed);
@@ -106,7 +105,7 @@ TEST(SimulatedArm, KeepsItsLimitsThroughBrakesAndContinuationsAtRandomTimes) {
   }
 }
 
-TEST(SimulatedArm, ABrakeWhileWaitingStopsAtOnceAndTheMotionCanBeDropped) {
+TEST(SimulatedArm, BrakeWhileWaitingStopsAtOnceAndAllowsRelease) {
   Example e;
   e.bench.arm.start(e.trajectory, at(1s), {}, e.trajectory->duration());
   e.bench.tick_for(10ms);

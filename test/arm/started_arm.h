@@ -4,7 +4,6 @@
 
 namespace armloom {
 
-// A left arm with a random trajectory of its own.
 struct Example {
   explicit Example(CellOptions options = {}, std::uint64_t seed = 1)
       : random(seed),
@@ -15,7 +14,7 @@ struct Example {
   void start_now(Duration from = {}) {
     bench.arm.start(trajectory, bench.now, from, trajectory->duration());
   }
-  // How far the first seven measured joints are from the path at `progress`.
+  // Returns how far the arm joints are from the path at `progress`.
   double off_path(const ArmFeedback& feedback, Duration progress) const {
     Eigen::VectorXd q;
     trajectory->sample_positions(progress, q);

@@ -1,5 +1,5 @@
-// What the audit measures between all kinds of shapes, against projections onto them
-// (reference_distance.h), with random places and in the planes in which GJK is known to fail.
+// Compares audit distances of all kinds of shapes with reference_distance.h, also in planes in
+// which GJK is known to fail.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ enum class Kind { box, cylinder, sphere, box_mesh, channel_mesh };
 constexpr Kind kKinds[] = {Kind::box, Kind::cylinder, Kind::sphere, Kind::box_mesh,
                            Kind::channel_mesh};
 
-// A shape, and the convex ones that it is made of.
+// A shape, and the convex parts that it consists of.
 struct Sample {
   Shape shape;
   std::vector<Convex> parts;
@@ -53,7 +53,7 @@ Sample sample(Kind kind, std::mt19937_64& random) {
       return {Sphere{half.x()}, {sphere}};
     }
     case Kind::box_mesh: {
-      // With a face as a fan of triangles of which two have no area.
+      // One face is a fan of triangles, two without area.
       small::Surface surface = small::box_surface(-half, half);
       surface.triangles.push_back({0, 1, 1});
       surface.vertices.emplace_back(0.5 * (surface.vertices[0] + surface.vertices[1]));
@@ -79,14 +79,14 @@ double true_distance(const Sample& a, const Eigen::Isometry3d& X_WA, const Sampl
       x.X_WS = X_WA * x.X_WS;
       y.X_WS = X_WB * y.X_WS;
       const reference::Bracket found = reference::distance(x, y, 4000);
-      if (found.upper - found.lower > 1e-5) return -1.0;  // not known well enough
+      if (found.upper - found.lower > 1e-5) return -1.0;  // the reference did not converge
       smallest = std::min(smallest, found.upper);
     }
   }
   return smallest;
 }
 
-// `upright`: all turned about z alone, at one height.
+// `upright`: rotated about z only, and at equal heights.
 Eigen::Isometry3d place(std::mt19937_64& random, bool upright) {
   Eigen::Isometry3d X = reference::random_pose(random, 0.5);
   if (!upright) return X;
@@ -96,7 +96,7 @@ Eigen::Isometry3d place(std::mt19937_64& random, bool upright) {
   return X;
 }
 
-TEST(AuditDistances, AreThoseOfTheShapesToATenthOfAMillimetre) {
+TEST(AuditDistances, MatchReferenceToATenthOfAMillimeter) {
   std::mt19937_64 random(11);
   int near = 0;
   int touching = 0;

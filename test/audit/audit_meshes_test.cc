@@ -15,8 +15,7 @@ using namespace std::chrono_literals;
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 constexpr double kUp = small::kHalfTurn / 2;
 
-// One arm of one link of 0.4 m that turns in the plane z = 0, with `shape` at its tip instead of a
-// capsule, and `object`.
+// One arm of one 0.4 m link in the plane z = 0, with `shape` at its tip, and `object`.
 Cell cell_of(const Shape& shape, const Shape& object, const Eigen::Isometry3d& X_WO) {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
@@ -32,10 +31,10 @@ AuditReport at_angle(const Cell& cell, double q) {
   return *report;
 }
 
-// A slot along y about x = 0, 0.2 m wide, that the tip at (0, 0.4, 0) stands in.
+// 0.2 m wide, along y about x = 0; contains the tip at (0, 0.4, 0).
 const Eigen::Isometry3d kSlot = small::at_xyz(0, 0.4, -0.5);
 
-TEST(AuditMeshes, StandingInASlotIsNoContactThoughTheHullHasNoSlot) {
+TEST(AuditMeshes, ArmInASlotIsNoContactAlthoughTheHullIsSolid) {
   const Mesh channel = small::mesh_of(small::channel(0.2));
   const Mesh tip = small::mesh_of(small::box_surface({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}));
   for (const Shape& shape : {Shape(tip), Shape(Sphere{0.05}), Shape(Box{{0.1, 0.1, 0.1}})}) {
@@ -47,7 +46,7 @@ TEST(AuditMeshes, StandingInASlotIsNoContactThoughTheHullHasNoSlot) {
   }
 }
 
-TEST(AuditMeshes, LeaningOnTheWallOfASlotIsAContact) {
+TEST(AuditMeshes, ArmAtTheWallOfASlotIsAContact) {
   const Mesh channel = small::mesh_of(small::channel(0.2));
   const Mesh tip = small::mesh_of(small::box_surface({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}));
   for (const Shape& shape : {Shape(tip), Shape(Sphere{0.05}), Shape(Box{{0.1, 0.1, 0.1}})}) {
@@ -58,10 +57,10 @@ TEST(AuditMeshes, LeaningOnTheWallOfASlotIsAContact) {
   }
 }
 
-TEST(AuditMeshes, ABodyWhollyInsideAnotherIsAContactWhicheverIsTheMesh) {
+TEST(AuditMeshes, BodyInsideAnotherIsAContact) {
   const small::Surface large = small::box_surface({-1, -1, -1}, {1, 1, 1});
   const small::Surface small_box = small::box_surface({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05});
-  // A second piece, far outside: not its first piece but the second lies inside.
+  // The second piece lies inside, the first far outside.
   const small::Surface two = small::joined(small::box_surface({5, 5, 5}, {6, 6, 6}), small_box);
   const std::pair<Shape, Shape> cases[] = {{small::mesh_of(small_box), small::mesh_of(large)},
                                            {Sphere{0.05}, small::mesh_of(large)},
@@ -78,7 +77,7 @@ TEST(AuditMeshes, ABodyWhollyInsideAnotherIsAContactWhicheverIsTheMesh) {
   }
 }
 
-TEST(AuditMeshes, MeasuresTrianglesThatAreASegmentOrAPoint) {
+TEST(AuditMeshes, MeasuresDegenerateTriangles) {
   small::Surface wall = small::box_surface({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
   for (const Triangle& t : {Triangle{0, 0, 1}, Triangle{0, 3, 3}, Triangle{5, 5, 5}})
     wall.triangles.push_back(t);
@@ -90,8 +89,8 @@ TEST(AuditMeshes, MeasuresTrianglesThatAreASegmentOrAPoint) {
   }
 }
 
-// FCL's default solver claims up to 13 mm too much here.
-TEST(AuditShapes, MeasuresBoxesThatStandAtOneHeight) {
+// FCL's default solver overestimates these distances by up to 13 mm.
+TEST(AuditShapes, MeasuresBoxesAtEqualHeights) {
   using reference::Convex;
   const Box arm{{0.5, 0.05, 0.05}};
   const Box cube{{0.02, 0.02, 0.02}};
@@ -115,7 +114,7 @@ TEST(AuditShapes, MeasuresBoxesThatStandAtOneHeight) {
   EXPECT_GT(near, 100);
 }
 
-TEST(AuditMeshes, MeasuresTheSameOverAWholeTurnAsInEachStateAlone) {
+TEST(AuditMeshes, MeasuresASweepLikeItsSingleStates) {
   Cell cell = cell_of(small::mesh_of(small::box_surface({-0.1, -0.05, -0.02}, {0.1, 0.05, 0.02})),
                       small::mesh_of(small::box_surface({-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3})),
                       small::at_xyz(0.75, 0, 0));
@@ -134,7 +133,7 @@ TEST(AuditMeshes, MeasuresTheSameOverAWholeTurnAsInEachStateAlone) {
   EXPECT_GT(smallest, 0.05);
 }
 
-TEST(AuditMeshes, TheClearanceOfTwoBoxesIsTheGapBetweenTheirFaces) {
+TEST(AuditMeshes, ClearanceOfTwoBoxesIsTheGapBetweenTheirFaces) {
   const Cell cell =
       cell_of(small::mesh_of(small::box_surface({-0.1, -0.05, -0.02}, {0.1, 0.05, 0.02})),
               small::mesh_of(small::box_surface({-0.1, -0.2, -0.3}, {0.1, 0.2, 0.3})),

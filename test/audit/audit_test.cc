@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 constexpr double kUp = small::kHalfTurn / 2;
 
-// Two arms of one link of 0.4 m, bases 0.7 m apart on x: pointing at each other they overlap.
+// Two 0.4 m links, bases 0.7 m apart on x, overlap when they point at each other.
 Cell pair_of_arms() {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
@@ -23,7 +23,6 @@ Cell pair_of_arms() {
   return cell;
 }
 
-// Rows of a turn of both arms from `from` to `to` at a constant rate.
 std::vector<RecordedState> turn(const std::vector<double>& from, const std::vector<double>& to,
                                 Duration duration, Duration row) {
   std::vector<RecordedState> states;
@@ -46,9 +45,9 @@ AuditReport report_of(const Cell& cell, const std::vector<RecordedState>& states
   return *report;
 }
 
-TEST(Audit, FindsNoContactInACleanRecordingAndMeasuresTheSmallestClearance) {
+TEST(Audit, MeasuresTheSmallestClearanceOfACleanRecording) {
   const Cell cell = pair_of_arms();
-  // a stands up at x = 0, b turns from right over up to left and back: tip closest pointing left
+  // b's tip is closest when b points left.
   auto states = turn({kUp, 0.0}, {kUp, 2 * kUp}, 1s, 10ms);
   auto back = turn({kUp, 2 * kUp}, {kUp, 0.0}, 1s, 10ms);
   for (RecordedState& state : back) state.time += 1s;
@@ -63,7 +62,7 @@ TEST(Audit, FindsNoContactInACleanRecordingAndMeasuresTheSmallestClearance) {
   EXPECT_EQ(report.states_checked, 201U);
 }
 
-TEST(Audit, NamesTheFirstContactOfADoctoredRecordingAndItsTime) {
+TEST(Audit, ReportsTheFirstContactAndItsTime) {
   const Cell cell = pair_of_arms();
   auto states = turn({kUp, 2 * kUp}, {kUp, 2 * kUp}, 1s, 10ms);
   EXPECT_FALSE(report_of(cell, states, 10ms).first_contact.has_value());
@@ -77,21 +76,21 @@ TEST(Audit, NamesTheFirstContactOfADoctoredRecordingAndItsTime) {
   EXPECT_EQ(report.smallest_clearance->distance_m, 0.0);
 }
 
-TEST(Audit, FindsAContactBetweenTwoRowsByInterpolation) {
+TEST(Audit, FindsContactBetweenTwoRows) {
   const Cell cell = pair_of_arms();
   const auto states = turn({0.6, 2 * kUp}, {-0.6, 2 * kUp}, 1s, 1s);  // two rows only
   EXPECT_FALSE(report_of(cell, states, 1s).first_contact.has_value());
   const AuditReport report = report_of(cell, states, 1ms);
   ASSERT_TRUE(report.first_contact.has_value());
   EXPECT_EQ(report.states_checked, 1001U);
-  // a's axis from (0,0) at angle w touches b's tip cap, centred at (0.3, 0) with both radii.
+  // a's axis at angle w touches b's tip cap, centered at (0.3, 0), with both radii.
   const double touching = std::asin(0.06 / 0.3);
   const double expected_s = (0.6 - touching) / 1.2;
   EXPECT_NEAR(to_seconds(report.first_contact->time), expected_s, 0.0011);
   EXPECT_GE(to_seconds(report.first_contact->time), expected_s - 1e-6);
 }
 
-TEST(Audit, LeavesAllowedPairsOutAndStaticOnesAlone) {
+TEST(Audit, SkipsAllowedPairsAndStaticPairs) {
   Cell cell = pair_of_arms();
   cell.objects.push_back({"block", Box{{0.2, 0.2, 0.2}}, small::at_xyz(0, 0, 0)});
   cell.objects.push_back({"plate", Box{{0.2, 0.2, 0.3}}, small::at_xyz(0, 0, 0)});
@@ -106,7 +105,7 @@ TEST(Audit, LeavesAllowedPairsOutAndStaticOnesAlone) {
   EXPECT_EQ(report.first_contact->body_b, "plate");
 }
 
-TEST(Audit, TakesABodyWhollyInsideAnotherForAContact) {
+TEST(Audit, ReportsABodyInsideAnotherAsContact) {
   Cell cell = pair_of_arms();
   cell.objects.push_back({"crate", Box{{2, 2, 2}}, small::at_xyz(0, 0, 0)});
   const AuditReport report = report_of(cell, turn({kUp, kUp}, {kUp, kUp}, 10ms, 10ms), 10ms);
@@ -114,7 +113,7 @@ TEST(Audit, TakesABodyWhollyInsideAnotherForAContact) {
   EXPECT_EQ(report.first_contact->body_b, "crate");
 }
 
-TEST(Audit, CountsSelfPairsForContactOnly) {
+TEST(Audit, ChecksSelfPairsForContactOnly) {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.03});
   const auto folding = turn({0, 0, 0}, {0, 2.6, 2.6}, 1s, 1ms);
@@ -126,8 +125,8 @@ TEST(Audit, CountsSelfPairsForContactOnly) {
   EXPECT_FALSE(report.smallest_clearance.has_value());
 }
 
-// Skipping what has not moved far enough must not change what is found: against every state anew.
-TEST(Audit, FindsTheSameWhenEveryStateIsAuditedAlone) {
+// The audit skips pairs that have not moved far enough.
+TEST(Audit, MatchesAnAuditOfEachStateAlone) {
   Cell cell = pair_of_arms();
   Eigen::Isometry3d leaning = small::at_xyz(0.35, 0.45, 0);
   leaning.rotate(Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitX()));
@@ -151,7 +150,7 @@ TEST(Audit, FindsTheSameWhenEveryStateIsAuditedAlone) {
   EXPECT_GT(smallest, 0.0);
 }
 
-TEST(Audit, RefusesMeshesThatWereNotLoadedAndNumbersThatAreNone) {
+TEST(Audit, RejectsUnloadedMeshesAndNaN) {
   Cell cell = pair_of_arms();
   auto states = turn({kUp, kUp}, {kUp, kUp}, 20ms, 10ms);
   states[1].q[0] = std::numeric_limits<double>::quiet_NaN();
@@ -164,7 +163,7 @@ TEST(Audit, RefusesMeshesThatWereNotLoadedAndNumbersThatAreNone) {
   EXPECT_EQ(mesh.error()[0].kind, ProblemKind::unsupported);
 }
 
-TEST(Audit, ThrowsOnTimesThatDoNotIncreaseAndAStepThatIsNone) {
+TEST(Audit, ThrowsOnNonIncreasingTimesAndZeroStep) {
   const Cell cell = pair_of_arms();
   auto states = turn({kUp, kUp}, {kUp, kUp}, 20ms, 10ms);
   EXPECT_THROW((void)audit(cell, states, 0ms), std::invalid_argument);

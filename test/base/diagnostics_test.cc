@@ -15,7 +15,7 @@ Problem problem(const std::string& pointer, const std::string& detail = "is wron
 }
 auto at(const std::string& pointer) { return Field(&Problem::pointer, pointer); }
 
-TEST(Diagnostics, AreHandedOverInTheOrderInWhichTheyWereFound) {
+TEST(Diagnostics, KeepTheOrderInWhichTheyWereAdded) {
   Diagnostics found;
   found.add(problem("/b"));
   found.warn(problem("/w"));
@@ -24,14 +24,14 @@ TEST(Diagnostics, AreHandedOverInTheOrderInWhichTheyWereFound) {
   EXPECT_THAT(found.take_warnings(), ElementsAre(at("/w")));
 }
 
-TEST(Diagnostics, OfNothingAreNone) {
+TEST(Diagnostics, StartEmpty) {
   Diagnostics found;
   EXPECT_THAT(found.take(), IsEmpty());
   EXPECT_THAT(found.take_warnings(), IsEmpty());
 }
 
 // Two robots may share one URDF file.
-TEST(Diagnostics, AreToldOnceHoweverOftenTheyAreFoundButCountedEachTime) {
+TEST(Diagnostics, CountDuplicatesButReportEachOnce) {
   Diagnostics found;
   found.add(problem("/a"));
   found.add(problem("/a"));
@@ -40,7 +40,7 @@ TEST(Diagnostics, AreToldOnceHoweverOftenTheyAreFoundButCountedEachTime) {
   EXPECT_EQ(found.take().size(), 2U);
 }
 
-TEST(Diagnostics, KeepAHundredAndSayHowManyMoreThereAre) {
+TEST(Diagnostics, KeepAHundredAndCountTheRest) {
   Diagnostics found;
   for (int i = 0; i < 107; ++i) found.add(problem("/" + std::to_string(i)));
   for (int i = 0; i < 101; ++i) found.warn(problem("/" + std::to_string(i)));
@@ -51,7 +51,7 @@ TEST(Diagnostics, KeepAHundredAndSayHowManyMoreThereAre) {
   EXPECT_EQ(found.take_warnings().back().detail, "and 1 more warnings of the cell");
 }
 
-TEST(Diagnostics, OfAPartAreTakenOverAsTheyAreOrAllAsWarnings) {
+TEST(Diagnostics, MergeUnchangedOrAllAsWarnings) {
   const auto part = [] {
     Diagnostics of;
     of.add(problem("/problem"));
@@ -71,7 +71,7 @@ TEST(Diagnostics, OfAPartAreTakenOverAsTheyAreOrAllAsWarnings) {
   EXPECT_THAT(unused.take_warnings(), ElementsAre(at("/problem"), at("/warning")));
 }
 
-TEST(Diagnostics, OfTheCellFileCarryPlaceAndValue) {
+TEST(Diagnostics, InCellCarryPointerAndValue) {
   Diagnostics found;
   found.in_cell("out-of-range", "/clearance_m", "clearance_m is negative", -0.1);
   const Problems problems = found.take();
@@ -81,7 +81,7 @@ TEST(Diagnostics, OfTheCellFileCarryPlaceAndValue) {
   EXPECT_EQ(std::get<double>(problems[0].value), -0.1);
 }
 
-TEST(Numbers, AreWrittenAsTheShortestTextThatReadsBack) {
+TEST(Numbers, FormatAsShortestRoundTripText) {
   EXPECT_EQ(text_of(0.1), "0.1");
   EXPECT_EQ(text_of(3.0), "3");
   EXPECT_EQ(text_of(1e300), "1e+300");
@@ -90,7 +90,7 @@ TEST(Numbers, AreWrittenAsTheShortestTextThatReadsBack) {
   }
 }
 
-// RFC 6901: the tilde first, or an escaped slash would be escaped again.
+// RFC 6901: tildes first, or the tilde of an escaped slash would be escaped again.
 TEST(PointerTokens, EscapeTildesAndSlashes) {
   EXPECT_EQ(pointer_token("a/b"), "a~1b");
   EXPECT_EQ(pointer_token("~1"), "~01");

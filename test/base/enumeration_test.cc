@@ -1,4 +1,3 @@
-// Enumerations that are spelt out: one place says what their values are called.
 #include "core/base/enumeration.h"
 
 #include <gtest/gtest.h>
@@ -26,13 +25,13 @@ static_assert(kValueCount<Fruit> == 3);
 static_assert(kValues<Fruit>.back() == Fruit::plum);
 static_assert(value_named<Fruit>("pear") == Fruit::pear);
 
-TEST(Enumerations, AreListedByWhatTheyAreCalled) {
+TEST(Enumerations, ListAllValueNames) {
   std::set<std::string> names;
   for (const Fruit fruit : kValues<Fruit>) names.insert(to_string(fruit));
   EXPECT_EQ(names, (std::set<std::string>{"apple", "pear", "plum"}));
 }
 
-TEST(Enumerations, HaveNoValueOfAnotherName) {
+TEST(Enumerations, RejectUnknownNames) {
   for (const char* name : {"", "Apple", "appl", "apples", "0"}) {
     EXPECT_FALSE(value_named<Fruit>(name)) << name;
   }

@@ -1,4 +1,3 @@
-// What names may be, and which one a misspelt name most likely means.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,7 +12,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kKnown{"panda_joint1", "panda_joint2", "elbow", "lift"};
 
-TEST(NearestName, IsTheOneWithTheFewestLettersOff) {
+TEST(NearestName, HasTheSmallestEditDistance) {
   EXPECT_EQ(nearest_name("elbwo", kKnown), "elbow") << "neighbours swapped";
   EXPECT_EQ(nearest_name("ellbow", kKnown), "elbow") << "one too many";
   EXPECT_EQ(nearest_name("elbo", kKnown), "elbow") << "one left out";
@@ -21,21 +20,21 @@ TEST(NearestName, IsTheOneWithTheFewestLettersOff) {
   EXPECT_EQ(nearest_name("panda_joint9", kKnown), "panda_joint1") << "of two, the first";
 }
 
-TEST(NearestName, IsNoneWhereMoreThanAThirdWouldHaveToChange) {
+TEST(NearestName, IsNulloptIfMoreThanAThirdDiffers) {
   EXPECT_EQ(nearest_name("elba", kKnown), std::nullopt) << "two of five";
   EXPECT_EQ(nearest_name("wrist", kKnown), std::nullopt);
   EXPECT_EQ(nearest_name("", kKnown), std::nullopt);
   EXPECT_EQ(nearest_name("elbow", {}), std::nullopt);
 }
 
-// What a stranger sends may be long: it is not compared.
-TEST(NearestName, OfWhatIsLongerThanAnyNameIsNotLookedFor) {
+// A client may send a very long name.
+TEST(NearestName, IgnoresNamesLongerThanTheLimit) {
   const std::string long_name(101, 'a');
   const std::array<std::string_view, 1> same{long_name};
   EXPECT_EQ(nearest_name(long_name, same), std::nullopt);
 }
 
-TEST(DidYouMean, NamesTheNearestKeyOrSaysNothing) {
+TEST(DidYouMean, SuggestsTheNearestKeyOrNothing) {
   const std::map<std::string, int> known{{"elbow", 1}, {"wrist", 2}};
   EXPECT_EQ(did_you_mean("elbwo", known), "; did you mean elbow?");
   EXPECT_EQ(did_you_mean("gripper", known), "");
@@ -44,7 +43,7 @@ TEST(DidYouMean, NamesTheNearestKeyOrSaysNothing) {
   EXPECT_EQ(did_you_mean("joint_1", many), "") << "too many to look through each time";
 }
 
-TEST(PlainName, IsWhatCanStandInAPath) {
+TEST(PlainName, RejectsWhatIsNoPathSegment) {
   for (const char* name : {"left", "rod 1", "a.b", "...", "Ätzbad", "~"}) {
     EXPECT_TRUE(is_plain_name(name)) << name;
   }
@@ -53,7 +52,7 @@ TEST(PlainName, IsWhatCanStandInAPath) {
   }
 }
 
-TEST(PlainName, IsAsLongAsItsCharactersNotItsBytes) {
+TEST(PlainName, MeasuresLengthInCharacters) {
   std::string name;
   for (std::size_t i = 0; i < kPlainNameMax; ++i) name += "ä";
   EXPECT_EQ(characters(name), kPlainNameMax);

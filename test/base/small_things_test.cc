@@ -1,4 +1,3 @@
-// Times, sets that are joined, and positions as people are told them.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -23,7 +22,7 @@ TEST(CellTime, IsRoundedToTheNearestNanosecond) {
   }
 }
 
-TEST(DisjointSets, AreNamedByTheirFirstMemberHoweverTheyWereJoined) {
+TEST(DisjointSets, UseTheFirstMemberAsRoot) {
   DisjointSets sets;
   for (int i = 0; i < 6; ++i) sets.add();
   sets.join(5, 4);
@@ -32,17 +31,17 @@ TEST(DisjointSets, AreNamedByTheirFirstMemberHoweverTheyWereJoined) {
   EXPECT_EQ(sets.root(0), 0U);
   sets.join(5, 2);
   for (const std::size_t member : {1U, 2U, 4U, 5U}) EXPECT_EQ(sets.root(member), 1U);
-  sets.join(4, 1);  // they are one already
+  sets.join(4, 1);  // already joined
   EXPECT_EQ(sets.root(3), 3U);
 }
 
-TEST(Positions, AreToldWithoutTheNoiseOfArithmetic) {
+TEST(Positions, DropRoundingNoise) {
   EXPECT_EQ(without_rounding_noise(6.9e-18), 0.0);
   EXPECT_FALSE(std::signbit(without_rounding_noise(-6.9e-18)));
   EXPECT_EQ(without_rounding_noise(-1e-6), -1e-6);
 }
 
-TEST(WholeTurns, AreToldOfPositionsThatLookTheSame) {
+TEST(WholeTurns, AreReportedForEquivalentPositions) {
   constexpr double kTurn_rad = 2.0 * std::numbers::pi;
   EXPECT_EQ(whole_turns_apart(1.0, 1.0 + kTurn_rad, 0.01),
             ", 1 whole turn away: positions are not taken modulo 2 pi");

@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::size_t kStates = 1024;
 constexpr std::size_t kCircleStates = 256;
-constexpr double kCircleRadius_m = 1.0;  // neighbours 0.77 m apart, all reach the centre
+constexpr double kCircleRadius_m = 1.0;  // neighbors 0.77 m apart, all reach the center
 
 }  // namespace
 

@@ -34,7 +34,6 @@ CellDescription two_pandas_description() {
   return value_of(read_cell_text(text.str(), folder));
 }
 
-// The first Panda of config/two_pandas.json under another name, elsewhere.
 RobotDescription panda(const RobotDescription& like, std::size_t index,
                        const Eigen::Isometry3d& X_WB) {
   RobotDescription robot = like;

@@ -6,21 +6,18 @@
 
 namespace armloom::bench {
 
-// The cells of the benchmarks, made of the Pandas of config/two_pandas.json. Throw
-// std::runtime_error with what was wrong when a file does not read.
+// Cells built from the Pandas of config/two_pandas.json. Throw std::runtime_error if a file cannot
+// be read.
 
-// config/two_pandas.json itself.
 [[nodiscard]] CellPtr two_pandas();
 
-// `count` Pandas with their bases evenly on a circle of that radius, facing its centre, on one
-// table under all of them.
+// Returns `count` Pandas evenly on a circle, facing its center, on one table.
 [[nodiscard]] CellPtr circle_of_pandas(std::size_t count, double radius_m);
 
-// A hall: `count` Pandas side by side along x, `spacing_m` apart, all facing +y, on one long table.
-// Arms are in the order of x.
+// Returns `count` Pandas along x, facing +y, on one long table, in the order of x.
 [[nodiscard]] CellPtr line_of_pandas(std::size_t count, double spacing_m);
 
-// A wide hall: rows of such lines, all arms facing +y; arms are in the order of y, then x.
+// Returns rows of such lines, in the order of y, then x.
 [[nodiscard]] CellPtr grid_of_pandas(std::size_t columns, std::size_t rows, double spacing_m);
 
 }  // namespace armloom::bench

@@ -1,6 +1,5 @@
-// The collision benchmarks: FCL the MoveIt way beside the engine, one run, one thread. Before the
-// first of them the workloads are made and checked, and the baseline against the exact shapes: it
-// must report every contact that these have, else the run ends with exit code 1.
+// FCL the MoveIt way and the engine, on one thread. First checks the workloads, and the baseline
+// against exact shapes: exit code 1 if it misses a contact.
 #include "test/bench/collision_bench.h"
 
 #include <benchmark/benchmark.h>
@@ -17,7 +16,7 @@
 namespace armloom::bench {
 namespace {
 
-// How the baseline's answers compare with the exact ones; throws if it misses a contact.
+// Throws if the baseline misses an exact contact.
 void compare_with_exact(const std::string& name, const States& states) {
   ExactScene exact(states.cell);
   MoveItWay moveit(states.cell);
@@ -37,7 +36,6 @@ void compare_with_exact(const std::string& name, const States& states) {
                moveit.triangles());
 }
 
-// How close the arms come, exactly, every 5 ms.
 void tell_distance(const std::string& name, const Motions& motions) {
   ExactScene exact(motions.cell);
   const double closest_m =

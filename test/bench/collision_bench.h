@@ -11,24 +11,22 @@
 
 namespace armloom::bench {
 
-// One class of combined states of one cell.
 struct States {
   CellPtr cell;
   std::vector<Configuration> all;
 };
 
-// Everything that is timed; lives for the whole run.
 struct Workloads {
   std::map<std::string, States> states;    // apart, near, touching, eight_arms
   std::map<std::string, Motions> motions;  // clear, crossing
   std::map<std::size_t, Hall> halls;       // by the number of other arms
 };
 
-// Makes them all and throws std::runtime_error where one is not what it claims; two seconds.
+// Throws std::runtime_error if a workload does not meet its claim; takes two seconds.
 [[nodiscard]] Workloads make_workloads();
 
-// Each adds its benchmarks, named "<way>/<workload>", of the same workloads; these must outlive the
-// run. An iteration is one state (in turn) or one admission.
+// Benchmarks are named "<way>/<workload>"; an iteration is one state or one admission. Workloads
+// must outlive the run.
 void register_moveit_way(const Workloads& workloads);
 void register_engine(const Workloads& workloads);
 

@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""How long the control loop is held up, and how long POST /stop takes, while batches come in.
+"""Delay of the control loop and duration of POST /stop while batches are submitted.
 
     test/bench/control_gap.py ARMLOOM [--waiting 9000] [--batches 3] [--readers 0]
 
-Fills the queue of two Pandas by batches of 1,000 jobs; then more of them come in and are canceled one
-by one, while another client stops and resumes all arms without a pause, and readers ask for every list
-without a pause. Gaps are the server's own
-figures of its control period (/metrics); beside them the longest gap of an empty loop.
+Fills the queue of two Pandas with batches of 1,000 jobs. Then submits more batches and cancels their jobs one
+by one, while another client continuously stops and resumes all arms, and readers continuously request every
+list. Gaps are the server's own metrics of its control period (/metrics), next to the longest gap of an empty loop.
 """
 import argparse
 import http.client
@@ -27,9 +26,9 @@ def overruns(server):
 
 
 def stop_and_resume(server, done, answer):
-    """In a process of its own: in a thread it would wait for the one that writes batches, not for the server.
+    """Runs in a separate process: a thread would wait for the thread that writes batches, not for the server.
 
-    What it asks first takes some 30 ms of its own, as its memory is copied then: that is no stop.
+    The first request is not a stop, because it takes about 30 ms while the memory of the process is copied.
     """
     server.call("GET", "/healthz")
     took_s = []
@@ -43,7 +42,7 @@ def stop_and_resume(server, done, answer):
 
 
 def read_lists(port, job, done):
-    """Every list, one after the other; of the events only the snapshot."""
+    """Requests every list in turn; of the events only the snapshot."""
     paths = ["/queue", "/jobs", "/timeline", "/arms", f"/jobs/{job}", "/events"]
     while not done.is_set():
         for path in paths:

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The server in a crowd: figures of each of these, or of those that are named.
+"""The server under load from many clients: measures all cases below, or the named ones.
 
     test/bench/crowd.py ARMLOOM [handshakes slow_readers bodies queue durable_jobs readers stalled connections
                                  slow_clients restart memory]
 
-Client and server share the machine. Times are of whole requests on connections of their own.
+Client and server share the machine. Times are of complete requests on separate connections.
 """
 import argparse
 import re
@@ -22,7 +22,7 @@ from loaded_server import (API, TOP, LoadedServer, Periods, Repeated, connect, q
 
 
 def handshakes(armloom):
-    """So many WebSocket readers connect in one instant: is any lost, do others wait?"""
+    """Opens many WebSockets at once: are any lost, do other clients wait?"""
     for count in (2300, 3400):
         with LoadedServer(armloom, demo=True) as server:
             time.sleep(1)
@@ -37,7 +37,7 @@ def handshakes(armloom):
 
 
 def slow_readers(armloom):
-    """1,000 that ask for the dashboard's largest script and read nothing."""
+    """1,000 clients request the dashboard's largest script and do not read it."""
     script = max((TOP / "web/dist/assets").glob("*.js"), key=lambda f: f.stat().st_size)
     with LoadedServer(armloom) as server:
         before = server.memory_mib()
@@ -55,7 +55,7 @@ def slow_readers(armloom):
 
 
 def bodies(armloom):
-    """200 bodies of 8 MiB that come but for the last byte."""
+    """Sends 200 bodies of 8 MiB without their last byte."""
     size = 8 * 1024 * 1024
     with LoadedServer(armloom) as server:
         before = server.memory_mib()
@@ -79,7 +79,7 @@ def bodies(armloom):
 
 
 def queue(armloom):
-    """wrk: GET /queue as fast as it goes, while both arms execute."""
+    """wrk: GET /queue as fast as possible while both arms move."""
     with LoadedServer(armloom, "--requests-per-second", 1000000, demo=True) as server:
         time.sleep(2)
         control, monitor = Periods(server), Periods(server, "monitor")
@@ -92,7 +92,7 @@ def queue(armloom):
 
 
 def durable_jobs(armloom, rate=300, seconds=20):
-    """POST /jobs at a steady pace with --data, on eight connections, arms moving."""
+    """POST /jobs at a steady rate with --data, on eight connections, while arms move."""
     folder = tempfile.mkdtemp(prefix="armloom-crowd-", dir="/var/tmp")
     with LoadedServer(armloom, "--data", folder) as server:
         numbers, took, lock = iter(range(rate * seconds)), [], threading.Lock()
@@ -123,7 +123,7 @@ def durable_jobs(armloom, rate=300, seconds=20):
 
 
 def read_poses(server, count, seconds):
-    """How many poses a second each of so many WebSockets gets."""
+    """Measures the poses per second that each of many WebSockets gets."""
     sockets, took = shake_hands(server.port, count)
     by_fd = {s.fileno(): s for s in sockets}
     epoll, frames, buffer = select.epoll(), dict.fromkeys(by_fd, 0), bytearray(1 << 16)
@@ -138,7 +138,7 @@ def read_poses(server, count, seconds):
 
 
 def readers(armloom, count=2000):
-    """WebSockets that read everything while both arms move: two long jobs, and the demo's many short ones."""
+    """WebSockets read everything while both arms move: two long jobs, then the demo's many short jobs."""
     for demo in (False, True):
         with LoadedServer(armloom, demo=demo) as server:
             if not demo:
@@ -154,7 +154,7 @@ def readers(armloom, count=2000):
 
 
 def stalled(armloom, seconds=20):
-    """The control period beside 200 readers that read nothing, against none, in one run, three times."""
+    """Compares the control period with and without 200 stalled readers, three times in one run."""
     with LoadedServer(armloom, demo=True) as server:
         time.sleep(2)
         seen = {0: [], 200: []}
@@ -172,7 +172,7 @@ def stalled(armloom, seconds=20):
 
 
 def connections(armloom):
-    """10,000 connections from one address that send half a header, and stops from another."""
+    """10,000 connections from one address send half a header; another address sends stops."""
     with LoadedServer(armloom, demo=True) as server:
         time.sleep(1)
         stops = Repeated(server.port, "POST", API + "/stop", "127.0.0.2")
@@ -196,7 +196,7 @@ def connections(armloom):
 
 
 def slow_clients(armloom):
-    """slowhttptest: 3,000 connections that send a header, and a body, byte by byte."""
+    """slowhttptest: 3,000 connections send a header, then a body, byte by byte."""
     for kind, how in (("headers", "-H"), ("bodies", "-B")):
         with LoadedServer(armloom, demo=True) as server:
             time.sleep(1)
@@ -207,13 +207,13 @@ def slow_clients(armloom):
 
 
 def checksum(*values):
-    """As the server has it of a row."""
+    """Returns the checksum that the server stores with a row."""
     types = {int: b"1", str: b"3", type(None): b"5"}
     return zlib.crc32(b"".join(types[type(v)] + (b"" if v is None else str(v).encode()) for v in values))
 
 
 def stored_jobs(armloom, folder, ended, waiting):
-    """A data folder as a long life leaves it: the rows that a server wrote of some jobs, many times."""
+    """Makes a data folder like that of a long-running server: copies the rows of some jobs many times."""
     with LoadedServer(armloom, "--data", folder) as server:
         server.call("POST", API + "/stop")
         server.submit(1, "w")
@@ -238,7 +238,7 @@ def stored_jobs(armloom, folder, ended, waiting):
     first = max(ids.values()) + 1
     copy("e0", range(first, first + ended))
     copy("w0", range(first + ended, first + ended + waiting))
-    # In the order of kSumOfJob and kSumOfBody (server/store/tables.h).
+    # Same order as kSumOfJob and kSumOfBody (server/store/tables.h).
     base.execute(f"UPDATE job SET sum = checksum({', '.join(of_job)})")
     base.execute("UPDATE body SET sum = checksum(number, text, amended)")
     base.commit()
@@ -246,7 +246,7 @@ def stored_jobs(armloom, folder, ended, waiting):
 
 
 def restart(armloom):
-    """From the start of the process until /readyz, with 100,000 jobs on disk."""
+    """Measures the time from process start to /readyz, with 100,000 jobs on disk."""
     for waiting in (0, 1000, 9000):
         folder = tempfile.mkdtemp(prefix="armloom-crowd-", dir="/var/tmp")
         stored_jobs(armloom, folder, 100000 - waiting, waiting)
@@ -259,7 +259,7 @@ def restart(armloom):
                 except OSError:
                     time.sleep(0.005)
             ready = time.monotonic() - begun
-            while True:  # and all that waits has come back
+            while True:  # until all waiting jobs are back
                 queued = server.metrics().get('armloom_jobs{state="queued"}', 0)
                 if queued >= waiting:
                     break
@@ -270,7 +270,7 @@ def restart(armloom):
 
 
 def memory(armloom, minutes=5, speed=100):
-    """What the process holds over a long life of the demo load, and the slope of the second half."""
+    """Measures memory during a long run of the demo load, and its slope in the second half."""
     with LoadedServer(armloom, "--speed", speed, demo=True) as server:
         samples, begun = [], time.monotonic()
         while (t := time.monotonic() - begun) < 60 * minutes:

@@ -1,8 +1,7 @@
-// The time that a decision takes: from a job's arrival to its admission or refusal, geometry
-// included, on one thread, in a hall of 48 Pandas in which 15 motions run, 30 are admitted and
-// still to begin, and 200 jobs wait (of these coordinated admits those within its horizon, too).
-// The candidates' motions are new each time. lockstep admits to a round until one of it moves:
-// there, none does yet. sequential admits one at a time: there, all others rest. Processor time.
+// Decision time (processor time): from submission to admission or rejection, including geometry, on
+// one thread. 48 Pandas: 15 motions run, 30 are admitted but not started, 200 jobs wait
+// (coordinated also admits those within its horizon). Candidates have new motions each time. Under
+// lockstep no job of the round moves yet; under sequential all other arms rest.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -32,13 +31,12 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kColumns = 8, kRows = 6;
 constexpr double kReach = 0.5;
-// Of a random motion, about home: with the half neighbours stay clear, with all of it they cross.
+// Share of a random motion about home: with half of it neighbors stay clear, with all they cross.
 constexpr double kShare = 0.5, kCrossingShare = 1.0;
 constexpr std::size_t kAdmitted = 45, kRunning = 15;
-constexpr std::size_t kFree[] = {18, 28, 29};  // arms in the middle: theirs are the candidates
+constexpr std::size_t kFree[] = {18, 28, 29};  // arms in the middle, which get the candidates
 constexpr std::size_t kDecisions = 300, kDecisionsOfGrowth = 100;
 
-// What the time may grow with.
 struct Load {
   double spacing_m = 1.2;
   std::size_t waiting = 200;
@@ -71,7 +69,7 @@ class Hall {
     if (policy != "sequential") fill();
   }
 
-  // A motion of its own for each call, which the arm can make when it is alone.
+  // Returns a new motion that the arm can make alone.
   TrajectoryPtr new_motion(ArmId arm) {
     while (true) {
       const auto random = random_motion(*cell_, arm, ++seed_, kReach);
@@ -82,7 +80,6 @@ class Hall {
     }
   }
 
-  // Arms that a candidate's arm can come close to.
   [[nodiscard]] double in_reach() const {
     const MotionStore store(*PlanningScene::build(cell_));
     double all = 0.0;
@@ -95,7 +92,6 @@ class Hall {
     return all / static_cast<double>(std::size(kFree));
   }
 
-  // Submit, and whatever is asked and answered until the job is admitted or in the backlog.
   struct Decision {
     double took_ms;
     bool admitted;
@@ -129,7 +125,6 @@ class Hall {
     return chooses_.judge(question).kind == Verdict::Kind::free;
   }
 
-  // Each arm but the free ones has one admitted motion and others behind it.
   void fill() {
     std::size_t admitted = 0, waiting = 0;
     std::vector<TrajectoryPtr> out(cell_->arms.size());
@@ -173,7 +168,7 @@ class Hall {
   void withdraw(JobId job) {
     step(Cancel{job});
     const Job& canceled = *scheduler_.find(job);
-    if (!is_terminal(canceled.state())) {  // its arm had the motion
+    if (!is_terminal(canceled.state())) {  // its arm already had the motion
       step(
           MotionReport{job, MotionReport::Kind::stopped, Duration{}, canceled.trajectory->start()});
     }
@@ -204,9 +199,9 @@ class Hall {
   double share_;
   CellPtr cell_;
   MotionChecker checker_;
-  MotionChecker chooses_;  // knows nothing to the other one's advantage
+  MotionChecker chooses_;  // separate, so that it warms no cache of the measured checker
   Scheduler scheduler_;
-  std::map<TrajectoryPtr, TrajectoryPtr> random_;  // what a motion was made of
+  std::map<TrajectoryPtr, TrajectoryPtr> random_;  // a motion and its random original
   std::optional<Question> question_;
   TimePoint now_{};
   std::uint64_t last_ = 0;
@@ -241,7 +236,7 @@ void decision(benchmark::State& state, const std::string& policy, double share, 
   state.counters["horizon_steps"] = static_cast<double>(load.horizon_steps);
 }
 
-// Rows "growth/": one of the three grows, the others stay (growth.py makes the README's table).
+// Rows "growth/": one of three parameters grows (growth.py makes the README's table).
 void register_growth(const std::string& policy, double share, const std::string& name,
                      const Load& load) {
   benchmark::RegisterBenchmark(

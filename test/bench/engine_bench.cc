@@ -17,7 +17,7 @@ namespace {
 
 PlanningScenePtr scene_of(const CellPtr& cell) { return PlanningScene::build(cell).value(); }
 
-// One iteration: one state; eight are decided at once.
+// One iteration is one of eight states that are checked at once.
 template <class Ask>
 void per_state(benchmark::State& run, const States& states, const Ask& ask) {
   std::vector<const Configuration*> eight(filter::kLanes);
@@ -36,15 +36,13 @@ void per_state(benchmark::State& run, const States& states, const Ask& ask) {
       100.0 * static_cast<double>(too_close) / static_cast<double>(asked);
 }
 
-// One of the motions, which is asked for beside the others.
 struct Candidate {
   const Motions& motions;
   std::size_t index;
 };
 
-// Motions of one question: the tubes and diagrams of earlier ones are not kept, so that each
-// iteration finds nothing known ("cold"); or those of the motions that run are, because they were
-// judged when they were admitted, and only the candidate is new ("running").
+// "cold": nothing is cached. "running": tubes and diagrams of running motions are cached from their
+// admission; only the candidate is new.
 void per_admission(benchmark::State& run, const Candidate& asked, const CheckMethod& method,
                    bool running, bool must_be_free) {
   const auto& [motions, candidate] = asked;
@@ -64,14 +62,13 @@ void per_admission(benchmark::State& run, const Candidate& asked, const CheckMet
     run.ResumeTiming();
     verdict = checker.judge(question);
     run.PauseTiming();
-    checker = MotionChecker(scene);  // what it holds is let go outside of the measurement
+    checker = MotionChecker(scene);  // frees its memory outside of the measurement
     run.ResumeTiming();
   }
   run.counters["evaluations"] = static_cast<double>(verdict.evaluations);
   if (must_be_free && verdict.kind != Verdict::Kind::free) run.SkipWithError("not free");
 }
 
-// Only the two motions against each other.
 void cross_arm(benchmark::State& run, const Motions& motions, bool must_be_free) {
   const PlanningScenePtr scene = scene_of(motions.cell);
   const ProgressBand band{.duration_a = to_seconds(motions.trajectories[0]->duration()),
@@ -92,8 +89,8 @@ void cross_arm(benchmark::State& run, const Motions& motions, bool must_be_free)
   if (must_be_free && !answer.free) run.SkipWithError("not free");
 }
 
-// The regions of random pairs of motions that meet somewhere on their ways; time is that of one
-// pair. blocked_percent: how much of its diagram is not certified free.
+// Regions of random pairs of motions that meet; time per pair. blocked_percent: share of the
+// diagram not certified free.
 void regions_of_pairs(benchmark::State& run) {
   constexpr std::size_t kPairs = 40;
   constexpr double kReach = 0.8;
@@ -148,7 +145,7 @@ void register_states(const Workloads& workloads) {
           });
     };
     decided("decided_contact", {0.0, 0.0});
-    // The capsules of arms against each other and themselves, and nothing behind them.
+    // Only the capsules of arms, without exact distances.
     benchmark::RegisterBenchmark(("engine/filter/" + name).c_str(), [&states, scene](auto& run) {
       PlacedCell placed(scene->bodies(), {0.0, 0.0});
       const std::size_t still = scene->cell().arms.size();

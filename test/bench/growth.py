@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What the time of a decision grows with: runs `scheduler_bench --benchmark_filter=growth/`, writes its
-table into README.md beside this script, between the two marks, and the picture to growth.svg.
+"""Growth of the decision time: runs `scheduler_bench --benchmark_filter=growth/`, writes its table into
+README.md in this folder, between the two marks, and the picture to growth.svg.
 
     test/bench/growth.py [build/scheduler_bench]
 """
@@ -11,9 +11,9 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 BEGIN, END = "<!-- growth.py begins -->\n", "<!-- growth.py ends -->\n"
-# Row of the bench: what grows, the counter that says how large it is, and its words.
+# Row of the benchmark: its counter and its caption.
 ROWS = {
-    "horizon": ("horizon_steps", "legs of each lane in the horizon"),
+    "horizon": ("horizon_steps", "motions per arm in the horizon"),
     "waiting": ("waiting", "waiting jobs"),
     "spacing_cm": ("in_reach", "arms in reach"),
 }
@@ -37,7 +37,7 @@ def table(series):
                   "|---" * (len(rows) + 1) + "|",
                   "| median, ms | " + " | ".join(f"{row[1]:.2f}" for row in rows) + " |",
                   "| 99 %, ms | " + " | ".join(f"{row[2]:.2f}" for row in rows) + " |",
-                  "| admitted beside it | " + " | ".join(f"{row[3]:g}" for row in rows) + " |"]
+                  "| also admitted | " + " | ".join(f"{row[3]:g}" for row in rows) + " |"]
     return "\n".join(lines[1:]) + "\n"
 
 

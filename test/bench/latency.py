@@ -3,11 +3,11 @@
 
     test/bench/latency.py ARMLOOM [COUNT]
 
-Starts `armloom serve` on a free loopback port in real time and posts COUNT jobs (default 200), one
-after the other has ended, alternating the two arms. A sample is the time from the first byte of
-the request being written to the arrival, over a WebSocket, of the event that says the job is
-`running`: it is sent in the control cycle in which the arm's commanded progress first moves. Client
-and server share the machine. Prints median, p90, p99 and maximum in milliseconds.
+Starts `armloom serve` on a free loopback port in real time and posts COUNT jobs (default 200), each
+after the previous job has ended, alternating the two arms. A sample is the time from writing the first
+byte of the request to receiving the event, over a WebSocket, that the job is `running`. The server sends
+it in the control cycle in which the arm's commanded progress first moves. Client and server share the
+machine. Prints median, p90, p99 and maximum in milliseconds.
 """
 import base64
 import json
@@ -32,7 +32,7 @@ DURATION_S = 0.5
 
 
 def start_server(arguments):
-    """The server at a port that the system gives, and the port, which it says when it listens."""
+    """Starts the server on a port chosen by the system; returns the server and the port that it prints."""
     server = subprocess.Popen([*arguments, "--listen", "127.0.0.1:0"], stdout=subprocess.PIPE,
                               stderr=subprocess.DEVNULL, text=True)
     for line in server.stdout:
@@ -48,7 +48,7 @@ def connect(port):
 
 
 class Events:
-    """The job events of a WebSocket, as they arrive."""
+    """Job events of a WebSocket, as they arrive."""
 
     def __init__(self, port):
         self.socket = connect(port)
@@ -68,7 +68,7 @@ class Events:
         return taken
 
     def wait_for(self, job, state):
-        """The instant at which the event arrived."""
+        """Returns the time at which the event arrived."""
         while True:
             kind, size = self.take(2)
             size &= 0x7F

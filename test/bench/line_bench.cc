@@ -1,7 +1,7 @@
-// An edge of a planner: one arm straight through its joint space, all others standing. Proven for
-// its whole length (LineChecker), beside FCL the MoveIt way at states 0.01 rad apart (moveit_way.h:
-// contact only, no clearance). How long each takes for the same edges, and how many edges the
-// samples let pass that do collide.   line_bench [EDGES]
+// line_bench [EDGES]
+// A planner's edge: one arm straight through its joint space, others at rest. LineChecker, which
+// certifies the edge, against FCL the MoveIt way at states 0.01 rad apart (contact only): time, and
+// colliding edges that samples miss.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -20,8 +20,8 @@ namespace armloom::bench {
 namespace {
 
 constexpr double kSamples_rad = 0.01;  // of the largest joint step
-constexpr double kFine_rad = 0.0005;   // of what tells the truth
-constexpr double kEdge = 1.2;          // Euclidean, as the planner's
+constexpr double kFine_rad = 0.0005;   // of the reference
+constexpr double kEdge = 1.2;          // Euclidean length, like a planner's edge
 
 double us_of(const std::function<void()>& work) {
   const auto begin = std::chrono::steady_clock::now();
@@ -45,7 +45,7 @@ struct Edge {
     }
     return q;
   }
-  // Whether `bad` is true of one of the states that are no farther apart than step_rad.
+  // Returns true if `bad` is true for a state; states are at most step_rad apart.
   [[nodiscard]] bool any(double step_rad, const std::function<bool(const Configuration&)>& bad,
                          int* first = nullptr) const {
     const int count =
@@ -100,7 +100,6 @@ void run(const char* name, const CellPtr& cell, std::size_t edges) {
       continue;
     }
     undecided += lines.line(edge.from, edge.to).kind == LineChecker::Kind::undecided;
-    // With the same shapes and limits, at both distances.
     const auto too_close = [&](const Configuration& q) {
       const Configuration* one = &q;
       return query.too_close({&one, 1}) != 0;

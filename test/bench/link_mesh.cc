@@ -11,10 +11,10 @@
 namespace armloom::bench {
 namespace {
 
-// qhull may leave a point this far outside of a face; the mesh is that much larger, twice.
+// qhull may leave a point this far outside of a face; twice as much is added.
 constexpr double kMargin_m = 2.0 * kHullTolerance_m;
 
-// The largest n·p over the body's points p in P; n of unit length.
+// Returns the largest n·p over the body's points p in P; n has unit length.
 double support(const ConvexShape& body, const Eigen::Vector3d& n) {
   const Eigen::Vector3d n_S = body.X_PS.linear().transpose() * n;
   const double middle = n.dot(body.X_PS.translation());
@@ -38,7 +38,7 @@ double support(const std::vector<ConvexShape>& bodies, const Eigen::Vector3d& n)
   return largest;
 }
 
-// Evenly spread unit vectors: a spiral whose turns advance by the golden angle.
+// A spiral with the golden angle.
 std::vector<Eigen::Vector3d> directions(std::size_t count) {
   const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
   std::vector<Eigen::Vector3d> all;
@@ -69,8 +69,8 @@ LinkMesh circumscribed_mesh(const std::vector<ConvexShape>& bodies, std::size_t 
   for (const ConvexShape& body : bodies) center += body.X_PS.translation();
   center /= static_cast<double>(bodies.size());
 
-  // A plane at height h above the centre along n is the point n / h of the dual; the corners of the
-  // polytope are the faces of the dual's hull, read the same way.
+  // The plane at height h along n is the point n / h of the dual; the polytope's corners are the
+  // faces of the dual's hull.
   std::vector<Eigen::Vector3d> dual;
   for (const Eigen::Vector3d& n : directions((triangles + 8) / 4)) {
     dual.push_back(n / (support(bodies, n) - n.dot(center) + kMargin_m));
@@ -84,7 +84,7 @@ LinkMesh circumscribed_mesh(const std::vector<ConvexShape>& bodies, std::size_t 
   const ConvexHull mesh = hull_of(corners);
   for (const auto& face : mesh.faces) {
     const Eigen::Vector3d n = normal(mesh, face);
-    if (!n.allFinite()) continue;  // a sliver without area
+    if (!n.allFinite()) continue;  // a degenerate face without area
     if (n.dot(mesh.vertices[face[0]]) < support(bodies, n)) {
       throw std::logic_error("link mesh: a body leaves its mesh");
     }

@@ -1,4 +1,4 @@
-"""A server to be put under load, its figures, and crowds of plain sockets."""
+"""A server under load, its metrics, and many plain sockets."""
 import json
 import pathlib
 import re
@@ -17,8 +17,7 @@ API = "/api/v1"
 
 
 class LoadedServer:
-    """`armloom serve` of two Pandas on a free port of the loopback; every address 127.x reaches it as a client
-    of its own."""
+    """`armloom serve` of two Pandas on a free loopback port; every address 127.x is a separate client."""
 
     def __init__(self, armloom, *options, demo=False):
         self.process, self.port = start_server([armloom, "serve", "--cell", str(TOP / "config/two_pandas.json"),
@@ -43,7 +42,7 @@ class LoadedServer:
             return answer.read().decode()
 
     def submit(self, count, prefix="j"):
-        """In batches of 1,000; their ids."""
+        """Submits jobs in batches of 1,000; returns their ids."""
         arms = ("left", "right")
         jobs = [swing(f"{prefix}{i}", arms[i % 2], 2, []) for i in range(count)]
         for job in jobs:
@@ -66,7 +65,7 @@ class LoadedServer:
 
 
 class EmptyLoop:
-    """A process that does nothing once in a millisecond: what the machine alone holds up."""
+    """A process with an empty 1 ms loop, which measures the delays of the machine itself."""
 
     def __init__(self):
         code = ("import select, sys, time\nlast, gaps, longest = time.monotonic(), 0, 0\n"
@@ -77,13 +76,13 @@ class EmptyLoop:
                                         stdout=subprocess.PIPE, text=True)
 
     def end(self):
-        """So many gaps of more than five periods, and the longest one in ms."""
+        """Returns the number of gaps of more than five periods, and the longest gap in ms."""
         gaps, longest_ms = self.process.communicate("end\n")[0].split()
         return int(gaps), float(longest_ms)
 
 
 class Periods:
-    """How evenly the control loop comes round, between two looks at /metrics, beside an empty loop."""
+    """Regularity of the control loop between two reads of /metrics, compared with an empty loop."""
 
     def __init__(self, server, loop="control"):
         self.server, self.loop = server, loop
@@ -98,7 +97,7 @@ class Periods:
         return edges, figures[f'armloom_overruns_total{{loop="{self.loop}"}}']
 
     def since(self):
-        """p99 in ms (on a straight line within a step of the histogram), and in words overruns of how many."""
+        """Returns p99 in ms (interpolated within a histogram bucket), and a text about the overruns."""
         edges, overruns = self.look()
         gaps, _ = self.empty.end()
         counts = {edge: value - self.before[0][edge] for edge, value in edges.items()}
@@ -132,7 +131,7 @@ def upgrade(port):
 
 
 def shake_hands(port, count, receive_buffer=0, wait_s=60, source="127.0.0.1"):
-    """All at once: the WebSockets, and for each how long it took until it was open (s; None: it never was)."""
+    """Opens WebSockets at once; returns them and for each the time until it was open (s; None if never)."""
     epoll, begun, sockets = select.epoll(), time.monotonic(), {}
     for _ in range(count):
         s = connect(port, source, receive_buffer, wait=False)
@@ -167,7 +166,7 @@ def quantiles(samples_s):
 
 
 class Repeated:
-    """One request again and again, each on a connection of its own, in a process of its own."""
+    """Repeats a request in a separate process, each on a new connection."""
 
     def __init__(self, port, method, path, source="127.0.0.1", pause_s=0.02):
         code = ("import sys; sys.path.insert(0, %r); from loaded_server import repeat; "
@@ -176,7 +175,7 @@ class Repeated:
                                         stdout=subprocess.PIPE, text=True)
 
     def end(self):
-        """How long each took (s)."""
+        """Returns the duration of each request (s)."""
         return [float(line) for line in self.process.communicate("end\n")[0].split()]
 
 

@@ -1,6 +1,7 @@
-// How long the strand is held up: `longest_step CELL JOBS [POLICY]` runs a jobs file on simulated
-// time and prints the time of its longest control cycles and of the longest submission. Judgements,
-// which a server makes on threads of its own, are taken off. Processor time.
+// longest_step CELL JOBS [POLICY]
+// How long the strand is blocked: runs a jobs file on simulated time and prints the longest control
+// cycles and submission (processor time). Checks are subtracted, because servers run them on other
+// threads.
 #include <time.h>
 
 #include <algorithm>

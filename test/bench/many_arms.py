@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
-"""Many arms on a circle, all jobs there at once: how long `armloom simulate` takes, and how well it does.
+"""Many arms on a circle, all jobs at once: run time of `armloom simulate` and makespan.
 
     test/bench/many_arms.py ARMLOOM [--robots panda,shuttle,fanuc] [--arms 8,10] [--jobs 96]
                             [--policies coordinated,earliest_start,certified] [--seed 1] [--out FOLDER]
 
-The arms stand on a circle and face its middle, where all of them have business: each goes from home to
-places around it and back, JOBS in all, submitted at time zero by turns. Pandas are those of models/ (simple
-shapes), Shuttles those of models/shuttle (meshes), Fanucs those of ../shared/data where that is there, else
-they are left out, and it is said so. For each cell and policy one line: the makespan, what became of the
-jobs, the wall time of the run, and of `armloom compare`'s judging the mean of one job. With --out the cell
-and jobs files stay there.
+The arms are on a circle and face its middle, which all of them visit: each moves from home to poses around
+the middle and back. JOBS in total are submitted at time zero, in turn. Pandas are those of models/ (simple
+shapes), Shuttles those of models/shuttle (meshes), Fanucs those of ../shared/data; if that folder is missing,
+Fanucs are skipped with a message. Prints one line per cell and policy: makespan, job states, wall time of the
+run, and the mean checking time per job of `armloom compare`. With --out the cell and jobs files are kept.
 """
 import argparse
 import csv
@@ -30,7 +29,7 @@ FANUC = TOP.parent / "shared/data/fanuc_description"
 
 
 def robot_of(name, file):
-    """The first robot of one of the cells in config/."""
+    """Returns the first robot of a cell in config/."""
     text = re.sub(r"^\s*//.*$", "", (TOP / "config" / file).read_text(), flags=re.M)
     robot = json.loads(text)["robots"][0]
     for key in ("urdf", "srdf"):
@@ -49,13 +48,13 @@ def fanuc():
 
 
 def poses(cell, arm, *names):
-    """Poses of an arm of config/joint_moves.py: the straight moves to them from home are clear."""
+    """Returns poses of an arm of config/joint_moves.py whose straight motions from home are clear."""
     of = next(each for each in joint_moves.CELLS[cell] if each.name == arm)
     return [of.poses[name] for name in names]
 
 
-# The robot, what joint_moves needs of it, the radius in metres of the circle of 8 arms, the height of the
-# bases, where trips lead, and by how much the first joint (upright in all) may be off that, either way.
+# The robot, its data for joint_moves, the radius of the circle of 8 arms (m), the height of the bases,
+# the goals of trips, and the largest deviation of the first joint (vertical in all robots) from them.
 KINDS = {
     "panda": (lambda: robot_of("panda", "two_pandas.json"), joint_moves.PANDA, 0.95, 0.1,
               poses("two_pandas", "left", "tiled_up", "twist_right", "tiled_down", "coop_down", "mirror"),

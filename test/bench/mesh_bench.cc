@@ -1,6 +1,5 @@
-// Decided states of two meshed arms: of the two cells below, or of those whose files are named,
-//   mesh_bench [--benchmark_...] [CELL.json ...]
-// Names are "decided_<question>/<cell>/<states>".
+// mesh_bench [--benchmark_...] [CELL.json ...]
+// Checked states of two arms with meshes. Names are "decided_<question>/<cell>/<states>".
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -17,7 +16,7 @@ namespace {
 
 constexpr std::size_t kStates = 2048;
 
-// One iteration: one state; eight are decided at once.
+// One iteration is one of eight states that are checked at once.
 void decided(benchmark::State& run, const PlanningScenePtr& scene,
              const std::vector<Configuration>& states, const PairLimits& limits) {
   ClearanceQuery check(scene, limits);
@@ -33,7 +32,7 @@ void decided(benchmark::State& run, const PlanningScenePtr& scene,
   run.counters["not_clear_percent"] = 100.0 * close / asked;
 }
 
-// What the monitor's figures cost: the closest pair of different arms below a horizon.
+// Cost of the monitor's distances: the closest pair below a horizon.
 void closest(benchmark::State& run, const PlanningScenePtr& scene,
              const std::vector<Configuration>& states, double horizon_m) {
   ClearanceQuery checker(scene);

@@ -25,7 +25,7 @@ constexpr double kLength_m = 0.3;  // of a link
 constexpr int kSegments = 24;
 constexpr int kLinks = 6;
 
-// A U from low to high x, open upwards, 0.1 m wide, walls of 0.02 m.
+// A U along x, open upwards, 0.1 m wide, with 0.02 m walls.
 small::Surface channel_along_x(double low, double high) {
   constexpr double kOutline[8][2] = {{-.05, -.05}, {.05, -.05},  {.05, .05},  {.03, .05},
                                      {.03, -.03},  {-.03, -.03}, {-.03, .05}, {-.05, .05}};

@@ -8,20 +8,17 @@
 
 namespace armloom::bench {
 
-// The cell of such a file; throws with the first fault where it does not load.
+// Throws the first problem if the file cannot be loaded.
 [[nodiscard]] CellPtr cell_of_file(const std::filesystem::path& path);
 
-// config/two_shuttles.json
 [[nodiscard]] CellPtr two_shuttles();
 
-// Two arms of six links face to face 0.9 m apart, each link a U-shaped channel of 400 triangles
-// that convex pieces follow well. Written as STL and URDF into a temporary folder and read from
-// there, as any user's robot is.
+// Returns two six-link arms face to face, 0.9 m apart, whose links are U-shaped channels of 400
+// triangles. Written as STL and URDF and loaded, like any robot.
 [[nodiscard]] CellPtr two_channel_arms();
 
-// Random states, uniform within the limits. `near`: only such in which frames of links of
-// different arms are closer than 0.3 m; by frames, so that the states do not depend on how
-// distances are measured.
+// Returns random states within the limits. `near`: link frames of different arms are closer than
+// 0.3 m, independent of distance computations.
 [[nodiscard]] std::vector<Configuration> random_states(const Cell& cell, std::size_t count,
                                                        bool near);
 

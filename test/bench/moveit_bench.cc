@@ -6,7 +6,6 @@
 namespace armloom::bench {
 namespace {
 
-// One iteration: one state, in turn.
 void per_state(benchmark::State& run, const States& states) {
   MoveItWay moveit(states.cell);
   std::size_t next = 0;
@@ -16,8 +15,8 @@ void per_state(benchmark::State& run, const States& states) {
   }
 }
 
-// One iteration: the whole motion, at every `step` from its beginning to its end, ended early by
-// the first collision. MoveIt's check is always complete: arms, scene and self.
+// One iteration is the whole motion, every `step`, until the first collision. MoveIt always checks
+// arms, scene and self.
 void per_admission(benchmark::State& run, const Motions& motions, Duration step) {
   MoveItWay moveit(motions.cell);
   Configuration q;

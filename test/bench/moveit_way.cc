@@ -21,7 +21,7 @@
 namespace armloom::bench {
 namespace {
 
-constexpr std::size_t kTrianglesPerLink = 252;  // asked for; 248 made
+constexpr std::size_t kTrianglesPerLink = 252;  // requested; the result has 248
 using MeshModel = fcl::BVHModel<fcl::OBBRSSd>;
 
 std::shared_ptr<MeshModel> bvh_of(const LinkMesh& mesh) {
@@ -35,7 +35,6 @@ std::shared_ptr<MeshModel> bvh_of(const LinkMesh& mesh) {
   return model;
 }
 
-// Which pairs of bodies (links with a mesh, then objects) need no check.
 class AllowedPairs {
  public:
   explicit AllowedPairs(std::size_t bodies) : bodies_(bodies), allowed_(bodies * bodies, 0) {}
@@ -58,7 +57,7 @@ std::size_t body_of(const fcl::CollisionObjectd& object) {
   return static_cast<std::size_t>(reinterpret_cast<std::uintptr_t>(object.getUserData()));
 }
 
-// Asked by FCL for each two objects whose boxes overlap; true ends the search.
+// Called by FCL for objects with overlapping boxes; true ends the search.
 bool collide_pair(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
   Query& query = *static_cast<Query*>(data);
   if (query.collision) return true;
@@ -75,7 +74,7 @@ struct MoveItWay::Scene {
   using Object = fcl::CollisionObjectd;
 
   CellPtr cell;
-  std::vector<LinkId> links;                    // those with shapes
+  std::vector<LinkId> links;                    // links with shapes
   std::vector<std::shared_ptr<Object>> robot;   // by links; copied for each state
   std::vector<std::unique_ptr<Object>> things;  // the cell's objects
   fcl::DynamicAABBTreeCollisionManagerd world;

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Plans, runs and re-checks: every query of plan_table that was solved, as a job.
+"""Plans, runs and audits every solved query of plan_table as a job.
 
     test/bench/plan_and_audit.py BUILD [--policy P] CELL [SCENARIO]...
 
-BUILD holds plan_table and armloom. Each arm makes its round through all of its poses, from home
-through every solved query once and back, the others at home; `armloom simulate` runs that, and
-`armloom audit` looks at every measured state with plain FCL. Fails where a job does not succeed, or
-two come closer than the cell allows. Prints the table, how many ran, and what the audit says.
+BUILD contains plan_table and armloom. Each arm makes a tour of its poses, from home through every solved
+query once and back, with the other arms at home. `armloom simulate` runs these jobs, and `armloom audit`
+checks every measured state with plain FCL. Fails if a job does not succeed, or if two bodies come closer than
+the cell allows. Prints the table, the number of jobs and the audit's result.
 """
 import argparse
 import json

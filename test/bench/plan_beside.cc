@@ -1,9 +1,8 @@
-// Plans beside arms that move: how long one takes, and whether what is admitted is what was
-// planned.
-//   plan_beside CELL [QUERIES]
-// The first two arms of the cell go from one random place to another without end; the last one is
-// asked to go to QUERIES (1000) random places, as jobs with `move_to`, and is stopped as soon as it
-// has been admitted. Every 20th query an object far away changes, so that plans are out of date.
+// plan_beside CELL [QUERIES]
+// Planning time alongside moving arms, and whether the admitted motion is the planned one. The
+// first two arms move between random poses. The last arm gets QUERIES (1000) jobs with `move_to`
+// and is stopped once a job is admitted. Every 20th query changes a distant object, so that plans
+// become out of date.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -40,7 +39,6 @@ CellPtr load(const std::string& file) {
   return *cell;
 }
 
-// Answers as Simulation's does, and takes the time of each plan.
 class TimedJudge final : public JudgementService {
  public:
   explicit TimedJudge(ArmId asked) : asked_(asked) {}
@@ -124,7 +122,7 @@ class Queries {
   }
 
  private:
-  // With the others where they stand, so that the place itself is no obstacle for ever.
+  // Uses the other arms' current positions, so that the goal is not blocked permanently.
   JobRequest to_random_place(ArmId id, const std::string& key) {
     const Arm& arm = cell_->arm(id);
     const auto scene = judge_.last_scene ? judge_.last_scene : *PlanningScene::build(cell_);
@@ -169,7 +167,7 @@ class Queries {
     if (executive_->scene().add(fly)) fly_ = fly.name;
   }
 
-  // Until it is admitted or has ended; then it makes room for the next one.
+  // Until the job is admitted or has ended; then makes room for the next.
   void follow(const std::string& key) {
     const std::size_t plans_before = judge_.ms.size() - 1;
     const TimePoint limit = now_ + std::chrono::seconds(10);
@@ -187,7 +185,7 @@ class Queries {
     while (!is_terminal(executive_->job(key)->state)) tick();
   }
 
-  // It is admitted by the plan that was made last, for this scene and from where its arm stands.
+  // Expects the last plan, for this scene and from the arm's position.
   void note_admitted(const std::string& key) {
     ++admitted_;
     const Trajectory& motion = *executive_->trajectory(key);

@@ -1,9 +1,8 @@
-// The table of core/planning/README.md: from every named or published pose of each arm to every
-// other, all other arms at home: how many are solved, how soon, how long the ways are.
-//   plan_table CELL [SCENARIO]... [--jobs FILE]
-// Arms of few poses get random ones besides. A scenario (shared/data/scenarios) adds its poses to
-// the arms that stand where its robots do. FILE gets all that was solved as jobs, one after the
-// other, for `armloom simulate` and `armloom audit` (plan_and_audit.py).
+// plan_table CELL [SCENARIO]... [--jobs FILE]
+// Makes the table of core/planning/README.md: plans between all named or published poses of each
+// arm, other arms at home. Arms with few poses get random poses too. A scenario
+// (shared/data/scenarios) adds its poses to the arms at its robots' places. FILE gets all solved
+// queries as jobs for `armloom simulate` and `armloom audit` (plan_and_audit.py).
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -75,7 +74,7 @@ struct Row {
   PlanRounds rounds;
 };
 
-// Arms of few poses get ten more that are free, of a fixed seed.
+// Adds ten free poses with a fixed seed.
 void add_postures(const Cell& cell, ArmId id, LineChecker& lines, Poses& free) {
   if (free.size() > 4) return;
   std::mt19937_64 random(1);
@@ -95,7 +94,7 @@ void add_postures(const Cell& cell, ArmId id, LineChecker& lines, Poses& free) {
   }
 }
 
-// Those of the poses at which the arm may stand, the others at home; and of the rest what is close.
+// Returns the poses that are free with other arms at home; records the other poses' conflicts.
 Poses free_poses(const PlanningScenePtr& scene, ArmId id, const Poses& poses, Row& row) {
   const Cell& cell = scene->cell();
   LineChecker lines(scene, id, cell.home(), cell.checking.tracking_error_rad);
@@ -113,7 +112,6 @@ Poses free_poses(const PlanningScenePtr& scene, ArmId id, const Poses& poses, Ro
   return free;
 }
 
-// One arm's queries.
 class Queries {
  public:
   Queries(const PlanningScenePtr& scene, ArmId id, const Poses& free, Row& row)
@@ -165,7 +163,7 @@ class Queries {
     row_.rounds.add(from, to, planned->timed.request);
   }
 
-  // Whether there is no way as far as can be told: none with ten times the budget, either.
+  // Returns true if even ten times the budget finds no path.
   bool part(std::size_t from, std::size_t to) {
     if (groups_.are_joined(from, to)) return false;
     PlanRequest longer = request(from, to);
@@ -195,7 +193,6 @@ void print(const std::string& name, const Row& row) {
   std::fflush(stdout);
 }
 
-// Which of them is home.
 std::size_t home_of(const Poses& free, const Eigen::VectorXd& home) {
   const auto is_home = [&](const auto& pose) { return (pose.second - home).norm() < 1e-9; };
   const auto found = std::ranges::find_if(free, is_home);

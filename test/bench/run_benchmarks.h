@@ -4,7 +4,7 @@
 
 namespace armloom::bench {
 
-// What main returns: a filter that names no benchmark (it is told) has measured nothing.
+// Fails if the filter matches no benchmark, because nothing was measured.
 inline int run_benchmarks() { return benchmark::RunSpecifiedBenchmarks() > 0 ? 0 : 2; }
 
 }  // namespace armloom::bench

@@ -1,4 +1,4 @@
-// The scheduler's own step beside many waiting jobs: geometry is a fake judge that answers at once.
+// The scheduler's own step with many waiting jobs and a fake checker that answers at once.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -21,9 +21,9 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kArms = 16;
 constexpr ArmId kRuns{0};              // has a job in motion
-constexpr ArmId kInTheWay{kArms - 1};  // at rest without jobs: all others wait for it
+constexpr ArmId kInTheWay{kArms - 1};  // at rest without jobs: all other arms wait for it
 
-// From home to home, 10 s: all jobs of an arm can follow each other.
+// From home to home, so that an arm's jobs can follow each other.
 TrajectoryPtr motion_of(ArmId arm) {
   Segment segment{.start = Duration{}, .duration = 10s, .coefficients = {}};
   segment.coefficients.setZero(1, 6);
@@ -31,8 +31,8 @@ TrajectoryPtr motion_of(ArmId arm) {
                                             std::vector{segment});
 }
 
-// `waiting` jobs, evenly on the arms between the first and the last one, and one job in motion on
-// the first. Whoever is judged is told that the last arm rests in its way, but for the first arm's.
+// `waiting` jobs on the middle arms, and one job in motion on the first. Checks, except the first
+// arm's, are answered with "the last arm rests in the way".
 class Crowd {
  public:
   Crowd(const std::string& policy, std::size_t waiting)
@@ -79,7 +79,6 @@ class Crowd {
     progress_ += 1ms;
     step(MotionReport{running_, MotionReport::Kind::progressed, progress_});
   }
-  // Its end, and everyone's next try.
   void finished() {
     step(MotionReport{running_, MotionReport::Kind::finished, 10s, Eigen::VectorXd::Zero(1)});
     answer_all();
@@ -124,7 +123,7 @@ class Crowd {
   Duration progress_{};
 };
 
-// Made once: submitting 10,000 jobs takes a minute, as each is a step beside all before it.
+// Created once: submitting 10,000 jobs takes a minute.
 Crowd& crowd_of(const std::string& policy, std::size_t waiting) {
   static std::map<std::pair<std::string, std::size_t>, std::unique_ptr<Crowd>> made;
   auto& crowd = made[{policy, waiting}];
@@ -178,15 +177,14 @@ void progressed(benchmark::State& state, const std::string& policy) {
   sized(state);
 }
 
-// The time of this thread: of other work on the machine nothing is in it.
+// Excludes other work on the machine.
 double thread_time_s() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// A thousand jobs that are accepted as one: where their arms will be is asked once. What they set
-// off is answered, and taken back, beside the clock.
+// A batch of a thousand jobs; the resulting checks and the cancellation are not measured.
 void batch(benchmark::State& state, const std::string& policy) {
   Crowd& crowd = crowd_of(policy, static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) {

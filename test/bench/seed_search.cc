@@ -1,5 +1,5 @@
-// Searches the seeds of the workloads (workloads.cc) and prints them; not part of any run. Needed
-// again when the Panda's shapes, limits or random_motion change.
+// Searches the seeds of the workloads (workloads.cc). Needed again if the Panda's shapes, limits or
+// random_motion change.
 #include <array>
 #include <cstdint>
 #include <cstdio>
@@ -18,7 +18,7 @@ struct Candidate {
   TrajectoryPtr trajectory;
 };
 
-// The first `count` motions of the arm, seeds from one on, that keep to themselves.
+// Returns the first motions of the arm that keep clear of themselves.
 std::vector<Candidate> usable(Referees& referees, const CellPtr& cell, ArmId arm, double reach,
                               std::size_t count) {
   std::vector<Candidate> found;
@@ -49,7 +49,7 @@ void search_pair(const char* name, Referees& referees, const CellPtr& cell, cons
   std::printf("%s: none found\n", name);
 }
 
-// Arm after arm takes the first seed that is clear of the arm before it.
+// Each arm takes the first seed that is clear of the previous arm.
 void search_hall() {
   const CellPtr cell = line_of_pandas(2, kHallSpacing_m);
   Referees referees(cell);

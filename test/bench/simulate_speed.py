@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""How much faster than real time `armloom simulate` runs the two-Panda jobs.
+"""Speed of `armloom simulate` for the two-Panda jobs, relative to real time.
 
     test/bench/simulate_speed.py ARMLOOM [ROUNDS]
 
-The jobs of config/two_pandas_jobs.json, ROUNDS times over (default 10), under timed_discrete, with
-the recording written (1 kHz states) and without. The figure is cell time over wall time of the
-whole process, start-up and files included; the best and the median of five runs.
+Runs the jobs of config/two_pandas_jobs.json ROUNDS times (default 10) under timed_discrete, with and
+without a recording (1 kHz states). Prints cell time over wall time of the whole process, including start-up
+and files: the best and the median of five runs.
 """
 import json
 import pathlib

@@ -14,7 +14,7 @@ constexpr double kApart_m = 0.10;
 constexpr double kNearMin_m = 0.003;
 constexpr double kNearMax_m = 0.050;
 
-// Uniform in [0, 1): the standard's distributions differ between libraries.
+// Uniform in [0, 1), equal for all standard libraries.
 double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1p-53; }
 
 void put_anywhere(const Cell& cell, const Arm& arm, std::mt19937_64& random, Configuration& q) {
@@ -25,8 +25,8 @@ void put_anywhere(const Cell& cell, const Arm& arm, std::mt19937_64& random, Con
   }
 }
 
-// The smallest distance of the pairs of groups that `wanted` names, where below `horizon_m`. An end
-// at `enough_m` or less saves time.
+// Returns the smallest distance of the selected groups, at most `horizon_m`; stops early at
+// `enough_m`.
 template <class Wanted>
 double smallest(ExactScene& exact, const Configuration& q, double horizon_m, double enough_m,
                 const Wanted& wanted) {
@@ -52,7 +52,6 @@ double smallest(ExactScene& exact, const Configuration& q, double horizon_m, dou
 using Kind = PairGroup::Kind;
 constexpr double kDeepest_m = -1e9;
 
-// Whether a pair of these groups is closer than its limit.
 template <class Wanted>
 bool any_closer(ExactScene& exact, const Configuration& q, double clearance_m,
                 const Wanted& wanted) {

@@ -1,7 +1,7 @@
-// What it costs to give a way its times: one segment from rest to rest, a path through 100 points.
+// Cost of time parameterization.
 #include <benchmark/benchmark.h>
 
-#include "core/trajectory/timing/time_parameterisation.h"
+#include "core/trajectory/timing/time_parameterization.h"
 #include "test/bench/run_benchmarks.h"
 #include "test/trajectory/timing/random_paths.h"
 

@@ -31,7 +31,7 @@ test('Login page asks for a token and refuses a wrong one', { timeout: 300_000 }
   await page.goto(url);
   await address_like(page, /\/login$/);
   await log_in('armloom_' + '0'.repeat(64));
-  await page.locator('[role=alert]', { hasText: 'none of this server' }).waitFor();
+  await page.locator('[role=alert]', { hasText: 'token is unknown or was revoked' }).waitFor();
   await log_in(token);
   await connected();
 });

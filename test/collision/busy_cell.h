@@ -11,8 +11,8 @@ inline const Eigen::Vector3d kX = Eigen::Vector3d::UnitX();
 inline const Eigen::Vector3d kY = Eigen::Vector3d::UnitY();
 inline const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 
-// Two arms of four links face to face over a table, with a rod and a crate; a static post on the
-// left robot, a flat cylinder and a box on the right one's last link.
+// Two four-link arms face to face over a table, with a rod, a crate, and a static post on the left
+// robot. The right arm's last link has a flat cylinder and a box.
 inline Cell busy_cell() {
   Cell cell;
   cell.clearances.clearance_m = 0.02;

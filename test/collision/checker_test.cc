@@ -37,8 +37,8 @@ reference::Convex placed(const PlacedShape& shape, const Eigen::Isometry3d& X_WP
   return {Kind::box, 0.5 * std::get<Box>(shape.shape).size_m, 0.0, 0.0, X_WS};
 }
 
-// All pairs that matter, every shape with every one, by closed forms that share nothing with the
-// engine (reference_distance.h): no filter, no groups, no FCL.
+// Computes the distance of every relevant pair, shape by shape, in closed form
+// (reference_distance.h).
 std::map<NamePair, reference::Bracket> brute_force(const Cell& cell, const Configuration& q) {
   struct Solid {
     std::string name;
@@ -91,13 +91,12 @@ Configuration random_configuration(const Cell& cell, std::mt19937_64& random) {
 
 constexpr double kRounding_m = 1e-6;
 
-// What the checker says (zero or less: contact) is the distance that was found beside it.
 void expect_within(const reference::Bracket& distance, double clearance_m) {
   EXPECT_GE(std::max(0.0, clearance_m), std::max(0.0, distance.lower) - kRounding_m);
   EXPECT_LE(std::max(0.0, clearance_m), distance.upper + kRounding_m);
 }
 
-TEST(ClearanceQuery, HidesNoPairThatBruteForceFinds) {
+TEST(ClearanceQuery, FindsEveryPairThatBruteForceFinds) {
   const CellPtr cell = small::shared(busy_cell());
   small::ScaledQuery checker(scene_of(cell));
   std::mt19937_64 random(99);
@@ -129,7 +128,7 @@ TEST(ClearanceQuery, HidesNoPairThatBruteForceFinds) {
   EXPECT_LT(open, found / 100) << "so many the closed forms could not say";
 }
 
-TEST(ClearanceQuery, FirstIsTheFirstOfAllInTheScenesOrder) {
+TEST(ClearanceQuery, FirstCloserThanIsTheFirstInSceneOrder) {
   const CellPtr cell = small::shared(busy_cell());
   small::ScaledQuery checker(scene_of(cell));
   std::mt19937_64 random(5);
@@ -156,7 +155,7 @@ TEST(ClearanceQuery, FirstIsTheFirstOfAllInTheScenesOrder) {
   EXPECT_GT(found, 300U);
 }
 
-TEST(ClearanceQuery, ClosestBetweenArmsIsTheSmallestOverAllPairs) {
+TEST(ClearanceQuery, ClosestApartIsTheSmallestOverAllPairs) {
   const CellPtr cell = small::shared(busy_cell());
   small::ScaledQuery checker(scene_of(cell));
   std::mt19937_64 random(17);
@@ -183,7 +182,7 @@ TEST(ClearanceQuery, ClosestBetweenArmsIsTheSmallestOverAllPairs) {
   EXPECT_GT(within, 100);
 }
 
-TEST(ClearanceQuery, AllNamesTheClosestOfEachCounterpart) {
+TEST(ClearanceQuery, AllCloserThanListsTheClosestOfEachCounterpart) {
   Cell cell;
   const ArmId left =
       small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.05});
@@ -193,7 +192,7 @@ TEST(ClearanceQuery, AllNamesTheClosestOfEachCounterpart) {
   small::ScaledQuery checker(scene_of(small::shared(cell)));
   Configuration q = cell.home();
   q[2] = 3.1;
-  q[1] = 3.1;  // folded twice: link3 lies on link1
+  q[1] = 3.1;  // folded twice: link3 touches link1
   const auto found = checker.all_closer_than(q, 0.01);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].body_b, "nearer");
@@ -204,16 +203,16 @@ TEST(ClearanceQuery, AllNamesTheClosestOfEachCounterpart) {
   EXPECT_EQ(found[1].body_b, "left_link3");
   EXPECT_EQ(found[1].arm_b, left);
   EXPECT_NE(found[1].arm_a, right);
-  EXPECT_NEAR(found[1].limit_m, 0.0025, 1e-12);  // 5 mm of 20 mm, of which 10 mm stop
+  EXPECT_NEAR(found[1].limit_m, 0.0025, 1e-12);  // self clearance of 5 mm, scaled by 10 mm / 20 mm
 }
 
-TEST(ClearanceQuery, HoldsAnArmsOwnLinksToTheirOwnClearance) {
+TEST(ClearanceQuery, AppliesSelfClearanceToAnArmsOwnLinks) {
   Cell cell;
   cell.clearances.clearance_m = 0.02;
   cell.clearances.self_clearance_m = 0.005;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.05});
   Configuration q(3);
-  q << 0.0, small::kHalfTurn - std::asin(0.11 / 0.3), 0.0;  // link3 begins 0.11 m beside link1
+  q << 0.0, small::kHalfTurn - std::asin(0.11 / 0.3), 0.0;
   small::ScaledQuery checker(scene_of(small::shared(cell)));
   EXPECT_TRUE(checker.all_closer_than(q, 0.02).empty());
   cell.clearances.self_clearance_m = 0.012;
@@ -224,7 +223,7 @@ TEST(ClearanceQuery, HoldsAnArmsOwnLinksToTheirOwnClearance) {
   EXPECT_EQ(found[0].limit_m, 0.012);
 }
 
-TEST(ClearanceQuery, ForbidsContactEvenWhereNoClearanceIsAsked) {
+TEST(ClearanceQuery, ReportsContactEvenAtZeroClearance) {
   Cell cell = busy_cell();
   cell.clearances.clearance_m = 0.0;
   cell.clearances.self_clearance_m = 0.0;

@@ -16,7 +16,7 @@ using Evidence = BlockedCell::Evidence;
 BlockedCell cell(Duration from_a, Duration to_a, Duration from_b, Duration to_b) {
   return {{from_a, to_a, from_b, to_b}, Evidence::none, 0.0};
 }
-// Both stand at the beginning of 10 s.
+// Both arms are at the start of a 10 s motion.
 constexpr ProgressBox kAll{0s, 10s, 0s, 10s};
 
 bool holds(const ProgressBox& box, Duration a, Duration b) {
@@ -36,8 +36,8 @@ void expect_box(const ProgressBox& box, Duration from_a, Duration to_a, Duration
   EXPECT_EQ(box.to_b, to_b);
 }
 
-// A pause at the edge of a region costs up to a fine cell.
-TEST(Regions, AreAsFineAsTheShorterMotionNeeds) {
+// A pause at a region's edge costs up to a fine cell.
+TEST(PairRegionSearch, ResolutionFollowsTheShorterMotion) {
   const auto fine = [](Duration shorter) {
     return PairRegionSearch::resolution_of(shorter).passing.fine;
   };
@@ -55,9 +55,9 @@ TEST(Regions, AreAsFineAsTheShorterMotionNeeds) {
   EXPECT_EQ(widest.passing.coarse, 160ms);
 }
 
-TEST(BlockedRegions, OfNoCellsAreNone) { EXPECT_TRUE(blocked_regions({}, kAll).empty()); }
+TEST(BlockedRegions, AreEmptyWithoutCells) { EXPECT_TRUE(blocked_regions({}, kAll).empty()); }
 
-TEST(BlockedRegions, AreOneWhereCornersTouchAndTwoWhereTheyDoNot) {
+TEST(BlockedRegions, JoinCellsWhoseCornersTouch) {
   const BlockedCell first = cell(1s, 2s, 1s, 2s);
   EXPECT_EQ(blocked_regions({first, cell(2s, 3s, 2s, 3s)}, kAll).size(), 1U);
   EXPECT_EQ(blocked_regions({first, cell(2s, 3s, 0s, 1s)}, kAll).size(), 1U);
@@ -66,7 +66,7 @@ TEST(BlockedRegions, AreOneWhereCornersTouchAndTwoWhereTheyDoNot) {
   EXPECT_EQ(blocked_regions({first, cell(1s, 2s, 2s + 2ns, 3s)}, kAll).size(), 2U);
 }
 
-TEST(BlockedRegions, JoinsCellsToFewBoxes) {
+TEST(BlockedRegions, MergeCellsIntoFewBoxes) {
   std::vector<BlockedCell> cells;
   for (int i = 0; i < 8; ++i) {
     for (int j = 0; j < 4; ++j) cells.push_back(cell(i * 1s, (i + 1) * 1s, j * 1s, (j + 1) * 1s));
@@ -77,8 +77,8 @@ TEST(BlockedRegions, JoinsCellsToFewBoxes) {
   expect_box(regions[0].boxes[0], 0s, 8s, 0s, 4s);
 }
 
-TEST(BlockedRegions, TakesTheDirectionWithFewerBoxes) {
-  // A comb with teeth along B: its back and three teeth, or, cut across its back, five boxes.
+TEST(BlockedRegions, CutInTheDirectionWithFewerBoxes) {
+  // A comb with teeth along B; cut across its back there would be five boxes.
   std::vector<BlockedCell> comb{cell(0s, 5s, 0s, 1s), cell(0s, 1s, 1s, 3s), cell(2s, 3s, 1s, 4s),
                                 cell(4s, 5s, 1s, 5s)};
   for (const bool along_a : {false, true}) {
@@ -93,7 +93,7 @@ TEST(BlockedRegions, TakesTheDirectionWithFewerBoxes) {
   }
 }
 
-TEST(BlockedRegions, FillsWhatTheyCloseInWithWhatLiesInThere) {
+TEST(BlockedRegions, FillEnclosedHoles) {
   std::vector<BlockedCell> ring{cell(0s, 5s, 0s, 1s), cell(0s, 5s, 4s, 5s), cell(0s, 1s, 1s, 4s),
                                 cell(4s, 5s, 1s, 4s), cell(2s, 3s, 2s, 3s)};
   const ProgressBox before{0s, 10s, 0s, 10s};
@@ -107,7 +107,7 @@ TEST(BlockedRegions, FillsWhatTheyCloseInWithWhatLiesInThere) {
   EXPECT_EQ(blocked_regions(ring, before).size(), 2U);
 }
 
-TEST(BlockedRegions, DoesNotFillWhereBothStandNow) {
+TEST(BlockedRegions, KeepTheCurrentPositionFree) {
   const std::vector<BlockedCell> ring{cell(0s, 5s, 0s, 1s), cell(0s, 5s, 4s, 5s),
                                       cell(0s, 1s, 1s, 4s), cell(4s, 5s, 1s, 4s)};
   const auto regions = blocked_regions(ring, {2s, 10s, 2s, 10s});
@@ -116,19 +116,18 @@ TEST(BlockedRegions, DoesNotFillWhereBothStandNow) {
   EXPECT_TRUE(hold(regions, 4s, 3s));
 }
 
-TEST(BlockedRegions, DropsWhatIsBehindBothButNotAnEnd) {
+TEST(BlockedRegions, DropCellsBehindBothArms) {
   const ProgressBox remaining{3s, 10s, 0s, 0s};
   const std::vector<BlockedCell> cells{cell(1s, 2s, 0s, 0s), cell(5s, 6s, 0s, 0s)};
   const auto regions = blocked_regions(cells, remaining);
   ASSERT_EQ(regions.size(), 1U);
   expect_box(regions[0].boxes[0], 5s, 6s, 0s, 0s);
-  // Where it stands is not behind it, though the cell ends there.
+  // The current position is not behind the arm.
   EXPECT_EQ(blocked_regions({cell(1s, 3s, 0s, 0s)}, remaining).size(), 1U);
-  // At its end it stands in the last cell.
   EXPECT_EQ(blocked_regions({cell(9s, 10s, 0s, 0s)}, {10s, 10s, 0s, 0s}).size(), 1U);
 }
 
-TEST(BlockedRegions, ToldByTheClosestProvenStateElseTheSmallestDistanceElseTheLargestCell) {
+TEST(BlockedRegions, ReportTheStrongestEvidence) {
   std::vector<BlockedCell> cells{cell(0s, 1s, 0s, 1s), cell(1s, 3s, 0s, 1s), cell(3s, 4s, 0s, 1s)};
   EXPECT_EQ(blocked_regions(cells, kAll)[0].evidence, 1U);
   cells[0].evidence = cells[2].evidence = Evidence::distance;
@@ -140,7 +139,7 @@ TEST(BlockedRegions, ToldByTheClosestProvenStateElseTheSmallestDistanceElseTheLa
 }
 
 // A grid of all cuts would have 1.6e9 fields.
-TEST(BlockedRegions, TakeMemoryInProportionToTheCells) {
+TEST(BlockedRegions, UseMemoryProportionalToTheCells) {
   constexpr int kCells = 20'000;
   std::vector<BlockedCell> cells;
   for (int i = 0; i < kCells; ++i) {
@@ -149,9 +148,9 @@ TEST(BlockedRegions, TakeMemoryInProportionToTheCells) {
   EXPECT_EQ(blocked_regions(cells, {0s, 600s, 0s, 600s}).size(), cells.size());
 }
 
-// Random cells of a quartered square, some overlapping: the boxes hold all of them, and nothing
-// that is open to the outside. The same connections as by brute force.
-TEST(BlockedRegions, HoldAllCellsAndOnlyWhatTheyCloseIn) {
+// The boxes must contain all random cells, no field connected to the outside, and be connected as
+// by brute force.
+TEST(BlockedRegions, ContainAllCellsAndOnlyWhatTheyEnclose) {
   std::mt19937_64 random(17);
   for (int round = 0; round < 300; ++round) {
     constexpr int kFields = 16;
@@ -167,7 +166,7 @@ TEST(BlockedRegions, HoldAllCellsAndOnlyWhatTheyCloseIn) {
     }
     const ProgressBox remaining{0s, kFields * 1s, 0s, kFields * 1s};
     const auto regions = blocked_regions(cells, remaining);
-    // What is free and reached from the border of the square.
+    // Free fields connected to the border.
     bool outside[kFields][kFields] = {};
     for (bool grows = true; grows;) {
       grows = false;

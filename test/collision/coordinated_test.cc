@@ -1,4 +1,3 @@
-// What the checker says of spheres on rails, whose conflicts are known in closed form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +20,6 @@ bool hold(const std::vector<ConflictRegion>& regions, Duration a, Duration b) {
   });
 }
 
-// The outermost times of a region.
 ProgressBox around(const ConflictRegion& region) {
   ProgressBox hull = region.boxes.front();
   for (const ProgressBox& box : region.boxes) {
@@ -31,9 +29,9 @@ ProgressBox around(const ConflictRegion& region) {
   return hull;
 }
 
-// How far from the true conflict a state may be that is not certified: a cell of the outline is
-// not free while its middle is nearer than both move in half of it, and its farthest state is as
-// far from there once more; one whose middle is a conflict is coarser, and counted once.
+// Returns how far from the true conflict an uncertified state may lie. An outline cell is not free
+// if its middle is nearer than both arms move in half of it; its farthest state is as far away
+// again. A coarser cell whose middle is a conflict adds this once.
 double slack_m() {
   const auto moves = [](Duration width) {
     return 2 * (kSpeed_m_s * to_seconds(width) / 2 + kTracking_m);
@@ -43,12 +41,12 @@ double slack_m() {
          1e-4;
 }
 
-// With x at -1 + v a and y at `start` + v b their centres are this far apart.
+// Returns the distance of the centers at x = -1 + v a, y = `start` + v b.
 double apart_m(Duration a, Duration b, double start) {
   return std::hypot(-1.0 + kSpeed_m_s * to_seconds(a), start + kSpeed_m_s * to_seconds(b));
 }
 
-TEST(Coordinated, HoldsTheDiscInWhichTwoCrossTightly) {
+TEST(CoordinatedCheck, RegionEnclosesTheCrossingDiskTightly) {
   for (const bool turned : {false, true}) {
     Rails rails;
     rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
@@ -86,7 +84,7 @@ TEST(Coordinated, HoldsTheDiscInWhichTwoCrossTightly) {
   }
 }
 
-TEST(Coordinated, TouchesTheEndExactlyWhereAMotionEndsInTheWay) {
+TEST(CoordinatedCheck, RegionReachesTheEndOfAMotionThatEndsInTheWay) {
   Rails rails;
   rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
   rails.question.others = {rails.motion(2, {kY}, -1.1, 0)};
@@ -103,9 +101,9 @@ TEST(Coordinated, TouchesTheEndExactlyWhereAMotionEndsInTheWay) {
   EXPECT_LT(around(verdict.regions[0].regions[0]).to_b, 2200ms);
 }
 
-TEST(Coordinated, HasNoTimesForAnArmAtRest) {
+TEST(CoordinatedCheck, RegionWithAnArmAtRestHasNoTimesForThatArm) {
   Rails rails;
-  rails.question.rest[1] = 0.0;  // y stands in the middle of x's way
+  rails.question.rest[1] = 0.0;  // y rests in the middle of x's path
   rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
   const Verdict verdict = rails.judge();
   ASSERT_EQ(verdict.kind, Verdict::Kind::free);
@@ -125,7 +123,7 @@ TEST(Coordinated, HasNoTimesForAnArmAtRest) {
   EXPECT_LE(to_seconds(region.boxes[0].to_a), 2.0 + slack_s);
 }
 
-TEST(Coordinated, LooksOnlyAtWhatRemains) {
+TEST(CoordinatedCheck, ChecksOnlyTheRemainingMotion) {
   Rails rails;
   rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
   rails.question.others = {rails.motion(2, {kY}, -1, 1)};
@@ -135,7 +133,7 @@ TEST(Coordinated, LooksOnlyAtWhatRemains) {
   EXPECT_EQ(rails.judge().regions.size(), 1U);
 }
 
-TEST(Coordinated, AskedAgainLooksAtNothingAnew) {
+TEST(CoordinatedCheck, RepeatedQuestionNeedsNoNewEvaluations) {
   Rails rails;
   rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
   rails.question.others = {rails.motion(2, {kY}, -1, 1)};
@@ -148,7 +146,7 @@ TEST(Coordinated, AskedAgainLooksAtNothingAnew) {
   EXPECT_EQ(second.regions[0].regions[0].boxes.size(), first.regions[0].regions[0].boxes.size());
 }
 
-TEST(Coordinated, NeedsFewCellsWhereArmsStayApart) {
+TEST(CoordinatedCheck, NeedsFewCellsIfArmsStayApart) {
   Rails rails;
   rails.question.candidates = {rails.motion(1, {kX}, 0.5, 1.5)};
   rails.question.others = {rails.motion(2, {kY}, -1.5, 0.5)};
@@ -157,7 +155,7 @@ TEST(Coordinated, NeedsFewCellsWhereArmsStayApart) {
   EXPECT_LE(verdict.evaluations, 80U);
 }
 
-TEST(Coordinated, ComparesWithEveryMotionOfAnArmButNotItsOwn) {
+TEST(CoordinatedCheck, ComparesMotionsOfDifferentArmsOnly) {
   Rails rails;
   rails.question.others = {rails.motion(11, {kY}, -1, 1),
                            rails.to_come(rails.motion(12, {kY}, 1, -1)),
@@ -177,9 +175,9 @@ TEST(Coordinated, ComparesWithEveryMotionOfAnArmButNotItsOwn) {
   EXPECT_EQ(pairs, expected);
 }
 
-TEST(Coordinated, JoinsTheArmsOfASynchronousMotion) {
+TEST(CoordinatedCheck, JoinsTheArmsOfASynchronousMotion) {
   Rails rails;
-  // y passes x's rail at 2 s and the second rail at 4 s, both arms are in its way at 2 s.
+  // y passes the two arms' rails at 2 s and 4 s; both arms are there at 2 s.
   rails.question.candidates = {rails.motion(1, {kX, kSecond}, -1, 1)};
   rails.question.others = {rails.motion(2, {kY}, -1, 1.7)};
   Verdict verdict = rails.judge();
@@ -189,7 +187,6 @@ TEST(Coordinated, JoinsTheArmsOfASynchronousMotion) {
   EXPECT_TRUE(hold(verdict.regions[0].regions, 2s, 2s));
   EXPECT_TRUE(hold(verdict.regions[0].regions, 2s, 4s));
   EXPECT_FALSE(hold(verdict.regions[0].regions, 2s, 3s));
-  // The two of them against one arm that stands: one region each.
   rails.question.others.clear();
   rails.question.rest[1] = 1.0;
   verdict = rails.judge();
@@ -198,12 +195,12 @@ TEST(Coordinated, JoinsTheArmsOfASynchronousMotion) {
   EXPECT_EQ(verdict.regions[0].regions[0].proximity.arm_a, kSecond);
 }
 
-TEST(Coordinated, IsAConflictWhereACandidateAloneIsOne) {
+TEST(CoordinatedCheck, ReportsAConflictOfACandidateWithTheScene) {
   Rails rails;
-  rails.question.candidates = {rails.motion(1, {kX}, -1.685, 1)};  // begins too near the post
+  rails.question.candidates = {rails.motion(1, {kX}, -1.685, 1)};  // starts too close to the post
   rails.question.others = {rails.motion(2, {kY}, -1, 1)};
   Verdict verdict = rails.judge();
-  EXPECT_EQ(verdict.kind, Verdict::Kind::free) << "it parts";
+  EXPECT_EQ(verdict.kind, Verdict::Kind::free) << "it moves away";
   rails.question.candidates = {rails.motion(1, {kX}, 1, -1.8)};
   verdict = rails.judge();
   ASSERT_EQ(verdict.kind, Verdict::Kind::conflict);
@@ -213,7 +210,7 @@ TEST(Coordinated, IsAConflictWhereACandidateAloneIsOne) {
   EXPECT_FALSE(verdict.clearance_bound);
 }
 
-TEST(Coordinated, IsAConflictWhereTheArmsOfASynchronousMotionMeet) {
+TEST(CoordinatedCheck, ReportsASynchronousMotionWhoseArmsMeet) {
   Rails rails;
   rails.question.candidates = {rails.motion(1, {kX, kY}, -1, 1)};
   const Verdict verdict = rails.judge();
@@ -221,22 +218,22 @@ TEST(Coordinated, IsAConflictWhereTheArmsOfASynchronousMotionMeet) {
   EXPECT_EQ(verdict.conflicts[0].with, Conflict::With::self);
 }
 
-TEST(Coordinated, LetsAPairPartThatStandsTooCloseNow) {
+TEST(CoordinatedCheck, AllowsAPairTooCloseNowToSeparate) {
   Rails rails;
   rails.question.rest[1] = 0.0;
-  rails.question.candidates = {rails.motion(1, {kX}, 0.115, 1)};  // away from y, 5 mm too close
+  rails.question.candidates = {rails.motion(1, {kX}, 0.115, 1)};  // away from y, too close
   EXPECT_TRUE(rails.judge().regions.empty());
   rails.question.candidates = {rails.motion(2, {kX}, 0.115, -1)};  // through it
   EXPECT_EQ(rails.judge().regions.size(), 1U);
-  // One that comes there only later is no such pair.
+  // A later motion must not start too close.
   rails.question.candidates = {rails.to_come(rails.motion(3, {kX}, 0.115, 1))};
   const Verdict verdict = rails.judge();
   ASSERT_EQ(verdict.regions.size(), 1U);
   EXPECT_EQ(verdict.regions[0].regions[0].boxes[0].from_a, 0s);
 }
 
-// x and y move together, then x alone comes back to where y was left: y stands there meanwhile.
-TEST(Coordinated, SeesTheOtherArmsOfAMotionThatSharesOne) {
+// x and y move together; then x alone returns to where y still rests.
+TEST(CoordinatedCheck, ChecksAgainstTheOtherArmsOfASharedMotion) {
   Rails rails;
   rails.question.others = {rails.motion(1, {kX, kY}, 1.5, 0.1)};
   rails.question.others[0].progress = 2799ms;
@@ -244,7 +241,6 @@ TEST(Coordinated, SeesTheOtherArmsOfAMotionThatSharesOne) {
   Verdict verdict = rails.judge();
   ASSERT_EQ(verdict.regions.size(), 1U);
   EXPECT_EQ(std::get<ArmId>(verdict.regions[0].b), kY);
-  // Where y goes on by itself, that motion tells it.
   rails.question.others.push_back(rails.to_come(rails.motion(3, {kY}, 0.1, 1.5)));
   verdict = rails.judge();
   ASSERT_EQ(verdict.regions.size(), 1U);
@@ -252,8 +248,8 @@ TEST(Coordinated, SeesTheOtherArmsOfAMotionThatSharesOne) {
   EXPECT_EQ(around(verdict.regions[0].regions[0]).from_b, 0s);
 }
 
-// x passes y, then one motion moves both. Until then y rests 7 mm from where that motion begins.
-TEST(Coordinated, SeesAnArmWhereItStandsNotWhereItsMotionBegins) {
+// One motion moves both after x has passed; until then y rests 7 mm from its start.
+TEST(CoordinatedCheck, UsesTheArmsPositionNotItsMotionsStart) {
   Rails rails;
   rails.question.candidates = {rails.motion(1, {kX}, -1, 0.125),
                                rails.to_come(rails.motion(2, {kX, kY}, 0.125, 1.5))};
@@ -265,14 +261,13 @@ TEST(Coordinated, SeesAnArmWhereItStandsNotWhereItsMotionBegins) {
   EXPECT_TRUE(rails.judge().regions.empty());
 }
 
-// Two that cross each other again and again for 20 minutes each, in hundreds of thousands of
-// places.
+// Two motions of 20 minutes with hundreds of thousands of crossings.
 void cross_for_long(Rails& rails) {
   rails.question.candidates = {rails.shuttle(1, kX, -0.3, 0.3, 1000)};
   rails.question.others = {rails.shuttle(2, kY, -0.31, 0.3, 1000)};
 }
 
-TEST(Coordinated, OfLongMotionsLooksAtNoMoreCellsThanTheBound) {
+TEST(CoordinatedCheck, LongMotionsStayWithinTheCellLimit) {
   Rails rails;
   cross_for_long(rails);
   for (const std::uint64_t effort : {1U, 4U}) {
@@ -281,12 +276,12 @@ TEST(Coordinated, OfLongMotionsLooksAtNoMoreCellsThanTheBound) {
     EXPECT_EQ(verdict.kind, Verdict::Kind::free);
     EXPECT_FALSE(verdict.regions.empty());
     EXPECT_FALSE(verdict.exhausted) << "a larger effort would find no more";
-    // The outline and close passes; besides, what is alone, in proportion to the length.
+    // Isolated cells come on top, in proportion to the length.
     EXPECT_LT(verdict.evaluations, 2 * PairRegionSearch::kCellsMax + 50'000);
   }
 }
 
-TEST(Coordinated, ACheckThatIsInterruptedSaysSoAndLeavesNothingBehind) {
+TEST(CoordinatedCheck, InterruptedCheckReportsItAndLeavesNoState) {
   Rails rails;
   rails.question.candidates = {rails.motion(1, {kX}, -1, 1)};
   rails.question.others = {rails.motion(2, {kY}, -1.2, 1.2)};

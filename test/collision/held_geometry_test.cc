@@ -11,7 +11,7 @@ namespace {
 using namespace std::chrono_literals;
 using namespace holding;
 
-TEST(HeldObjects, AreWhereTheirLinksCarryThemForTheChecker) {
+TEST(AttachedObjects, CheckerDistancesMatchBruteForce) {
   Holding h;
   small::ScaledQuery checker(h.scene);
   const double limit_m = 0.1;
@@ -53,8 +53,8 @@ TEST(HeldObjects, AreWhereTheirLinksCarryThemForTheChecker) {
   EXPECT_GT(contacts, 100);
 }
 
-// With a limit that only what is held breaks, and just not: the kernels see what is there.
-TEST(HeldObjects, AreAllThatIsCloseToAHandThatIsAlone) {
+// Limits just above and below the distance of the attached object force the kernels to see it.
+TEST(AttachedObjects, KernelsDecideByTheAttachedObjectAlone) {
   Holding h;
   int alone = 0;
   for (int i = 0; i < 200; ++i) {
@@ -73,8 +73,7 @@ TEST(HeldObjects, AreAllThatIsCloseToAHandThatIsAlone) {
   EXPECT_GT(alone, 3);
 }
 
-// What is certified stays free at every millisecond, with what the arms hold.
-TEST(HeldObjects, KeepTheClearanceAllAlongSweptMotions) {
+TEST(AttachedObjects, KeepTheClearanceAlongSweptMotions) {
   Holding h;
   MotionChecker motion_checker(h.scene);
   MotionChecker of_bare(h.bare);

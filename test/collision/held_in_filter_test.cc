@@ -1,4 +1,3 @@
-// What arms hold, as the filter's capsules have it.
 #include <gtest/gtest.h>
 
 #include "core/collision/filter/arm_kinematics.h"
@@ -14,7 +13,6 @@ namespace {
 
 using namespace holding;
 
-// An arm's capsules as the filter has them at one configuration, but in double.
 struct Filtered {
   Filtered(const PlanningScene& scene, ArmId arm, const Configuration& state)
       : kinematics(scene.bodies(), arm), frames(kinematics.frames().size() * 12) {
@@ -43,7 +41,7 @@ std::vector<LinkCapsule> capsules_of(const Filtered& arm, const KinematicBody& p
   return capsules;
 }
 
-TEST(HeldObjects, LieInTheirCapsulesInTheFilter) {
+TEST(AttachedObjects, LieInTheirBroadPhaseCapsules) {
   Holding h;
   const auto& bodies = h.scene->bodies();
   int looked_at = 0;
@@ -87,7 +85,7 @@ TEST(HeldObjects, LieInTheirCapsulesInTheFilter) {
   EXPECT_GT(looked_at, 20 * 3 * 8);
 }
 
-TEST(HeldObjects, AreNeverFartherInTheFilterThanTheyAre) {
+TEST(AttachedObjects, BroadPhaseNeverOverestimatesDistance) {
   Holding h;
   const auto& bodies = h.scene->bodies();
   const ArmKinematics still(bodies, std::nullopt);
@@ -130,13 +128,13 @@ TEST(HeldObjects, AreNeverFartherInTheFilterThanTheyAre) {
     double closest_m = 1e9;
     for (const auto& [pair, distance_m] : brute_force(h, q)) {
       closest_m = std::min(closest_m, distance_m);
-      if (pair.first == "table" || pair.second == "table") continue;  // a box: no capsules
+      if (pair.first == "table" || pair.second == "table") continue;  // a box has no capsules
       const auto seen = least.find(pair);
       ASSERT_NE(seen, least.end()) << pair.first << " " << pair.second;
       EXPECT_LE(seen->second, distance_m + 1e-6) << pair.first << " " << pair.second;
       ++compared;
     }
-    // And in the kernels: what is held is closer than this.
+    // The kernels must see the attached object too.
     const double limit_m = closest_m + 1e-6;
     const Configuration* state = &q;
     EXPECT_EQ(ClearanceQuery(h.scene, {limit_m, limit_m}).too_close({&state, 1}), 1U);

@@ -10,7 +10,7 @@
 #include "test/collision/small_cell.h"
 #include "test/model/test_cells.h"
 
-// T8: a held object would collide, the bare arms would not.
+// Defect T8: an attached object collides although the bare arms do not.
 namespace armloom {
 namespace {
 
@@ -29,7 +29,7 @@ LinkId link(const Cell& cell, const std::string& name) {
   return id.value_or(LinkId{0});
 }
 
-// A rod that goes on along x where a link of `length_m` ends.
+// Returns a rod attached to the end of a link, along x.
 Attachment rod_at(const Cell& cell, const std::string& name, const std::string& holder,
                   double link_m, double rod_m) {
   Attachment held{{name, Cylinder{0.015, rod_m}}, link(cell, holder)};
@@ -38,8 +38,8 @@ Attachment rod_at(const Cell& cell, const std::string& name, const std::string& 
   return held;
 }
 
-// Two arms, bases `apart_m` from each other along x, each one link of 0.4 m that turns about z: at
-// zero a's points to b, at pi b's to a.
+// Two 0.4 m links that turn about z, bases `apart_m` apart along x. At zero a points to b, at pi b
+// points to a.
 Cell two_arms(double apart_m) {
   Cell cell;
   cell.clearances.clearance_m = 0.02;
@@ -63,8 +63,8 @@ Question question_of(const Configuration& rest, TrajectoryPtr candidate) {
   return {1, at(0s), {{kJob, std::move(candidate), 0s}}, {}, rest, TimedDiscrete{20ms}};
 }
 
-// One checker sees the arms bare, holding, and bare again: only the second is a conflict, and it
-// names this counterpart.
+// Checks bare arms, then attached objects, then bare arms again with one checker: only the second
+// check is a conflict, as `expected`.
 void expect_only_held_conflicts(const PlanningScenePtr& bare, const PlanningScenePtr& held,
                                 Question question, const Proximity& expected, With with) {
   for (const CheckMethod& method : methods()) {
@@ -91,7 +91,7 @@ void expect_only_held_conflicts(const PlanningScenePtr& bare, const PlanningScen
   }
 }
 
-TEST(HeldObject, StrikesAnArmThatTheBareArmPasses) {
+TEST(AttachedObject, CollidesWithAnArmThatTheBareArmPasses) {
   const CellPtr cell = small::shared(two_arms(1.2));
   const PlanningScenePtr bare = *PlanningScene::build(cell);
   const PlanningScenePtr held = holding(bare, {rod_at(*cell, "rod", "a_link1", 0.4, 0.5)});
@@ -102,7 +102,7 @@ TEST(HeldObject, StrikesAnArmThatTheBareArmPasses) {
                              {"rod", "b_link1", kA, kB, false, 0.0, true, false}, With::rest);
 }
 
-TEST(HeldObject, IsStruckByTheArmThatMovesWhileItsOwnRests) {
+TEST(AttachedObject, IsHitByAMovingArmWhileItsOwnArmRests) {
   const CellPtr cell = small::shared(two_arms(1.2));
   const PlanningScenePtr bare = *PlanningScene::build(cell);
   const PlanningScenePtr held = holding(bare, {rod_at(*cell, "rod", "a_link1", 0.4, 0.5)});
@@ -112,7 +112,7 @@ TEST(HeldObject, IsStruckByTheArmThatMovesWhileItsOwnRests) {
                              {"b_link1", "rod", kB, kA, false, 0.0, false, true}, With::rest);
 }
 
-TEST(HeldObject, StrikesWhatAnotherArmHolds) {
+TEST(AttachedObject, CollidesWithAnotherArmsAttachedObject) {
   const CellPtr cell = small::shared(two_arms(1.5));
   const PlanningScenePtr bare = *PlanningScene::build(cell);
   const Attachment of_a = rod_at(*cell, "rod of a", "a_link1", 0.4, 0.4);
@@ -125,7 +125,7 @@ TEST(HeldObject, StrikesWhatAnotherArmHolds) {
                              {"rod of a", "rod of b", kA, kB, false, 0.0, true, true}, With::rest);
 }
 
-TEST(HeldObject, StrikesTheScene) {
+TEST(AttachedObject, CollidesWithTheScene) {
   Cell made = two_arms(3.0);
   made.objects.push_back({"post", Box{{0.1, 0.1, 0.5}}, small::at_xyz(0.0, 0.75, 0.0)});
   const CellPtr cell = small::shared(std::move(made));
@@ -136,8 +136,7 @@ TEST(HeldObject, StrikesTheScene) {
                              {"rod", "post", kA, {}, true, 0.0, true, false}, With::scene);
 }
 
-// Three links of 0.3 m fold up: the tip passes above the first link, the rod that it holds does
-// not.
+// Three 0.3 m links fold up: the tip clears the first link, the attached rod does not.
 struct Folding {
   CellPtr cell = [] {
     Cell made;
@@ -151,14 +150,14 @@ struct Folding {
                   small::sweep(*cell, {kA}, {0.0, kPi / 2, 0.0}, {0.0, kPi / 2, 0.75 * kPi}, 4s));
 };
 
-TEST(HeldObject, StrikesItsOwnArm) {
+TEST(AttachedObject, CollidesWithItsOwnArm) {
   const Folding folding;
   expect_only_held_conflicts(
       folding.bare, holding(folding.bare, {rod_at(*folding.cell, "rod", "a_link3", 0.3, 0.5)}),
       folding.question, {"a_link1", "rod", kA, kA, false, 0.0, false, true}, With::self);
 }
 
-TEST(HeldObject, MayTouchWhatItsTouchNames) {
+TEST(AttachedObject, MayTouchItsTouchLinks) {
   const Folding folding;
   Attachment rod = rod_at(*folding.cell, "rod", "a_link3", 0.3, 0.5);
   rod.touch = {link(*folding.cell, "a_link1")};
@@ -170,10 +169,10 @@ TEST(HeldObject, MayTouchWhatItsTouchNames) {
   }
 }
 
-TEST(HeldObject, MayTouchTheHandThatHoldsItAndNoLinkBesides) {
+TEST(AttachedObject, MayTouchOnlyTheHandThatCarriesIt) {
   const CellPtr cell = build_or_fail(two_pandas_description());
   const PlanningScenePtr bare = *PlanningScene::build(cell);
-  // The tool centre has no shape of its own.
+  // The tool center point link has no shape.
   const PlanningScenePtr scene =
       holding(bare, {{{"rod", Cylinder{0.015, 0.5}}, link(*cell, "left_panda_hand_tcp")},
                      {{"cup", Sphere{0.04}}, link(*cell, "left_panda_leftfinger")}});
@@ -194,7 +193,7 @@ TEST(HeldObject, MayTouchTheHandThatHoldsItAndNoLinkBesides) {
   EXPECT_EQ(with_rod, expected);
 }
 
-TEST(HeldObject, IsRefusedWhereItCannotBeHeld) {
+TEST(AttachedObject, IsRejectedIfInvalid) {
   Cell made = two_arms(1.2);
   made.objects.push_back({"post", Sphere{0.1}, small::at_xyz(0, 0, 2)});
   const CellPtr cell = small::shared(std::move(made));
@@ -221,7 +220,7 @@ TEST(HeldObject, IsRefusedWhereItCannotBeHeld) {
   EXPECT_EQ(objects.error().front().pointer, "/objects/1/name");
 }
 
-TEST(HeldObject, StaysWhenObjectsChangeAndLeavesThemAlone) {
+TEST(AttachedObject, StaysWhenSceneObjectsChange) {
   const CellPtr cell = small::shared(two_arms(1.2));
   const PlanningScenePtr scene =
       holding(*PlanningScene::build(cell), {rod_at(*cell, "rod", "a_link1", 0.4, 0.5)});
@@ -245,7 +244,7 @@ TEST(HeldObject, StaysWhenObjectsChangeAndLeavesThemAlone) {
   EXPECT_TRUE(small::ScaledQuery(empty_handed).all_closer_than(q, 0.02).empty());
 }
 
-TEST(MotionStore, ForgetsWhatArmsDoToEachOtherWhenTheyHoldOtherThingsAndOnlyThen) {
+TEST(MotionStore, ForgetsDiagramsOnlyWhenAttachedObjectsChange) {
   const CellPtr cell = small::shared(two_arms(0.9));
   const PlanningScenePtr bare = *PlanningScene::build(cell);
   const Attachment rod = rod_at(*cell, "rod", "a_link1", 0.4, 0.5);

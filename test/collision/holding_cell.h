@@ -17,8 +17,7 @@
 
 namespace armloom::holding {
 
-// Two Pandas: left holds a box and a rod in its hand, right a mesh on its forearm, all at odd poses
-// that are free at home.
+// Two Pandas: left has a box and a rod attached to its hand, right a mesh on its forearm.
 struct Holding {
   CellPtr cell = build_or_fail(two_pandas_description());
   std::mt19937_64 random{404};
@@ -57,7 +56,7 @@ struct Holding {
 using NamePair = std::pair<std::string, std::string>;
 inline NamePair names(const std::string& a, const std::string& b) { return std::minmax(a, b); }
 
-// The distances of everything that is held from all that it may not touch, by placing it by hand.
+// Returns the distance of each attached object to everything it must not touch.
 inline std::map<NamePair, double> brute_force(const Holding& h, const Configuration& q) {
   LinkPoses X_WL;
   forward_kinematics(*h.cell, q, X_WL);

@@ -1,4 +1,3 @@
-// With whom a motion is in conflict: what is looked at, and who is named.
 #include <gtest/gtest.h>
 
 #include "test/collision/row_of_arms.h"
@@ -9,7 +8,7 @@ namespace {
 using namespace row_of_arms;
 using With = Conflict::With;
 
-TEST(Judge, NamesAnArmAtRestThatNoJobWillMove) {
+TEST(DiscreteCheck, ReportsAnArmAtRestThatNoJobWillMove) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 2s)};
@@ -20,7 +19,7 @@ TEST(Judge, NamesAnArmAtRestThatNoJobWillMove) {
   EXPECT_FALSE(verdict.conflicts[0].other_job.has_value());
 }
 
-TEST(Judge, PutsTheCandidateFirstInTheEvidenceWhicheverArmItIs) {
+TEST(DiscreteCheck, PutsTheCandidateFirstInTheEvidence) {
   Judged judged(row());
   judged.question.rest[0] = 0;
   judged.question.candidates = {judged.motion(2, kB, kUp, kPi, 2s)};
@@ -31,17 +30,17 @@ TEST(Judge, PutsTheCandidateFirstInTheEvidenceWhicheverArmItIs) {
   EXPECT_EQ(verdict.conflicts[0].proximity.body_b, "a_link1");
 }
 
-TEST(Judge, NamesEachCounterpartOfTheFirstInstantThatHasOne) {
+TEST(DiscreteCheck, ReportsEveryCounterpartAtTheFirstConflict) {
   Cell cell = row();
   cell.objects.push_back({"post", Cylinder{0.02, 0.5}, small::at_xyz(0.2, -0.03, 0)});
   cell.objects.push_back({"ball", Sphere{0.02}, small::at_xyz(0.1, -0.03, 0)});
   Judged judged(cell);
   judged.question.method = TimedDiscrete{30s};  // the goal is the only instant after the start
-  judged.question.rest[2] = kPi;                // c points at b, which will point at it
+  judged.question.rest[2] = kPi;                // c points at b, whose goal points at c
   judged.question.candidates = {judged.motion(5, kA, kUp, 0, 2s)};
   judged.question.others = {judged.motion(3, kB, kUp, kPi, 2s)};
   const Verdict verdict = judged();
-  ASSERT_EQ(verdict.conflicts.size(), 3U);  // b and c among themselves are not the question
+  ASSERT_EQ(verdict.conflicts.size(), 3U);  // the pair b and c is not part of the question
   EXPECT_EQ(verdict.conflicts[0].with, With::motion);
   EXPECT_EQ(verdict.conflicts[0].other_job, JobId{3});
   EXPECT_EQ(verdict.conflicts[1].proximity.body_b, "post");
@@ -49,7 +48,7 @@ TEST(Judge, NamesEachCounterpartOfTheFirstInstantThatHasOne) {
   for (const Conflict& conflict : verdict.conflicts) EXPECT_EQ(conflict.candidate, JobId{5});
 }
 
-TEST(Judge, NamesTheStaticLinkOfAnotherRobotAsScene) {
+TEST(DiscreteCheck, ReportsAStaticLinkOfAnotherRobotAsScene) {
   Cell cell = row();
   Link post = small::static_link("b_post", RobotId{1}, small::at_xyz(0.3, 0, 0));
   small::add_shape(post, Sphere{0.05}, Eigen::Isometry3d::Identity());
@@ -63,7 +62,7 @@ TEST(Judge, NamesTheStaticLinkOfAnotherRobotAsScene) {
   EXPECT_FALSE(verdict.conflicts[0].proximity.object_b);
 }
 
-TEST(Judge, KnowsTheSceneAndTheCandidatesOwnLinks) {
+TEST(DiscreteCheck, ReportsSceneAndSelfConflicts) {
   Cell cell;
   cell.clearances.clearance_m = 0.02;
   const ArmId arm = small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ, kZ, kZ}, {0.3, 0.03});
@@ -86,19 +85,19 @@ TEST(Judge, KnowsTheSceneAndTheCandidatesOwnLinks) {
   EXPECT_EQ(scene.conflicts[0].proximity.body_a, "a_link3");
 }
 
-TEST(Judge, ChecksCandidatesAgainstEachOther) {
+TEST(DiscreteCheck, ChecksCandidatesAgainstEachOther) {
   Judged judged(row());
   judged.question.candidates = {judged.motion(8, kB, kUp, kPi, 2s),
                                 judged.motion(7, kA, kUp, 0, 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_EQ(verdict.conflicts[0].with, With::motion);
-  EXPECT_EQ(verdict.conflicts[0].candidate, JobId{8});  // named first
+  EXPECT_EQ(verdict.conflicts[0].candidate, JobId{8});  // comes first in the question
   EXPECT_EQ(verdict.conflicts[0].other_job, JobId{7});
   EXPECT_EQ(verdict.conflicts[0].proximity.body_a, "b_link1");
 }
 
-TEST(Judge, CallsTheArmsOfOneSynchronousMotionItself) {
+TEST(DiscreteCheck, ReportsArmsOfOneMotionAsSelf) {
   Judged judged(row());
   judged.question.candidates = {
       {JobId{1}, small::sweep(*judged.cell, {kA, kB}, {kUp, kUp}, {0, kPi}, 2s), 0s}};
@@ -107,7 +106,7 @@ TEST(Judge, CallsTheArmsOfOneSynchronousMotionItself) {
   EXPECT_EQ(verdict.conflicts[0].with, With::self);
 }
 
-TEST(Judge, LeavesOthersAmongThemselvesAlone) {
+TEST(DiscreteCheck, IgnoresConflictsBetweenOtherMotions) {
   Judged judged(row());
   judged.question.candidates = {judged.motion(3, kA, kUp, kPi, 2s)};
   judged.question.others = {judged.motion(1, kB, kUp, 0, 2s), judged.motion(2, kC, kUp, kPi, 2s)};

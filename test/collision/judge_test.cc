@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 using namespace row_of_arms;
 using With = Conflict::With;
 
-TEST(Judge, IsFreeWhenNothingIsNearAndLooksAtEveryStepAndTheEnd) {
+TEST(DiscreteCheck, ChecksEveryStepAndTheEnd) {
   Judged judged(row());
   judged.question.candidates = {judged.motion(1, kA, kUp, kPi, 1010ms)};
   const Verdict verdict = judged();
@@ -20,15 +20,15 @@ TEST(Judge, IsFreeWhenNothingIsNearAndLooksAtEveryStepAndTheEnd) {
   EXPECT_EQ(verdict.evaluations, 22U);  // 0, 50, ..., 1000 and 1010 ms
 }
 
-// The defect T2: half of b's motion is done, only what remains may count.
-TEST(Judge, ComparesWithTheRemainingMotion) {
+// Defect T2: only the remaining half of b's motion may be checked.
+TEST(DiscreteCheck, ComparesWithTheRemainingMotion) {
   Judged judged(row());
-  // b leaves a's side within its first half; a turns there in the meantime.
+  // b leaves a's side within its first half.
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 4s)};
   judged.question.others = {judged.begun(judged.motion(1, kB, kPi, 0, 4s), 2s)};
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
 
-  // The same, but b does in its second half what a's clock would call its first.
+  // b reaches a's side in its second half, which a's clock would take for the first.
   judged.question.others = {judged.begun(judged.motion(1, kB, 0, kPi, 4s), 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.kind, Verdict::Kind::conflict);
@@ -44,8 +44,8 @@ TEST(Judge, ComparesWithTheRemainingMotion) {
   EXPECT_LT(conflict.proximity.clearance_m, 0.02);
 }
 
-// The defect T3: the other's rest counts before and after its motion.
-TEST(Judge, FindsTheRestAfterAShorterMotion) {
+// Defect T3: the other arm's rest must be checked before and after its motion.
+TEST(DiscreteCheck, FindsTheRestAfterAShorterMotion) {
   Judged judged(row());
   judged.question.candidates = {judged.motion(2, kA, kPi, 0, 8s)};
   judged.question.others = {judged.motion(1, kB, kUp, kPi, 1s)};
@@ -56,7 +56,7 @@ TEST(Judge, FindsTheRestAfterAShorterMotion) {
   EXPECT_GT(verdict.conflicts[0].own_time, 4s);
 }
 
-TEST(Judge, FindsTheOwnRestThatALongerMotionPassesThrough) {
+TEST(DiscreteCheck, FindsALongerMotionThatHitsTheCandidateAtRest) {
   Judged judged(row());
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 1s)};
   judged.question.others = {judged.motion(1, kB, 0, kPi, 8s)};
@@ -66,7 +66,7 @@ TEST(Judge, FindsTheOwnRestThatALongerMotionPassesThrough) {
   EXPECT_GT(verdict.conflicts[0].other_time, 4s);
 }
 
-TEST(Judge, FindsTheRestBeforeAMotionThatIsStillToStart) {
+TEST(DiscreteCheck, FindsTheRestBeforeAMotionThatStartsLater) {
   Judged judged(row());
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 2s)};
   judged.question.others = {judged.begun(judged.motion(1, kB, kPi, 0, 2s), -10s)};
@@ -78,8 +78,8 @@ TEST(Judge, FindsTheRestBeforeAMotionThatIsStillToStart) {
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
 }
 
-// What the discrete check promises, and what it does not: the defect T4.
-TEST(Judge, MissesAThinRodBetweenCoarseStepsAndFindsItWithFineOnes) {
+// Defect T4.
+TEST(DiscreteCheck, FindsAThinRodOnlyWithFineSteps) {
   Cell cell = row();
   cell.clearances.clearance_m = 0.001;
   cell.links[1].shapes = small::capsule_along_x(0.0, 0.4, 0.005);
@@ -97,8 +97,7 @@ TEST(Judge, MissesAThinRodBetweenCoarseStepsAndFindsItWithFineOnes) {
   EXPECT_TRUE(verdict.conflicts[0].proximity.object_b);
 }
 
-// The last instant is the end itself, not the last multiple of the step.
-TEST(Judge, LooksAtTheGoalEvenWhenTheStepIsLongerThanTheMotion) {
+TEST(DiscreteCheck, ChecksTheGoalEvenIfTheStepIsLongerThanTheMotion) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 1s)};
@@ -109,24 +108,24 @@ TEST(Judge, LooksAtTheGoalEvenWhenTheStepIsLongerThanTheMotion) {
   EXPECT_EQ(verdict.evaluations, 2U);
 }
 
-TEST(Judge, LetsAPairThatIsTooClosePart) {
+TEST(DiscreteCheck, AllowsAPairThatIsTooCloseToSeparate) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
   judged.question.candidates = {judged.motion(2, kA, 0, kUp, 2s)};  // out of an overlap
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
 }
 
-TEST(Judge, CallsItAConflictWhenAPairThatIsTooCloseComesCloser) {
+TEST(DiscreteCheck, RejectsAPairThatIsTooCloseAndApproaches) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
-  // tips side by side: closest when parallel, at 0; from 0.12 the distance is below the clearance
+  // Closest at 0, when the links are parallel; below the clearance from 0.12 on.
   judged.question.candidates = {judged.motion(2, kA, 0.12, -0.12, 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_GT(verdict.conflicts[0].own_time, 0s);
 }
 
-TEST(Judge, AllowsNoReturnOncePartedPairsHaveCleared) {
+TEST(DiscreteCheck, RejectsAReturnAfterAPairHasSeparated) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
   auto there = small::sweep(*judged.cell, {kA}, {0.0}, {kUp}, 2s)->segments();
@@ -141,7 +140,7 @@ TEST(Judge, AllowsNoReturnOncePartedPairsHaveCleared) {
   EXPECT_GT(verdict.conflicts[0].own_time, 3s);
 }
 
-TEST(Judge, AnswersTheSameQuestionTheSameWay) {
+TEST(DiscreteCheck, AnswersRepeatedQuestionsEqually) {
   Judged judged(row());
   judged.question.candidates = {judged.motion(2, kA, kPi, 0, 8s)};
   judged.question.others = {judged.motion(1, kB, kUp, kPi, 1s)};
@@ -154,7 +153,7 @@ TEST(Judge, AnswersTheSameQuestionTheSameWay) {
   EXPECT_EQ(first.conflicts[0].proximity.clearance_m, second.conflicts[0].proximity.clearance_m);
 }
 
-TEST(Judge, RefusesBrokenQuestions) {
+TEST(DiscreteCheck, ThrowsOnInvalidQuestions) {
   Judged judged(row());
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 1s)};
   judged.question.others = {judged.motion(1, kA, kUp, 0, 1s)};

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTrackingError = 0.001;
 
-// Lines of the left Panda near home, the right one standing somewhere between the two.
+// Lines of the left Panda near home, with the right Panda at rest.
 struct Lines {
   explicit Lines(std::uint64_t seed) : random(seed) {}
 
@@ -40,9 +40,9 @@ struct Lines {
   std::mt19937_64 random;
 };
 
-// Whatever is said of a line is so: by exact distances of single states, the arm off its line by
-// up to the tracking error; and as the judge of jobs has it.
-TEST(LineChecker, ProvesWhatStatesAndTheJudgeOfJobsConfirm) {
+// Confirms each answer with exact distances, off the line by up to the tracking error, and with the
+// motion checker.
+TEST(LineChecker, AgreesWithStateChecksAndMotionChecker) {
   Lines lines(21);
   const ArmId left{0}, right{1};
   ClearanceQuery states(lines.scene);
@@ -59,7 +59,7 @@ TEST(LineChecker, ProvesWhatStatesAndTheJudgeOfJobsConfirm) {
     LineChecker checker(lines.scene, left, rest, kTrackingError);
     const auto answer = checker.line(from, to);
     EXPECT_EQ(checker.is_free(from, to), answer.kind == LineChecker::Kind::free);
-    // All pairs but those of the right arm alone: these stand, and are not asked about.
+    // All pairs except those of the right arm alone.
     const auto too_close = [&](const Eigen::VectorXd& q) {
       Configuration whole = rest;
       lines.put(whole, left, q);
@@ -102,7 +102,7 @@ TEST(LineChecker, ProvesWhatStatesAndTheJudgeOfJobsConfirm) {
   EXPECT_GE(free, judged_free - 4);
 }
 
-TEST(LineChecker, JudgesAStateWithItsTrackingError) {
+TEST(LineChecker, ChecksAStateWithItsTrackingError) {
   Lines lines(22);
   const ArmId left{0};
   const Configuration rest = lines.cell->home();
@@ -113,12 +113,11 @@ TEST(LineChecker, JudgesAStateWithItsTrackingError) {
   const auto answer = checker.state(low);
   EXPECT_EQ(answer.kind, LineChecker::Kind::conflict);
   EXPECT_LT(answer.proximity->clearance_m, lines.cell->clearances.clearance_m);
-  // An arm that may be anywhere is nowhere free.
   LineChecker loose(lines.scene, left, rest, 3.0);
   EXPECT_NE(loose.state(lines.cell->arm(left).home).kind, LineChecker::Kind::free);
 }
 
-TEST(LineChecker, LooksAtWhatTheArmHolds) {
+TEST(LineChecker, ChecksAttachedObjects) {
   Lines lines(23);
   const ArmId left{0};
   const LinkId hand = *lines.cell->find_link("left_panda_hand");

@@ -21,7 +21,7 @@ Eigen::Vector3d random_direction(std::mt19937_64& random) {
   return Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
 }
 
-// A point of the surface of the shape itself, not of what the code under test makes of it.
+// Returns a point on the original shape, not on its ConvexShape.
 Eigen::Vector3d surface_point(const PlacedShape& placed, std::mt19937_64& random) {
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const Eigen::Vector3d n = random_direction(random);
@@ -61,7 +61,7 @@ PlacedShape random_shape(std::mt19937_64& random) {
 }
 
 double outside(const LinkCapsule& capsule, const Eigen::Vector3d& p) {
-  // By other code than what fits and checks.
+  // Independent of the fitting and its check.
   const CenteredSegment segment{(capsule.p_PA + capsule.p_PB) / 2,
                                 (capsule.p_PB - capsule.p_PA) / 2};
   return segment_segment_distance(segment, {p, Eigen::Vector3d::Zero()}) - capsule.radius_m;
@@ -73,7 +73,7 @@ double volume(const LinkCapsules& fitted) {
   return sum;
 }
 
-TEST(LinkCapsules, HoldEveryPointOfRandomPartsEachShapeInOneOfThem) {
+TEST(LinkCapsules, ContainRandomLinksWithEachShapeInOneCapsule) {
   std::mt19937_64 random(41);
   int with_two = 0;
   for (int trial = 0; trial < 150; ++trial) {
@@ -98,7 +98,7 @@ TEST(LinkCapsules, HoldEveryPointOfRandomPartsEachShapeInOneOfThem) {
   EXPECT_GT(with_two, 20);
 }
 
-TEST(LinkCapsules, OfALoneRoundBodyAreThatBodyToTheBit) {
+TEST(LinkCapsules, EqualASingleRoundShapeBitForBit) {
   std::mt19937_64 random(42);
   for (int i = 0; i < 100; ++i) {
     auto shapes = small::capsule_along_x(-0.1 - 0.01 * i, 0.3, 0.05);
@@ -116,7 +116,7 @@ TEST(LinkCapsules, OfALoneRoundBodyAreThatBodyToTheBit) {
   }
 }
 
-TEST(LinkCapsules, OfABodyThatHoldsTheOthersAreThatBody) {
+TEST(LinkCapsules, EqualARoundShapeThatContainsTheOthers) {
   auto shapes = small::capsule_along_x(-0.2, 0.2, 0.1);
   shapes.push_back({Box{{0.3, 0.05, 0.05}}, small::at_xyz(0.02, 0.01, 0)});
   const LinkCapsules fitted = fit_capsules(make_convex_shapes(shapes));
@@ -124,7 +124,7 @@ TEST(LinkCapsules, OfABodyThatHoldsTheOthersAreThatBody) {
   EXPECT_EQ(fitted.capsules.front().radius_m, make_convex_shapes(shapes).front().radius_m);
 }
 
-TEST(LinkCapsules, OfALongBarAreNoThickerThanItsCrossSection) {
+TEST(LinkCapsules, AreAsThinAsALongBar) {
   std::mt19937_64 random(43);
   for (int i = 0; i < 20; ++i) {
     const Eigen::Isometry3d X = reference::random_pose(random, 1.0);
@@ -132,19 +132,19 @@ TEST(LinkCapsules, OfALongBarAreNoThickerThanItsCrossSection) {
     ASSERT_EQ(fitted.capsules.size(), 1U);
     EXPECT_LE(fitted.capsules.front().radius_m, 0.05 * 1.02);
     EXPECT_LE((fitted.capsules.front().p_PB - fitted.capsules.front().p_PA).norm(), 1.0);
-    // The side stands off 50 mm - 30 mm, a cap's tip almost a radius.
+    // The capsule is 50 mm - 30 mm larger at the side, almost a radius at its tips.
     EXPECT_GE(fitted.overestimate_m, 0.02);
     EXPECT_LE(fitted.overestimate_m, 0.05);
   }
 }
 
-TEST(LinkCapsules, OfACubeAreTheBallAround) {
+TEST(LinkCapsules, CubeGetsItsBoundingSphere) {
   const LinkCapsules fitted = fit_capsules(make_convex_shapes({{Box{{0.2, 0.2, 0.2}}}}));
   const double ball = 4.0 / 3.0 * small::kHalfTurn * std::pow(0.1 * std::sqrt(3.0), 3);
   EXPECT_LE(volume(fitted), ball * 1.001);
 }
 
-TEST(LinkCapsules, OfTwoRoundBodiesAtAnAngleAreBothOfThem) {
+TEST(LinkCapsules, EqualTwoRoundShapesAtAnAngle) {
   auto shapes = small::capsule_along_x(0.0, 0.5, 0.04);
   Eigen::Isometry3d turn = Eigen::Isometry3d::Identity();
   turn.linear() = Eigen::AngleAxisd(1.4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -159,14 +159,14 @@ TEST(LinkCapsules, OfTwoRoundBodiesAtAnAngleAreBothOfThem) {
   EXPECT_LE(fitted.overestimate_m, 1e-3);
 }
 
-TEST(LinkCapsules, AreFarLessThanAPrincipalAxisCapsuleWhereThatIsBad) {
-  // A flat disc: its principal axis says nothing; the best capsule is close to a ball.
+TEST(LinkCapsules, BeatAPrincipalAxisCapsule) {
+  // For a flat disk the principal axis is arbitrary.
   const LinkCapsules disc = fit_capsules(make_convex_shapes({{Cylinder{0.2, 0.02}}}));
   const double ball = 4.0 / 3.0 * small::kHalfTurn * std::pow(std::hypot(0.2, 0.01), 3);
   EXPECT_LE(volume(disc), ball * 1.005);
 }
 
-TEST(LinkCapsules, ContainsSaysNoAsSoonAsACornerStandsOut) {
+TEST(LinkCapsules, ContainsReturnsFalseIfACornerSticksOut) {
   const ConvexShape box = make_convex_shapes({{Box{{0.1, 0.1, 0.4}}}}).front();
   const double across = std::hypot(0.05, 0.05);
   const Eigen::Vector3d half(0, 0, 0.2);
@@ -199,7 +199,7 @@ double distance_between(const std::vector<ConvexShape>& a, const ConvexShape& b,
   return nearest;
 }
 
-TEST(MeshPieces, OfAULeaveARodInItsGapFreeThatTheHullTouches) {
+TEST(MeshPieces, LeaveTheGapOfAUShapeFree) {
   const ConvexShape rod = make_convex_shapes({{Cylinder{0.02, 0.8}}}).front();
   const auto whole = make_convex_shapes({{small::mesh_of(small::channel(0.3))}});
   const auto pieces = make_convex_shapes({{cut(small::channel(0.3))}});
@@ -209,10 +209,11 @@ TEST(MeshPieces, OfAULeaveARodInItsGapFreeThatTheHullTouches) {
   EXPECT_LE(distance_between(whole, rod, in_gap), 0.0);
   EXPECT_NEAR(distance_between(pieces, rod, in_gap), 0.10, 1e-4);
   EXPECT_LE(distance_between(pieces, rod, small::at_xyz(0.14, 0.1, 0.55)), 0.0);
-  EXPECT_LE(distance_between(pieces, rod, small::at_xyz(0.03, 0.1, 0.39)), 0.0);  // the floor
+  EXPECT_LE(distance_between(pieces, rod, small::at_xyz(0.03, 0.1, 0.39)),
+            0.0);  // the floor
 }
 
-TEST(MeshPieces, OfAnLGetACapsuleEach) {
+TEST(MeshPieces, BecomeOneCapsuleEach) {
   const small::Surface bars = small::joined(small::box_surface({0, 0, 0}, {1.0, 0.1, 0.1}),
                                             small::box_surface({0, 0.1, 0}, {0.1, 1.0, 0.1}));
   const LinkCapsules whole = fit_capsules(make_convex_shapes({{small::mesh_of(bars)}}));
@@ -222,7 +223,7 @@ TEST(MeshPieces, OfAnLGetACapsuleEach) {
   EXPECT_LT(volume(pieces), 0.2 * volume(whole));
 }
 
-TEST(LinkCapsules, AreTheSameEachTime) {
+TEST(LinkCapsules, AreDeterministic) {
   std::mt19937_64 random(44);
   std::vector<PlacedShape> shapes;
   for (int i = 0; i < 5; ++i) shapes.push_back(random_shape(random));
@@ -236,7 +237,7 @@ TEST(LinkCapsules, AreTheSameEachTime) {
   }
 }
 
-TEST(LinkCapsules, OfThePandasStandOffAFewCentimetres) {
+TEST(LinkCapsules, OverestimatePandaLinksByAFewCentimeters) {
   const auto scene = PlanningScene::build(build_or_fail(two_pandas_description()));
   ASSERT_TRUE(scene.has_value());
   const PlanningScene::Bodies& bodies = (*scene)->bodies();

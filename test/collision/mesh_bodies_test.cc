@@ -17,7 +17,6 @@ namespace {
 using Points = std::vector<Eigen::Vector3d>;
 
 double point_to_triangle(const Eigen::Vector3d& p, const std::array<Eigen::Vector3d, 3>& t) {
-  // Projected into the plane when it falls inside, else the nearest of the edges.
   const Eigen::Vector3d n = (t[1] - t[0]).cross(t[2] - t[0]);
   bool inside = n.norm() > 1e-15;
   double nearest = 1e9;
@@ -33,7 +32,7 @@ double point_to_triangle(const Eigen::Vector3d& p, const std::array<Eigen::Vecto
 double edge_to_edge(const Eigen::Vector3d& p, const Eigen::Vector3d& d, const Eigen::Vector3d& q,
                     const Eigen::Vector3d& e) {
   const Eigen::Vector3d n = d.cross(e);
-  if (n.norm() < 1e-12) return 1e9;  // parallel: an end is as near
+  if (n.norm() < 1e-12) return 1e9;  // parallel: the distance at an end is as small
   const Eigen::Vector3d w = q - p;
   const double s = w.cross(e).dot(n) / n.squaredNorm();
   const double t = w.cross(d).dot(n) / n.squaredNorm();
@@ -49,7 +48,7 @@ struct Solid {
   }
 };
 
-// Every feature of one surface against every feature of the other: right when they do not touch.
+// Compares all features. Exact unless the solids overlap.
 double brute_distance(const Solid& a, const Solid& b) {
   double nearest = 1e9;
   for (std::size_t i = 0; i < a.faces.size(); ++i) {
@@ -68,8 +67,7 @@ double brute_distance(const Solid& a, const Solid& b) {
   return nearest;
 }
 
-// A plane between them, across the line of their nearest corners' centres, proves that they are
-// apart.
+// Returns true if the plane of a face separates the solids.
 bool apart(const Solid& a, const Solid& b) {
   for (const auto* solid : {&a, &b}) {
     const Solid& other = solid == &a ? b : a;
@@ -81,7 +79,7 @@ bool apart(const Solid& a, const Solid& b) {
       if (least > 1e-9) return true;
     }
   }
-  return false;  // touching, or apart only across two edges
+  return false;  // touching, or separable only by a plane across two edges
 }
 
 Points random_points(std::mt19937_64& random, int count, const Eigen::Vector3d& size) {
@@ -114,7 +112,7 @@ double distance_of(const ConvexShape& a, const Eigen::Isometry3d& X_WA, const Co
   return distance_below(a, at_a, b, at_b, limit_m);
 }
 
-TEST(MeshBody, IsAsFarFromAnotherAsTheirNearestFeatures) {
+TEST(MeshShape, DistanceIsThatOfTheNearestFeatures) {
   std::mt19937_64 random(11);
   int compared = 0;
   for (int i = 0; i < 400; ++i) {
@@ -127,7 +125,7 @@ TEST(MeshBody, IsAsFarFromAnotherAsTheirNearestFeatures) {
     const double distance = distance_of(make_convex_shapes({{a}}).front(), X_WA,
                                         make_convex_shapes({{b}}).front(), X_WB);
     const double truth = brute_distance(solid_a, solid_b);
-    ASSERT_LE(distance, truth + 1e-12) << i;  // never too large, also where they overlap
+    ASSERT_LE(distance, truth + 1e-12) << i;  // never too large, even for overlapping solids
     if (!apart(solid_a, solid_b)) continue;
     ++compared;
     EXPECT_NEAR(distance, truth, 1e-6) << i;
@@ -135,7 +133,7 @@ TEST(MeshBody, IsAsFarFromAnotherAsTheirNearestFeatures) {
   EXPECT_GT(compared, 200);
 }
 
-TEST(MeshBody, OfABoxIsAsFarFromAllShapesAsTheBoxItself) {
+TEST(MeshShape, BoxMeshHasTheDistancesOfABox) {
   std::mt19937_64 random(12);
   const std::vector<PlacedShape> others[] = {{{Box{{0.1, 0.2, 0.05}}}},
                                              {{Sphere{0.07}}},
@@ -156,7 +154,7 @@ TEST(MeshBody, OfABoxIsAsFarFromAllShapesAsTheBoxItself) {
   }
 }
 
-TEST(MeshBody, LiesInItsCapsuleAndItsBox) {
+TEST(MeshShape, LiesInItsCapsuleAndItsBox) {
   std::mt19937_64 random(13);
   for (int i = 0; i < 200; ++i) {
     const Mesh mesh = cloud(random_points(random, 5 + i, {0.1, 0.5, 0.02}));
@@ -170,7 +168,7 @@ TEST(MeshBody, LiesInItsCapsuleAndItsBox) {
   }
 }
 
-TEST(MeshBody, FilterNeverExceedsTheExactDistance) {
+TEST(MeshShape, LowerBoundNeverExceedsTheExactDistance) {
   std::mt19937_64 random(14);
   const std::vector<PlacedShape> shapes[] = {
       {{Box{{0.1, 0.2, 0.05}}}},
@@ -195,7 +193,7 @@ TEST(MeshBody, FilterNeverExceedsTheExactDistance) {
   }
 }
 
-TEST(MeshBody, ABodyInsideOfAnotherTouchesIt) {
+TEST(MeshShape, ShapeInsideAnotherIsInContact) {
   const ConvexShape crate =
       make_convex_shapes({{small::mesh_of(small::box_surface({-1, -1, -1}, {1, 1, 1}))}}).front();
   const ConvexShape ball = make_convex_shapes({{Sphere{0.1}}}).front();
@@ -207,10 +205,10 @@ TEST(MeshBody, ABodyInsideOfAnotherTouchesIt) {
   EXPECT_LE(distance_of(part, X, crate, small::at_xyz(0, 0, 0)), 0.0);
 }
 
-TEST(PlanningScene, SeesMeshesOfLinksAndObjectsAsTheirHulls) {
+TEST(PlanningScene, MeshWithoutPiecesIsItsHull) {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {Eigen::Vector3d::UnitZ()}, {0.4, 0.03});
-  // A slot that the arm stands in without touching: the hull has no slot.
+  // The arm is inside a slot, but the hull has no slot.
   cell.objects.push_back(
       {"channel", small::mesh_of(small::channel(0.3)), small::at_xyz(0.0, -0.2, -0.5)});
   auto scene = PlanningScene::build(small::shared(cell));

@@ -1,4 +1,3 @@
-// Pairs that an SRDF disables between arms: skipped where proven out of reach, checked elsewhere.
 #include "core/collision/scene/out_of_reach.h"
 
 #include <gmock/gmock.h>
@@ -23,7 +22,6 @@ using testing::Not;
 using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
-// Homes in which the arms of a row (test/model/arm_row.h) stand beside each other.
 CellDescription row_of(int arms, const ScratchFolder& folder) {
   RobotDescription robot;
   robot.name = "row";
@@ -56,12 +54,12 @@ TEST(ClaimedPairs, AreSkippedOnlyIfProvenOutOfReach) {
                            NamePair{"arm0_2_link", "far_post"}));
 }
 
-TEST(ClaimedPairs, OfEightArmsAreProvenFromWhereTheyCannotReach) {
+TEST(ClaimedPairs, AreSkippedForArmsTooFarApart) {
   const ScratchFolder folder;
   const PlanningScenePtr scene = busy::scene_of(build_or_fail(row_of(8, folder)));
   const auto skipped = out_of_reach(scene);
-  // Links reach 0.43 and 0.83 m, arms stand 0.6 m apart: all pairs of arms three places apart, the
-  // first links of arms two places apart, and three pairs with the posts.
+  // Links reach 0.43 and 0.83 m, arms are 0.6 m apart. Proven: arms three places apart, first links
+  // two places apart, and three pairs with the posts.
   EXPECT_THAT(skipped, SizeIs(15 * 4 + 6 + 3));
   EXPECT_THAT(skipped, Contains(NamePair("arm0_2_link", "arm3_2_link")));
   EXPECT_THAT(skipped, Contains(NamePair("arm0_1_link", "arm2_1_link")));
@@ -70,7 +68,7 @@ TEST(ClaimedPairs, OfEightArmsAreProvenFromWhereTheyCannotReach) {
   EXPECT_EQ(scene->cell().allowed.claimed_pairs.size(), 28U * 4 + 4);
 }
 
-TEST(ClaimedPairs, AreProvenByTheirJointLimitsWithinTheClearance) {
+TEST(ClaimedPairs, AreProvenFromJointLimitsAndClearance) {
   const ScratchFolder folder;
   CellDescription row = row_of(2, folder);
   const auto skipped_with = [&](double lowest) {
@@ -79,14 +77,14 @@ TEST(ClaimedPairs, AreProvenByTheirJointLimitsWithinTheClearance) {
   };
   const NamePair first{"arm0_1_link", "arm1_1_link"};
   EXPECT_THAT(skipped_with(0.3), Not(Contains(first)));
-  // The link stays beside its side of the y axis: 0.15 m from where arm1 leans over to it.
+  // The link stays 0.15 m from the nearest position of arm1's link.
   EXPECT_THAT(skipped_with(1.5), Contains(first));
   EXPECT_THAT(skipped_with(1.5), Not(Contains(NamePair{"arm0_1_link", "arm1_2_link"})));
   row.clearance_m = 0.2;
   EXPECT_THAT(skipped_with(1.5), Not(Contains(first)));
 }
 
-// Two arms with limits, sliding and following joints among them; all pairs between them claimed.
+// Returns two arms with prismatic and mimic joints and limits; all pairs between them are claimed.
 Cell claimed_cell(std::mt19937_64& random) {
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -110,7 +108,7 @@ Cell claimed_cell(std::mt19937_64& random) {
     if (!link.driver) continue;
     link.offset = between(-1, 1);
     if (between(0, 1) < 0.3 && link.driver->index() % 3 != 0) {
-      link.driver = JointId{link.driver->value() - 1};  // follows
+      link.driver = JointId{link.driver->value() - 1};  // mimic joint
       link.multiplier = between(-2, 2);
     }
     if (between(0, 1) < 0.3 && std::isfinite(cell.joint(*link.driver).upper)) {
@@ -142,7 +140,6 @@ double distance_of(const Cell& cell, const Configuration& q, const LinkPair& pai
          0.06;
 }
 
-// The smallest distance that a search from random configurations finds.
 double closest(const Cell& cell, const LinkPair& pair, std::mt19937_64& random) {
   const auto position = [&](std::size_t j) {
     const double turn = 2.0 * small::kHalfTurn;
@@ -172,7 +169,6 @@ double closest(const Cell& cell, const LinkPair& pair, std::mt19937_64& random) 
   return smallest;
 }
 
-// The joints that move the link, from the root on.
 std::vector<JointId> drivers_of(const Cell& cell, LinkId link) {
   std::vector<JointId> drivers;
   for (auto next = std::optional(link); next; next = cell.link(*next).parent) {
@@ -184,8 +180,8 @@ std::vector<JointId> drivers_of(const Cell& cell, LinkId link) {
   return drivers;
 }
 
-TEST(SweptLink, EveryPartHoldsTheLinkAtAllItsJointValues) {
-  double tightest = 0.0;  // share of the bound that a link really moved
+TEST(SweptLink, EveryPartContainsTheLinkAtAllItsJointValues) {
+  double tightest = 0.0;  // largest share of the bound that a link really moved
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     std::mt19937_64 random(seed);
     const CellPtr cell = small::shared(claimed_cell(random));
@@ -226,7 +222,7 @@ TEST(SweptLink, EveryPartHoldsTheLinkAtAllItsJointValues) {
   EXPECT_GT(tightest, 0.7);
 }
 
-TEST(ClaimedPairs, ThatAreProvenKeepTheClearanceInEveryConfiguration) {
+TEST(ClaimedPairs, ProvenPairsKeepTheClearanceInEveryConfiguration) {
   int proven = 0;
   int checked = 0;
   int near_proofs = 0;

@@ -38,7 +38,7 @@ struct Pandas {
   }
 };
 
-TEST(TwoPandas, AreAllCapsulesOnceMerged) {
+TEST(TwoPandas, ConsistOfCapsulesAfterMerging) {
   const Pandas pandas;
   const auto& bodies = pandas.scene->bodies();
   std::size_t boxes = 0;
@@ -49,14 +49,14 @@ TEST(TwoPandas, AreAllCapsulesOnceMerged) {
   EXPECT_EQ(boxes, 1U);  // the table
 }
 
-TEST(TwoPandas, StandFreeAtHome) {
+TEST(TwoPandas, AreCollisionFreeAtHome) {
   const Pandas pandas;
   for (const Problem& problem : check_home(pandas.scene)) ADD_FAILURE() << problem.detail;
 }
 
 struct Audited {
   bool contact = false;
-  double smallest_m = kHorizon_m;  // of what arms keep from others; at most the horizon
+  double smallest_m = kHorizon_m;  // between arms or to the scene
 };
 
 Audited audited_at(AuditedCell& audited, const Cell& cell, const Configuration& q) {
@@ -72,7 +72,7 @@ Audited audited_at(AuditedCell& audited, const Cell& cell, const Configuration& 
   return found;
 }
 
-// The audit knows no capsule, no filter and no group: one FCL object for each URDF element.
+// The audit uses no capsules, filters or groups.
 TEST(TwoPandas, CheckerAndAuditAgreeOnRandomStates) {
   Pandas pandas;
   AuditedCell audited = AuditedCell::build(*pandas.cell).value();
@@ -91,7 +91,7 @@ TEST(TwoPandas, CheckerAndAuditAgreeOnRandomStates) {
     const Audited found = audited_at(audited, *pandas.cell, q);
     EXPECT_EQ(found.contact, contact) << "state " << i;
     EXPECT_NEAR(found.smallest_m, std::max(0.0, smallest), 1e-6) << "state " << i;
-    if (i % 20 == 0) {  // what a recording's audit makes of it
+    if (i % 20 == 0) {  // the same state, audited as a recording
       const auto report = audit(*pandas.cell, {{at(0s), q}}, 1ms);
       ASSERT_TRUE(report.has_value());
       EXPECT_EQ(report->first_contact.has_value(), contact) << "state " << i;

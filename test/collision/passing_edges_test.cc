@@ -1,5 +1,4 @@
-// Which leaves of a diagram have to be finer where motions pass them, against the definition word
-// by word.
+// Compares coarse_leaves() with a literal implementation of its definition.
 #include "core/collision/diagram/passing_edges.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +18,6 @@ using namespace std::chrono_literals;
 constexpr PassingResolution kResolution{.fine = 2ms, .coarse = 16ms, .slope = 0.5};
 constexpr ProgressBox kRemaining{5ms, 64ms, 3ms, 64ms};
 
-// Squares of 1 to 16 ms on a grid of their own width, none over another.
 std::vector<OpenLeaf> draw_leaves(std::mt19937& random) {
   std::vector<OpenLeaf> leaves;
   const auto below = [&](unsigned n) { return static_cast<int>(random() % n); };
@@ -48,7 +46,6 @@ ProgressBox exchanged(const ProgressBox& box) {
   return {box.from_b, box.to_b, box.from_a, box.to_a};
 }
 
-// What hangs together with a leaf, itself among it.
 std::vector<OpenLeaf> component_of(const OpenLeaf& leaf, const std::vector<OpenLeaf>& leaves) {
   std::vector<OpenLeaf> component{leaf};
   for (std::size_t i = 0; i < component.size(); ++i) {  // grows
@@ -61,7 +58,8 @@ std::vector<OpenLeaf> component_of(const OpenLeaf& leaf, const std::vector<OpenL
   return component;
 }
 
-// How wide the first leaf of its component may be where A passes first; nothing: as wide as it is.
+// Returns the allowed width of the component's first leaf if A passes first; nullopt if
+// unrestricted.
 std::optional<Duration> allowed_of(const std::vector<OpenLeaf>& component,
                                    const ProgressBox& remaining) {
   const ProgressBox& own = component.front().box;
@@ -71,7 +69,7 @@ std::optional<Duration> allowed_of(const std::vector<OpenLeaf>& component,
     const bool ends_later = box.to_a > own.to_a && box.from_b <= own.from_b;
     const bool begins_sooner = box.to_a >= own.to_a && box.from_b < own.from_b;
     if (ends_later || begins_sooner) return std::nullopt;
-    // Of two with one corner the first one by its place counts.
+    // The first of two leaves with the same corner is refined.
     const bool alike = box.to_a == own.to_a && box.from_b == own.from_b;
     if (alike &&
         std::tuple(box.from_a, other.cell) < std::tuple(own.from_a, component.front().cell)) {
@@ -87,7 +85,7 @@ std::optional<Duration> allowed_of(const std::vector<OpenLeaf>& component,
   return std::clamp(behind / 2, kResolution.fine, kResolution.coarse);
 }
 
-TEST(PassingEdges, AreTheLeavesWithNothingFartherOutOnASideThatAreTooWide) {
+TEST(PassingEdges, AreTheOutermostLeavesThatAreTooWide) {
   std::size_t found = 0;
   for (unsigned seed = 1; seed <= 2000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -103,7 +101,7 @@ TEST(PassingEdges, AreTheLeavesWithNothingFartherOutOnASideThatAreTooWide) {
       for (OpenLeaf& other : component) other.box = exchanged(other.box);
       const auto b = allowed_of(component, exchanged(kRemaining));
       const Duration width = leaf.box.to_a - leaf.box.from_a;
-      // Where both motions stand now everything counts.
+      // A leaf at the current position must always be fine.
       const bool stands = leaf.box.from_a <= kRemaining.from_a &&
                           leaf.box.from_b <= kRemaining.from_b && width > kResolution.fine;
       const bool a_first = stands || (a && width > *a);

@@ -1,4 +1,3 @@
-// What a cell must have for a planning scene, and what is asked of its homes.
 #include <gmock/gmock.h>
 
 #include "core/collision/state/check_home.h"
@@ -9,7 +8,7 @@ namespace {
 
 using namespace busy;
 
-TEST(PlanningScene, RefusesMeshesThatWereNotLoadedAndNamesThemAll) {
+TEST(PlanningScene, RejectsAndListsAllUnloadedMeshes) {
   Cell cell = busy_cell();
   small::add_shape(cell.links[2], Mesh{"hand.stl"}, Eigen::Isometry3d::Identity());
   cell.objects.push_back({"part", Mesh{"part.stl"}});
@@ -21,7 +20,7 @@ TEST(PlanningScene, RefusesMeshesThatWereNotLoadedAndNamesThemAll) {
   EXPECT_EQ(scene.error()[1].pointer, "/objects/4/mesh");
 }
 
-TEST(PlanningScene, RefusesANameUsedTwiceAndAnAllowedNameThatIsNone) {
+TEST(PlanningScene, RejectsDuplicateAndUnknownNames) {
   Cell cell = busy_cell();
   cell.objects.push_back({"rod", Sphere{0.1}});
   cell.allowed.link_objects.insert({LinkId{1}, "tabel"});
@@ -32,7 +31,7 @@ TEST(PlanningScene, RefusesANameUsedTwiceAndAnAllowedNameThatIsNone) {
   EXPECT_THAT(scene.error()[1].detail, ::testing::HasSubstr("tabel"));
 }
 
-TEST(CheckHome, IsQuietWhenHomesAreFreeAndNamesEveryPairThatIsNot) {
+TEST(CheckHome, ReportsEveryPairTooCloseAtHome) {
   Cell cell;
   cell.clearances.clearance_m = 0.02;
   small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ}, {0.3, 0.05});
@@ -46,11 +45,11 @@ TEST(CheckHome, IsQuietWhenHomesAreFreeAndNamesEveryPairThatIsNot) {
   EXPECT_EQ(
       problems[0].detail,
       "left_link1 and right_link1: 0.0300 m apart at home, clearance_m is 0.0310 (give another "
-      "\"home\", or place one of them elsewhere)");
+      "\"home\" or move one of them)");
   EXPECT_THAT(problems[2].detail, ::testing::StartsWith("right_link1 and shelf: 0.0200 m"));
 }
 
-TEST(CheckHome, SaysThatAPairIsCheckedAlthoughTheSrdfDisablesIt) {
+TEST(CheckHome, ReportsPairsThatTheSrdfDisables) {
   Cell cell;
   small::add_robot(cell, "left", small::at_xyz(0, 0, 0), {kZ}, {0.3, 0.05});
   small::add_robot(cell, "right", small::at_xyz(0, 0.11, 0), {kZ}, {0.3, 0.05});
@@ -58,11 +57,11 @@ TEST(CheckHome, SaysThatAPairIsCheckedAlthoughTheSrdfDisablesIt) {
       "dual.srdf:17";
   const Problems problems = check_home(scene_of(small::shared(cell)));
   ASSERT_EQ(problems.size(), 1U);
-  EXPECT_THAT(
-      problems[0].detail,
-      ::testing::EndsWith(
-          "; where these two may touch, add [\"left_link1\", \"right_link1\"] to the cell's "
-          "\"allowed_collisions\"; dual.srdf:17 disables the pair, which proves nothing)"));
+  EXPECT_THAT(problems[0].detail,
+              ::testing::EndsWith(
+                  "; if these two may touch, add [\"left_link1\", \"right_link1\"] to the cell's "
+                  "\"allowed_collisions\"; dual.srdf:17 disables the pair without proof, so it is "
+                  "checked)"));
 }
 
 }  // namespace

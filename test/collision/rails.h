@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 inline constexpr double kRadius_m = 0.05;
 inline constexpr double kClearance_m = 0.02;
 inline constexpr double kTracking_m = 0.001;
-inline constexpr double kApart_m = 2 * kRadius_m + kClearance_m;  // of two centres
+inline constexpr double kApart_m = 2 * kRadius_m + kClearance_m;  // between two centers
 inline constexpr double kSpeed_m_s = 0.5;
 
 inline void add_rail(Cell& cell, const std::string& name, const Eigen::Isometry3d& X_WB,
@@ -43,7 +43,7 @@ struct Rails {
     add_rail(made, "x", small::at_xyz(0, 0, 0), Eigen::Vector3d::UnitX());
     add_rail(made, "y", small::at_xyz(0, 0, 0), Eigen::Vector3d::UnitY());
     add_rail(made, "second", small::at_xyz(0, 1, 0), Eigen::Vector3d::UnitX());
-    // A post beside x's rail, far from all others.
+    // A post beside x's rail, far from the other arms.
     Link post = small::static_link("post", RobotId{1}, small::at_xyz(-1.8, 0, 0));
     small::add_shape(post, Sphere{kRadius_m}, small::at_xyz(0, 0, 0));
     small::add_link(made, post);
@@ -53,7 +53,6 @@ struct Rails {
     checker.emplace(*PlanningScene::build(cell));
   }
 
-  // At constant speed; all arms the same way.
   [[nodiscard]] Motion motion(std::uint64_t job, const std::vector<ArmId>& arms, double from,
                               double to) const {
     const Duration duration = from_seconds(std::abs(to - from) / kSpeed_m_s);
@@ -67,7 +66,7 @@ struct Rails {
             std::make_shared<const Trajectory>(joints, arms, std::vector<Segment>{segment}),
             {}};
   }
-  // To and fro at constant speed, so many ways.
+  // Moves to and fro `ways` times.
   [[nodiscard]] Motion shuttle(std::uint64_t job, ArmId arm, double from, double to,
                                int ways) const {
     const Duration takes = from_seconds(std::abs(to - from) / kSpeed_m_s);

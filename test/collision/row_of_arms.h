@@ -9,9 +9,8 @@ namespace armloom::row_of_arms {
 using namespace std::chrono_literals;
 inline const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 
-// Three arms in a row along x, bases 0.7 m apart, each one link of 0.4 m that turns about z: at
-// zero it points to its right neighbour, at pi to its left one. Two neighbours that point at each
-// other overlap; one that points there while the other points up (pi/2) does not.
+// Three 0.4 m links in a row along x, bases 0.7 m apart, turning about z: 0 points to the right
+// neighbor, pi to the left. Neighbors overlap only if they point at each other.
 inline Cell row() {
   Cell cell;
   cell.clearances.clearance_m = 0.02;

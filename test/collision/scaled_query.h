@@ -8,8 +8,7 @@
 
 namespace armloom::small {
 
-// The product's query, asked for one clearance after the other: what arms keep from each other and
-// from the scene; an arm is held to its shares of that from itself and its mount.
+// A ClearanceQuery with a chosen clearance per call; self and mount clearances scale with it.
 struct ScaledQuery : ClearanceQuery {
   using ClearanceQuery::ClearanceQuery;
 

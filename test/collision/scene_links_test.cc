@@ -1,4 +1,3 @@
-// What stands still is scene, whether it is an object of the cell or a link of an arm's own URDF.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +31,6 @@ std::vector<CheckMethod> methods() {
   return {TimedDiscrete{20ms}, Swept{0.001}, Coordinated{0.001}};
 }
 
-// The same motions in either cell.
 Question question(const Cell& cell, const CheckMethod& method, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto angle = [&](double most) {
@@ -52,7 +50,7 @@ Question question(const Cell& cell, const CheckMethod& method, std::uint64_t see
   return asked;
 }
 
-// Where the wall carries the arm, its pedestal is of the same link.
+// If the wall carries the arm, its pedestal belongs to the same link.
 std::string named(const std::string& body) { return body == "a_base" ? "wall" : body; }
 
 void expect_same(const Verdict& link, const Verdict& object, const std::string& where) {
@@ -73,7 +71,7 @@ void expect_same(const Verdict& link, const Verdict& object, const std::string& 
   }
 }
 
-TEST(SceneLinks, AreJudgedAsTheSameObjectIsByEveryMethod) {
+TEST(SceneLinks, AreCheckedLikeObjectsByEveryMethod) {
   for (const As as : {As::link, As::mount}) {
     const CellPtr with_link = walled(as);
     const CellPtr with_object = walled(As::object);
@@ -100,7 +98,7 @@ TEST(SceneLinks, AreJudgedAsTheSameObjectIsByEveryMethod) {
   }
 }
 
-// The tip of arm "a" with the second joint straight: (0.6 sin q + 0.03) from y = 0, wall at 0.4.
+// With a straight arm, the tip is 0.03 m beyond y = 0.6 sin q; the wall is at 0.4.
 Configuration tip_from_wall(const Cell& cell, double gap_m) {
   Configuration q = cell.home();
   q[0] = std::asin((0.4 - 0.03 - gap_m) / 0.6);
@@ -128,13 +126,13 @@ TEST(SceneLinks, GetTheClearanceOfTheScene) {
   }
 }
 
-TEST(SceneLinks, CountInTheFiguresAndInTheAudit) {
+TEST(SceneLinks, AppearInDistancesAndInTheAudit) {
   for (const As as : {As::link, As::object, As::mount}) {
     const CellPtr cell = walled(as);
     small::ScaledQuery checker(scene_of(cell));
     const Configuration q = tip_from_wall(*cell, 0.0094);
     const auto closest = checker.closest_apart(q, 2.0);
-    ASSERT_EQ(closest.size(), 3U);  // a with b, a and b with what stands still
+    ASSERT_EQ(closest.size(), 3U);  // a with b, a and b with the scene
     EXPECT_EQ(closest[1].arm_a, kA);
     EXPECT_FALSE(closest[1].arm_b);
     EXPECT_EQ(closest[1].body_b, "wall");
@@ -148,8 +146,7 @@ TEST(SceneLinks, CountInTheFiguresAndInTheAudit) {
   }
 }
 
-// An arm passes over its mount as over any table, with all of its links.
-TEST(SceneLinks, AreAnArmsMountAndNoneOfItsOwn) {
+TEST(SceneLinks, IncludeTheMountButNoOwnLinks) {
   const CellPtr cell = walled(As::link);
   const LinkId mount = *cell->find_link("a_base");
   EXPECT_TRUE(cell->is_mount(mount, kA));
@@ -181,8 +178,9 @@ TEST(SceneLinks, AreAnArmsMountAndNoneOfItsOwn) {
   EXPECT_EQ(others, 2);
 }
 
-// What robots need that fold on their own base; then nothing claims more.
-TEST(SceneLinks, OfAMountMayBeGivenAClearanceOfTheirOwn) {
+// Robots that fold onto their own base need a smaller mount clearance, and the verdict must claim
+// no more.
+TEST(SceneLinks, MountMayHaveItsOwnClearance) {
   Cell closer = *walled(As::mount);
   closer.clearances.mount_clearance_m = 0.008;
   const CellPtr cell = small::shared(closer);
@@ -196,7 +194,7 @@ TEST(SceneLinks, OfAMountMayBeGivenAClearanceOfTheirOwn) {
     const auto found = checker.first_closer_than(q, cell->clearances.clearance_m, {true, true});
     ASSERT_EQ(found.has_value(), gap_m < 0.008) << gap_m;
     EXPECT_NEAR(found ? found->limit_m : 0.008, 0.008, 1e-12);
-    // The monitor stops at the same share of its own limit.
+    // The monitor uses the same share of its own limit.
     EXPECT_TRUE(checker.all_closer_than(q, 0.01).empty());
   }
   const auto stops = checker.all_closer_than(tip_from_wall(*cell, 0.0039), 0.01);
@@ -215,8 +213,8 @@ TEST(SceneLinks, OfAMountMayBeGivenAClearanceOfTheirOwn) {
   EXPECT_EQ(verdict.clearance_bound.value().apart_m, 0.008);
 }
 
-// base frame -> wall: what the frame is fixed to carries the arm, until the frame has a shape.
-TEST(SceneLinks, AMountingFrameWithoutAShapeHandsItsRoleDown) {
+// The link that the frame is fixed to is the mount, until the frame has a shape.
+TEST(SceneLinks, MountFrameWithoutShapePassesItsRoleToItsParent) {
   Cell cell = *walled(As::link);
   cell.clearances.mount_clearance_m = 0.008;
   const LinkId frame = *cell.find_link("a_base");
@@ -240,8 +238,8 @@ TEST(SceneLinks, AMountingFrameWithoutAShapeHandsItsRoleDown) {
   EXPECT_TRUE(too_close(0.0079));
 }
 
-// A pair that parts is held to less: the verdict does not claim more.
-TEST(ClearanceBound, IsNoMoreThanWhatEveryPairWasHeldTo) {
+// A pair that separates is held to less.
+TEST(ClearanceBound, ClaimsOnlyWhatEveryPairKept) {
   for (const As as : {As::link, As::object, As::mount}) {
     const CellPtr cell = walled(as);
     const Configuration q = tip_from_wall(*cell, 0.01);
@@ -267,16 +265,16 @@ TEST(ClearanceBound, IsNoMoreThanWhatEveryPairWasHeldTo) {
   }
 }
 
-TEST(SceneLinks, NearAHomeAreRefusedAsTheSameObjectIs) {
+TEST(SceneLinks, TooCloseAtHomeAreRejectedLikeObjects) {
   for (const As as : {As::link, As::object, As::mount}) {
     Cell cell = *walled(as);
     cell.arms[0].home[0] = tip_from_wall(cell, 0.012)[0];
     const Problems problems = check_home(scene_of(small::shared(cell)));
     ASSERT_EQ(problems.size(), 1U);
     const std::string remedy =
-        " (wall carries the arm: where only this link stands so close to it, add [\"a_link2\", "
-        "\"wall\"] to the cell's \"allowed_collisions\"; where all of the arm passes it so closely "
-        "by design, and it is no table, add \"mount_clearance_m\": 0.01";
+        " (wall carries the arm: if only this link is so close to it, add [\"a_link2\", "
+        "\"wall\"] to the cell's \"allowed_collisions\"; if the whole arm passes it so closely "
+        "by design, and it is not a table, add \"mount_clearance_m\": 0.01";
     EXPECT_THAT(problems[0].detail,
                 testing::StartsWith("a_link2 and wall: 0.0120 m apart at home, clearance_m is "
                                     "0.0200" +

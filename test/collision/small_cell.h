@@ -10,7 +10,7 @@
 #include "core/model/cell.h"
 #include "core/trajectory/trajectory.h"
 
-// Cells made by hand, so that these tests depend on no file.
+// Handmade cells, so that these tests depend on no file.
 namespace armloom::small {
 
 inline constexpr double kHalfTurn = 3.14159265358979323846;
@@ -21,7 +21,7 @@ inline Eigen::Isometry3d at_xyz(double x, double y, double z) {
   return X;
 }
 
-// A capsule along x from `from` to `to`, spelled as URDF must: a cylinder and two spheres.
+// Returns a capsule along x, as in URDF: a cylinder and two spheres.
 inline std::vector<PlacedShape> capsule_along_x(double from, double to, double radius) {
   Eigen::Isometry3d X_LS = at_xyz((from + to) / 2, 0, 0);
   X_LS.linear() = Eigen::AngleAxisd(kHalfTurn / 2, Eigen::Vector3d::UnitY()).toRotationMatrix();
@@ -36,7 +36,7 @@ inline Link static_link(std::string name, RobotId robot, const Eigen::Isometry3d
   return link;
 }
 
-// Out of line: GCC 12 sees uninitialised variants when it inlines this (-Wmaybe-uninitialized).
+// Not inline, because of false -Wmaybe-uninitialized warnings of GCC 12.
 void add_shape(Link& link, const Shape& shape, const Eigen::Isometry3d& X_LS);
 
 inline LinkId add_link(Cell& cell, Link link) {
@@ -48,8 +48,8 @@ struct LinkSize {
   double length_m;
   double radius_m;
 };
-// A robot with one arm: a static base without shape, then one capsule for each axis, end to end
-// along x. Neighbours may touch.
+// Adds an arm on a static base without shape: one capsule per axis, end to end along x. Adjacent
+// links may touch.
 inline ArmId add_robot(Cell& cell, const std::string& name, const Eigen::Isometry3d& X_WB,
                        const std::vector<Eigen::Vector3d>& axes, const LinkSize& size) {
   const RobotId robot{static_cast<std::uint32_t>(cell.robots.size())};
@@ -86,7 +86,7 @@ inline ArmId add_robot(Cell& cell, const std::string& name, const Eigen::Isometr
 
 inline CellPtr shared(Cell cell) { return std::make_shared<const Cell>(std::move(cell)); }
 
-// One arm's motion from `from` to `to` (rad, every joint), at rest at both ends: a cubic.
+// Returns a cubic motion from `from` to `to` (rad, every joint), at rest at both ends.
 inline TrajectoryPtr sweep(const Cell& cell, const std::vector<ArmId>& arms,
                            const std::vector<double>& from, const std::vector<double>& to,
                            Duration duration) {

@@ -1,5 +1,3 @@
-// Concave closed meshes in whole checks: what convex pieces call too close is decided by the
-// surface.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -19,7 +17,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kReach_m = 0.23;  // of the arm: 0.2 m long, 0.03 m thick
+constexpr double kReach_m = 0.23;  // reach of the arm: 0.2 m long, 0.03 m thick
 constexpr int kFacets = 48;
 
 Mesh loaded(const small::Surface& surface) {
@@ -32,7 +30,7 @@ Mesh loaded(const small::Surface& surface) {
   return {"by hand", Eigen::Vector3d::Ones(), std::make_shared<const MeshData>(std::move(data))};
 }
 
-// Half a ring about z, open towards +y, from the inner radius to a square back: a body's notch.
+// Returns a notch: half a ring about z, open towards +y, with a square back.
 small::Surface notch(double inner_m) {
   small::Surface surface;
   for (int i = 0; i <= kFacets; ++i) {
@@ -62,7 +60,7 @@ small::Surface notch(double inner_m) {
   return surface;
 }
 
-// One arm that turns about z in the notch, gap_m from its wall all around.
+// One arm that turns in the notch, gap_m from the wall.
 struct InNotch {
   explicit InNotch(double gap_m, bool open = false) {
     cell.clearances.clearance_m = 0.008;
@@ -93,7 +91,7 @@ struct InNotch {
   PlanningScenePtr scene;
 };
 
-TEST(Surface, LeavesFreeWhatOnlyPiecesCallTooClose) {
+TEST(MeshSurface, KeepsStatesFreeThatOnlyPiecesReject) {
   InNotch passes(0.012);
   int by_pieces = 0;
   const PlanningScene::Bodies& bodies = passes.scene->bodies();
@@ -119,10 +117,10 @@ TEST(Surface, LeavesFreeWhatOnlyPiecesCallTooClose) {
     }
     by_pieces += least < passes.cell.clearances.clearance_m ? 1 : 0;
   }
-  EXPECT_GT(by_pieces, 20);  // else nothing is shown
+  EXPECT_GT(by_pieces, 20);  // otherwise this test shows nothing
 }
 
-TEST(Surface, IsWhatConflictsTellTheDistanceOf) {
+TEST(MeshSurface, ConflictsReportTheSurfaceDistance) {
   InNotch scrapes(0.005);
   ClearanceQuery states(scrapes.scene);
   for (double angle = -0.2; angle > -kPi + 0.2; angle -= 0.05) {
@@ -139,7 +137,7 @@ TEST(Surface, IsWhatConflictsTellTheDistanceOf) {
   EXPECT_LE(contact->clearance_m, 0.0);
 }
 
-TEST(Surface, CertifiesAMotionThatPassesItAndRefusesOneThatScrapes) {
+TEST(MeshSurface, CertifiesAPassingMotionAndRejectsAScrapingMotion) {
   const Verdict passes = InNotch(0.012).sweep();
   EXPECT_EQ(passes.kind, Verdict::Kind::free)
       << passes.evaluations << " " << passes.exhausted
@@ -150,11 +148,11 @@ TEST(Surface, CertifiesAMotionThatPassesItAndRefusesOneThatScrapes) {
   EXPECT_LT(scrapes.conflicts.front().proximity.clearance_m, 0.008);
 }
 
-TEST(Surface, OfAnOpenMeshIsNotTrusted) {
+TEST(MeshSurface, OpenMeshIsReplacedByItsHull) {
   EXPECT_TRUE(InNotch(0.012, true).closer(-1.0));  // its hull
 }
 
-TEST(Surface, FindsAnArmInsideOfTheBody) {
+TEST(MeshSurface, FindsAnArmInsideTheBody) {
   InNotch passes(0.012);
   passes.cell.objects[0].shape =
       loaded(small::joined(notch(0.05), small::box_surface({-0.3, -1.2, -0.3}, {0.3, -0.6, 0.3})));
@@ -165,10 +163,10 @@ TEST(Surface, FindsAnArmInsideOfTheBody) {
   EXPECT_LE(inside->clearance_m, 0.0);
 }
 
-TEST(Surface, SaysHowFarCapsulesStandOffIt) {
+TEST(MeshSurface, OverestimateIncludesTheNotch) {
   const InNotch passes(0.012);
   const CollisionBody& body = passes.scene->bodies().bodies[1];
-  EXPECT_GT(body.fitted.overestimate_m, 0.05);  // the notch is part of that
+  EXPECT_GT(body.fitted.overestimate_m, 0.05);  // the notch counts as overestimate
 }
 
 }  // namespace

@@ -6,8 +6,8 @@ namespace armloom::small {
 
 enum class As { object, link, mount };
 
-// Two arms of two joints in one plane, and a wall beside them: an object, a link, or the link that
-// carries the first arm, whose mount has a shape of its own too.
+// Two planar two-joint arms and a wall: an object, a static link, or the link that carries the
+// first arm. That arm's mount always has a shape.
 inline CellPtr walled(As as) {
   Cell cell;
   const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();

@@ -8,8 +8,8 @@ namespace armloom::experiments {
 namespace {
 
 constexpr double kWidth = 820.0;
-constexpr double kLeft = 130.0;   // names stand before
-constexpr double kRight = 720.0;  // figures stand behind
+constexpr double kLeft = 130.0;   // names are to the left
+constexpr double kRight = 720.0;  // values are to the right
 
 class Picture {
  public:
@@ -46,7 +46,7 @@ class Picture {
   std::string body_;
 };
 
-// Seconds along x, with a scale under the picture.
+// Seconds along x, with a scale below the picture.
 class Scale {
  public:
   explicit Scale(double longest_s) : longest_s_(std::max(longest_s, 1e-3)) {}

@@ -6,7 +6,7 @@
 
 namespace armloom::experiments {
 
-// SVG 1.1, by themselves.
+// Self-contained SVG 1.1.
 
 // A bar for each policy's mean makespan, a dot for each seed, the lower bound dashed.
 [[nodiscard]] std::string makespan_svg(const WorkloadKind& kind, const std::vector<RunRow>& rows);

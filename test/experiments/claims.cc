@@ -14,14 +14,14 @@ constexpr double kOfLockstep = 0.80;
 constexpr double kOfSequential = 0.85;
 constexpr double kShorter = 0.30;
 constexpr double kOrderSlack = 0.02;
-constexpr double kMeanAbove = 0.03;  // the optimum
+constexpr double kMeanAbove = 0.03;  // above the optimum
 constexpr double kMostAbove = 0.08;
-constexpr double kMeanAboveBound = 0.07;                    // more than two arms
-constexpr double kBehind = 0.01;                            // earliest_start, on any seed
-constexpr double kFreeSaves = 0.05;                         // what the scheduler may choose itself
-constexpr double kTurningSaves = 0.08;                      // where jobs are late
-constexpr const char* kPromisesNothing = "timed_discrete";  // between two time steps
-// Slowest last.
+constexpr double kMeanAboveBound = 0.07;                    // for more than two arms
+constexpr double kBehind = 0.01;                            // against earliest_start, any seed
+constexpr double kFreeSaves = 0.05;                         // saving by choices of the scheduler
+constexpr double kTurningSaves = 0.08;                      // if jobs are late
+constexpr const char* kPromisesNothing = "timed_discrete";  // no guarantee between two time steps
+// Fastest first.
 constexpr const char* kOrder[] = {"coordinated", "earliest_start", "certified", "reservation",
                                   "sequential"};
 
@@ -31,7 +31,6 @@ class Claims {
  public:
   Claims(const std::vector<RunRow>& rows, std::string best) : rows_(rows), best_(std::move(best)) {}
 
-  // Absent: has not run.
   [[nodiscard]] bool ran(const std::string& workload, const std::string& policy) const {
     return !rows_of(rows_, workload, policy).empty();
   }
@@ -40,9 +39,9 @@ class Claims {
     if (!ran(workload, other) || !ran(workload, best_)) return;
     const double share = realised(mean_s(workload, other), mean_s(workload, best_),
                                   mean_bound_s(rows_of(rows_, workload, best_)));
-    say(share >= wanted, workload + ": " + best_ + " realises " + percent(share) + " of what " +
-                             other + " leaves above the lower bound (wanted " + percent(wanted) +
-                             ")");
+    say(share >= wanted, workload + ": " + best_ + " saves " + percent(share) +
+                             " of the time that " + other +
+                             " takes above the lower bound (wanted " + percent(wanted) + ")");
   }
   void shorter(const std::string& workload) {
     if (!ran(workload, "lockstep") || !ran(workload, best_)) return;
@@ -63,7 +62,7 @@ class Claims {
     }
     say(holds, workload + ": " + sentence + " s, each within " + percent(kOrderSlack));
   }
-  // Of two arms; of more, the mean against a bound.
+  // For more than two arms, the mean against a bound.
   void near_optimum(const std::string& workload) {
     const auto rows = rows_of(rows_, workload, best_);
     if (rows.empty()) return;
@@ -111,8 +110,8 @@ class Claims {
   void turning_pays(const std::string& workload) {
     if (!ran(workload, kFixedOrders) || !ran(workload, "coordinated")) return;
     const double saved = 1.0 - mean_s(workload, "coordinated") / mean_s(workload, kFixedOrders);
-    say(saved >= kTurningSaves, workload + ": orders that may turn save " + percent(saved) +
-                                    " of what orders fixed at admission take (wanted " +
+    say(saved >= kTurningSaves, workload + ": reversible orders save " + percent(saved) +
+                                    " of the makespan with orders fixed at admission (wanted " +
                                     percent(kTurningSaves) + ")");
   }
   void optimum_is_one(const std::string& workload) {
@@ -140,7 +139,7 @@ class Claims {
     std::size_t lost = 0;
     std::uint64_t stops = 0;
     for (const RunRow& row : rows_) {
-      // Whose arms are late it lets meet, and the monitor stops them for good.
+      // timed_discrete lets late arms meet.
       if (row.policy == kPromisesNothing && row.workload.ends_with("_delayed")) continue;
       jobs += row.jobs;
       lost += row.not_succeeded;
@@ -181,7 +180,7 @@ std::vector<Claim> claims(const Plan& plan, const std::vector<RunRow>& rows,
   for (const WorkloadKind& kind : plan.workloads) all.order(kind.name);
   for (const WorkloadKind& kind : plan.workloads) all.both_move(kind.name);
   for (const WorkloadKind& kind : plan.workloads) {
-    // Of one whose jobs are late and slow it is none: a run may be late where it waits anyway.
+    // Late jobs may be late while they wait anyway, so the optimum is no bound.
     if (kind.freed_from.empty() && !kind.delayed) all.optimum_is_one(kind.name);
   }
   for (const WorkloadKind& kind : plan.workloads) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
 
-// A maximum matching of the rows and columns that do *not* conflict (Hopcroft and Karp 1973).
+// A maximum matching of compatible rows and columns (Hopcroft and Karp 1973).
 class Matching {
  public:
   explicit Matching(const ConflictTable& table)
@@ -25,8 +25,8 @@ class Matching {
     }
   }
 
-  // Rows and columns on alternating ways from unmatched rows: Koenig. The independent set is the
-  // rows that are reached and the columns that are not.
+  // Koenig's theorem: the reached rows and the unreached columns of alternating paths from
+  // unmatched rows.
   [[nodiscard]] ChosenMoments independent() const {
     ChosenMoments chosen{std::vector<char>(table_.rows, 0), std::vector<char>(table_.columns, 1)};
     std::vector<std::size_t> open;
@@ -41,7 +41,7 @@ class Matching {
       for (std::size_t b = 0; b < table_.columns; ++b) {
         if (!free(a, b) || chosen.columns[b] == 0) continue;
         chosen.columns[b] = 0;
-        const std::size_t row = of_column_[b];  // matched, or the matching were not maximum
+        const std::size_t row = of_column_[b];  // matched, because the matching is maximum
         if (chosen.rows[row] != 0) continue;
         chosen.rows[row] = 1;
         open.push_back(row);
@@ -55,7 +55,7 @@ class Matching {
     return table_.conflict[a * table_.columns + b] == 0;
   }
 
-  // Distances of rows from the unmatched ones; false: no unmatched column can be reached.
+  // Returns false if no unmatched column is reachable from unmatched rows.
   bool layers() {
     std::fill(layer_.begin(), layer_.end(), kNobody);
     std::queue<std::size_t> open;
@@ -82,7 +82,7 @@ class Matching {
     return reached;
   }
 
-  // Depth-first along the layers, without recursion: ways may be as long as there are rows.
+  // Depth-first without recursion, because paths may be long.
   void augment(std::size_t root) {
     std::vector<std::size_t> rows = {root};
     while (!rows.empty()) {
@@ -116,7 +116,7 @@ class Matching {
   std::vector<std::size_t> of_row_;
   std::vector<std::size_t> of_column_;
   std::vector<std::size_t> layer_;
-  std::vector<std::size_t> next_;  // column that a row tries next
+  std::vector<std::size_t> next_;  // next column that a row tries
 };
 
 }  // namespace

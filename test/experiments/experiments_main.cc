@@ -1,6 +1,6 @@
 // experiments [--seeds N] [--threads N] [--workloads a,b] [--policies a,b] --out DIR
-// Runs the experiments and writes results.csv, table.md, decision_times.md and the plots. Exit 0:
-// every claim holds; 1: one does not; 2: bad arguments, or a run that was not possible.
+// Runs the experiments and writes results.csv, table.md, decision_times.md and the plots. Exit code
+// 0: all claims hold; 1: a claim does not hold; 2: bad arguments, or a run was not possible.
 #include <algorithm>
 #include <exception>
 #include <filesystem>
@@ -86,7 +86,6 @@ int experiments(int argc, char** argv) {
   }
   std::cout << table << '\n';
 
-  // Of the most ambitious policy that ran.
   bool all_hold = true;
   for (const Claim& claim : claims(plan, results.rows, plan.policies.back())) {
     std::cout << (claim.holds ? "holds: " : "does not hold: ") << claim.sentence << '\n';

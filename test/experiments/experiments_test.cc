@@ -25,7 +25,7 @@ std::size_t size_of(const ChosenMoments& chosen) {
                                   std::ranges::count(chosen.columns, 1));
 }
 
-TEST(Exclusion, OfABlockIsItsRowsAndColumns) {
+TEST(Exclusion, ContainsTheRowsAndColumnsOfABlock) {
   const ChosenMoments chosen = largest_exclusion(table_of(4,
                                                           "....."
                                                           ".###."
@@ -35,11 +35,11 @@ TEST(Exclusion, OfABlockIsItsRowsAndColumns) {
   EXPECT_THAT(chosen.columns, ElementsAre(0, 1, 1, 1, 0));
 }
 
-TEST(Exclusion, IsOneWholeSideWhereNothingConflicts) {
+TEST(Exclusion, IsOneWholeSideWithoutConflicts) {
   EXPECT_EQ(size_of(largest_exclusion(table_of(2, "......"))), 3U);
 }
 
-// All sets of rows, each with the columns that conflict with all of them.
+// Tries all sets of rows.
 std::size_t largest_by_trying(const ConflictTable& table) {
   std::size_t most = 0;
   for (std::size_t rows = 0; rows < (std::size_t{1} << table.rows); ++rows) {
@@ -57,7 +57,7 @@ std::size_t largest_by_trying(const ConflictTable& table) {
   return most;
 }
 
-TEST(Exclusion, IsTheLargestInRandomTables) {
+TEST(Exclusion, MatchesExhaustiveSearch) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 200; ++i) {
     ConflictTable table{1 + random() % 9, 1 + random() % 9, {}};
@@ -77,8 +77,8 @@ TEST(Exclusion, IsTheLargestInRandomTables) {
   }
 }
 
-TEST(Exclusion, OfAllHoldsNoTwoThatMayBeAtOnce) {
-  // 0 and 1 may be at once with 3 only: without 3 nothing is left that may.
+TEST(Exclusion, OfAllArmsContainsNoCompatiblePair) {
+  // 0 and 1 are compatible with 3 only.
   const std::vector<char> free = {0, 0, 0, 1,  //
                                   0, 0, 0, 1,  //
                                   0, 0, 0, 0,  //
@@ -86,12 +86,12 @@ TEST(Exclusion, OfAllHoldsNoTwoThatMayBeAtOnce) {
   EXPECT_THAT(exclusion_of_all(free, 4), ElementsAre(1, 1, 1, 0));
 }
 
-TEST(Exclusion, CountsTheTimeBetweenChosenNeighboursOfOneMotion) {
+TEST(Exclusion, CountsStepsBetweenChosenNeighborsOfOneMotion) {
   EXPECT_EQ(steps_chosen({1, 1, 1, 0, 1, 1, 1}, {0, 0, 0, 0, 0, 0, 1}), 3U);
 }
 
-TEST(LowerBound, OfTwoArmsInOneFixtureIsTheSumOfTheirTimesThere) {
-  // Each of the two stands for 2 s and more where the other one would hit it.
+TEST(LowerBound, OfOneFixtureIsTheSumOfTheTimesThere) {
+  // Each of the two is there for at least 2 s.
   const Workload workload = workload_kind("one_fixture").make(1);
   std::vector<Work> work;
   double inside_s = 0.0;
@@ -117,7 +117,7 @@ TEST(LowerBound, OfTwoArmsInOneFixtureIsTheSumOfTheirTimesThere) {
   EXPECT_LT(bound.excluding_s, all_s);
 }
 
-TEST(LowerBound, OfArmsThatNeverMeetIsTheBusiestOnesOwnWork) {
+TEST(LowerBound, OfArmsThatNeverMeetIsTheBusiestArmsWork) {
   const Workload workload = workload_kind("apart").make(1);
   std::vector<Work> work;
   double left_s = 0.0;
@@ -131,7 +131,7 @@ TEST(LowerBound, OfArmsThatNeverMeetIsTheBusiestOnesOwnWork) {
   EXPECT_DOUBLE_EQ(bound.bound_s(), left_s);
 }
 
-TEST(Workloads, ShortTasksTakeAThirdOfTheLongOnesAndAsMuchTogether) {
+TEST(Workloads, ShortAndLongTasksAreEqualWork) {
   for (const std::uint64_t seed : {1U, 2U}) {
     Duration shorts{};
     Duration longs{};
@@ -146,7 +146,7 @@ TEST(Workloads, ShortTasksTakeAThirdOfTheLongOnesAndAsMuchTogether) {
   }
 }
 
-TEST(Workloads, AreTheSameForASeedAndOthersForAnother) {
+TEST(Workloads, AreDeterministicForASeed) {
   const auto first_goal = [](std::uint64_t seed) {
     return Eigen::VectorXd(
         workload_kind("pick_and_place").make(seed).jobs.front().trajectory->goal());
@@ -155,7 +155,7 @@ TEST(Workloads, AreTheSameForASeedAndOthersForAnother) {
   EXPECT_NE(first_goal(5), first_goal(6));
 }
 
-TEST(Experiments, RepeatByteForByteWhateverTheThreads) {
+TEST(Experiments, ResultsAreIndependentOfTheNumberOfThreads) {
   Plan plan{{workload_kind("one_fixture")}, {"certified", "earliest_start"}, 2, 1};
   const std::string once = results_csv(run_all(plan).rows);
   plan.threads = 2;
@@ -180,8 +180,8 @@ std::vector<bool> verdicts(const std::vector<RunRow>& rows) {
   return holds;
 }
 
-TEST(Claims, FollowTheFigures) {
-  // Lockstep, sequential, order, both move, optimum is one, near it, all succeed.
+TEST(Claims, FollowTheMeasuredValues) {
+  // Lockstep, sequential, order, both move, optimum is a bound, near it, all succeed.
   std::vector<RunRow> rows = {row("sequential", 100.0), row("lockstep", 80.0),
                               row("certified", 70.0), row("coordinated", 55.9)};
   EXPECT_THAT(verdicts(rows), ElementsAre(true, true, true, true, true, true, true));
@@ -193,19 +193,19 @@ TEST(Claims, FollowTheFigures) {
   EXPECT_THAT(verdicts(rows), ElementsAre(false, false, false, false, true, false, false));
 }
 
-TEST(Claims, CompareSeedBySeedAndWithTheOptimum) {
-  // Order, both move, optimum is one, near it, never behind, all succeed.
+TEST(Claims, CompareEachSeedAndTheOptimum) {
+  // Order, both move, optimum is a bound, near it, never behind, all succeed.
   std::vector<RunRow> rows = {row("timed_discrete", 50.0), row("earliest_start", 55.2),
                               row("coordinated", 55.7)};
   EXPECT_THAT(verdicts(rows), ElementsAre(true, true, true, true, true, true));
   rows[2].makespan_s = 55.9;  // 1.3 % behind
   EXPECT_THAT(verdicts(rows), ElementsAre(true, true, true, true, false, true));
-  rows[1].makespan_s = 54.9;  // that would be a way shorter than the shortest
+  rows[1].makespan_s = 54.9;  // below the optimum, which is impossible
   rows[2].makespan_s = 55.2;
   EXPECT_THAT(verdicts(rows), ElementsAre(true, true, false, true, true, true));
 }
 
-TEST(Delays, TakeTheTimeThatTheySay) {
+TEST(Delays, ExtendTheMakespanByTheStatedTime) {
   Workload workload = workload_kind("shuttles").make(1);
   workload.jobs.erase(workload.jobs.begin() + 4, workload.jobs.end());
   const double before_s = run_policy(workload, "shuttles", "sequential", 1, {}).makespan_s;
@@ -215,7 +215,7 @@ TEST(Delays, TakeTheTimeThatTheySay) {
   EXPECT_NEAR(after_s - before_s, 1.0 + twice_s, 0.1);
 }
 
-TEST(Delays, LeaveTheWayAsItIs) {
+TEST(Delays, KeepThePath) {
   const Workload workload = workload_kind("shuttles").make(1);
   const Trajectory& motion = *workload.jobs[2].trajectory;
   const TrajectoryPtr late = as_delayed(motion, {1.0, 0.5});
@@ -231,7 +231,7 @@ TEST(Delays, LeaveTheWayAsItIs) {
   }
 }
 
-TEST(Delays, MeetATenthToThreeTenthsOfTheJobs) {
+TEST(Delays, AffectTenToThirtyPercentOfTheJobs) {
   std::size_t least = 100;
   std::size_t most = 0;
   std::size_t all = 0;
@@ -245,8 +245,8 @@ TEST(Delays, MeetATenthToThreeTenthsOfTheJobs) {
     all += delayed;
   }
   EXPECT_NEAR(static_cast<double>(all) / 5000.0, 0.2, 0.03);
-  EXPECT_GE(least, 2U);  // of a share of 0.1
-  EXPECT_LE(most, 45U);  // of a share of 0.3
+  EXPECT_GE(least, 2U);  // for a share of 0.1
+  EXPECT_LE(most, 45U);  // for a share of 0.3
 }
 
 }  // namespace

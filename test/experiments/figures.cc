@@ -15,7 +15,6 @@ namespace {
 constexpr Duration kTimeLimit = std::chrono::minutes(20);
 constexpr double kMoves_rad = 1e-7;  // in one control cycle
 
-// Sees which arms move, and which jobs are put off.
 class Spectator final : public Observer {
  public:
   explicit Spectator(const Cell& cell) : cell_(cell) {}
@@ -50,18 +49,16 @@ class Spectator final : public Observer {
   Duration together_{};
 };
 
-// By key.
 std::map<std::string, const PlannedJob*> index_of(const std::vector<PlannedJob>& jobs) {
   std::map<std::string, const PlannedJob*> index;
   for (const PlannedJob& job : jobs) index[job.timed.job.key] = &job;
   return index;
 }
 
-// Waits and holds.
 void note_jobs(const SimulationResult& result, const std::vector<PlannedJob>& planned,
                RunRow& row) {
   const auto index = index_of(planned);
-  std::map<std::size_t, TimePoint> free_at;  // by arm: when the job before has ended
+  std::map<std::size_t, TimePoint> free_at;  // by arm: when the previous job has ended
   std::size_t started = 0;
   for (const JobView& job : result.jobs) {
     if (job.state != JobState::succeeded) {

@@ -12,8 +12,7 @@ class FixedOrders final : public Policy {
   std::size_t horizon() const override { return coordinated_->horizon(); }
   bool admits_groups() const override { return coordinated_->admits_groups(); }
   CheckMethod method() const override { return coordinated_->method(); }
-  // Who keeps its place is overtaken no more where that has been decided; where all do, what comes
-  // new is as free as it was.
+  // No motion may be overtaken, so decided orders stay; new motions are as free as before.
   PassingOrders decide(const OrderQuestion& question) const override {
     const auto keep = [](std::vector<CoordinatedMotion> motions) {
       for (CoordinatedMotion& motion : motions) motion.outlook.keeps_its_place = true;

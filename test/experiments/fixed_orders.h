@@ -6,7 +6,7 @@
 
 namespace armloom::experiments {
 
-// `coordinated`, but that who passes first is fixed at admission: what turning orders is worth.
+// `coordinated` with passing orders fixed at admission.
 inline constexpr const char* kFixedOrders = "coordinated_fixed";
 
 [[nodiscard]] std::shared_ptr<const Policy> make_fixed_orders(const Cell& cell);

@@ -11,8 +11,8 @@
 namespace armloom::experiments {
 namespace {
 
-// Hears of jobs and makes their arms late and slow. An observer may not command: what it hears of
-// in a tick it does after it.
+// Makes the arms of delayed jobs late and slow. An observer must not send commands, so faults are
+// injected after the tick.
 class Delays final : public Observer {
  public:
   Delays(const Cell& cell, const std::vector<PlannedJob>& jobs, Observer& inner)
@@ -81,7 +81,7 @@ class Delays final : public Observer {
 
   const Cell& cell_;
   std::vector<std::vector<Delayed>> of_arm_;                     // in order
-  std::map<std::string, std::pair<Delayed*, Delayed*>> by_key_;  // and the next of its arm
+  std::map<std::string, std::pair<Delayed*, Delayed*>> by_key_;  // and the next job of its arm
   std::vector<JobView> heard_;
   Observer& inner_;
 };

@@ -12,8 +12,8 @@
 
 namespace armloom::experiments {
 
-// A share of the jobs, drawn between these, begins up to kLatest_s late and goes at kSlowest to
-// kFastest of its speed: the same ones under every policy, and none knows of it beforehand.
+// A random share of the jobs starts up to kLatest_s late and runs at kSlowest to kFastest of its
+// speed: the same jobs under every policy, unknown beforehand.
 inline constexpr double kLeastShare = 0.1;
 inline constexpr double kMostShare = 0.3;
 inline constexpr double kLatest_s = 2.0;
@@ -21,14 +21,12 @@ inline constexpr double kSlowest = 0.3;
 inline constexpr double kFastest = 0.8;
 void delay_some(std::vector<PlannedJob>& jobs, std::uint64_t seed);
 
-// A motion as an arm makes it that begins so late and is so slow, and never waits for anybody: what
-// it takes beyond the motion is rounded down so that the whole is a multiple of
-// JoinedDiagram::kSquare. Precondition: the motion is one.
+// Returns the motion of a late and slow arm that never waits. Its extra time is rounded down to a
+// multiple of JoinedDiagram::kSquare. Precondition: the duration is such a multiple.
 [[nodiscard]] TrajectoryPtr as_delayed(const Trajectory& motion, const JobDelay& delay);
 
-// As simulate(), with arms that are late and slow with the jobs that are to be. An arm is told to
-// start late from when the job before has started, and to be slow from the job's start to its end;
-// a move aside that comes between is late in the job's stead.
+// Like simulate(), with delayed jobs. The late start is injected when the previous job has started,
+// the low speed from start to end. A retreat in between is late instead of the job.
 [[nodiscard]] Result<SimulationResult> simulate_delayed(const CellPtr& cell,
                                                         ExecutiveOptions options,
                                                         const std::vector<PlannedJob>& jobs,

@@ -9,7 +9,7 @@ namespace armloom::experiments {
 namespace {
 
 constexpr const char* kTool = "panda_hand_tcp";
-// The experiments measure how long work takes, not who gives up first.
+// No job must expire.
 constexpr Duration kPatience = std::chrono::minutes(20);
 
 }  // namespace

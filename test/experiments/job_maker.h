@@ -12,13 +12,11 @@
 
 namespace armloom::experiments {
 
-// What goes wrong with the arm of a job (job_delays.h).
 struct JobDelay {
   double late_s;
-  double speed;  // (0, 1] of the planned
+  double speed;  // (0, 1], share of the planned speed
 };
 
-// A job as a client submits it, and what the experiments know of it.
 struct PlannedJob {
   ArmId arm;
   std::string kind;  // "pick", "place", ...
@@ -27,9 +25,9 @@ struct PlannedJob {
   std::optional<JobDelay> delay = {};
 };
 
-// Draws jobs for the arms of one cell. Every job that it takes can run whenever its arm has come to
-// its start and the others rest, at home or wherever another job of this maker ends: so no policy
-// can be driven into a corner. The same for the same cell, seed and calls. One thread.
+// Draws jobs for one cell. Every job can run when its arm is at its start and other arms rest at
+// home or at the end of any job, so no policy runs into a dead end. Deterministic for equal cell,
+// seed and calls. Not thread-safe.
 class JobMaker {
  public:
   JobMaker(CellPtr cell, std::uint64_t seed);
@@ -38,8 +36,7 @@ class JobMaker {
   [[nodiscard]] std::mt19937_64& random() { return random_; }
   [[nodiscard]] double draw(double from, double to) { return uniform(random_, from, to); }
 
-  // Joint positions with the tool down at a point of the world, or of the arm's base; nullopt: out
-  // of reach.
+  // Returns joint positions with the tool down at a point, or nullopt if out of reach.
   [[nodiscard]] std::optional<Eigen::VectorXd> tool_at(ArmId arm,
                                                        const Eigen::Vector3d& p_WT) const;
   [[nodiscard]] Eigen::Vector3d from_base(ArmId arm, const Eigen::Vector3d& p_BT) const;
@@ -50,20 +47,18 @@ class JobMaker {
     std::vector<Leg> legs;
     int priority = 0;
   };
-  // Puts the jobs, each beginning where the one before ends, behind all others of the arm; or none
-  // of them, when one is not open (open_places.h). Throws std::runtime_error when a draft breaks
-  // limits: that is a fault of the workload.
+  // Appends jobs, each starting at the end of the previous one; returns false and adds none if one
+  // is not open (open_places.h). Throws std::runtime_error if a draft violates limits.
   [[nodiscard]] bool add(ArmId arm, TimePoint at, const std::vector<Draft>& drafts);
-  // The same for jobs that come home again and are known to be clear with all others at home. Where
-  // one of them ends others may be shut out until the next: so that all can be done in turn,
-  // take(drafts.size()). Throws std::invalid_argument where they do not come home.
+  // Appends jobs that return home and are clear with other arms at home. One job's end may block
+  // other arms until the next; use take(drafts.size()). Throws std::invalid_argument if they do not
+  // return home.
   void add_trip(ArmId arm, const std::vector<Draft>& drafts);
 
   [[nodiscard]] const std::vector<PlannedJob>& jobs_of(ArmId arm) const {
     return jobs_[arm.index()];
   }
-  // In order of submission: by time, then by turns of the arms of `each` jobs, who is first being
-  // drawn.
+  // Returns the jobs by time, then `each` jobs of each arm in turn, with a random first arm.
   [[nodiscard]] std::vector<PlannedJob> take(std::size_t each = 1);
 
  private:

@@ -22,7 +22,7 @@ PlanningScenePtr scene_of(const CellPtr& cell) {
   return *scene;
 }
 
-// Adds what the cell covers of each square, in ns^2. Cells are disjoint: areas add up.
+// Adds the covered area of each square, in ns^2. Cells are disjoint.
 void cover(const DiagramCell& cell, std::size_t columns, std::vector<std::int64_t>& area) {
   const auto overlap = [](Duration from, Duration to, std::int64_t square) {
     return (std::min(to, kSquare * (square + 1)) - std::max(from, kSquare * square)).count();

@@ -10,10 +10,10 @@
 
 namespace armloom::experiments {
 
-// One arm's motions, laid end to end, in squares of time.
+// The motions of one arm, end to end, in squares of time.
 struct Lane {
   struct Leg {
-    TrajectoryPtr motion;  // the first of those that are alike
+    TrajectoryPtr motion;  // the first of equal motions
     std::size_t squares;
     TimePoint from;  // Work::from
   };
@@ -23,27 +23,24 @@ struct Lane {
   [[nodiscard]] std::size_t squares() const;
 };
 
-// The coordination diagram of all motions of one arm against all of another's, in squares of
-// kSquare: the cells of the diagrams of pairs (MotionChecker::draw, no wider than that where they
-// are decided; each pair of motions once) laid on them. Clearance is the cell's clearance_m, and
-// arms are exactly on their paths. Not thread-safe.
+// The coordination diagram of all motions of two arms, in squares of kSquare, from the diagrams of
+// pairs (MotionChecker::draw; decided cells no wider than a square). Uses the cell's clearance_m
+// and exact paths. Not thread-safe.
 class JoinedDiagram {
  public:
   inline static constexpr Duration kSquare = std::chrono::milliseconds(10);
 
-  // Throws std::runtime_error when the scene cannot be built.
+  // Throws std::runtime_error if the scene cannot be built.
   explicit JoinedDiagram(const CellPtr& cell);
 
-  // `work`: of the arm in its order, others' are passed over. Throws std::invalid_argument where a
-  // duration is no multiple of kSquare.
+  // Selects the arm's motions, in order. Throws std::invalid_argument if a duration is not a
+  // multiple of kSquare.
   [[nodiscard]] static Lane lane_of(ArmId arm, const std::vector<Work>& work);
 
-  // One square of `leg` of the rows' lane against all of the columns' lane.
   struct Row {
-    std::vector<char> in_conflict;  // proven all over the square
-    std::vector<char> not_free;     // not proven to be free somewhere in it
+    std::vector<char> in_conflict;  // proven over the whole square
+    std::vector<char> not_free;     // not proven free in a part of the square
   };
-  // `row` has its size afterwards.
   void read(const Lane::Leg& leg, std::size_t square, const Lane& columns, Row& row);
 
  private:

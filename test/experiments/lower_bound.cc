@@ -11,14 +11,14 @@
 namespace armloom::experiments {
 namespace {
 
-// Moments of one arm, motion by motion.
+// Samples of one arm, motion by motion.
 struct Moments {
   ArmId arm;
   std::vector<std::size_t> motion;
   std::vector<Eigen::VectorXd> q;  // as Arm::joints
 };
 
-// The motions must be of this one arm; its gripper joints are left out.
+// Gripper joints are left out.
 Moments moments_of(const Cell& cell, ArmId arm, const std::vector<Work>& work, Duration step) {
   Moments moments{arm};
   Configuration q = cell.home();
@@ -86,7 +86,7 @@ void consider(std::size_t steps, Duration step, std::vector<std::string> arms, L
   bound.excluding = std::move(arms);
 }
 
-// Every pair's table in one graph of all moments: 1 where two may be at once.
+// All moments in one graph: 1 if two are compatible.
 class FreeOfAll {
  public:
   explicit FreeOfAll(const std::vector<Moments>& arms) {
@@ -111,7 +111,7 @@ class FreeOfAll {
   }
 
  private:
-  std::vector<std::size_t> first_;  // moment of each arm
+  std::vector<std::size_t> first_;  // first moment of each arm
   std::vector<std::size_t> motion_;
   std::vector<char> free_;
 };

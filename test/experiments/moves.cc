@@ -9,7 +9,7 @@ namespace armloom::experiments {
 namespace {
 
 constexpr double kShortestLine_s = 0.2;
-constexpr int kPieces = 10;  // of a line, as planners send them
+constexpr int kPieces = 10;  // pieces of a line, like a planner's output
 constexpr int kIterations = 200;
 constexpr double kLimitMargin_rad = 0.05;
 
@@ -57,7 +57,7 @@ WaypointRequest rest_at(const Eigen::VectorXd& q, double time_s) {
   return {{q.begin(), q.end()}, zeros, zeros, time_s};
 }
 
-// The quintic q0 + (q1 - q0) (10 u^3 - 15 u^4 + 6 u^5), u = t / line_s, at kPieces waypoints.
+// Appends q0 + (q1 - q0) (10 u^3 - 15 u^4 + 6 u^5), u = t / line_s, at kPieces waypoints.
 void append_line(const Eigen::VectorXd& q0, const Eigen::VectorXd& q1, double begin_s,
                  double line_s, TrajectoryRequest& request) {
   for (int k = 1; k < kPieces; ++k) {
@@ -85,7 +85,7 @@ double line_time_s(const Cell& cell, ArmId arm, const Eigen::VectorXd& from,
     const Joint& joint = cell.joint(cell.arm(arm).joints[i]);
     const double dq =
         std::abs(to[static_cast<Eigen::Index>(i)] - from[static_cast<Eigen::Index>(i)]);
-    // The peaks of a quintic from rest to rest, as in config/joint_moves.py.
+    // Peaks of a quintic, as in config/joint_moves.py.
     longest_s =
         std::max({longest_s, 15.0 / 8.0 * dq / (kLimitShare * joint.velocity_max),
                   std::sqrt(10.0 / std::sqrt(3.0) * dq / (kLimitShare * joint.acceleration_max))});

@@ -9,21 +9,20 @@
 
 namespace armloom::experiments {
 
-// Where an arm may go and rest so that the whole set of jobs stays solvable under every policy:
-// with all arms at rest, wherever they are told to rest, any job can run. One thread each.
+// Checks that jobs stay solvable under every policy: with all arms at any of their rests, any job
+// can run. One object per thread.
 class OpenPlaces {
  public:
-  // Problems as PlanningScene::build; throws std::runtime_error with them.
+  // Throws std::runtime_error with the problems of PlanningScene::build.
   explicit OpenPlaces(CellPtr cell);
 
-  // Whether the motion, seen every 10 ms with all other arms at home, keeps kMargin_m more than the
-  // cell's clearance to everything, and more than its own to itself.
+  // Returns true if the motion keeps kMargin_m more than the clearance, and kSelfMargin_m more than
+  // the self clearance (every 10 ms, other arms at home).
   [[nodiscard]] bool clear_alone(const Trajectory& motion);
-  // Whether it does so with `arm` resting at `q` (rad, as Arm::joints) and the others at home.
+  // The same with `arm` resting at `q` (rad, as Arm::joints).
   [[nodiscard]] bool clear_beside(const Trajectory& motion, ArmId arm, const Eigen::VectorXd& q);
 
-  // Covers what the certified check adds: tracking error times the levers, and what lies between
-  // two samples.
+  // Covers tracking error times levers, and motion between samples.
   static constexpr double kMargin_m = 0.012;
   static constexpr double kSelfMargin_m = 0.005;
 
@@ -34,7 +33,7 @@ class OpenPlaces {
   ClearanceQuery check_;
 };
 
-// Puts the motion's joints, `time` on its way, into q.
+// Writes the motion's joint positions at `time` into q.
 void place(const Trajectory& motion, Duration time, Configuration& q);
 
 }  // namespace armloom::experiments

@@ -11,8 +11,8 @@ namespace {
 
 constexpr Duration kSquare = JoinedDiagram::kSquare;
 
-// The first square of time in which a leg may be under way. Whoever is in the first square of a leg
-// may still stand where the one before has ended: a way that is to be a bound heeds that.
+// Returns the first square of time of a leg. In that square the arm may still be at the end of the
+// previous leg, which a lower bound must allow.
 std::size_t ready(const Lane::Leg& leg, bool bound) {
   const auto from = static_cast<std::size_t>(leg.from.time_since_epoch() / kSquare);
   if (bound) return std::max<std::size_t>(from, 1) - 1;
@@ -25,8 +25,7 @@ ShortestWay way_beside(const Lane& b, bool bound) {
   return ShortestWay(std::move(columns));
 }
 
-// A way of n squares takes n - 1 at least, from somewhere in the first to somewhere in the last;
-// and n at most, from corner to corner.
+// A path of n squares takes between n - 1 squares (inside to inside) and n (corner to corner).
 struct Squares {
   std::size_t least;
   std::size_t most;

@@ -7,26 +7,21 @@
 
 namespace armloom::experiments {
 
-// The shortest time in which two arms can come to the ends of all their motions, in their order, if
-// both may pause anywhere at no cost and know everything beforehand: the shortest monotone way
-// through the coordination diagram of all of one's motions against all of the other's
-// (O'Donnell and Lozano-Perez 1989). In it no state is closer than the cell's clearance_m; that an
-// arm may be off its path, brakes before a pause, and needs a moment between two motions is left
-// out. For more than two arms the largest over all pairs: a bound only, for the third has to find
-// its way, too.
-//
-// On the squares of JoinedDiagram. least_s: those are closed that are in conflict all over; no way
-// is shorter than that. most_s: those are open that are free all over; there is such a way. The
-// true optimum lies between.
+// The shortest time in which two arms can finish their motions, in order, if they may pause
+// anywhere at no cost and know everything beforehand: the shortest monotone path through the
+// coordination diagram of all motions (O'Donnell and Lozano-Perez 1989), with the cell's
+// clearance_m. Ignores tracking errors, braking, and gaps between motions. For more than two arms,
+// the largest over all pairs, a bound only.
+// On the squares of JoinedDiagram: for least_s only squares in conflict all over are closed, for
+// most_s only squares free all over are open. The true optimum lies between.
 struct Optimum {
   double least_s = 0.0;
   double most_s = 0.0;
-  std::vector<std::string> arms;  // the pair that needs most
+  std::vector<std::string> arms;  // the pair with the longest time
 };
-// `work`: of each arm in its order, every motion beginning where the one before ends. Precondition
-// (throws std::invalid_argument): durations are multiples of
-// JoinedDiagram::kSquare. Throws std::runtime_error when
-// there is no way, or the scene cannot be built.
+// `work`: each arm's motions in order, end to end. Throws std::invalid_argument if a duration is
+// not a multiple of JoinedDiagram::kSquare, std::runtime_error if there is no path or the scene
+// cannot be built.
 [[nodiscard]] Optimum optimum(const CellPtr& cell, const std::vector<Work>& work);
 
 }  // namespace armloom::experiments

@@ -36,8 +36,7 @@ struct Table {
   }
 };
 
-// Every place where both may be after each step, until they are at the end or it is always the
-// same.
+// Tracks all positions reachable after each step.
 std::optional<std::size_t> steps_by_trying(const Table& table) {
   const std::size_t rows = table.ready_rows.size();
   const auto may = [&](std::size_t row, std::size_t column, std::size_t step) {
@@ -66,7 +65,7 @@ std::optional<std::size_t> steps_by_trying(const Table& table) {
   }
 }
 
-TEST(ShortestWay, WaitsBesideABlockAndNotInIt) {
+TEST(ShortestWay, WaitsOutsideABlock) {
   EXPECT_EQ(Table(4, "................").steps(), 3U);
   EXPECT_EQ(Table(4,
                   "...."
@@ -74,11 +73,11 @@ TEST(ShortestWay, WaitsBesideABlockAndNotInIt) {
                   ".##."
                   "....")
                 .steps(),
-            5U);  // one stands still for as long as the other passes
+            5U);  // one rests while the other passes
   EXPECT_EQ(Table(3, "...###...").steps(), std::nullopt);
 }
 
-TEST(ShortestWay, WaitsForWhatIsNotKnownYet) {
+TEST(ShortestWay, WaitsForRowsAndColumnsThatAreNotReady) {
   Table table(2, "......");
   table.ready_columns[1] = 4;
   EXPECT_EQ(table.steps(), 5U);
@@ -86,7 +85,7 @@ TEST(ShortestWay, WaitsForWhatIsNotKnownYet) {
   EXPECT_EQ(table.steps(), 7U);
 }
 
-TEST(ShortestWay, IsTheShortestInRandomTables) {
+TEST(ShortestWay, MatchesExhaustiveSearch) {
   std::mt19937_64 random(5);
   std::size_t ways = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -124,8 +123,7 @@ double own_s(const std::vector<Work>& work, ArmId arm) {
   return sum_s;
 }
 
-// All that both arms can be at after each step, seen at instants only: states of the whole cell
-// are decided one by one, nothing is known of diagrams.
+// Tracks all states reachable after each step, checked one by one, without diagrams.
 std::optional<double> optimum_by_trying(const CellPtr& cell, const std::vector<Work>& work,
                                         Duration step) {
   ClearanceQuery check(*PlanningScene::build(cell));
@@ -155,7 +153,7 @@ std::optional<double> optimum_by_trying(const CellPtr& cell, const std::vector<W
   return to_seconds(step) * static_cast<double>(*steps);
 }
 
-TEST(Optimum, IsWhatTryingEveryPaceFinds) {
+TEST(Optimum, MatchesExhaustiveSearch) {
   int in_the_way = 0;
   for (const auto& [name, each] : {std::pair{"shuttles", 2U}, {"one_fixture", 1U}}) {
     for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
@@ -164,7 +162,7 @@ TEST(Optimum, IsWhatTryingEveryPaceFinds) {
       const Optimum found = optimum(workload.cell, work);
       const auto tried_s = optimum_by_trying(workload.cell, work, 50ms);
       ASSERT_TRUE(tried_s.has_value());
-      // Between two instants each arm may be 25 ms ahead of either.
+      // Between two instants each arm may be up to 25 ms ahead.
       EXPECT_NEAR(found.least_s, *tried_s, 0.1) << name << ", seed " << seed;
       EXPECT_LE(found.least_s, found.most_s);
       EXPECT_LT(found.most_s, found.least_s + 0.25) << name << ", seed " << seed;
@@ -174,7 +172,7 @@ TEST(Optimum, IsWhatTryingEveryPaceFinds) {
   EXPECT_GE(in_the_way, 4);
 }
 
-TEST(Optimum, OfArmsThatNeverMeetIsTheBusiestOnesOwnWork) {
+TEST(Optimum, OfArmsThatNeverMeetIsTheBusiestArmsWork) {
   const Workload workload = kind_of("apart").make(1);
   std::vector<Work> work = work_of(workload, 2);
   const double least_s = std::max(own_s(work, ArmId(0)), own_s(work, ArmId(1)));

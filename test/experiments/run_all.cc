@@ -12,7 +12,7 @@
 namespace armloom::experiments {
 namespace {
 
-constexpr Duration kMoment = std::chrono::milliseconds(50);  // of the lower bound
+constexpr Duration kMoment = std::chrono::milliseconds(50);  // sample step of the lower bound
 
 std::vector<RunRow> run_seed(const WorkloadKind& kind, std::uint64_t seed,
                              const std::vector<std::string>& policies) {

@@ -5,7 +5,7 @@
 namespace armloom::experiments {
 namespace {
 
-// A part from the tray to the middle, and down on the next one in the tray.
+// A part from the tray to the middle, then down to the next part.
 bool short_task(JobMaker& maker, ArmId arm, Spot& part) {
   const double speed = maker.draw(0.9, 1.0);
   const auto place = spot_in(maker, arm, kMiddle_W);
@@ -24,7 +24,6 @@ bool short_task(JobMaker& maker, ArmId arm, Spot& part) {
   part = *next;
   return true;
 }
-// From home down on the first part, or seam.
 bool first_part(JobMaker& maker, ArmId arm, Spot& part) {
   const auto first = spot_in_tray(maker, arm, kTray_B);
   if (!first ||
@@ -35,7 +34,7 @@ bool first_part(JobMaker& maker, ArmId arm, Spot& part) {
   return true;
 }
 
-// Slowly along a seam in the own tray, then down in the middle once, and down on the next seam.
+// Slowly along a seam, down in the middle once, then down to the next seam.
 bool long_task(JobMaker& maker, ArmId arm, double wanted_s, Spot& seam) {
   const auto end = spot_in_tray(maker, arm, kTray_B);
   const auto next = spot_in_tray(maker, arm, kTray_B);

@@ -7,8 +7,8 @@
 
 namespace armloom::experiments {
 
-// Twelve short tasks beside four that take three times as long, equal work. Odd seeds give the
-// short ones to the first arm.
+// Twelve short tasks, and four that take three times as long. For odd seeds the first arm gets the
+// short tasks.
 [[nodiscard]] std::vector<PlannedJob> short_beside_long(const CellPtr& two_pandas,
                                                         std::uint64_t seed);
 

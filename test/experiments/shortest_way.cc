@@ -9,7 +9,7 @@ ShortestWay::ShortestWay(std::vector<std::size_t> ready)
     : ready_(std::move(ready)), earliest_(ready_.size(), kNever) {}
 
 void ShortestWay::add_row(std::span<const char> blocked, std::size_t ready) {
-  std::size_t above_left = kNever;  // of the row before
+  std::size_t above_left = kNever;  // of the previous row
   std::size_t left = kNever;
   for (std::size_t column = 0; column < ready_.size(); ++column) {
     const std::size_t above = earliest_[column];

@@ -11,9 +11,9 @@ namespace {
 
 using Pose = std::array<double, 7>;  // rad
 
-// Of panda_two, as published with the planning environments of mr_planner: poses whose straight
-// move from home keeps 4 cm from the other arm at its home and from the table. Its panda1 is left.
-// ready, twist_left, twist_right, mirror, left_push, coop_up, coop_down, tiled_up, tiled_down
+// Poses of panda_two from the planning environments of mr_planner (panda1 is left). The straight
+// motion from home keeps 4 cm from the other arm at home and from the table. ready, twist_left,
+// twist_right, mirror, left_push, coop_up, coop_down, tiled_up, tiled_down
 constexpr Pose kLeft[] = {
     {0.0, -0.5, 0.0, -1.5, 0.0, 1.0, 0.0},
     {-1.4202, 1.0485, 0.284, -1.5, 2.2535, 1.0, 0.0},
@@ -54,8 +54,7 @@ void add_visit(JobMaker& maker, ArmId arm, std::size_t pose) {
   maker.add_trip(arm, {{"visit", {{pose_of(arm, pose)}, {maker.home(arm)}}}});
 }
 
-// For each of the visits those of which one is to be made: of every arm, or of the one that has
-// visits of its own.
+// Returns each visit's candidate jobs: one per arm, or one for the arm with visits of its own.
 std::vector<std::vector<PlannedJob>> visits_to_give(const CellPtr& cell, std::uint64_t seed) {
   std::vector<std::vector<PlannedJob>> all;
   JobMaker maker(cell, seed);

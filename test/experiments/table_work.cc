@@ -5,8 +5,8 @@
 namespace armloom::experiments {
 namespace {
 
-constexpr double kLow_m = 0.17;    // of the tool over the world's floor: 7 cm above the table
-constexpr double kAbove_m = 0.29;  // before and after it goes down
+constexpr double kLow_m = 0.17;    // tool height over the world's floor: 7 cm above the table
+constexpr double kAbove_m = 0.29;  // height before and after going down
 constexpr int kTries = 2000;
 
 std::optional<Spot> spot(const JobMaker& maker, ArmId arm, double x_m, double y_m) {

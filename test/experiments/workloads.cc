@@ -35,8 +35,8 @@ std::vector<ArmId> arms_of(const Cell& cell) {
   return arms;
 }
 
-// Two jobs: to the tray and down on the part, where it rests while the fingers close; then up, to
-// the middle, down, open, up and home.
+// To the tray and down to the part, closing the fingers; then up, to the middle, down, open, up and
+// home.
 bool pick_and_place_task(JobMaker& maker, ArmId arm, const Box2& tray_B, const Box2& middle_W) {
   const double speed = maker.draw(0.8, 1.0);
   const auto pick = spot_in_tray(maker, arm, tray_B);
@@ -52,8 +52,7 @@ bool pick_and_place_task(JobMaker& maker, ArmId arm, const Box2& tray_B, const B
                       {maker.home(arm), speed}}}});
 }
 
-// The same work for the first arm of two that stand face to face: what the second would do is
-// turned about the middle with it, joint for joint.
+// Rotates the second arm's work about the middle to the first; joint positions stay the same.
 std::vector<PlannedJob> for_first_arm(const Cell& cell, const std::vector<PlannedJob>& jobs) {
   const ArmId first(0);
   std::vector<PlannedJob> all;
@@ -86,7 +85,7 @@ Workload pick_and_place(std::uint64_t seed) {
   return workload;
 }
 
-// The tray stands to the outside of each arm, beside its base.
+// The tray is on the outer side of each arm.
 Workload four_pandas(std::uint64_t seed) {
   Workload workload{config("four_pandas")};
   JobMaker maker(workload.cell, seed);
@@ -101,7 +100,7 @@ Workload four_pandas(std::uint64_t seed) {
   return workload;
 }
 
-// Lines through one to three random postures before the arm, and home again; they arrive over time.
+// Lines through one to three random postures and home; jobs arrive over time.
 bool random_task(JobMaker& maker, ArmId arm, TimePoint at) {
   constexpr double kSpread_rad[] = {1.3, 0.7, 0.5, 0.7, 0.4, 0.6, 0.8};
   Eigen::VectorXd middle(7);
@@ -128,14 +127,13 @@ Workload random_mix(std::uint64_t seed) {
     for (int task = 0; task < 8; ++task) {
       const TimePoint when = at(from_seconds(std::round(at_s * 1e3) * 1e-3));
       until_taken([&] { return random_task(maker, arm, when); });
-      at_s -= 2.5 * std::log(1.0 - maker.draw(0.0, 1.0));  // Poisson
+      at_s -= 2.5 * std::log(1.0 - maker.draw(0.0, 1.0));  // Poisson arrivals
     }
   }
   workload.jobs = maker.take();
   return workload;
 }
 
-// A part is fitted into the one fixture in the middle.
 void add_fit(JobMaker& maker, ArmId arm) {
   until_taken([&] {
     const auto place = spot_in(maker, arm, {-0.02, 0.02, -0.02, 0.02});
@@ -148,7 +146,6 @@ void add_fit(JobMaker& maker, ArmId arm) {
   });
 }
 
-// The own tray is tended, where no other arm comes.
 void add_tending(JobMaker& maker, ArmId arm) {
   constexpr double kTakt_s = 6.0;
   until_taken([&] {
@@ -162,7 +159,6 @@ void add_tending(JobMaker& maker, ArmId arm) {
   });
 }
 
-// So many jobs of each arm at the fixture, then so many at its tray.
 Workload of_fits_and_tending(std::uint64_t seed, int fits, int tending) {
   Workload workload{config("two_pandas")};
   JobMaker maker(workload.cell, seed);
@@ -175,11 +171,11 @@ Workload of_fits_and_tending(std::uint64_t seed, int fits, int tending) {
   return workload;
 }
 
-// Each job works in the fixture for most of its time: the arms take turns whatever the policy.
+// Each job works in the fixture most of its time: the arms take turns under every policy.
 Workload one_fixture(std::uint64_t seed) { return of_fits_and_tending(seed, 4, 0); }
-// The arms never meet, and every job takes as long as every other: rounds lose nothing.
+// The arms never meet, and all jobs take equally long: rounds lose nothing.
 Workload apart(std::uint64_t seed) { return of_fits_and_tending(seed, 0, 7); }
-// In the order given the fixture is wanted by both arms, and then by none.
+// In the given order, first both arms need the fixture, then neither.
 Workload fixture_first(std::uint64_t seed) { return of_fits_and_tending(seed, 5, 5); }
 
 template <std::vector<PlannedJob> (*jobs)(const CellPtr&, std::uint64_t)>

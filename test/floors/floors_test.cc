@@ -1,5 +1,4 @@
-// Reads the includes of core and server and finds breaches of the floors of the design: a folder
-// includes only from the folders below it.
+// Checks the includes of core and server: a folder includes only from the folders below it.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -17,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What each folder may include besides itself: folders, or single files of one.
+// Folders, or single files, that a folder may include besides itself.
 const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"core/base", {}},
     {"core/geometry", {"core/base"}},
@@ -44,7 +43,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
     {"core/monitor", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
     {"core/guard", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
     {"core/arm", {"core/base", "core/model", "core/trajectory", "core/coordination"}},
-    // Shares nothing with admission but the model and what a mesh's file says.
+    // The audit shares only the model and the mesh loader with admission.
     {"core/audit",
      {"core/base", "core/model", "core/geometry/shape.h", "core/geometry/mesh/mesh.h",
       "core/geometry/mesh/surface_tree.h"}},
@@ -57,7 +56,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude = {
       "core/planning", "core/executive", "core/audit"}},
 };
 
-// The rooms inside a folder, from the lowest: each includes from those before it.
+// Modules of a folder, lowest first: each includes only from itself and lower modules.
 const std::map<std::string, std::vector<std::string>> kRooms = {
     {"core/geometry", {"mesh", "capsule", "surface", "convex"}},
     {"core/model", {"xml", "urdf", "srdf", "cell"}},
@@ -67,7 +66,6 @@ const std::map<std::string, std::vector<std::string>> kRooms = {
       "import", "replay", "comparison", "durable", "hub", "api", "service", "command"}},
 };
 
-// Text that has no place in a folder, whatever floor it comes from.
 const std::map<std::string, std::vector<std::string>> kMustNotSay = {
     {"core", {"nlohmann", "boost/asio", "boost/beast", "spdlog", "std::cout", "std::cerr"}},
     {"core/precedence",
@@ -87,14 +85,14 @@ const std::map<std::string, std::vector<std::string>> kMustNotSay = {
     {"core/base", {"::now()"}},
 };
 
-// "core/model" for core/model/x/y.h, "server" for server/x/y.h.
+// Returns "core/model" for core/model/x/y.h and "server" for server/x/y.h.
 std::string room_of(const std::string& path) {
   const auto first = path.find('/');
   if (path.substr(0, first) == "server") return "server";
   return path.substr(0, path.find('/', first + 1));
 }
 
-// How high a file lies in its folder; 0: below the rooms, or there are none.
+// Returns the height of a file's module in its folder; 0 if it is in no module.
 std::size_t height_in_folder(const std::string& path) {
   const auto rooms = kRooms.find(room_of(path));
   if (rooms == kRooms.end()) return 0;
@@ -132,7 +130,7 @@ std::vector<std::string> breaches_in(const std::string& path, const std::string&
   return breaches;
 }
 
-TEST(Floors, AreKeptByEveryFile) {
+TEST(Floors, EveryFileIncludesOnlyLowerLayers) {
   const fs::path root = armloom::source_dir();
   std::size_t files = 0;
   for (const char* top : {"core", "server"}) {
@@ -152,7 +150,7 @@ TEST(Floors, AreKeptByEveryFile) {
   EXPECT_GT(files, 50u) << "the sources were not found";
 }
 
-TEST(Floors, ABreachIsFound) {
+TEST(Floors, BreachesAreDetected) {
   EXPECT_FALSE(
       breaches_in("core/scheduler/x.cc", "#include \"core/collision/check/motion_checker.h\"\n")
           .empty());

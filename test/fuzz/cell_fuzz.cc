@@ -3,8 +3,8 @@
 #include "server/messages/scene.h"
 #include "test/fuzz/problems.h"
 
-// The body of POST /scene/objects, and a cell file: reading it, the checks that need no robot, and
-// writing it for another folder.
+// Fuzzes the body of POST /scene/objects and a cell file: parsing, checks that need no robot, and
+// rewriting paths for another folder.
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace armloom;

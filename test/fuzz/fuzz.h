@@ -5,13 +5,13 @@
 #include <cstdlib>
 #include <string>
 
-// libFuzzer calls this with each input; it returns 0. A target demands of the code what its
-// contract promises, whatever the input, and stops the process when it does not hold.
+// Called by libFuzzer with each input; returns 0. Aborts if the code breaks a promise of its
+// contract.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace armloom::fuzz {
 
-// Not assert(): it has to hold in every build type.
+// Unlike assert(), active in every build type.
 inline void demand(bool holds) {
   if (!holds) std::abort();
 }

@@ -11,8 +11,8 @@
 #include "server/http/request_id.h"
 #include "test/fuzz/fuzz.h"
 
-// What a connection sends, byte for byte: requests, one after the other, as server/http reads them;
-// or, where the first byte is odd, the frames of a WebSocket.
+// Fuzzes the bytes of a connection: pipelined requests, as server/http reads them, or WebSocket
+// frames if the first byte is odd.
 
 namespace armloom::fuzz {
 namespace {
@@ -28,7 +28,7 @@ void demand_said(const Refusal& refusal) {
   demand(!refusal.slug.empty() && !refusal.detail.empty());
 }
 
-// What was accepted is what the routes rely on.
+// Demands what the routes rely on in an accepted request.
 void demand_fit(const Request& request) {
   const std::string& path = request.target.path;
   demand(path == "*" || path.starts_with('/'));
@@ -47,7 +47,7 @@ void demand_fit(const Request& request) {
   answer_across_origins(request, response);
 }
 
-// One request at the front of `bytes`; how many bytes it took, zero: none is whole, or it is
+// Parses one request at the front of `bytes`. Returns its size, or 0 if it is incomplete or
 // refused.
 std::size_t read_one(std::string& bytes) {
   while (bytes.starts_with("\r\n")) bytes.erase(0, 2);
@@ -111,7 +111,7 @@ void read_frames(const std::string& frames) {
   demand(!ec);
   socket.read_message_max(4096);
   socket.next_layer().append(frames);
-  peer.close();  // what was sent is read first
+  peer.close();  // the data is still read before the end
   beast::flat_buffer buffer;
   while (!ec) {
     socket.read(buffer, ec);

@@ -11,8 +11,8 @@
 #include "test/fuzz/problems.h"
 #include "test/source_dir.h"
 
-// The bodies of POST /jobs, /batches, /sim/faults and a jobs file: shape, then validate() of each
-// job on the two-Panda cell.
+// Fuzzes the bodies of POST /jobs, /batches, /sim/faults and a jobs file: parsing, then validate()
+// of each job on the two-Panda cell.
 
 namespace armloom::fuzz {
 namespace {
@@ -28,7 +28,7 @@ CellPtr two_pandas() {
   return *cell;
 }
 
-// What was accepted can be sampled anywhere and keeps the joints' limits.
+// Demands that an accepted trajectory can be sampled anywhere and keeps the joint limits.
 void demand_moves(const Trajectory& trajectory, const Cell& cell) {
   constexpr int kInstants = 16;
   demand(trajectory.duration() > Duration::zero());

@@ -8,8 +8,8 @@
 
 namespace armloom::fuzz {
 
-// What a refusal promises, whatever was read: at least one problem, each with a sentence, and an
-// answer that is JSON (the values found may be any bytes).
+// Demands the promises of every refusal: at least one problem, each with a sentence, and a response
+// that is valid JSON (values found may be any bytes).
 inline void demand_readable(const Problems& problems) {
   demand(!problems.empty());
   for (const Problem& problem : problems) {

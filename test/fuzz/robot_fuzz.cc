@@ -6,10 +6,10 @@
 #include "core/model/kinematics.h"
 #include "test/fuzz/problems.h"
 
-// A robot's URDF, SRDF and joint limits: build_cell on a cell of one robot whose files come from
-// the input. An input is the name of the arm's group, a newline, the URDF, a line "=== SRDF", the
-// SRDF, a line "=== LIMITS", the YAML; the last two are optional. The files are written to the
-// folder ARMLOOM_FUZZ_SCRATCH (a memory file system, for speed).
+// Fuzzes build_cell() with a robot's URDF, SRDF and joint limits. An input is the name of the arm's
+// group, a newline, the URDF, a line "=== SRDF", the SRDF, a line "=== LIMITS", the YAML; the last
+// two parts are optional. The files are written to the folder ARMLOOM_FUZZ_SCRATCH (a memory file
+// system, for speed).
 
 namespace armloom::fuzz {
 namespace {
@@ -27,7 +27,7 @@ void write_file(const fs::path& file, const std::string& text) {
   demand(out.good());
 }
 
-// Cuts the part after the line off the input; nothing when there is no such line.
+// Cuts off the part after the separator; returns nullopt if there is no separator.
 std::optional<std::string> cut_part(std::string& input, const std::string& separator) {
   const std::size_t cut = input.find(separator);
   if (cut == std::string::npos) return std::nullopt;
@@ -65,7 +65,7 @@ CellDescription description_of(std::string input, const fs::path& folder) {
   return cell;
 }
 
-// What build_cell promises of a cell: limits in order, home within them, poses that are numbers.
+// Demands what build_cell() promises: ordered limits, home within them, finite poses.
 void demand_sound(const Cell& cell) {
   demand(cell.arms.size() == 1 && !cell.arms[0].joints.empty());
   const Configuration home = cell.home();

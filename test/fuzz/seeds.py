@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the seed corpora of the fuzz targets, made small from config/ and models/.
+"""Writes small seed corpora of the fuzz targets, made from config/ and models/.
 
     seeds.py FOLDER      writes FOLDER/cell, FOLDER/job, FOLDER/robot, FOLDER/http, FOLDER/store
 """
@@ -11,7 +11,7 @@ import sys
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
-# Two links, a revolute and a mimic joint, every kind of shape: what a mutation reaches quickly.
+# Two links, a revolute and a mimic joint, every kind of shape: small, so that mutations reach everything quickly.
 SMALL_URDF = """<robot name="s"><link name="l0"><collision><geometry><box size="0.1 0.2 0.3"/></geometry></collision>
 </link><link name="l1"><collision><origin xyz="0 0 0.1" rpy="0 1 0"/><geometry><cylinder radius="0.05" length="0.3"/>
 </geometry></collision></link><link name="l2"><collision><geometry><sphere radius="0.1"/></geometry></collision>
@@ -110,7 +110,7 @@ def http_seeds():
     yield " OPTIONS * HTTP/1.2\r\nHost: a\r\n\r\nGET http://b/%41%2f?a=b+c&a=d HTTP/1.0\r\nExpect: 100-continue\r\n\r\n"
     yield (" " + ask + "Connection: keep-alive, Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")
-    # Frames, masked with zeros: a text in two parts with a ping between, a close with a reason.
+    # Frames masked with zeros: a text in two parts with a ping in between, a close with a reason.
     mask = "\0\0\0\0"
     yield "!\x01\x82" + mask + "he\x89\x80" + mask + "\x80\x83" + mask + "llo\x88\x84" + mask + "\x03\xe8by"
     yield "!\x81\xfe\x01\x00" + mask + 256 * "a" + "\x82\xff" + 7 * "\0" + "\x05" + mask + "12345"

@@ -7,11 +7,10 @@
 #include "server/store/job_store.h"
 #include "test/fuzz/fuzz.h"
 
-// A data folder as a killed server leaves it, whose database or the log beside it is damaged. An
-// input is a list of (place, byte): each five bytes of it change one byte of a sound folder of a
-// few jobs, or cut a file off there. The store opens it and what it tells holds together, or it
-// refuses and leaves the database as it is. What of the log alone is damaged is not taken for the
-// whole.
+// Fuzzes the data folder of a killed server with a damaged database or log. An input is a list of
+// five-byte records; each changes one byte of a sound folder with a few jobs, or truncates a file
+// there. Either the store opens and its contents are consistent, or it refuses and leaves the
+// database unchanged. A damaged log alone must not be taken for complete.
 
 namespace armloom::fuzz {
 namespace {
@@ -45,7 +44,7 @@ struct Folder {
   std::string database, log, mark;
 };
 
-// What a server leaves behind that is killed.
+// Returns the files that a killed server leaves behind.
 Folder sound_folder() {
   fs::remove_all(folder());
   auto store = JobStore::open(folder(), {});

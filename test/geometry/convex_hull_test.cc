@@ -12,7 +12,7 @@ TEST(ConvexHullOf, ContainsEveryPointAndIsClosed) {
     std::vector<Eigen::Vector3d> points;
     for (int i = 0; i < count; ++i) {
       const Eigen::Vector3d p = Eigen::Vector3d::Random();
-      points.push_back(count == 20000 ? p.normalized() : p);  // a ball: all on the hull
+      points.push_back(count == 20000 ? p.normalized() : p);  // on a sphere
     }
     const ConvexHull hull = convex_hull(points).value();
     EXPECT_LE(hull.vertices.size(), kMaxHullVertices) << count;
@@ -30,7 +30,7 @@ TEST(ConvexHullOf, ContainsEveryPointAndIsClosed) {
   }
 }
 
-TEST(ConvexHullOf, OfAFlatSheetIsAThinPlateAroundIt) {
+TEST(ConvexHullOf, TurnsAFlatSheetIntoAThinPlate) {
   const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, 3).normalized();
   std::vector<Eigen::Vector3d> sheet;
   for (int i = 0; i < 20; ++i) {

@@ -12,7 +12,7 @@
 namespace armloom {
 namespace {
 
-// How far the point is outside of the polytope's faces; negative inside.
+// Returns how far the point is outside of the polytope; negative if inside.
 double outside(const ConvexHull& hull, const Eigen::Vector3d& p) {
   double farthest = -1e9;
   for (const auto& face : hull.faces) {
@@ -38,7 +38,7 @@ double volume(const std::vector<ConvexHull>& pieces) {
 
 MeshData data_of(const small::Surface& surface) { return *small::mesh_of(surface).data; }
 
-// The prism over a polygon of the xy plane, star-shaped about `center` (so that its caps are fans).
+// Returns the prism over a polygon that is star-shaped about `center`, because caps are fans.
 small::Surface prism(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& center,
                      double height) {
   small::Surface surface;
@@ -62,8 +62,7 @@ small::Surface letter_l() {
   return prism({{0, 0}, {1, 0}, {1, 0.2}, {0.2, 0.2}, {0.2, 1}, {0, 1}}, {0.1, 0.1}, 0.3);
 }
 
-// Whether the point is inside of the star-shaped prism's outline: right of no edge seen from
-// center.
+// Returns true if the point is right of no edge as seen from the center.
 bool in_star(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& center,
              const Eigen::Vector2d& p) {
   const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -80,7 +79,7 @@ bool in_star(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d&
   return false;
 }
 
-TEST(ConvexPieces, OfAConvexMeshAreItsHull) {
+TEST(ConvexPieces, ConvexMeshIsOnePiece) {
   const MeshData box = data_of(small::box_surface({-1, -2, 0}, {1, 2, 0.5}));
   const auto pieces = convex_pieces(box);
   ASSERT_EQ(pieces.size(), 1U);
@@ -88,7 +87,7 @@ TEST(ConvexPieces, OfAConvexMeshAreItsHull) {
   EXPECT_NEAR(volume_m3(pieces[0]), 4.0, 1e-12);
 }
 
-TEST(ConvexPieces, OfAnLAreItsTwoBars) {
+TEST(ConvexPieces, LShapeIsSplitIntoTwoBars) {
   const MeshData mesh = data_of(letter_l());
   const auto pieces = convex_pieces(mesh);
   EXPECT_EQ(pieces.size(), 2U);
@@ -98,19 +97,19 @@ TEST(ConvexPieces, OfAnLAreItsTwoBars) {
   EXPECT_LT(outside(mesh.hull, {0.3, 0.3, 0.15}), -0.1);
 }
 
-TEST(ConvexPieces, LeaveTheGapOfAUOpen) {
+TEST(ConvexPieces, UShapeKeepsItsGapOpen) {
   for (const double slot : {0.02, 0.3, 0.8}) {
     const MeshData mesh = data_of(small::channel(slot));
     const auto pieces = convex_pieces(mesh);
     EXPECT_GE(pieces.size(), slot > 0.1 ? 3U : 1U);
-    if (slot < 0.1) continue;  // 2 % of the volume are no reason to cut
+    if (slot < 0.1) continue;  // too little volume (2 %) to justify a cut
     EXPECT_NEAR(volume(pieces), 1.0 - slot + 0.1, 2e-3);
     EXPECT_GT(outside(pieces, {0, 0, 0.5}), slot / 2 - 1e-3);
     EXPECT_LT(outside(mesh.hull, {0, 0, 0.5}), -0.4);
   }
 }
 
-TEST(ConvexPieces, HoldEveryPointOfRandomSolids) {
+TEST(ConvexPieces, ContainEveryPointOfRandomSolids) {
   std::mt19937_64 random(51);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::size_t cut = 0;
@@ -123,7 +122,6 @@ TEST(ConvexPieces, HoldEveryPointOfRandomSolids) {
       outline.push_back(center +
                         (0.1 + unit(random)) * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
     }
-    // Turned, so that cuts meet nothing at a right angle.
     const Eigen::Matrix3d R =
         Eigen::AngleAxisd(unit(random), Eigen::Vector3d(1, unit(random), 2).normalized())
             .toRotationMatrix();
@@ -156,14 +154,13 @@ TEST(ConvexPieces, HoldEveryPointOfRandomSolids) {
   EXPECT_GT(cut, 30U);
 }
 
-// Cuts across all axes leave boxes of space whose corners are deep inside of the solid, where no
-// triangle is.
-TEST(ConvexPieces, HoldWhatIsDeepInsideOfASolid) {
+// Cuts leave boxes whose corners are deep inside the solid, far from any triangle.
+TEST(ConvexPieces, ContainTheInteriorOfASolid) {
   std::mt19937_64 random(52);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   std::size_t pieces_seen = 0;
   for (int trial = 0; trial < 15; ++trial) {
-    // Overlapping bars, turned as one: a solid however its parts overlap.
+    // Overlapping bars, rotated together, form a solid.
     const Eigen::Matrix3d R =
         Eigen::AngleAxisd(unit(random), Eigen::Vector3d(1, unit(random), 2).normalized())
             .toRotationMatrix();
@@ -193,7 +190,7 @@ TEST(ConvexPieces, HoldWhatIsDeepInsideOfASolid) {
   EXPECT_GT(pieces_seen, 30U);
 }
 
-TEST(ConvexPieces, OfAMeshWithAHoleInItsSurfaceAreItsHull) {
+TEST(ConvexPieces, OpenMeshIsReplacedByItsHull) {
   small::Surface open = letter_l();
   open.triangles.pop_back();
   EXPECT_EQ(convex_pieces(data_of(open)).size(), 1U);

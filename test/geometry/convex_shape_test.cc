@@ -43,7 +43,7 @@ std::vector<PlacedShape> random_shape(int kind, std::mt19937_64& random) {
   }
 }
 
-TEST(Bodies, MergeACylinderWithItsTwoCapsIntoOneCapsule) {
+TEST(ConvexShapes, CylinderWithTwoCapsBecomesOneCapsule) {
   const auto bodies = make_convex_shapes(small::capsule_along_x(0.1, 0.5, 0.06));
   ASSERT_EQ(bodies.size(), 1U);
   EXPECT_EQ(bodies[0].kind, ConvexShapeKind::round);
@@ -51,17 +51,17 @@ TEST(Bodies, MergeACylinderWithItsTwoCapsIntoOneCapsule) {
   EXPECT_NEAR(bodies[0].radius_m, 0.06, 1e-12);
 }
 
-TEST(Bodies, MergeTwoCylindersThatShareACap) {
+TEST(ConvexShapes, TwoCylindersThatShareACapBecomeCapsules) {
   auto shapes = small::capsule_along_x(0.0, 0.4, 0.05);
   const auto second = small::capsule_along_x(0.4, 0.7, 0.05);
   shapes.push_back(second[0]);
-  shapes.push_back(second[2]);  // its far end only
+  shapes.push_back(second[2]);  // only its far end
   const auto bodies = make_convex_shapes(shapes);
   ASSERT_EQ(bodies.size(), 2U);
   for (const ConvexShape& body : bodies) EXPECT_EQ(body.kind, ConvexShapeKind::round);
 }
 
-TEST(Bodies, KeepACylinderFlatWhenACapIsMissingOrOfAnotherSizeOrElsewhere) {
+TEST(ConvexShapes, CylinderStaysFlatIfACapDoesNotMatch) {
   auto missing = small::capsule_along_x(0.0, 0.4, 0.05);
   missing.pop_back();
   auto thinner = small::capsule_along_x(0.0, 0.4, 0.05);
@@ -75,7 +75,7 @@ TEST(Bodies, KeepACylinderFlatWhenACapIsMissingOrOfAnotherSizeOrElsewhere) {
   }
 }
 
-TEST(Bodies, MergedCapsuleContainsCapsThatAreAMicrometreOff) {
+TEST(ConvexShapes, CapsuleContainsCapsThatAreAMicrometerOff) {
   auto shapes = small::capsule_along_x(0.0, 0.4, 0.05);
   shapes[1].X_LS.translation().y() = 8e-7;
   const auto bodies = make_convex_shapes(shapes);
@@ -83,8 +83,7 @@ TEST(Bodies, MergedCapsuleContainsCapsThatAreAMicrometreOff) {
   EXPECT_GE(bodies[0].radius_m, 0.05 + 8e-7);
 }
 
-// Every kind against every kind, apart, near and overlapping.
-TEST(Bodies, DistancesAreNeverTooLargeAndHardlyEverTooSmall) {
+TEST(ConvexShapes, DistancesAreNeverTooLargeAndRarelyTooSmall) {
   std::mt19937_64 random(20240701);
   std::array<int, 5> apart{};
   int too_small = 0;
@@ -123,8 +122,8 @@ TEST(Bodies, DistancesAreNeverTooLargeAndHardlyEverTooSmall) {
   EXPECT_LE(too_small, 2);
 }
 
-// What it does not settle costs an exact distance, what it settles wrongly an arm.
-TEST(Gjk, SettlesNearlyAllAndNothingWrongly) {
+// An undecided pair costs an exact distance query, a wrong decision an arm.
+TEST(Gjk, DecidesNearlyAllPairsAndNoneWrongly) {
   std::mt19937_64 random(20261126);
   int asked = 0;
   int open = 0;
@@ -156,8 +155,8 @@ TEST(Gjk, SettlesNearlyAllAndNothingWrongly) {
   for (const int count : settled) EXPECT_GE(count, 150);
 }
 
-// As arms that turn about upright axes have them: libccd's GJK claims contact, or 20 mm too much.
-TEST(Bodies, DistancesOfUprightBoxesAreExactHoweverTheyTurn) {
+// libccd's GJK reports contact for such boxes, or 20 mm too much.
+TEST(ConvexShapes, DistancesOfUprightBoxesAreExact) {
   std::mt19937_64 random(41);
   std::uniform_real_distribution<double> side(0.02, 0.5);
   std::uniform_real_distribution<double> angle(-3.0, 3.0);
@@ -165,7 +164,7 @@ TEST(Bodies, DistancesOfUprightBoxesAreExactHoweverTheyTurn) {
   int apart = 0;
   int near = 0;
   for (int i = 0; i < 3000; ++i) {
-    // Often of one height and at one height, as links of one table are.
+    // Often with equal heights, like links above one table.
     const double height = i % 3 == 0 ? side(random) : 0.05;
     const ConvexShape a = make_convex_shapes({{Box{{side(random), 0.05, 0.05}}}}).front();
     const ConvexShape b = make_convex_shapes({{Box{{0.02, side(random), height}}}}).front();
@@ -190,8 +189,7 @@ TEST(Bodies, DistancesOfUprightBoxesAreExactHoweverTheyTurn) {
   EXPECT_GE(near, 15);
 }
 
-// A link that turns beside a small box, and past touching it.
-TEST(Bodies, ALinkThatTurnsBesideABoxIsNotSaidToTouchIt) {
+TEST(ConvexShapes, LinkThatTurnsPastABoxReportsNoFalseContact) {
   std::mt19937_64 random(43);
   std::uniform_real_distribution<double> place_m(0.46, 0.53);
   std::uniform_real_distribution<double> angle(0.2, 0.6);
@@ -218,7 +216,7 @@ TEST(Bodies, ALinkThatTurnsBesideABoxIsNotSaidToTouchIt) {
   EXPECT_GE(near, 30);
 }
 
-TEST(Bodies, CapsulesByHandAgreeWithFcl) {
+TEST(ConvexShapes, CapsuleDistancesAgreeWithFcl) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 2000; ++i) {
     const ConvexShape a = make_convex_shapes(random_shape(4, random)).front();
@@ -235,7 +233,7 @@ TEST(Bodies, CapsulesByHandAgreeWithFcl) {
   }
 }
 
-TEST(Bodies, ABodyWhollyInsideAnotherIsInContact) {
+TEST(ConvexShapes, ShapeInsideAnotherIsInContact) {
   const ConvexShape table = make_convex_shapes({{Box{{2.0, 2.0, 1.0}}}}).front();
   const ConvexShape crate = make_convex_shapes({{Box{{0.1, 0.1, 0.1}}}}).front();
   const ConvexShape can = make_convex_shapes({{Cylinder{0.05, 0.1}}}).front();
@@ -250,7 +248,7 @@ TEST(Bodies, ABodyWhollyInsideAnotherIsInContact) {
   }
 }
 
-TEST(Bodies, OverlapOfCapsulesIsSigned) {
+TEST(ConvexShapes, OverlapOfCapsulesIsSigned) {
   const ConvexShape a = make_convex_shapes(small::capsule_along_x(-0.2, 0.2, 0.1)).front();
   PlacedConvexShape here;
   PlacedConvexShape above;

@@ -1,4 +1,3 @@
-// The meshes of a cell's links and objects.
 #include <gmock/gmock.h>
 
 #include "test/geometry/mesh_file.h"
@@ -28,7 +27,7 @@ class MeshCell : public MeshFile {
   }
 };
 
-TEST_F(MeshCell, HoldsTheMeshesOfItsLinksAndObjects) {
+TEST_F(MeshCell, LoadsTheMeshesOfLinksAndObjects) {
   const std::string part = folder_.write("package/part.stl", small::stl_bytes(box_));
   folder_.write("look.dae", "seen by browsers only");
   CellDescription description = this->description();
@@ -57,13 +56,13 @@ TEST_F(MeshCell, NamesTheLinkOrObjectWhoseMeshIsBad) {
   EXPECT_THAT(problems, HasSubstr("/objects/1/mesh | object gone: mesh "));
 }
 
-TEST_F(MeshCell, RefusesAMeshThatALinkLeadsOutOfItsPackage) {
+TEST_F(MeshCell, RejectsAMeshBehindASymlinkOutOfItsPackage) {
   folder_.write("secret.stl", small::stl_bytes(box_));
   std::filesystem::create_directory(folder_.path() / "package");
   std::filesystem::create_symlink(folder_.path() / "secret.stl",
                                   folder_.path() / "package/part.stl");
   EXPECT_THAT(problems_of(description()),
-              testing::AllOf(HasSubstr("r.urdf:4: link l"), HasSubstr("through a link")));
+              testing::AllOf(HasSubstr("r.urdf:4: link l"), HasSubstr("through a symbolic link")));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "test/geometry/mesh_file.h"
 
-// assimp 5.2 loses about a kilobyte for each file that it refuses; none for those that it reads.
+// assimp 5.2 leaks about a kilobyte per file that it rejects.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }
 
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 
 constexpr const char* kPlaced = R"(<node><instance_geometry url="#g"/></node>)";
 
-TEST_F(MeshFile, IsTheSameBoxFromEachFormat) {
+TEST_F(MeshFile, LoadsTheSameBoxFromEachFormat) {
   for (const auto& mesh :
        {load("a.stl", small::stl_text(box_)), load("b.STL", small::stl_bytes(box_)),
         load("c.obj", small::obj_text(box_)), load("d.dae", small::dae_text(box_, "", kPlaced))}) {
@@ -32,51 +32,52 @@ TEST_F(MeshFile, IsScaledAndMirroredAlongEachAxis) {
   expect_bounds(*mesh, {-0.2, -0.4, 0.0005}, {0.6, 0.2, 0.00075});
 }
 
-TEST_F(MeshFile, IsInMetresWhateverTheUnitOfItsDocument) {
+TEST_F(MeshFile, ConvertsColladaUnitsToMeters) {
   const MeshPtr mesh =
       load("a.dae", small::dae_text(box_, R"(<unit name="centimeter" meter="0.01"/>)", kPlaced));
   expect_bounds(*mesh, {-0.001, -0.002, 0.005}, {0.003, 0.004, 0.0075});
 }
 
-TEST_F(MeshFile, StandsWhereTheNodesOfItsDocumentPlaceIt) {
+TEST_F(MeshFile, AppliesColladaNodeTransforms) {
   const std::string scene = R"(<node><translate>1 0 0</translate>
     <node><rotate>0 0 1 90</rotate><instance_geometry url="#g"/></node>
     <node><translate>0 0 -2</translate><instance_node url="#n"/></node></node>)";
   const std::string nodes = R"(<node id="n"><instance_geometry url="#g"/></node>)";
   const MeshPtr mesh = load("a.dae", small::dae_text(box_, "", scene, nodes));
   EXPECT_EQ(mesh->triangles.size(), 24U);
-  // Turned: x from -0.4 to 0.2, y from -0.1 to 0.3, moved by 1 along x; the other 2 m lower.
+  // Rotated instance: x from -0.4 to 0.2, y from -0.1 to 0.3, moved by 1 along x. Other instance: 2
+  // m lower.
   expect_bounds(*mesh, {0.6, -0.2, -1.5}, {1.3, 0.4, 0.75});
 }
 
-TEST_F(MeshFile, KeepsItsAxesWhateverItsDocumentCallsUp) {
+TEST_F(MeshFile, IgnoresTheColladaUpAxis) {
   for (const char* up : {"X_UP", "Y_UP", "Z_UP"}) {
     expect_bounds(*load("a.dae", small::dae_text(box_, "", kPlaced, "", up)), {-0.1, -0.2, 0.5},
                   {0.3, 0.4, 0.75});
   }
 }
 
-TEST_F(MeshFile, FacesWithManyCornersBecomeTriangles) {
+TEST_F(MeshFile, TriangulatesPolygons) {
   const MeshPtr mesh =
       load("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 2 5\n");
   EXPECT_EQ(mesh->triangles.size(), 3U);
 }
 
-TEST_F(MeshFile, MayLeaveOutTheZeroBeforeAPoint) {
+TEST_F(MeshFile, AcceptsNumbersWithoutLeadingZero) {
   const MeshPtr mesh = load("a.obj", "v .1 0 -.2\nv\t.3 1. 0\n v 0 .5 .25\nf 1 2 3\n");
   expect_bounds(*mesh, {0.0, 0.0, -0.2}, {0.3, 1.0, 0.25});
 }
 
-TEST_F(MeshFile, OfOnePointIsRefusedAndAFlatOneIsKnown) {
+TEST_F(MeshFile, RejectsASinglePointAndDetectsFlatMeshes) {
   const Problem point = refusal("a.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n");
   EXPECT_EQ(point.slug, "mesh-without-extent");
-  EXPECT_THAT(point.detail, HasSubstr("1 triangles is the one point 1 2 3"));
+  EXPECT_THAT(point.detail, HasSubstr("1 triangles is the same point 1 2 3"));
   EXPECT_TRUE(is_flat(*load("b.obj", "v 0 0 0\nv 1 0 1\nv 0 1 1\nf 1 2 3\n")));
   EXPECT_TRUE(is_flat(*load("c.obj", "v 0 0 0\nv 1 0 1\nv 2 0 2\nf 1 2 3\n")));
   EXPECT_FALSE(is_flat(*load("d.stl", small::stl_bytes(box_))));
 }
 
-TEST_F(MeshFile, SaysWhyItCannotBeRead) {
+TEST_F(MeshFile, ReportsWhyItCannotBeRead) {
   const auto says = [&](const Problem& problem, const char* slug, const std::string& why) {
     EXPECT_EQ(problem.slug, slug);
     EXPECT_EQ(problem.pointer, "/here");
@@ -92,19 +93,21 @@ TEST_F(MeshFile, SaysWhyItCannotBeRead) {
   says(refusal("empty.stl", ""), "mesh-empty", "the file is empty");
   says(refusal("none.stl", "solid a\nendsolid a\n"), "mesh-empty", "it holds no triangle");
   says(refusal("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "mesh-empty", "it holds no triangle");
-  says(refusal("broken.dae", "<COLLADA><asset>"), "mesh-unreadable", "it is no XML");
+  says(refusal("broken.dae", "<COLLADA><asset>"), "mesh-unreadable", "it is not well-formed XML");
   says(refusal("other.dae", "<robot/>"), "mesh-unreadable", "not <COLLADA>");
   const std::string dae = small::dae_text(box_, "", kPlaced);
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = dae;
     return refusal("changed.dae", changed.replace(changed.find(from), from.size(), to));
   };
-  says(with("<p>0 2 3", "<p>0 x 3"), "mesh-unreadable", "<p> holds 'x', which is no index");
+  says(with("<p>0 2 3", "<p>0 x 3"), "mesh-unreadable",
+       "<p> holds 'x', which is not a valid index");
   says(with("<p>0 2 3", "<p>0 2 8"), "mesh-unreadable",
        "<p> holds index 8, the sources have 8 elements");
-  says(with("<p>0 2 3", "<p>"), "mesh-unreadable", "<triangles> holds other than it says");
+  says(with("<p>0 2 3", "<p>"), "mesh-unreadable",
+       "<triangles>: its count does not match its content");
   says(with("count=\"24\"", "count=\"25\""), "mesh-unreadable",
-       "says that it holds 25 numbers and holds 24");
+       "states a count of 25 but holds 24 numbers");
   says(with("count=\"8\"", "count=\"9\""), "mesh-unreadable", "asks for more than its array holds");
   says(with("stride=\"3\"", "stride=\"2\""), "mesh-unreadable",
        "asks for more than its array holds");
@@ -116,7 +119,7 @@ TEST_F(MeshFile, SaysWhyItCannotBeRead) {
   says(refusal("short.stl", small::stl_bytes(box_).substr(0, 200)), "mesh-unreadable", "stl");
 }
 
-TEST_F(MeshFile, NamesTheVertexThatIsNotFinite) {
+TEST_F(MeshFile, ReportsVerticesThatAreNotFinite) {
   small::Surface bad = box_;
   bad.vertices[3].y() = std::nan("");
   EXPECT_THAT(refusal("nan.stl", small::stl_bytes(bad)).detail, HasSubstr(": y is nan"));
@@ -128,7 +131,7 @@ TEST_F(MeshFile, NamesTheVertexThatIsNotFinite) {
               HasSubstr("y is -2000 m, at most 1000 m"));
 }
 
-TEST_F(MeshFile, RefusesAMillionTrianglesWithoutBuildingThem) {
+TEST_F(MeshFile, RejectsAMillionTrianglesQuickly) {
   const auto start = std::chrono::steady_clock::now();
   std::string stl(84 + 50'000'000, '\0');
   const std::uint32_t million = 1'000'000;
@@ -149,13 +152,13 @@ TEST_F(MeshFile, RefusesAMillionTrianglesWithoutBuildingThem) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
 
-TEST_F(MeshFile, RefusesAFileOver64MebibytesWithoutReadingIt) {
+TEST_F(MeshFile, RejectsFilesOver64MebibytesUnread) {
   const std::string path = folder_.write("big.stl", "solid");
   std::filesystem::resize_file(path, kMaxMeshBytes + 1);
   EXPECT_THAT(refusal(path).detail, HasSubstr("67108865 bytes, at most 67108864"));
 }
 
-TEST_F(MeshFile, RefusesNodesThatMultiplyOrPlaceThemselves) {
+TEST_F(MeshFile, RejectsExponentialAndCyclicNodeInstances) {
   std::string nodes = R"(<node id="n0"><instance_geometry url="#g"/></node>)";
   for (int i = 1; i <= 60; ++i) {
     const std::string below = R"(<instance_node url="#n)" + std::to_string(i - 1) + R"("/>)";
@@ -168,10 +171,10 @@ TEST_F(MeshFile, RefusesNodesThatMultiplyOrPlaceThemselves) {
   EXPECT_THAT(refusal("ring.dae",
                       small::dae_text(box_, "", R"(<node><instance_node url="#a"/></node>)", ring))
                   .detail,
-              HasSubstr("its nodes place themselves"));
+              HasSubstr("its nodes instance each other in a cycle"));
 }
 
-// Cut, overwritten and doubled at random places: read or refused with a reason, never worse.
+// Truncated, overwritten and duplicated files are read or rejected with a reason.
 TEST_F(MeshFile, SurvivesBrokenBytes) {
   std::mt19937_64 random(3);
   const auto below = [&](std::size_t n) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-// Distances that share nothing with the code under test: closed-form projections onto each shape,
-// alternated until the gap to a separating plane is closed.
+// Independent reference distances: closed-form projections, alternated until the gap to a
+// separating plane is closed.
 namespace armloom::reference {
 
 struct Convex {
@@ -35,7 +35,7 @@ inline Eigen::Vector3d project(const Convex& c, const Eigen::Vector3d& p_W) {
   return c.X_WS * project_local(c, c.X_WS.inverse() * p_W);
 }
 
-// The largest n·x over the shape, minus n·centre; n of unit length.
+// Returns the largest n·(x - center) over the shape; n has unit length.
 inline double support(const Convex& c, const Eigen::Vector3d& n_W) {
   const Eigen::Vector3d n = c.X_WS.linear().transpose() * n_W;
   if (c.kind == Convex::Kind::box) return n.cwiseAbs().dot(c.half_size_m);
@@ -44,7 +44,7 @@ inline double support(const Convex& c, const Eigen::Vector3d& n_W) {
   return along + c.radius_m;
 }
 
-// The true distance lies in [lower, upper]; both are zero or less when the shapes touch.
+// The true distance lies in [lower, upper]; both are at most zero in contact.
 struct Bracket {
   double lower;
   double upper;
@@ -53,7 +53,8 @@ struct Bracket {
 inline constexpr double kTouching_m = 1e-9;
 inline constexpr double kClosed_m = 1e-8;
 
-// Whether so many rounds more would bring the bracket to its end, at the pace of the last `window`.
+// Returns true if the bracket cannot close in `rounds_left` rounds at the rate of the last
+// `window`.
 inline bool is_hopeless(const Bracket& before, const Bracket& now, int window, int rounds_left) {
   const auto windows = [](double last, double current, double target) {
     return current >= last ? 1e9 : std::log(current / target) / std::log(last / current);
@@ -64,7 +65,7 @@ inline bool is_hopeless(const Bracket& before, const Bracket& now, int window, i
   return needed * window > rounds_left;
 }
 
-// At most so many rounds; fewer where these would not do.
+// Runs at most `rounds` rounds, or fewer if more would not help.
 inline Bracket distance(const Convex& a, const Convex& b, int rounds = 20000) {
   constexpr int kWindow = 100;
   Eigen::Vector3d on_a = project(a, b.X_WS.translation());

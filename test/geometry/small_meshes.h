@@ -11,7 +11,6 @@
 #include "core/geometry/mesh/mesh.h"
 #include "core/geometry/shape.h"
 
-// Meshes made by hand, and their text in each file format.
 namespace armloom::small {
 
 struct Surface {
@@ -19,7 +18,6 @@ struct Surface {
   std::vector<Triangle> triangles;
 };
 
-// A closed box from `low` to `high`.
 inline Surface box_surface(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   Surface box;
   for (int i = 0; i < 8; ++i) {
@@ -46,7 +44,7 @@ inline Surface joined(Surface a, const Surface& b) {
   return a;
 }
 
-// Two walls with a slot of `slot_m` between them along x, on a floor: concave. 1 m wide, 1 m high.
+// Returns a concave mesh, 1 m wide and high: two walls on a floor, with a slot along x.
 inline Surface channel(double slot_m) {
   const double s = slot_m / 2;
   return joined(
@@ -74,7 +72,7 @@ inline std::string stl_text(const Surface& surface) {
   return text + "endsolid part\n";
 }
 
-// `count`: what the header claims, when it is not the truth.
+// `count`: triangles that the header claims; 0: the true number.
 inline std::string stl_bytes(const Surface& surface, std::uint32_t count = 0) {
   std::string bytes(80, ' ');
   const auto append = [&](const auto& value) {
@@ -103,7 +101,7 @@ inline std::string obj_text(const Surface& surface) {
   return text;
 }
 
-// `scene`: what stands inside of <visual_scene>; `nodes`: inside of <library_nodes>.
+// `scene`: content of <visual_scene>; `nodes`: content of <library_nodes>.
 inline std::string dae_text(const Surface& surface, const std::string& unit,
                             const std::string& scene, const std::string& nodes = "",
                             const std::string& up_axis = "Z_UP") {
@@ -141,7 +139,6 @@ inline std::string dae_text(const Surface& surface, const std::string& unit,
 )";
 }
 
-// The mesh as if it had been loaded from a file.
 inline Mesh mesh_of(const Surface& surface) {
   auto data = std::make_shared<MeshData>();
   data->vertices = surface.vertices;

@@ -1,4 +1,3 @@
-// What a mesh file says is loaded whole, or refused with its line; what does not close is told.
 #include <gmock/gmock.h>
 
 #include <map>
@@ -20,7 +19,6 @@ class WholeMesh : public testing::Test {
   Result<MeshPtr> load(const std::string& name, const std::string& bytes) {
     return load_mesh(folder_.write(name, bytes), Eigen::Vector3d::Ones(), "/here", "robot a");
   }
-  // A closed box, and nothing less.
   void expect_box(const std::string& name, const std::string& bytes) {
     const auto mesh = load(name, bytes);
     ASSERT_TRUE(mesh.has_value()) << mesh.error().front().detail;
@@ -44,21 +42,21 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-TEST_F(WholeMesh, OfAnStlInTextThatWasCutOffIsRefusedWhereverThatWas) {
+TEST_F(WholeMesh, RejectsTruncatedTextStl) {
   const std::string whole = small::stl_text(kBox);
   const std::size_t end = whole.find("endsolid") + 8;
   for (std::size_t size = 1; size < end; size += 3) {
     const auto mesh = load("cut.stl", whole.substr(0, size));
     ASSERT_FALSE(mesh.has_value()) << size;
     ASSERT_THAT(mesh.error().front().detail,
-                testing::AnyOf(HasSubstr("line "), HasSubstr("no STL")));
+                testing::AnyOf(HasSubstr("line "), HasSubstr("not an STL")));
   }
   expect_box("name_cut.stl", whole.substr(0, end + 3));
   expect_refused("cut.stl", whole.substr(0, whole.find("endfacet") + 9),
-                 "line 9: the file ends where 'facet' or 'endsolid' is due: it was cut off");
+                 "line 9: expected 'facet' or 'endsolid', but the file ends: it was cut off");
 }
 
-TEST_F(WholeMesh, OfAnStlInTextKnowsEveryWord) {
+TEST_F(WholeMesh, RejectsMisspelledWordsInTextStl) {
   const std::string whole = small::stl_text(kBox);
   const std::map<std::string, std::string> words{{"facet normal", "facte normal"},
                                                  {"normal", "nomal"},
@@ -75,15 +73,15 @@ TEST_F(WholeMesh, OfAnStlInTextKnowsEveryWord) {
     expect_refused("odd.stl", replaced(whole, word, other), ": line ");
   }
   expect_refused("odd.stl", replaced(whole, "facet normal", "facte normal"),
-                 "line 2: 'facte' stands where 'facet' or 'endsolid' is due");
+                 "line 2: expected 'facet' or 'endsolid', found 'facte'");
   expect_refused("odd.stl", replaced(whole, "0.5\n", "0,5\n"),
-                 "line 4: '0,5' stands where a number is due");
+                 "line 4: expected a number, found '0,5'");
   expect_refused("odd.stl", replaced(whole, " endloop", "  vertex 0 0 0\n endloop"),
                  "line 7: a facet has more than three corners");
-  expect_refused("odd.stl", whole + "facet", "'facet' stands where 'solid' is due");
+  expect_refused("odd.stl", whole + "facet", "expected 'solid', found 'facet'");
 }
 
-TEST_F(WholeMesh, OfAnStlInTextMayBeWrittenInManyWays) {
+TEST_F(WholeMesh, AcceptsVariantsOfTextStl) {
   const std::string whole = small::stl_text(kBox);
   std::string upper = whole;
   for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
@@ -101,21 +99,21 @@ TEST_F(WholeMesh, OfAnStlInTextMayBeWrittenInManyWays) {
   EXPECT_EQ((*mesh)->triangles.size(), 24U);
 }
 
-TEST_F(WholeMesh, OfABinaryStlHasTheLengthThatItsCountMakes) {
+TEST_F(WholeMesh, RequiresBinaryStlLengthToMatchItsCount) {
   const std::string whole = small::stl_bytes(kBox);
   expect_box("a.stl", whole);
   expect_box("solid.stl", "solid" + whole.substr(5));
   for (const std::size_t size : {83U, 84U, 134U, 683U}) {
-    expect_refused("cut.stl", whole.substr(0, size), "no STL");
+    expect_refused("cut.stl", whole.substr(0, size), "not an STL");
     expect_refused("cut.stl", "solid" + whole.substr(5, size - 5), "");
   }
   expect_refused("cut.stl", whole.substr(0, 634),
-                 "its header announces 12 triangles, which are 684 bytes, and it has 634 bytes: it "
-                 "was cut off");
+                 "its header announces 12 triangles (684 bytes), but it has 634 bytes: it was cut "
+                 "off");
   expect_refused("more.stl", whole + std::string(50, '\0'), "it holds more than it says");
 }
 
-TEST_F(WholeMesh, OfAnObjKnowsEveryWordAndCorner) {
+TEST_F(WholeMesh, RejectsUnknownWordsAndCornersInObj) {
   const std::string whole = small::obj_text(kBox);
   expect_box("a.obj", whole);
   const std::map<std::string, std::string> words{
@@ -127,11 +125,11 @@ TEST_F(WholeMesh, OfAnObjKnowsEveryWordAndCorner) {
     expect_refused("odd.obj", replaced(whole, word, other), ": line ");
   }
   expect_refused("odd.obj", replaced(whole, "f 1 3 4", "f 1 3 9"),
-                 "line 10: a face names vertex 9, and the file has 8: was it cut off?");
+                 "line 10: a face names vertex 9, but the file has 8 vertices: was it cut off?");
   expect_refused("cut.obj", whole.substr(0, whole.size() - 4), "not 3 or more");
 }
 
-TEST_F(WholeMesh, OfAnObjMayBeWrittenInManyWays) {
+TEST_F(WholeMesh, AcceptsVariantsOfObj) {
   const std::string whole = small::obj_text(kBox);
   expect_box("slashes.obj", replaced(replaced(whole, "f 1 3 4", "f 1//1 3/2/ 4/5/6"), "f ", "f  "));
   expect_box("back.obj", replaced(whole, "f 1 3 4", "f -8 -6 -5"));
@@ -139,7 +137,7 @@ TEST_F(WholeMesh, OfAnObjMayBeWrittenInManyWays) {
   expect_box("colour.obj", replaced(whole, "0.5\n", "5e-1 1 0 0.3 # 9\n"));
   expect_box("long.obj", replaced(whole, "f 1 3 4",
                                   "o part\ng x y\nusemtl z\nvt 0 0\nvn 0 0 1\ns off\nf 1 3\\\n 4"));
-  // A pentagon of 3 mm, as small parts have them.
+  // A 3 mm pentagon, as in small parts.
   std::string nut =
       "v 0.003 0 0\nv 0.001 0.003 0\nv -0.002 0.002 0\nv -0.002 -0.002 0\nv 0.001 -0.003 0\n"
       "v 0 0 0.001\nf 1 2 3 4 5\nf 2 1 6\nf 3 2 6\nf 4 3 6\nf 5 4 6\nf 1 5 6\n";
@@ -149,9 +147,9 @@ TEST_F(WholeMesh, OfAnObjMayBeWrittenInManyWays) {
   EXPECT_EQ((*mesh)->open_edges, 0U);
 }
 
-// ---- What does not close ----
+// ---- Open meshes ----
 
-TEST_F(WholeMesh, ThatDoesNotCloseIsItsHullAndTold) {
+TEST_F(WholeMesh, OpenMeshIsReplacedByItsHullWithAWarning) {
   small::Surface open = kBox;
   open.triangles.pop_back();
   const std::string path = folder_.write("open.stl", small::stl_text(open));
@@ -173,14 +171,14 @@ TEST_F(WholeMesh, ThatDoesNotCloseIsItsHullAndTold) {
                              HasSubstr("its convex hull is checked")));
 }
 
-// ---- Faces from both sides ----
+// ---- Two-sided faces ----
 
 small::Surface turned(small::Surface surface) {
   for (Triangle& t : surface.triangles) std::swap(t[1], t[2]);
   return surface;
 }
 
-TEST_F(WholeMesh, OfASolidWithBothSidesOfEachFaceHasThemOnce) {
+TEST_F(WholeMesh, RemovesDuplicateFacesOfATwoSidedSolid) {
   expect_box("two.stl", small::stl_text(small::joined(kBox, turned(kBox))));
   expect_box("four.stl", small::stl_text(small::joined(small::joined(kBox, turned(kBox)),
                                                        small::joined(turned(kBox), kBox))));
@@ -200,7 +198,7 @@ TEST_F(WholeMesh, OfASolidWithBothSidesOfEachFaceHasThemOnce) {
   EXPECT_EQ((*beside)->triangles.size(), 24U);
 }
 
-TEST_F(WholeMesh, OfSheetsAndWallsKeepsBothSides) {
+TEST_F(WholeMesh, KeepsBothSidesOfSheetsAndWalls) {
   small::Surface bin = kBox;
   bin.triangles.resize(10);  // one face is open
   const auto sheets = load("bin.stl", small::stl_text(small::joined(bin, turned(bin))));
@@ -216,7 +214,7 @@ TEST_F(WholeMesh, OfSheetsAndWallsKeepsBothSides) {
   EXPECT_NE((*boxes)->surface, nullptr);
 }
 
-TEST_F(WholeMesh, OfWhichNobodyCanSayWhatItEnclosesIsItsPieces) {
+TEST_F(WholeMesh, AmbiguousSolidUsesItsPieces) {
   small::Surface fin = small::joined(kBox, turned(kBox));
   fin.vertices.emplace_back(1, 1, 1);
   fin.vertices.emplace_back(1, 1, 0);

@@ -1,4 +1,3 @@
-// The rules of the last gate, one by one, on certificates made by hand.
 #include "core/guard/authority_guard.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +13,7 @@ using Why = GuardRefusal::Why;
 const ArmId kLeft{0}, kRight{1}, kThird{2};
 constexpr double kError = 0.001;
 
-// Arms of one joint each; joint and arm have the same number.
+// Each arm has one joint of the same number.
 JointId joint(ArmId arm) { return JointId{arm.value()}; }
 
 TrajectoryPtr line(const std::vector<ArmId>& arms, double from, double to, Duration takes = 10s) {
@@ -89,7 +88,7 @@ TEST_F(Guarded, RefusesWithoutCertificates) {
   EXPECT_EQ(refusal->other, kRight);
 }
 
-TEST_F(Guarded, AllowsWhatCertificatesCover) {
+TEST_F(Guarded, AllowsAuthorityThatCertificatesCover) {
   take({scene(left), pair(on(left), resting(kRight, 0.0))});
   EXPECT_EQ(guard->grant(left, {}, 4s), std::nullopt);
   EXPECT_EQ(guard->position(kLeft).authority, 4s);
@@ -105,7 +104,7 @@ TEST_F(Guarded, NeedsACertificateForTheScene) {
 }
 
 TEST_F(Guarded, NeedsAValidCertificateForEveryOtherArm) {
-  content.arms[2] = 99;  // the third arm holds something now
+  content.arms[2] = 99;  // the third arm now has an object attached
   guard->look_at(content);
   take({scene(left), pair(on(left), resting(kRight, 0.0))});
   const auto refusal = guard->refuses(left, {}, 1s);
@@ -113,7 +112,7 @@ TEST_F(Guarded, NeedsAValidCertificateForEveryOtherArm) {
   EXPECT_EQ(refusal->other, kThird);
 }
 
-TEST_F(Guarded, RefusesWhereTheProductMeetsARegion) {
+TEST_F(Guarded, RefusesIfTheProductOfAuthoritiesMeetsARegion) {
   take({scene(left), scene(right), pair(on(left), resting(kRight, 0.0)),
         pair(on(right), resting(kLeft, 0.0)), pair(on(left), on(right), {{4s, 6s, 2s, 3s}})});
   ASSERT_EQ(guard->grant(left, {}, 5s), std::nullopt);
@@ -122,14 +121,14 @@ TEST_F(Guarded, RefusesWhereTheProductMeetsARegion) {
   EXPECT_EQ(why(right, 2s), std::nullopt) << "up to its edge";
   const auto refusal = guard->refuses(right, {}, 3s);
   ASSERT_TRUE(refusal && refusal->region);
-  EXPECT_EQ(refusal->region->from_a, 2s) << "told as the arm's own motion first";
+  EXPECT_EQ(refusal->region->from_a, 2s) << "the arm's own motion comes first";
   guard->moves(kLeft, 6s);
   EXPECT_EQ(why(right, 3s), Why::region) << "it may rest on the edge";
   guard->moves(kLeft, 6s + 1ns);
   EXPECT_EQ(why(right, 10s), std::nullopt) << "it has left the region";
 }
 
-TEST_F(Guarded, CountsTheAuthorityOfOthersNotOnlyWhereTheyAre) {
+TEST_F(Guarded, UsesTheAuthorityOfOtherArmsNotOnlyTheirPosition) {
   take({scene(left), scene(right), pair(on(left), resting(kRight, 0.0)),
         pair(on(left), on(right), {{4s, 6s, 2s, 3s}})});
   ASSERT_EQ(guard->grant(left, {}, 4s), std::nullopt);
@@ -138,7 +137,7 @@ TEST_F(Guarded, CountsTheAuthorityOfOthersNotOnlyWhereTheyAre) {
   EXPECT_EQ(why(right, 5s), Why::region);
 }
 
-TEST_F(Guarded, AStopEndsAuthorityWhereTheArmRests) {
+TEST_F(Guarded, StopEndsAuthorityWhereTheArmRests) {
   take({scene(left), scene(right), pair(on(left), resting(kRight, 0.0)),
         pair(on(left), on(right), {{4s, 6s, 2s, 3s}})});
   ASSERT_EQ(guard->grant(left, {}, 5s), std::nullopt);
@@ -147,11 +146,11 @@ TEST_F(Guarded, AStopEndsAuthorityWhereTheArmRests) {
   rest(kLeft, 2s, 0.2);
   EXPECT_EQ(why(right, 5s), std::nullopt);
   ASSERT_EQ(guard->grant(right, {}, 5s), std::nullopt);
-  EXPECT_EQ(why(left, 5s, 2s), Why::region) << "a resume goes through the same gate";
+  EXPECT_EQ(why(left, 5s, 2s), Why::region) << "a resume must pass the guard too";
   EXPECT_EQ(why(left, 3s, 2s), std::nullopt);
 }
 
-TEST_F(Guarded, ARestartedMotionIsCoveredFromItsStart) {
+TEST_F(Guarded, RestartedMotionIsCheckedFromItsStart) {
   const TrajectoryPtr loop = line({kLeft}, 0.0, 0.0);
   take({scene(loop), pair(on(loop), resting(kRight, 0.0), {{2s, 4s, 0s, 0s}})});
   guard->hold(loop, {}, 10s);
@@ -160,7 +159,7 @@ TEST_F(Guarded, ARestartedMotionIsCoveredFromItsStart) {
   EXPECT_EQ(why(loop, 3s, 0s), Why::region);
 }
 
-TEST_F(Guarded, AnArmThatRestsBesideItsPathIsNotOnIt) {
+TEST_F(Guarded, ArmThatRestsOffItsPathIsNotCovered) {
   take(
       {scene(left), scene(right), pair(on(left), resting(kRight, 0.0)), pair(on(right), on(left))});
   ASSERT_EQ(guard->grant(left, {}, 5s), std::nullopt);
@@ -177,10 +176,10 @@ TEST_F(Guarded, ProgressNeverGoesBack) {
   guard->moves(kLeft, 1s);
   EXPECT_EQ(guard->position(kLeft).measured, 3s);
   ASSERT_EQ(guard->grant(left, {}, 4s), std::nullopt);
-  EXPECT_EQ(guard->position(kLeft).authority, 5s) << "authority is never taken back";
+  EXPECT_EQ(guard->position(kLeft).authority, 5s) << "granted authority is never reduced";
 }
 
-TEST_F(Guarded, ARestCountsOnlyWithinItsError) {
+TEST_F(Guarded, RestIsCoveredOnlyWithinItsError) {
   take({scene(left), pair(on(left), resting(kRight, 0.0))});
   rest(kRight, {}, 0.9 * kError);
   EXPECT_EQ(why(left, 1s), std::nullopt);
@@ -188,17 +187,17 @@ TEST_F(Guarded, ARestCountsOnlyWithinItsError) {
   EXPECT_EQ(why(left, 1s), Why::uncertified);
 }
 
-TEST_F(Guarded, ARestWhereAMotionBeginsOrEndsIsCoveredByThatMotion) {
+TEST_F(Guarded, RestAtAnEndOfAMotionIsCoveredByThatMotion) {
   take({scene(left), pair(on(left), on(right), {{4s, 6s, 0s, 3s}})});
   EXPECT_EQ(why(left, 3s), std::nullopt) << "right rests where its next motion begins";
   EXPECT_EQ(why(left, 5s), Why::region);
   rest(kRight, {}, 1.0);
   EXPECT_EQ(why(left, 5s), std::nullopt) << "right rests where that motion ends";
   rest(kRight, {}, 0.5);
-  EXPECT_EQ(why(left, 5s), Why::uncertified) << "right rests nowhere that is certified";
+  EXPECT_EQ(why(left, 5s), Why::uncertified) << "right rests at no certified position";
 }
 
-TEST_F(Guarded, ARestOnTheEdgeBetweenTwoRectanglesIsInBoth) {
+TEST_F(Guarded, RestOnTheEdgeBetweenTwoRectanglesIsInBoth) {
   take({scene(left), scene(right), pair(on(left), resting(kRight, 0.0)),
         pair(on(left), on(right), {{2s, 4s, 0s, 9s}, {4s, 6s, 0s, 9s}})});
   ASSERT_EQ(guard->grant(left, {}, 1s), std::nullopt);
@@ -206,14 +205,14 @@ TEST_F(Guarded, ARestOnTheEdgeBetweenTwoRectanglesIsInBoth) {
   EXPECT_EQ(why(right, 1s), Why::region);
 }
 
-TEST_F(Guarded, AnArmInMotionIsNotAtRest) {
+TEST_F(Guarded, MovingArmIsNotCoveredByARestCertificate) {
   take({scene(left), scene(right), pair(on(left), resting(kRight, 0.0)),
         pair(on(right), resting(kLeft, 0.0))});
   ASSERT_EQ(guard->grant(right, {}, 5s), std::nullopt);
   EXPECT_EQ(why(left, 1s), Why::uncertified);
 }
 
-TEST_F(Guarded, AStartOffThePathNeedsACertificateWithThatError) {
+TEST_F(Guarded, StartOffThePathNeedsACertificateWithThatError) {
   const TrajectoryPtr off = line({kLeft}, 0.005, 1.0);
   take({scene(off), pair(on(off), resting(kRight, 0.0))});
   EXPECT_EQ(why(off, 1s), Why::uncertified);
@@ -227,7 +226,7 @@ TEST_F(Guarded, AStartOffThePathNeedsACertificateWithThatError) {
   EXPECT_EQ(why(right, 1s), Why::uncertified) << "left is still off its path";
 }
 
-TEST_F(Guarded, ACertificateHoldsFromItsProgressOn) {
+TEST_F(Guarded, CertificateIsValidFromItsProgressOn) {
   take({scene(left, 2s), pair(on(left, 2s), resting(kRight, 0.0))});
   EXPECT_EQ(why(left, 5s), Why::uncertified);
   take({scene(left), pair(on(left), resting(kRight, 0.0))});
@@ -238,28 +237,28 @@ TEST_F(Guarded, ACertificateHoldsFromItsProgressOn) {
   EXPECT_EQ(why(right, 1s), std::nullopt);
 }
 
-TEST_F(Guarded, JointsThatDoNotMoveMustBeWhereTheCertificateSays) {
+TEST_F(Guarded, JointsAtRestMustMatchTheCertificate) {
   CertifiedSide side = on(left);
   side.still = {{joint(kLeft), 0.5}};
   take({scene(left), pair(side, resting(kRight, 0.0))});
   EXPECT_EQ(why(left, 1s), Why::uncertified);
 }
 
-TEST_F(Guarded, AChangedObjectInvalidatesOnlyWhatHasNotSeenIt) {
+TEST_F(Guarded, ChangedObjectInvalidatesOnlyOlderSceneCertificates) {
   take(
       {scene(left), pair(on(left), resting(kRight, 0.0)), scene(right), pair(on(right), on(left))});
   const TrajectoryPtr other = right;
-  near_all({22, 31});  // 21 is another one now
+  near_all({22, 31});  // object 21 was replaced by 31
   guard->look_at(content);
   EXPECT_EQ(why(left, 1s), Why::uncertified);
   take({scene(left)});
   EXPECT_EQ(why(left, 1s), std::nullopt) << "the pair's certificate names no object";
   near_all({22});
   guard->look_at(content);
-  EXPECT_EQ(why(left, 1s), std::nullopt) << "an object less endangers nobody";
+  EXPECT_EQ(why(left, 1s), std::nullopt) << "removing an object endangers no arm";
 }
 
-TEST_F(Guarded, AnObjectThatTheArmCannotReachInvalidatesNothing) {
+TEST_F(Guarded, ObjectOutOfReachInvalidatesNothing) {
   take({scene(left), pair(on(left), resting(kRight, 0.0))});
   const SceneFingerprint before = content;
   content.objects[kRight.index()] = {22, 31};
@@ -270,7 +269,7 @@ TEST_F(Guarded, AnObjectThatTheArmCannotReachInvalidatesNothing) {
   EXPECT_EQ(arms_in_question(before, content), (std::vector{kLeft, kRight, kThird}));
 }
 
-TEST_F(Guarded, AnAnswerAboutAnOlderSceneTakesNothingAway) {
+TEST_F(Guarded, CertificateForAnOlderSceneReplacesNothing) {
   const Certificate older = scene(left);
   near_all({21, 22, 31});
   guard->look_at(content);
@@ -279,7 +278,7 @@ TEST_F(Guarded, AnAnswerAboutAnOlderSceneTakesNothingAway) {
   EXPECT_EQ(why(left, 1s), std::nullopt);
 }
 
-TEST_F(Guarded, WhatAnArmHoldsInvalidatesOnlyItsCertificates) {
+TEST_F(Guarded, AttachedObjectInvalidatesOnlyCertificatesOfItsArm) {
   const TrajectoryPtr third = line({kThird}, 0.0, 1.0);
   take({scene(left), pair(on(left), resting(kRight, 0.0)), scene(third)});
   content.arms[kRight.index()] = 99;
@@ -289,22 +288,22 @@ TEST_F(Guarded, WhatAnArmHoldsInvalidatesOnlyItsCertificates) {
   EXPECT_EQ(why(third, 1s), std::nullopt);
 }
 
-TEST_F(Guarded, OtherDistancesInvalidateAll) {
+TEST_F(Guarded, ChangedClearancesInvalidateAllCertificates) {
   take({scene(left), pair(on(left), resting(kRight, 0.0))});
   content.common = 2;
   guard->look_at(content);
   EXPECT_EQ(why(left, 1s), Why::uncertified);
 }
 
-TEST_F(Guarded, OneProofIsEnough) {
+TEST_F(Guarded, OneCoveringCertificateIsEnough) {
   take({scene(left), pair(on(left), resting(kRight, 0.0), {{4s, 6s, 0s, 0s}})});
   EXPECT_EQ(why(left, 5s), Why::region);
   take({pair(on(left), resting(kRight, 0.0), {{7s, 8s, 0s, 0s}})});
   EXPECT_EQ(why(left, 5s), std::nullopt);
-  EXPECT_EQ(why(left, 7500ms), Why::region) << "neither proves all of it";
+  EXPECT_EQ(why(left, 7500ms), Why::region) << "neither covers the whole range";
 }
 
-TEST_F(Guarded, AnArmOnAnotherMotionIsBusy) {
+TEST_F(Guarded, ArmOnAnotherMotionIsBusy) {
   const TrajectoryPtr second = line({kLeft}, 0.0, -1.0);
   take({scene(left), pair(on(left), resting(kRight, 0.0)), scene(second),
         pair(on(second), resting(kRight, 0.0))});
@@ -312,7 +311,7 @@ TEST_F(Guarded, AnArmOnAnotherMotionIsBusy) {
   EXPECT_EQ(why(second, 1s), Why::busy);
 }
 
-TEST_F(Guarded, ForgetsAMotionWhenNoArmIsOnIt) {
+TEST_F(Guarded, ForgetsAMotionOnceNoArmIsOnIt) {
   take({scene(left), pair(on(left), resting(kRight, 0.0))});
   ASSERT_EQ(guard->grant(left, {}, 10s), std::nullopt);
   take({scene(right), pair(on(right), on(left))});
@@ -326,13 +325,13 @@ TEST_F(Guarded, ForgetsAMotionWhenNoArmIsOnIt) {
   EXPECT_EQ(left.use_count(), 1);
 }
 
-TEST_F(Guarded, KeepsNoMoreMotionsThanItsBound) {
+TEST_F(Guarded, EvictsOldMotionsBeyondItsLimit) {
   for (int i = 0; i < 200; ++i) take({scene(line({kLeft}, 0.0, 1.0 + i))});
   take({scene(left), pair(on(left), resting(kRight, 0.0))});
   EXPECT_EQ(why(left, 1s), std::nullopt);
 }
 
-TEST_F(Guarded, KeepsNoMoreRestsOfAnArmThanItsBound) {
+TEST_F(Guarded, EvictsOldRestsOfAnArmBeyondItsLimit) {
   take({scene(left)});
   for (int i = 0; i < 200; ++i) take({pair(on(left), resting(kRight, 1.0 + i))});
   take({pair(on(left), resting(kRight, 0.0))});
@@ -347,7 +346,7 @@ class GuardedTogether : public Guarded {
   TrajectoryPtr both = line({kLeft, kRight}, 0.0, 1.0);
 };
 
-TEST_F(GuardedTogether, ArmsOfOneMotionKeepTogether) {
+TEST_F(GuardedTogether, RefusesIfArmsOfOneMotionAreOutOfStep) {
   ASSERT_EQ(guard->grant(both, {}, 5s), std::nullopt);
   guard->moves(kLeft, 1100ms);
   guard->moves(kRight, 1s);
@@ -356,13 +355,13 @@ TEST_F(GuardedTogether, ArmsOfOneMotionKeepTogether) {
   EXPECT_EQ(why(both, 6s), Why::out_of_step);
 }
 
-TEST_F(GuardedTogether, NeedACertificateForThat) {
+TEST_F(GuardedTogether, NeedsATogetherCertificate) {
   const TrajectoryPtr other = line({kLeft, kRight}, 0.0, -1.0);
   take({scene(other)});
   EXPECT_EQ(why(other, 1s), Why::uncertified);
 }
 
-TEST_F(GuardedTogether, EachOfItsArmsCounts) {
+TEST_F(GuardedTogether, ChecksEachArmOfTheMotion) {
   content.arms[2] = 99;
   guard->look_at(content);
   take({apart(kLeft, kThird), scene(both),

@@ -10,7 +10,7 @@ namespace {
 constexpr double kSpeed_m_s = 0.5;
 constexpr double kTracking_m = 0.001;
 constexpr double kObject_m = 0.05;  // radius
-// Arms of one motion are never farther apart on it than the executive lets them be.
+// Largest lag between arms of one motion that the executive allows.
 constexpr Duration kInStep = std::chrono::milliseconds(50);
 
 TrajectoryPtr motion_of(const Cell& cell, const std::vector<ArmId>& arms,
@@ -47,7 +47,6 @@ std::vector<std::vector<JointId>> joints_of(const Cell& cell) {
 }  // namespace
 
 RailCell::RailCell(std::size_t arms) {
-  // Two cross at the origin, a third and a fourth one pass near it.
   const std::vector<std::pair<Eigen::Vector3d, double>> all{
       {{0, 0, 0}, 0.0}, {{0, 0, 0}, 90.0}, {{0.1, 0, 0}, 45.0}, {{0, 0.1, 0}, 135.0}};
   Cell made;
@@ -126,7 +125,7 @@ void Chaos::begin() {
   std::ranges::sort(arms);
   std::vector<double> from, to;
   for (const ArmId arm : arms) {
-    // Mostly from where it is.
+    // Mostly from the arm's position, sometimes up to 5 mm off.
     from.push_back(at(arm).q + (chance(0.05) ? 0.01 * (share() - 0.5) : 0.0));
     to.push_back(RailCell::kEnd_m * (2 * share() - 1));
   }
@@ -135,7 +134,7 @@ void Chaos::begin() {
   grant(motion, {}, from_seconds(share() * to_seconds(motion->duration())));
 }
 
-// About all that is there, or a part of it; an answer may be late or never used.
+// The answer may be used late or never.
 void Chaos::ask(const TrajectoryPtr& motion, Duration from) {
   Question question{.version = 0,
                     .start_at = {},
@@ -201,7 +200,7 @@ void Chaos::resume() {
         own.progress + from_seconds(share() * to_seconds(motion->duration() - own.progress)));
 }
 
-// It brakes on its path, somewhere before its authority ends; the arms of one motion in step.
+// Brakes on the path before the authority ends; arms of one motion stay in step.
 void Chaos::stop() {
   const TrajectoryPtr motion = at(any_arm()).motion;
   if (!motion || at(motion->arms().front()).motion != motion) return;
@@ -255,7 +254,6 @@ void Chaos::come_to_rest(ArmId arm) {
   guard_.rests(arm, own.progress, where());
 }
 
-// An object comes, goes or moves, where no arm is on its way.
 void Chaos::change_scene() {
   if (!std::ranges::all_of(arms_, &RailArm::stopped)) return;
   std::vector<CollisionObject> objects;

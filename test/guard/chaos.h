@@ -11,8 +11,7 @@
 
 namespace armloom {
 
-// Spheres on rails that cross each other near the origin: real certificates from the checker, and
-// distances that are known in closed form.
+// Spheres on rails that cross near the origin: real certificates, and distances in closed form.
 struct RailCell {
   explicit RailCell(std::size_t arms);
 
@@ -26,24 +25,24 @@ struct RailCell {
   std::vector<Eigen::Vector3d> begins, along;  // by ArmId
 };
 
-// A scheduler without any rule, and arms that do what they are told: it starts, extends, stops,
-// resumes, cancels and forgets at random, asks the checker about a part of what is there, and uses
-// old answers. Everything goes through the guard, or nothing does.
+// A scheduler without rules, and arms that obey it: starts, extends, stops, resumes, cancels and
+// forgets motions at random, asks the checker about a part of the cell, and uses old answers. All
+// grants go through the guard if `guarded`, otherwise none.
 class Chaos {
  public:
   Chaos(const RailCell& rails, MotionChecker& checker, std::uint64_t seed, bool guarded);
 
   struct Outcome {
-    double closest_m = 1e9;  // surfaces of two arms, and of an arm and the object
+    double closest_m = 1e9;  // between the surfaces of two arms, or of an arm and the object
     std::size_t grants = 0, refusals = 0, advances = 0;
-    std::vector<Configuration> states = {};  // where it was looked at
+    std::vector<Configuration> states = {};  // the configurations that were measured
   };
   Outcome run(int steps);
 
  private:
   struct RailArm {
-    double q;                   // where it is
-    TrajectoryPtr motion = {};  // null: at rest, it has none
+    double q;                   // position on the rail
+    TrajectoryPtr motion = {};  // nullptr if the arm is at rest without a motion
     Duration progress{}, authority{};
     bool stopped = true;
   };

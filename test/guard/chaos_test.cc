@@ -1,4 +1,4 @@
-// Proof by chaos: a scheduler without any rule cannot drive an arm into another one.
+// Proof by chaos: even a scheduler without rules cannot drive one arm into another.
 #include "test/guard/chaos.h"
 
 #include <gtest/gtest.h>
@@ -44,13 +44,13 @@ Tally run_all(bool guarded, std::uint64_t runs) {
   return tally;
 }
 
-TEST(Chaos, TheGuardKeepsTheClearance) {
+TEST(Chaos, GuardKeepsTheClearance) {
   const std::uint64_t runs = seed_count(kRuns);
   const Tally tally = run_all(true, runs);
   EXPECT_EQ(tally.too_close, 0U);
   if (runs < 300) return;
-  EXPECT_GT(tally.grants, 5 * tally.runs) << "it must let something pass";
-  EXPECT_GT(tally.refusals, tally.runs) << "and have something to refuse";
+  EXPECT_GT(tally.grants, 5 * tally.runs) << "the guard must grant some requests";
+  EXPECT_GT(tally.refusals, tally.runs) << "and refuse others";
 }
 
 TEST(Chaos, WithoutTheGuardArmsTouch) {

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""faults.py [--tree DIR] [--only NAME] [--patterns] [--seeds N]: puts faults into a copy of the sources, all in one build, and
-switches them on one at a time (ARMLOOM_FAULT). Faults in the scheduler must be harmless and be reported by the guard; faults
-in the guard must be found by its tests. Prints a table; exit 1 if one is not. With --patterns only looks whether each
-fault has something to change."""
+"""faults.py [--tree DIR] [--only NAME] [--patterns] [--seeds N]: injects faults into a copy of the sources, all in one build,
+and enables them one at a time (ARMLOOM_FAULT). Faults in the scheduler must be harmless and be reported by the guard; faults
+in the guard must be detected by its tests. Prints a table; exit code 1 if a fault fails this. With --patterns only checks
+that each fault's pattern matches."""
 import argparse, re, sys, tempfile
 from pathlib import Path
 
@@ -14,7 +14,7 @@ GRAPH, OPEN = 'core/precedence/precedence_graph.cc', 'core/precedence/open_order
 PRECEDENCE = 'core/precedence/precedence.cc'
 QUESTIONS, GUARD = 'core/scheduler/motion_questions.cc', 'core/guard/authority_guard.cc'
 
-# With a fault the scheduler's own checks do not end the process: the guard alone stands in its way.
+# With a fault, the scheduler's own checks do not end the process, so that only the guard can stop it.
 QUIET = [
     ('core/jobs/invariants.cc', 'std::optional<std::string> broken_invariant(const State& state) {',
      'std::optional<std::string> broken_invariant(const State& state) {\n  if (armloom_fault(-1)) return std::nullopt;'),
@@ -24,59 +24,59 @@ QUIET = [
 SCHEDULER = [
     ('an order is ignored', GRAPH, 'if (held) limit = std::min(limit, *held);', 'if (held && !FAULT) limit = std::min(limit, *held);'),
     ('an order is lost at admission', GRAPH, '  precedences_ = orders.precedences;', '  precedences_ = orders.precedences;\n  if (FAULT && !precedences_.empty()) precedences_.pop_back();'),
-    ('a goal that nobody leaves blocks nobody', OPEN, 'if (!chains_.moves_on(motion)) return true;', 'if (!chains_.moves_on(motion)) return !FAULT;'),
-    ('a start where the arm stands blocks nobody', OPEN, '  if (!at_start) return false;', '  if (!at_start || FAULT) return false;'),
-    ('an order is reversed although authority was given', OPEN, '  if (from < motions_[motion].authority) return true;', '  if (!FAULT && from < motions_[motion].authority) return true;'),
+    ('a goal that no motion leaves blocks no motion', OPEN, 'if (!chains_.moves_on(motion)) return true;', 'if (!chains_.moves_on(motion)) return !FAULT;'),
+    ('a start where the arm rests blocks no motion', OPEN, '  if (!at_start) return false;', '  if (!at_start || FAULT) return false;'),
+    ('an order is reversed despite granted authority', OPEN, '  if (from < motions_[motion].authority) return true;', '  if (!FAULT && from < motions_[motion].authority) return true;'),
     ('a rest on a path is forgotten', GRAPH, 'if (blockade) blockades_.push_back(std::move(*blockade));', 'if (blockade && !FAULT) blockades_.push_back(std::move(*blockade));'),
-    ('a cancel keeps its end', PHASES, '  } else {\n    leave_graph(state, record);\n  }\n  const JobId ended', '  } else if (FAULT) {\n    state.graph.finish(record.job.id);\n  } else {\n    leave_graph(state, record);\n  }\n  const JobId ended'),
-    ('a new scene does not check motions again', 'core/scheduler/scheduler.cc', 'if (std::ranges::any_of(record.leg.arms, is_named)) record.asking', 'if (!FAULT && std::ranges::any_of(record.leg.arms, is_named)) record.asking'),
-    ('a check of a motion under way is not acted on', ADMISSION, 'if (input.verdict.kind != Verdict::Kind::free) hold_back(', 'if (input.verdict.kind != Verdict::Kind::free && !FAULT) hold_back('),
-    ('an admitted motion is left out of the question', QUESTIONS, '    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;', '    if (FAULT && !question.others.empty()) continue;\n    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;'),
-    ('the question is asked as if all stood at home', QUESTIONS, '                    .rest = state.arms.rest(),', '                    .rest = FAULT ? state.cell->home() : state.arms.rest(),'),
-    ('progress is counted too far', 'core/scheduler/scheduler.cc', '  state_.graph.progress(record->job.id, input.progress);', '  state_.graph.progress(record->job.id, FAULT ? std::min(input.progress + Duration(600\'000\'000), record->job.trajectory->duration()) : input.progress);'),
-    ('authority is given to the end', 'core/scheduler/authority.cc', '  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.id));\n  const Duration granted', '  const Duration authority = FAULT ? job.trajectory->duration() : std::min(limit, job.progress + state.graph.horizon(job.id));\n  const Duration granted'),
-    ('what waits stays inside of the region', PRECEDENCE, 'const Duration limit = std::max(Duration{}, box.from_b - kShortOf);', 'const Duration limit = std::max(Duration{}, FAULT ? box.from_b + Duration(200\'000\'000) : box.from_b - kShortOf);'),
-    ('arms that rest in the way are not looked at', OPEN, '    for (const ConflictRegion& region : pair.regions) {\n      answer_.blockers.push_back(', '    for (const ConflictRegion& region : pair.regions) {\n      if (FAULT) break;\n      answer_.blockers.push_back('),
-    ('only the first order of a motion counts', GRAPH, '    if (precedence.second() != job) continue;\n    const auto held', '    if (precedence.second() != job || (FAULT && limit < found->duration)) continue;\n    const auto held'),
-    ('an order is over once authority for it is granted', GRAPH, 'precedence.limit(find(precedence.first())->progress);\n    if (held', 'precedence.limit(FAULT ? find(precedence.first())->authority : find(precedence.first())->progress);\n    if (held'),
-    ('an order is over once its first box is passed', PRECEDENCE, '  return step == steps_.end() ?', '  return step == steps_.end() || (FAULT && step != steps_.begin()) ?'),
-    ('an order is over halfway through the region', PRECEDENCE, '  std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);', '  if (FAULT) for (ProgressBox& box : boxes) box.to_a -= (box.to_a - box.from_a) / 2;\n  std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);'),
-    ('who waits goes on to the far side of the region', PRECEDENCE, 'std::vector<ProgressBox> boxes = region_.boxes;', 'std::vector<ProgressBox> boxes = region_.boxes;\n  if (FAULT) for (ProgressBox& box : boxes) box.from_b = box.to_b;'),
+    ('a canceled motion keeps its end', PHASES, '  } else {\n    leave_graph(state, record);\n  }\n  const JobId ended', '  } else if (FAULT) {\n    state.graph.finish(record.job.id);\n  } else {\n    leave_graph(state, record);\n  }\n  const JobId ended'),
+    ('a new scene causes no new check of motions', 'core/scheduler/scheduler.cc', 'if (std::ranges::any_of(record.leg.arms, is_named)) record.asking', 'if (!FAULT && std::ranges::any_of(record.leg.arms, is_named)) record.asking'),
+    ('the verdict on a motion under way is ignored', ADMISSION, 'if (input.verdict.kind != Verdict::Kind::free) hold_back(', 'if (input.verdict.kind != Verdict::Kind::free && !FAULT) hold_back('),
+    ('an admitted motion is missing in the question', QUESTIONS, '    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;', '    if (FAULT && !question.others.empty()) continue;\n    if (std::ranges::find(candidates, motion.job) != candidates.end()) continue;'),
+    ('the question assumes that all arms are at home', QUESTIONS, '                    .rest = state.arms.rest(),', '                    .rest = FAULT ? state.cell->home() : state.arms.rest(),'),
+    ('progress is overestimated', 'core/scheduler/scheduler.cc', '  state_.graph.progress(record->job.id, input.progress);', '  state_.graph.progress(record->job.id, FAULT ? std::min(input.progress + Duration(600\'000\'000), record->job.trajectory->duration()) : input.progress);'),
+    ('authority is granted to the end', 'core/scheduler/authority.cc', '  const Duration authority = std::min(limit, job.progress + state.graph.horizon(job.id));\n  const Duration granted', '  const Duration authority = FAULT ? job.trajectory->duration() : std::min(limit, job.progress + state.graph.horizon(job.id));\n  const Duration granted'),
+    ('a waiting arm stops inside the region', PRECEDENCE, 'const Duration limit = std::max(Duration{}, box.from_b - kShortOf);', 'const Duration limit = std::max(Duration{}, FAULT ? box.from_b + Duration(200\'000\'000) : box.from_b - kShortOf);'),
+    ('arms at rest in the way are ignored', OPEN, '    for (const ConflictRegion& region : pair.regions) {\n      answer_.blockers.push_back(', '    for (const ConflictRegion& region : pair.regions) {\n      if (FAULT) break;\n      answer_.blockers.push_back('),
+    ('only the first order of a motion applies', GRAPH, '    if (precedence.second() != job) continue;\n    const auto held', '    if (precedence.second() != job || (FAULT && limit < found->duration)) continue;\n    const auto held'),
+    ('an order ends when its authority is granted', GRAPH, 'precedence.limit(find(precedence.first())->progress);\n    if (held', 'precedence.limit(FAULT ? find(precedence.first())->authority : find(precedence.first())->progress);\n    if (held'),
+    ('an order ends when its first box is passed', PRECEDENCE, '  return step == steps_.end() ?', '  return step == steps_.end() || (FAULT && step != steps_.begin()) ?'),
+    ('an order ends halfway through the region', PRECEDENCE, '  std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);', '  if (FAULT) for (ProgressBox& box : boxes) box.to_a -= (box.to_a - box.from_a) / 2;\n  std::ranges::sort(boxes, std::greater<>(), &ProgressBox::to_a);'),
+    ('a waiting arm continues to the far side of the region', PRECEDENCE, 'std::vector<ProgressBox> boxes = region_.boxes;', 'std::vector<ProgressBox> boxes = region_.boxes;\n  if (FAULT) for (ProgressBox& box : boxes) box.from_b = box.to_b;'),
     ('a region loses its first box', PRECEDENCE, '  Duration begins{};  //', '  if (FAULT && boxes.size() > 1) boxes.pop_back();\n  Duration begins{};  //'),
-    ('a motion that was stopped goes on without orders', 'core/scheduler/authority.cc', '  const Duration limit = state.graph.limit(job.id);\n  if (limit <= job.progress', '  const Duration limit = FAULT && job.has_started() ? job.trajectory->duration() : state.graph.limit(job.id);\n  if (limit <= job.progress'),
-    ('a canceled motion is taken to rest where it began', GRAPH, 'block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});', 'block_others(*found, {stand, FAULT ? Duration{} : rests_at, FAULT ? Duration{} : std::max(rests_at, farthest)});'),
+    ('a stopped motion continues without orders', 'core/scheduler/authority.cc', '  const Duration limit = state.graph.limit(job.id);\n  if (limit <= job.progress', '  const Duration limit = FAULT && job.has_started() ? job.trajectory->duration() : state.graph.limit(job.id);\n  if (limit <= job.progress'),
+    ('a canceled motion is assumed to rest at its start', GRAPH, 'block_others(*found, {stand, rests_at, std::max(rests_at, farthest)});', 'block_others(*found, {stand, FAULT ? Duration{} : rests_at, FAULT ? Duration{} : std::max(rests_at, farthest)});'),
     ('the regions of the last pair are lost', OPEN, '  for (const PairRegions& pair : question.regions) add(pair);', '  for (const PairRegions& pair : question.regions) {\n    if (FAULT && &pair == &question.regions.back()) break;\n    add(pair);\n  }'),
-    ('of several regions of a pair one counts', OPEN, '  for (const ConflictRegion& region : pair.regions) add(a, *b, region);', '  for (const ConflictRegion& region : pair.regions) {\n    add(a, *b, region);\n    if (FAULT) break;\n  }'),
-    ('motions under way are taken to be at their ends', QUESTIONS, '                .progress = job.progress,\n                .to_come', '                .progress = FAULT && job.progress > Duration{} ? job.trajectory->duration() : job.progress,\n                .to_come'),
-    ('a start off the path is not told', QUESTIONS, '  return follows ?', '  return follows || FAULT ?'),
-    ('what the checker refuses is admitted', ADMISSION, '  if (verdict.kind == Verdict::Kind::free) {\n    if (state.graph', '  if (verdict.kind == Verdict::Kind::free || FAULT) {\n    if (state.graph'),
+    ('only one of several regions of a pair applies', OPEN, '  for (const ConflictRegion& region : pair.regions) add(a, *b, region);', '  for (const ConflictRegion& region : pair.regions) {\n    add(a, *b, region);\n    if (FAULT) break;\n  }'),
+    ('motions under way are assumed to be at their ends', QUESTIONS, '                .progress = job.progress,\n                .to_come', '                .progress = FAULT && job.progress > Duration{} ? job.trajectory->duration() : job.progress,\n                .to_come'),
+    ('a start off the path is not reported', QUESTIONS, '  return follows ?', '  return follows || FAULT ?'),
+    ('a motion that the checker rejects is admitted', ADMISSION, '  if (verdict.kind == Verdict::Kind::free) {\n    if (state.graph', '  if (verdict.kind == Verdict::Kind::free || FAULT) {\n    if (state.graph'),
 ]
 
 FAULTS_IN_GUARD = [
-    ('other arms are not looked at', 'if (std::ranges::count(arms, other) > 0 || are_apart(arm, other)) continue;', 'if (FAULT || std::ranges::count(arms, other) > 0 || are_apart(arm, other)) continue;'),
-    ('only where the other arm is counts', '? std::optional(Interval{position.measured, position.authority})', '? std::optional(Interval{position.measured, FAULT ? position.measured : position.authority})'),
-    ('only where the arm is to go counts', 'return box_from < to && from < box_to;', 'return box_from < (FAULT ? from : to) && from < box_to;'),
+    ('other arms are ignored', 'if (std::ranges::count(arms, other) > 0 || are_apart(arm, other)) continue;', 'if (FAULT || std::ranges::count(arms, other) > 0 || are_apart(arm, other)) continue;'),
+    ('only the position of the other arm is checked', '? std::optional(Interval{position.measured, position.authority})', '? std::optional(Interval{position.measured, FAULT ? position.measured : position.authority})'),
+    ('only the target of the arm is checked', 'return box_from < to && from < box_to;', 'return box_from < (FAULT ? from : to) && from < box_to;'),
     ('a rest anywhere is covered', '<= side.error;\n  });', '<= (FAULT ? 1e9 : side.error);\n  });'),
-    ('an arm in motion is taken to be at rest', 'if (!side.motion) return position.at_rest ?', 'if (!side.motion) return position.at_rest || FAULT ?'),
+    ('a moving arm is assumed to be at rest', 'if (!side.motion) return position.at_rest ?', 'if (!side.motion) return position.at_rest || FAULT ?'),
     ('a start off the path is covered', 'const bool holds = side.from <= position.measured && position.off_path <= side.error;', 'const bool holds = side.from <= position.measured && (FAULT || position.off_path <= side.error);'),
-    ('a certificate holds from the start on', 'const bool holds = side.from <= position.measured &&', 'const bool holds = (FAULT || side.from <= position.measured) &&'),
-    ('certificates of other content count', '  return present_.of(pair.a.arms, pair.b.arms) == pair.geometry;', '  return FAULT || present_.of(pair.a.arms, pair.b.arms) == pair.geometry;'),
-    ('objects that nobody has seen do not matter', 'std::ranges::includes(scene.objects[at], present_.objects[arm.index()]);', '(FAULT || std::ranges::includes(scene.objects[at], present_.objects[arm.index()]));'),
-    ('the scene does not matter', 'if (is_busy || of == motions_.end() || !sees_scene(of->second, arm, own)) {', 'if (is_busy || of == motions_.end() || (!FAULT && !sees_scene(of->second, arm, own))) {'),
-    ('an arm may change its motion on the way', 'const bool is_busy = now.motion != motion && !now.at_rest;', 'const bool is_busy = !FAULT && now.motion != motion && !now.at_rest;'),
-    ('arms of one motion may get apart', 'if (holds && first - last <= of->apart)', 'if (holds && (FAULT || first - last <= of->apart))'),
-    ('a stop leaves authority as it was', '    position.authority = position.measured;\n  }', '    if (!FAULT) position.authority = position.measured;\n  }'),
-    ('authority that was granted is not held', '    positions_[arm.index()] = as_granted(motion, arm, from, authority);', '    positions_[arm.index()] = as_granted(motion, arm, from, FAULT ? from.value_or(Duration{}) : authority);'),
-    ('arms that were apart are apart whatever they hold', '  return apart != apart_.end() && apart->second ==', '  if (FAULT) return apart != apart_.end();\n  return apart != apart_.end() && apart->second =='),
-    ('a region that is met does not matter', '    if (met == pair.blocked.end()) return std::nullopt;', '    if (met == pair.blocked.end() || FAULT) return std::nullopt;'),
+    ('a certificate is valid from the start on', 'const bool holds = side.from <= position.measured &&', 'const bool holds = (FAULT || side.from <= position.measured) &&'),
+    ('certificates for other content are valid', '  return present_.of(pair.a.arms, pair.b.arms) == pair.geometry;', '  return FAULT || present_.of(pair.a.arms, pair.b.arms) == pair.geometry;'),
+    ('objects that no check has seen are ignored', 'std::ranges::includes(scene.objects[at], present_.objects[arm.index()]);', '(FAULT || std::ranges::includes(scene.objects[at], present_.objects[arm.index()]));'),
+    ('the scene is ignored', 'if (is_busy || of == motions_.end() || !sees_scene(of->second, arm, own)) {', 'if (is_busy || of == motions_.end() || (!FAULT && !sees_scene(of->second, arm, own))) {'),
+    ('an arm may change its motion while moving', 'const bool is_busy = now.motion != motion && !now.at_rest;', 'const bool is_busy = !FAULT && now.motion != motion && !now.at_rest;'),
+    ('arms of one motion may get out of step', 'if (holds && first - last <= of->apart)', 'if (holds && (FAULT || first - last <= of->apart))'),
+    ('a stop does not reduce authority', '    position.authority = position.measured;\n  }', '    if (!FAULT) position.authority = position.measured;\n  }'),
+    ('granted authority is not recorded', '    positions_[arm.index()] = as_granted(motion, arm, from, authority);', '    positions_[arm.index()] = as_granted(motion, arm, from, FAULT ? from.value_or(Duration{}) : authority);'),
+    ('arms that were apart stay apart with any attached objects', '  return apart != apart_.end() && apart->second ==', '  if (FAULT) return apart != apart_.end();\n  return apart != apart_.end() && apart->second =='),
+    ('a region that is met is ignored', '    if (met == pair.blocked.end()) return std::nullopt;', '    if (met == pair.blocked.end() || FAULT) return std::nullopt;'),
 ]
 
-# Faults are numbered from 1, those in the scheduler first.
+# Faults are numbered from 1, scheduler faults first.
 FAULTS = SCHEDULER + [(name, GUARD, old, new) for name, old, new in FAULTS_IN_GUARD]
 
 
 def quiet(tree):
-    """Returns what is missing."""
+    """Returns the patterns that do not match."""
     missing = []
     for file, old, new in QUIET:
         text = (tree / file).read_text()
@@ -86,7 +86,7 @@ def quiet(tree):
 
 
 def soak(tree, number, seeds):
-    """Runs until the guard has refused something, at most all policies: refusals, closest in mm, monitor findings."""
+    """Runs policies until the guard refuses a request; returns refusals, smallest distance in mm, monitor findings."""
     refusals, closest, findings = 0, 1e9, 0
     for policy in (0, 1, 2):  # coordinated, earliest_start, certified
         code, out = run(tree, 'soak_test', number, f'--gtest_filter=*SoakOfCommands.Sliders/{policy}', seeds=seeds)

@@ -4,9 +4,9 @@
 
 namespace armloom::test {
 
-// A robot of one URDF with `arms` arms in a row, 0.6 m apart along x, named arm0, arm1, ...: two
-// links of 0.4 m each that turn about z, 0.3 m above the bar that carries all arms. Two posts stand
-// at the bar: `post` within reach of arm0's second link, `far_post` out of reach of all arms.
+// Returns the URDF of `arms` arms named arm0, arm1, ..., 0.6 m apart along x. Each has two 0.4 m
+// links that turn about z, 0.3 m above a common bar. Two posts are fixed to the bar: `post` within
+// reach of arm0's second link, `far_post` out of reach.
 inline std::string arm_row_urdf(int arms) {
   const auto text = [](double number) { return std::to_string(number); };
   const auto box = [&](double x, double y, double z) {
@@ -41,8 +41,9 @@ inline std::string arm_row_urdf(int arms) {
   return urdf + "</robot>";
 }
 
-// Its SRDF, as the Setup Assistant leaves it when no random sample met: disables every pair of
-// links of different arms, and both links of arm0 with both posts. One pair a line, from line 2 on.
+// Returns an SRDF as written by the MoveIt Setup Assistant without sampled collisions. It disables
+// all pairs of links of different arms, and arm0's links with the posts; one pair per line, from
+// line 2 on.
 inline std::string arm_row_srdf(int arms) {
   std::string srdf = "<robot name=\"row\">\n";
   const auto never = [&](const std::string& a, const std::string& b, const std::string& reason) {

@@ -19,14 +19,14 @@ bool allows(const Cell& cell, const std::string& a, const std::string& b) {
   return cell.allowed.allows(*cell.find_link(a), *cell.find_link(b));
 }
 
-TEST(Arms, HoldTheirGroupsIndependentJointsFromBaseToTip) {
+TEST(Arms, ListIndependentJointsFromBaseToTip) {
   const CellPtr cell = build_or_fail(two_arms_description());
   EXPECT_THAT(names_of(*cell, cell->arms[0].joints), ElementsAre("t_l_slide", "t_l_turn"));
   EXPECT_THAT(names_of(*cell, cell->arms[1].joints),
               ElementsAre("t_r_spin", "t_r_bend", "t_r_last"));
 }
 
-TEST(Arms, OwnTheGripperBelowThemAndTheLinksThatTheyMove) {
+TEST(Arms, OwnTheirGripperAndTheLinksThatTheyMove) {
   const CellPtr cell = build_or_fail(two_arms_description());
   const Arm& left = cell->arms[0];
   EXPECT_THAT(names_of(*cell, left.gripper_joints), ElementsAre("t_l_grip"));
@@ -38,7 +38,7 @@ TEST(Arms, OwnTheGripperBelowThemAndTheLinksThatTheyMove) {
   EXPECT_EQ(cell->link(*cell->find_link("t_r3")).arm, ArmId(1));
 }
 
-TEST(Arms, StandAtHomeAndElsewhereAtZeroWithinTheLimits) {
+TEST(Arms, StartAtHomeAndOtherJointsAtZeroWithinLimits) {
   const CellPtr cell = build_or_fail(two_arms_description());
   const Configuration q = cell->home();
   const auto at_home = [&](const char* joint) {
@@ -51,13 +51,13 @@ TEST(Arms, StandAtHomeAndElsewhereAtZeroWithinTheLimits) {
   EXPECT_EQ(at_home("t_r_bend"), 0.4);  // its limits exclude zero
 }
 
-TEST(Arms, KnowTheirNamedStatesInTheOrderOfTheirJoints) {
+TEST(Arms, StoreNamedStatesInJointOrder) {
   const CellPtr cell = build_or_fail(two_arms_description());
   ASSERT_TRUE(cell->arms[0].named_states.contains("out"));
   EXPECT_EQ(cell->arms[0].named_states.at("out"), Eigen::Vector2d(0.2, 1.5));
 }
 
-TEST(Arms, TakeTheLimitsOfTheCellFile) {
+TEST(Arms, UseTheLimitsOfTheCellFile) {
   auto description = two_arms_description();
   description.robots[0].arms[0].limits["l_turn"] = {
       .acceleration = 2.0, .jerk = 100.0, .brake = std::nullopt};
@@ -96,18 +96,18 @@ TEST(Links, ComeAfterTheirParentsAndCarryTheirShapes) {
   EXPECT_EQ(std::get<Mesh>(l2.shapes[0].shape).scale, Eigen::Vector3d(0.5, 0.5, 2));
 }
 
-TEST(AllowedPairs, AreThoseOfTheSrdfAndOfOneRigidBody) {
+TEST(AllowedPairs, IncludeSrdfPairsAndRigidlyConnectedLinks) {
   const CellPtr cell = build_or_fail(two_arms_description());
   EXPECT_TRUE(allows(*cell, "t_base", "t_post"));      // rigid
   EXPECT_TRUE(allows(*cell, "t_l_hand", "t_l2"));      // rigid
   EXPECT_TRUE(allows(*cell, "t_r1", "t_r2"));          // SRDF
   EXPECT_TRUE(allows(*cell, "t_l_hand", "t_l1"));      // disabled by default
   EXPECT_FALSE(allows(*cell, "t_l_hand", "t_r_tip"));  // and enabled again
-  EXPECT_FALSE(allows(*cell, "t_post", "t_l1"));       // adjacent, but the SRDF does not say so
+  EXPECT_FALSE(allows(*cell, "t_post", "t_l1"));       // adjacent, but not disabled in the SRDF
   EXPECT_FALSE(allows(*cell, "t_r3", "t_r_tip"));
 }
 
-TEST(AllowedPairs, BetweenArmsAndWithWhatStandsBesideAMountAreOnlyClaimed) {
+TEST(AllowedPairs, BetweenArmsAndWithStaticLinksAreOnlyClaimed) {
   const ScratchFolder folder;
   CellDescription description = two_arms_description();
   const std::string pair = "<disable_collisions link1=\"r2\" link2=\"r1\" reason=\"Adjacent\"/>";
@@ -130,7 +130,7 @@ TEST(AllowedPairs, BetweenArmsAndWithWhatStandsBesideAMountAreOnlyClaimed) {
   EXPECT_TRUE(allows(*cell, "t_l2", "t_post")) << "its mount";
 }
 
-TEST(AllowedPairs, HoldNeighboursWhereThereIsNoSrdf) {
+TEST(AllowedPairs, IncludeAdjacentLinksIfThereIsNoSrdf) {
   auto description = two_pandas_description();
   for (auto& robot : description.robots) {
     robot.srdf.clear();
@@ -144,14 +144,14 @@ TEST(AllowedPairs, HoldNeighboursWhereThereIsNoSrdf) {
   EXPECT_FALSE(allows(*cell, "left_panda_link3", "right_panda_link4"));
 }
 
-TEST(AllowedPairs, TakeLinksOfAnyRobotFromTheCellFile) {
+TEST(AllowedPairs, AcceptLinksOfAnyRobotFromTheCellFile) {
   auto description = two_pandas_description();
   description.allowed_collisions.emplace_back("right_panda_link0", "left_panda_link0");
   const CellPtr cell = build_or_fail(description);
   EXPECT_TRUE(allows(*cell, "left_panda_link0", "right_panda_link0"));
 }
 
-// A torso under both arms; `torso` is its joint's type line.
+// Returns a torso under both arms; `torso_type` is its joint's type.
 std::string torso_urdf(const std::string& torso_type) {
   const auto revolute = [](const std::string& name, const std::string& parent,
                            const std::string& child) {
@@ -181,28 +181,28 @@ CellDescription torso_cell(const ScratchFolder& folder, const std::string& torso
   return cell;
 }
 
-TEST(SharedJoints, AreRefusedWhenTheTorsoBelongsToOneOfTheArms) {
+TEST(SharedJoints, AreRejectedIfTheTorsoBelongsToOneArm) {
   const ScratchFolder folder;
   EXPECT_THAT(
       problems_of(torso_cell(folder, "revolute", "<joint name='waist'/><joint name='ja'/>")),
-      HasSubstr("/robots/0/arms | robot r: arms A, B share the movable joints waist, so that "
-                "each moves the other; hold what they share (add to the robot \"fixed\": "
-                "{\"waist\": 0}) or make them one arm"));
+      HasSubstr("/robots/0/arms | robot r: arms A, B share the movable joints waist, so each moves "
+                "the other; hold the shared joints (add to the robot \"fixed\": {\"waist\": 0}) or "
+                "make them one arm"));
 }
 
-TEST(SharedJoints, AreRefusedWhenTheTorsoBelongsToNoArm) {
+TEST(SharedJoints, AreRejectedIfTheTorsoBelongsToNoArm) {
   const ScratchFolder folder;
   EXPECT_THAT(problems_of(torso_cell(folder, "revolute", "<joint name='ja'/>")),
               HasSubstr("add to the robot \"fixed\": {\"waist\": 0}"));
 }
 
-TEST(SharedJoints, AreRefusedWhenTwoGroupsHoldTheSameJoint) {
+TEST(SharedJoints, AreRejectedIfTwoGroupsContainTheSameJoint) {
   const ScratchFolder folder;
   EXPECT_THAT(problems_of(torso_cell(folder, "fixed", "<joint name='ja'/><joint name='jb'/>")),
               HasSubstr("arms A, B share the movable joints jb"));
 }
 
-TEST(SharedJoints, DoNotIncludeAFixedTorso) {
+TEST(SharedJoints, ExcludeAFixedTorso) {
   const ScratchFolder folder;
   EXPECT_EQ(problems_of(torso_cell(folder, "fixed", "<joint name='waist'/><joint name='ja'/>")),
             "");

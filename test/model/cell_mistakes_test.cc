@@ -15,7 +15,6 @@ using namespace std::chrono_literals;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// One mistake in the description of two_arms: where it must be found and what is said.
 struct Mistake {
   const char* name;
   std::function<void(CellDescription&)> make;
@@ -27,7 +26,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; 
 
 class CellMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(CellMistake, IsTheOnlyProblemAndNamedByPointerAndValue) {
+TEST_P(CellMistake, IsTheOnlyProblemReportedWithPointerAndValue) {
   CellDescription description = two_arms_description();
   GetParam().make(description);
   const auto cell = build_cell(description);
@@ -52,10 +51,9 @@ INSTANTIATE_TEST_SUITE_P(
                 cell.monitor.stop_clearance_m = 0, "/clearance_m",
                 "clearance_m is -0.01, it must be at least 0 and at most 1"),
         MISTAKE(cell.clearance_m = kNaN, "/clearance_m", "clearance_m is nan"),
-        MISTAKE(
-            left(cell).name = "a/b", "/robots/0/arms/0/name",
-            "the name of an arm stands in paths of the API: a name is 1 to 128 characters without "
-            "slashes and control characters, and not . or .."),
+        MISTAKE(left(cell).name = "a/b", "/robots/0/arms/0/name",
+                "the name of an arm is used in API paths: a name is 1 to 128 characters without "
+                "slashes and control characters, and not . or .."),
         MISTAKE(left(cell).name = "..", "/robots/0/arms/0/name", "and not . or .."),
         MISTAKE(cell.checking.time_step = 0s, "/checking/time_step_s",
                 "time_step_s is 0, it must be at least 1e-04 and at most 10"),
@@ -118,15 +116,15 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Names, CellMistake,
     testing::Values(
-        MISTAKE(cell.robots[0].name = "", "/robots/0/name", "a name of a robot is empty"),
+        MISTAKE(cell.robots[0].name = "", "/robots/0/name", "the name of a robot is empty"),
         MISTAKE(cell.robots[0].arms[1].name = "left", "/robots/0/arms/1/name",
-                "the name left of an arm is taken"),
+                "the name left of an arm is already taken"),
         MISTAKE(cell.objects.push_back(cell.objects[0]), "/objects/1/name",
-                "the name table of an object is taken"),
+                "the name table of an object is already taken"),
         MISTAKE(cell.objects[0].name = "t_post", "/objects/0/name",
-                "the name t_post of an object is a link's name too"),
+                "the name t_post of an object is also a link's name"),
         MISTAKE(cell.objects[0].name = cell.robots[0].name, "/objects/0/name",
-                "of an object is a robot's name too"),
+                "of an object is also a robot's name"),
         MISTAKE(cell.robots[0].arms.clear(), "/robots/0/arms", "no robot of the cell has an arm"),
         MISTAKE(cell.robots.clear(), "/robots", "the cell has no robot"),
         MISTAKE(cell.allowed_collisions.emplace_back("t_post", "chair"), "/allowed_collisions/0/1",
@@ -157,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(
                     MISTAKE(cell.objects[0].shape = Mesh{"missing.stl"}, "/objects/0/mesh",
                             "mesh missing.stl is not a file that exists")));
 
-TEST(CellNames, OfTwoRobotsWithoutPrefixesAreToldOncePerKind) {
+TEST(CellNames, DuplicatesOfTwoRobotsAreReportedOncePerKind) {
   CellDescription cell = two_pandas_description();
   cell.allowed_collisions.clear();
   cell.robots[1].prefix = "left_";
@@ -166,11 +164,11 @@ TEST(CellNames, OfTwoRobotsWithoutPrefixesAreToldOncePerKind) {
   ASSERT_EQ(built.error().size(), 2u);
   EXPECT_EQ(built.error()[0].pointer, "/robots/1/prefix");
   EXPECT_THAT(built.error()[0].detail,
-              HasSubstr("robot right: link left_panda_hand is a name of another robot too"));
+              HasSubstr("robot right: another robot also has a link named left_panda_hand"));
   EXPECT_THAT(built.error()[1].detail, HasSubstr("robot right: joint left_panda_finger_joint1"));
 }
 
-TEST(CellProblems, OfDifferentKindsAreAllTold) {
+TEST(CellProblems, ProblemsOfDifferentKindsAreAllReported) {
   CellDescription cell = two_arms_description();
   cell.monitor.rate_hz = -5;
   left(cell).home = {0, 0, 0};

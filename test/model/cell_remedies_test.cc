@@ -6,15 +6,12 @@
 #include "core/model/kinematics.h"
 #include "test/model/test_cells.h"
 
-// What a cell file can say where a robot's files say nothing, too much or something else: limits,
-// joint_limits.yaml, joints that are held, homes by name.
-
 namespace armloom {
 namespace {
 
 using testing::HasSubstr;
 
-TEST(Mimic, OfAMimicFollowsTheFirstOne) {
+TEST(Mimic, MimicOfAMimicFollowsTheDrivingJoint) {
   const ScratchFolder folder;
   CellDescription description = two_arms_description();
   description.robots[0].urdf = folder.write(
@@ -32,7 +29,7 @@ TEST(Mimic, OfAMimicFollowsTheFirstOne) {
   EXPECT_DOUBLE_EQ(third.offset, -3.0 * 0.001 + 0.01);
 }
 
-TEST(Mimic, InARingIsToldOfEach) {
+TEST(Mimic, CycleIsReportedForEveryJoint) {
   const ScratchFolder folder;
   CellDescription description = two_arms_description();
   description.robots[0].urdf = folder.write(
@@ -40,13 +37,13 @@ TEST(Mimic, InARingIsToldOfEach) {
       file_with(data_file("two_arms.urdf"), "name=\"l_grip\" type=\"prismatic\">",
                 "name=\"l_grip\" type=\"prismatic\"><mimic joint=\"l_grip_mirror\"/>"));
   const std::string problems = problems_of(description);
-  EXPECT_THAT(problems, HasSubstr("twin.urdf:36: joint l_grip: mimic joint l_grip_mirror and those "
-                                  "that it follows go in a ring"));
-  EXPECT_THAT(problems, HasSubstr("twin.urdf:40: joint l_grip_mirror: mimic joint l_grip and those "
-                                  "that it follows go in a ring"));
+  EXPECT_THAT(problems, HasSubstr("twin.urdf:36: joint l_grip: mimic joint l_grip_mirror and the "
+                                  "joints that it follows form a cycle"));
+  EXPECT_THAT(problems, HasSubstr("twin.urdf:40: joint l_grip_mirror: mimic joint l_grip and the "
+                                  "joints that it follows form a cycle"));
 }
 
-TEST(CellLimits, AreNeverWiderThanTheUrdfs) {
+TEST(CellLimits, MustNotExceedTheUrdfLimits) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms[0].limits["l_turn"] = {.lower = -2.5, .upper = 3.0, .velocity = 2.5};
   const std::string problems = problems_of(cell);
@@ -62,25 +59,25 @@ TEST(CellLimits, AreNeverWiderThanTheUrdfs) {
   EXPECT_EQ(joint_of(*built, "t_r_spin").upper, 3.0);
 }
 
-TEST(Homes, MayNameAStateOfTheGroup) {
+TEST(Homes, MayNameAGroupState) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms[0].home.clear();
   cell.robots[0].arms[0].home_state = "out";
   EXPECT_EQ(build_or_fail(cell)->arms[0].home, Eigen::Vector2d(0.2, 1.5));
   cell.robots[0].arms[0].home_state = "ready";
   EXPECT_THAT(problems_of(cell),
-              HasSubstr("/robots/0/arms/0/home | arm left: home 'ready' is no state of group "
+              HasSubstr("/robots/0/arms/0/home | arm left: home 'ready' is not a state of group "
                         "'left_arm' in two_arms.srdf; its states: out"));
 }
 
-TEST(HeldJoints, AreNoJointsOfTheCellAndStandWhereTheyAreHeld) {
+TEST(FixedJoints, AreRemovedFromTheCellAtTheirFixedPosition) {
   CellDescription free = two_arms_description();
   CellDescription held = two_arms_description();
   held.robots[0].fixed = {{"l_slide", 0.3}, {"r_bend", 0.7}};
   const CellPtr a = build_or_fail(free);
   const CellPtr b = build_or_fail(held);
   EXPECT_FALSE(b->find_joint("t_l_slide").has_value());
-  ASSERT_EQ(b->arms[0].home.size(), 1);  // a home of the whole group serves, too
+  ASSERT_EQ(b->arms[0].home.size(), 1);  // a home of the whole group is accepted too
   EXPECT_EQ(b->arms[0].home[0], -0.5);
   EXPECT_FALSE(b->link(*b->find_link("t_l1")).arm.has_value());
 
@@ -93,8 +90,8 @@ TEST(HeldJoints, AreNoJointsOfTheCellAndStandWhereTheyAreHeld) {
     EXPECT_TRUE(X_a[l].isApprox(X_b[l], 1e-12)) << a->links[l].name;
 }
 
-// Whatever r_bend does: no movable joint is between r3 and the world, so it is scene.
-TEST(HeldJoints, AreThoseThatFollowAnotherWithMultiplierZero) {
+// With multiplier 0, l_finger2 is fixed to its parent.
+TEST(FixedJoints, IncludeMimicsWithMultiplierZero) {
   const ScratchFolder folder;
   CellDescription still = two_arms_description();
   still.robots[0].urdf = folder.write(
@@ -104,11 +101,11 @@ TEST(HeldJoints, AreThoseThatFollowAnotherWithMultiplierZero) {
   const CellPtr cell = build_or_fail(still);
   const Link& finger = cell->link(*cell->find_link("t_l_finger2"));
   EXPECT_FALSE(finger.driver.has_value());
-  EXPECT_EQ(finger.arm, ArmId{0});  // of the arm that carries it, not of the one it follows
+  EXPECT_EQ(finger.arm, ArmId{0});  // of the arm that carries it
   EXPECT_NEAR(finger.X_PJ.translation().y(), -0.02, 1e-12);
 }
 
-TEST(HeldJoints, AreFixedInTheUrdfThatTheDashboardGets) {
+TEST(FixedJoints, AreFixedInTheUrdfForTheDashboard) {
   const ScratchFolder folder;
   CellDescription held = two_arms_description();
   held.robots[0].fixed = {{"l_slide", 0.3}, {"r_bend", 0.7}};
@@ -125,20 +122,21 @@ TEST(HeldJoints, AreFixedInTheUrdfThatTheDashboardGets) {
     EXPECT_TRUE(X_a[l].isApprox(X_b[l], 1e-12)) << cell->links[l].name;
 }
 
-TEST(HeldJoints, AreRefusedByNameAndValue) {
+TEST(FixedJoints, AreRejectedWithNameAndValue) {
   CellDescription cell = two_arms_description();
   cell.robots[0].fixed = {
       {"l_slide", 0.05}, {"l_grip_mirror", 0}, {"base_post", 0}, {"waist", 1}, {"r_spin", NAN}};
   const std::string problems = problems_of(cell);
   EXPECT_THAT(problems, HasSubstr("/robots/0/fixed/l_slide | robot twin: joint l_slide is held at "
                                   "0.05, outside [0.1, 0.7]"));
-  EXPECT_THAT(problems, HasSubstr("joint l_grip_mirror follows joint l_grip: hold that one"));
-  EXPECT_THAT(problems, HasSubstr("joint base_post is fixed in two_arms.urdf"));
+  EXPECT_THAT(problems,
+              HasSubstr("joint l_grip_mirror follows joint l_grip: hold that joint instead"));
+  EXPECT_THAT(problems, HasSubstr("joint base_post is already fixed in two_arms.urdf"));
   EXPECT_THAT(problems, HasSubstr("fixed joint waist is not in two_arms.urdf"));
   EXPECT_THAT(problems, HasSubstr("joint r_spin is held at nan"));
 }
 
-TEST(AllProblems, OfUrdfSrdfLimitsAndCellAreToldAtOnce) {
+TEST(AllProblems, OfUrdfSrdfLimitsAndCellAreReportedTogether) {
   const ScratchFolder folder;
   CellDescription cell = with_limits_file(
       folder, "joint_limits:\n  r_bend: {has_velocity_limits: true, max_velocity: quick}\n");
@@ -158,7 +156,7 @@ TEST(AllProblems, OfUrdfSrdfLimitsAndCellAreToldAtOnce) {
   }
 }
 
-TEST(Warnings, NameALagThatMotionsAreNotCertifiedFor) {
+TEST(Warnings, ReportALagAboveTheCertifiedDelay) {
   CellDescription cell = two_arms_description();
   cell.robots[0].controller.lag = std::chrono::milliseconds(300);
   EXPECT_THAT(warnings_of(cell),
@@ -174,42 +172,39 @@ CellDescription with_srdf(const ScratchFolder& folder, const std::string& from,
   return cell;
 }
 
-TEST(StandingJoints, ThatWouldMoveAnArmHaveToBeHeld) {
+TEST(UngroupedJoints, AreRejectedIfTheyMoveAnArm) {
   const ScratchFolder folder;
   CellDescription cell = with_srdf(folder, "<joint name=\"l_turn\"/><joint name=\"l_slide\"/>",
                                    "<joint name=\"l_turn\"/>");
-  EXPECT_THAT(
-      problems_of(cell),
-      HasSubstr("/robots/0 | robot twin: joint l_slide would move an arm and is in no arm's "
-                "group, so where it stands has to be said: add to the robot \"fixed\": "
-                "{\"l_slide\": 0}, with its value"));
+  EXPECT_THAT(problems_of(cell),
+              HasSubstr("/robots/0 | robot twin: joint l_slide would move an arm but is in no "
+                        "arm's group, so its position must be given: add to the robot \"fixed\": "
+                        "{\"l_slide\": 0}, with its value"));
   cell.robots[0].fixed = {{"l_slide", 0.3}};
   EXPECT_EQ(problems_of(cell), "");
 }
 
-TEST(StandingJoints, BesideTheArmsAreWarnedOf) {
+TEST(UngroupedJoints, OutsideAllArmsCauseAWarning) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms.pop_back();
   EXPECT_THAT(warnings_of(cell),
-              HasSubstr("/robots/0 | robot twin: joint r_spin, r_bend in no arm's group, so what "
-                        "hangs there is checked where it stands at 0"));
+              HasSubstr("/robots/0 | robot twin: joint r_spin, r_bend in no arm's group, so the "
+                        "links that it moves are checked only at its position 0"));
 }
 
-TEST(StandingJoints, BetweenThoseOfAGroupAreWarnedOf) {
+TEST(UngroupedJoints, BetweenJointsOfAGroupCauseAWarning) {
   const ScratchFolder folder;
   const CellDescription cell = with_srdf(folder, "<chain base_link=\"post\" tip_link=\"r_tip\"/>",
                                          "<joint name=\"r_spin\"/><joint name=\"r_last\"/>");
-  EXPECT_THAT(
-      warnings_of(cell),
-      HasSubstr("/robots/0/arms/1/group | arm right: joint r_bend is between joints of group "
-                "'right_arm' and not in it"));
+  EXPECT_THAT(warnings_of(cell), HasSubstr("/robots/0/arms/1/group | arm right: joint r_bend is "
+                                           "between joints of group 'right_arm' but not in it"));
 }
 
-TEST(HeldJoints, CountWhereAHomeSaysOtherwiseWithAWarning) {
+TEST(FixedJoints, OverrideADifferentHomeWithAWarning) {
   CellDescription cell = two_arms_description();
   cell.robots[0].fixed = {{"l_slide", 0.3}};
   cell.robots[0].arms[0].home = {0.2, -0.5};
-  const char* told = "arm left: home has joint l_slide at 0.2, and \"fixed\" holds it at 0.3";
+  const char* told = "arm left: home has joint l_slide at 0.2, but \"fixed\" holds it at 0.3";
   EXPECT_THAT(warnings_of(cell), HasSubstr(told));
   cell.robots[0].arms[0].home.clear();
   cell.robots[0].arms[0].home_state = "out";
@@ -219,14 +214,14 @@ TEST(HeldJoints, CountWhereAHomeSaysOtherwiseWithAWarning) {
   EXPECT_EQ(warnings_of(cell), "");
 }
 
-TEST(Warnings, NameNoiseThatMotionsAreNotCertifiedFor) {
+TEST(Warnings, ReportNoiseAboveTheCertifiedTrackingError) {
   CellDescription cell = two_arms_description();
   cell.robots[0].controller.noise_rad = 0.05;
   EXPECT_THAT(warnings_of(cell), HasSubstr("robot twin: noise_rad is 0.05, more than checking "
                                            "tracking_error_rad of 0.001"));
 }
 
-TEST(Warnings, AreNoneForTheCellsOfTheRepository) {
+TEST(Warnings, AreEmptyForTheCellsOfTheRepository) {
   EXPECT_EQ(warnings_of(two_arms_description()), "");
   EXPECT_EQ(warnings_of(two_pandas_description()), "");
 }

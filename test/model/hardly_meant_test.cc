@@ -4,9 +4,6 @@
 
 #include "test/model/test_cells.h"
 
-// What a cell may say and hardly means, and what a robot's files say that would make it less safe:
-// nothing of it passes without a word.
-
 namespace armloom {
 namespace {
 
@@ -15,7 +12,6 @@ using testing::HasSubstr;
 using testing::Not;
 using namespace std::chrono_literals;
 
-// One setting of two_arms, where it is warned of and what follows from it.
 struct Doubt {
   const char* name;
   std::function<void(CellDescription&)> make;
@@ -27,7 +23,7 @@ void PrintTo(const Doubt& doubt, std::ostream* out) { *out << doubt.name; }
 
 class DoubtfulSetting : public testing::TestWithParam<Doubt> {};
 
-TEST_P(DoubtfulSetting, IsToldWithItsConsequenceAndRefusesNothing) {
+TEST_P(DoubtfulSetting, CausesAWarningWithItsConsequence) {
   CellDescription description = two_arms_description();
   GetParam().make(description);
   EXPECT_THAT(warnings_of(description), AllOf(HasSubstr(std::string(GetParam().pointer) + " | "),
@@ -47,37 +43,38 @@ INSTANTIATE_TEST_SUITE_P(
     All, DoubtfulSetting,
     testing::Values(
         DOUBT(cell.self_clearance_m = 0.05, "/self_clearance_m",
-              "self_clearance_m is 0.05, more than clearance_m, which counts here, too: 0.02 m"),
-        DOUBT(cell.mount_clearance_m = 0.05, "/mount_clearance_m", "which counts here, too"),
+              "self_clearance_m is 0.05, more than clearance_m, so clearance_m applies: 0.02 m"),
+        DOUBT(cell.mount_clearance_m = 0.05, "/mount_clearance_m", "so clearance_m applies"),
         DOUBT(cell.clearance_m = cell.monitor.stop_clearance_m = 0, "/clearance_m",
-              "motions may touch what they pass"),
+              "motions may touch, and model, mounting and measurement errors are not covered"),
         DOUBT(cell.monitor.stop_clearance_m = 0, "/monitor/stop_clearance_m",
               "the monitor stops arms only when they touch"),
         DOUBT(cell.checking.tracking_error_rad = 0, "/checking/tracking_error_rad",
-              "keep exactly to their paths, which none does"),
+              "follow their paths exactly, which no arm does"),
         DOUBT(cell.checking.tracking_error_rad = 0.2, "/checking/tracking_error_rad",
-              "hardly anything will be free"),
+              "almost no motion will be free of conflicts"),
         DOUBT(cell.checking.limit_tolerance = 0.9, "/checking/limit_tolerance",
-              "jobs may exceed the joints' velocities"),
+              "jobs may exceed the joints' velocity and acceleration limits"),
         DOUBT(cell.execution.start_tolerance_rad = 0.5, "/execution/start_tolerance_rad",
-              "what lies between is not checked"),
+              "the motion onto the path is not checked"),
         DOUBT(cell.scheduling.policy = "timed_discrete";
               cell.checking.time_step = 5s, "/checking/time_step_s",
-              "does not see what happens between two such steps"),
+              "misses collisions between two such steps"),
         DOUBT(cell.monitor.reaction = 5ms, "/monitor/reaction_s",
-              "reaction_s is 0.005, less than from one look of the monitor to the next (0.01 s)"),
+              "reaction_s is 0.005, less than the monitor's period (0.01 s)"),
         DOUBT(cell.monitor.reaction = 5s, "/monitor/reaction_s",
-              "reaction_s is 5: an arm that is to stop goes on that long before it brakes"),
+              "reaction_s is 5: a stopping arm moves on that long before it brakes"),
         DOUBT(cell.monitor.rate_hz = 1, "/monitor/rate_hz",
-              "rate_hz is 1: the monitor looks only every 1 s"),
+              "rate_hz is 1: the monitor checks only every 1 s"),
         DOUBT(turn(cell).acceleration = 180, "two_arms.urdf:28: joint l_turn",
-              "its acceleration is 180 rad/s^2, hardly meant (degrees?)"),
+              "its acceleration limit is 180 rad/s^2, probably a unit error (degrees?)"),
         DOUBT(turn(cell).brake = 100, "/robots/0/arms/0/limits/l_turn/brake_rad_s2",
               "stops are certified for a brake that strong"),
         DOUBT(cell.objects[0].X_WO.translation().x() = 800, "/objects/0",
-              "object table stands 800 m away from the cell's origin, hardly meant (millimetres?)"),
+              "object table is 800 m away from the cell's origin, probably a unit error "
+              "(millimeters?)"),
         DOUBT(cell.robots[0].X_WB.translation() = Eigen::Vector3d(0, -500, 0), "/robots/0/base",
-              "robot twin stands 500 m away")));
+              "robot twin is 500 m away")));
 
 CellDescription with_urdf(const ScratchFolder& folder, const std::string& from,
                           const std::string& to) {
@@ -91,7 +88,7 @@ constexpr const char* kTurnLimit =
 
 const Joint& turn_of(const Cell& cell) { return cell.joint(*cell.find_joint("t_l_turn")); }
 
-TEST(SoftLimits, CountWhereTheyAreNarrowerAsForMoveIt) {
+TEST(SoftLimits, ApplyIfTheyAreNarrowerAsInMoveIt) {
   const ScratchFolder folder;
   const auto with_soft = [&](const std::string& attributes) {
     return with_urdf(folder, kTurnLimit,
@@ -105,12 +102,11 @@ TEST(SoftLimits, CountWhereTheyAreNarrowerAsForMoveIt) {
   EXPECT_EQ(turn_of(*cell).lower, -2.0);
   const CellDescription empty = with_soft("soft_lower_limit=\"0\" soft_upper_limit=\"0\"");
   EXPECT_EQ(turn_of(*build_or_fail(empty)).upper, 2.5);
-  EXPECT_THAT(warnings_of(empty),
-              HasSubstr("joint l_turn: the soft limits leave nothing of the <limit>, from 0 to 0; "
-                        "the <limit> counts"));
+  EXPECT_THAT(warnings_of(empty), HasSubstr("joint l_turn: the soft limits leave no range of the "
+                                            "<limit>: from 0 to 0; the <limit> applies"));
 }
 
-TEST(JointLimitsFile, CountsWhatStandsThereUnlessItSaysFalse) {
+TEST(JointLimitsFile, AppliesLimitsUnlessTheirFlagIsFalse) {
   const ScratchFolder folder;
   CellDescription description = two_arms_description();
   description.robots[0].joint_limits = folder.write(
@@ -125,24 +121,25 @@ TEST(JointLimitsFile, CountsWhatStandsThereUnlessItSaysFalse) {
   EXPECT_EQ(cell->joint(*cell->find_joint("t_r_bend")).velocity_max, 1.0);
 }
 
-TEST(LimitsInDegrees, AreToldOf) {
+TEST(LimitsInDegrees, CauseAWarning) {
   const ScratchFolder folder;
   EXPECT_THAT(
       warnings_of(
           with_urdf(folder, kTurnLimit,
                     "<limit lower=\"-120\" upper=\"150\" effort=\"50\" velocity=\"180\"/>")),
-      AllOf(HasSubstr("joint l_turn: it may go from -120 to 150 rad, hardly meant (degrees?)"),
-            HasSubstr("joint l_turn: its velocity is 180 rad/s, hardly meant (degrees?)")));
+      AllOf(
+          HasSubstr(
+              "joint l_turn: its limits are -120 to 150 rad, probably a unit error (degrees?)"),
+          HasSubstr(
+              "joint l_turn: its velocity limit is 180 rad/s, probably a unit error (degrees?)")));
 }
 
-TEST(Axes, OfAnotherLengthThanOneAreDirectionsAndToldOf) {
+TEST(Axes, OfNonUnitLengthAreNormalizedWithAWarning) {
   const ScratchFolder folder;
   const CellDescription cell =
       with_urdf(folder, "<axis xyz=\"0 0.6 0.8\"/>", "<axis xyz=\"0 1.2 1.6\"/>");
-  EXPECT_THAT(
-      warnings_of(cell),
-      HasSubstr("twin.urdf:26: joint l_slide: axis xyz '0 1.2 1.6' is not of length 1: only "
-                "its direction counts"));
+  EXPECT_THAT(warnings_of(cell), HasSubstr("twin.urdf:26: joint l_slide: axis xyz '0 1.2 1.6' is "
+                                           "not of length 1: only its direction is used"));
   const CellPtr built = build_or_fail(cell);
   EXPECT_TRUE(built->link(*built->find_link("t_l1")).axis.isApprox(Eigen::Vector3d(0, 0.6, 0.8)));
   const CellDescription rounded =
@@ -150,27 +147,25 @@ TEST(Axes, OfAnotherLengthThanOneAreDirectionsAndToldOf) {
   EXPECT_EQ(warnings_of(rounded), "");
 }
 
-TEST(Meshes, ThatAreAsGoodAsNothingAreToldOf) {
+TEST(Meshes, TooSmallForTheirUnitCauseAWarning) {
   const ScratchFolder folder;
-  EXPECT_THAT(
-      warnings_of(with_urdf(folder, "scale=\"0.5 0.5 2\"", "scale=\"0.001 0.001 0.001\"")),
-      HasSubstr("hardly meant (is the file in metres already? then its scale is too small)"));
+  EXPECT_THAT(warnings_of(with_urdf(folder, "scale=\"0.5 0.5 2\"", "scale=\"0.001 0.001 0.001\"")),
+              HasSubstr("probably a unit error (scale applied to a file already in meters?)"));
 }
 
-TEST(Shapes, InTheWrongPlaceAreRefused) {
+TEST(Shapes, OutsideCollisionElementsAreRejected) {
   const ScratchFolder folder;
   const std::string geometry = "<geometry><box size=\"1 1 1\"/></geometry>";
   EXPECT_THAT(problems_of(with_urdf(folder, "<link name=\"r1\"/>",
                                     "<link name=\"r1\">" + geometry + "</link>")),
-              HasSubstr("link r1: <geometry> would be left out here: it has to stand in a "
-                        "<collision>"));
+              HasSubstr("link r1: <geometry> would be left out here: it must be in a <collision>"));
   EXPECT_THAT(
       problems_of(
           with_urdf(folder, kTurnLimit, kTurnLimit + ("<collision>" + geometry + "</collision>"))),
-      HasSubstr("joint l_turn: <collision> would be left out here: it has to stand in a <link>"));
+      HasSubstr("joint l_turn: <collision> would be left out here: it must be in a <link>"));
 }
 
-TEST(HeldJoints, MisspeltAreHeldAsTheyAreMeantSoThatNothingElseFollows) {
+TEST(FixedJoints, MisspelledNameSuppressesFollowOnErrors) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf =
@@ -184,7 +179,7 @@ TEST(HeldJoints, MisspeltAreHeldAsTheyAreMeantSoThatNothingElseFollows) {
             "did you mean l_slide?\n");
 }
 
-TEST(NamedStates, WithAValueThatIsNoneAreToldOnce) {
+TEST(NamedStates, WithAnInvalidValueAreReportedOnce) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf = folder.write(
@@ -196,7 +191,7 @@ TEST(NamedStates, WithAValueThatIsNoneAreToldOnce) {
             "left_arm: joint l_turn: joint value is 'x', not a finite number\n");
 }
 
-TEST(CrossedLimits, AreToldWithoutHomesThatLieOutside) {
+TEST(CrossedLimits, SuppressProblemsOfHomesOutside) {
   const ScratchFolder folder;
   EXPECT_THAT(
       problems_of(with_urdf(folder, kTurnLimit,
@@ -204,13 +199,13 @@ TEST(CrossedLimits, AreToldWithoutHomesThatLieOutside) {
       AllOf(HasSubstr("limit lower 2 is above upper -2"), Not(HasSubstr("outside"))));
 }
 
-TEST(LimitsInTheCell, OfNoJointSayWhichIsMeant) {
+TEST(LimitsInTheCell, OfUnknownJointsSuggestAName) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms[0].limits["l_tern"].velocity = 1;
   cell.robots[0].arms[0].limits["r_bend"].velocity = 1;
   EXPECT_THAT(problems_of(cell),
               AllOf(HasSubstr("arm left has no joint l_tern to limit; did you mean l_turn?"),
-                    HasSubstr("arm left has no joint r_bend to limit: it is of another arm")));
+                    HasSubstr("arm left has no joint r_bend to limit: it belongs to another arm")));
 }
 
 }  // namespace

@@ -1,4 +1,3 @@
-// Limits from a joint_limits.yaml as MoveIt has it.
 #include <gmock/gmock.h>
 
 #include <numbers>
@@ -27,7 +26,7 @@ constexpr const char* kTurnLimits =
     "    min_position: -1.5\n"
     "    max_position: 9\n";
 
-TEST(JointLimitsFile, IsTakenBelowTheCellsOwnLimitsAndNeverAboveTheUrdfs) {
+TEST(JointLimitsFile, YieldsToTheCellAndNeverExceedsTheUrdf) {
   const ScratchFolder folder;
   CellDescription description = with_limits_file(folder, kTurnLimits);
   description.robots[0].arms[0].limits["l_turn"].acceleration = 3.0;
@@ -40,13 +39,12 @@ TEST(JointLimitsFile, IsTakenBelowTheCellsOwnLimitsAndNeverAboveTheUrdfs) {
   EXPECT_EQ(turn.upper, 2.5);  // the URDF's
   EXPECT_FALSE(turn.assumed.acceleration);
   EXPECT_TRUE(turn.assumed.jerk);
-  EXPECT_THAT(
-      warnings_of(description),
-      HasSubstr("joint_limits.yaml:3: joint l_turn: max_position is 9, wider than the URDF's "
-                "2.5, which counts"));
+  EXPECT_THAT(warnings_of(description),
+              HasSubstr("joint_limits.yaml:3: joint l_turn: max_position is 9, wider than the "
+                        "URDF's 2.5; the URDF's value applies"));
 }
 
-TEST(JointLimitsFile, IsFoundUnderTheNamesOfRos2Parameters) {
+TEST(JointLimitsFile, IsFoundUnderRos2ParameterNames) {
   const ScratchFolder folder;
   const CellPtr cell = build_or_fail(with_limits_file(
       folder,
@@ -55,7 +53,7 @@ TEST(JointLimitsFile, IsFoundUnderTheNamesOfRos2Parameters) {
   EXPECT_EQ(joint_of(*cell, "t_l_turn").velocity_max, 1.0);
 }
 
-TEST(JointLimitsFile, MayHaveAnglesInDegrees) {
+TEST(JointLimitsFile, AcceptsAnglesInDegrees) {
   const ScratchFolder folder;
   const CellPtr cell = build_or_fail(with_limits_file(
       folder,
@@ -69,18 +67,17 @@ TEST(JointLimitsFile, MayHaveAnglesInDegrees) {
   EXPECT_EQ(turn.jerk_max, 7.0);
   EXPECT_THAT(
       problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: {max_velocity: !rpm 10}\n")),
-      HasSubstr("joint_limits.yaml:2: joint l_turn: max_velocity has the tag !rpm, known here are "
-                "!degrees and !radians"));
+      HasSubstr("joint_limits.yaml:2: joint l_turn: max_velocity has the unknown tag !rpm; use "
+                "!degrees or !radians"));
 }
 
-TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
+TEST(JointLimitsFile, ReportsMistakesWithLineAndValue) {
   const ScratchFolder folder;
   EXPECT_THAT(problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: [\n")),
               HasSubstr("joint_limits.yaml:3: the YAML is malformed"));
-  EXPECT_THAT(
-      problems_of(with_limits_file(folder, "limits: {}\n")),
-      HasSubstr("joint_limits.yaml: there is no joint_limits with joints in it; it has to hold "
-                "joint_limits: and below it"));
+  EXPECT_THAT(problems_of(with_limits_file(folder, "limits: {}\n")),
+              HasSubstr("joint_limits.yaml: there is no joint_limits with joints in it; it must "
+                        "contain joint_limits: and below it"));
   const std::string problems = problems_of(with_limits_file(
       folder,
       "joint_limits:\n  l_turn:\n    has_velocity_limits: true\n    max_velocity: fast\n"
@@ -95,11 +92,10 @@ TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
   EXPECT_THAT(
       problems,
       HasSubstr("joint_limits.yaml:7: joint l_turn: has_jerk_limits is 'perhaps', not true or"));
-  EXPECT_THAT(problems, HasSubstr("min_position is missing, and has_position_limits is true"));
+  EXPECT_THAT(problems, HasSubstr("min_position is missing, but has_position_limits is true"));
   EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:9: joint l_turn: max_position is '.nan'"));
-  EXPECT_THAT(
-      problems,
-      HasSubstr("joint_limits.yaml:12: joint r_spin: has_velocity_limits stands there twice"));
+  EXPECT_THAT(problems,
+              HasSubstr("joint_limits.yaml:12: joint r_spin: has_velocity_limits is given twice"));
   EXPECT_THAT(problems, HasSubstr("joint_limits.yaml:14: joint r_spin: more than one joint has"));
   EXPECT_THAT(
       problems_of(with_limits_file(folder,
@@ -110,8 +106,8 @@ TEST(JointLimitsFile, ToldWithLineAndValueWhereItIsWrong) {
             HasSubstr("r_bend: min_position 2 is above max_position 1")));
 }
 
-// What it would have said is not known: nobody has to give it in the cell instead.
-TEST(JointLimitsFile, ThatCannotBeReadHasNoFollowUp) {
+// The broken file's content is unknown, so missing limits are not reported.
+TEST(JointLimitsFile, ParseErrorSuppressesFollowOnErrors) {
   const ScratchFolder folder;
   for (const char* text : {"joint_limits:\n  l_turn: [\n", "limits: {}\n"}) {
     CellDescription cell = with_limits_file(folder, text);
@@ -125,7 +121,7 @@ TEST(JointLimitsFile, ThatCannotBeReadHasNoFollowUp) {
   }
 }
 
-TEST(JointLimitsFile, OfOtherJointsWarns) {
+TEST(JointLimitsFile, WarnsOfUnknownJoints) {
   const ScratchFolder folder;
   const std::string warnings = warnings_of(with_limits_file(
       folder, "joint_limits:\n  elbow: {}\n  l_turn: {max_speed: 3}\n  l_grip_mirror: 5\n"));
@@ -134,7 +130,7 @@ TEST(JointLimitsFile, OfOtherJointsWarns) {
               HasSubstr("joint_limits.yaml:3: joint l_turn: max_speed is not known here"));
 }
 
-TEST(JointLimitsFile, AKeyThatNearlyIsOneIsNoWarning) {
+TEST(JointLimitsFile, RejectsMisspelledKeys) {
   const ScratchFolder folder;
   EXPECT_THAT(
       problems_of(with_limits_file(folder, "joint_limits:\n  l_turn: {max_velocty: 3}\n")),
@@ -143,7 +139,7 @@ TEST(JointLimitsFile, AKeyThatNearlyIsOneIsNoWarning) {
           "nothing; did you mean max_velocity?"));
 }
 
-TEST(JointLimitsFile, GivesTheBrakeAsItsDeceleration) {
+TEST(JointLimitsFile, DecelerationLimitBecomesTheBrake) {
   for (const char* sign : {"-", ""}) {
     const ScratchFolder folder;
     const CellPtr cell = build_or_fail(with_limits_file(
@@ -154,12 +150,12 @@ TEST(JointLimitsFile, GivesTheBrakeAsItsDeceleration) {
     EXPECT_EQ(joint_of(*cell, "t_l_turn").brake, 0.5);
   }
   const ScratchFolder folder;
-  EXPECT_THAT(
-      problems_of(with_limits_file(folder,
-                                   "joint_limits:\n  l_turn:\n"
-                                   "    has_deceleration_limits: true\n"
-                                   "    max_deceleration: 0\n")),
-      HasSubstr("joint_limits.yaml:4: joint l_turn: max_deceleration is 0, so nothing could stop"));
+  EXPECT_THAT(problems_of(with_limits_file(folder,
+                                           "joint_limits:\n  l_turn:\n"
+                                           "    has_deceleration_limits: true\n"
+                                           "    max_deceleration: 0\n")),
+              HasSubstr("joint_limits.yaml:4: joint l_turn: max_deceleration is 0, so the joint "
+                        "could never stop"));
 }
 
 }  // namespace

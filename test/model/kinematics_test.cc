@@ -41,7 +41,7 @@ void add_children(const urdf::Link& link, KDL::Tree& tree) {
   }
 }
 
-// The same robot in Orocos KDL, straight from the URDF: shares nothing with core/model.
+// The same robot in Orocos KDL, built directly from the URDF.
 struct KdlRobot {
   explicit KdlRobot(const RobotDescription& description)
       : model(urdf::parseURDFFile(description.urdf)),
@@ -86,7 +86,7 @@ double largest_difference(const KDL::Frame& expected, const Eigen::Isometry3d& X
   return worst;
 }
 
-// Largest difference of any entry of any link's pose over `rounds` random configurations.
+// Returns the largest difference of any link pose over random configurations.
 double compare_with_kdl(const CellDescription& description, std::uint32_t seed, int rounds) {
   const CellPtr cell = build_or_fail(description);
   std::mt19937 random(seed);
@@ -121,7 +121,7 @@ double compare_with_kdl(const CellDescription& description, std::uint32_t seed, 
   return worst;
 }
 
-TEST(ForwardKinematics, AgreesWithKdlOnSlidingFollowingAndFixedJoints) {
+TEST(ForwardKinematics, AgreesWithKdlOnPrismaticMimicAndFixedJoints) {
   EXPECT_LT(compare_with_kdl(two_arms_description(), 1, 1000), 1e-9);
 }
 
@@ -129,13 +129,13 @@ TEST(ForwardKinematics, AgreesWithKdlOnTwoPandasWithTheirBases) {
   EXPECT_LT(compare_with_kdl(two_pandas_description(), 2, 1000), 1e-9);
 }
 
-TEST(ForwardKinematics, RefusesAConfigurationOfAnotherSize) {
+TEST(ForwardKinematics, ThrowsOnAConfigurationOfWrongSize) {
   const CellPtr cell = build_or_fail(two_arms_description());
   LinkPoses X_WL;
   EXPECT_THROW(forward_kinematics(*cell, Configuration::Zero(3), X_WL), std::invalid_argument);
 }
 
-TEST(ForwardKinematics, KeepsItsScratchFromCallToCall) {
+TEST(ForwardKinematics, ReusesTheCallersMemory) {
   const CellPtr cell = build_or_fail(two_arms_description());
   LinkPoses X_WL;
   forward_kinematics(*cell, cell->home(), X_WL);

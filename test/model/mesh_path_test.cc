@@ -45,7 +45,7 @@ TEST_F(MeshPath, FindsFilesInPackagesAndNextToTheUrdf) {
             std::filesystem::canonical(folder_.path() / "robot/meshes/a.stl"));
 }
 
-TEST_F(MeshPath, StaysInsideItsFolderAsWritten) {
+TEST_F(MeshPath, RejectsPathsThatLeaveTheFolder) {
   EXPECT_THAT(refusal("package://p/../secret.stl"), HasSubstr("leaves its folder"));
   EXPECT_THAT(refusal("package://p/meshes/../../secret.stl"), HasSubstr("leaves its folder"));
   EXPECT_THAT(refusal("package://p//etc/hostname"), HasSubstr("leaves its folder"));
@@ -55,12 +55,12 @@ TEST_F(MeshPath, StaysInsideItsFolderAsWritten) {
                     HasSubstr("add to the robot \"packages\": {")));
 }
 
-TEST_F(MeshPath, StaysInsideItsFolderThroughLinks) {
-  EXPECT_THAT(refusal("package://p/meshes/link.stl"), HasSubstr("through a link"));
-  EXPECT_THAT(refusal("package://p/up/secret.stl"), HasSubstr("through a link"));
+TEST_F(MeshPath, RejectsSymlinksThatLeaveTheFolder) {
+  EXPECT_THAT(refusal("package://p/meshes/link.stl"), HasSubstr("through a symbolic link"));
+  EXPECT_THAT(refusal("package://p/up/secret.stl"), HasSubstr("through a symbolic link"));
 }
 
-TEST_F(MeshPath, TakesAbsolutePathsBelowTheFoldersThatTheCellNames) {
+TEST_F(MeshPath, AcceptsAbsolutePathsBelowAllowedFolders) {
   const std::string inside = (folder_.path() / "package/meshes/b.stl").string();
   const auto real = std::filesystem::canonical(inside);
   EXPECT_EQ(resolve("file://" + inside), real);
@@ -71,7 +71,7 @@ TEST_F(MeshPath, TakesAbsolutePathsBelowTheFoldersThatTheCellNames) {
             std::filesystem::canonical(folder_.path() / "robot/meshes/a.stl"));
 }
 
-TEST_F(MeshPath, SaysTheLineThatLetsAnAbsolutePathIn) {
+TEST_F(MeshPath, SuggestsThePackagesEntryForAnAbsolutePath) {
   folder_.write("elsewhere/arm_description/meshes/visual/c.stl", "solid c");
   const auto real = std::filesystem::canonical(folder_.path() / "elsewhere").string();
   EXPECT_THAT(refusal("file://" + real + "/arm_description/meshes/visual/c.stl"),
@@ -85,8 +85,8 @@ TEST_F(MeshPath, SaysTheLineThatLetsAnAbsolutePathIn) {
               HasSubstr("lies neither"));
 }
 
-// What exists on the machine is nobody's business who writes a URDF.
-TEST_F(MeshPath, AnswersTheSameOfWhatIsElsewhereWhetherOrNotItIsThere) {
+// The author of a URDF must not learn which files exist on the machine.
+TEST_F(MeshPath, DoesNotRevealWhichFilesExistElsewhere) {
   folder_.write("elsewhere/arm/meshes/c.stl", "solid c");
   folder_.write("elsewhere/arm/package.xml", "<package/>");
   const std::string arm = (folder_.path() / "elsewhere/arm").string();
@@ -100,16 +100,16 @@ TEST_F(MeshPath, AnswersTheSameOfWhatIsElsewhereWhetherOrNotItIsThere) {
   EXPECT_EQ(refusal("file:///etc/hostname"), refusal("file:///etc/no-such-file"));
 }
 
-TEST_F(MeshPath, SaysOfAnAbsolutePathBelowThemWhatIsWrongWithTheFile) {
+TEST_F(MeshPath, ReportsBadFilesInAllowedFolders) {
   EXPECT_THAT(refusal("file://" + (folder_.path() / "package/meshes/B.stl").string()),
-              AllOf(HasSubstr("does not exist"), HasSubstr("; there is b.stl")));
+              AllOf(HasSubstr("does not exist"), HasSubstr("; did you mean b.stl?")));
   EXPECT_THAT(refusal("file://" + (folder_.path() / "package/meshes").string()),
               HasSubstr("is not a regular file"));
 }
 
-TEST_F(MeshPath, RefusesOtherSchemesAndWhatIsNoFile) {
+TEST_F(MeshPath, RejectsOtherSchemesAndNonFiles) {
   EXPECT_THAT(refusal("http://127.0.0.1/a.stl"),
-              AllOf(HasSubstr("neither package://"), HasSubstr("save the file beside the URDF")));
+              AllOf(HasSubstr("neither package://"), HasSubstr("save the file next to the URDF")));
   EXPECT_THAT(refusal("package://q/a.stl"), HasSubstr("package 'q'"));
   EXPECT_THAT(refusal("package://p"), HasSubstr("names no file"));
   EXPECT_THAT(refusal("package://p/meshes"), HasSubstr("not a regular file"));
@@ -117,7 +117,7 @@ TEST_F(MeshPath, RefusesOtherSchemesAndWhatIsNoFile) {
   EXPECT_THAT(refusal(""), HasSubstr("leaves its folder"));
 }
 
-TEST(MeshNames, AreReplacedWhereThereIsAnotherOne) {
+TEST(MeshNames, AreReplacedIfTheMapHasAnotherName) {
   const std::string urdf = R"(<?xml version="1.0"?>
 <robot name="r"><!-- of the maker --><link name="a">
   <visual><geometry><mesh filename="package://p/a.dae"/></geometry></visual>

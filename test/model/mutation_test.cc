@@ -17,7 +17,7 @@ std::string text_of_file(const std::string& path) {
   return text.str();
 }
 
-// A few random edits: bytes replaced, pieces dropped, doubled or swapped for awkward tokens.
+// Replaces bytes, or drops, duplicates or replaces pieces.
 std::string mutated(std::string text, std::mt19937& random) {
   static const char* const kTokens[] = {"nan", "-",      "1e308", "<",         ">",     "/>",
                                         "\"",  "&#0;",   "&amp;", "<!--",      "joint", "link",
@@ -45,7 +45,6 @@ std::string mutated(std::string text, std::mt19937& random) {
   return text;
 }
 
-// Either a cell whose every pose is finite, or problems with place and sentence.
 void expect_cell_or_problems(const CellDescription& description, const std::string& text,
                              int& built) {
   const auto cell = build_cell(description);
@@ -53,7 +52,8 @@ void expect_cell_or_problems(const CellDescription& description, const std::stri
     ASSERT_FALSE(cell.error().empty());
     for (const auto& problem : cell.error()) {
       EXPECT_FALSE(problem.pointer.empty() || problem.detail.empty()) << text;
-      EXPECT_NE(problem.slug, "urdf-refused") << problem.detail << text;  // our check knows better
+      EXPECT_NE(problem.slug, "urdf-refused")
+          << problem.detail << text;  // our own check must report this first
     }
     return;
   }
@@ -66,7 +66,7 @@ void expect_cell_or_problems(const CellDescription& description, const std::stri
   }
 }
 
-TEST(MutatedFiles, OfUrdfGiveACellOrProblemsAndNeverNaN) {
+TEST(MutatedFiles, UrdfGivesACellOrProblemsButNoNaN) {
   const ScratchFolder folder;
   const std::string original = text_of_file(data_file("two_arms.urdf"));
   CellDescription description = two_arms_description();
@@ -77,11 +77,11 @@ TEST(MutatedFiles, OfUrdfGiveACellOrProblemsAndNeverNaN) {
     description.robots[0].urdf = folder.write("twin.urdf", text);
     ASSERT_NO_FATAL_FAILURE(expect_cell_or_problems(description, text, built));
   }
-  EXPECT_GT(built, 50);    // edits of comments and numbers leave a robot
-  EXPECT_LT(built, 1500);  // and most others do not
+  EXPECT_GT(built, 50);    // edits of comments and numbers leave a valid robot
+  EXPECT_LT(built, 1500);  // and most other edits do not
 }
 
-TEST(MutatedFiles, OfSrdfGiveACellOrProblems) {
+TEST(MutatedFiles, SrdfGivesACellOrProblems) {
   const ScratchFolder folder;
   const std::string original = text_of_file(data_file("two_arms.srdf"));
   CellDescription description = two_arms_description();

@@ -21,8 +21,8 @@ TEST(Panda, HasSevenJointsAndOneGripperJoint) {
   EXPECT_TRUE(cell->arms[0].named_states.contains("ready"));
 }
 
-// The manufacturer's limits of the Panda (positions rad, velocities rad/s).
-TEST(Panda, KeepsTheManufacturersLimits) {
+// Positions in rad, velocities in rad/s.
+TEST(Panda, HasTheManufacturersLimits) {
   const CellPtr cell = build_or_fail(two_pandas_description());
   const double lower[] = {-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973};
   const double upper[] = {2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973};
@@ -37,7 +37,7 @@ TEST(Panda, KeepsTheManufacturersLimits) {
   }
 }
 
-TEST(Panda, StandsWithItsFlangeWhereTheDataSheetSaysAtZero) {
+TEST(Panda, FlangePoseAtZeroMatchesTheDataSheet) {
   const CellPtr cell = build_or_fail(two_pandas_description());
   LinkPoses X_WL;
   forward_kinematics(*cell, Configuration::Zero(16), X_WL);
@@ -47,13 +47,13 @@ TEST(Panda, StandsWithItsFlangeWhereTheDataSheetSaysAtZero) {
     const Eigen::Isometry3d X_08 = X_W0.inverse() * X_W8;
     EXPECT_TRUE(X_08.translation().isApprox(Eigen::Vector3d(0.088, 0, 0.926), 1e-6))
         << X_08.translation().transpose();
-    // The flange looks down: x forward, z towards the floor.
+    // The flange points down: x forward, z towards the floor.
     EXPECT_NEAR(X_08.linear()(0, 0), 1.0, 1e-6);
     EXPECT_NEAR(X_08.linear()(2, 2), -1.0, 1e-6);
   }
 }
 
-TEST(Panda, AllowsTheTableToTouchBothBases) {
+TEST(Panda, AllowsBothBasesToTouchTheTable) {
   const CellPtr cell = build_or_fail(two_pandas_description());
   EXPECT_TRUE(cell->allowed.link_objects.contains({*cell->find_link("left_panda_link0"), "table"}));
   EXPECT_TRUE(
@@ -61,7 +61,7 @@ TEST(Panda, AllowsTheTableToTouchBothBases) {
   EXPECT_EQ(cell->allowed.link_objects.size(), 2u);
 }
 
-TEST(Panda, IsBuiltTwiceInUnderFiftyMilliseconds) {
+TEST(Panda, CellOfTwoBuildsInUnderFiftyMilliseconds) {
   const CellDescription description = two_pandas_description();
   auto best = std::chrono::steady_clock::duration::max();
   for (int round = 0; round < 5; ++round) {

@@ -7,7 +7,6 @@ namespace {
 
 using testing::HasSubstr;
 
-// One mistake, made by replacing a piece of two_arms.srdf: where it must be found and what is said.
 struct Mistake {
   const char* from;
   const char* to;
@@ -28,7 +27,7 @@ CellDescription cell_with_srdf(const ScratchFolder& folder, const Mistake& mista
 
 class SrdfMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(SrdfMistake, InWhatAnArmNeedsIsAProblem) {
+TEST_P(SrdfMistake, InAnArmsDefinitionIsAProblem) {
   const ScratchFolder folder;
   EXPECT_THAT(
       without_lines(problems_of(cell_with_srdf(folder, GetParam()))),
@@ -38,13 +37,12 @@ TEST_P(SrdfMistake, InWhatAnArmNeedsIsAProblem) {
 INSTANTIATE_TEST_SUITE_P(
     All, SrdfMistake,
     testing::Values(
-        Mistake{
-            "<joint name=\"l_turn\"/>", "<joint name=\"l_torn\"/>", "/robots/0/arms/0/home",
-            "arm left: home has 2 values, the group has 1 joints; give one for each of l_slide"},
-        Mistake{
-            "tip_link=\"r_tip\"", "tip_link=\"r_top\"", "/robots/0/arms/1/group",
-            "arm right: group 'right_arm' holds no movable joint; groups that do: both, gripper, "
-            "left_arm"},
+        Mistake{"<joint name=\"l_turn\"/>", "<joint name=\"l_torn\"/>", "/robots/0/arms/0/home",
+                "arm left: home has 2 values, the group has 1 joints; give one value for each of "
+                "l_slide"},
+        Mistake{"tip_link=\"r_tip\"", "tip_link=\"r_top\"", "/robots/0/arms/1/group",
+                "arm right: group 'right_arm' has no movable joint; groups with movable joints: "
+                "both, gripper, left_arm"},
         Mistake{"tip_link=\"r_tip\"", "", "twin.srdf: group right_arm",
                 "twin.srdf: group right_arm: chain tip_link is missing"},
         Mistake{"base_link=\"post\"", "base_link=\"l1\"", "twin.srdf: group right_arm",
@@ -54,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"group name=\"right_arm\"><",
                 "group name=\"right_arm\"><group name=\"right_arm\"/><",
                 "twin.srdf: group right_arm",
-                "twin.srdf: group right_arm: group right_arm holds this group too: a cycle"},
+                "twin.srdf: group right_arm: group right_arm also contains this group: a cycle"},
         Mistake{"<enable_collisions link1=", "<enable_collision link1=", "twin.srdf: robot",
                 "twin.srdf: robot: <enable_collision> is not known; did you mean "
                 "<enable_collisions>?"},
@@ -65,10 +63,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<?xml version=\"1.0\"?>", "<!DOCTYPE robot>", "twin.srdf:1",
                 "twin.srdf:1: a DOCTYPE or entity declaration is not allowed"}));
 
-// What names things that are not there, or what no arm of the cell uses.
 class SrdfOddity : public testing::TestWithParam<Mistake> {};
 
-TEST_P(SrdfOddity, IsAWarningAndRefusesNothing) {
+TEST_P(SrdfOddity, IsOnlyAWarning) {
   const ScratchFolder folder;
   EXPECT_THAT(without_lines(warnings_of(cell_with_srdf(folder, GetParam()))),
               testing::AllOf(HasSubstr(std::string(GetParam().place) + " | "),
@@ -79,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
     Groups, SrdfOddity,
     testing::Values(Mistake{"<link name=\"l_finger1\"/>", "<link name=\"l_thumb\"/>",
                             "twin.srdf: group gripper",
-                            "link l_thumb is not in two_arms.urdf; the group is without it"},
+                            "link l_thumb is not in two_arms.urdf; it is left out of the group"},
                     Mistake{"<group name=\"left_arm\"/>", "<group name=\"lefty\"/>",
                             "twin.srdf: group both", "group lefty does not exist"},
                     Mistake{"<group name=\"left_arm\"/>", "<group name=\"both\"/>",
@@ -117,13 +114,12 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Others, SrdfOddity,
     testing::Values(
-        Mistake{
-            "type=\"fixed\"", "type=\"planar\"", "twin.srdf: virtual_joint",
-            "the robot's base is planar by it; here it stands where \"base\" of the cell has it"},
-        Mistake{
-            "link1=\"r2\"", "link1=\"r9\"", "twin.srdf: disable_collisions",
-            "1 of 1 name links that are not in two_arms.urdf (r9 at line 16); they are left out, "
-            "and the links that were meant stay checked"},
+        Mistake{"type=\"fixed\"", "type=\"planar\"", "twin.srdf: virtual_joint",
+                "it makes the robot's base planar; here the base does not move: the cell's "
+                "\"base\" places it"},
+        Mistake{"link1=\"r2\"", "link1=\"r9\"", "twin.srdf: disable_collisions",
+                "1 of 1 name links that are not in two_arms.urdf (r9 at line 16); they are left "
+                "out, and the intended links stay checked"},
         Mistake{"link1=\"r2\"", "", "twin.srdf: disable_collisions",
                 "disable_collisions link1 is missing; the links of the pair stay checked"},
         Mistake{"link1=\"r2\"", "link1=\"r1\"", "twin.srdf: disable_collisions",
@@ -134,14 +130,14 @@ INSTANTIATE_TEST_SUITE_P(
                 "twin.srdf: passive_joint", "joint x is not in two_arms.urdf"},
         Mistake{"passive_joint name=\"l_grip_mirror\"", "passive_joint name=\"l_turn\"",
                 "twin.srdf: passive_joint",
-                "joint l_turn is passive, so the robot has no motor for it, and arm left has it in "
-                "its group: jobs move it here like the others; take it out of group left_arm, or "
-                "hold it with \"fixed\""},
+                "joint l_turn is passive (the robot has no motor for it), but in the group of arm "
+                "left: it is checked as if jobs moved it, which the robot cannot do; take it out "
+                "of group left_arm, or hold it with \"fixed\""},
         Mistake{"<robot name=\"two_arms\">", "<robot name=\"three_arms\">", "twin.srdf: robot",
-                "the SRDF is of robot three_arms, two_arms.urdf of robot two_arms; pairs of links "
-                "that it disables are not checked"}));
+                "the SRDF is for robot three_arms, but two_arms.urdf for robot two_arms; its "
+                "groups and disabled pairs of links are used all the same"}));
 
-TEST(SrdfStates, ThatAreAnArmsHomeHaveToBeWhole) {
+TEST(SrdfStates, UsedAsHomeMustBeValid) {
   const ScratchFolder folder;
   CellDescription cell = cell_with_srdf(folder, {"value=\"1.5\"", "value=\"2.6\"", "", ""});
   cell.robots[0].arms[0].home.clear();
@@ -152,7 +148,7 @@ TEST(SrdfStates, ThatAreAnArmsHomeHaveToBeWhole) {
       "l_turn is at 2.6, outside [-2, 2.5]\n");
 }
 
-TEST(SrdfGroups, ThatHoldEachOtherAreToldAsACycle) {
+TEST(SrdfGroups, CycleIsReported) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf = folder.write("twin.srdf",
@@ -160,10 +156,8 @@ TEST(SrdfGroups, ThatHoldEachOtherAreToldAsACycle) {
                                      "name='b'/></group><group name='b'><group name='c'/></group>"
                                      "<group name='c'><group name='a'/></group></robot>");
   cell.robots[0].arms[0].group = "a";
-  EXPECT_THAT(
-      problems_of(cell),
-      HasSubstr(
-          "twin.srdf:1: group c | twin.srdf:1: group c: group a holds this group too: a cycle"));
+  EXPECT_THAT(problems_of(cell), HasSubstr("twin.srdf:1: group c | twin.srdf:1: group c: group a "
+                                           "also contains this group: a cycle"));
 }
 
 TEST(SrdfGroups, MayReferToLaterGroups) {
@@ -173,7 +167,7 @@ TEST(SrdfGroups, MayReferToLaterGroups) {
   EXPECT_EQ(build_or_fail(cell)->arms[0].joints.size(), 5u);
 }
 
-TEST(SrdfFile, ThatIsMissingIsAProblemAndNoReasonToGuess) {
+TEST(SrdfFile, MissingFileIsAProblem) {
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf = data_file("missing.srdf");
   EXPECT_THAT(problems_of(cell), testing::StartsWith("/robots/0/srdf | robot twin: cannot read"));

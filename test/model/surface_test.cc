@@ -1,6 +1,6 @@
-// The shapes of every model in models/ contain the robot: the outermost points of its links, as
-// published, lie inside them by the reserve that its URDF states ("reserve: 3 mm"). The URDFs are
-// read with urdfdom, distances are closed forms: nothing is shared with the code that uses them.
+// The shapes of every model in models/ must contain the robot. The published outermost points of
+// each link lie inside by the reserve that the URDF states ("reserve: 3 mm"). Independent of the
+// product: urdfdom and closed forms.
 #include <gtest/gtest.h>
 #include <urdf_parser/urdf_parser.h>
 
@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 
 const fs::path kModels = fs::path(source_dir()) / "models";
 
-using Surface = std::map<std::string, std::vector<Eigen::Vector3d>>;  // by link, in its frame
+using Surface =
+    std::map<std::string, std::vector<Eigen::Vector3d>>;  // by link, in the link's frame
 
 struct Table {
   std::string file;    // in models/
@@ -75,8 +76,8 @@ double reserve_m(const std::string& urdf) {
   return std::stod(found[1]) * 1e-3;
 }
 
-// How deep the point lies in the shape; below zero: so far outside, or farther. Every length of the
-// shape is `thinner` less, on each side.
+// Returns how deep the point lies in the shape, shrunk by `thinner` on each side; if negative, the
+// point is outside by at least that.
 double depth(const urdf::Collision& collision, const Eigen::Vector3d& p_L, double thinner) {
   const auto& at = collision.origin;
   const Eigen::Quaterniond R(at.rotation.w, at.rotation.x, at.rotation.y, at.rotation.z);
@@ -96,7 +97,7 @@ double depth(const urdf::Collision& collision, const Eigen::Vector3d& p_L, doubl
   return (half - p.cwiseAbs()).minCoeff() - thinner;
 }
 
-// The least depth of the points in the link's shapes, each in the one that it lies deepest in.
+// Returns the least depth of the points, each in its deepest shape.
 double least_depth(const urdf::Link& link, const std::vector<Eigen::Vector3d>& points,
                    double thinner = 0.0) {
   double least = std::numeric_limits<double>::infinity();
@@ -135,7 +136,7 @@ TEST_P(ModelSurface, LiesInsideTheShapesByTheReserve) {
   }
 }
 
-TEST_P(ModelSurface, IsKnownOfEveryLinkThatHasShapes) {
+TEST_P(ModelSurface, CoversEveryLinkThatHasShapes) {
   for (const auto& [name, link] : robot_->links_) {
     if (link->collision_array.empty()) continue;
     const auto found = surface_.find(name);
@@ -143,15 +144,14 @@ TEST_P(ModelSurface, IsKnownOfEveryLinkThatHasShapes) {
   }
 }
 
-// The tables are sharp enough to find out shapes that have become too thin.
-TEST_P(ModelSurface, FindsShapesThatAreTooThin) {
+TEST_P(ModelSurface, DetectsShapesThatAreTooThin) {
   constexpr double kSharp_m = 0.006;
   for (const auto& [name, points] : surface_) {
     EXPECT_LT(least_depth(*robot_->getLink(name), points, kSharp_m), reserve_m_) << name;
   }
 }
 
-TEST(ModelSurfaces, AreKnownOfEveryModel) {
+TEST(ModelSurfaces, CoverEveryModel) {
   for (const auto& entry : fs::directory_iterator(kModels)) {
     if (entry.path().extension() != ".urdf") continue;
     const auto known = std::ranges::find(kKnown, entry.path().stem().string(), &Model::name);

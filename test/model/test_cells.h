@@ -10,22 +10,22 @@ namespace armloom {
 [[nodiscard]] std::string data_file(const std::string& name);   // test/model/data/...
 [[nodiscard]] std::string model_file(const std::string& name);  // models/...
 
-// test/model/data/two_arms: both arms of one robot, prefix "t_", base pose away from the origin.
+// Returns test/model/data/two_arms: both arms of one robot, prefix "t_", base pose away from the
+// origin.
 [[nodiscard]] CellDescription two_arms_description();
 
-// Two Pandas as config/two_pandas.json has them, without limits of their own.
+// Returns the Pandas of config/two_pandas.json, without limits of their own.
 [[nodiscard]] CellDescription two_pandas_description();
 
-// Builds, or fails the test with everything that build_cell found.
+// Builds the cell, or fails the test with its problems.
 [[nodiscard]] CellPtr build_or_fail(const CellDescription& description);
 
-// All problems of the description, one line each: "<pointer> | <detail>"; empty when it builds.
+// Returns all problems, one line each: "<pointer> | <detail>"; empty if the cell builds.
 [[nodiscard]] std::string problems_of(const CellDescription& description);
 
-// Builds, or throws, and returns all warnings likewise.
+// Returns all warnings in the same format; throws if the cell does not build.
 [[nodiscard]] std::string warnings_of(const CellDescription& description);
 
-// A folder of its own that goes away with it.
 class ScratchFolder {
  public:
   ScratchFolder();
@@ -34,24 +34,23 @@ class ScratchFolder {
   ScratchFolder& operator=(const ScratchFolder&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  // Writes a file, with the folders above it, and returns its path.
+  // Writes a file and its parent folders; returns its path.
   std::string write(const std::string& name, const std::string& text) const;
 
  private:
   std::filesystem::path path_;
 };
 
-// The text of a file with `from`, which must occur in it exactly once, replaced by `to`.
+// Returns a file's text with `from`, which must occur exactly once, replaced by `to`.
 [[nodiscard]] std::string file_with(const std::string& path, const std::string& from,
                                     const std::string& to);
 
-// Without the lines of URDF and SRDF files: "a.urdf:12: link b" -> "a.urdf: link b".
+// "a.urdf:12: link b" -> "a.urdf: link b"
 [[nodiscard]] std::string without_lines(const std::string& text);
 
-// The line of "a.urdf:12: link b", 0: it has none.
+// Returns 12 for "a.urdf:12: link b", 0 if there is no line.
 [[nodiscard]] int line_of(const std::string& place);
 
-// The line in which two texts begin to differ.
 [[nodiscard]] int line_of_change(const std::string& before, const std::string& after);
 
 inline const Joint& joint_of(const Cell& cell, const char* name) {
@@ -64,7 +63,6 @@ inline std::vector<std::string> names_of(const Cell& cell, const std::vector<Joi
   return names;
 }
 
-// Of the first robot.
 inline CellDescription with_limits_file(const ScratchFolder& folder, const std::string& text) {
   CellDescription cell = two_arms_description();
   cell.robots[0].joint_limits = folder.write("joint_limits.yaml", text);

@@ -1,4 +1,3 @@
-// What is wrong with a cell's files is told in one go, as far as it can be known.
 #include <gmock/gmock.h>
 
 #include "test/model/test_cells.h"
@@ -10,7 +9,6 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-// A cell whose SRDF, joint_limits.yaml and own fields are all wrong.
 CellDescription wrong_but_for_the_urdf(const ScratchFolder& folder) {
   CellDescription cell = two_arms_description();
   RobotDescription& robot = cell.robots[0];
@@ -32,39 +30,40 @@ CellDescription wrong_but_for_the_urdf(const ScratchFolder& folder) {
 void expect_all_told(const std::string& problems) {
   EXPECT_THAT(problems, AllOf(HasSubstr("joint l_turn: joint value is 'up'"),
                               HasSubstr("limits.yaml:4: joint l_turn: max_velocity is 'quick'"),
-                              HasSubstr("home 'stretched' is no state of group 'right_arm'"),
+                              HasSubstr("home 'stretched' is not a state of group 'right_arm'"),
                               HasSubstr("arm third: group 'midle_arm' is not in twin.srdf"),
                               HasSubstr("rate_hz is 0"), Not(HasSubstr("home 'out'"))))
       << problems;
 }
 
-TEST(ToldAtOnce, AreTheOtherFilesWhereTheUrdfIsSound) {
+TEST(ReportedTogether, OtherFilesWithAValidUrdf) {
   const ScratchFolder folder;
   const std::string problems = problems_of(wrong_but_for_the_urdf(folder));
   expect_all_told(problems);
   EXPECT_THAT(problems, HasSubstr("arm left has no joint l_torn to limit"));
 }
 
-TEST(ToldAtOnce, AreTheOtherFilesWhereTheUrdfIsNotXml) {
+TEST(ReportedTogether, OtherFilesWithAMalformedUrdf) {
   const ScratchFolder folder;
   CellDescription cell = wrong_but_for_the_urdf(folder);
   cell.robots[0].urdf =
       folder.write("twin.urdf", file_with(data_file("two_arms.urdf"), "</robot>", ""));
   const std::string problems = problems_of(cell);
   expect_all_told(problems);
-  EXPECT_THAT(problems, AllOf(HasSubstr("twin.urdf:5: the XML is malformed"),
-                              HasSubstr("groups that do: both, gripper, left_arm, right_arm"),
-                              Not(HasSubstr("is not in twin.urdf"))));
+  EXPECT_THAT(problems,
+              AllOf(HasSubstr("twin.urdf:5: the XML is malformed"),
+                    HasSubstr("groups with movable joints: both, gripper, left_arm, right_arm"),
+                    Not(HasSubstr("is not in twin.urdf"))));
 }
 
-TEST(ToldAtOnce, AreTheOtherFilesWhereTheUrdfIsMissing) {
+TEST(ReportedTogether, OtherFilesWithAMissingUrdf) {
   const ScratchFolder folder;
   CellDescription cell = wrong_but_for_the_urdf(folder);
   cell.robots[0].urdf = data_file("gone.urdf");
   expect_all_told(problems_of(cell));
 }
 
-TEST(ToldAtOnce, AreTheOtherFilesWhereTheUrdfsTreeIsBroken) {
+TEST(ReportedTogether, OtherFilesWithABrokenUrdfTree) {
   const ScratchFolder folder;
   CellDescription cell = wrong_but_for_the_urdf(folder);
   cell.robots[0].urdf = folder.write(
@@ -76,7 +75,7 @@ TEST(ToldAtOnce, AreTheOtherFilesWhereTheUrdfsTreeIsBroken) {
                               HasSubstr("arm left has no joint l_torn to limit")));
 }
 
-TEST(ToldAtOnce, AreTheCellsNamesWhereTheSrdfIsNotXml) {
+TEST(ReportedTogether, CellNamesWithAMalformedSrdf) {
   const ScratchFolder folder;
   CellDescription cell = wrong_but_for_the_urdf(folder);
   cell.robots[0].srdf = folder.write("twin.srdf", "<robot");
@@ -88,7 +87,7 @@ TEST(ToldAtOnce, AreTheCellsNamesWhereTheSrdfIsNotXml) {
                     HasSubstr("rate_hz is 0")));
 }
 
-TEST(ToldAtOnce, AreSeveralMistakesOfOneFile) {
+TEST(ReportedTogether, SeveralMistakesOfOneFile) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   std::string urdf = file_with(data_file("two_arms.urdf"), "radius=\"0.08\"", "radius=\"0\"");
@@ -105,8 +104,8 @@ TEST(ToldAtOnce, AreSeveralMistakesOfOneFile) {
             HasSubstr("axis xyz '0 0 0' has no direction"), HasSubstr("mesh scale holds a 0")));
 }
 
-// The joint is meant to be held: that it would move an arm is not what is wrong.
-TEST(ToldAtOnce, AValueThatCannotBeHeldHasNoFollowUp) {
+// The joint is meant to be fixed.
+TEST(ReportedTogether, InvalidFixedValueSuppressesFollowOnErrors) {
   CellDescription cell = two_arms_description();
   cell.robots[0].fixed["l_slide"] = 7.0;
   cell.robots[0].arms[0].home = {0.0};
@@ -115,8 +114,8 @@ TEST(ToldAtOnce, AValueThatCannotBeHeldHasNoFollowUp) {
             "0.7]\n");
 }
 
-// Held, it needs no limits; they would only be told a second time.
-TEST(ToldAtOnce, AJointThatArmsShareHasNoFollowUp) {
+// A fixed joint needs no limits.
+TEST(ReportedTogether, SharedJointSuppressesFollowOnErrors) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].urdf =
@@ -133,18 +132,18 @@ TEST(ToldAtOnce, AJointThatArmsShareHasNoFollowUp) {
   for (ArmDescription& arm : cell.robots[0].arms) arm.home.clear();
   EXPECT_EQ(problems_of(cell),
             "/robots/0/arms | robot twin: arms left, right share the movable joints base_post, so "
-            "that each moves the other; hold what they share (add to the robot \"fixed\": "
+            "each moves the other; hold the shared joints (add to the robot \"fixed\": "
             "{\"base_post\": 0}) or make them one arm\n");
 }
 
-TEST(Remedies, AreToldOfWhatIsMissing) {
+TEST(Remedies, ListValidNamesForMissingElements) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].urdf =
       folder.write("twin.urdf", file_with(data_file("two_arms.urdf"), "mimic joint=\"l_grip\"",
                                           "mimic joint=\"drive_shaft\""));
   EXPECT_THAT(problems_of(cell),
-              HasSubstr("mimic joint drive_shaft does not exist; the joints that one can follow: "
+              HasSubstr("mimic joint drive_shaft does not exist; joints that it could follow: "
                         "l_grip, l_slide, l_turn, r_bend, r_last, r_spin"));
   cell = two_arms_description();
   cell.robots[0].srdf = folder.write(
@@ -156,24 +155,23 @@ TEST(Remedies, AreToldOfWhatIsMissing) {
   EXPECT_THAT(problems_of(cell),
               AllOf(HasSubstr("group_state out of left_arm: joint l_turn has no value; add to it "
                               "<joint name=\"l_turn\" value=\"...\"/>"),
-                    HasSubstr("arm right: home has 1 values, the group has 3 joints; give one for "
-                              "each of r_spin, r_bend, r_last, or the name of one of its states")));
+                    HasSubstr("arm right: home has 1 values, the group has 3 joints; give one "
+                              "value for each of r_spin, r_bend, r_last, or the name of a state")));
 }
 
-TEST(LimitUnits, HaveToFitHowTheJointMoves) {
+TEST(LimitUnits, MustMatchTheJointType) {
   CellDescription cell = two_arms_description();
   auto& limits = cell.robots[0].arms[0].limits;
   limits["l_turn"] = {.velocity = 0.1, .keys = {"velocity_m_s"}};
   limits["l_slide"] = {.upper = 0.5, .brake = 3.0, .keys = {"upper_rad", "brake_m_s2"}};
-  EXPECT_EQ(
-      problems_of(cell),
-      "/robots/0/arms/0/limits/l_slide/upper_rad | joint l_slide: upper_rad is of joints that "
-      "turn, and this one slides: give upper_m\n"
-      "/robots/0/arms/0/limits/l_turn/velocity_m_s | joint l_turn: velocity_m_s is of joints "
-      "that slide, and this one turns: give velocity_rad_s\n");
+  EXPECT_EQ(problems_of(cell),
+            "/robots/0/arms/0/limits/l_slide/upper_rad | joint l_slide: upper_rad is for rotating "
+            "joints, but this joint is prismatic: give "
+            "upper_m\n/robots/0/arms/0/limits/l_turn/velocity_m_s | joint l_turn: velocity_m_s is "
+            "for prismatic joints, but this joint rotates: give velocity_rad_s\n");
 }
 
-TEST(Grippers, StartWhereTheCellHasThem) {
+TEST(Grippers, StartAtThePositionInTheCellFile) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms[0].gripper["l_grip"] = 0.03;
   const CellPtr built = build_or_fail(cell);
@@ -183,34 +181,33 @@ TEST(Grippers, StartWhereTheCellHasThem) {
       build_or_fail(two_arms_description())->home()[static_cast<Eigen::Index>(grip.index())], 0.0);
 }
 
-TEST(Grippers, HaveStartsThatAreTheirsAndWithinTheirLimits) {
+TEST(Grippers, RejectInvalidStartPositions) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms[0].gripper = {
       {"l_grip", 0.5}, {"l_turn", 0.0}, {"l_grip_mirror", 0.0}, {"thumb", 0.0}};
   EXPECT_EQ(problems_of(cell),
             "/robots/0/arms/0/gripper/l_grip | arm left: joint l_grip of its gripper starts at "
-            "0.5, outside [0, 0.04] m\n"
-            "/robots/0/arms/0/gripper/l_grip_mirror | arm left has no gripper's joint "
-            "l_grip_mirror (one below the arm, in no arm's group, and no mimic)\n"
-            "/robots/0/arms/0/gripper/l_turn | arm left has no gripper's joint l_turn (one below "
-            "the arm, in no arm's group, and no mimic)\n"
-            "/robots/0/arms/0/gripper/thumb | arm left: joint thumb of its gripper is not in "
-            "two_arms.urdf\n");
+            "0.5, outside [0, 0.04] m\n/robots/0/arms/0/gripper/l_grip_mirror | arm left has no "
+            "gripper joint l_grip_mirror (a movable joint below the arm, in no arm's group, that "
+            "follows no other joint)\n/robots/0/arms/0/gripper/l_turn | arm left has no gripper "
+            "joint l_turn (a movable joint below the arm, in no arm's group, that follows no other "
+            "joint)\n/robots/0/arms/0/gripper/thumb | arm left: joint thumb of its gripper is not "
+            "in two_arms.urdf\n");
 }
 
-TEST(Mimics, BeyondTheirOwnLimitsAreToldOf) {
+TEST(Mimics, BeyondTheirOwnLimitsCauseAWarning) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].urdf = folder.write(
       "twin.urdf", file_with(data_file("two_arms.urdf"), "offset=\"0.001\"", "offset=\"9\""));
   EXPECT_EQ(warnings_of(cell),
             "twin.urdf:40: joint l_grip_mirror | twin.urdf:40: joint l_grip_mirror: it follows "
-            "l_grip from 9 to 9.08, beyond its own limits [0, 0.08]: here it goes there, the robot "
-            "may stop short; check <mimic>\n");
+            "l_grip from 9 to 9.08, beyond its own limits [0, 0.08]: it is checked at these "
+            "positions, but the robot may stop short of them; check <mimic>\n");
   EXPECT_EQ(warnings_of(two_arms_description()), "");
 }
 
-TEST(VirtualJoints, OfAnotherChildThanTheRootAreToldOf) {
+TEST(VirtualJoints, WithAChildOtherThanTheRootCauseAWarning) {
   const ScratchFolder folder;
   CellDescription cell = two_arms_description();
   cell.robots[0].srdf = folder.write(

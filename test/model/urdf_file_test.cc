@@ -1,4 +1,3 @@
-// URDF files that are none, are too large, or are wrong in many places at once.
 #include <gmock/gmock.h>
 
 #include "test/model/urdf_text.h"
@@ -8,7 +7,7 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(UrdfText, ThatIsNotUtf8IsRefusedWithItsLine) {
+TEST(UrdfText, InvalidUtf8IsRejectedWithItsLine) {
   for (const char* bad : {"\xff", "\xc3(", "\xed\xa0\x80", "\xc0\xaf", "\xe2\x82"}) {
     const ScratchFolder folder;
     const auto cell = build_cell(cell_with_urdf(
@@ -21,7 +20,7 @@ TEST(UrdfText, ThatIsNotUtf8IsRefusedWithItsLine) {
   }
 }
 
-TEST(UrdfLimits, ThatAreNoneAreToldWithWhatTheCellCanSayInstead) {
+TEST(UrdfLimits, InvalidLimitsSuggestCellFileLimits) {
   struct Fault {
     const char* from;
     const char* to;
@@ -46,7 +45,7 @@ TEST(UrdfLimits, ThatAreNoneAreToldWithWhatTheCellCanSayInstead) {
   }
 }
 
-TEST(UrdfFile, OtherThanARobotIsRefused) {
+TEST(UrdfFile, NonRobotFilesAreRejected) {
   const ScratchFolder folder;
   EXPECT_THAT(problems_of(cell_with_urdf(folder, "<sdf/>")),
               HasSubstr("the root element is <sdf>, not <robot>"));
@@ -57,7 +56,7 @@ TEST(UrdfFile, OtherThanARobotIsRefused) {
               HasSubstr("zero byte"));
 }
 
-TEST(UrdfFile, IsRefusedWhenNestedTooDeeply) {
+TEST(UrdfFile, RejectsTooDeepNesting) {
   const ScratchFolder folder;
   std::string open, close;
   for (int i = 0; i < 100'000; ++i) open += "<a>", close += "</a>";
@@ -65,7 +64,7 @@ TEST(UrdfFile, IsRefusedWhenNestedTooDeeply) {
               HasSubstr("nested too deeply"));
 }
 
-TEST(UrdfFile, IsRefusedWhenLongerThanSixteenMebibytesOrOfTooManyLinks) {
+TEST(UrdfFile, RejectsFilesOver16MebibytesOr1000Links) {
   const ScratchFolder folder;
   EXPECT_THAT(problems_of(cell_with_urdf(folder, std::string((16u << 20) + 1, ' '))),
               HasSubstr("longer than 16777216 bytes"));
@@ -75,7 +74,7 @@ TEST(UrdfFile, IsRefusedWhenLongerThanSixteenMebibytesOrOfTooManyLinks) {
               HasSubstr("1001 links, at most 1000"));
 }
 
-TEST(UrdfFile, IsRefusedWhenMissingOrNoFile) {
+TEST(UrdfFile, RejectsMissingAndNonRegularFiles) {
   CellDescription cell = two_arms_description();
   cell.robots[0].urdf = data_file("missing.urdf");
   EXPECT_THAT(problems_of(cell), testing::StartsWith("/robots/0/urdf | robot twin: cannot read"));
@@ -85,7 +84,7 @@ TEST(UrdfFile, IsRefusedWhenMissingOrNoFile) {
   EXPECT_THAT(problems_of(cell), HasSubstr("it is not a regular file"));
 }
 
-TEST(UrdfFile, TellsEveryMistakeAtOnceAndTheSameFileOnce) {
+TEST(UrdfFile, ReportsAllMistakesOncePerFile) {
   const ScratchFolder folder;
   CellDescription cell = cell_with_urdf(
       folder,
@@ -112,7 +111,7 @@ TEST(UrdfFile, KeepsAHundredProblemsAndCountsTheRest) {
   ASSERT_FALSE(cell.has_value());
   EXPECT_EQ(cell.error().size(), 101u);
   EXPECT_THAT(cell.error().back().detail,
-              HasSubstr("51 more problems"));  // 50 links and the many roots
+              HasSubstr("51 more problems"));  // 50 links and the multiple roots
 }
 
 }  // namespace

@@ -7,13 +7,12 @@ namespace {
 
 using testing::HasSubstr;
 
-// One mistake, made by replacing a piece of two_arms.urdf: where it must be found and what is said.
 struct Mistake {
   const char* from;
   const char* to;
   const char* place;
   const char* sentence;
-  int line = 0;  // that has to be named, if any is; 0: that of the change
+  int line = 0;  // of the mistake; 0 for the changed line
 };
 
 void PrintTo(const Mistake& mistake, std::ostream* out) {
@@ -22,7 +21,7 @@ void PrintTo(const Mistake& mistake, std::ostream* out) {
 
 class UrdfMistake : public testing::TestWithParam<Mistake> {};
 
-TEST_P(UrdfMistake, IsTheOnlyProblemAndNamedByPlaceAndValue) {
+TEST_P(UrdfMistake, IsTheOnlyProblemReportedWithPlaceAndValue) {
   const Mistake& mistake = GetParam();
   const ScratchFolder folder;
   const std::string sound = file_with(data_file("two_arms.urdf"), "</robot>", "</robot>");
@@ -107,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
                             "{\"r_last\": {\"lower_rad\": -1, \"upper_rad\": 1}}"},
                     Mistake{"\"r_spin\" type=\"continuous\"", "\"r_spin\" type=\"floating\"",
                             "two_arms.srdf: group right_arm",
-                            "joint r_spin is floating or planar, which no arm can hold", 6},
+                            "joint r_spin is floating or planar, which an arm cannot contain", 6},
                     Mistake{"\"r_spin\" type=\"continuous\"", "\"r_spin\" type=\"planar\"",
                             "two_arms.srdf: group right_arm", "joint r_spin is floating or planar",
                             6},
@@ -143,21 +142,19 @@ INSTANTIATE_TEST_SUITE_P(
                 "<parent link=\"pots\"/><child link=\"r1\"/>", "twin.urdf: joint r_spin",
                 "parent link pots does not exist", 50},
         Mistake{"<child link=\"r_tip\"/>", "<child link=\"r2\"/>", "twin.urdf: joint r_last",
-                "child link r2 already hangs on joint r_bend", 63},
+                "child link r2 already has the parent joint r_bend", 63},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><link name=\"stray\"/>",
                 "twin.urdf: robot",
-                "more than one root link: base (line 7), stray (line 46); hang all but one on a "
+                "more than one root link: base (line 7), stray (line 46); attach all but one to a "
                 "<joint>"},
-        Mistake{
-            "<parent link=\"post\"/><child link=\"r1\"/>",
-            "<parent link=\"r_tip\"/><child link=\"r1\"/>", "twin.urdf: robot",
-            "links hang in a loop and not below a root: r1 (line 46), r2 (line 47), r3 (line 48), "
-            "r_tip (line 49)"},
+        Mistake{"<parent link=\"post\"/><child link=\"r1\"/>",
+                "<parent link=\"r_tip\"/><child link=\"r1\"/>", "twin.urdf: robot",
+                "links form a cycle without a root: r1 (line 46), r2 (line 47), r3 (line 48), "
+                "r_tip (line 49)"},
         Mistake{"<robot name=\"two_arms\"", "<robot", "twin.urdf: robot",
                 "robot name is missing"}));
 
-// What is misspelt would vanish without a word: a link without its shape, a joint without its
-// mimic.
+// A misspelled element would lose a shape or a mimic silently.
 INSTANTIATE_TEST_SUITE_P(
     Spelling, UrdfMistake,
     testing::Values(
@@ -195,8 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><Link name=\"table\"/>",
                 "twin.urdf: robot", "<Link> is not known; did you mean <link>?"}));
 
-// Names that other tools give their elements are no misspellings.
-TEST(UrdfElements, OfOtherToolsPassWithoutAWord) {
+TEST(UrdfElements, OfOtherToolsCauseNoWarning) {
   const ScratchFolder folder;
   const std::string others =
       "<gazebo reference='r1'><kp>1</kp></gazebo><transmission name='t'><joint name='r_spin'/>"
@@ -220,10 +216,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"</robot>", "", "twin.urdf:5", "the XML is malformed", 5},
         Mistake{"</robot>", "</robot><robot/>", "twin.urdf:67", "more than one XML element"}));
 
-// What the cell does not use, or what is only odd.
 class UrdfOddity : public testing::TestWithParam<Mistake> {};
 
-TEST_P(UrdfOddity, IsAWarningAndRefusesNothing) {
+TEST_P(UrdfOddity, IsOnlyAWarning) {
   const Mistake& oddity = GetParam();
   const ScratchFolder folder;
   EXPECT_THAT(
@@ -235,9 +230,10 @@ TEST_P(UrdfOddity, IsAWarningAndRefusesNothing) {
 INSTANTIATE_TEST_SUITE_P(
     All, UrdfOddity,
     testing::Values(
-        Mistake{"size=\"0.4 0.6 0.1\"/></geometry><material",
-                "size=\"0.4 0x10 0.1\"/></geometry><material", "twin.urdf: link base",
-                "box size is '0.4 0x10 0.1', not 3 finite numbers; it is seen in the dashboard"},
+        Mistake{
+            "size=\"0.4 0.6 0.1\"/></geometry><material",
+            "size=\"0.4 0x10 0.1\"/></geometry><material", "twin.urdf: link base",
+            "box size is '0.4 0x10 0.1', not 3 finite numbers; it is only displayed, not checked"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"><vizual/></link>", "twin.urdf: link r1",
                 "<vizual> is not known here and is left out; did you mean <visual>?"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"/><world_frame/>", "twin.urdf: robot",
@@ -246,18 +242,18 @@ INSTANTIATE_TEST_SUITE_P(
                 "<origin xyz=\"0 0 0.3\" frame=\"world\"/>", "twin.urdf: joint l_wrist",
                 "origin attribute frame is not known here and is left out"},
         Mistake{"rpy=\"0 0 -0.785\"", "rpy=\"0 0 -45\"", "twin.urdf: joint l_wrist",
-                "origin rpy holds -45, more than a turn: angles are in rad (degrees?)"},
-        Mistake{
-            "<link name=\"r1\"/>",
-            "<link name=\"r1\"><visual><geometry><sphere radius=\"1\"/></geometry></visual>"
-            "</link>",
-            "twin.urdf: links",
-            "r1 have a <visual> and no <collision>: they are seen in the dashboard, and nothing "
-            "keeps away from them"},
+                "origin rpy holds -45, more than a full turn: angles are in rad (degrees?)"},
+        Mistake{"<link name=\"r1\"/>",
+                "<link name=\"r1\"><visual><geometry><sphere radius=\"1\"/></geometry></visual>"
+                "</link>",
+                "twin.urdf: links",
+                "r1 have a <visual> but no <collision>: the dashboard shows them, but they are not "
+                "checked, so collisions with them are not detected"},
         Mistake{"<link name=\"r3\"><collision><geometry><sphere radius=\"0.03\"/></geometry>"
                 "</collision></link>",
                 "<link name=\"r3\"/>", "twin.urdf: arm right",
-                "none of its links has a <collision>: nothing that it does can be a conflict"},
+                "no link has <collision> geometry, so its motions are not checked and it may hit "
+                "anything"},
         Mistake{"<link name=\"r1\"/>", "<link name=\"r1\"><gravity>0</gravity></link>",
                 "twin.urdf: link r1", "<gravity> is not known here and is left out"},
         Mistake{"<link name=\"r1\"/>",
@@ -267,12 +263,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "twin.urdf: joint l_turn",
                 "effort is 'much', not a finite number; efforts play no"},
         Mistake{"lower=\"-1\" upper=\"1\"", "upper=\"1\"", "twin.urdf: joint r_last",
-                "limit lower is missing; the URDF specification takes 0"},
+                "limit lower is missing; 0 is used, as the URDF specification says"},
         Mistake{"velocity=\"0.2\"", "velocity=\"0\"", "twin.urdf: joint l_grip",
-                "for the gripper's joint 1 is taken. Else add to arm left \"limits\": {\"l_grip\": "
-                "{\"velocity_m_s\": 1}}"},
-        Mistake{"xyz=\"0.1 0.05 0\"", "xyz=\"0.1 333 0\"", "twin.urdf: joint l_turn",
-                "m, hardly meant (millimetres?); what hangs there is checked that far away"}));
+                "no velocity limit; assuming 1 m/s for this gripper joint. To set it, add to arm "
+                "left \"limits\": {\"l_grip\": {\"velocity_m_s\": 1}}"},
+        Mistake{
+            "xyz=\"0.1 0.05 0\"", "xyz=\"0.1 333 0\"", "twin.urdf: joint l_turn",
+            "m, probably a unit error (millimeters?); its links are checked at that distance"}));
 
 }  // namespace
 }  // namespace armloom

@@ -4,7 +4,6 @@
 
 namespace armloom {
 
-// The cell of two_arms_description() with this text as its URDF.
 inline CellDescription cell_with_urdf(const ScratchFolder& folder, const std::string& text) {
   CellDescription cell = two_arms_description();
   cell.robots[0].urdf = folder.write("twin.urdf", text);

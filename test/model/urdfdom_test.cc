@@ -57,7 +57,6 @@ void expect_same_joint(const urdf::Joint& joint, const RobotTree& tree) {
   EXPECT_EQ(link.joint.mimic->offset, joint.mimic->offset);
 }
 
-// The numbers of a shape, in one order for both.
 std::vector<double> numbers_of(const urdf::Geometry& geometry) {
   if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry))
     return {box->dim.x, box->dim.y, box->dim.z};
@@ -100,7 +99,7 @@ RobotTree tree_of(const std::string& text, const std::string& path) {
   return tree.value();
 }
 
-// Of the file as it is, not of the mended one that read_urdf gives to urdfdom.
+// Gives urdfdom the original file, not the file repaired by read_urdf.
 void expect_what_urdfdom_reads(const std::string& path, int links, int shapes) {
   const auto model = urdf::parseURDFFile(path);
   ASSERT_NE(model, nullptr) << path;
@@ -126,8 +125,8 @@ TEST(Urdfdom, AgreesOnEveryModel) {
   expect_what_urdfdom_reads(data_file("two_arms.urdf"), 11, 5);
 }
 
-// What urdfdom alone would refuse, drop or read otherwise.
-TEST(Urdfdom, IsGivenWhatItCanRead) {
+// Input that urdfdom alone would reject, drop or read differently.
+TEST(Urdfdom, GetsARepairedFile) {
   const RobotTree tree = tree_of(
       "<robot name='r' version='7.1'><material/><link name='&lt;a&gt; &amp; \"b\"'>"
       "<inertial><mass value='heavy'/></inertial><visual><geometry><blob/></geometry></visual>"
@@ -160,7 +159,7 @@ TEST(Urdfdom, IsGivenWhatItCanRead) {
   EXPECT_TRUE(floating.joint.many_values && floating.is_rigid());
 }
 
-TEST(Urdfdom, ThatRefusesOrDropsWhatWasCheckedIsToldWithItsWords) {
+TEST(Urdfdom, ErrorsAreReportedWithItsMessage) {
   const auto refused = [](const std::string& body) {
     tinyxml2::XMLDocument document;
     EXPECT_EQ(document.Parse(("<robot name='r'>" + body + "</robot>").c_str()), 0);
@@ -177,8 +176,8 @@ TEST(Urdfdom, ThatRefusesOrDropsWhatWasCheckedIsToldWithItsWords) {
       testing::HasSubstr("Unknown geometry type 'capsule'"));
 }
 
-// A joint that is its own links' loop, below a joint that is left out.
-TEST(UrdfTree, ThatIsNoneIsToldAndPatchedWithEveryName) {
+// Joint k connects c with itself; joint l has no links.
+TEST(UrdfTree, BrokenTreeIsReportedAndPatchedWithEveryName) {
   Diagnostics diagnostics;
   const auto tree = read_urdf(
       "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='above all'/>"

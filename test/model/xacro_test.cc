@@ -11,7 +11,6 @@ namespace {
 using testing::HasSubstr;
 using namespace std::chrono_literals;
 
-// A program `xacro` of our own, first on the PATH.
 class Xacro : public testing::Test {
  protected:
   ~Xacro() override { setenv("PATH", path_.c_str(), 1); }
@@ -27,14 +26,14 @@ class Xacro : public testing::Test {
   const std::string file_ = folder_.write("a robot; exit.urdf.xacro", "<robot/>");
 };
 
-TEST_F(Xacro, GetsTheFileAsOneArgumentAndGivesWhatItPrints) {
+TEST_F(Xacro, GetsTheFileAsOneArgumentAndReturnsItsOutput) {
   install("cat \"$1\"; test $# = 1");
   EXPECT_EQ(expand_xacro(file_)->text, "<robot/>");
   EXPECT_EQ(expand_xacro(file_)->said, "");
 }
 
-// As xacro prints it: what is wrong first, where last.
-TEST_F(Xacro, IsToldWholeWhenItFails) {
+// In xacro's format: the error first, its place last.
+TEST_F(Xacro, FailureIsReportedInFull) {
   install(
       "echo 'error: undefined macro: arm' >&2; echo \"when processing file: a.xacro\" >&2; exit 2");
   EXPECT_EQ(expand_xacro(file_).error(),
@@ -46,10 +45,10 @@ TEST_F(Xacro, IsToldWholeWhenItFails) {
             "xacro says: XML parsing error: no element found: line 2; Check that:; - Your XML is "
             "well-formed");
   install("exit 3");
-  EXPECT_EQ(expand_xacro(file_).error(), "xacro fails and says nothing");
+  EXPECT_EQ(expand_xacro(file_).error(), "xacro failed without a message");
 }
 
-TEST_F(Xacro, WithoutItsPackagesSaysWhatPythonSaysLast) {
+TEST_F(Xacro, PythonExceptionIsReportedByItsLastLine) {
   install(
       "echo 'Traceback (most recent call last):' >&2; echo '  File \"x\", line 1' >&2; "
       "echo \"ModuleNotFoundError: No module named 'xacro'\" >&2; exit 1");
@@ -57,19 +56,19 @@ TEST_F(Xacro, WithoutItsPackagesSaysWhatPythonSaysLast) {
             "xacro says: ModuleNotFoundError: No module named 'xacro'");
 }
 
-TEST_F(Xacro, ThatSaysMuchIsCutOff) {
+TEST_F(Xacro, LongErrorOutputIsTruncated) {
   install("seq -s e 5000 | tr -d 0-9 >&2; exit 2");
   EXPECT_EQ(expand_xacro(file_).error(), "xacro says: " + std::string(1000, 'e') + "...");
 }
 
-TEST_F(Xacro, IsEndedAtItsTimeAndItsLength) {
+TEST_F(Xacro, IsKilledAtItsTimeAndOutputLimits) {
   install("exec sleep 60");
   EXPECT_EQ(expand_xacro(file_, 1s).error(), "xacro took more than 1 s");
   install("exec yes '<link/>'");
   EXPECT_THAT(expand_xacro(file_).error(), HasSubstr("xacro printed more than 16777216 bytes"));
 }
 
-TEST_F(Xacro, ThatIsNotInstalledIsToldWithWhatToDo) {
+TEST_F(Xacro, MissingProgramIsReportedWithRemedy) {
   std::filesystem::create_directory(folder_.path() / "empty");
   setenv("PATH", (folder_.path() / "empty").c_str(), 1);
   EXPECT_THAT(
@@ -87,8 +86,8 @@ TEST_F(Xacro, ExpandsTheFilesOfARobot) {
   EXPECT_EQ(build_or_fail(cell)->joint(JointId(1)).lower, -2.0);
 }
 
-// An include that matches no file leaves out what it should have brought.
-TEST_F(Xacro, ThatWarnsIsPassedOn) {
+// An include that matches no file silently drops its content.
+TEST_F(Xacro, WarningsArePassedOn) {
   install("cat \"$1\"; echo 'warning: matched no files.' >&2");
   CellDescription cell = two_arms_description();
   cell.robots[0].urdf = folder_.write(

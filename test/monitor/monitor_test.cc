@@ -38,12 +38,12 @@ Proximity hand_and_table(double clearance_m) {
 }
 Monitor monitor() { return {}; }
 
-TEST(Monitor, FindsNothingWhileNothingIsTooClose) {
+TEST(Monitor, FindsNothingWhileAllPairsKeepTheClearance) {
   Monitor m = monitor();
   EXPECT_THAT(m.observe({}, kBothMove, at(10ms)), IsEmpty());
 }
 
-TEST(Monitor, SaysWhoIsTooCloseHowCloseAndWhenAndStopsBothThatMove) {
+TEST(Monitor, ReportsPairDistanceAndTimeAndStopsBothMovingArms) {
   Monitor m = monitor();
   const auto found = m.observe({hands(0.006)}, kBothMove, at(30ms));
   ASSERT_THAT(found, SizeIs(1));
@@ -55,22 +55,22 @@ TEST(Monitor, SaysWhoIsTooCloseHowCloseAndWhenAndStopsBothThatMove) {
   EXPECT_THAT(found[0].stops, ElementsAre(kLeft, kRight));
 }
 
-TEST(Monitor, CallsItContactFromZeroOn) {
+TEST(Monitor, ReportsContactAtZeroDistance) {
   Monitor m = monitor();
   EXPECT_EQ(m.observe({hands(1e-9)}, kBothMove, at(0ms)).at(0).kind, Kind::clearance);
   EXPECT_EQ(monitor().observe({hands(0.0)}, kBothMove, at(0ms)).at(0).kind, Kind::contact);
   EXPECT_EQ(monitor().observe({hands(-0.003)}, kBothMove, at(0ms)).at(0).kind, Kind::contact);
 }
 
-TEST(Monitor, StopsOnlyTheArmOfThePairThatMoves) {
+TEST(Monitor, StopsOnlyTheMovingArmOfAPair) {
   Monitor m = monitor();
   EXPECT_THAT(m.observe({hands(0.006)}, kLeftMoves, at(0ms)).at(0).stops, ElementsAre(kLeft));
-  // The table cannot be stopped, and the left arm has no part in it.
+  // The table cannot be stopped; the left arm is not involved.
   EXPECT_THAT(m.observe({hand_and_table(0.004)}, kBothMove, at(10ms)).at(0).stops,
               ElementsAre(kRight));
 }
 
-TEST(Monitor, StopsAnArmOnceThatComesTooCloseToItself) {
+TEST(Monitor, ListsAnArmTooCloseToItselfOnce) {
   Proximity self = hands(0.001);
   self.arm_b = kLeft;
   self.limit_m = 0.0025;
@@ -87,7 +87,7 @@ TEST(Monitor, ReportsArmsAtRestWithoutStoppingThem) {
   EXPECT_THAT(found[0].stops, IsEmpty());
 }
 
-TEST(Monitor, FindsAPairOnce) {
+TEST(Monitor, ReportsAPairOnlyOnce) {
   Monitor m = monitor();
   EXPECT_THAT(m.observe({hands(0.006)}, kBothMove, at(0ms)), SizeIs(1));
   EXPECT_THAT(m.observe({hands(0.006)}, kBothMove, at(10ms)), IsEmpty());
@@ -95,7 +95,7 @@ TEST(Monitor, FindsAPairOnce) {
   EXPECT_THAT(m.observe({hands(0.0056)}, kBothMove, at(30ms)), IsEmpty());
 }
 
-TEST(Monitor, FindsItAgainWhenItHasComeCloserEvenInSmallSteps) {
+TEST(Monitor, ReportsAPairAgainWhenItHasComeCloserInSmallSteps) {
   Monitor m = monitor();
   EXPECT_THAT(m.observe({hands(0.006)}, kBothMove, at(0ms)), SizeIs(1));
   int again = 0;
@@ -105,14 +105,14 @@ TEST(Monitor, FindsItAgainWhenItHasComeCloserEvenInSmallSteps) {
   EXPECT_EQ(again, 1);  // after 0.6 mm
 }
 
-TEST(Monitor, DoesNotFindItAgainWhileNobodyMoves) {
+TEST(Monitor, DoesNotRepeatAPairWhileBothArmsRest) {
   Monitor m = monitor();
   EXPECT_THAT(m.observe({hands(0.006)}, kBothMove, at(0ms)), SizeIs(1));
   EXPECT_THAT(m.observe({hands(0.002)}, kNoneMoves, at(10ms)), IsEmpty());
   EXPECT_THAT(m.observe({hands(0.002)}, kLeftMoves, at(20ms)), SizeIs(1));
 }
 
-TEST(Monitor, LetsArmsBeMovedApartAfterAStop) {
+TEST(Monitor, AllowsSeparatingArmsAfterAStop) {
   Monitor m = monitor();
   EXPECT_THAT(m.observe({hands(0.003)}, kBothMove, at(0ms)), SizeIs(1));
   for (int i = 1; i < 70; ++i) {
@@ -120,14 +120,14 @@ TEST(Monitor, LetsArmsBeMovedApartAfterAStop) {
   }
 }
 
-TEST(Monitor, ForgetsAPairThatHasCleared) {
+TEST(Monitor, ReportsAPairAnewAfterItHasCleared) {
   Monitor m = monitor();
   EXPECT_THAT(m.observe({hands(0.006), hand_and_table(0.002)}, kBothMove, at(0ms)), SizeIs(2));
   EXPECT_THAT(m.observe({hand_and_table(0.002)}, kBothMove, at(10ms)), IsEmpty());
   EXPECT_THAT(m.observe({hands(0.006), hand_and_table(0.002)}, kBothMove, at(20ms)), SizeIs(1));
 }
 
-TEST(Monitor, KnowsAPairInEitherOrder) {
+TEST(Monitor, RecognizesAPairInEitherOrder) {
   Monitor m = monitor();
   Proximity turned = hands(0.006);
   turned = turned_around(std::move(turned));

@@ -1,5 +1,5 @@
-// config/cell.schema.json as an editor uses it: it is a proper schema, takes every cell of this
-// repository, and refuses what the reader of cell files refuses.
+// config/cell.schema.json as editors use it: a valid schema that accepts every cell of this repository and
+// refuses what the cell reader refuses.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import {createRequire} from 'node:module';
@@ -16,12 +16,12 @@ const schema = JSON.parse(fs.readFileSync(path.join(config, 'cell.schema.json'),
 const ajv = new Ajv({strict: true, strictTypes: false, strictRequired: false, allErrors: true});
 const fits = ajv.compile(schema);
 
-// Comments of our cells stand on lines of their own.
+// Comments in these cells are on separate lines.
 const read = (file) => JSON.parse(fs.readFileSync(path.join(config, file), 'utf8').replace(/^\s*\/\/.*$/gm, ''));
 const cells = fs.readdirSync(config).filter((file) =>
   file.endsWith('.json') && !file.endsWith('_jobs.json') && !file.endsWith('.schema.json'));
 
-test('Every cell of the repository names the schema and fits it', () => {
+test('every cell of the repository names the schema and fits it', () => {
   assert.ok(cells.length >= 5, `only ${cells.length} cells`);
   for (const file of cells) {
     const cell = read(file);
@@ -54,7 +54,7 @@ for (const [what, spoil] of bad) {
   });
 }
 
-test('It takes what MoveIt users bring', () => {
+test('accepts joint limits files, fixed joints and named homes', () => {
   const cell = read('two_pandas.json');
   Object.assign(cell.robots[0], {joint_limits: 'joint_limits.yaml', fixed: {torso: 0.1}});
   Object.assign(cell.robots[0].arms[0], {home: 'ready', limits: {panda_joint1: {velocity_rad_s: 1, lower_rad: -1}}});

@@ -1,19 +1,19 @@
-// openapi.json as the measure of answers: every one must have a listed status, the content type and
-// the schema that stand there; what was seen is remembered.
+// Checks responses against openapi.json: status, content type, headers and schema must be listed there.
+// Records every status seen.
 import assert from 'node:assert/strict';
 import {createRequire} from 'node:module';
 
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
 const Ajv = require('ajv/dist/2020').default;
 
-// Schemas refer to each other within the document; Ajv knows each one by its name.
+// Schemas refer to each other within the document; Ajv knows each by name.
 const byName = (schema) => JSON.parse(JSON.stringify(schema).replaceAll('"#/components/schemas/', '"armloom:'));
 
 export class Contract {
   constructor(document) {
     this.document = document;
     this.seen = new Map();  // "POST /jobs" -> Set of statuses
-    this.messages = new Map();  // type of event -> how many
+    this.messages = new Map();  // event type -> count
     this.ajv = new Ajv({strict: true, strictRequired: false, allErrors: true, allowUnionTypes: true});
     for (const keyword of ['discriminator', 'example']) this.ajv.addKeyword(keyword);
     this.ajv.addFormat('date-time', /^\d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z$/);
@@ -30,7 +30,7 @@ export class Contract {
       Object.entries(methods).map(([method, operation]) => ({path, method: method.toUpperCase(), operation})));
   }
 
-  // Nothing, or what is wrong with `value`.
+  // Returns what is wrong with `value`, or null.
   faults(schema, value) {
     if (!this.compiled.has(schema)) this.compiled.set(schema, this.ajv.compile(byName(schema)));
     const validate = this.compiled.get(schema);
@@ -48,12 +48,12 @@ export class Contract {
                 value, 'a message');
   }
 
-  // Every schema compiles: no unknown keyword, no reference to nothing.
+  // Compiles every schema, to find unknown keywords and dangling references.
   compileAll() {
     for (const schema of Object.values(this.document.components.schemas)) this.faults(schema, {});
   }
 
-  // Whether `body` fits the operation's body schema.
+  // Returns true if `body` fits the operation's body schema.
   fitsBody(path, method, body) {
     const {content} = this.document.paths[path][method.toLowerCase()].requestBody;
     return this.faults(content['application/json'].schema, body) === null;

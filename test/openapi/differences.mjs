@@ -1,5 +1,6 @@
-// node differences.mjs BEFORE AFTER: in what two OpenAPI documents differ in meaning. Keys and lists without order are sorted; descriptions, titles and examples are left out;
-// what says the same in another way is written in one.
+// node differences.mjs BEFORE AFTER: prints the differences in meaning between two OpenAPI documents. Keys
+// and unordered lists are sorted, descriptions, titles and examples are left out, and equivalent forms are
+// unified.
 import fs from 'node:fs';
 
 const kUnordered = new Set(['required', 'enum', 'type', 'oneOf', 'anyOf', 'allOf', 'parameters']);
@@ -19,7 +20,7 @@ export function meaning(document) {
       out[key] = !inProperties && kUnordered.has(key) && Array.isArray(value)
         ? [...value].sort((a, b) => (JSON.stringify(a) < JSON.stringify(b) ? -1 : 1)) : value;
     }
-    // allOf with one rule is that rule.
+    // allOf with one rule is equivalent to that rule.
     if (!inProperties && out.allOf?.length === 1 && !Object.keys(out.allOf[0]).some((key) => key in out)) {
       Object.assign(out, out.allOf[0]);
       delete out.allOf;

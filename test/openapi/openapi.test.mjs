@@ -1,8 +1,7 @@
-// /openapi.json is complete and true: every operation in it is called with good and bad requests, so
-// that every status it lists is seen (of 503 and 507, which take a server in distress, only a few), and
-// every answer and message is held against its schema.
-// Its examples are the good requests.
-//   ARMLOOM_PRISM=node_modules/.bin/prism      all calls go through that proxy, which must not complain
+// /openapi.json is complete and true: every operation is called with good and bad requests until each listed
+// status was seen (of 503 and 507, which need a server in distress, only a few), and every response and
+// message is checked against its schema. The good requests are its examples.
+// ARMLOOM_PRISM=node_modules/.bin/prism sends all calls through that proxy, which must not complain.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import fs from 'node:fs';
@@ -25,7 +24,7 @@ let folder, server, proxy, contract, example;
 let proxied = 0;
 const streams = [];
 
-// The two-Panda cell with a mesh in it, so that there is one to be served.
+// Writes the two-Panda cell with a mesh, so that a mesh is served.
 function writeCell() {
   fs.writeFileSync(path.join(folder, 'tetrahedron.obj'), tetrahedron);
   fs.mkdirSync(path.join(folder, 'web'));
@@ -35,11 +34,11 @@ function writeCell() {
     .replaceAll('../models/', path.join(top, 'models') + '/');
   const cell = JSON.parse(text);
   cell.objects.push({name: 'tetrahedron', mesh: 'tetrahedron.obj', xyz: [0, 3, 0]});
-  cell.scheduling.on_idle_blocker = 'report';  // what waits is to go on waiting
+  cell.scheduling.on_idle_blocker = 'report';  // waiting jobs must keep waiting
   fs.writeFileSync(path.join(folder, 'cell.json'), JSON.stringify(cell));
 }
 
-// Asks, holds the answer against openapi.json, and demands the status.
+// Sends a request, checks the response against openapi.json, and requires the status.
 async function call(status, method, template, {args = {}, query = '', body, headers = {}, raw, direct = !proxy || raw !== undefined, ...rest} = {}) {
   const target = template.replace(/\{(\w+)\}/g, (all, name) => encodeURIComponent(args[name])) + query;
   const text = raw ?? (body === undefined ? undefined : JSON.stringify(body));
@@ -48,12 +47,12 @@ async function call(status, method, template, {args = {}, query = '', body, head
   if (!direct) unopposed(`${method} ${target}`, answer);
   contract.answer(template, method, answer);
   assert.equal(answer.status, status, `${method} ${target}: ${answer.text.slice(0, 400)}`);
-  // A body that the schema takes may still be wrong; one that is accepted must fit it.
+  // A body that fits the schema may still be wrong, but an accepted body must fit the schema.
   if (body !== undefined && status < 300) assert.ok(contract.fitsBody(template, method, body), `${method} ${target}: accepted, but not to the schema`);
   return answer.headers['content-type']?.includes('json') ? JSON.parse(answer.text) : answer.text;
 }
 
-// Requests that are refused may be wrong, that is what they are for.
+// Expects no complaint of prism; requests that are refused may be wrong.
 function unopposed(what, answer) {
   const found = violations(answer);
   proxied += 1;
@@ -93,7 +92,7 @@ after(() => {
   fs.rmSync(folder, {recursive: true, force: true});
 });
 
-test('The document is what the command prints, and each schema in it compiles', async () => {
+test('the document equals the output of the command, and its schemas compile', async () => {
   const file = JSON.parse(execFileSync(binary, ['schema', '--openapi'], {encoding: 'utf8'}));
   assert.deepEqual(await call(200, 'GET', '/openapi.json'), file);
   assert.match(file.openapi, /^3\.1\./);
@@ -112,7 +111,7 @@ test('The document is what the command prints, and each schema in it compiles', 
   }
 });
 
-test('The readers of events are told everything from a snapshot on', async () => {
+test('subscribers get a snapshot and all events after it', async () => {
   const told = (value) => contract.message(value);
   let snapshot;
   streams.push(await openWebSocket(server.port, `${v1}/ws`, told));
@@ -134,7 +133,7 @@ test('The readers of events are told everything from a snapshot on', async () =>
   assert.equal(again.data.gap, true);
 });
 
-test('What only reads', async () => {
+test('read-only operations', async () => {
   await call(200, 'GET', '/');
   await call(200, 'GET', `${v1}/alerts`);
   const seen = (status, body) => call(status, 'POST', `${v1}/alerts/acknowledge`, {body});
@@ -170,7 +169,7 @@ test('What only reads', async () => {
   await call(404, 'GET', `${v1}/jobs/{id}/trajectory`, {args: {id: 'nothing'}});
 });
 
-test('Jobs, good and bad', async () => {
+test('jobs, good and bad', async () => {
   await call(200, 'POST', `${v1}/check`, {body: example(`${v1}/check`, 'POST', 'reach')});
   for (const goal of ['named', 'pose']) {
     const plan = await call(200, 'POST', `${v1}/plan`, {body: example(`${v1}/plan`, 'POST', goal)});
@@ -184,7 +183,7 @@ test('Jobs, good and bad', async () => {
   await call(200, 'POST', `${v1}/jobs`, {body: reach});
   await call(409, 'POST', `${v1}/jobs`, {body: {...reach, priority: 7}});
   await call(409, 'POST', `${v1}/check`, {body: reach});
-  await call(409, 'PUT', `${v1}/policy`, {body: {policy: 'sequential'}});  // a job is under way
+  await call(409, 'PUT', `${v1}/policy`, {body: {policy: 'sequential'}});  // a job is moving
   const right = (text) => JSON.parse(JSON.stringify(text).replaceAll('left_', 'right_'));
   const meet = {...right(reach), id: 'meet'};
   const verdict = await call(200, 'POST', `${v1}/check`, {body: {...meet, id: 'what-if'}});
@@ -198,7 +197,7 @@ test('Jobs, good and bad', async () => {
   const moves = await call(200, 'GET', `${v1}/jobs/{id}/trajectory`, {args: {id: 'reach'}});
   assert.deepEqual(moves.trajectory.joint_names, reach.trajectory.joint_names);
   const ahead = await diagram(200, '?with=reach&cells=0');
-  assert.deepEqual([ahead.layers[0].cells, ahead.layers[0].met.state], [undefined, 'conflict']);
+  assert.deepEqual([ahead.layers[0].cells, ahead.layers[0].first_contact.state], [undefined, 'conflict']);
   await diagram(400, '');
   await diagram(400, '?with=reach&cells=no');
   await diagram(404, '?with=nothing');
@@ -245,7 +244,7 @@ test('Jobs, good and bad', async () => {
   await call(413, 'POST', `${v1}/jobs`, {raw: '['.repeat(5000)});
 });
 
-test('What the others would have done', async () => {
+test('comparison with other policies', async () => {
   for (const method of ['GET', 'DELETE']) await call(404, method, `${v1}/comparison`);
   await call(409, 'POST', `${v1}/comparison`, {body: {since_s: 1e6}});
   const two = example(`${v1}/comparison`, 'POST', 'two');
@@ -259,7 +258,7 @@ test('What the others would have done', async () => {
   await call(422, 'POST', `${v1}/comparison`, {body: {policies: ['best']}});
 });
 
-test('Moves by hand', async () => {
+test('control and jogging', async () => {
   const hold = `${v1}/arms/{name}/jog`;
   const left = {args: {name: 'left'}};
   await call(200, 'GET', `${v1}/control`);
@@ -282,9 +281,9 @@ test('Moves by hand', async () => {
   await call(200, 'POST', `${v1}/control/release`, {body: {control: key}});
 });
 
-test('Batches, good and bad', async () => {
+test('batches, good and bad', async () => {
   const at = `${v1}/batches`;
-  // Where the arms stand now, left in the middle: its first waypoint is taken from there.
+  // The motions start where the arms are now.
   const batch = example(at, 'POST', 'both');
   const {arms} = await call(200, 'GET', `${v1}/arms`);
   for (const job of batch.jobs) {
@@ -309,7 +308,7 @@ test('Batches, good and bad', async () => {
   assert.deepEqual(mixed.results.map((result) => result.status), [202, 422], JSON.stringify(mixed));
 });
 
-test('Arms stop and go on', async () => {
+test('arms stop and resume', async () => {
   for (const verb of ['stop', 'resume']) {
     await call(202, 'POST', `${v1}/arms/{name}/${verb}`, {args: {name: 'left'}});
     await call(404, 'POST', `${v1}/arms/{name}/${verb}`, {args: {name: 'nobody'}});
@@ -318,7 +317,7 @@ test('Arms stop and go on', async () => {
   assert.deepEqual(await call(202, 'POST', `${v1}/resume`), {stopped: false});
 });
 
-test('Objects come and go', async () => {
+test('objects are added, moved and removed', async () => {
   const rod = example(`${v1}/scene/objects`, 'POST', 'rod');
   await call(201, 'POST', `${v1}/scene/objects`, {body: rod});
   await call(409, 'POST', `${v1}/scene/objects`, {body: rod});
@@ -338,7 +337,7 @@ test('Objects come and go', async () => {
   await call(404, 'DELETE', `${v1}/scene/objects/{name}`, {args: {name: 'rod'}});
 });
 
-test('Speed and faults', async () => {
+test('speed and faults', async () => {
   for (const body of [{speed: 0}, {speed: 1001}, {}]) await call(422, 'PUT', `${v1}/sim/speed`, {body});
   const fault = await call(201, 'POST', `${v1}/sim/faults`, {body: example(`${v1}/sim/faults`, 'POST', 'slow')});
   await call(204, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
@@ -357,9 +356,9 @@ test('Speed and faults', async () => {
   await call(200, 'PUT', `${v1}/sim/speed`, {body: example(`${v1}/sim/speed`, 'PUT', 'double')});
 });
 
-// Not through a proxy, which takes few of them itself.
+// Not through the proxy, which answers most of these requests itself.
 const straight = (status, method, template, how) => call(status, method, template, {...how, direct: true});
-test('Requests that no operation takes', async () => {
+test('requests that every operation refuses', async () => {
   const args = {id: 'x', name: 'x'};
   const large = 'x'.repeat(20 * 1024);
   for (const {path: template, method, operation} of contract.operations()) {
@@ -383,8 +382,8 @@ test('Requests that no operation takes', async () => {
   }
 });
 
-// Who shows no token is told so by every operation that takes one.
-test('A server with tokens asks for them', async () => {
+// Every operation with a role answers 401 without a token.
+test('a server with tokens requires them', async () => {
   const tokens = path.join(folder, 'tokens');
   const made = (name, role) => execFileSync(binary, ['token', 'add', '--tokens', tokens, '--name', name, '--role', role],
                                             {encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore']}).trim();
@@ -433,7 +432,7 @@ test('A server with tokens asks for them', async () => {
   }
 });
 
-test('A client that asks for too much is told when to come again, and may stop arms all the same', async () => {
+test('rate-limited clients get Retry-After and may still stop arms', async () => {
   const strict = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--requests-per-second', '0.01']);
   const asked = async (method, template, more = {}) => {
     const answer = await ask(strict.port, method, template.replace(/\{\w+\}/g, 'x'), more);
@@ -458,7 +457,7 @@ test('A client that asks for too much is told when to come again, and may stop a
   }
 });
 
-test('Each path answers the methods that are listed, HEAD with GET, and no other', async () => {
+test('each path serves exactly the listed methods, and HEAD with GET', async () => {
   for (const [template, methods] of Object.entries(contract.document.paths)) {
     const target = template.replace(/\{\w+\}/g, 'x');
     const refused = await ask(server.port, 'LOCK', target);
@@ -479,7 +478,7 @@ test('Each path answers the methods that are listed, HEAD with GET, and no other
   contract.schema('Problem', JSON.parse(nothing.text));
 });
 
-test('A server whose dashboard is not built says so', async () => {
+test('a server without a built dashboard answers 404', async () => {
   fs.mkdirSync(path.join(folder, 'nothing'));
   const bare = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--web', path.join(folder, 'nothing')]);
   try {
@@ -491,8 +490,8 @@ test('A server whose dashboard is not built says so', async () => {
   }
 });
 
-// With a time step longer than both motions only their ends are compared, and both are admitted.
-test('What the monitor stops is told', async () => {
+// With a time step longer than both motions only their ends are compared, so both are admitted.
+test('monitor stops are published', async () => {
   const cell = JSON.parse(fs.readFileSync(path.join(folder, 'cell.json'), 'utf8'));
   Object.assign(cell, {clearance_m: 0.1, scheduling: {...cell.scheduling, policy: 'timed_discrete'},
                        checking: {...cell.checking, time_step_s: 10},
@@ -520,9 +519,9 @@ test('What the monitor stops is told', async () => {
   }
 });
 
-// So slow that its arm is still braking when the next request comes, on a connection held open: new
-// ones are not accepted any more.
-test('A server that ends accepts no job', async () => {
+// So slow that the arm is still braking when the next request arrives. A kept-alive connection is needed,
+// because the server accepts no new connections.
+test('a server that shuts down accepts no job', async () => {
   const ending = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', '0.02']);
   const agent = new http.Agent({keepAlive: true, maxSockets: 1});
   const submit = (id) => ask(ending.port, 'POST', `${v1}/jobs`,
@@ -547,7 +546,7 @@ test('A server that ends accepts no job', async () => {
   }
 });
 
-test('Nothing that openapi.json lists was left out', () => {
+test('every listed status was seen', () => {
   const lacking = [];
   let answers = 0;
   for (const {path: template, method, operation} of contract.operations()) {

@@ -1,10 +1,10 @@
-// Prism (@stoplight/prism-cli of npm) between a client and the server: it holds requests and answers against
-// /openapi.json with a reader of schemas that is not ours, and tells what it found in a header.
+// Prism (npm @stoplight/prism-cli) as a proxy: checks requests and responses against /openapi.json with a
+// third-party validator and reports its findings in a header.
 import {spawn} from 'node:child_process';
 import fs from 'node:fs';
 import net from 'node:net';
 
-// It is told its port, not the other way round.
+// Prism needs a given port.
 async function freePort() {
   const listener = net.createServer();
   await new Promise((resolve) => listener.listen(0, '127.0.0.1', resolve));
@@ -13,7 +13,7 @@ async function freePort() {
   return port;
 }
 
-// `file`: where the document is put for it.
+// `file`: where the document is written for Prism.
 export async function startPrism(binary, document, file, port) {
   fs.writeFileSync(file, JSON.stringify(document));
   const own = await freePort();
@@ -30,7 +30,7 @@ export async function startPrism(binary, document, file, port) {
   return {port: own, end: () => child.kill('SIGTERM')};
 }
 
-// What it found of a request and of its answer.
+// Returns Prism's findings about the request and the response.
 export function violations({headers}) {
   const all = JSON.parse(headers['sl-violations'] ?? '[]');
   const of = (part) => all.filter(({location}) => location?.[0] === part);

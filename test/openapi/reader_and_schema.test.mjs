@@ -1,5 +1,5 @@
-// The schema of what comes in says what the reader does: of thousands of values, good and bad
-// (schema_cases.cc), each format's schema takes those that its reader takes and no other.
+// Request schemas must agree with the readers: of thousands of values, good and bad (schema_cases.cc), each
+// schema accepts exactly those that its reader accepts.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {createRequire} from 'node:module';
@@ -9,7 +9,7 @@ const require = createRequire(new URL('../../web/package.json', import.meta.url)
 const Ajv = require('ajv/dist/2020').default;
 const formats = JSON.parse(execFileSync(process.env.SCHEMA_CASES, {encoding: 'utf8', maxBuffer: 1 << 28}));
 
-// Every member that a schema lists, by its key.
+// Returns the keys of all members that the schema lists.
 function keysOf(schema, keys = new Set()) {
   if (schema === null || typeof schema !== 'object') return keys;
   if (schema.type === 'object') Object.keys(schema.properties ?? {}).forEach((key) => keys.add(key));
@@ -53,7 +53,7 @@ const arraysWithoutItems = (schema, at = '') => {
   const here = [schema.type].flat().includes('array') && schema.items === undefined ? [at] : [];
   return here.concat(...Object.entries(schema).map(([key, inner]) => arraysWithoutItems(inner, `${at}/${key}`)));
 };
-test('Every array says what it holds', () => {
+test('every array schema has items', () => {
   const document = JSON.parse(execFileSync(process.env.ARMLOOM_BINARY, ['schema', '--openapi'], {encoding: 'utf8'}));
   assert.deepEqual(arraysWithoutItems(document), []);
   for (const {schema} of Object.values(formats)) assert.deepEqual(arraysWithoutItems(schema), []);

@@ -1,6 +1,6 @@
-// Makes values for every format that comes in from outside, and says of each what the reader makes
-// of it: reader_and_schema.test.mjs asks the schemas about the same values. The values are made by
-// walking the schemas, then spoilt at one place. One JSON object on stdout, the same every time.
+// Prints values for every format that clients may send, with the reader's verdict on each.
+// reader_and_schema.test.mjs compares the verdicts with the schemas. Values are generated from the
+// schemas, then spoilt at one place. Deterministic; one JSON object on stdout.
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -28,12 +28,12 @@ namespace {
 using nlohmann::json;
 using Random = std::mt19937_64;
 
-constexpr int kWhole = 400;    // values of each format as the schema has them
-constexpr int kSpoilt = 2500;  // and with a fault
+constexpr int kWhole = 400;    // valid values of each format
+constexpr int kSpoilt = 2500;  // values with one fault
 
 std::size_t below(Random& random, std::size_t count) { return random() % count; }
 
-// The one format of the many that a reader takes.
+// A format that clients may send, with its schema and reader.
 struct Incoming {
   std::string name;
   Schema schema;
@@ -48,7 +48,7 @@ Incoming incoming(std::string name, const Format<T>& format) {
           }};
 }
 
-// A batch that is not atomic takes its jobs one by one: each has its own refusal.
+// A non-atomic batch accepts its jobs one by one; their refusals are reported here.
 void read_batch(const JsonNode& node, Problems& faults) {
   BatchRequest batch;
   batch_request_format()->read(node, batch);
@@ -74,10 +74,10 @@ std::vector<Incoming> all_incoming() {
           incoming("ComparisonRequest", *comparison_inquiry_format()),
           incoming("ControlRequest", *control_request_format()),
           incoming("ControlKey", *control_key_format()),
-          incoming("HoldRequest", *hold_request_format())};
+          incoming("JogRequest", *jog_request_format())};
 }
 
-// Every body of a route is among them.
+// Throws if a route's body is not among the formats.
 void expect_every_body(const std::vector<Incoming>& all) {
   for (const Route& route : all_routes()) {
     if (!route.reads) continue;
@@ -112,7 +112,7 @@ json object_of(const Schema& schema, Random& random) {
   return object;
 }
 
-// A value as the schema has it; rules over several members may be broken.
+// Returns a value that fits the schema; rules over several members may be broken.
 json value_of(const Schema& schema, Random& random) {
   if (schema.contains("$of")) return value_of(schema["$of"], random);
   if (schema.contains("const")) return json::parse(schema["const"].dump());
@@ -144,8 +144,8 @@ std::string repeated(const std::string& text, int times) {
   return all;
 }
 
-// What stands in the place of another value: the bounds of our formats and what is beyond, the
-// spellings of numbers, texts that rules are about.
+// Replacement values: bounds of our formats and values beyond, spellings of numbers, texts that
+// rules mention.
 std::vector<json> odd_values() {
   std::vector<json> odd{nullptr,       true,           false,
                         json::array(), json::object(), json::array({1, 2, 3})};
@@ -205,7 +205,7 @@ void spoil(json& value, Random& random) {
   }
 }
 
-// What both are given is the text, so that 1.0 stays 1.0.
+// Both sides get the text, so that 1.0 stays 1.0.
 json judged(const Incoming& format, const json& value) {
   const std::string text = value.dump();
   const auto parsed = parse_json(text, JsonComments::refused);
@@ -223,7 +223,7 @@ json cases_of(const Incoming& format) {
   for (int i = 0; i < kSpoilt; ++i) {
     json value = value_of(format.schema, random);
     for (int tries = 0; tries < 20 && !judged(format, value)["fault"].is_null(); ++tries) {
-      value = value_of(format.schema, random);  // so that the spoilt place is the only fault
+      value = value_of(format.schema, random);  // the spoilt place must be the only fault
     }
     spoil(value, random);
     cases.push_back(judged(format, value));

@@ -1,5 +1,5 @@
-// The real server on a free port, and its three ways to be spoken to: a request, Server-Sent Events
-// and a WebSocket. Only Node's own modules.
+// Starts the real server on a free port; clients for requests, Server-Sent Events and WebSockets, with Node's
+// own modules only.
 import {spawn} from 'node:child_process';
 import {randomBytes} from 'node:crypto';
 import http from 'node:http';
@@ -20,7 +20,8 @@ export function startServer(binary, args) {
   });
 }
 
-// {status, headers, text}. Waits for no body when `bodyless`: the server may refuse a header alone.
+// Resolves to {status, headers, text}. With `bodyless` only the header is sent, because the server may refuse
+// it.
 export function ask(port, method, path, {body, headers = {}, bodyless = false, agent = false} = {}) {
   return new Promise((resolve, reject) => {
     const request = http.request({port, host: '127.0.0.1', method, path, headers, agent, timeout: 60_000});
@@ -45,7 +46,7 @@ export function ask(port, method, path, {body, headers = {}, bodyless = false, a
 export const handshake = () => ({Connection: 'Upgrade', Upgrade: 'websocket', 'Sec-WebSocket-Version': '13',
                                  'Sec-WebSocket-Key': randomBytes(16).toString('base64')});
 
-// Calls onMessage(parsed) for each text message. The server's frames are whole and unmasked.
+// Calls onMessage(parsed) for each text message. Server frames are whole and unmasked.
 export function openWebSocket(port, path, onMessage) {
   return new Promise((resolve, reject) => {
     const request = http.request({port, host: '127.0.0.1', path, headers: handshake(), agent: false});

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""What `cmake --install` puts into a prefix runs from there, as its systemd unit runs it.
+"""Runs the result of `cmake --install` from its prefix, like its systemd unit.
 
     installed.py --cmake CMAKE --build DIR --prefix DIR --version V
 
-The unit's own command, with the settings of etc/armloom/server.conf, serves the dashboard and takes a job;
-on SIGTERM, in the middle of a motion, it is gone within two seconds, and the next one has the job.
+The unit's command, with the settings of etc/armloom/server.conf, must serve the dashboard and accept a job.
+After SIGTERM during a motion it must exit within two seconds, and the next server must know the job.
 """
 import argparse
 import json
@@ -30,7 +30,7 @@ def settings(file):
 
 
 def command(prefix):
-    """As systemd reads it: a word ${NAME} is one word, $NAME is as many as it has."""
+    """Expands variables like systemd: ${NAME} is one word, $NAME is split into words."""
     unit = (prefix / "lib/systemd/system/armloom.service").read_text()
     environment = settings(prefix / "etc/armloom/server.conf")
     environment["ARMLOOM_LISTEN"] = "127.0.0.1:0"

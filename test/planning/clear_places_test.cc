@@ -1,4 +1,3 @@
-// Places at which an arm is out of the way of a motion.
 #include "core/planning/clear_places.h"
 
 #include "core/collision/check/motion_checker.h"
@@ -12,7 +11,7 @@ namespace {
 
 using testing::WallCell;
 
-// The left arm stands in the middle, where the right one is to go.
+// The left arm rests at the goal of the right arm.
 struct Middle {
   Middle() {
     Eigen::VectorXd stands(7), reaches(7);
@@ -41,7 +40,7 @@ struct Middle {
   TrajectoryPtr motion;
 };
 
-TEST(ClearPlaces, AreFreeAndLetTheMotionPassTheNearestFirst) {
+TEST(ClearPlaces, AreFreeAndSortedByDistance) {
   const Middle middle;
   const auto& arm = middle.wall.cell->arm(middle.wall.left);
   const Eigen::VectorXd stands = joints_of(middle.at, arm.joints);
@@ -59,7 +58,7 @@ TEST(ClearPlaces, AreFreeAndLetTheMotionPassTheNearestFirst) {
   }
 }
 
-TEST(ClearPlaces, APlanLeadsToOneOfThem) {
+TEST(ClearPlaces, PlanEndsAtOneOfThem) {
   const Middle middle;
   const PlanQuestion question{.goal = {.arm = middle.wall.left, .to = ClearOf{middle.motion}},
                               .at = middle.at};

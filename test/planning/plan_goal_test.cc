@@ -1,4 +1,3 @@
-// Goals as people say them.
 #include "core/planning/plan_goal.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +9,7 @@ namespace {
 
 using testing::WallCell;
 
-TEST(PlanGoal, GoesAsFastAsTheCellHasIt) {
+TEST(PlanGoal, UsesTheCellsVelocityFactor) {
   const WallCell wall;
   Cell slow = *wall.cell;
   slow.execution.velocity_scaling_factor = 0.3;

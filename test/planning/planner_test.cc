@@ -21,7 +21,7 @@ PlanRequest around_the_board(const WallCell& wall) {
   return {.arm = wall.left, .at = wall.standing(wall.before()), .goals = {wall.behind()}};
 }
 
-TEST(Planner, GoesStraightWhereThatIsFree) {
+TEST(Planner, UsesTheStraightLineIfFree) {
   const WallCell wall;
   const auto way = Planner(wall.scene)
                        .plan({.arm = wall.left, .at = wall.cell->home(), .goals = {wall.before()}});
@@ -29,7 +29,7 @@ TEST(Planner, GoesStraightWhereThatIsFree) {
   EXPECT_EQ(way->points, (std::vector<Eigen::VectorXd>{wall.home(), wall.before()}));
 }
 
-TEST(Planner, FindsAWayAroundWhoseEveryLineIsProven) {
+TEST(Planner, FindsACertifiedPathAroundAnObstacle) {
   const WallCell wall;
   const PlanRequest request = around_the_board(wall);
   LineChecker lines(wall.scene, wall.left, request.at, wall.cell->checking.tracking_error_rad);
@@ -49,7 +49,7 @@ TEST(Planner, FindsAWayAroundWhoseEveryLineIsProven) {
   }
 }
 
-TEST(Planner, RepeatsForASeed) {
+TEST(Planner, IsDeterministicForASeed) {
   const WallCell wall;
   PlanRequest request = around_the_board(wall);
   const Planner planner(wall.scene);
@@ -64,7 +64,7 @@ TEST(Planner, RepeatsForASeed) {
   EXPECT_TRUE(differs);
 }
 
-TEST(Planner, TakesTheNearestOfSeveralGoalsThatCanBeReached) {
+TEST(Planner, ChoosesTheNearestReachableGoal) {
   const WallCell wall;
   Eigen::VectorXd in_the_table = wall.before();
   in_the_table[1] = 1.7;
@@ -76,7 +76,7 @@ TEST(Planner, TakesTheNearestOfSeveralGoalsThatCanBeReached) {
   EXPECT_EQ(way->goal, 2u);
 }
 
-TEST(Planner, SaysWhyThereIsNoPlan) {
+TEST(Planner, ReportsWhyThereIsNoPlan) {
   const WallCell wall;
   const Planner planner(wall.scene);
   PlanRequest request{.arm = wall.left, .at = wall.cell->home(), .goals = {wall.before()}};
@@ -111,8 +111,8 @@ TEST(Planner, SaysWhyThereIsNoPlan) {
   EXPECT_EQ(planner.plan(request).error().reason, Reason::cancelled);
 }
 
-// With one joint the trees get so many nodes that comparing them takes longer than the evaluations.
-TEST(Planner, CountsComparisonsOfNodesInItsBudget) {
+// With one joint, comparing the many nodes takes longer than the evaluations.
+TEST(Planner, CountsNodeComparisonsInItsBudget) {
   rails::Rails rails;
   rails.question.rest[1] = 0.0;  // y, on x's rail
   const auto at = [](double x) { return Eigen::VectorXd::Constant(1, x); };
@@ -122,7 +122,7 @@ TEST(Planner, CountsComparisonsOfNodesInItsBudget) {
   EXPECT_LT(refusal.evaluations, 200'000U);
 }
 
-TEST(Planner, ThrowsWhereSizesDoNotFit) {
+TEST(Planner, ThrowsOnSizeMismatch) {
   const WallCell wall;
   PlanRequest request{.arm = wall.left, .at = wall.cell->home(), .goals = {}};
   EXPECT_THROW((void)Planner(wall.scene).plan(request), std::invalid_argument);
@@ -130,8 +130,7 @@ TEST(Planner, ThrowsWhereSizesDoNotFit) {
   EXPECT_THROW((void)Planner(wall.scene).plan(request), std::invalid_argument);
 }
 
-// The audit shares nothing with the engine: plain FCL at every millisecond.
-TEST(PlanMotion, KeepsTheClearanceAsTheAuditSeesIt) {
+TEST(PlanMotion, KeepsTheClearanceAccordingToTheAudit) {
   const WallCell wall;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
@@ -155,7 +154,7 @@ TEST(PlanMotion, KeepsTheClearanceAsTheAuditSeesIt) {
   }
 }
 
-TEST(PlanMotion, ThatNeedNotMoveIsAMotionAllTheSame) {
+TEST(PlanMotion, ToTheCurrentPositionIsAShortMotion) {
   const WallCell wall;
   const auto planned = plan_motion(
       Planner(wall.scene), {.arm = wall.left, .at = wall.cell->home(), .goals = {wall.home()}});

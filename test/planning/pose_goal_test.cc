@@ -12,7 +12,7 @@ namespace {
 
 using testing::WallCell;
 
-TEST(PoseGoal, IsReachedByTheCellsOwnKinematics) {
+TEST(PoseGoal, SolutionReachesThePose) {
   const WallCell wall;
   const LinkId tool = *wall.cell->find_link("left_panda_hand");
   std::mt19937_64 random(31);
@@ -50,7 +50,7 @@ TEST(PoseGoal, IsReachedByTheCellsOwnKinematics) {
   EXPECT_GE(reached, 99) << "of 100 that can be reached";
 }
 
-TEST(PoseGoal, SaysHowNearItCame) {
+TEST(PoseGoal, ReportsTheRemainingDistance) {
   const WallCell wall;
   const LinkId tool = *wall.cell->find_link("left_panda_hand");
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
@@ -61,7 +61,7 @@ TEST(PoseGoal, SaysHowNearItCame) {
   EXPECT_NE(found.error().detail.find("mm"), std::string::npos) << found.error().detail;
 }
 
-TEST(PoseGoal, RefusesALinkThatTheArmDoesNotMove) {
+TEST(PoseGoal, RejectsALinkThatTheArmDoesNotMove) {
   const WallCell wall;
   for (const char* name : {"left_panda_link0", "right_panda_hand"}) {
     const auto found = reach_pose(
@@ -72,8 +72,7 @@ TEST(PoseGoal, RefusesALinkThatTheArmDoesNotMove) {
   }
 }
 
-// A base away from the origin, joints of several kinds, a mimic below: test/model/data/two_arms.
-TEST(PoseGoal, HoldsForArmsThatAreNoPandas) {
+TEST(PoseGoal, SolvesForOtherArmsThanPandas) {
   const CellPtr cell = build_or_fail(two_arms_description());
   LinkPoses X_WL;
   for (std::uint32_t a = 0; a < cell->arms.size(); ++a) {

@@ -1,4 +1,3 @@
-// Why there is no plan: what is at fault, what was asked, and the nearest that would do.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +33,6 @@ class Refusals : public ::testing::Test {
     q[1] = 1.7;
     return q;
   }
-  // Of the left arm's last link, straight.
   [[nodiscard]] MotionGoal line_from(const Configuration& at, const Eigen::Vector3d& goes) const {
     const LinkId link = *wall.cell->find_link("left_panda_link8");
     LinkPoses X_WL;
@@ -46,8 +44,8 @@ class Refusals : public ::testing::Test {
   WallCell wall;
 };
 
-// One that turns without end had no limits, and FCL ended the process.
-TEST(RefusalsOfEndlessJoints, OfAGoalThatNoTurnsReachSayHowFarTheyMay) {
+// FCL aborted the process for unlimited continuous joints.
+TEST(RefusalsOfContinuousJoints, GoalTooFarIsReportedWithItsLimit) {
   const CellPtr cell = build_or_fail(two_arms_description());
   const PlanningScenePtr scene = *PlanningScene::build(cell);
   const ArmId arm = *cell->joint(*cell->find_joint("t_r_spin")).arm;
@@ -63,14 +61,14 @@ TEST(RefusalsOfEndlessJoints, OfAGoalThatNoTurnsReachSayHowFarTheyMay) {
   }
 }
 
-TEST_F(Refusals, OfAGoalInCollisionSayTheNearestThatIsFree) {
+TEST_F(Refusals, GoalInCollisionSuggestsTheNearestFreeGoal) {
   const Eigen::VectorXd wanted = in_the_table();
   const PlanRefusal why = refusal(wanted);
   EXPECT_EQ(why.reason, Reason::goal_in_collision);
   EXPECT_FALSE(why.is_of_start());
   ASSERT_TRUE(why.nearest);
   EXPECT_TRUE(is_free(*why.nearest));
-  // It is at the edge: a little nearer there is none.
+  // The suggestion is at the edge.
   EXPECT_FALSE(is_free(*why.nearest + 0.01 * (wanted - *why.nearest)));
   EXPECT_LT((*why.nearest - wanted).norm(), 1.0);
   EXPECT_LE((why.nearest->array() != wanted.array()).count(), 3) << "by few joints";
@@ -78,7 +76,7 @@ TEST_F(Refusals, OfAGoalInCollisionSayTheNearestThatIsFree) {
       wall.scene, {.goal = {.arm = wall.left, .to = *why.nearest}, .at = wall.cell->home()}));
 }
 
-TEST_F(Refusals, OfAGoalOutsideLimitsSayWhichJointAndTheNearestWithin) {
+TEST_F(Refusals, GoalOutsideLimitsReportsTheJointAndTheNearestGoal) {
   Eigen::VectorXd wanted = wall.before();
   wanted[3] = 0.5;
   const PlanRefusal why = refusal(wanted);
@@ -92,7 +90,7 @@ TEST_F(Refusals, OfAGoalOutsideLimitsSayWhichJointAndTheNearestWithin) {
   EXPECT_LE((*why.nearest)[3], wall.cell->joint(wall.cell->arm(wall.left).joints[3]).upper);
 }
 
-TEST_F(Refusals, OfAStartSayTheNearestThatIsFreeFromThere) {
+TEST_F(Refusals, StartInCollisionSuggestsTheNearestFreeState) {
   const PlanRefusal why =
       refusal({.arm = wall.left, .to = wall.before()}, wall.standing(in_the_table()));
   EXPECT_EQ(why.reason, Reason::start_in_collision);
@@ -101,18 +99,18 @@ TEST_F(Refusals, OfAStartSayTheNearestThatIsFreeFromThere) {
   EXPECT_TRUE(is_free(*why.nearest));
 }
 
-TEST_F(Refusals, OfALineThroughAnObjectSayWhatWasAskedAndHowFarItIsFree) {
+TEST_F(Refusals, BlockedLineReportsTheClearanceAndHowFarItIsFree) {
   const Configuration at = wall.standing(WallCell::reach(0.9));
   const PlanRefusal why = refusal(line_from(at, {-0.3, 0.1, 0.0}), at);
   ASSERT_EQ(why.reason, Reason::line_blocked) << why.detail;
   ASSERT_TRUE(why.proximity);
   EXPECT_EQ(why.proximity->limit_m, wall.cell->clearances.clearance_m);
-  EXPECT_THAT(why.detail, HasSubstr("20 mm are asked"));
+  EXPECT_THAT(why.detail, HasSubstr("20 mm are required"));
   ASSERT_TRUE(why.nearest);
   EXPECT_TRUE(is_free(*why.nearest));
 }
 
-TEST_F(Refusals, OfALineThatEndsSayHowFarItGoes) {
+TEST_F(Refusals, BrokenLineReportsHowFarItGoes) {
   const Configuration at = wall.standing(wall.home());
   const PlanRefusal why = refusal(line_from(at, {0.0, 0.0, 1.5}), at);
   ASSERT_EQ(why.reason, Reason::line_broken);
@@ -125,26 +123,24 @@ TEST_F(Refusals, OfALineThatEndsSayHowFarItGoes) {
   EXPECT_GT(z_m, X_WL[wall.cell->find_link("left_panda_link8")->index()].translation().z());
 }
 
-TEST_F(Refusals, TellWhatWasAskedWhateverIsThere) {
+TEST_F(Refusals, MessageStatesTheRequiredClearance) {
   Proximity near{.body_a = "hand", .body_b = "table", .arm_a = wall.left, .arm_b = {}};
   near.limit_m = 0.02;
   near.clearance_m = 0.003;
-  EXPECT_EQ(in_words(near), "hand is 3 mm from table; 20 mm are asked");
+  EXPECT_EQ(in_words(near), "hand is 3 mm from table; 20 mm are required");
   near.clearance_m = -0.001;
-  EXPECT_EQ(in_words(near), "hand touches table; 20 mm are asked");
+  EXPECT_EQ(in_words(near), "hand touches table; 20 mm are required");
   near.clearance_m = 0.0205;
-  EXPECT_EQ(
-      in_words(near, 0.0012),
-      "hand is 20.5 mm from table; 20 mm are asked, and 1.2 mm on top for the tracking error");
-  EXPECT_THAT(in_words(near), HasSubstr("20 mm are asked, which is not proven"));
+  EXPECT_EQ(in_words(near, 0.0012),
+            "hand is 20.5 mm from table; 20 mm are required, plus 1.2 mm for the tracking error");
+  EXPECT_THAT(in_words(near), HasSubstr("20 mm are required, which could not be certified"));
   near.limit_m = 0.0;
   near.clearance_m = 0.0;
-  EXPECT_THAT(in_words(near), Not(HasSubstr("0 mm are asked")));
+  EXPECT_THAT(in_words(near), Not(HasSubstr("0 mm are required")));
 }
 
-// The closest pair need not be the one that lacks something: an arm's own links are close by
-// design.
-TEST_F(Refusals, NameThePairThatLacksRoomForTheTrackingError) {
+// The closest pair may be an arm's own links, close by design.
+TEST_F(Refusals, ReportsThePairTooCloseForTheTrackingError) {
   Eigen::VectorXd q = wall.before();
   LineChecker lines(wall.scene, wall.left, wall.cell->home(),
                     wall.cell->checking.tracking_error_rad);
@@ -160,7 +156,7 @@ TEST_F(Refusals, NameThePairThatLacksRoomForTheTrackingError) {
   EXPECT_GE(seen, 1) << "no state in between was met";
 }
 
-TEST_F(Refusals, ALinkThatTheArmDoesNotMoveIsNamedWithThoseThatItMoves) {
+TEST_F(Refusals, WrongLinkIsReportedWithTheLinksOfTheArm) {
   const auto said = [](const char* link) {
     return PlanGoal{.joints = {}, .named = {}, .pose = PlanPose{.link = link}};
   };

@@ -1,4 +1,3 @@
-// Straight lines of a link: held at every instant, or refused with the place.
 #include "core/planning/tool_line.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +27,7 @@ class ToolLines : public ::testing::Test {
         .arm = world.left, .to = LinkTarget{link(of), X_WL}, .speed = 1.0, .straight = true};
     return answer_plan(world.scene, {.goal = goal, .at = at});
   }
-  // Looked at every 0.5 ms, which the planner did not.
+  // Checks every 0.5 ms, independently of the planner.
   void expect_on_line(const Configuration& at, const Eigen::Isometry3d& to,
                       const Trajectory& motion) const {
     const LinkId of = link("left_panda_link8");
@@ -58,7 +57,7 @@ class ToolLines : public ::testing::Test {
   WallCell world;
 };
 
-TEST_F(ToolLines, TheLinkStaysOnTheLineAtEveryInstant) {
+TEST_F(ToolLines, LinkStaysOnTheLineAtEveryInstant) {
   const Configuration at = standing(world.home());
   Eigen::Isometry3d to = pose(at, link("left_panda_link8"));
   to.translation() += Eigen::Vector3d(0.05, -0.1, 0.1);
@@ -67,7 +66,7 @@ TEST_F(ToolLines, TheLinkStaysOnTheLineAtEveryInstant) {
   expect_on_line(at, to, *plan->timed.trajectory);
 }
 
-TEST_F(ToolLines, ItTurnsEvenlyOnTheWay) {
+TEST_F(ToolLines, LinkRotatesEvenlyAlongTheLine) {
   const Configuration at = standing(world.home());
   Eigen::Isometry3d to = pose(at, link("left_panda_link8"));
   to.translation() += Eigen::Vector3d(0.0, -0.15, 0.0);
@@ -77,8 +76,7 @@ TEST_F(ToolLines, ItTurnsEvenlyOnTheWay) {
   expect_on_line(at, to, *plan->timed.trajectory);
 }
 
-// From random places, in random directions: each is kept, or refused with how far it goes.
-TEST_F(ToolLines, RandomOnesAreKeptOrRefusedWithThePlace) {
+TEST_F(ToolLines, RandomLinesAreKeptOrRejectedWithThePlace) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   int kept = 0, broken = 0;
@@ -104,7 +102,7 @@ TEST_F(ToolLines, RandomOnesAreKeptOrRefusedWithThePlace) {
   EXPECT_GE(broken, 1) << "broken";
 }
 
-TEST_F(ToolLines, OneBeyondTheArmsReachSaysHowFarItGoes) {
+TEST_F(ToolLines, LineBeyondTheReachReportsHowFarItGoes) {
   const Configuration at = standing(world.home());
   Eigen::Isometry3d to = pose(at, link("left_panda_link8"));
   to.translation().z() += 1.5;
@@ -116,8 +114,7 @@ TEST_F(ToolLines, OneBeyondTheArmsReachSaysHowFarItGoes) {
       << plan.error().detail;
 }
 
-// The straight line leads through the board; the way that plan_motion() finds does not.
-TEST_F(ToolLines, OneThroughAnObjectSaysWhichAndWhere) {
+TEST_F(ToolLines, LineThroughAnObjectReportsObjectAndPlace) {
   const Configuration at = standing(WallCell::reach(1.2));
   const LinkId of = link("left_panda_link8");
   const Eigen::Isometry3d to = pose(standing(WallCell::reach(1.9)), of);
@@ -131,21 +128,21 @@ TEST_F(ToolLines, OneThroughAnObjectSaysWhichAndWhere) {
       << plan.error().detail;
 }
 
-TEST_F(ToolLines, ALinkThatTheArmDoesNotMoveIsToldSo) {
+TEST_F(ToolLines, RejectsALinkThatTheArmDoesNotMove) {
   const Configuration at = standing(world.home());
   const auto plan = go(at, Eigen::Isometry3d::Identity(), "right_panda_link8");
   ASSERT_FALSE(plan);
   EXPECT_EQ(plan.error().reason, PlanRefusal::Reason::goal_not_reached);
 }
 
-TEST_F(ToolLines, OneThatIsThereAlreadyTakesAMoment) {
+TEST_F(ToolLines, LineOfZeroLengthIsShort) {
   const Configuration at = standing(world.home());
   const auto plan = go(at, pose(at, link("left_panda_link8")));
   ASSERT_TRUE(plan) << plan.error().detail;
   EXPECT_LT(plan->timed.trajectory->duration(), std::chrono::milliseconds(100));
 }
 
-TEST_F(ToolLines, TheSameLineTwiceIsTheSame) {
+TEST_F(ToolLines, IsDeterministic) {
   const Configuration at = standing(world.home());
   Eigen::Isometry3d to = pose(at, link("left_panda_link8"));
   to.translation().y() -= 0.1;

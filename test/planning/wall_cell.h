@@ -7,8 +7,8 @@
 
 namespace armloom::testing {
 
-// Two Pandas face to face and a board upright beside the left one's way from home to the side: no
-// straight line leads around it.
+// Two Pandas, and an upright board in the left arm's way from home to the side, without a straight
+// line around it.
 struct WallCell {
   WallCell() {
     CellDescription described = two_pandas_description();
@@ -22,7 +22,7 @@ struct WallCell {
   PlanningScenePtr scene;
   ArmId left{0};
   Eigen::VectorXd home() const { return cell->arm(left).home; }
-  // Reaching out in front of and behind the board.
+  // In front of and behind the board.
   Eigen::VectorXd before() const { return reach(0.7); }
   Eigen::VectorXd behind() const { return reach(2.2); }
   static Eigen::VectorXd reach(double turn) {

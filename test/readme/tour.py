@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Executes every ```sh block of the README and of the server's as it stands.
+"""Executes every ```sh block of README.md and server/README.md unchanged.
 
     test/readme/tour.py ARMLOOM
 
-"Your own robot" and "Without a server" run in a folder that holds build/armloom and what the
-repository has; each command must succeed. The blocks with curl are run in one and the same shell;
-the ```json block behind each lists what must be in the answers, one JSON value for each answer:
-every key shown must be there with that value ("…" stands for any value). Servers listen at a free
-port, and what the page names as their address is put in place by the one that they tell.
+"Your own robot" and "Without a server" run in a folder with build/armloom and the repository's folders;
+each command must succeed. All blocks with curl run in one shell. The ```json block after each block lists
+expected answers, one JSON value per answer: every key shown must have that value ("…" matches any value).
+Servers listen on a free port, and the address on the page is replaced by theirs.
 """
 import json
 import pathlib
@@ -20,11 +19,11 @@ import urllib.request
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 MARK = "==== end of block ===="
-ADDRESS = "http://127.0.0.1:8080/"  # as the page has it
+ADDRESS = "http://127.0.0.1:8080/"  # in the READMEs
 
 
 def blocks(readme, heading):
-    """The (commands, expected values) of a section, in order."""
+    """Returns the (commands, expected values) of a section, in order."""
     tour = readme.split(f"## {heading}\n")[1].split("\n## ")[0]
     found = re.findall(r"```sh\n(.*?)```\n```json\n(.*?)```", tour, re.S)
     return [(commands, list(values(expected))) for commands, expected in found]
@@ -39,7 +38,7 @@ def values(text):
 
 
 def difference(expected, got, place=""):
-    """The first place at which `got` lacks something of `expected`, or None."""
+    """Returns the first place at which `got` lacks a part of `expected`, or None."""
     if expected == "…":
         return None if got is not None else f"{place}: nothing there"
     if isinstance(expected, dict) and isinstance(got, dict):
@@ -64,7 +63,7 @@ def commands_of(readme, heading):
 
 
 def like_a_clone(folder, armloom):
-    """What the commands of a README name: the repository's folders, and the program in build/."""
+    """Links what the commands of a README use: the repository's folders, and the program in build/."""
     for part in ("models", "config"):
         (folder / part).symlink_to(TOP / part)
     (folder / "build").mkdir()
@@ -80,9 +79,9 @@ def run_block(name, commands, folder):
 
 
 def own_robots(readme, armloom, folder):
-    """Imports and serves the robot of the page, and the one that it names beside it, if it is there."""
-    section = readme.split("## Your own robot in five minutes\n")[1].split("\n## ")[0]
-    importing, serving = commands_of(readme, "Your own robot in five minutes").split(
+    """Imports and serves the robot of the README, and the second robot that it names, if present."""
+    section = readme.split("## Your own robot\n")[1].split("\n## ")[0]
+    importing, serving = commands_of(readme, "Your own robot").split(
         "./server/run --cell my_cell.json\n")
     if serving:
         sys.exit(f"own robot: something stands behind the last command: {serving}")
@@ -119,7 +118,7 @@ def without_a_server(readme, folder):
 
 
 class Server:
-    """Serves a cell; as a context it is the dashboard's address, told once it listens."""
+    """Serves a cell; as a context manager it returns the dashboard's address once the server listens."""
 
     def __init__(self, armloom, cell):
         self.process = subprocess.Popen([armloom, "serve", "--cell", cell, "--listen", "127.0.0.1:0"],
@@ -158,7 +157,7 @@ def run_tour(tour):
 
 
 def reasons_are_explained(readme, url):
-    """The closed list of result.reason stands in the README, and each is explained beside it."""
+    """Checks that the README lists every result.reason, with an explanation."""
     document = json.load(urllib.request.urlopen(f"{url}openapi.json"))
     explained = (TOP / "core/scheduler/README.md").read_text()
     reasons = document["components"]["schemas"]["Reason"]["enum"]
@@ -170,9 +169,9 @@ def reasons_are_explained(readme, url):
 def main():
     readme = (TOP / "README.md").read_text()
     api = (TOP / "server/README.md").read_text()
-    tour = blocks(readme, "A tour with curl") + blocks(api, "The API")
+    tour = blocks(readme, "Example: a blocked job") + blocks(api, "A tour with curl") + blocks(api, "The API")
     shown = readme.count("```sh\n") + api.count("```sh\n")
-    if len(tour) + 2 != shown or shown < 14:  # two are not answered in JSON
+    if len(tour) + 2 != shown or shown < 14:  # two blocks have no JSON answer
         sys.exit(f"{len(tour)} of {shown} blocks found in the READMEs")
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""A robot of two arms on one strongly concave body, past which its links go at 9 to 16 mm.
+"""A robot with two arms on a strongly concave body, which its links pass at 9 to 16 mm.
 
     python3 test/robots/concave_body.py FOLDER
 
 Writes robot.urdf, robot.srdf, body.stl, cell.json and jobs.json (twelve moves). The body is a plate
-with a round notch behind each shoulder; the upper arms' tails sweep through the notches, as those of
-a YuMi do past its body. No few convex pieces leave the notches open. As the body carries the arms, the
-cell says that they pass it so closely by design (mount_clearance_m). Metres, radians, seconds.
+with a round notch behind each shoulder; the upper arms' tails sweep through the notches, like a YuMi's past
+its body. A few convex pieces cannot leave the notches open. Because the body carries the arms, the cell
+allows the small distance with mount_clearance_m. Meters, radians, seconds.
 """
 import importlib.util
 import json
@@ -17,7 +17,7 @@ import sys
 
 CONFIG = pathlib.Path(__file__).resolve().parents[2] / "config"
 SHOULDERS = {"left": -0.3, "right": 0.3}   # x, on the plate's front edge (y = 0)
-TAIL = (0.11, 0.03)                        # how far it reaches behind the shoulder, half its width
+TAIL = (0.11, 0.03)                        # length behind the shoulder, half its width
 GAPS = {"left": 0.0095, "right": 0.0155}   # from the notch's wall to the tail's corners
 LOW, HIGH, BACK, SIDE = 0.2, 0.4, -0.35, 0.55
 FACETS = 24                                # of a notch
@@ -28,12 +28,12 @@ POSES = {"left": {"middle": [0.8, 0, 0.5], "ahead": [1.5, 0.1, -0.6], "across": 
 
 
 def radius(side):
-    """The notch's: its facets come closer to the tail by their sagitta."""
+    """Returns the notch's radius, enlarged because facets are closer to the tail by their sagitta."""
     return (math.hypot(*TAIL) + GAPS[side]) / math.cos(math.pi / 2 / FACETS)
 
 
 def front_edge():
-    """(x, y) from left to right."""
+    """Returns (x, y) from left to right."""
     line = [(-SIDE, 0.0)]
     for side, x in SHOULDERS.items():
         for i in range(FACETS + 1):
@@ -43,7 +43,7 @@ def front_edge():
 
 
 def body_triangles():
-    """Upright strips between the front edge's corners and the back; facing outwards, closed."""
+    """Returns vertical strips between the front edge's corners and the back: closed, facing outwards."""
     front = [(x, min(y, 0.0)) for x, y in front_edge()]
     triangles = []
 
@@ -112,7 +112,7 @@ def cell():
 
 
 def jobs():
-    """Each arm to each of its poses and home again."""
+    """Moves each arm to each of its poses and back home."""
     spec = importlib.util.spec_from_file_location("joint_moves", CONFIG / "joint_moves.py")
     moves = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(moves)

@@ -1,6 +1,5 @@
-"""Shoulders that turn without end, without <limit>, in a cell with one arm of them: its velocity is
-the one line that the cell needs. The other arm's joints nobody uses, so they need nothing;
-that they stand still is said.
+"""Continuous shoulder joints without <limit>, in a cell that uses one of the two arms. The cell needs one
+line, that arm's velocity limit. The joints of the other arm need nothing; a warning says that they do not move.
 """
 import small_robots as small
 

@@ -1,9 +1,9 @@
-"""Forearms as meshes at file:// addresses, as ROS 2 launch files write them, in a description package
-of its own outside of the URDF's folder. The cell names that folder.
+"""Forearm meshes at file:// addresses, as ROS 2 launch files write them, in a separate description package
+outside of the URDF's folder. The cell names that folder.
 """
 import small_robots as small
 
-FOLDER = None  # of the package, known when it is written
+FOLDER = None  # of the package, set by write()
 
 
 def line():

@@ -1,5 +1,5 @@
-"""The robot of named_homes.py as xacro: its arms are a macro in a file of its own with a property for
-their reach; the SRDF is xacro too."""
+"""The robot of named_homes.py as xacro: its arms are a macro in a separate file with a property for their
+reach; the SRDF is xacro too."""
 import shutil
 
 import named_homes

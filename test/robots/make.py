@@ -3,12 +3,12 @@
 
     python3 test/robots/make.py OUT      OUT/<module>/cell.json, jobs.json and the robots' files
 
-Every module beside this one that has `write(folder)` is called with a folder of its own. A module
-may also say
-    LINE, TOLD      the line that its cell lacks, and what Armloom says without it (or line(), told())
-    add_line(cell)  puts the line into the cell
-    WARNED          what Armloom has to warn of
-    NEEDS           a program that is missing here; None: nothing
+Calls write(folder) of every module in this folder that has it, each with a separate folder. A module may
+also define
+    LINE, TOLD      the line that its cell lacks, and Armloom's message without it (or line(), told())
+    add_line(cell)  adds the line to the cell
+    WARNED          warnings that Armloom must print
+    NEEDS           a required program that is missing here, or None
 """
 import importlib
 import pathlib
@@ -25,7 +25,7 @@ def modules():
 
 
 def make(out):
-    """(module, its folder) of each robot that was written."""
+    """Returns (module, folder) of each robot that was written."""
     made = []
     for module in modules():
         folder = pathlib.Path(out) / module.__name__

@@ -1,13 +1,13 @@
-"""What MoveIt overlooks: unknown elements, numbers that nobody uses, a head whose joint has velocity 0,
-wheels without limits, a floating root. And one elbow with velocity 0, which an arm needs: the one
-line.
+"""Oddities that MoveIt ignores: unknown elements, unused numbers, a head whose joint has velocity 0, wheels
+without limits, a floating root. One elbow that an arm needs has velocity 0: the cell must set its limit.
 """
 import small_robots as small
 
 LINE = '"limits": {"right_bend": {"velocity_rad_s": 1}}'
 TOLD = 'add to the arm "limits": {"right_bend": {"velocity_rad_s": 1}}'
 WARNED = ["<gravity> is not known here and is left out",
-          "joint type floating is not moved here: what hangs on it stands at its origin",
+          "joint type floating is not supported: the joint is fixed at its origin, and the links below it "
+          "are checked there",
           "mass value is 'heavy', not a finite number; masses play no part in the checks"]
 
 

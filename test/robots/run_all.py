@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
-"""Runs every small robot of this folder as its user would: validate, simulate, audit.
+"""Runs every small robot of this folder like a user: validate, simulate, audit.
 
     python3 test/robots/run_all.py ARMLOOM OUT
 
-A robot that lacks a line in its cell is refused first, and the refusal has to say that line. Then
-with the line, or at once: nothing is wrong, what is odd is warned of, at least 12 jobs all succeed,
-and the audit finds no contact.
+If a cell lacks a line, `validate` must reject it and suggest that line. With the line: no problem, all
+expected warnings, at least 12 jobs that all succeed, and an audit without contact.
 """
 import json
 import shutil
@@ -31,11 +30,11 @@ def said(module, name):
 
 def add_missing_line(armloom, name, module, cell_file):
     refused = run(armloom, "validate", "--cell", cell_file)
-    check(f"{name} is refused without its line", refused.returncode == 2, refused)
+    check(f"{name} is rejected without its line", refused.returncode == 2, refused)
     told = said(module, "TOLD")
-    check(f"{name} is told: {told}", told in refused.stderr, refused.stderr)
+    check(f"{name} reports: {told}", told in refused.stderr, refused.stderr)
     problems = [line for line in refused.stderr.splitlines() if "warning:" not in line]
-    check(f"every problem of {name} says a line to add", all("add to the" in p for p in problems), problems)
+    check(f"every problem of {name} suggests a line to add", all("add to the" in p for p in problems), problems)
     cell = json.loads(cell_file.read_text())
     module.add_line(cell)
     cell_file.write_text(json.dumps(cell, indent=1))
@@ -46,7 +45,7 @@ def run_robot(armloom, module, folder):
     missing = getattr(module, "NEEDS", None)
     if missing:
         refused = run(armloom, "validate", "--cell", cell)
-        check(f"{name} without {missing} is told how to do it by hand",
+        check(f"{name} without {missing} reports how to do it by hand",
               refused.returncode == 2 and f"{missing} is not installed" in refused.stderr, refused)
         print(f"SKIP the rest of {name}: there is no {missing} here")
         return False

@@ -1,12 +1,12 @@
-"""Two arms on one torso that lifts, and shoulders that turn without end and without <limit>.
+"""Two arms on one lifting torso, and continuous shoulder joints without <limit>.
 
-The cell needs one line: the torso is held. (The shoulders' velocities stand in joint_limits.yaml,
-as MoveIt users have them.)
+The cell needs one line: the torso is fixed. (The shoulders' velocity limits are in joint_limits.yaml, as usual
+with MoveIt.)
 """
 import small_robots as small
 
 LINE = '"fixed": {"torso_lift": 0.2}'
-TOLD = 'add to the robot "fixed": {"torso_lift": 0.1}'  # what is said without the line
+TOLD = 'add to the robot "fixed": {"torso_lift": 0.1}'  # the message without the line
 
 
 def add_line(cell):

@@ -1,6 +1,6 @@
-"""What the small robots of this folder are made of: elements of a URDF, an SRDF, cells and jobs.
+"""Building blocks of the small robots: elements of a URDF, an SRDF, cells and jobs.
 
-Metres, radians, seconds. Nothing here writes a robot of its own.
+Meters, radians, seconds. This module writes no robot itself.
 """
 import importlib.util
 import json
@@ -10,7 +10,7 @@ CONFIG = pathlib.Path(__file__).resolve().parents[2] / "config"
 
 
 def joint_moves():
-    """config/joint_moves.py as a module."""
+    """Loads config/joint_moves.py as a module."""
     spec = importlib.util.spec_from_file_location("joint_moves", CONFIG / "joint_moves.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -44,7 +44,7 @@ UPPER, FORE = 0.35, 0.3  # lengths of an arm's two links
 
 
 def arm(side, mount, xyz, shoulder=("revolute", REACH), elbow=("revolute", REACH), fore=None):
-    """Two links that turn about z over the mount: <side>_pan and <side>_bend."""
+    """Returns two links that turn about z above the mount: <side>_pan and <side>_bend."""
     return (link(f"{side}_upper", box((UPPER, 0.08, 0.06), (UPPER / 2, 0, 0)))
             + link(f"{side}_fore", fore or box((FORE, 0.06, 0.06), (FORE / 2 + 0.02, 0, 0)))
             + joint(f"{side}_pan", mount, f"{side}_upper", xyz, shoulder[0], inside=shoulder[1])
@@ -75,7 +75,7 @@ def neighbours(side, mount):
     return allowed((mount, f"{side}_upper"), (f"{side}_upper", f"{side}_fore"))
 
 
-# Both point away from the other one (two arms, 1 m apart along x) and reach into the middle.
+# Two arms, 1 m apart along x. At home they point away from each other; the poses reach into the middle.
 HOME = {"left": [2.0, 0.4], "right": [1.14, -0.4]}
 POSES = {"left": {"middle": [0.35, -0.7], "ahead": [0.8, 0.3], "across": [-0.2, 0.5]},
          "right": {"middle": [2.79, 0.7], "ahead": [2.3, -0.3], "across": [-2.79, -0.5]}}
@@ -94,7 +94,7 @@ def arms(**of_each):
 
 
 def jobs(velocity=2.0, poses=POSES):
-    """Twelve: each arm to each of its poses and home again."""
+    """Returns twelve jobs: each arm to each of its poses and back home."""
     moves = joint_moves()
     listed = [moves.Arm(side, moves.Robot([f"{side}_pan", f"{side}_bend"], [velocity] * 2,
                                           [3.75] * 2, HOME[side]), "", poses[side])
@@ -114,7 +114,7 @@ def write_files(folder, files):
 
 
 def stl_box(size, xyz=(0, 0, 0)):
-    """A box as binary STL."""
+    """Returns a box as binary STL."""
     import struct
     corners = [tuple(xyz[i] + size[i] * (((k >> i) & 1) - 0.5) for i in range(3)) for k in range(8)]
     faces = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]

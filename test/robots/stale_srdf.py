@@ -1,12 +1,12 @@
-"""An SRDF that its URDF has left behind: links, joints and groups that are not there any more, and a
-name of another robot. It loads as it is, and each is said in a warning.
+"""An outdated SRDF: links, joints and groups that are no longer in the URDF, and another robot's name. Loads
+without changes, with a warning for each.
 """
 import small_robots as small
 
-WARNED = ["the SRDF is of robot old_robot, robot.urdf of robot new_robot",
+WARNED = ["the SRDF is for robot old_robot, but robot.urdf for robot new_robot",
           "robot.srdf: disable_collisions: 3 of 7 name links that are not in robot.urdf",
-          "group left_arm: joint left_twist is not in robot.urdf; the group is without it",
-          "group both: group hand does not exist; the group is without it",
+          "group left_arm: joint left_twist is not in robot.urdf; it is left out of the group",
+          "group both: group hand does not exist; it is left out of the group",
           "group_state folded of hand: group hand does not exist; the state is left out",
           ": passive_joint: joint "]
 

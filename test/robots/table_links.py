@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Two small arms whose table and shelf are links of their URDF, as MoveIt's dual-arm configs have it.
+"""Two small arms whose table and shelf are links of their URDF, as in MoveIt's dual-arm configurations.
 
     python3 test/robots/table_links.py FOLDER
 
-Writes robot.urdf, robot.srdf, cell.json, and jobs.json (twelve that can run). Metres, radians, seconds.
+Writes robot.urdf, robot.srdf, cell.json, and jobs.json (twelve feasible jobs). Meters, radians, seconds.
 """
 import json
 import math
 import pathlib
 import sys
 
-UPPER, FORE, HAND, SHOULDER_Z = 0.35, 0.3, 0.2, 0.32  # the hand's length is that to the finger's tip
+UPPER, FORE, HAND, SHOULDER_Z = 0.35, 0.3, 0.2, 0.32  # the hand's length includes the finger
 SIDES = {"left": 0.3, "right": -0.3}  # y of each arm's base; the table's top is at z = 0
 BOXES = {  # size, middle
     "table": [((1.6, 1.6, 0.04), (0.4, 0, -0.02))],
@@ -88,7 +88,7 @@ def srdf():
 
 
 def pose(turn, out, up):
-    """The joints that put the finger's tip, pointing down, `out` from the arm's axis and `up`."""
+    """Returns the joints for the fingertip, pointing down, `out` from the arm's axis and `up`."""
     down = up + HAND - SHOULDER_Z
     reach = math.hypot(out, down)
     bend = math.acos((reach ** 2 - UPPER ** 2 - FORE ** 2) / (2 * UPPER * FORE))
@@ -97,7 +97,7 @@ def pose(turn, out, up):
 
 
 def job(name, side, places):
-    """From home by way of the places back home, with a rest at each."""
+    """Moves from home through the places and back home, with a rest at each."""
     points = [pose(0, *HOME), *places, pose(0, *HOME)]
     still = [0.0] * len(JOINTS)
     return {"at": 0.0, "job": {"id": name, "trajectory": {

@@ -1,5 +1,4 @@
-// The design's defect cases T1, T2, T3 and T11, on hand-driven time: where the public prototype
-// fails.
+// Defect cases T1, T2, T3 and T11 of DESIGN.md, section 1, on simulated time.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"
@@ -7,7 +6,7 @@
 namespace armloom {
 namespace {
 
-TEST(T1, OfTwoConflictingJobsOfTheSameInstantOneRunsAndOneWaits) {
+TEST(SimultaneousConflict, RunsOneJobAndBacklogsTheOther) {
   Crossing cell;
   cell.submit(slide("x", -1, 1, 4, "first"));
   cell.submit(slide("y", -1, 1, 4, "second"));
@@ -27,18 +26,18 @@ TEST(T1, OfTwoConflictingJobsOfTheSameInstantOneRunsAndOneWaits) {
   EXPECT_GT(cell.log.closest_m, 0.02);
 }
 
-TEST(T2, AJobThatMeetsOnlyThePastOfARunningOneStartsAtOnce) {
+TEST(RemainingMotion, IsTheOnlyPartThatIsChecked) {
   Crossing cell;
-  cell.submit(slide("x", -1, 1, 4, "first"));  // at the origin after 2 s
+  cell.submit(slide("x", -1, 1, 4, "first"));
   cell.run_until(at(3s));
-  cell.submit(slide("y", -1, 1, 4, "second"));  // compared from zero it would conflict at 2 s
+  cell.submit(slide("y", -1, 1, 4, "second"));  // a check from zero would find a conflict at 2 s
   cell.run_until(at(3100ms));
   EXPECT_EQ(cell.job("second").state, JobState::running);
   cell.run_to_the_end();
   EXPECT_GT(cell.log.closest_m, 0.02);
 }
 
-TEST(T3, AnArmOccupiesThePlaceWhereItWillComeToRest) {
+TEST(RestingArm, BlocksItsEndPoseBeforeAndAfterItsJob) {
   Crossing cell;
   cell.submit(slide("y", -1, 0, 2, "short"));  // comes to rest at the origin
   cell.submit(slide("x", -1, 1, 8, "long"));   // passes there 2 s later
@@ -57,32 +56,32 @@ TEST(T3, AnArmOccupiesThePlaceWhereItWillComeToRest) {
   EXPECT_GT(cell.log.closest_m, 0.02);
 }
 
-TEST(T11, ASecondJobFromTheSameStartIsRefusedWithThePlace) {
+TEST(StaleStart, IsRefusedWithPlaceAndValue) {
   Crossing cell;
   cell.submit(slide("x", -1, 1, 4, "first"));
   const auto refused = cell.simulation->executive().submit(slide("x", -1, 0.5, 4, "again"));
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().front().pointer, "/trajectory/points/0/positions/0");
   EXPECT_EQ(refused.error().front().detail,
-            "waypoint 0, x_slide: begins at -1 m, but will stand at 1 m when the jobs accepted for "
-            "the arm have run");
+            "waypoint 0, x_slide: begins at -1 m, but will be at 1 m after the jobs accepted for "
+            "the arm");
   EXPECT_FALSE(cell.simulation->executive().job("again"));
 }
 
-// Its client was told that it was not accepted.
-TEST(Withdrawn, AJobEndsAndIsKnownNoMoreAndItsKeyIsFree) {
+// Rolls back jobs whose acceptance the client was never told.
+TEST(RolledBackJob, IsForgottenAndItsKeyCanBeReused) {
   Crossing cell;
   Executive& executive = cell.simulation->executive();
   cell.submit(slide("x", -1, 1, 4, "waits"));
-  executive.withdraw("waits");
+  executive.roll_back("waits");
   EXPECT_FALSE(executive.job("waits")) << "it had not begun";
-  executive.withdraw("nobody");
+  executive.roll_back("nobody");
   cell.submit(slide("x", -1, 1, 4, "waits"));
   JobRequest after = slide("y", -1, 1, 4, "after");
   after.after = {"waits"};
   cell.submit(after);
   cell.run_until(at(1s));
-  executive.withdraw("waits");
+  executive.roll_back("waits");
   EXPECT_TRUE(executive.job("waits")) << "it brakes";
   cell.run_until(at(2s));
   EXPECT_FALSE(executive.job("waits"));

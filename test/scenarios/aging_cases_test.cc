@@ -1,5 +1,5 @@
-// T9 under every policy that could starve a job: an endless stream of short and urgent jobs on one
-// arm, each in conflict with a job of another arm that waits.
+// T9: an endless stream of short, urgent jobs on one arm conflicts with a waiting job of another
+// arm, under every policy that could starve that job.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"
@@ -7,8 +7,8 @@
 namespace armloom {
 namespace {
 
-// x passes the crossing back and forth, 2 s each way, with the larger priority and always two more
-// jobs behind; y wants to pass it once.
+// x passes the crossing back and forth, 2 s each way, with the higher priority. Two more jobs of x
+// always wait. y wants to pass once.
 struct Stream {
   Stream(const std::string& policy, Duration aging) : cell(description(aging), policy) {
     for (int i = 0; i < 3; ++i) next();
@@ -41,11 +41,11 @@ struct Stream {
   }
 };
 
-class T9 : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Policies, T9, ::testing::ValuesIn(known_policies()));
+class EndlessStream : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, EndlessStream, ::testing::ValuesIn(known_policies()));
 
-// The bound of the README: aging + the longest motion that was under way then.
-TEST_P(T9, AWaitingJobStartsWithinItsBound) {
+// The starvation bound of core/scheduler/README.md: aging plus the longest admitted motion.
+TEST_P(EndlessStream, StartsTheWaitingJobWithinTheStarvationBound) {
   constexpr Duration kAging = 5s;
   Stream stream(GetParam(), kAging);
   stream.run_until(at(20s));
@@ -57,7 +57,7 @@ TEST_P(T9, AWaitingJobStartsWithinItsBound) {
   EXPECT_GT(stream.count, 8) << "the stream went on";
 }
 
-TEST(T9, WithoutAgingItWouldStarve) {
+TEST(EndlessStream, StarvesTheWaitingJobWithoutAging) {
   for (const char* policy : {"certified", "reservation"}) {
     Stream stream(policy, 600s);
     stream.run_until(at(60s));

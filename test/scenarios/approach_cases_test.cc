@@ -1,4 +1,4 @@
-// Jobs whose arms are brought to where they begin ("move_to_start": "plan").
+// Jobs with "move_to_start": "plan": the server brings their arms to their start.
 #include "core/scheduler/ways/approach.h"
 #include "test/scenarios/two_gantries.h"
 
@@ -10,7 +10,7 @@ JobRequest approached(JobRequest request) {
   return request;
 }
 
-class Approaches : public ::testing::TestWithParam<std::string> {
+class MovesToStart : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { cell.emplace(gantries(OnIdleBlocker::report), GetParam()); }
   void expect_succeeded(const std::string& key) {
@@ -18,9 +18,9 @@ class Approaches : public ::testing::TestWithParam<std::string> {
   }
   std::optional<TwoGantries> cell;
 };
-INSTANTIATE_TEST_SUITE_P(Policies, Approaches, ::testing::ValuesIn(known_policies()));
+INSTANTIATE_TEST_SUITE_P(Policies, MovesToStart, ::testing::ValuesIn(known_policies()));
 
-TEST_P(Approaches, TheArmGoesToTheStartFirstAndSlowly) {
+TEST_P(MovesToStart, BringTheArmToTheStartFirstAndSlowly) {
   const JobRequest far = go("a", {-2, 1}, {-2, 2}, 20, "far");
   ASSERT_FALSE(cell->executive().submit(far)) << "without it that is refused";
   cell->submit(approached(far));
@@ -36,14 +36,14 @@ TEST_P(Approaches, TheArmGoesToTheStartFirstAndSlowly) {
   EXPECT_LT(cell->fastest_m_s(), 2.0 * kApproachSpeed + 0.05);
 }
 
-TEST_P(Approaches, AnArmThatStandsThereNeedsNone) {
+TEST_P(MovesToStart, AreNotAddedIfTheArmIsAtTheStart) {
   cell->submit(approached(go("a", {-1, 0}, {-1, 1}, 3, "here")));
   cell->run_to_the_end();
   expect_succeeded("here");
   EXPECT_FALSE(cell->executive().job("move-to-start-1"));
 }
 
-TEST_P(Approaches, WhatFollowsACanceledJobComesToItsStart) {
+TEST_P(MovesToStart, ServeAJobBehindACanceledJob) {
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "canceled"));
   cell->submit(approached(go("a", {0, 2}, {-1, 2}, 3, "then")));
   cell->run_until(at(3s));
@@ -54,7 +54,7 @@ TEST_P(Approaches, WhatFollowsACanceledJobComesToItsStart) {
   cell->expect_at("a", {-1, 2});
 }
 
-TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
+TEST_P(MovesToStart, FailTheJobWithTheReasonIfThereIsNoPath) {
   cell->submit(approached(go("a", {1, 0}, {1, 2}, 6, "where b stands")));
   CollisionObject post{.name = "post", .shape = Box{{0.3, 0.3, 0.3}}};
   post.X_WO.translation() = Eigen::Vector3d(-2.0, 1.0, 0.0);
@@ -64,13 +64,12 @@ TEST_P(Approaches, WhereThereIsNoWayToTheStartItFailsAndSaysWhy) {
   cell->run_to_the_end();
   const JobView failed = cell->job("in the post");
   EXPECT_EQ(failed.reason(), Reason::start_mismatch);
-  EXPECT_NE(failed.detail().find("no way to where it begins: "), std::string::npos)
-      << failed.detail();
+  EXPECT_NE(failed.detail().find("no path to its start: "), std::string::npos) << failed.detail();
   EXPECT_NE(failed.detail().find("post"), std::string::npos) << failed.detail();
   cell->expect_at("a", {-1, 0});
 }
 
-TEST_P(Approaches, ThatBlockEachOtherCostEachArmOneJob) {
+TEST_P(MovesToStart, CostEachArmAtMostOneJobIfTheyBlockEachOther) {
   stop_all(cell->executive(), "test");
   for (int i = 0; i < 4; ++i) {
     const double y = 0.1 * i, on = y + 0.1;
@@ -86,7 +85,7 @@ TEST_P(Approaches, ThatBlockEachOtherCostEachArmOneJob) {
       const JobView job = cell->job(arm + std::to_string(i));
       if (job.state != JobState::failed) continue;
       EXPECT_EQ(job.reason(), Reason::deadlock) << job.key;
-      EXPECT_FALSE(job.ring.empty()) << job.key;
+      EXPECT_FALSE(job.cycle.empty()) << job.key;
       ++of_arm;
     }
     EXPECT_LE(of_arm, 1) << arm;
@@ -95,7 +94,7 @@ TEST_P(Approaches, ThatBlockEachOtherCostEachArmOneJob) {
   EXPECT_GE(lost, 1);
 }
 
-TEST_P(Approaches, OneThatWaitsInVainIsNotTriedAgain) {
+TEST_P(MovesToStart, AreNotRetriedAfterTheBacklogTimeout) {
   JobRequest job = approached(go("a", {1, 0}, {1, 2}, 6, "where b stands"));
   job.terms.backlog_timeout = 5s;
   cell->submit(job);
@@ -104,13 +103,13 @@ TEST_P(Approaches, OneThatWaitsInVainIsNotTriedAgain) {
   EXPECT_FALSE(cell->executive().job("move-to-start-2"));
   const JobView failed = cell->job("where b stands");
   EXPECT_EQ(failed.reason(), Reason::start_mismatch);
-  EXPECT_NE(failed.detail().find("no way to where it begins: waited 5 s"), std::string::npos)
+  EXPECT_NE(failed.detail().find("no path to its start: waited 5 s"), std::string::npos)
       << failed.detail();
   EXPECT_LT(failed.times.ended_at, at(6s));
 }
 
-// Its way was planned while the other arm was elsewhere, and that then stops on it.
-TEST_P(Approaches, AnArmThatHasComeToRestOnTheWayThereIsPassed) {
+// The move-to-start was planned while b was elsewhere. Then b stops on that path.
+TEST_P(MovesToStart, AreReplannedAroundAnArmThatStoppedOnThePath) {
   cell.emplace(gantries(OnIdleBlocker::replan), GetParam());
   cell->executive().stop({ArmId{0}}, "operator");
   cell->submit(approached(go("a", {-1, 2}, {-1, 3}, 6, "far")));
@@ -127,10 +126,10 @@ TEST_P(Approaches, AnArmThatHasComeToRestOnTheWayThereIsPassed) {
   cell->run_to_the_end();
   expect_succeeded("far");
   expect_succeeded("move-to-start-1");
-  cell->expect_at("b", {stands[2], stands[3]});  // and not sent aside
+  cell->expect_at("b", {stands[2], stands[3]});  // b did not retreat
 }
 
-TEST_P(Approaches, CancelingTheJobStopsTheArmOnItsWayThere) {
+TEST_P(MovesToStart, AreCanceledWithTheirJob) {
   cell->submit(approached(go("a", {-2, 2}, {-2, 3}, 6, "gone")));
   cell->run_until(at(2s));
   ASSERT_EQ(cell->job("move-to-start-1").state, JobState::running);
@@ -140,7 +139,7 @@ TEST_P(Approaches, CancelingTheJobStopsTheArmOnItsWayThere) {
   EXPECT_EQ(cell->job("move-to-start-1").state, JobState::canceled);
 }
 
-TEST_P(Approaches, AStoppedOneGoesOnWhenResumed) {
+TEST_P(MovesToStart, ContinueAfterStopAndResume) {
   cell->submit(approached(go("a", {-2, 2}, {-2, 3}, 6, "job")));
   cell->run_until(at(2s));
   stop_all(cell->executive(), "operator");
@@ -151,7 +150,7 @@ TEST_P(Approaches, AStoppedOneGoesOnWhenResumed) {
   expect_succeeded("job");
 }
 
-TEST_P(Approaches, AfterAFaultAnotherOneFollows) {
+TEST_P(MovesToStart, AreRepeatedAfterAFault) {
   cell->submit(approached(go("a", {-2, 2}, {-2, 3}, 6, "job")));
   ASSERT_TRUE(cell->executive().faults().inject(
       {.arm = "a", .kind = ArmFault::Kind::fault, .at = at(2s), .lasting = {}}));
@@ -164,8 +163,7 @@ TEST_P(Approaches, AfterAFaultAnotherOneFollows) {
   expect_succeeded("job");
 }
 
-// What has to come past another arm waits for it like any motion.
-TEST_P(Approaches, NothingTouchesOnTheWayThere) {
+TEST_P(MovesToStart, NeverTouchAnotherArm) {
   cell->submit(go("b", {1, 0}, {-3, 0}, 8, "b"));
   cell->submit(approached(go("a", {1, 1}, {1, 2}, 6, "a")));
   cell->run_to_the_end();
@@ -173,7 +171,7 @@ TEST_P(Approaches, NothingTouchesOnTheWayThere) {
   EXPECT_GT(cell->closest_m(), 0.0);
 }
 
-TEST_P(Approaches, AGoalHasNone) {
+TEST_P(MovesToStart, AreRefusedForGoals) {
   JobRequest goal{.key = "goal", .name = "", .trajectory = {}};
   goal.arm = "a";
   goal.move_to = PlanGoal{.joints = std::vector{0.0, 1.0}, .named = {}, .pose = {}};
@@ -182,8 +180,8 @@ TEST_P(Approaches, AGoalHasNone) {
   EXPECT_EQ(refused.error().front().pointer, "/move_to_start");
 }
 
-// Where they begin too close they do not part: they are not there yet.
-TEST_P(Approaches, NothingMovesForAJobOfWhichTheArmsWouldHitEachOther) {
+// If the start itself is in collision, retreats cannot help: the arms are not there yet.
+TEST_P(MovesToStart, AreNotMadeForAJobWhoseArmsCollideAtTheStart) {
   for (const double b_x_m : {0.1, 0.21}) {
     SCOPED_TRACE("b at " + std::to_string(b_x_m));
     cell.emplace(gantries(OnIdleBlocker::park), GetParam());

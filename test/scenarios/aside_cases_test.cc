@@ -1,4 +1,5 @@
-// An arm without a job that rests in the way: told, or sent aside and back (on_idle_blocker).
+// An arm without a job rests in another job's way. Depending on on_idle_blocker the server reports
+// the arm or moves it away and back (retreat).
 #include <set>
 
 #include "test/scenarios/polygon.h"
@@ -12,9 +13,9 @@ CellDescription parking(OnIdleBlocker on_idle_blocker) {
   return cell;
 }
 
-class Aside : public ::testing::TestWithParam<std::string> {
+class Retreat : public ::testing::TestWithParam<std::string> {
  protected:
-  // x has come to rest in the crossing, and y wants to pass.
+  // Brings x to rest in the crossing and submits a job of y that wants to pass.
   void start(OnIdleBlocker on_idle_blocker) {
     cell.emplace(parking(on_idle_blocker), GetParam());
     cell->submit(slide("x", -1, 0, 2, "in the middle"));
@@ -24,9 +25,9 @@ class Aside : public ::testing::TestWithParam<std::string> {
   }
   std::optional<Crossing> cell;
 };
-INSTANTIATE_TEST_SUITE_P(Policies, Aside, ::testing::ValuesIn(known_policies()));
+INSTANTIATE_TEST_SUITE_P(Policies, Retreat, ::testing::ValuesIn(known_policies()));
 
-TEST_P(Aside, AnIdleArmInTheWayIsTold) {
+TEST_P(Retreat, IsSuggestedIfAnIdleArmBlocksAJob) {
   start(OnIdleBlocker::report);
   cell->run_until(at(10s));
   const JobView waits = cell->job("passes");
@@ -34,13 +35,13 @@ TEST_P(Aside, AnIdleArmInTheWayIsTold) {
   ASSERT_FALSE(waits.waits_on.empty());
   EXPECT_EQ(waits.waits_on[0].kind, Wait::Kind::arm);
   EXPECT_EQ(waits.waits_on[0].arm, "x");
-  EXPECT_EQ(waits.waits_on[0].detail,
-            "arm x has no job: one that moves it away would open the way, or \"on_idle_blocker\": "
-            "\"park\" or \"replan\" in the cell's scheduling, which send it aside where there is a "
-            "free way");
+  EXPECT_EQ(
+      waits.waits_on[0].detail,
+      "arm x has no job: move it away with another job, or set \"on_idle_blocker\": \"park\" or "
+      "\"replan\" in the cell's scheduling, so that it retreats if a path is free");
 }
 
-TEST_P(Aside, WhatWouldHaveOpenedTheWayStandsInTheReasonWhenItExpires) {
+TEST_P(Retreat, IsSuggestedInTheReasonOfAnExpiredJob) {
   start(OnIdleBlocker::report);
   cell->run_to_the_end(at(80s));
   const JobView expired = cell->job("passes");
@@ -49,9 +50,9 @@ TEST_P(Aside, WhatWouldHaveOpenedTheWayStandsInTheReasonWhenItExpires) {
       << expired.detail();
 }
 
-// x is canceled in the middle, where y is to end; then both are to go on together from where x has
-// not come to: x makes way once, and that motion is told why it cannot begin.
-TEST_P(Aside, NobodyReturnsForAJobThatDoesNotBeginThere) {
+// x is canceled in the crossing, at y's goal. Then both must continue together from a place that x
+// has not reached: x retreats at most once, and the job reports why it cannot start.
+TEST_P(Retreat, IsNotRepeatedForAJobThatStartsElsewhere) {
   cell.emplace(parking(OnIdleBlocker::park), GetParam());
   cell->submit(slide("x", -1, 1, 4, "canceled"));
   cell->submit(slide("y", -1, 0, 2, "into"));
@@ -62,19 +63,19 @@ TEST_P(Aside, NobodyReturnsForAJobThatDoesNotBeginThere) {
   while (cell->log.last[0] < -0.05) cell->simulation->tick();
   ASSERT_TRUE(cell->simulation->executive().cancel("canceled"));
   cell->run_until(at(100s));
-  if (GetParam() != "timed_discrete") {  // there the monitor stops y where x is canceled
+  // under timed_discrete the monitor stops y where x is canceled
+  if (GetParam() != "timed_discrete") {
     EXPECT_EQ(cell->job("into").state, JobState::succeeded);
     EXPECT_EQ(cell->job("both").reason(), Reason::start_mismatch);
   }
-  std::set<std::string> asides;
+  std::set<std::string> retreats;
   for (const JobView& job : cell->simulation->executive().snapshot().jobs) {
-    if (job.key.starts_with("aside-")) asides.insert(job.key);
+    if (job.key.starts_with("retreat-")) retreats.insert(job.key);
   }
-  EXPECT_LE(asides.size(), 1U);
+  EXPECT_LE(retreats.size(), 1U);
 }
 
-// As soon as a job is there that moves the arm, nobody has to be told how to open the way.
-TEST_P(Aside, AnArmThatAJobWillMoveIsToldWithoutAdvice) {
+TEST_P(Retreat, IsNotSuggestedIfAJobWillMoveTheArm) {
   start(OnIdleBlocker::report);
   cell->run_until(at(10s));
   cell->submit(slide("y", 1, -1, 3, "back"));
@@ -83,7 +84,7 @@ TEST_P(Aside, AnArmThatAJobWillMoveIsToldWithoutAdvice) {
   for (const WaitView& wait : cell->job("passes").waits_on) EXPECT_EQ(wait.detail, "");
 }
 
-TEST_P(Aside, AnIdleArmInTheWayGoesBackWhereItCameFrom) {
+TEST_P(Retreat, TakesAnIdleArmBackWhereItCameFrom) {
   start(OnIdleBlocker::park);
   cell->run_to_the_end(at(20s));
   EXPECT_EQ(cell->job("passes").state, JobState::succeeded);
@@ -94,7 +95,7 @@ TEST_P(Aside, AnIdleArmInTheWayGoesBackWhereItCameFrom) {
   EXPECT_GT(cell->log.closest_m, 0.01);
 }
 
-TEST_P(Aside, ItReturnsForAJobThatBeginsWhereItWasLeft) {
+TEST_P(Retreat, IsReversedForAJobThatStartsAtTheOldPosition) {
   start(OnIdleBlocker::park);
   cell->run_to_the_end(at(20s));
   cell->submit(slide("x", 0, 1, 2, "goes on"));
@@ -104,7 +105,7 @@ TEST_P(Aside, ItReturnsForAJobThatBeginsWhereItWasLeft) {
   EXPECT_NEAR(cell->log.last[0], 1.0, 1e-3);
 }
 
-TEST_P(Aside, AJobThatBeginsWhereItStandsNowNeedsNoReturn) {
+TEST_P(Retreat, IsNotReversedForAJobThatStartsAtTheNewPosition) {
   start(OnIdleBlocker::park);
   cell->run_to_the_end(at(20s));
   cell->submit(slide("x", -1, 1, 2, "from here"));
@@ -113,8 +114,7 @@ TEST_P(Aside, AJobThatBeginsWhereItStandsNowNeedsNoReturn) {
   EXPECT_FALSE(cell->simulation->executive().job("retreat-2"));
 }
 
-// Nowhere to go: it stays told, and nothing hangs in a circle.
-TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
+TEST_P(Retreat, IsReportedAsImpossibleWithoutAFreePose) {
   CellDescription description = parking(OnIdleBlocker::park);
   description.robots[0].arms[0].home = {0.0};
   cell.emplace(description, GetParam());
@@ -124,30 +124,27 @@ TEST_P(Aside, AnArmThatHasNowhereToGoStaysAndIsTold) {
   EXPECT_EQ(waits.state, JobState::backlogged);
   EXPECT_FALSE(cell->simulation->executive().job("retreat-1"));
   ASSERT_FALSE(waits.waits_on.empty());
-  EXPECT_EQ(
-      waits.waits_on[0].detail,
-      "arm x has no job: no free way aside was found (back along its last motion, home, or to "
-      "a named pose of its group); a job that moves it away would open this one, or "
-      "\"on_idle_blocker\": \"replan\", by which ways aside are planned");
+  EXPECT_EQ(waits.waits_on[0].detail,
+            "arm x has no job: no free retreat was found (back along its last motion, home, or to "
+            "a named pose of its group); move it away with another job to unblock this one, or set "
+            "\"on_idle_blocker\": \"replan\", so that retreats are planned");
   cell->run_to_the_end(at(600s));
   const JobView expired = cell->job("passes");
   EXPECT_EQ(expired.reason(), Reason::backlog_timeout);
   EXPECT_TRUE(expired.detail().ends_with(
-      "; arm x has no job: no free way aside was found (back along its last motion, home, or to a "
-      "named pose of its group); a job that moves it away would have opened this one"))
+      "; arm x has no job: no free retreat was found (back along its last motion, home, or to a "
+      "named pose of its group); moving it away with another job would have unblocked this one"))
       << expired.detail();
 }
 
-// What does not move cannot go aside: the reason says what opens the way, and that does.
-TEST_P(Aside, AStoppedArmInTheWayIsToldToNeedAResume) {
+TEST_P(Retreat, WaitsForTheResumeOfAStoppedArm) {
   start(OnIdleBlocker::report);
   cell->simulation->executive().stop({ArmId{0}}, "operator");
   cell->run_until(at(10s));
   EXPECT_EQ(cell->job("passes").waits_on.at(0).detail,
-            "arm x is stopped and has no job: resuming it, and a job that moves it away would open "
-            "the way, or \"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, "
-            "which send it "
-            "aside where there is a free way when it is resumed");
+            "arm x is stopped and has no job: resume it and move it away with another job, or set "
+            "\"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, so that it "
+            "retreats if a path is free when it is resumed");
 
   cell.emplace(parking(OnIdleBlocker::park), GetParam());
   cell->submit(slide("x", -1, 0, 2, "in the middle"));
@@ -157,13 +154,13 @@ TEST_P(Aside, AStoppedArmInTheWayIsToldToNeedAResume) {
   cell->run_until(at(10s));
   EXPECT_EQ(cell->job("passes").state, JobState::backlogged);
   EXPECT_EQ(cell->job("passes").waits_on.at(0).detail,
-            "arm x is stopped and has no job: when it is resumed it goes aside where it has a free "
-            "way (back along its last motion, home, or to a named pose of its group), else a job "
-            "that moves it away would open this one");
+            "arm x is stopped and has no job: when it is resumed it retreats if a path is free "
+            "(back along its last motion, home, or to a named pose of its group); otherwise move "
+            "it away with another job to unblock this one");
   cell->submit(slide("x", 0, 1, 2, "leaves"));
   for (const WaitView& wait : cell->job("passes").waits_on) {
     if (wait.arm != "x" || wait.kind != Wait::Kind::arm) continue;
-    EXPECT_EQ(wait.detail, "arm x is stopped: resuming it would let its own job move it on");
+    EXPECT_EQ(wait.detail, "arm x is stopped: resume it, and its own job will move it away");
   }
   ASSERT_TRUE(cell->simulation->executive().cancel("leaves"));
   cell->simulation->executive().resume({ArmId{0}});
@@ -172,12 +169,11 @@ TEST_P(Aside, AStoppedArmInTheWayIsToldToNeedAResume) {
   EXPECT_EQ(cell->job("retreat-1").state, JobState::succeeded);
 }
 
-TEST(AsideByDefault, ArmsInTheWayGoAside) {
+TEST(RetreatByDefault, IsOn) {
   EXPECT_EQ(CellDescription{}.scheduling.on_idle_blocker, OnIdleBlocker::park);
 }
 
-// Canceled in the crossing, with its home behind it out of reach: it goes on along its line.
-TEST_P(Aside, AnArmThatStoppedOnItsWayGoesToTheEndOfThatIfNotBack) {
+TEST_P(Retreat, ContinuesToTheEndOfThePathIfTheWayBackIsBlocked) {
   cell.emplace(parking(OnIdleBlocker::park), GetParam());
   CollisionObject behind{.name = "behind", .shape = Sphere{0.1}};
   behind.X_WO.translation().x() = -0.5;

@@ -23,7 +23,7 @@ class Chain final : private DiscRoom {
   }
 
  private:
-  // Tries a few places: from some, no way is found quickly.
+  // Tries up to 20 random goals, because some have no path that is found quickly.
   bool go(std::size_t arm) {
     for (int tries = 0; tries < 20; ++tries) {
       const auto to = somewhere_free(arm);

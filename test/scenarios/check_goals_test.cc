@@ -1,4 +1,4 @@
-// What /check says of jobs whose way is not known yet, and what then becomes of them.
+// Results of /check for jobs that still need a plan, compared with the outcome when submitted.
 #include <gmock/gmock.h>
 
 #include "test/scenarios/crossing.h"
@@ -37,7 +37,7 @@ class CheckedGoals : public ::testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Policies, CheckedGoals, ::testing::ValuesIn(known_policies()));
 
-TEST_P(CheckedGoals, AFreeWayIsFree) {
+TEST_P(CheckedGoals, ReportAFreePathWithoutSubmitting) {
   const CheckView said = check(move_to("x", 0.5, "job"));
   EXPECT_EQ(said.kind, Verdict::Kind::free);
   EXPECT_EQ(said.earliest_start_s, 0.0);
@@ -46,7 +46,7 @@ TEST_P(CheckedGoals, AFreeWayIsFree) {
   EXPECT_NEAR(cell->log.last[0], -1.0, 1e-6);
 }
 
-TEST_P(CheckedGoals, OneThatEndsWhereAnotherArmStandsIsInConflict) {
+TEST_P(CheckedGoals, ReportAConflictWithAnArmAtTheGoal) {
   cell->submit(slide("y", -1, 0, 2));
   cell->run_until(at(3s));
   const CheckView said = check(move_to("x", 0.0, "job"));
@@ -55,7 +55,7 @@ TEST_P(CheckedGoals, OneThatEndsWhereAnotherArmStandsIsInConflict) {
   EXPECT_EQ(said.conflicts.front().arm, "y");
 }
 
-TEST_P(CheckedGoals, OneThatHasNoWaySaysSo) {
+TEST_P(CheckedGoals, ReportThatNoPathExists) {
   ASSERT_EQ(set_post(0.5, 0.0), "");
   const CheckView said = check(move_to("x", 0.5, "job"));
   EXPECT_EQ(said.kind, Verdict::Kind::conflict);
@@ -64,7 +64,7 @@ TEST_P(CheckedGoals, OneThatHasNoWaySaysSo) {
   EXPECT_THAT(said.result->detail, HasSubstr("post"));
 }
 
-TEST_P(CheckedGoals, AnOpenArmIsChosenAsItWouldBe) {
+TEST_P(CheckedGoals, ReportTheArmThatWouldBeSelected) {
   cell->submit(slide("y", -1.0, -0.6, 1.0));
   cell->run_until(at(2s));
   JobRequest request = move_to("", -0.5, "job");
@@ -75,7 +75,7 @@ TEST_P(CheckedGoals, AnOpenArmIsChosenAsItWouldBe) {
   EXPECT_EQ(said.choice->selected, "y");
 }
 
-TEST_P(CheckedGoals, AnApproachIsPlannedAndItsTimeTold) {
+TEST_P(CheckedGoals, PlanTheMoveToStartAndReportItsDuration) {
   const JobRequest job = from_elsewhere("x", -0.5, 0.5, "job");
   const CheckView said = check(job);
   EXPECT_EQ(said.kind, Verdict::Kind::free) << said.conflicts.size();
@@ -89,8 +89,8 @@ TEST_P(CheckedGoals, AnApproachIsPlannedAndItsTimeTold) {
   EXPECT_NEAR(to_seconds(*done.times.started_at - submitted), *said.move_to_start_s, 0.5);
 }
 
-// The approach is nobody's job yet: what would be waited for is told.
-TEST_P(CheckedGoals, AnApproachOfAStoppedArmWaitsForItsStop) {
+// The move-to-start has no job yet; the check reports its waits for the job.
+TEST_P(CheckedGoals, ReportAStoppedArmBeforeItsMoveToStart) {
   cell->simulation->executive().stop({ArmId{0}}, "operator");
   const CheckView said = check(from_elsewhere("x", -0.5, 0.5, "job"));
   EXPECT_EQ(said.kind, Verdict::Kind::conflict);
@@ -99,16 +99,16 @@ TEST_P(CheckedGoals, AnApproachOfAStoppedArmWaitsForItsStop) {
   EXPECT_EQ(said.conflicts[0].arm, "x");
 }
 
-TEST_P(CheckedGoals, AnApproachThatHasNoWaySaysSo) {
+TEST_P(CheckedGoals, ReportThatNoPathToTheStartExists) {
   ASSERT_EQ(set_post(-0.5, 0.0), "");
   const CheckView said = check(from_elsewhere("x", -0.5, 0.5, "job"));
   EXPECT_EQ(said.kind, Verdict::Kind::conflict) << "it begins in the post";
   ASSERT_TRUE(said.result);
   EXPECT_EQ(said.result->reason, Reason::start_mismatch);
-  EXPECT_THAT(said.result->detail, HasSubstr("no way to where it begins"));
+  EXPECT_THAT(said.result->detail, HasSubstr("no path to its start"));
 }
 
-TEST_P(CheckedGoals, BehindAWayThatIsBeingPlannedItIsToldAsIfThatWereThere) {
+TEST_P(CheckedGoals, AssumeThatPlansOfEarlierJobsSucceed) {
   cell->submit(move_to("x", -0.2, "first"));
   const CheckView said = check(move_to("y", -0.2, "job"));
   EXPECT_NE(said.kind, Verdict::Kind::undecided);

@@ -1,4 +1,3 @@
-// A job that is being checked says so, and a check whose job has ended is interrupted.
 #include <gtest/gtest.h>
 
 #include "core/executive/own_checker.h"
@@ -7,7 +6,7 @@
 namespace armloom {
 namespace {
 
-// Answers when the test says so.
+// Answers a check when the test calls answer().
 class HeldChecks final : public JudgementService {
  public:
   void ask(Question question, PlanningScenePtr scene, std::function<void(Verdict)> done) override {
@@ -38,9 +37,9 @@ class HeldChecks final : public JudgementService {
   OwnChecker checker_;
 };
 
-class CheckProgressOfJobs : public ::testing::Test {
+class JobCheckProgress : public ::testing::Test {
  protected:
-  CheckProgressOfJobs()
+  JobCheckProgress()
       : executive_(std::move(*Executive::create(*build_cell(crossing_description()),
                                                 {.policy = "earliest_start"}, checks_, log_))) {
     executive_->tick(TimePoint{});
@@ -51,7 +50,7 @@ class CheckProgressOfJobs : public ::testing::Test {
   std::unique_ptr<Executive> executive_;
 };
 
-TEST_F(CheckProgressOfJobs, IsToldWhileTheJobIsChecked) {
+TEST_F(JobCheckProgress, IsReportedWhileTheJobIsChecked) {
   ASSERT_TRUE(executive_->submit(slide("x", -1, 1, 2, "one")));
   ASSERT_TRUE(checks_.asked);
   const JobView checked = *executive_->job("one");
@@ -62,7 +61,7 @@ TEST_F(CheckProgressOfJobs, IsToldWhileTheJobIsChecked) {
   EXPECT_TRUE(executive_->job("one")->waits_on.empty());
 }
 
-TEST_F(CheckProgressOfJobs, AVoidAnswerDecidesNothingAndTheNextJobIsAskedAbout) {
+TEST_F(JobCheckProgress, InterruptedCheckDecidesNothingAndTheNextJobIsChecked) {
   ASSERT_TRUE(executive_->submit(slide("x", -1, 1, 2, "one")));
   ASSERT_TRUE(executive_->submit(slide("y", -1, 1, 2, "two")));
   EXPECT_FALSE(checks_.interrupted);

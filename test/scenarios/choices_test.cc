@@ -1,5 +1,3 @@
-// Jobs that may be taken in any order, and jobs that either of two arms can do, through the
-// executive: what is chosen, what is told of it, and what is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +9,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// To a place and back to where it began.
+// Returns a motion to to_m and back to its start.
 TrajectoryRequest visit(const std::string& arm, double from_m, double to_m, double seconds) {
   TrajectoryRequest motion = slide(arm, from_m, to_m, seconds / 2, "").trajectory;
   motion.points.push_back(motion.points.front());
@@ -33,7 +31,8 @@ JobRequest either(double x_to_m, double y_to_m, double seconds, std::string key)
   return request;
 }
 
-// y stands in the crossing for ten seconds; of x's two jobs only the second keeps out of it.
+// y rests in the crossing for ten seconds. Of x's two jobs only the second stays out of the
+// crossing.
 struct OneInTheWay {
   explicit OneInTheWay(bool reorderable) {
     JobRequest through = visit_job("x", -1, 1, 4, "through");
@@ -52,7 +51,7 @@ struct OneInTheWay {
   Crossing cell;
 };
 
-TEST(FreeOrder, TakesTheOneThatCanGoBesideWhatMoves) {
+TEST(ReorderableJobs, TheOneThatCanStartNowGoesFirst) {
   OneInTheWay free(true);
   const JobView beside = free.cell.job("beside"), through = free.cell.job("through");
   EXPECT_EQ(beside.state, JobState::succeeded);
@@ -66,17 +65,17 @@ TEST(FreeOrder, TakesTheOneThatCanGoBesideWhatMoves) {
   EXPECT_EQ(free.cell.simulation->executive().figures().monitor_stops, 0U);
 }
 
-TEST(FreeOrder, IsKeptWhereTheClientDoesNotFreeIt) {
+TEST(ReorderableJobs, OtherJobsKeepTheirOrder) {
   OneInTheWay given(false);
   EXPECT_LT(given.cell.job("through").times.ended_at, given.cell.job("beside").times.started_at);
   EXPECT_FALSE(given.cell.job("beside").ways.choice);
 }
 
-// What several arms could do keeps its place among jobs in any order, which go around it.
-class FreeOrderAndAlternatives : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Policies, FreeOrderAndAlternatives, ::testing::ValuesIn(known_policies()));
+class ReorderableAndAlternatives : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, ReorderableAndAlternatives,
+                         ::testing::ValuesIn(known_policies()));
 
-TEST_P(FreeOrderAndAlternatives, AllAreDone) {
+TEST_P(ReorderableAndAlternatives, AllSucceed) {
   Crossing cell(crossing_description(), GetParam());
   std::vector<JobRequest> jobs;
   for (int round = 0; round < 3; ++round) {
@@ -111,7 +110,7 @@ TEST(Alternatives, AreSharedByTheArms) {
   EXPECT_EQ(two.ways.choice->selected, two.arms.front());
 }
 
-TEST(Alternatives, OfAStoppedArmAreDoneByTheOther) {
+TEST(Alternatives, MoveToTheOtherArmIfOneIsStopped) {
   Crossing cell;
   Executive& executive = cell.simulation->executive();
   executive.stop({ArmId{0}}, "maintenance");
@@ -126,7 +125,7 @@ TEST(Alternatives, OfAStoppedArmAreDoneByTheOther) {
   }
 }
 
-TEST(Alternatives, OfAnArmThatDoesNotComeToTheirBeginningAreDoneByTheOther) {
+TEST(Alternatives, MoveToTheOtherArmIfTheStartIsNotReached) {
   Crossing cell;
   cell.submit(slide("x", -1, -0.5, 4, "leads-there"));
   JobRequest job = either(-0.6, -0.6, 4, "job");
@@ -139,10 +138,10 @@ TEST(Alternatives, OfAnArmThatDoesNotComeToTheirBeginningAreDoneByTheOther) {
   EXPECT_EQ(cell.job("job").state, JobState::succeeded);
   ASSERT_TRUE(cell.job("job").ways.choice);
   EXPECT_THAT(cell.job("job").ways.choice->candidates, ElementsAre("y", "x"));
-  EXPECT_THAT(cell.job("job").ways.choice->detail, HasSubstr("x cannot: it will not stand"));
+  EXPECT_THAT(cell.job("job").ways.choice->detail, HasSubstr("x cannot: it will not be"));
 }
 
-TEST(Alternatives, ThatEndElsewhereOrMoveTheSameArmAreRefusedWithThePlace) {
+TEST(Alternatives, AreRefusedIfEndsDifferOrArmsRepeat) {
   Crossing cell;
   Executive& executive = cell.simulation->executive();
   JobRequest one_way = either(-0.6, -0.6, 4, "one way");

@@ -1,5 +1,5 @@
-// Pauses on the way, held by authority: motions pass each other in the order that was agreed, and
-// stay safe whatever happens to the one who leads.
+// Motions pass each other in the agreed order, pause at the end of their authority, and keep clear
+// whatever happens to the first motion.
 #include "test/scenarios/crossing.h"
 #include "test/scenarios/star.h"
 
@@ -11,7 +11,7 @@ struct Coordinated : ::testing::Test {
   double position(std::size_t arm) const { return cell.log.last[static_cast<Eigen::Index>(arm)]; }
 };
 
-TEST(CoordinatedLate, GoesAsFarAsItMayAndPausesThere) {
+TEST(CoordinatedLate, PausesAtTheEndOfItsAuthority) {
   Crossing cell(crossing_description(), "coordinated");
   ASSERT_TRUE(cell.simulation->executive().faults().inject(
       {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1800ms), .lasting = 3s}));
@@ -34,7 +34,7 @@ TEST(CoordinatedLate, GoesAsFarAsItMayAndPausesThere) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-TEST_F(Coordinated, LetsAShortOnePassBeforeALongOneThatIsStillFar) {
+TEST_F(Coordinated, LetsAShortJobPassBeforeADistantLongJob) {
   cell.submit(slide("x", -1, 1, 12, "long"));
   cell.run_until(at(500ms));
   cell.submit(slide("y", -1, 1, 3, "short"));
@@ -44,7 +44,7 @@ TEST_F(Coordinated, LetsAShortOnePassBeforeALongOneThatIsStillFar) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-// T5: the leader stalls in the crossing; who follows stays before it for as long as that takes.
+// T5: the first arm stalls in the crossing.
 TEST(CoordinatedLate, WaitsForALeaderThatStalls) {
   Crossing cell(crossing_description(), "coordinated");
   ASSERT_TRUE(cell.simulation->executive().faults().inject(
@@ -59,8 +59,8 @@ TEST(CoordinatedLate, WaitsForALeaderThatStalls) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-// T7: where the canceled one rests is not passed; a next motion that takes it away frees the way.
-TEST_F(Coordinated, StaysBeforeAnArmThatWasCanceledInTheWayUntilItMovesOn) {
+// T7: a canceled arm rests in the crossing.
+TEST_F(Coordinated, WaitsForACanceledArmToLeaveTheCrossing) {
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   cell.submit(slide("y", -1, 1, 4, "follows"));
   cell.run_until(at(1950ms));
@@ -79,9 +79,7 @@ TEST_F(Coordinated, StaysBeforeAnArmThatWasCanceledInTheWayUntilItMovesOn) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-// Nothing bounds a stop; what waits on its path for an arm that no job moves ends as in the
-// backlog.
-TEST_F(Coordinated, GivesUpOnItsPathWhenNothingMovesTheArmAway) {
+TEST_F(Coordinated, ExpiresOnItsPathBehindAnArmWithoutAJob) {
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   JobRequest follows = slide("y", -1, 1, 4, "follows");
   follows.terms.backlog_timeout = 20s;
@@ -95,15 +93,15 @@ TEST_F(Coordinated, GivesUpOnItsPathWhenNothingMovesTheArmAway) {
   EXPECT_EQ(gave_up.state, JobState::expired);
   EXPECT_EQ(gave_up.reason(), Reason::backlog_timeout);
   EXPECT_EQ(gave_up.detail(),
-            "waited 20 s on its path; arm x has no job: one that moves it away would open the way, "
-            "or \"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, which send "
-            "it aside where there is a free way");
+            "waited 20 s on its path; arm x has no job: move it away with another job, or set "
+            "\"on_idle_blocker\": \"park\" or \"replan\" in the cell's scheduling, so that it "
+            "retreats if a path is free");
   ASSERT_EQ(gave_up.waits_on.size(), 1U);
   EXPECT_EQ(gave_up.waits_on[0].arm, "x");
 }
 
-// A job behind a canceled one cannot begin any more: nobody may count on it to clear the way.
-TEST_F(Coordinated, DoesNotCountOnAJobWhoseStartWillNotBeReached) {
+// A job behind a canceled job cannot start any more, so no other job may rely on its departure.
+TEST_F(Coordinated, DoesNotRelyOnAJobWhoseStartIsNotReached) {
   cell.submit(slide("x", -1, 0, 3, "into the crossing"));
   cell.submit(slide("x", 0, 0.5, 2, "on"));
   cell.submit(slide("x", 0.5, 1, 2, "home"));
@@ -115,7 +113,6 @@ TEST_F(Coordinated, DoesNotCountOnAJobWhoseStartWillNotBeReached) {
   EXPECT_NE(cell.job("waits").state, JobState::succeeded) << "x rests in the crossing";
   EXPECT_GT(cell.log.closest_m, 0.015);
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
-  // Nor does a resume lead it there.
   stop_all(cell.simulation->executive(), "operator");
   cell.run_until(at(21s));
   resume_all(cell.simulation->executive());
@@ -127,7 +124,7 @@ TEST_F(Coordinated, DoesNotCountOnAJobWhoseStartWillNotBeReached) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-TEST_F(Coordinated, KeepsItsOrderOverAStopAndAResume) {
+TEST_F(Coordinated, KeepsItsPassingOrderAcrossStopAndResume) {
   cell.submit(slide("x", -1, 1, 4, "first"));
   cell.submit(slide("y", -1, 1, 4, "second"));
   cell.run_until(at(1500ms));
@@ -142,9 +139,9 @@ TEST_F(Coordinated, KeepsItsOrderOverAStopAndAResume) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-// The executive's thread ends in mid-motion: every controller brakes by itself where its authority
-// ends, which is a certified place beside wherever the others come to rest.
-TEST(DeathOfTheExecutive, LeavesEveryArmAtRestWithoutContact) {
+// The executive dies in mid-motion. Every controller brakes by itself to the end of its authority,
+// which is certified against the rests of all other arms.
+TEST(ExecutiveDeath, LeavesEveryArmAtRestWithoutContact) {
   for (std::size_t arms = 2; arms <= 4; ++arms) {
     for (Duration dies = 100ms; dies < 7s; dies += 150ms) {
       SmallestDistance closest(arms);
@@ -170,7 +167,7 @@ TEST(DeathOfTheExecutive, LeavesEveryArmAtRestWithoutContact) {
   }
 }
 
-// x comes to rest in the crossing, and leaves it only together with y, after y has passed there.
+// Returns a motion of x and y. In the next two tests x is in the crossing at one end of it.
 JobRequest both(double x_from_m, double x_to_m, double y_from_m, double y_to_m, std::string key) {
   JobRequest request = slide("x", x_from_m, x_to_m, 2, std::move(key));
   request.trajectory.joint_names.push_back("y_slide");
@@ -182,7 +179,7 @@ JobRequest both(double x_from_m, double x_to_m, double y_from_m, double y_to_m, 
   return request;
 }
 
-TEST_F(Coordinated, CountsOnNoDepartureThatComesAfterItself) {
+TEST_F(Coordinated, DoesNotRelyOnADepartureThatComesLater) {
   cell.submit(slide("x", -1, 0, 2, "in the middle"));
   cell.run_until(at(1800ms));
   cell.submit(slide("y", -1, 1, 4, "passes"));
@@ -194,8 +191,8 @@ TEST_F(Coordinated, CountsOnNoDepartureThatComesAfterItself) {
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
 }
 
-// The same backwards: after both, x stands in the crossing, to leave it when it likes.
-TEST_F(Coordinated, PassesNoStartAtWhichTheOtherArrivesBeforeItself) {
+// The mirror image: `both` brings x into the crossing, and x leaves much later.
+TEST_F(Coordinated, DoesNotPassAStartThatTheOtherArmReachesFirst) {
   cell.submit(both(-1, 0, -1, -0.9, "both"));
   cell.submit(slide("x", 0, 1, 20, "leaves"));
   cell.submit(slide("y", -0.9, 1, 2, "passes"));

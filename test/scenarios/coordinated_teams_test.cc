@@ -1,5 +1,4 @@
-// Jobs of several arms under the policy that coordinates: siblings that are out of step, and rings
-// through motions that pause on their way. Found by random_teams_test.cc.
+// Found by random_teams_test.cc for the most part.
 #include "test/scenarios/crossing.h"
 
 namespace armloom {
@@ -10,7 +9,6 @@ struct Way {
   double from_m, to_m;
 };
 
-// Several arms as one.
 JobRequest together(const std::vector<Way>& ways, double duration_s, std::string key) {
   JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
   const std::vector<double> zero(ways.size(), 0.0);
@@ -23,7 +21,7 @@ JobRequest together(const std::vector<Way>& ways, double duration_s, std::string
   return request;
 }
 
-// A robot of the crossing once more, beside itself.
+// Returns a copy of the robot, renamed and displaced.
 RobotDescription moved(RobotDescription robot, const std::string& name,
                        const Eigen::Vector3d& by_m) {
   robot.name = robot.arms[0].name = name;
@@ -34,9 +32,9 @@ RobotDescription moved(RobotDescription robot, const std::string& name,
 
 double between_x_and_y_m(const Crossing& cell) { return cell.log.last.head(2).norm() - 0.2; }
 
-// z stalls where x is about to come into the crossing: x gets a little ahead, and rests there when
-// their job is canceled. The job counts as being as far as z.
-TEST(CoordinatedTeams, AnArmThatGotAheadOfItsSiblingIsInTheWayWhereItRests) {
+// z stalls just before x enters the crossing. x gets a little ahead and rests there when their job
+// is canceled. The job's own progress is that of z.
+TEST(CoordinatedMultiArm, ArmAheadOfItsMotionBlocksWhereItRests) {
   for (Duration stalls = 900ms; stalls < 1500ms; stalls += 20ms) {
     CellDescription description = crossing_description();
     description.robots.push_back(moved(description.robots[0], "z", {0, 5, 0}));
@@ -57,9 +55,9 @@ TEST(CoordinatedTeams, AnArmThatGotAheadOfItsSiblingIsInTheWayWhereItRests) {
   }
 }
 
-// In step the two pass each other closely; as far apart on their way as a stall can bring them,
-// they would touch.
-TEST(CoordinatedTeams, ArmsOfOneMotionAreFreeOfEachOtherOutOfStepToo) {
+// In step the two arms pass each other closely. As far out of step as a stall can bring them, they
+// would touch.
+TEST(CoordinatedMultiArm, ArmsKeepClearOfEachOtherOutOfStep) {
   for (const double head_start_m : {0.30, 0.34, 0.38, 0.42, 0.46, 0.50}) {
     Crossing cell(crossing_description(), "coordinated");
     cell.submit(slide("x", -1, -1 + head_start_m, 1, "sets out"));
@@ -75,8 +73,9 @@ TEST(CoordinatedTeams, ArmsOfOneMotionAreFreeOfEachOtherOutOfStepToo) {
   }
 }
 
-// Their ways cross, and in step they keep 15 cm: what one of them sweeps is none of the other's.
-TEST(CoordinatedTeams, ArmsOfOneMotionMayCrossEachOthersWaysUnderEveryPolicy) {
+// The paths cross, but in step the arms keep 15 cm apart: the swept volumes of one motion's arms
+// need not be disjoint.
+TEST(CoordinatedMultiArm, PathsMayCrossUnderEveryPolicy) {
   for (const char* policy : {"sequential", "lockstep", "reservation", "timed_discrete", "certified",
                              "earliest_start", "coordinated"}) {
     Crossing cell(crossing_description(), policy);
@@ -89,9 +88,9 @@ TEST(CoordinatedTeams, ArmsOfOneMotionMayCrossEachOthersWaysUnderEveryPolicy) {
   }
 }
 
-// y pauses before x, which was canceled in its way; what would take x away has y in it too, and
-// comes after it.
-TEST(CoordinatedTeams, AMotionThatPausesBeforeAnArmIsInARingWithTheJobsBehindIt) {
+// y is paused before x, which was canceled in y's way. The job that would move x away also moves y
+// and comes after y's motion.
+TEST(CoordinatedMultiArm, PausedMotionClosesADeadlockCycle) {
   Crossing cell(crossing_description(), "coordinated");
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   cell.submit(slide("y", -1, 1, 4, "pauses"));
@@ -110,8 +109,7 @@ TEST(CoordinatedTeams, AMotionThatPausesBeforeAnArmIsInARingWithTheJobsBehindIt)
   EXPECT_EQ(cell.job("between").state, JobState::succeeded);
 }
 
-// Nor does a stop on its way hide it.
-TEST(CoordinatedTeams, AMotionThatWasStoppedWhileItPausedIsInItsRingAgain) {
+TEST(CoordinatedMultiArm, StopOfAPausedMotionKeepsTheDeadlockCycle) {
   Crossing cell(crossing_description(), "coordinated");
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   cell.submit(slide("y", -1, 1, 4, "pauses"));
@@ -128,14 +126,14 @@ TEST(CoordinatedTeams, AMotionThatWasStoppedWhileItPausedIsInItsRingAgain) {
   EXPECT_EQ(cell.job("both").reason(), Reason::deadlock);
 }
 
-// x is to leave the crossing together with z; y pauses before x, w before y's way, and there it is
-// in the way of z. A stop of z before the team has moved does not cost it its place between them.
-TEST(CoordinatedTeams, AStopBeforeTheyMoveKeepsTheirPlace) {
+// x leaves the crossing together with z. y is paused before x, and w before y's path, where w
+// blocks z.
+TEST(CoordinatedMultiArm, StopBeforeTheStartKeepsTheOrder) {
   CellDescription description = crossing_description();
   description.robots.push_back(moved(description.robots[1], "z", {-0.3, 0, 0}));
   description.robots.back().arms[0].home = {0.3};
   description.robots.push_back(moved(description.robots[0], "w", {0, 0.6, 0}));
-  description.scheduling.aging = 1s;  // then y's job is overtaken no more
+  description.scheduling.aging = 1s;  // after 1 s y's job can no longer be overtaken
   Crossing cell(description, "coordinated");
   Executive& executive = cell.simulation->executive();
   cell.submit(slide("x", -1, 0, 1, "in the middle"));
@@ -145,7 +143,7 @@ TEST(CoordinatedTeams, AStopBeforeTheyMoveKeepsTheirPlace) {
       executive.faults().inject({.arm = "x", .kind = ArmFault::Kind::late_start, .value = 5}));
   ASSERT_TRUE(
       executive.faults().inject({.arm = "z", .kind = ArmFault::Kind::late_start, .value = 5}));
-  cell.run_until(at(1100ms));  // x stands in the crossing
+  cell.run_until(at(1100ms));  // x is in the crossing
   cell.submit(slide("y", -1, 1, 3, "follows"));
   cell.run_until(at(3s));
   ASSERT_EQ(cell.job("in the middle").state, JobState::succeeded);

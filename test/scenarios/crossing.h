@@ -16,7 +16,7 @@ namespace armloom {
 
 using namespace std::chrono_literals;
 
-// A ball of 10 cm radius on a linear axis along x, at -1 m (home).
+// Returns a ball of 10 cm radius on a linear axis along x, home at -1 m.
 inline RobotDescription slider(const std::string& name) {
   RobotDescription robot{.name = name,
                          .urdf = source_dir() + "/test/scenarios/data/slider.urdf",
@@ -28,8 +28,8 @@ inline RobotDescription slider(const std::string& name) {
   return robot;
 }
 
-// Two balls of 10 cm radius on linear axes that cross at the origin: "x" slides along x, "y" along
-// y, both from -1 m (home). They touch when both are within 20 cm of the origin and nowhere else.
+// Two balls of 10 cm radius on linear axes that cross at the origin: "x" slides along x and "y"
+// along y, home at -1 m. They touch only if both are near the origin, within 20 cm of each other.
 inline CellDescription crossing_description() {
   CellDescription cell{.name = "crossing"};
   for (const std::string name : {"x", "y"}) {
@@ -45,7 +45,7 @@ inline CellDescription crossing_description() {
   return cell;
 }
 
-// A quintic of one slider from rest to rest, as a client would post it.
+// Returns a quintic motion of one slider from rest to rest.
 inline JobRequest slide(const std::string& arm, double from_m, double to_m, double duration_s,
                         std::string key = "") {
   JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
@@ -54,7 +54,7 @@ inline JobRequest slide(const std::string& arm, double from_m, double to_m, doub
   return request;
 }
 
-// A job that says where its arm is to go.
+// Returns a job with a goal.
 inline JobRequest move_to(const std::string& arm, double to_m, std::string key) {
   JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
   request.arm = arm;
@@ -62,7 +62,7 @@ inline JobRequest move_to(const std::string& arm, double to_m, std::string key) 
   return request;
 }
 
-// Keeps everything that is told.
+// Records all events. Fails the test if the guard refuses anything, unless may_refuse is set.
 struct Log final : Observer {
   void on_event(const Event& event) override {
     events.push_back(event);
@@ -78,7 +78,7 @@ struct Log final : Observer {
     if (first.size() == 0) first = measured;
     last = measured;
     if (measured.size() == 2) {
-      closest_m = std::min(closest_m, measured.norm() - 0.2);  // of the two balls of the crossing
+      closest_m = std::min(closest_m, measured.norm() - 0.2);  // of the crossing's two balls
     }
   }
   void on_state(const StateFrame&) override {}
@@ -86,10 +86,10 @@ struct Log final : Observer {
   std::vector<Event> events;
   Configuration first, last;
   double closest_m = 1e9;
-  bool may_refuse = false;  // the guard
+  bool may_refuse = false;  // set if the guard is expected to refuse
 };
 
-// The crossing cell on hand-driven time.
+// The crossing cell on simulated time.
 struct Crossing {
   explicit Crossing(CellDescription description = crossing_description(),
                     const std::string& policy = "timed_discrete") {
@@ -108,7 +108,7 @@ struct Crossing {
   }
   JobView job(const std::string& key) const { return *simulation->executive().job(key); }
   void run_until(TimePoint time) { simulation->run_until(time); }
-  // Until every job has ended; fails after `limit`.
+  // Runs until every job has ended; fails the test at `limit`.
   void run_to_the_end(TimePoint limit = at(60s)) {
     while (!simulation->executive().all_ended() && simulation->now() < limit) simulation->tick();
     EXPECT_TRUE(simulation->executive().all_ended()) << "jobs hang";

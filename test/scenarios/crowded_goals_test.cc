@@ -1,5 +1,4 @@
-// More goals than can all be reached, for more arms than have room: whatever becomes of each,
-// nothing stands for ever.
+// More goals than can all be reached, for more arms than have room: every job must still end.
 #include <algorithm>
 #include <random>
 
@@ -13,7 +12,7 @@ constexpr std::size_t kCrowd = 6;
 constexpr std::size_t kGoalsInAll = 24;
 constexpr double kPitch_m = 0.3;
 
-// Four columns and three rows between walls: one may pass another only where a place is free.
+// Four columns and three rows between walls: arms can pass each other only where a place is free.
 std::vector<Place_m> all_places() {
   std::vector<Place_m> places;
   for (int column = 0; column < 4; ++column) {

@@ -8,15 +8,14 @@
 
 namespace armloom {
 
-// Tells by plain geometry whether a crowded world can still be brought to its end: whole motions of
-// clients one after the other, or several that begin together, with the distances that solutions
-// keep. Moves aside that no client asks for are not among them. What it calls solvable is; what it
-// does not may still be for those who pause on the way.
+// Decides by plain geometry whether a crowded world can still be finished: by whole client motions
+// one after the other, or by several that start together, at the distances that solutions keep.
+// Sound but not complete: retreats and pauses on a path may solve more worlds.
 class CrowdedOracle {
  public:
   explicit CrowdedOracle(const CrowdedWorkload& world);
 
-  // `done`: by arm, how many of its motions have been made (or are certain to be).
+  // `done`: the number of each arm's motions that are finished (or certain to finish).
   [[nodiscard]] bool solvable(const std::vector<std::size_t>& done);
 
  private:
@@ -24,7 +23,7 @@ class CrowdedOracle {
   [[nodiscard]] Eigen::Vector2d stands(std::size_t arm, std::size_t done) const;
 
   const CrowdedWorkload& world_;
-  std::vector<std::vector<DiscMotion>> queues_;  // by arm, as submitted
+  std::vector<std::vector<DiscMotion>> queues_;  // by arm, in submission order
   std::map<std::vector<std::size_t>, bool> known_;
 };
 

@@ -13,7 +13,7 @@ namespace armloom {
 namespace {
 
 using namespace std::chrono_literals;
-// Builds one workload; gives up with nullopt where chance leads nowhere.
+// Builds one workload; returns nullopt if a random choice leads to a dead end.
 class Maker : private DiscRoom {
  public:
   Maker(Crowd crowd, std::uint64_t seed) : DiscRoom(seed) {
@@ -56,8 +56,8 @@ class Maker : private DiscRoom {
     return true;
   }
 
-  // Each of `count` goes where the next one stands; once or twice; one of them over a place aside
-  // first, or all together. One more may stand by.
+  // Moves each of `count` discs to the next disc's place, once or twice: one after the other, with
+  // one disc waiting elsewhere first, or all together. One more disc may rest nearby.
   bool exchange(std::size_t count) {
     half_m_ = random_.uniform(0.6, 0.9);
     const double radius = random_.uniform(count == 4 ? 0.45 : 0.4, 0.6);
@@ -82,7 +82,7 @@ class Maker : private DiscRoom {
     const auto aside = somewhere_free(first);
     if (!aside || !go(first, *aside)) return false;
     for (std::size_t n = 1; n <= count; ++n) {
-      const std::size_t arm = (first + count - n) % count;  // whose goal has been left
+      const std::size_t arm = (first + count - n) % count;  // the arm whose goal is free now
       if (!go(arm, goals[arm])) return false;
     }
     return true;
@@ -93,7 +93,7 @@ class Maker : private DiscRoom {
     std::vector<DiscMotion> group;
     for (std::size_t arm = 0; arm < count; ++arm) {
       Way way{stands_[arm], goals[arm]};
-      if (count == 2) {  // to the left of each other
+      if (count == 2) {  // pass on the left
         const Place along = goals[arm] - stands_[arm];
         const Place left(-along.y(), along.x());
         way.insert(way.begin() + 1, stands_[arm] + 0.5 * along + 0.4 * left);
@@ -127,8 +127,8 @@ class Maker : private DiscRoom {
     return true;
   }
 
-  // The first goes to its place and has no more to do; then the others have to pass there, or to
-  // go there: it goes home again. Where its home is in the way later, there is no such workload.
+  // The first disc moves to its place and has no more jobs. Then the others must pass there or go
+  // there, so it goes home again. Fails if its home would block them.
   bool parked() {
     half_m_ = random_.uniform(0.6, 0.8);
     const std::size_t arms = 2 + random_.index(3);

@@ -10,31 +10,32 @@
 
 namespace armloom {
 
-// Crowded worlds with a known solution: discs of 10 cm radius in one plane, each carried by two
-// linear axes, who are in each other's way. Places are in metres.
+// Crowded worlds with a known solution: discs of 10 cm radius in one plane, each on two linear
+// axes, that block each other. Places are in meters.
 
-inline constexpr double kDiscDistance_m = 0.2;  // of two centres, in contact
-// What solutions keep between centres: more than contact, clearance and tracking error together.
+inline constexpr double kDiscDistance_m = 0.2;  // between two centers in contact
+// Distances between centers that solutions keep: larger than contact, clearance and tracking error
+// together.
 inline constexpr double kKeptOneByOne_m = 0.26;
 inline constexpr double kKeptTogether_m = 0.28;
 
 enum class Crowd {
-  swap,    // two exchange their places
-  ring3,   // three, each goes where the next one stands
-  ring4,   // four
-  queues,  // two to four with two or three jobs each, all across each other
-  parked,  // one has come to rest for good where others have to pass or to go
+  swap,    // two discs exchange places
+  ring3,   // three discs, each moves to the next one's place
+  ring4,   // the same with four
+  queues,  // two to four discs with two or three jobs each, all crossing
+  parked,  // one disc rests for good where others must pass or go
 };
 inline constexpr Crowd kCrowds[] = {Crowd::swap, Crowd::ring3, Crowd::ring4, Crowd::queues,
                                     Crowd::parked};
 [[nodiscard]] const char* to_string(Crowd crowd);
 
-// Straight legs, at rest at every waypoint; all legs of the same law.
+// Straight segments, at rest at every waypoint; all with the same time law.
 struct DiscMotion {
   std::size_t arm;
-  std::vector<Eigen::Vector2d> way;  // from where it stands; at least two
+  std::vector<Eigen::Vector2d> way;  // from the current place; at least two
   std::vector<double> times_s;       // of each waypoint, from zero
-  bool of_a_client = true;           // else a move aside that nobody asks for
+  bool of_a_client = true;           // false: a retreat that no client requests
   [[nodiscard]] Eigen::Vector2d at(double time_s) const;
   [[nodiscard]] double duration_s() const { return times_s.back(); }
 };
@@ -42,15 +43,16 @@ struct DiscMotion {
 struct CrowdedWorkload {
   Crowd crowd;
   std::uint64_t seed;
-  std::vector<Eigen::Vector2d> homes;  // by arm: where it stands at first
-  // The solution: groups of motions, one group after the other; those of one group begin together.
+  std::vector<Eigen::Vector2d> homes;  // by arm: its first place
+  // The solution: groups of motions, one group after the other. Motions of one group start
+  // together.
   std::vector<std::vector<DiscMotion>> solution;
-  // The clients' motions of it as they are submitted: another order between the arms at the same
-  // instant, or the solution's order with pauses between. Each arm's own order is kept.
+  // The client motions of the solution as submitted: all at once in another order between arms, or
+  // in the solution's order with delays. Each arm keeps its order.
   struct Submitted {
     double at_s;
     DiscMotion motion;
-    std::vector<std::size_t> after;  // indices of those that have to succeed before it
+    std::vector<std::size_t> after;  // indices of its predecessors
   };
   std::vector<Submitted> submitted;
 
@@ -58,7 +60,7 @@ struct CrowdedWorkload {
   [[nodiscard]] std::vector<TimedJob> jobs() const;  // keys: "<arm><n>", n from 1
 };
 
-// The smallest distance between any two discs, as measured at every tick.
+// Records the smallest distance between any two discs at every tick.
 struct ClosestDiscs final : Observer {
   void on_event(const Event&) override {}
   void on_state(const StateFrame&) override {}
@@ -75,15 +77,15 @@ struct ClosestDiscs final : Observer {
   TimePoint when{};
 };
 
-// The arm's name: "a", "b", ...
+// Returns the arm's name: "a", "b", ...
 [[nodiscard]] std::string disc_name(std::size_t arm);
 
-// The same for the same seed. Throws std::runtime_error when no workload is found (never seen).
+// Deterministic in its arguments. Throws std::runtime_error if no workload is found (never seen).
 [[nodiscard]] CrowdedWorkload make_crowded(Crowd crowd, std::uint64_t seed);
 
-// The smallest distance between any two centres while the solution is executed, found with plain
-// geometry at 1 ms; minus what is missing to kKeptTogether_m where groups of several move.
-// At least kKeptOneByOne_m for what make_crowded gives.
+// Returns the smallest distance between any two centers during the solution, by plain geometry at 1
+// ms. For groups of several motions the difference kKeptTogether_m - kKeptOneByOne_m is subtracted.
+// At least kKeptOneByOne_m for every result of make_crowded().
 [[nodiscard]] double smallest_kept_m(const CrowdedWorkload& workload);
 
 }  // namespace armloom

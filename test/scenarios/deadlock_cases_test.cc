@@ -1,5 +1,4 @@
-// T10: jobs that block each other's goals, two in a swap and three in a ring, beside an arm that
-// has nothing to do with it.
+// T10: jobs that block each other's goals in a swap, while an uninvolved arm is present.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/polygon.h"
@@ -7,10 +6,10 @@
 namespace armloom {
 namespace {
 
-class T10 : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Policies, T10, ::testing::ValuesIn(known_policies()));
+class GoalSwap : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, GoalSwap, ::testing::ValuesIn(known_policies()));
 
-TEST_P(T10, ASwapOfTwoGoalsIsNamedAtOnceAndTheLastJobGivesWay) {
+TEST_P(GoalSwap, ReportsTheCycleAtOnceAndFailsTheLastJob) {
   Crossing cell(polygon(2), GetParam());
   cell.run_until(at(1s));
   cell.submit(slide("a", -1, 1, 4, "one"));
@@ -26,13 +25,12 @@ TEST_P(T10, ASwapOfTwoGoalsIsNamedAtOnceAndTheLastJobGivesWay) {
   EXPECT_EQ(failed.reason(), Reason::deadlock);
   EXPECT_EQ(
       failed.detail(),
-      "two -> one -> two: none of them can move before the next one does; a job before them that "
-      "moves an arm out of the others' way would open the ring, or \"on_idle_blocker\": "
-      "\"park\" or \"replan\" in the cell's scheduling, which send one aside where there is a free "
-      "way");
+      "two -> one -> two: each waits for the next one, so none can move; submit a job before them "
+      "that moves an arm out of the others' paths, or set \"on_idle_blocker\": \"park\" or "
+      "\"replan\" in the cell's scheduling, so that an arm retreats if a path is free");
   const JobView stays = cell.job("one");
   EXPECT_EQ(stays.state, JobState::backlogged);
-  EXPECT_TRUE(stays.ring.empty());
+  EXPECT_TRUE(stays.cycle.empty());
   ASSERT_EQ(stays.waits_on.size(), 1u);
   EXPECT_EQ(stays.waits_on.front().kind, Wait::Kind::arm);
   EXPECT_EQ(stays.waits_on.front().arm, "b");
@@ -41,7 +39,7 @@ TEST_P(T10, ASwapOfTwoGoalsIsNamedAtOnceAndTheLastJobGivesWay) {
   EXPECT_EQ(cell.job("one").state, JobState::expired) << "nothing ever moved arm b away";
 }
 
-TEST_P(T10, ACheckSaysWhichRingTheJobWouldCloseAndHowItWouldEnd) {
+TEST_P(GoalSwap, CheckReportsTheCycleThatTheJobWouldClose) {
   Crossing cell(polygon(2), GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.run_until(at(100ms));

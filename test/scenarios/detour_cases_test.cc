@@ -1,4 +1,4 @@
-// Goals whose shortest way has to wait for others: another way where that is sooner (detour.h).
+// Goals whose shortest path has to wait for other arms: a detour if that arrives sooner (detour.h).
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -8,7 +8,7 @@
 namespace armloom {
 namespace {
 
-// b comes into the middle, stays there for so long, and leaves it sideways.
+// b enters the middle, rests there for stays_s, and leaves sideways.
 JobRequest across(double stays_s) {
   JobRequest request = go("b", {1, 0}, {0, 0}, 2.0, "b");
   auto& points = request.trajectory.points;
@@ -18,10 +18,10 @@ JobRequest across(double stays_s) {
   return request;
 }
 
-// By these policies an arm may pass where another one is at another time.
+// Runs under policies that let an arm pass where another arm is at another time.
 class Detours : public ::testing::TestWithParam<std::string> {
  protected:
-  // When a has come to (0.6, 0) from (-1, 0), past b in the middle.
+  // Returns the time at which a reaches (0.6, 0) from (-1, 0), past b in the middle.
   double arrives_s(const JobRequest& of_a, double b_stays_s, TimePoint sent = at(1s)) {
     cell.emplace(gantries(OnIdleBlocker::report), GetParam());
     cell->submit(across(b_stays_s));
@@ -39,36 +39,35 @@ class Detours : public ::testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Policies, Detours,
                          ::testing::Values("certified", "earliest_start", "coordinated"));
 
-TEST_P(Detours, WhereWaitingIsDearItGoesAnotherWayRound) {
+TEST_P(Detours, AreTakenIfWaitingTakesLonger) {
   EXPECT_LT(arrives_s(to_place("a", {0.6, 0.0}, "a"), 30.0), 20.0);
   EXPECT_GT(cell->farthest_off_m(), 0.2);
   const auto detour = cell->job("a").ways.detour;
   ASSERT_TRUE(detour);
   EXPECT_GE(detour->candidates_evaluated, 1U);
   EXPECT_TRUE(detour->is_selected);
-  // With a start now, or none, there is nothing that it saves against.
+  // If the shortest path could start now, or never, there is no time saved.
   const double least_s = GetParam() == "certified" ? 0.0 : 10.0;
   EXPECT_GE(detour->time_saved_s.value_or(0.0), least_s) << "b stays for 30 s";
 }
 
-TEST_P(Detours, WhereWaitingIsCheapItTakesTheShortestWay) {
+TEST_P(Detours, AreNotTakenIfWaitingIsShort) {
   (void)arrives_s(to_place("a", {0.6, 0.0}, "a"), 0.0, at(2500ms));
   EXPECT_LT(cell->farthest_off_m(), 0.01);
   EXPECT_FALSE(cell->job("a").ways.detour && cell->job("a").ways.detour->is_selected);
 }
 
-// What a client gives a trajectory for goes by that.
-TEST_P(Detours, ATrajectoryWaitsForItsTurn) {
+TEST_P(Detours, AreNotTakenByTrajectories) {
   EXPECT_GT(arrives_s(go("a", {-1, 0}, {0.6, 0}, 3.0, "a"), 30.0), 30.0);
 }
 
-TEST_P(Detours, AreAFewForOnePlaceThatIsHeld) {
+TEST_P(Detours, NeedFewPlansForOneBlockedPlace) {
   (void)arrives_s(to_place("a", {0.6, 0.0}, "a"), 30.0);
   EXPECT_LE(cell->planning().plans, 5U) << "its own way, and those around";
 }
 
-// Prints what it is worth: arrivals by goals, and by the straight ways as trajectories.
-TEST_P(Detours, NeverArriveMuchLaterThanByTheStraightWay) {
+// Prints the benefit: mean arrivals of goals, and of the straight paths as trajectories.
+TEST_P(Detours, NeverArriveMuchLaterThanTheStraightPath) {
   std::mt19937_64 random(1);
   double goals_s = 0.0, lines_s = 0.0;
   std::uint64_t evaluations = 0;

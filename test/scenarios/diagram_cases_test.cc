@@ -3,9 +3,9 @@
 namespace armloom {
 namespace {
 
-class DiagramCases : public testing::Test {
+class DiagramOfJobs : public testing::Test {
  protected:
-  // Asks, and turns the clock until the answer is there.
+  // Requests the diagram and ticks until it arrives.
   Result<DiagramView> diagram(const std::string& a, const std::string& b) {
     std::optional<Result<DiagramView>> answer;
     crossing_.simulation->executive().diagram(
@@ -18,8 +18,8 @@ class DiagramCases : public testing::Test {
   Crossing crossing_{crossing_description(), "certified"};
 };
 
-// Both go from -1 m to 1 m in 2 s and pass the origin, where they are too close.
-TEST_F(DiagramCases, HasItsConflictWhereBothAreAtTheOriginAndNowhereNearAnyCorner) {
+// Both move from -1 m to 1 m in 2 s and pass the origin, where they are too close.
+TEST_F(DiagramOfJobs, ShowsTheConflictAtTheOriginOnly) {
   crossing_.submit(slide("x", -1.0, 1.0, 2.0, "x"));
   crossing_.submit(slide("y", -1.0, 1.0, 2.0, "y"));
   const auto view = diagram("x", "y");
@@ -41,7 +41,7 @@ TEST_F(DiagramCases, HasItsConflictWhereBothAreAtTheOriginAndNowhereNearAnyCorne
   EXPECT_TRUE(middle_conflicts);
 }
 
-TEST_F(DiagramCases, ChangesNoVerdictOfTheRun) {
+TEST_F(DiagramOfJobs, DoesNotChangeVerdicts) {
   const auto run = [](bool look) {
     Crossing crossing(crossing_description(), "certified");
     crossing.submit(slide("x", -1.0, 1.0, 2.0, "x"));
@@ -62,7 +62,7 @@ TEST_F(DiagramCases, ChangesNoVerdictOfTheRun) {
   EXPECT_EQ(run(false), run(true));
 }
 
-TEST_F(DiagramCases, OfJobsThatWereForgottenIsRefused) {
+TEST_F(DiagramOfJobs, IsRefusedForUnknownJobs) {
   crossing_.submit(slide("x", -1.0, 1.0, 2.0, "x"));
   const auto view = diagram("x", "gone");
   ASSERT_FALSE(view);

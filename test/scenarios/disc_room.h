@@ -14,10 +14,10 @@ using Place = Eigen::Vector2d;
 using Way = std::vector<Place>;
 
 [[nodiscard]] double distance_to_leg(const Place& point, const Place& from, const Place& to);
-// Straight legs along the way, each at this speed but no shorter than 0.4 s.
+// Follows straight segments at the given speed, but takes at least 0.4 s for each.
 [[nodiscard]] DiscMotion disc_motion(std::size_t arm, Way way, double speed_m_s);
 
-// A square in which discs stand, and where one of them could go while the others stand.
+// A square with discs at rest; finds free places and paths for one disc among the others.
 class DiscRoom {
  public:
   explicit DiscRoom(std::uint64_t seed) : random_(seed) {}
@@ -30,7 +30,8 @@ class DiscRoom {
   [[nodiscard]] bool is_free(const Way& way, std::size_t arm) const;
   bool stand_at_random(std::size_t count);
   [[nodiscard]] std::optional<Place> somewhere_free(std::size_t arm);
-  // Straight if that is free, else over one or two random places.
+  // Returns a straight path if free, else a path over one or two random places; nullopt if none is
+  // found.
   [[nodiscard]] std::optional<Way> way(std::size_t arm, const Place& to);
   template <class T>
   void shuffle(std::vector<T>& list) {
@@ -38,7 +39,7 @@ class DiscRoom {
   }
 
   Random random_;
-  double half_m_ = 0.8;        // of the square in which all places are
+  double half_m_ = 0.8;        // half the side of the square that holds all places
   std::vector<Place> stands_;  // by arm
 };
 

@@ -1,4 +1,3 @@
-// Jobs that are judged against each other without running them.
 #include <gtest/gtest.h>
 
 #include "core/executive/dry_run.h"
@@ -7,7 +6,7 @@
 namespace armloom {
 namespace {
 
-TEST(DryRun, UnderCoordinatedJobsThatGoTogetherAreFree) {
+TEST(DryRun, ReportsJobsThatCanOnlyStartTogetherAsFree) {
   const auto cell = build_cell(polygon(3));
   ASSERT_TRUE(cell);
   const std::vector<TimedJob> jobs{{at(0s), slide("a", -1, 1, 4, "one")},
@@ -23,7 +22,7 @@ TEST(DryRun, UnderCoordinatedJobsThatGoTogetherAreFree) {
   EXPECT_EQ(alone->front().verdict.kind, Verdict::Kind::conflict);
 }
 
-TEST(DryRun, RefusesACellWhoseArmsAreTooCloseAtHomeAsTheServerDoes) {
+TEST(DryRun, RefusesACellWhoseArmsAreTooCloseAtHome) {
   CellDescription description = crossing_description();
   description.robots[1].X_WB = description.robots[0].X_WB;
   const auto cell = build_cell(description);
@@ -36,8 +35,8 @@ TEST(DryRun, RefusesACellWhoseArmsAreTooCloseAtHomeAsTheServerDoes) {
   EXPECT_EQ(checked.error().front().pointer, served.error().front().pointer);
 }
 
-// Each from where the one before it ends; both cross in the middle.
-TEST(DryRun, PlansGoalsFromWhereTheJobsBeforeThemLeaveTheArms) {
+// Each goal starts where the arm's previous job ends; the first two cross in the middle.
+TEST(DryRun, PlansGoalsFromTheEndsOfEarlierJobs) {
   const auto cell = build_cell(crossing_description());
   ASSERT_TRUE(cell);
   const auto checked = check_jobs(*cell, "certified",
@@ -54,7 +53,7 @@ TEST(DryRun, PlansGoalsFromWhereTheJobsBeforeThemLeaveTheArms) {
   EXPECT_FALSE(checked->at(3).verdict.result);
 }
 
-TEST(DryRun, SaysOfAGoalWithoutAWayHowItWouldEndAndWhatComesAfterIt) {
+TEST(DryRun, ReportsTheEndOfAGoalWithoutAPathAndOfItsSuccessor) {
   CellDescription description = crossing_description();
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   X_WO.translation() = Eigen::Vector3d(0.5, 0.0, 0.0);

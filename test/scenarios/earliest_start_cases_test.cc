@@ -1,4 +1,4 @@
-// Jobs under earliest_start, and late arms (T5, T9), through the whole executive on simulated time.
+// Jobs under earliest_start, and late arms (T5), through the executive on simulated time.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"
@@ -8,7 +8,7 @@ namespace {
 
 double seconds(const std::optional<TimePoint>& time) { return to_seconds(*time); }
 
-TEST(EarliestStart, CrossingJobsEndSoonerThanWhenOneWaitsForTheOthersEnd) {
+TEST(EarliestStart, FinishesCrossingJobsSoonerThanCertified) {
   struct Run {
     double end_s, start_s, closest_m;
   };
@@ -29,7 +29,7 @@ TEST(EarliestStart, CrossingJobsEndSoonerThanWhenOneWaitsForTheOthersEnd) {
   EXPECT_GE(earliest.closest_m, 0.02) << "the cell's clearance";
 }
 
-TEST(EarliestStart, IsShownBeforeItComesAndKept) {
+TEST(EarliestStart, IsPublishedAheadAndKept) {
   Crossing cell(crossing_description(), "earliest_start");
   cell.submit(slide("x", -1, 1, 4, "first"));
   cell.submit(slide("y", -1, 1, 4, "second"));
@@ -43,7 +43,7 @@ TEST(EarliestStart, IsShownBeforeItComesAndKept) {
   EXPECT_NEAR(seconds(cell.job("second").times.started_at), seconds(told.times.scheduled_at), 0.02);
 }
 
-TEST(EarliestStart, OfWhatWaitsForACanceledJobMovesForward) {
+TEST(EarliestStart, MovesForwardIfTheBlockerIsCanceled) {
   Crossing cell(crossing_description(), "earliest_start");
   cell.submit(slide("x", -1, 1, 10, "first"));
   cell.submit(slide("y", -1, 1, 10, "second"));
@@ -59,12 +59,12 @@ TEST(EarliestStart, OfWhatWaitsForACanceledJobMovesForward) {
   EXPECT_GE(cell.log.closest_m, 0.02);
 }
 
-class Policies : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Late, Policies,
+class LateArm : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Late, LateArm,
                          ::testing::Values("certified", "earliest_start", "coordinated"));
 
-TEST_P(Policies, T5ALateStartAndASlowArmTouchNobodyAndEveryJobSucceeds) {
-  // The other job comes so that both would meet if clocks were believed.
+TEST_P(LateArm, TouchesNothingAndEveryJobSucceeds) {
+  // T5. The other job is timed so that both would meet if the server trusted clocks.
   for (Duration when = 0ms; when <= 5s; when += 250ms) {
     for (const FaultRequest& fault :
          {FaultRequest{.arm = "x", .kind = ArmFault::Kind::late_start, .value = 2.0},

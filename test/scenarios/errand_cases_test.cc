@@ -1,12 +1,11 @@
-// Moves of the server's own that are left when the job that they were to help is gone: "b" went
-// aside for "x" and is to return where its own job, "y", begins; but "y" is canceled, and "a" has
-// come to rest there.
+// A server-initiated motion that outlives its purpose. b retreated for "x" and must return to the
+// start of its own job "y"; then "y" is canceled, and a rests there.
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {
 namespace {
 
-class Errands : public ::testing::TestWithParam<std::string> {
+class ReturnMotions : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {
     cell.emplace(gantries(OnIdleBlocker::park), GetParam());
@@ -26,16 +25,16 @@ class Errands : public ::testing::TestWithParam<std::string> {
   }
   std::optional<TwoGantries> cell;
 };
-INSTANTIATE_TEST_SUITE_P(Policies, Errands, ::testing::ValuesIn(known_policies()));
+INSTANTIATE_TEST_SUITE_P(Policies, ReturnMotions, ::testing::ValuesIn(known_policies()));
 
-TEST_P(Errands, ArmsMakeWayForAReturnOnWhichTheNextJobCounts) {
+TEST_P(ReturnMotions, AreGivenWayIfTheNextJobStartsThere) {
   cell->submit(go("b", {0, 1}, {1, 1}, 2, "next"));
   cell->run_to_the_end(at(45s));
   EXPECT_EQ(cell->job("next").state, JobState::succeeded) << cell->job("next").detail();
   cell->expect_at("b", {1, 1});
 }
 
-TEST_P(Errands, NobodyWaitsForAReturnOnWhichTheNextJobDoesNotCount) {
+TEST_P(ReturnMotions, AreCanceledIfTheNextJobCanStartAnywhere) {
   JobRequest goal{.key = "next", .name = "", .trajectory = {}};
   goal.arm = "b";
   goal.move_to = PlanGoal{.joints = std::vector{1.0, -1.0}, .named = {}, .pose = {}};

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Every cell, as a user runs it: validate, simulate its jobs, audit.
+"""Runs every cell like a user: validate, simulate its jobs, audit.
 
     test/scenarios/every_cell.py ARMLOOM
 
-Checks of each that nothing is wrong with it, that all its jobs (at least 12) succeed under
-timed_discrete, some after waiting for another arm, without a stop by the monitor, and that the
-audit finds no contact; of the cell with meshes the same, but for the waiting, under every policy.
+For each cell under timed_discrete (the cell with meshes under every policy):
+- validate finds no fault,
+- all jobs (at least 12) succeed, some after waiting for another arm (timed_discrete only),
+- the monitor stops nothing,
+- the audit finds no contact.
 """
 import json
 import pathlib
@@ -35,7 +37,7 @@ def check(claim, holds, figure):
 
 
 def waited_for_another_arm(folder):
-    """Ids of jobs that were backlogged because another arm's job or rest was in the way."""
+    """Returns ids of jobs that were backlogged because of another arm's job or rest."""
     waited = set()
     for line in (folder / "events.jsonl").read_text().splitlines():
         event = json.loads(line)
@@ -51,18 +53,18 @@ def run_cell(armloom, name, scratch):
     total = len(json.loads(jobs.read_text()))
     check(f"{name} has at least 12 jobs", total >= 12, total)
     verdict = run(armloom, "validate", "--cell", cell)
-    check(f"nothing is wrong with {name}", verdict == "no fault found", verdict)
+    check(f"validate finds no fault in {name}", verdict == "no fault found", verdict)
 
     recording, busy = run_jobs(armloom, cell, jobs, "timed_discrete", scratch)
     waited = waited_for_another_arm(recording)
     check("some waited for another arm", len(waited) >= 2, waited)
-    check("the arms run beside each other", sum(busy.values()) > 1, busy)
+    check("the arms run concurrently", sum(busy.values()) > 1, busy)
     for policy in POLICIES if name == EVERY_POLICY else ():
         run_jobs(armloom, cell, jobs, policy, scratch)
 
 
 def run_jobs(armloom, cell, jobs, policy, scratch):
-    """(The recording's folder, how busy the arms were) of a run that is as it should be."""
+    """Simulates and audits; returns the recording's folder and the busy ratio of each arm."""
     recording = pathlib.Path(scratch) / f"{cell.stem}_{policy}"
     result = json.loads(run(armloom, "simulate", "--cell", cell, "--jobs", jobs, "--seed", "7",
                             "--policy", policy, "--out", recording))

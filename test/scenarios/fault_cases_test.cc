@@ -1,5 +1,4 @@
-// The design's defect cases T6 and T7: arms that fault, stall, run slowly or start late; jobs that
-// are canceled in motion. Through the whole executive, on hand-driven time.
+// Defect cases T6 and T7 of DESIGN.md, section 1, on simulated time.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"
@@ -7,7 +6,7 @@
 namespace armloom {
 namespace {
 
-// The crossing, and a third axis far above it that nobody can touch.
+// Returns the crossing with a third axis far above it, out of reach.
 CellDescription crossing_and_far() {
   CellDescription description = crossing_description();
   RobotDescription far = description.robots[0];
@@ -22,8 +21,8 @@ void inject(Crossing& cell, FaultRequest fault) {
   ASSERT_TRUE(cell.simulation->executive().faults().inject(fault));
 }
 
-// x has left the crossing when y comes to it, unless x stalls there.
-TEST(T6, AStalledArmStopsOnlyThoseItEndangers) {
+// T6. x has left the crossing when y arrives, unless x stalls there.
+TEST(FaultyArm, StallStopsOnlyEndangeredArms) {
   Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, 1, 4, "stalls"));
   cell.run_until(at(700ms));
@@ -44,7 +43,7 @@ TEST(T6, AStalledArmStopsOnlyThoseItEndangers) {
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
 }
 
-TEST(T6, AFaultFailsItsJobAndStopsOnlyThoseItEndangers) {
+TEST(FaultyArm, FaultFailsItsJobAndStopsOnlyEndangeredArms) {
   Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, 1, 4, "faults"));
   cell.run_until(at(700ms));
@@ -59,7 +58,7 @@ TEST(T6, AFaultFailsItsJobAndStopsOnlyThoseItEndangers) {
   EXPECT_EQ(cell.job("endangered").waits_on.front().arm, "x");
   EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
 
-  // The arm is taken out of the way after a resume.
+  // After a resume a job moves the arm away.
   const double stands = cell.log.last[0];
   resume_all(cell.simulation->executive());
   cell.submit(slide("x", stands, 1.5, 4, "taken away"));
@@ -67,9 +66,7 @@ TEST(T6, AFaultFailsItsJobAndStopsOnlyThoseItEndangers) {
   EXPECT_EQ(cell.job("endangered").state, JobState::succeeded);
 }
 
-// Around the end of one job and the start of the next there is no millisecond in which a fault is
-// lost: it ends the motion that moves, or else the next one.
-TEST(T6, AFaultStrikesWheneverItComes) {
+TEST(FaultyArm, FaultBetweenTwoJobsIsNotLost) {
   for (Duration from = 1990ms; from < 2200ms; from += 1ms) {
     CellDescription description = crossing_description();
     description.robots[0].controller.lag = 20ms;
@@ -87,7 +84,7 @@ TEST(T6, AFaultStrikesWheneverItComes) {
   }
 }
 
-TEST(T6, AnArmThatMovesNoMoreEndsItsJobAndLeavesTheOthersAlone) {
+TEST(FaultyArm, OverrunFailsOnlyItsJob) {
   Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, -0.5, 2, "overruns"));
   cell.submit(slide("far", -1, 1, 8, "unconcerned"));
@@ -100,7 +97,7 @@ TEST(T6, AnArmThatMovesNoMoreEndsItsJobAndLeavesTheOthersAlone) {
   EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
 }
 
-TEST(T7, ACanceledJobBrakesAndItsReservationShrinksToWhereItStands) {
+TEST(CanceledInMotion, BrakesAndShrinksItsReservation) {
   Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   cell.submit(slide("far", -1, 1, 4, "other"));
@@ -119,7 +116,7 @@ TEST(T7, ACanceledJobBrakesAndItsReservationShrinksToWhereItStands) {
   EXPECT_NEAR(to_seconds(*cell.job("other").times.ended_at), 4.0, 0.3) << "undisturbed";
 }
 
-TEST(Fault, CanBeTakenAwayAgain) {
+TEST(InjectedFault, CanBeRemoved) {
   Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, -0.5, 2, "stalls"));
   const auto fault =

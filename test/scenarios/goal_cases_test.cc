@@ -1,4 +1,3 @@
-// Jobs that say where to go: planned on the way, then jobs like any other.
 #include "test/scenarios/crossing.h"
 
 namespace armloom {
@@ -21,7 +20,7 @@ class Goals : public ::testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Policies, Goals, ::testing::ValuesIn(known_policies()));
 
-TEST_P(Goals, AJobWaitsForItsPlanAndThenGoesThere) {
+TEST_P(Goals, WaitForTheirPlanAndThenRun) {
   const JobView accepted = cell->submit(move_to("x", 0.5, "there"));
   EXPECT_EQ(accepted.motion.planned, false);
   EXPECT_EQ(accepted.arms, std::vector<std::string>{"x"});
@@ -32,7 +31,7 @@ TEST_P(Goals, AJobWaitsForItsPlanAndThenGoesThere) {
   expect_at(0.5, -1.0);
 }
 
-TEST_P(Goals, OneBehindAnotherBeginsWhereThatEnds) {
+TEST_P(Goals, StartWhereThePreviousJobEnds) {
   cell->submit(move_to("x", 0.5, "a"));
   cell->submit(move_to("x", -0.5, "b"));
   cell->submit(slide("x", -0.5, 0.3, 1.0, "c"));
@@ -41,7 +40,7 @@ TEST_P(Goals, OneBehindAnotherBeginsWhereThatEnds) {
   expect_at(0.3, -1.0);
 }
 
-TEST_P(Goals, TwoThatCrossBothArriveAndNeverTouch) {
+TEST_P(Goals, ThatCrossAreBothReachedWithoutContact) {
   cell->submit(move_to("x", 1.0, "x"));
   cell->submit(move_to("y", 1.0, "y"));
   cell->run_to_the_end(at(20s));
@@ -49,7 +48,7 @@ TEST_P(Goals, TwoThatCrossBothArriveAndNeverTouch) {
   EXPECT_GT(cell->log.closest_m, 0.0);
 }
 
-TEST_P(Goals, OneThatIsBehindAnObjectFailsWithThePlannersReason) {
+TEST_P(Goals, FailWithThePlannersReasonBehindAnObject) {
   ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("post", 0.5, 0.0)));
   cell->submit(move_to("x", 0.5, "into it"));
   cell->run_to_the_end(at(10s));
@@ -59,9 +58,9 @@ TEST_P(Goals, OneThatIsBehindAnObjectFailsWithThePlannersReason) {
   expect_at(-1.0, -1.0);
 }
 
-// What the arm stands too close to is no matter of where it is to go. (Nearer than this an object
-// is refused.)
-TEST_P(Goals, WhereAnObjectTouchesTheArmTheyWaitForItToGo) {
+// An object that touches the arm at its start does not make its goal unreachable. (A closer object
+// would be refused.)
+TEST_P(Goals, WaitUntilAnObjectThatTouchesTheArmIsRemoved) {
   cell->submit(move_to("x", -0.8, "before"));
   cell->run_to_the_end(at(10s));
   ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -0.8, 0.165)));
@@ -87,7 +86,7 @@ TEST_P(Goals, WhereAnObjectTouchesTheArmTheyWaitForItToGo) {
   expect_at(0.25, -1.0);
 }
 
-TEST_P(Goals, WhereAnObjectTouchesTheArmTheyExpireAfterTheirTimeout) {
+TEST_P(Goals, ExpireIfAnObjectKeepsTouchingTheArm) {
   ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -1.0, 0.165)));
   JobRequest goal = move_to("x", 0.5, "goal");
   goal.terms.backlog_timeout = 5s;
@@ -99,8 +98,7 @@ TEST_P(Goals, WhereAnObjectTouchesTheArmTheyExpireAfterTheirTimeout) {
   EXPECT_LT(cell->simulation->now(), at(6s));
 }
 
-// Changes of the scene that leave it as it is are no tries that are used up.
-TEST_P(Goals, TheyWaitHoweverOftenElseTheSceneChanges) {
+TEST_P(Goals, KeepWaitingThroughUnrelatedSceneChanges) {
   ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("hand", -1.0, 0.165)));
   cell->submit(move_to("x", 0.5, "goal"));
   for (int i = 0; i < 12; ++i) {
@@ -114,8 +112,8 @@ TEST_P(Goals, TheyWaitHoweverOftenElseTheSceneChanges) {
   EXPECT_EQ(cell->job("goal").state, JobState::succeeded) << cell->job("goal").detail();
 }
 
-// The plan was made without the object, and is made again with it.
-TEST_P(Goals, APlanOfAnotherSceneIsMadeAgain) {
+// The first plan was made without the object; the second plan includes it.
+TEST_P(Goals, AreReplannedIfTheSceneChanged) {
   cell->submit(move_to("x", 0.5, "late"));
   ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("post", 0.5, 0.0)));
   cell->run_to_the_end(at(10s));
@@ -123,7 +121,7 @@ TEST_P(Goals, APlanOfAnotherSceneIsMadeAgain) {
   expect_at(-1.0, -1.0);
 }
 
-TEST_P(Goals, APlanFromElsewhereIsMadeAgain) {
+TEST_P(Goals, AreReplannedIfTheStartChanged) {
   cell->submit(slide("x", -1, 0, 2, "first"));
   cell->submit(move_to("x", 0.5, "then"));
   cell->run_until(at(1s));
@@ -134,7 +132,7 @@ TEST_P(Goals, APlanFromElsewhereIsMadeAgain) {
   expect_at(0.5, -1.0);
 }
 
-TEST_P(Goals, WhatIsBehindOneThatFailsIsToldAtOnce) {
+TEST_P(Goals, FailTheNextTrajectoryAtOnceIfTheyFail) {
   ASSERT_TRUE(cell->simulation->executive().scene().add(box_at("post", 0.5, 0.0)));
   cell->submit(move_to("x", 0.5, "fails"));
   cell->submit(slide("x", 0.5, 0.0, 1.0, "cannot begin"));
@@ -146,8 +144,7 @@ TEST_P(Goals, WhatIsBehindOneThatFailsIsToldAtOnce) {
   expect_at(0.0, -1.0);
 }
 
-// Nobody waits in vain where what it was told has changed as often as it was asked.
-TEST_P(Goals, ASceneThatNeverStaysEndsTheTries) {
+TEST_P(Goals, FailIfTheSceneChangesDuringEveryAttempt) {
   cell->submit(move_to("x", 0.5, "restless"));
   for (int i = 0; i < 20 && !cell->simulation->executive().all_ended(); ++i) {
     const std::string name = "fly " + std::to_string(i);
@@ -157,13 +154,13 @@ TEST_P(Goals, ASceneThatNeverStaysEndsTheTries) {
   EXPECT_EQ(cell->job("restless").reason(), Reason::no_plan);
 }
 
-TEST_P(Goals, OneThatIsReachedAlreadyIsDone) {
+TEST_P(Goals, SucceedIfAlreadyReached) {
   cell->submit(move_to("x", -1.0, "here"));
   cell->run_to_the_end(at(10s));
   EXPECT_EQ(cell->job("here").state, JobState::succeeded) << cell->job("here").detail();
 }
 
-TEST_P(Goals, OneThatIsCanceledBeforeItsPlanIsThereStaysCanceled) {
+TEST_P(Goals, StayCanceledIfCanceledBeforeTheirPlan) {
   cell->submit(move_to("x", 0.5, "never"));
   ASSERT_TRUE(cell->simulation->executive().cancel("never"));
   cell->run_until(at(2s));
@@ -171,8 +168,8 @@ TEST_P(Goals, OneThatIsCanceledBeforeItsPlanIsThereStaysCanceled) {
   expect_at(-1.0, -1.0);
 }
 
-// Who stands there may leave: that is for the schedule to see, as with a trajectory.
-TEST_P(Goals, WhereAnotherArmStandsItWaitsForThatOne) {
+// Planning ignores an arm that could still leave; the schedule waits for it, as for a trajectory.
+TEST_P(Goals, WaitForAnArmInTheirWay) {
   cell->submit(slide("y", -1, 0, 2, "in the way"));
   cell->run_until(at(3s));
   cell->submit(move_to("x", 0.5, "passes"));
@@ -187,7 +184,7 @@ TEST_P(Goals, WhereAnotherArmStandsItWaitsForThatOne) {
   expect_at(0.5, 1.0);
 }
 
-TEST_P(Goals, APoseIsReachedAndTheNextJobMayBeginThere) {
+TEST_P(Goals, ThatArePosesAreReachedAndTheNextJobCanStartThere) {
   JobRequest pose{.key = "pose", .name = "", .trajectory = {}};
   pose.arm = "x";
   pose.move_to = PlanGoal{.joints = {}, .named = {}, .pose = PlanPose{}};
@@ -202,7 +199,7 @@ TEST_P(Goals, APoseIsReachedAndTheNextJobMayBeginThere) {
   expect_at(0.0, -1.0);
 }
 
-TEST_P(Goals, WhatCanNeverBeIsRefusedAtOnce) {
+TEST_P(Goals, AreRefusedAtOnceIfImpossible) {
   const auto refused = [&](JobRequest request, const std::string& pointer) {
     const auto answer = cell->simulation->executive().submit(std::move(request));
     ASSERT_FALSE(answer);
@@ -215,7 +212,7 @@ TEST_P(Goals, WhatCanNeverBeIsRefusedAtOnce) {
   refused(named, "/move_to/named");
   JobRequest any = move_to("x", 0.0, "d");
   any.terms.reorderable = true;
-  refused(any, "/order");
+  refused(any, "/reorderable");
   JobRequest both = slide("x", -1, 0, 2, "e");
   both.arm = "x";
   refused(both, "/arm");

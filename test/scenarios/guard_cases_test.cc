@@ -1,5 +1,5 @@
-// The authority guard in the executive: a scheduler that errs moves no arm into another one, and
-// what it did is told. Balls on two rails that cross at the origin.
+// The authority guard in the executive: a scheduler that errs moves no arm into another, and the
+// refusal is reported. Balls on two rails that cross at the origin.
 #include "core/executive/active_policy.h"
 #include "core/policies/policy.h"
 #include "test/scenarios/crossing.h"
@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Lets every motion go, in no order.
+// Starts every motion without any passing order (a faulty scheduler).
 class Reckless final : public Policy {
  public:
   std::string_view name() const override { return "reckless"; }
@@ -58,7 +58,7 @@ class Guard : public ::testing::Test {
   std::unique_ptr<Simulation> simulation;
 };
 
-TEST_F(Guard, KeepsTwoThatWouldMeetApartAndTellsIt) {
+TEST_F(Guard, RefusesAConflictingMotionAndReportsIt) {
   begin();
   submit(slide("x", -1.0, 1.0, 3.0, "first"));
   simulation->run_until(at(200ms));
@@ -83,7 +83,7 @@ TEST_F(Guard, KeepsTwoThatWouldMeetApartAndTellsIt) {
   EXPECT_TRUE(is_told(Alert::Level::error, "job second: authority guard: y may not go"));
 }
 
-TEST_F(Guard, NoMotionStartsIntoAnArmAtRest) {
+TEST_F(Guard, KeepsMotionsOutOfAnArmAtRest) {
   begin();
   submit(slide("x", -1.0, 0.0, 2.0, "into the middle"));
   run_to_the_end();
@@ -96,7 +96,7 @@ TEST_F(Guard, NoMotionStartsIntoAnArmAtRest) {
   EXPECT_EQ(job("through it").state, JobState::succeeded) << "it goes on when the guard allows it";
 }
 
-TEST_F(Guard, AJobThatItKeepsBackCanBeCanceledStoppedAndResumed) {
+TEST_F(Guard, LetsRefusedJobsBeCanceledStoppedAndResumed) {
   begin();
   submit(slide("x", -1.0, 0.0, 2.0, "into the middle"));
   run_to_the_end();
@@ -120,7 +120,7 @@ CollisionObject far_box(double x) {
   return box;
 }
 
-// A camera that changes one object ten times a second.
+// Returns the end of the run; with `camera`, one object changes ten times a second.
 TimePoint end_with_camera(bool camera, const std::string& policy) {
   Crossing cell(crossing_description(), policy);
   EXPECT_TRUE(cell.simulation->executive().scene().add(far_box(0.0)));
@@ -136,16 +136,16 @@ TimePoint end_with_camera(bool camera, const std::string& policy) {
   return at(cell.simulation->executive().figures().last_end.time_since_epoch());
 }
 
-class GuardBesideACamera : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Policies, GuardBesideACamera,
+class GuardWithACamera : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, GuardWithACamera,
                          ::testing::Values("certified", "earliest_start", "coordinated"));
 
-TEST_P(GuardBesideACamera, AnObjectThatChangesFarAwayStopsNobody) {
+TEST_P(GuardWithACamera, DistantObjectChangesDelayNoJob) {
   const TimePoint still = end_with_camera(false, GetParam());
   EXPECT_EQ(end_with_camera(true, GetParam()), still);
 }
 
-TEST(GuardIsOff, UnderTimedDiscreteAndSaysSo) {
+TEST(GuardUnderTimedDiscrete, IsOffAndRaisesAnAlert) {
   Crossing cell;
   cell.run_until(at(10ms));
   const auto says = [&] {

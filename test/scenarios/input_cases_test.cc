@@ -1,5 +1,4 @@
-// The design's defect case T12 and other unusable trajectories, through the executive: refused with
-// place and value, nothing is stored, no arm moves.
+// Defect case T12 and other unusable trajectories.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,9 +27,9 @@ JobRequest points(std::vector<WaypointRequest> waypoints) {
   return request;
 }
 
-class Refuses : public ::testing::TestWithParam<BadInput> {};
+class DegenerateInput : public ::testing::TestWithParam<BadInput> {};
 
-TEST_P(Refuses, WithPlaceAndValueAndMovesNothing) {
+TEST_P(DegenerateInput, IsRefusedWithPlaceAndValue) {
   Crossing cell;
   const std::size_t events = cell.log.events.size();
   const auto refused = cell.simulation->executive().submit(GetParam().request);
@@ -48,7 +47,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 INSTANTIATE_TEST_SUITE_P(
-    T12, Refuses,
+    Trajectories, DegenerateInput,
     ::testing::Values(
         BadInput{"Empty", points({}), "/trajectory/points", ""},
         BadInput{"OnePoint", points({{{-1}, {0}, {0}, 0}}), "/trajectory/points", ""},
@@ -76,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
                  "/trajectory/points/0/positions/0", "begins at 0"}),
     [](const auto& test) { return std::string(test.param.name); });
 
-TEST(T12, AStandingTrajectoryIsHandledExactly) {
+TEST(ConstantTrajectory, Succeeds) {
   Crossing cell;
   cell.submit(slide("x", -1, -1, 1, "stands"));
   cell.run_to_the_end();
@@ -84,7 +83,7 @@ TEST(T12, AStandingTrajectoryIsHandledExactly) {
   EXPECT_EQ(cell.log.last, cell.log.first);
 }
 
-TEST(Submit, AnIdInUseIsAConflict) {
+TEST(Submit, RefusesAnIdInUse) {
   Crossing cell;
   cell.submit(slide("x", -1, 1, 4, "one"));
   const auto refused = cell.simulation->executive().submit(slide("y", -1, 1, 4, "one"));
@@ -92,7 +91,7 @@ TEST(Submit, AnIdInUseIsAConflict) {
   EXPECT_EQ(refused.error().front().kind, ProblemKind::conflict);
 }
 
-TEST(Submit, GivesIdsThatNobodyUses) {
+TEST(Submit, GeneratesUnusedIds) {
   Crossing cell;
   cell.submit(slide("x", -1, -0.5, 4, "job-2"));
   EXPECT_EQ(cell.submit(slide("y", -1, -0.5, 4)).key, "job-2.2");

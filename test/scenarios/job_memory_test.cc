@@ -1,5 +1,4 @@
-// Trajectories are what jobs hold most of: active ones are refused beyond a bound, ended ones are
-// forgotten beyond another.
+// Trajectories dominate the memory of jobs.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"
@@ -8,9 +7,9 @@ namespace armloom {
 namespace {
 
 constexpr std::size_t kWaypoints = 1000;
-constexpr std::size_t kBytes = kWaypoints * 7 * sizeof(double);  // of such a job, and little more
+constexpr std::size_t kBytes = kWaypoints * 7 * sizeof(double);  // of one such job, approximately
 
-// From home along x and back, in many short pieces.
+// Returns a small motion from home along x and back, in many short pieces.
 JobRequest long_slide(std::string key) {
   JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
   request.trajectory.joint_names = {"x_slide"};
@@ -45,7 +44,7 @@ class JobMemory : public ::testing::Test {
   std::unique_ptr<Simulation> simulation;
 };
 
-TEST_F(JobMemory, RefusesAJobWhoseTrajectoryWouldExceedTheBoundUntilAnotherOneEnds) {
+TEST_F(JobMemory, RefusesJobsBeyondTheBoundUntilOneEnds) {
   begin({.active_bytes_max = 5 * kBytes / 2});
   ASSERT_TRUE(executive().submit(long_slide("one")));
   ASSERT_TRUE(executive().submit(long_slide("two")));
@@ -57,7 +56,7 @@ TEST_F(JobMemory, RefusesAJobWhoseTrajectoryWouldExceedTheBoundUntilAnotherOneEn
   EXPECT_TRUE(executive().submit(long_slide("three")));
 }
 
-TEST_F(JobMemory, ForgetsJobsThatEndedLongestAgoWhenTrajectoriesExceedTheBound) {
+TEST_F(JobMemory, ForgetsTheOldestEndedJobsBeyondTheBound) {
   begin({.ended_bytes_max = 5 * kBytes / 2});
   for (const char* key : {"one", "two", "three", "four"}) {
     ASSERT_TRUE(executive().submit(long_slide(key)));

@@ -1,4 +1,3 @@
-// The monitor, through the whole executive: what a coarse time step lets through, it stops.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"
@@ -6,7 +5,8 @@
 namespace armloom {
 namespace {
 
-// With a step longer than both motions only their ends are compared: nothing is found.
+// Returns the crossing with a time step longer than both motions: only their ends are compared, so
+// no conflict is found.
 CellDescription blind_crossing() {
   CellDescription description = crossing_description();
   description.checking.time_step = 10s;
@@ -21,7 +21,7 @@ std::vector<MonitorEvent> findings(const Log& log) {
   return found;
 }
 
-TEST(Monitor, StopsTheArmsConcernedAndSaysWhichLinksWhenAndHowClose) {
+TEST(Monitor, StopsTheArmsAndReportsLinksAndDistance) {
   CellDescription description = blind_crossing();
   description.monitor.stop_clearance_m = 0.3;  // early enough to stop before contact
   description.clearance_m = 0.3;
@@ -42,7 +42,7 @@ TEST(Monitor, StopsTheArmsConcernedAndSaysWhichLinksWhenAndHowClose) {
   EXPECT_GT(cell.log.closest_m, 0.0) << "no contact";
 }
 
-TEST(Monitor, AfterAStopOneArmCanBeTakenAwayAndTheOtherGoesOn) {
+TEST(Monitor, StoppedArmsCanBeMovedApart) {
   CellDescription description = blind_crossing();
   description.monitor.stop_clearance_m = 0.3;
   description.clearance_m = 0.3;
@@ -62,7 +62,7 @@ TEST(Monitor, AfterAStopOneArmCanBeTakenAwayAndTheOtherGoesOn) {
   EXPECT_EQ(cell.job("retreat").state, JobState::succeeded);
 }
 
-TEST(Monitor, LeavesArmsAloneThatAreNotConcerned) {
+TEST(Monitor, DoesNotStopUninvolvedArms) {
   CellDescription description = blind_crossing();
   description.clearance_m = 0.3;
   description.monitor.stop_clearance_m = 0.3;

@@ -1,5 +1,4 @@
-// What the executive makes of what controllers say: played here by arms that say what they are
-// told.
+// How the executive uses controller feedback. The arms here report what the test tells them.
 #include "core/executive/motions.h"
 
 #include <gtest/gtest.h>
@@ -32,10 +31,10 @@ class ToldArm final : public ArmController {
   std::vector<JointId> joints_;
 };
 
-// Two arms of one joint each, and a motion of 4 s of the first or of both.
-class ToldArms : public ::testing::Test {
+// Two arms of one joint each, and a motion of 4 s of one or both.
+class ScriptedArms : public ::testing::Test {
  protected:
-  ToldArms() {
+  ScriptedArms() {
     std::vector<std::unique_ptr<ArmController>> controllers;
     for (std::uint32_t arm = 0; arm < 2; ++arm) {
       auto told = std::make_unique<ToldArm>(cell->arms[arm].joints.front());
@@ -60,7 +59,7 @@ class ToldArms : public ::testing::Test {
   std::unique_ptr<Motions> motions;
 };
 
-TEST_F(ToldArms, OnlyMeasuredProgressIsReported) {
+TEST_F(ScriptedArms, ReportMeasuredProgressOnly) {
   dispatch({ArmId{0}});
   say(0, 2s, 1900ms);
   const auto& reports = motions->tick(TimePoint{} + 1ms);
@@ -68,7 +67,7 @@ TEST_F(ToldArms, OnlyMeasuredProgressIsReported) {
   EXPECT_EQ(reports.front().progress, 1900ms);
 }
 
-TEST_F(ToldArms, OfATeamTheLastOneCounts) {
+TEST_F(ScriptedArms, ReportTheSlowestArmOfAMultiArmMotion) {
   dispatch({ArmId{0}, ArmId{1}});
   say(0, 2s, 1900ms);
   say(1, 1950ms, 1800ms);
@@ -77,7 +76,7 @@ TEST_F(ToldArms, OfATeamTheLastOneCounts) {
   EXPECT_EQ(reports.front().progress, 1800ms);
 }
 
-TEST_F(ToldArms, WhoGetsAheadOfItsTeamWaitsForIt) {
+TEST_F(ScriptedArms, WaitIfTheyGetAheadOfTheirMotion) {
   dispatch({ArmId{0}, ArmId{1}});
   say(0, 2s, 2s);
   say(1, 2s - 2 * kOutOfStep, 2s - 2 * kOutOfStep);
@@ -86,8 +85,8 @@ TEST_F(ToldArms, WhoGetsAheadOfItsTeamWaitsForIt) {
   EXPECT_GT(arms[1]->granted, 2s - 2 * kOutOfStep);
 }
 
-// Its feedback does not come: where it is on the path nobody knows, but how far it may be.
-TEST_F(ToldArms, NoArmOfATeamIsGivenAuthorityFarAheadOfTheLastKnownPosition) {
+// The second arm's feedback freezes: its position is unknown, but its possible lead is bounded.
+TEST_F(ScriptedArms, GetBoundedAuthorityWithoutFeedback) {
   dispatch({ArmId{0}, ArmId{1}});
   const Duration reach = from_seconds(stopping_reach_s(
       *cell, *small::sweep(*cell, {ArmId{0}, ArmId{1}}, {-1.0, -1.0}, {1.0, 1.0}, 4s)));
@@ -103,7 +102,7 @@ TEST_F(ToldArms, NoArmOfATeamIsGivenAuthorityFarAheadOfTheLastKnownPosition) {
   EXPECT_GT(arms[1]->granted, 500ms + reach);
 }
 
-TEST_F(ToldArms, AllBrakeAtOnce) {
+TEST_F(ScriptedArms, AllBrakeOnBrakeAll) {
   dispatch({ArmId{0}});
   motions->brake_all();
   EXPECT_EQ(arms[0]->brakes, 1);

@@ -1,15 +1,14 @@
-// Goals whose way was planned beside an arm that a move aside has taken elsewhere since.
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {
 namespace {
 
-class BesideAMovedArm : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Policies, BesideAMovedArm, ::testing::ValuesIn(known_policies()));
+class AfterARetreat : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, AfterARetreat, ::testing::ValuesIn(known_policies()));
 
-// b comes to rest in the way of a's first job and is sent back to where it came from: onto the
-// straight way to a's goal, which was planned while b was to stand elsewhere.
-TEST_P(BesideAMovedArm, AGoalIsPlannedAnewAndReached) {
+// b rests in the way of a's first job and is sent back: onto the straight path to a's goal, which
+// was planned while b was expected elsewhere.
+TEST_P(AfterARetreat, GoalIsReplannedAndReached) {
   TwoGantries cell(gantries(OnIdleBlocker::park), GetParam());
   cell.submit(go("b", {1, 0}, {0, 0}, 3.0, "in the way"));
   cell.run_until(at(100ms));
@@ -26,9 +25,9 @@ TEST_P(BesideAMovedArm, AGoalIsPlannedAnewAndReached) {
   EXPECT_GT(cell.closest_m(), 0.0);
 }
 
-// One is to come to where the other stands, which is to go past it: beside where that one will be
-// it is planned right through where it is.
-TEST_P(BesideAMovedArm, TwoGoalsInEachOthersWayAreNoRingWhereOneCanGoRound) {
+// b's goal is where a is, and a must go past b. Planned around b's expected end, a's path leads
+// through b's current place.
+TEST_P(AfterARetreat, BlockedGoalsAreNoDeadlockIfADetourExists) {
   TwoGantries cell(gantries(OnIdleBlocker::report), GetParam());
   cell.submit(to_place("b", {-1, 0}, "to its place"));
   cell.submit(to_place("a", {1.4, 0}, "past it"));
@@ -39,9 +38,9 @@ TEST_P(BesideAMovedArm, TwoGoalsInEachOthersWayAreNoRingWhereOneCanGoRound) {
   EXPECT_GT(cell.closest_m(), 0.0);
 }
 
-// While c's goal is planned b overtakes it, and comes to rest on that way; what comes then to the
-// place that c is to leave again would stay there.
-TEST_P(BesideAMovedArm, AGoalThatIsOvertakenIsPlannedAnewBeforeOthersAreInItsWay) {
+// While c's goal is being planned, b overtakes c and comes to rest on that path. An arm that then
+// took the place that c must leave again would stay there.
+TEST_P(AfterARetreat, OvertakenGoalIsReplannedBeforeOthersBlockIt) {
   TwoGantries cell(
       gantries(OnIdleBlocker::report, {{-0.7, -0.28}, {0.7, 0.28}, {-0.7, 0.28}, {0.7, -0.28}}),
       GetParam());
@@ -61,9 +60,9 @@ TEST_P(BesideAMovedArm, AGoalThatIsOvertakenIsPlannedAnewBeforeOthersAreInItsWay
   }
 }
 
-// b stands where c is to go, and a in b's straight way for good: that b has to go before c can come
-// is no reason to plan it through a.
-TEST_P(BesideAMovedArm, WhoNeverMovesIsPassedThoughAnotherHasToGoFirst) {
+// b rests at c's goal, and a is in b's straight path for good. Although b must leave before c
+// arrives, b must not be planned through a.
+TEST_P(AfterARetreat, PlanAvoidsAnArmThatNeverMoves) {
   TwoGantries cell(gantries(OnIdleBlocker::report, {{0.14, 0.28}, {0.7, 0.28}, {-0.42, -0.28}}),
                    GetParam());
   cell.submit(to_place("c", {0.7, 0.28}, "comes"));
@@ -74,9 +73,9 @@ TEST_P(BesideAMovedArm, WhoNeverMovesIsPassedThoughAnotherHasToGoFirst) {
   }
 }
 
-// d's goal waits while one arm after the other comes to its way and leaves it again. Before it was
-// planned five times in vain, beside the same places, before the first of them had moved.
-TEST_P(BesideAMovedArm, AGoalIsPlannedPastEachThatComesHoweverManyDo) {
+// d's goal waits while one arm after the other enters and leaves its path. Once it was planned five
+// times unsuccessfully against the same places before the first arm had moved.
+TEST_P(AfterARetreat, GoalIsReplannedForEachArmInItsWay) {
   TwoGantries cell(
       gantries(OnIdleBlocker::report, {{-0.42, 0.28}, {0.42, -0.28}, {0.14, 0.28}, {0.14, -0.28}}),
       GetParam());
@@ -100,8 +99,7 @@ TEST_P(BesideAMovedArm, AGoalIsPlannedPastEachThatComesHoweverManyDo) {
       << cell.job("a comes back").detail();
 }
 
-// A goal begins wherever its arm stands: nobody goes back for it onto the other one's goal.
-TEST_P(BesideAMovedArm, ASwapOfGoalsTakesOneMoveAside) {
+TEST_P(AfterARetreat, GoalSwapTakesOneRetreat) {
   TwoGantries cell(gantries(OnIdleBlocker::park), GetParam());
   cell.submit(to_place("a", {-0.3, 0.0}, "a comes"));
   cell.submit(to_place("b", {0.4, 0.6}, "b comes"));
@@ -118,10 +116,9 @@ TEST_P(BesideAMovedArm, ASwapOfGoalsTakesOneMoveAside) {
   EXPECT_FALSE(cell.executive().job("retreat-2"));
 }
 
-// Two rows of three places between walls: a finds both ways to its goal shut when it is planned, by
-// b and by c, which is about to leave. Its plan led through b, and where c had gone it stayed so:
-// with what waits behind it that made a ring, and jobs failed.
-TEST(BesideAnArmThatLeaves, AGoalIsPlannedAnewWhereNoWayWasFound) {
+// Two rows of three places between walls. When a is planned, b and c, which is about to leave,
+// block both paths to its goal. Once the plan led through b and was kept after c had left.
+TEST(AfterADeparture, GoalWithoutAPathIsReplanned) {
   CellDescription description =
       gantries(OnIdleBlocker::report, {{-0.4, -0.4}, {0.12, -0.14}, {-0.14, -0.4}});
   for (RobotDescription& robot : description.robots) {
@@ -150,7 +147,7 @@ TEST(BesideAnArmThatLeaves, AGoalIsPlannedAnewWhereNoWayWasFound) {
   }
 }
 
-// By straight ways, half a second each.
+// Returns a job along straight segments of half a second each.
 JobRequest along(const std::string& arm, const std::vector<Place_m>& places, std::string key) {
   JobRequest request = go(arm, places.at(0), places.at(1), 0.5, std::move(key));
   for (std::size_t i = 2; i < places.size(); ++i) {
@@ -162,10 +159,9 @@ JobRequest along(const std::string& arm, const std::vector<Place_m>& places, std
   return request;
 }
 
-// Three rows: where a is still to leave, d finds no way to its goal; what was planned leads through
-// where b waits for d to go first. That is no ring, as long as what a and c do may open another
-// way.
-TEST_P(BesideAMovedArm, AGoalWithoutAWayIsInNoRingAsLongAsOthersMayMove) {
+// Three rows. As long as a has not left, d has no path to its goal, and its plan leads through b's
+// place, where b waits for d. That is not a deadlock while a and c may open another path.
+TEST_P(AfterARetreat, GoalWithoutAPathIsNoDeadlockWhileOthersMayMove) {
   CellDescription description = gantries(
       OnIdleBlocker::report, {{-0.14, 0.16}, {-0.44, 0.16}, {0.16, -0.44}, {-0.14, -0.14}});
   put_walls(description, {-0.74, 0.46, -0.74, 0.46});

@@ -1,4 +1,3 @@
-// Goals that leave the arm open: the one that arrives first takes them.
 #include <gmock/gmock.h>
 
 #include "test/scenarios/crossing.h"
@@ -22,21 +21,21 @@ JobRequest one(const std::string& arm, double to_m, std::string key) {
   return request;
 }
 
-// Slow, so that who is under way stays so for a while.
+// Makes a job slow, so that its arm stays busy for a while.
 JobRequest slow(JobRequest request) {
   request.speed = 0.1;
   return request;
 }
 
-class OpenArms : public ::testing::TestWithParam<std::string> {
+class CandidateArms : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { cell.emplace(crossing_description(), GetParam()); }
   [[nodiscard]] Executive& executive() const { return cell->simulation->executive(); }
   std::optional<Crossing> cell;
 };
-INSTANTIATE_TEST_SUITE_P(Policies, OpenArms, ::testing::ValuesIn(known_policies()));
+INSTANTIATE_TEST_SUITE_P(Policies, CandidateArms, ::testing::ValuesIn(known_policies()));
 
-TEST_P(OpenArms, TheNearerOneGoes) {
+TEST_P(CandidateArms, NearestArmIsSelected) {
   cell->submit(slide("y", -1.0, -0.6, 1.0));
   cell->run_until(at(2s));
   const JobView accepted = cell->submit(either(-0.5, "job"));
@@ -55,7 +54,7 @@ TEST_P(OpenArms, TheNearerOneGoes) {
   EXPECT_NEAR(cell->log.last[1], -0.5, 1e-3);
 }
 
-TEST_P(OpenArms, OneThatIsBusyIsNotWaitedFor) {
+TEST_P(CandidateArms, BusyArmIsNotSelected) {
   cell->submit(slow(one("x", -0.5, "long")));
   cell->run_until(at(300ms));
   cell->submit(either(-0.9, "job"));
@@ -64,7 +63,7 @@ TEST_P(OpenArms, OneThatIsBusyIsNotWaitedFor) {
   EXPECT_THAT(cell->job("job").arms, ElementsAre("y"));
 }
 
-TEST_P(OpenArms, OneThatIsStoppedIsNotWaitedFor) {
+TEST_P(CandidateArms, StoppedArmIsNotSelected) {
   executive().stop({ArmId{0}}, "maintenance");
   cell->submit(either(-0.5, "job"));
   cell->run_until(at(10s));
@@ -73,7 +72,7 @@ TEST_P(OpenArms, OneThatIsStoppedIsNotWaitedFor) {
   EXPECT_THAT(cell->job("job").ways.choice->detail, HasSubstr("x cannot: it is stopped"));
 }
 
-TEST_P(OpenArms, OneThatHasNoWayIsNamedWithTheReason) {
+TEST_P(CandidateArms, ArmWithoutAPathIsReportedWithItsReason) {
   CollisionObject post{.name = "post", .shape = Box{{0.1, 0.1, 0.1}}};
   post.X_WO.translation() = Eigen::Vector3d(-0.5, 0.0, 0.0);
   ASSERT_TRUE(executive().scene().add(post));
@@ -86,7 +85,7 @@ TEST_P(OpenArms, OneThatHasNoWayIsNamedWithTheReason) {
   EXPECT_THAT(job.ways.choice->detail, HasSubstr("x cannot: no plan"));
 }
 
-TEST_P(OpenArms, WhereAnObjectTouchesOneArmTheOtherGoesAndWhereItTouchesAllTheyWait) {
+TEST_P(CandidateArms, ArmThatTouchesAnObjectIsNotSelected) {
   const auto hand = [](const char* name, double x_m, double y_m) {
     CollisionObject object{.name = name, .shape = Box{{0.1, 0.1, 0.1}}};
     object.X_WO.translation() = Eigen::Vector3d(x_m, y_m, 0.0);
@@ -111,7 +110,7 @@ TEST_P(OpenArms, WhereAnObjectTouchesOneArmTheOtherGoesAndWhereItTouchesAllTheyW
   }
 }
 
-TEST_P(OpenArms, WhereNoneHasAWayEachSaysWhy) {
+TEST_P(CandidateArms, JobFailsWithEachArmsReason) {
   for (const auto& [name, x, y] : {std::tuple("a", 0.5, 0.0), std::tuple("b", 0.0, 0.5)}) {
     CollisionObject post{.name = name, .shape = Box{{0.1, 0.1, 0.1}}};
     post.X_WO.translation() = Eigen::Vector3d(x, y, 0.0);
@@ -127,7 +126,7 @@ TEST_P(OpenArms, WhereNoneHasAWayEachSaysWhy) {
   EXPECT_EQ(cell->job("next").state, JobState::succeeded);
 }
 
-TEST_P(OpenArms, SeveralAreSharedAndAllAreDone) {
+TEST_P(CandidateArms, JobsAreSharedByTheArms) {
   for (const auto& [key, to_m] :
        {std::pair("a", -0.7), std::pair("b", -0.6), std::pair("c", -0.5), std::pair("d", -0.8)}) {
     cell->submit(slow(either(to_m, key)));
@@ -146,8 +145,8 @@ TEST_P(OpenArms, SeveralAreSharedAndAllAreDone) {
   }
 }
 
-// Neither knows where it is taken to begin.
-TEST_P(OpenArms, ATrajectoryBehindOneMayBeginWhereItEnds) {
+// Neither trajectory can know which arm takes the job.
+TEST_P(CandidateArms, NextTrajectoryMayStartAtEitherOutcome) {
   cell->submit(slide("y", -1.0, -0.6, 1.0));
   cell->run_until(at(2s));
   cell->submit(either(-0.5, "job"));
@@ -159,7 +158,7 @@ TEST_P(OpenArms, ATrajectoryBehindOneMayBeginWhereItEnds) {
   }
 }
 
-TEST_P(OpenArms, WhatCanNeverBeIsRefusedAtOnce) {
+TEST_P(CandidateArms, ImpossibleJobsAreRefusedAtOnce) {
   const auto refused = [&](JobRequest request, const std::string& pointer) {
     const auto answer = executive().submit(std::move(request));
     ASSERT_FALSE(answer);
@@ -176,8 +175,7 @@ TEST_P(OpenArms, WhatCanNeverBeIsRefusedAtOnce) {
   refused(trajectory, "/arms");
 }
 
-// The arm's own link, whatever its prefix.
-TEST_P(OpenArms, APoseIsOfEachArmsOwnLink) {
+TEST_P(CandidateArms, PoseIsOneOfTheArmsOwnLink) {
   for (const auto& link : {std::optional<std::string>(), std::optional<std::string>("ball")}) {
     JobRequest request = either(0.0, link ? "named" : "last");
     request.move_to = PlanGoal{.joints = {}, .named = {}, .pose = PlanPose{.link = link}};

@@ -12,7 +12,8 @@ DiagramCell cell(State state, double a0, double a1, double b0, double b1) {
   return {from_seconds(a0), from_seconds(a1), from_seconds(b0), from_seconds(b1), state};
 }
 
-// Of 4 s and 3 s. In conflict where A is past 2 s and B past 1 s; the corner before is undecided.
+// Motions of 4 s and 3 s. In conflict if A is past 2 s and B past 1 s; the cell before is
+// undecided.
 std::vector<DiagramCell> corner() {
   return {cell(State::free, 0, 2, 0, 3), cell(State::free, 2, 4, 0, 0.5),
           cell(State::undecided, 2, 4, 0.5, 1), cell(State::conflict, 2, 4, 1, 3)};
@@ -32,29 +33,29 @@ void expect_met(const std::optional<DiagramContact>& met, State state, Duration 
   EXPECT_EQ(met->at_b, b);
 }
 
-TEST(PlanAhead, MeetsTheFirstConflictAndSaysWhen) {
+TEST(PlanAhead, ReportsTheFirstConflictAndItsTime) {
   expect_met(met_from(0s, 0s), State::conflict, 2s, 2s, 2s);
   expect_met(met_from(1750ms, 500ms), State::conflict, 500ms, 2250ms, 1s);
 }
 
-TEST(PlanAhead, MeetsWhatIsUndecidedWhereThereIsNoConflict) {
+TEST(PlanAhead, ReportsUndecidedCellsIfThereIsNoConflict) {
   std::vector<DiagramCell> cells = corner();
   cells.pop_back();
   expect_met(met_from(1750ms, 500ms, cells), State::undecided, 250ms, 2s, 750ms);
 }
 
-TEST(PlanAhead, MeetsWhatLiesOnTheRestOfOneAfterItsEnd) {
+TEST(PlanAhead, FindsConflictsWithAnArmAtRest) {
   expect_met(met_from(4s, 0s), State::conflict, 1s, 4s, 1s);
 }
 
-TEST(PlanAhead, MeetsNothingWhereItPassesByOrTouchesACorner) {
+TEST(PlanAhead, FindsNothingIfTheLinePassesOrTouchesACorner) {
   EXPECT_FALSE(met_from(0s, 0s, {cell(State::free, 0, 4, 0, 3)}));
   EXPECT_FALSE(
       met_from(1s, 0s, {cell(State::conflict, 0, 2, 2, 3), cell(State::conflict, 3, 4, 0, 1)}));
   EXPECT_FALSE(met_from(1s, 0s, {cell(State::conflict, 0, 2, 1, 2)}));
 }
 
-TEST(PlanAhead, SaysThatTheyStandInItWhereTheyDo) {
+TEST(PlanAhead, ReportsAConflictThatExistsAlready) {
   expect_met(met_from(3s, 2s), State::conflict, 0s, 3s, 2s);
   expect_met(met_from(4s, 3s), State::conflict, 0s, 4s, 3s);
 }

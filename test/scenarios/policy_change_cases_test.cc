@@ -1,4 +1,3 @@
-// Another policy for a cell that runs: while no job is admitted, and what waits goes by it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +17,7 @@ Problem refused(Crossing& cell, const std::string& policy) {
 
 std::string policy_of(const Crossing& cell) { return cell.simulation->executive().policy().name(); }
 
-TEST(APolicyIsChanged, NotWhileAJobIsUnderWay) {
+TEST(PolicyChange, IsRefusedWhileAJobRuns) {
   Crossing cell(crossing_description(), "sequential");
   cell.submit(slide("x", -1.0, -0.5, 2.0, "a"));
   cell.run_until(at(1s));
@@ -31,8 +30,7 @@ TEST(APolicyIsChanged, NotWhileAJobIsUnderWay) {
   EXPECT_EQ(policy_of(cell), "coordinated");
 }
 
-// Held on its path, it keeps the orders that it has.
-TEST(APolicyIsChanged, NotWhileAJobIsHeldOnItsPath) {
+TEST(PolicyChange, IsRefusedWhileAJobIsPaused) {
   Crossing cell(crossing_description(), "coordinated");
   cell.submit(slide("x", -1.0, 1.0, 4.0, "a"));
   cell.run_until(at(1s));
@@ -42,15 +40,15 @@ TEST(APolicyIsChanged, NotWhileAJobIsHeldOnItsPath) {
   EXPECT_THAT(refused(cell, "sequential").detail, HasSubstr("a"));
 }
 
-TEST(APolicyIsChanged, ToOneThatThereIs) {
+TEST(PolicyChange, RefusesAnUnknownPolicy) {
   Crossing cell(crossing_description(), "sequential");
   const Problem problem = refused(cell, "best");
   EXPECT_EQ(problem.slug, "unknown-policy");
   EXPECT_EQ(problem.pointer, "/policy");
 }
 
-// Of two jobs that wait behind a stop, both go at once afterwards.
-TEST(APolicyIsChanged, AndWhatWaitsGoesByIt) {
+// Two jobs wait behind a stop; under `certified` both start at once after the resume.
+TEST(PolicyChange, AppliesToWaitingJobs) {
   for (const bool changes : {false, true}) {
     Crossing cell(crossing_description(), "sequential");
     stop_all(cell.simulation->executive(), "operator");

@@ -12,9 +12,9 @@ namespace armloom {
 
 using Keys = std::vector<std::string>;
 
-// Sliders whose rails run from one corner of a polygon to the next, 2 m long: each stands at -1 m,
-// its own corner, and +1 m is the next one's. Two make a line with both arms on it. The arm "free"
-// slides far away.
+// Sliders on rails of 2 m between neighboring corners of a polygon: each rests at its own corner,
+// -1 m, and the next slider's corner is at +1 m. With two corners both arms share one line. The arm
+// "free" is far away.
 inline CellDescription polygon(int corners) {
   CellDescription cell{.name = "polygon"};
   const double turn = 2 * std::numbers::pi / corners;
@@ -32,7 +32,7 @@ inline CellDescription polygon(int corners) {
   return cell;
 }
 
-// When the job was first told to be in a deadlock, and its ring then.
+// The first event that reports the job in a deadlock: its time and cycle.
 struct Told {
   TimePoint when;
   Keys ring;
@@ -40,7 +40,7 @@ struct Told {
 inline std::optional<Told> deadlock_of(const Crossing& cell, const std::string& key) {
   for (const Event& event : cell.log.events) {
     const auto* job = std::get_if<JobView>(&event.body);
-    if (job && job->key == key && !job->ring.empty()) return Told{event.time, job->ring};
+    if (job && job->key == key && !job->cycle.empty()) return Told{event.time, job->cycle};
   }
   return std::nullopt;
 }

@@ -1,5 +1,4 @@
-// What clients read, beside what they are told: both agree at every event, and no read needs the
-// strand.
+// Reads of clients and published events agree at every event, and no read needs the strand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +22,7 @@ Lists lists_of(const QueueView& queue) {
   return {queue.queued, queue.backlog, queue.scheduled, queue.running};
 }
 
-// Keeps the jobs as they were told, and compares them with each list and with the board.
+// Follows the job events and compares them with each published queue and with the board.
 class Follower final : public Observer {
  public:
   void on_event(const Event& event) override {
@@ -52,7 +51,7 @@ class Follower final : public Observer {
   }
 
   std::shared_ptr<const StatusBoard> board;
-  int held = 0;  // times that a job was told to be at rest on its path
+  int held = 0;  // events that report a paused job
 
  private:
   void follow(const JobView& job) {
@@ -82,7 +81,7 @@ JobRequest of_x_or_y(std::mt19937& random) {
   return request;
 }
 
-// Two arms that meet, jobs of either, stops and resumptions; calls look() after each command.
+// Runs two arms that meet, with random jobs, stops and resumes; calls look() around each command.
 template <class Look>
 int run_at_random(unsigned seed, const std::string& policy, Look look) {
   std::mt19937 random(seed);
@@ -118,7 +117,7 @@ TEST(Published, QueueAndEventsAgreeThroughStopsAndPauses) {
   EXPECT_GT(held, 10) << "hardly any job was at rest on its path";
 }
 
-TEST(Published, EveryJobIsALegOrWaitsInTheLanesOfItsArms) {
+TEST(Published, EveryJobIsAStepOrWaitsInItsArmQueues) {
   std::size_t waited = 0;
   for (unsigned seed = 1; seed <= 4; ++seed) {
     run_at_random(seed, "coordinated", [&](Executive& executive) {
@@ -137,7 +136,7 @@ TEST(Published, EveryJobIsALegOrWaitsInTheLanesOfItsArms) {
   EXPECT_GT(waited, 20U);
 }
 
-TEST(Published, IsReadWhileTheStrandIsBusy) {
+TEST(Published, CanBeReadWhileTheStrandIsBusy) {
   Follower follower;
   const auto loop = RealTimeLoop::start(*build_cell(crossing_description()), {}, 1.0, follower);
   ASSERT_TRUE(loop);
@@ -156,7 +155,7 @@ TEST(Published, IsReadWhileTheStrandIsBusy) {
   may_go_on.set_value();
 }
 
-TEST(Published, AWithdrawnJobLeavesTheListsAndTheLookupTogether) {
+TEST(Published, RolledBackJobLeavesListAndLookupTogether) {
   Follower follower;
   const auto cell = build_cell(crossing_description());
   const auto simulation = Simulation::create(*cell, {}, follower);
@@ -170,7 +169,7 @@ TEST(Published, AWithdrawnJobLeavesTheListsAndTheLookupTogether) {
   };
   EXPECT_TRUE(executive.submit(slide("x", -1, 1, 4, "one")));
   EXPECT_TRUE(agree());
-  executive.withdraw("one");
+  executive.roll_back("one");
   agree();
   (*simulation)->run_until(executive.now() + std::chrono::seconds(1));
   EXPECT_FALSE(agree());
@@ -180,7 +179,7 @@ JobSheet::JobPtr job_of(std::uint64_t id, const std::string& key) {
   return std::make_shared<const JobView>(JobView{.id = JobId{id}, .key = key});
 }
 
-TEST(JobSheet, StaysAsItWasWhenTheLedgerChanges) {
+TEST(JobSheet, IsImmutableWhenTheLedgerChanges) {
   JobLedger ledger;
   for (std::uint64_t id = 1; id <= 1000; ++id) ledger.put(job_of(id, "old"));
   const JobSheet before = ledger.share();

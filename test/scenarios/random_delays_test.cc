@@ -1,6 +1,4 @@
-// Arms that start late, run slowly, stall and are heard of late at random: whatever their delays,
-// arms never touch and every job succeeds. The measured distance is known at every tick.
-// ARMLOOM_SEEDS=500 runs more.
+// Arms start late, run slowly, stall and report late at random. ARMLOOM_SEEDS=500 runs more.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/random_faults.h"
@@ -21,7 +19,7 @@ SlidersRun run(std::uint64_t seed, std::size_t arms, const std::string& policy) 
   Random random(seed);
   CellDescription description = star(arms);
   description.scheduling.backlog_timeout = 1h;
-  description.execution.duration_margin = 1h;  // nor is one failed that stands still for long
+  description.execution.duration_margin = 1h;  // no job fails for resting long
   auto cell = build_cell(description);
   SmallestDistance closest(arms);
   auto created = Simulation::create(*cell, ExecutiveOptions{.policy = policy}, closest);
@@ -32,7 +30,7 @@ SlidersRun run(std::uint64_t seed, std::size_t arms, const std::string& policy) 
     delay_at_random(executive, std::string(1, static_cast<char>('a' + i)), 20.0, random,
                     kFarBeyond);
   }
-  // Back and forth through the crossing, never to rest in it, one after the other or with pauses.
+  // Back and forth through the crossing, never to rest in it, with or without pauses.
   std::vector<std::string> keys;
   std::vector<double> stands(arms, -1.0);
   const bool paused = random.chance(0.5);
@@ -60,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Policies, RandomDelays,
                          ::testing::Values("sequential", "lockstep", "reservation", "certified",
                                            "earliest_start", "coordinated"));
 
-TEST_P(RandomDelays, TouchNobodyAndEveryJobSucceeds) {
+TEST_P(RandomDelays, NeverCauseContactAndEveryJobSucceeds) {
   double smallest_m = 1e9;
   std::uint64_t stops = 0, jobs = 0;
   for (std::uint64_t seed = 1; seed <= seed_count(kSeeds); ++seed) {

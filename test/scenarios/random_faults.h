@@ -9,14 +9,14 @@
 
 namespace armloom {
 
-// Numbers that depend on the seed alone.
+// Random numbers that depend on the seed only.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
-  // 0 ... count - 1.
+  // Returns an index from 0 to count - 1.
   std::size_t index(std::size_t count) {
     return std::uniform_int_distribution<std::size_t>(0, count - 1)(engine_);
   }
@@ -26,7 +26,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// How far a random run goes. Feedback is held back for up to so long, again and again.
+// Upper bounds of random delays. Feedback is frozen for up to old_s, again and again.
 struct Delays {
   double late_s = 2.0;
   double slowest = 0.3;
@@ -35,7 +35,7 @@ struct Delays {
 };
 inline constexpr Delays kFarBeyond{.late_s = 10.0, .slowest = 0.1, .stall_s = 30.0, .old_s = 0.1};
 
-// The arm starts late, runs slowly, and stalls three times within `within_s`.
+// Lets the arm start late, run slowly, and stall three times within `within_s`.
 inline void delay_at_random(Executive& executive, const std::string& arm, double within_s,
                             Random& random, const Delays& delays = {}) {
   const auto inject = [&](FaultRequest fault) { EXPECT_TRUE(executive.faults().inject(fault)); };
@@ -59,7 +59,7 @@ inline void delay_at_random(Executive& executive, const std::string& arm, double
   }
 }
 
-// One line: how a job ended and what it waited for last.
+// Returns one line: how the job ended and what it waited for last.
 inline std::string told(const JobView& job) {
   std::string line = job.key + " of " + job.arms.front() + " " + to_string(job.state) + " (" +
                      (job.reason() ? to_string(*job.reason()) : "-") + ") " + job.detail();
@@ -69,18 +69,18 @@ inline std::string told(const JobView& job) {
     if (wait.other_time_s) line += " / " + std::to_string(*wait.other_time_s);
     if (!wait.detail.empty()) line += " [" + wait.detail + "]";
   }
-  for (const std::string& key : job.ring)
-    line += (&key == &job.ring.front() ? "; ring " : " ") + key;
+  for (const std::string& key : job.cycle)
+    line += (&key == &job.cycle.front() ? "; cycle " : " ") + key;
   return line;
 }
 
-// How a workload went.
+// Result of a random workload.
 struct DelayedRun {
   std::size_t jobs = 0;
   std::size_t succeeded = 0;
   bool all_ended = false;
   std::uint64_t monitor_stops = 0;
-  std::string first_other;  // a job that did not succeed
+  std::string first_other;  // the first job that did not succeed
 
   void read(const Executive& executive, const std::vector<std::string>& keys) {
     jobs = keys.size();

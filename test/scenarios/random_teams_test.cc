@@ -1,7 +1,6 @@
-// Jobs of one, two or three arms at once in cells of three and four arms, with random delays,
-// commands and faults: nothing touches, every job reaches exactly one end, and who waits for ever
-// waits for an arm that nobody moves. The measured distance is known at every tick.
-// ARMLOOM_SEEDS=500 runs more; ARMLOOM_TOLD=<seed> runs that one alone and tells its story.
+// Jobs of one to three arms in cells of three and four arms, with random delays, commands and
+// faults. A job that never ends must wait for an arm without a job. ARMLOOM_SEEDS=500 runs more;
+// ARMLOOM_TOLD=<seed> runs that seed only and prints its events.
 #include <gtest/gtest.h>
 
 #include <iostream>
@@ -12,15 +11,15 @@
 namespace armloom {
 namespace {
 
-constexpr std::uint64_t kSeeds = 80;          // of the policy that coordinates
-constexpr std::uint64_t kSeedsOfOthers = 25;  // of each other one
+constexpr std::uint64_t kSeeds = 80;          // under `coordinated`
+constexpr std::uint64_t kSeedsOfOthers = 25;  // under each other policy
 
 class RandomTeams : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Policies, RandomTeams,
                          ::testing::Values("coordinated", "earliest_start", "certified",
                                            "reservation", "lockstep", "sequential"));
 
-TEST_P(RandomTeams, TouchNobodyAndEveryJobComesToOneEnd) {
+TEST_P(RandomTeams, NeverTouchAndEveryJobEndsOnce) {
   const std::string policy = GetParam();
   TeamTally tally;
   std::uint64_t first = 1, last = seed_count(policy == "coordinated" ? kSeeds : kSeedsOfOthers);

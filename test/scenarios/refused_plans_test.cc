@@ -1,10 +1,10 @@
-// What was planned in vain is not planned again while nothing it was planned against has changed.
+// A failed planning query is repeated only if something that it depends on has changed.
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {
 namespace {
 
-// A wall around the goal.
+// Adds walls around the goal.
 void shut_in(TwoGantries& cell, Place_m goal) {
   int side = 0;
   for (const auto& [x, y, width, depth] :
@@ -17,10 +17,10 @@ void shut_in(TwoGantries& cell, Place_m goal) {
   }
 }
 
-class RefusedGoals : public ::testing::Test {
+class FailedPlans : public ::testing::Test {
  protected:
-  RefusedGoals() : cell(gantries(OnIdleBlocker::report), "earliest_start") {}
-  // The evaluations that it took to fail.
+  FailedPlans() : cell(gantries(OnIdleBlocker::report), "earliest_start") {}
+  // Submits a goal that must fail; returns the number of state checks of its planning.
   std::uint64_t fails(const std::string& key) {
     const std::uint64_t before = cell.planning().evaluations;
     cell.submit(to_place("a", {-1, 2}, key));
@@ -31,7 +31,7 @@ class RefusedGoals : public ::testing::Test {
   TwoGantries cell;
 };
 
-TEST_F(RefusedGoals, CostNothingTheSecondTime) {
+TEST_F(FailedPlans, CostNothingTheSecondTime) {
   shut_in(cell, {-1, 2});
   EXPECT_GT(fails("first"), 100'000U);
   const std::string why = cell.job("first").detail();
@@ -39,8 +39,7 @@ TEST_F(RefusedGoals, CostNothingTheSecondTime) {
   EXPECT_EQ(cell.job("second").detail(), why);
 }
 
-// The other arm was as good as gone: where it stands now changes nothing.
-TEST_F(RefusedGoals, CostNothingWhereOnlyAnotherArmHasMoved) {
+TEST_F(FailedPlans, CostNothingIfOnlyAnIgnoredArmMoved) {
   shut_in(cell, {-1, 2});
   EXPECT_GT(fails("first"), 100'000U);
   cell.submit(go("b", {1, 0}, {1, 1}, 3, "b"));
@@ -48,7 +47,7 @@ TEST_F(RefusedGoals, CostNothingWhereOnlyAnotherArmHasMoved) {
   EXPECT_EQ(fails("second"), 0U);
 }
 
-TEST_F(RefusedGoals, AreTriedAgainFromElsewhereAndInAnotherScene) {
+TEST_F(FailedPlans, AreRetriedFromANewStartOrInANewScene) {
   shut_in(cell, {-1, 2});
   EXPECT_GT(fails("first"), 100'000U);
   cell.submit(go("a", {-1, 0}, {-1, 0.2}, 3, "elsewhere"));
@@ -63,8 +62,7 @@ TEST_F(RefusedGoals, AreTriedAgainFromElsewhereAndInAnotherScene) {
   EXPECT_EQ(cell.job("open").state, JobState::succeeded) << cell.job("open").detail();
 }
 
-// It has its way; what it is to go on by is not planned once more.
-TEST_F(RefusedGoals, AnotherWayOfAGoalIsPlannedOnce) {
+TEST_F(FailedPlans, ReplanOfAGoalIsPlannedOnce) {
   cell.submit(to_place("a", {-1, 3}, "goal"));
   cell.run_until(at(1s));
   ASSERT_EQ(cell.job("goal").state, JobState::running);

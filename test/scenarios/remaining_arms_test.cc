@@ -1,4 +1,3 @@
-// Jobs that either of two arms could do, when what others do shuts the way of one of them.
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {
@@ -7,7 +6,7 @@ namespace {
 class RemainingArms : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Policies, RemainingArms, ::testing::ValuesIn(known_policies()));
 
-// To a place and back to where it began.
+// Returns a job that moves to a place and back to its start.
 JobRequest visit(const std::string& arm, Place_m from, Place_m to, double duration_s,
                  std::string key) {
   JobRequest request = go(arm, from, to, duration_s / 2, std::move(key));
@@ -16,10 +15,10 @@ JobRequest visit(const std::string& arm, Place_m from, Place_m to, double durati
   return request;
 }
 
-// "either" would be sooner done by a, behind its other job; but c comes to rest in that way for
-// good, and b leaves for where "either" could not begin. One after the other, as they came, all can
-// be done; so b does it before it leaves.
-TEST_P(RemainingArms, AreTakenBeforeTheyAreShutToo) {
+// "either" would finish sooner with a, behind a's other job. But c comes to rest in a's path for
+// good, and b leaves for a place from which "either" cannot start. In submission order all jobs can
+// be done, so b must do "either" before it leaves.
+TEST_P(RemainingArms, TakeTheJobBeforeTheyAreBlockedToo) {
   TwoGantries cell(gantries(OnIdleBlocker::report, {{-0.5, 0}, {0.5, 0}, {0, 0.6}}), GetParam());
   JobRequest either = visit("a", {-0.5, 0}, {0, 0}, 4, "either");
   either.alternatives = {either.trajectory, visit("b", {0.5, 0}, {0.5, -0.9}, 7.2, "").trajectory};

@@ -1,4 +1,3 @@
-// Jobs that are given another way: on demand, when they have waited too long, past arms that rest.
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {
@@ -18,7 +17,7 @@ class Replans : public ::testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Policies, Replans, ::testing::ValuesIn(known_policies()));
 
-TEST_P(Replans, OneThatAnIdleArmBlocksGoesAroundIt) {
+TEST_P(Replans, LeadAroundAnIdleArm) {
   start(OnIdleBlocker::replan);
   cell->submit(go("a", {-1, 0}, {2, 0}, 6, "past b"));
   cell->run_to_the_end();
@@ -33,7 +32,7 @@ TEST_P(Replans, OneThatAnIdleArmBlocksGoesAroundIt) {
   expect_apart();
 }
 
-TEST_P(Replans, WhereThereIsNoWayAroundTheArmGoesAside) {
+TEST_P(Replans, AreReplacedByARetreatIfThereIsNoDetour) {
   start(OnIdleBlocker::replan);
   cell->submit(go("b", {1, 0}, {0, 0}, 2, "b"));
   cell->run_until(at(3s));
@@ -48,8 +47,8 @@ TEST_P(Replans, WhereThereIsNoWayAroundTheArmGoesAside) {
   expect_apart();
 }
 
-// It has come from nowhere, and stands at home: none of the straight ways aside is one.
-TEST_P(Replans, WhereThereIsNoStraightWayAsideOneIsPlanned) {
+// b is at home and has not moved, so none of the straight retreats exists.
+TEST_P(Replans, PlanARetreatIfNoStraightOneExists) {
   for (const auto how : {OnIdleBlocker::park, OnIdleBlocker::replan}) {
     start(how);
     JobRequest job = go("a", {-1, 0}, {1, 0}, 6, "into its home");
@@ -68,8 +67,8 @@ TEST_P(Replans, WhereThereIsNoStraightWayAsideOneIsPlanned) {
   }
 }
 
-// Each would pass where the other stands; both goals are free.
-TEST_P(Replans, ARingOpensByAWayAround) {
+// Each job passes the other arm's place; both goals are free.
+TEST_P(Replans, ResolveADeadlock) {
   for (const auto how : {OnIdleBlocker::report, OnIdleBlocker::replan}) {
     start(how);
     cell->submit(go("a", {-1, 0}, {2, 0}, 6, "a"));
@@ -87,7 +86,7 @@ TEST_P(Replans, ARingOpensByAWayAround) {
   }
 }
 
-TEST_P(Replans, OneThatHasWaitedTooLongGoesAnotherWayInsteadOfExpiring) {
+TEST_P(Replans, ReplaceExpiryAfterTheBacklogTimeout) {
   start(OnIdleBlocker::report);
   JobRequest job = go("a", {-1, 0}, {2, 0}, 6, "late");
   job.terms.on_timeout = OnTimeout::replan;
@@ -103,7 +102,7 @@ TEST_P(Replans, OneThatHasWaitedTooLongGoesAnotherWayInsteadOfExpiring) {
   expect_apart();
 }
 
-TEST_P(Replans, WhereThereIsNoneItExpiresAndSaysSo) {
+TEST_P(Replans, LetTheJobExpireIfThereIsNoAlternativePath) {
   start(OnIdleBlocker::report);
   JobRequest job = go("a", {-1, 0}, {1, 0}, 6, "into b");
   job.terms.on_timeout = OnTimeout::replan;
@@ -113,13 +112,12 @@ TEST_P(Replans, WhereThereIsNoneItExpiresAndSaysSo) {
   const JobView expired = cell->job("into b");
   EXPECT_EQ(expired.state, JobState::expired);
   EXPECT_EQ(expired.reason(), Reason::backlog_timeout);
-  EXPECT_EQ(expired.detail().rfind("waited 5 s in the backlog; no other way: ", 0), 0U)
+  EXPECT_EQ(expired.detail().rfind("waited 5 s in the backlog; no other path: ", 0), 0U)
       << expired.detail();
   cell->expect_at("a", {-1, 0});
 }
 
-// It stops where it is, and goes on from there, under its id.
-TEST_P(Replans, AMovingJobBrakesAndGoesOnFromThere) {
+TEST_P(Replans, BrakeAMovingJobAndContinueIt) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "moves"));
   cell->submit(go("a", {0, 2}, {-1, 2}, 2, "then"));
@@ -138,7 +136,7 @@ TEST_P(Replans, AMovingJobBrakesAndGoesOnFromThere) {
   cell->expect_at("a", {-1, 2});
 }
 
-TEST_P(Replans, WhatWaitsDoesNotStartOnItsOldWay) {
+TEST_P(Replans, KeepAWaitingJobFromItsOldPath) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "waits"));
   ASSERT_TRUE(cell->executive().replan("waits"));
@@ -151,8 +149,7 @@ TEST_P(Replans, WhatWaitsDoesNotStartOnItsOldWay) {
   cell->expect_at("a", {0, 2});
 }
 
-// Its own way would go through the object that has come.
-TEST_P(Replans, OneThatAnObjectStoppedGoesAroundIt) {
+TEST_P(Replans, LeadAroundANewObject) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "stopped"));
   cell->run_until(at(2s));
@@ -167,8 +164,7 @@ TEST_P(Replans, OneThatAnObjectStoppedGoesAroundIt) {
   cell->expect_at("a", {0, 2});
 }
 
-// Nothing starts on a stopped arm; where there is no other way it goes on by its own.
-TEST_P(Replans, AStoppedJobGoesOnWhenItIsResumed) {
+TEST_P(Replans, ContinueAStoppedJobAfterTheResume) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "stopped"));
   cell->run_until(at(2s));
@@ -183,7 +179,7 @@ TEST_P(Replans, AStoppedJobGoesOnWhenItIsResumed) {
   expect_succeeded("stopped");
 }
 
-TEST_P(Replans, WhereThereIsNoOtherWayItKeepsItsOwn) {
+TEST_P(Replans, KeepTheOldPathIfThereIsNoAlternative) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {1, 0}, 6, "into b"));
   cell->run_until(at(1s));
@@ -198,7 +194,7 @@ TEST_P(Replans, WhereThereIsNoOtherWayItKeepsItsOwn) {
   expect_apart();
 }
 
-TEST_P(Replans, WhatCanBeGivenNoneIsRefused) {
+TEST_P(Replans, AreRefusedForLoopsAndEndedJobs) {
   start(OnIdleBlocker::report);
   JobRequest loop = go("a", {-1, 0}, {-1, 0}, 6, "loop");
   loop.trajectory.points[1].positions = {-1, 1};
@@ -213,7 +209,7 @@ TEST_P(Replans, WhatCanBeGivenNoneIsRefused) {
   EXPECT_EQ(cell->executive().replan("loop").error().front().slug, "job-has-ended");
 }
 
-TEST_P(Replans, CancelEndsIt) {
+TEST_P(Replans, EndWithACancel) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "gone"));
   cell->run_until(at(3s));

@@ -1,5 +1,4 @@
-// Random commands on jobs that may be given other ways: nothing touches, each job ends once, and no
-// invariant of the scheduler breaks (that would throw).
+// A broken scheduler invariant throws.
 #include <map>
 #include <random>
 
@@ -98,7 +97,7 @@ TEST_P(RandomReplans, EveryJobEndsOnceAndNothingTouches) {
     }
     cell.executive().resume({ArmId{0}, ArmId{1}});
     cell.run_to_the_end(at(600s));
-    if (GetParam() != "timed_discrete") {  // which promises nothing about arms that are stopped
+    if (GetParam() != "timed_discrete") {  // timed_discrete promises nothing about stopped arms
       EXPECT_GT(cell.closest_m(), 0.019);
     }
     replans += client.replans;

@@ -1,6 +1,5 @@
-// The paper's third experiment: jobs that block each other for good, two and four arms. What
-// becomes of them where they are given up in time, where arms go aside, and where ways are planned
-// anew.
+// The paper's third experiment: two and four arms with jobs that block each other for good.
+// Compares three settings: abort after the timeout, retreat, replan.
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -16,11 +15,11 @@
 namespace armloom {
 namespace {
 
-constexpr double kHalf_m = 0.9;   // of the square in which all places are
-constexpr double kApart_m = 0.3;  // balls of 10 cm at rest
+constexpr double kHalf_m = 0.9;   // half the side of the square that holds all places
+constexpr double kApart_m = 0.3;  // for balls of 10 cm radius at rest
 constexpr int kJobsOfEach = 3;
 
-// Straight ways between random places; every second goal is, or was, where another arm stands.
+// Straight paths between random places. About every second goal is a home place of another arm.
 struct Workload {
   CellDescription cell;
   std::vector<TimedJob> jobs;
@@ -82,7 +81,7 @@ class WorkloadMaker {
   std::vector<Place_m> stands_;
 };
 
-// The smallest distance of two balls, from their measured places.
+// Records the smallest measured distance between two balls.
 struct Closest final : Observer {
   void on_event(const Event& event) override {
     const auto* job = std::get_if<JobView>(&event.body);
@@ -103,14 +102,14 @@ struct Closest final : Observer {
 };
 
 struct Outcome {
-  std::size_t done = 0;  // jobs of clients
+  std::size_t done = 0;  // client jobs that succeeded
   double makespan_s = 0.0;
   std::uint64_t replanned = 0;
   Planning planning = {};
-  std::map<std::string, std::string> undone = {};  // by key: how it ended instead
+  std::map<std::string, std::string> undone = {};  // by key: how the job ended instead
 };
 
-// Which jobs another run did, and this one not, with how they ended.
+// Returns the jobs that only the other outcome finished, with how they ended in `run`.
 std::string lost(const Outcome& than, const Outcome& run) {
   std::string text;
   for (const auto& [key, how] : run.undone) {
@@ -162,7 +161,7 @@ Outcome run(Workload load, Way way) {
 class BlockedGoals : public ::testing::TestWithParam<std::size_t> {};
 INSTANTIATE_TEST_SUITE_P(Arms, BlockedGoals, ::testing::Values(2, 4));
 
-TEST_P(BlockedGoals, ReplanDoesMoreJobsAndNothingTouches) {
+TEST_P(BlockedGoals, ReplanFinishesMostJobsWithoutContact) {
   const std::uint64_t seeds = seed_count(6);
   std::size_t jobs = 0, fewer = 0;
   Outcome sum[3];

@@ -1,4 +1,3 @@
-// What a run leaves for the next one, and takes over from the one before.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -10,7 +9,7 @@
 namespace armloom {
 namespace {
 
-// Writes when it is told to.
+// Acknowledges writes when the test calls write_all().
 struct SlowLog final : StartLog {
   void about_to_move(JobId job, std::function<void()> written) override {
     EXPECT_TRUE(asked.emplace(job, true).second) << "asked twice for one job";
@@ -38,7 +37,7 @@ struct Restarted : Crossing {
   double x() const { return log.last[0]; }
 };
 
-TEST(StartLog, NoArmMovesBeforeItsJobIsPutDown) {
+TEST(StartLog, NoArmMovesBeforeItsStartIsStored) {
   for (const std::string& policy : known_policies()) {
     SlowLog starts;
     Restarted cell(&starts, policy);
@@ -55,7 +54,7 @@ TEST(StartLog, NoArmMovesBeforeItsJobIsPutDown) {
   }
 }
 
-TEST(StartLog, WhoIsStoppedMeanwhileGoesOnWhenResumed) {
+TEST(StartLog, JobStoppedMeanwhileContinuesWhenResumed) {
   SlowLog starts;
   Restarted cell(&starts);
   cell.submit(slide("x", -1, 1, 4, "go"));
@@ -70,7 +69,7 @@ TEST(StartLog, WhoIsStoppedMeanwhileGoesOnWhenResumed) {
   EXPECT_EQ(cell.job("go").state, JobState::succeeded);
 }
 
-TEST(StartLog, WhoIsStoppedAndResumedMeanwhileStillWaits) {
+TEST(StartLog, JobStoppedAndResumedMeanwhileStillWaits) {
   SlowLog starts;
   Restarted cell(&starts);
   cell.submit(slide("x", -1, 1, 4, "go"));
@@ -85,7 +84,7 @@ TEST(StartLog, WhoIsStoppedAndResumedMeanwhileStillWaits) {
   EXPECT_EQ(cell.job("go").state, JobState::succeeded);
 }
 
-TEST(StartLog, WhoIsCanceledMeanwhileNeverMoves) {
+TEST(StartLog, JobCanceledMeanwhileNeverMoves) {
   SlowLog starts;
   Restarted cell(&starts);
   cell.submit(slide("x", -1, 1, 4, "go"));
@@ -98,8 +97,7 @@ TEST(StartLog, WhoIsCanceledMeanwhileNeverMoves) {
   EXPECT_EQ(cell.x(), -1.0);
 }
 
-// Late answers, in any order, are late arms: nothing touches, and all come to their ends.
-TEST(StartLog, HoweverLateItAnswersNothingTouches) {
+TEST(StartLog, LateAnswersCauseNoContact) {
   int jobs = 0;
   for (const std::string& policy : known_policies()) {
     if (policy == "timed_discrete") continue;  // promises nothing
@@ -145,7 +143,7 @@ std::vector<RestoredJob> two_of_x() {
   return jobs;
 }
 
-TEST(Restore, JobsHaveTheirIdsTheirOrderAndTheirConditions) {
+TEST(Restore, KeepsIdsOrderAndPredecessors) {
   Restarted cell(nullptr, "coordinated", JobId{20});
   stop_all(cell.executive(), "restart");
   const auto answers = cell.executive().restore(two_of_x());
@@ -162,7 +160,7 @@ TEST(Restore, JobsHaveTheirIdsTheirOrderAndTheirConditions) {
   EXPECT_LE(*cell.job("first").times.ended_at, *cell.job("second").times.started_at);
 }
 
-TEST(Restore, OneThatBeginsElsewhereFailsWhenItIsResumedAndNotBefore) {
+TEST(Restore, FailsAJobThatStartsElsewhereOnlyAfterResume) {
   Restarted cell(nullptr);
   stop_all(cell.executive(), "restart");
   std::vector<RestoredJob> jobs;
@@ -177,8 +175,8 @@ TEST(Restore, OneThatBeginsElsewhereFailsWhenItIsResumedAndNotBefore) {
   EXPECT_EQ(cell.job("next").state, JobState::succeeded);
 }
 
-// Arms are not stopped, so the first one is given a job of the scheduler's own at once.
-TEST(Restore, JobsOfTheServersOwnTakeNoNumberOfAFormerRun) {
+// The arms are not stopped, so the server adds a move-to-start at once.
+TEST(Restore, KeepsServerInitiatedJobsFromReusingIds) {
   Restarted cell(nullptr, "earliest_start", JobId{20});
   std::vector<RestoredJob> jobs;
   jobs.push_back({JobId{7}, slide("x", 0.2, -1, 2, "elsewhere"), at(-2s)});
@@ -194,7 +192,7 @@ TEST(Restore, JobsOfTheServersOwnTakeNoNumberOfAFormerRun) {
   EXPECT_EQ(cell.job("next").state, JobState::succeeded);
 }
 
-TEST(Restore, OneThatTheCellNoLongerFitsIsNamedAndTheOthersAreThere) {
+TEST(Restore, RefusesJobsThatNoLongerFitTheCell) {
   Restarted cell(nullptr);
   auto jobs = two_of_x();
   jobs[0].request.trajectory.points[1].positions = {100.0};
@@ -203,7 +201,7 @@ TEST(Restore, OneThatTheCellNoLongerFitsIsNamedAndTheOthersAreThere) {
   EXPECT_FALSE(answers[1]) << "it comes after the first";
 }
 
-TEST(WindDown, LeavesWhatHasNotBegunToTheNextRun) {
+TEST(WindDown, KeepsUnstartedJobsForTheNextSession) {
   Crossing cell;
   cell.submit(slide("x", -1, 1, 4, "moves"));
   cell.submit(slide("y", -1, 1, 4, "waits"));

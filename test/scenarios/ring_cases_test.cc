@@ -1,4 +1,3 @@
-// Arms with jobs that wait for each other in a ring: one goes aside and back (on_idle_blocker).
 #include <set>
 
 #include "test/scenarios/polygon.h"
@@ -7,7 +6,7 @@
 namespace armloom {
 namespace {
 
-// Every arm has a pose "back", 1 m behind its corner.
+// Gives every arm a pose "back", 1 m behind its corner.
 CellDescription parking_polygon(int corners) {
   CellDescription cell = polygon(corners);
   cell.scheduling.on_idle_blocker = OnIdleBlocker::park;
@@ -17,12 +16,12 @@ CellDescription parking_polygon(int corners) {
   return cell;
 }
 
-class InARing : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Policies, InARing, ::testing::ValuesIn(known_policies()));
+class InADeadlock : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Policies, InADeadlock, ::testing::ValuesIn(known_policies()));
 
-// Both stand on one line, each at the other's goal: b backs out, a passes to where b stood, and
-// makes way in its turn for b to return and go.
-TEST_P(InARing, OneOfTwoThatSwapTheirPlacesMovesAsideAndComesBack) {
+// Both arms share one line, each at the other's goal. b retreats behind its corner, a passes to b's
+// place, and then a retreats so that b can return and move.
+TEST_P(InADeadlock, OneOfTwoArmsRetreatsAndReturns) {
   Crossing cell(parking_polygon(2), GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.submit(slide("b", -1, 1, 4, "two"));
@@ -40,7 +39,7 @@ TEST_P(InARing, OneOfTwoThatSwapTheirPlacesMovesAsideAndComesBack) {
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
 }
 
-TEST_P(InARing, OneOfThreeMovesAsideAndComesBack) {
+TEST_P(InADeadlock, OneOfThreeArmsRetreatsAndReturns) {
   Crossing cell(parking_polygon(3), GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.submit(slide("b", -1, 1, 4, "two"));
@@ -52,8 +51,7 @@ TEST_P(InARing, OneOfThreeMovesAsideAndComesBack) {
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0u);
 }
 
-// Whoever follows the events knows every job before another one is told to wait for it.
-TEST_P(InARing, EveryJobIsToldBeforeOthersWaitForIt) {
+TEST_P(InADeadlock, EveryJobIsPublishedBeforeOthersWaitForIt) {
   Crossing cell(parking_polygon(2), GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.submit(slide("b", -1, 1, 4, "two"));
@@ -70,7 +68,7 @@ TEST_P(InARing, EveryJobIsToldBeforeOthersWaitForIt) {
   EXPECT_TRUE(told.contains("retreat-2"));
 }
 
-TEST_P(InARing, NoArmGoesAsideForOneThatIsCanceledBefore) {
+TEST_P(InADeadlock, RetreatIsCanceledWithTheJobThatItHelps) {
   Crossing cell(parking_polygon(2), GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.submit(slide("b", -1, 1, 4, "two"));
@@ -83,15 +81,16 @@ TEST_P(InARing, NoArmGoesAsideForOneThatIsCanceledBefore) {
   EXPECT_EQ(cell.job("two").state, JobState::succeeded);
 }
 
-TEST_P(InARing, WithNowhereToGoTheLastJobFailsAtOnce) {
+TEST_P(InADeadlock, LastJobFailsAtOnceWithoutARetreat) {
   CellDescription description = polygon(2);
-  description.scheduling.on_idle_blocker = OnIdleBlocker::park;  // home is where they stand
+  description.scheduling.on_idle_blocker = OnIdleBlocker::park;  // the arms are at home
   Crossing cell(description, GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.submit(slide("b", -1, 1, 4, "two"));
   cell.run_until(at(100ms));
   EXPECT_EQ(cell.job("two").reason(), Reason::deadlock);
-  EXPECT_NE(cell.job("two").detail().find("or a free way aside for one"), std::string::npos);
+  EXPECT_NE(cell.job("two").detail().find("or clear a retreat for one of the arms: none was free"),
+            std::string::npos);
   EXPECT_FALSE(cell.simulation->executive().job("retreat-1"));
 }
 

@@ -1,5 +1,3 @@
-// Objects that are set, moved and taken away while jobs run and wait; batches, checks and jobs that
-// come after others.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/polygon.h"
@@ -13,7 +11,7 @@ CollisionObject ball_at(double x_m, const std::string& name = "ball") {
   return object;
 }
 
-TEST(Scene, AnObjectSetInTheWayHoldsTheMotionUntilItIsTakenAway) {
+TEST(Scene, NewObjectPausesTheMotionUntilItIsRemoved) {
   Crossing cell;
   cell.submit(slide("x", -1, 1, 8, "moves"));
   cell.run_until(at(2s));
@@ -28,7 +26,7 @@ TEST(Scene, AnObjectSetInTheWayHoldsTheMotionUntilItIsTakenAway) {
   EXPECT_EQ(cell.job("moves").state, JobState::succeeded);
 }
 
-TEST(Scene, AWaitingJobIsTriedAgainWhenTheObjectMoves) {
+TEST(Scene, WaitingJobIsCheckedAgainWhenTheObjectMoves) {
   Crossing cell;
   ASSERT_TRUE(cell.simulation->executive().scene().add(ball_at(0.5)));
   cell.submit(slide("x", -1, 1, 4, "waits"));
@@ -41,7 +39,7 @@ TEST(Scene, AWaitingJobIsTriedAgainWhenTheObjectMoves) {
   EXPECT_EQ(cell.job("waits").state, JobState::running);
 }
 
-TEST(Scene, RefusesWhatCannotBe) {
+TEST(Scene, RefusesImpossibleChanges) {
   Crossing cell;
   Executive& executive = cell.simulation->executive();
   const auto in_arm = executive.scene().add(ball_at(-1.0));
@@ -57,7 +55,7 @@ TEST(Scene, RefusesWhatCannotBe) {
   EXPECT_EQ(executive.scene().version(), version);
 }
 
-TEST(After, AJobWaitsForTheOnesItNames) {
+TEST(Predecessors, DelayTheirSuccessor) {
   Crossing cell;
   cell.submit(slide("x", -1, -0.5, 2, "first"));
   JobRequest second = slide("y", -1, -0.5, 2, "second");
@@ -72,7 +70,7 @@ TEST(After, AJobWaitsForTheOnesItNames) {
   EXPECT_GE(*cell.job("second").times.started_at, *cell.job("first").times.ended_at);
 }
 
-TEST(After, AChainFailsWithItsFirstJob) {
+TEST(Predecessors, FailTheWholeChainWhenTheyFail) {
   Crossing cell;
   cell.submit(slide("x", -1, -0.5, 2, "first"));
   JobRequest second = slide("y", -1, -0.5, 2, "second");
@@ -87,7 +85,7 @@ TEST(After, AChainFailsWithItsFirstJob) {
   EXPECT_EQ(cell.job("third").reason(), Reason::predecessor_failed);
 }
 
-TEST(After, RefusesWhatIsUnknownItselfOrHasFailed) {
+TEST(Predecessors, AreRefusedIfUnknownFailedOrTheJobItself) {
   Crossing cell;
   Executive& executive = cell.simulation->executive();
   JobRequest job = slide("x", -1, -0.5, 2, "job");
@@ -102,7 +100,7 @@ TEST(After, RefusesWhatIsUnknownItselfOrHasFailed) {
   EXPECT_EQ(executive.submit(job).error().front().slug, "predecessor-failed");
 }
 
-TEST(Batch, IsAcceptedWholeOrNotAtAll) {
+TEST(Batch, IsAtomic) {
   Crossing cell;
   Executive& executive = cell.simulation->executive();
   JobRequest back = slide("x", -0.5, -1, 2, "back");
@@ -111,7 +109,7 @@ TEST(Batch, IsAcceptedWholeOrNotAtAll) {
   ASSERT_TRUE(accepted);
   EXPECT_EQ(accepted->size(), 2u);
 
-  // The second does not begin where the first ends; the third has the first one's id.
+  // The second job does not start where the first ends; the third has the first job's id.
   const auto refused = submit_batch(executive,
                                     {slide("y", -1, -0.5, 2, "one"), slide("y", -1, -0.5, 2, "two"),
                                      slide("y", -0.5, -1, 2, "one")},
@@ -125,7 +123,7 @@ TEST(Batch, IsAcceptedWholeOrNotAtAll) {
   EXPECT_EQ(cell.job("back").state, JobState::succeeded);
 }
 
-TEST(Batch, NotAtomicAnswersEachForItself) {
+TEST(Batch, AnswersEachJobIfNotAtomic) {
   Crossing cell;
   auto answers =
       submit_batch(cell.simulation->executive(),
@@ -165,8 +163,8 @@ TEST(Check, AnswersWithEvidenceAndChangesNothing) {
   EXPECT_EQ(cell.simulation->executive().snapshot().jobs.size(), 1u);
 }
 
-// Each of three arms would go where the next one stands: none can go alone, all can together.
-TEST(Check, UnderCoordinatedCountsOnJobsThatWouldGoTogetherWithIt) {
+// Each arm moves to the next arm's place: none can go alone, but all together can.
+TEST(Check, UnderCoordinatedIncludesJobsThatCanStartTogether) {
   Crossing cell(polygon(3), "coordinated");
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.submit(slide("b", -1, 1, 4, "two"));
@@ -188,7 +186,7 @@ TEST(Check, UnderCoordinatedCountsOnJobsThatWouldGoTogetherWithIt) {
   }
 }
 
-TEST(Check, UnderCoordinatedSaysOfOneThatIsStillAloneWhatIsInItsWay) {
+TEST(Check, UnderCoordinatedReportsTheBlockerOfALoneJob) {
   Crossing cell(polygon(3), "coordinated");
   cell.submit(slide("a", -1, 1, 4, "one"));
   cell.run_until(at(1s));
@@ -218,7 +216,7 @@ TEST(Synchronous, ArmsOfOneTrajectoryStartAndEndTogether) {
   EXPECT_EQ(cell.job("both").state, JobState::succeeded);
 }
 
-TEST(Synchronous, AFaultOfOneArmStopsItsSibling) {
+TEST(Synchronous, FaultOfOneArmStopsTheOther) {
   CellDescription description = crossing_description();
   description.robots[1].X_WB.translation().z() = 1.0;
   Crossing cell(description);
@@ -235,7 +233,7 @@ TEST(Synchronous, AFaultOfOneArmStopsItsSibling) {
   EXPECT_LT(cell.log.last[1], 0.5) << "the sibling stopped, too";
 }
 
-// x passes the crossing 40 cm before y does.
+// Returns a job in which x passes the crossing 40 cm before y does.
 JobRequest one_after_the_other(double duration_s) {
   JobRequest both;
   both.key = "both";
@@ -251,7 +249,7 @@ CellDescription crossing_from_behind() {
   return cell;
 }
 
-TEST(Synchronous, ArmsKeepClearOfEachOtherWhenOneOfThemFallsBehind) {
+TEST(Synchronous, ArmsKeepClearIfOneFallsBehind) {
   for (const char* policy : {"coordinated", "earliest_start", "certified"}) {
     Crossing cell(crossing_from_behind(), policy);
     cell.submit(one_after_the_other(8));
@@ -263,7 +261,7 @@ TEST(Synchronous, ArmsKeepClearOfEachOtherWhenOneOfThemFallsBehind) {
   }
 }
 
-TEST(Synchronous, ArmsThatWouldTouchIfOneFellBehindDoNotGoTogether) {
+TEST(Synchronous, MotionThatAllowsNoDelayIsRefused) {
   for (const char* policy : {"coordinated", "earliest_start", "certified"}) {
     Crossing cell(crossing_from_behind(), policy);
     cell.submit(one_after_the_other(2));

@@ -1,5 +1,5 @@
-// A wall as a link of the arms' URDF, as the link that carries one, and as an object of the cell:
-// the same stops and figures.
+// A wall as a link of the arms' URDF, as the link that carries an arm, and as an object of the cell
+// must give the same stops and metrics.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,13 +34,13 @@ JobRequest swing(double from, double to, double duration_s) {
   return request;
 }
 
-// The tip of arm "a" so far from the wall.
+// Returns the angle at which the tip of arm "a" is gap_m from the wall.
 double turned_to(double gap_m) { return std::asin((0.4 - 0.03 - gap_m) / 0.6); }
 
 struct WalledRun {
   WalledRun(As as, double gap_m, const std::string& policy) {
     Cell cell = *small::walled(as);
-    cell.checking.time_step = 10s;  // timed_discrete sees the ends only
+    cell.checking.time_step = 10s;  // timed_discrete checks the ends only
     auto made = Simulation::create(small::shared(cell), ExecutiveOptions{.policy = policy}, seen);
     if (!made) throw std::runtime_error(made.error().front().detail);
     Simulation& simulation = **made;
@@ -59,7 +59,7 @@ struct WalledRun {
   RunFigures figures{};
 };
 
-// Where the wall carries the arm, its pedestal is of the same link.
+// If the wall carries the arm, the arm's pedestal belongs to the same link.
 std::string named(const std::string& body) { return body == "a_base" ? "wall" : body; }
 
 void expect_same(const WalledRun& link, const WalledRun& object) {
@@ -86,12 +86,13 @@ void expect_same(const WalledRun& link, const WalledRun& object) {
   }
 }
 
-TEST(SceneLinks, StopTheArmWhereTheSameObjectDoes) {
+TEST(SceneLinks, StopTheArmLikeAnEqualObject) {
   for (const As as : {As::link, As::mount}) {
     const WalledRun link(as, 0.005, "timed_discrete");
     const WalledRun object(As::object, 0.005, "timed_discrete");
     expect_same(link, object);
-    ASSERT_FALSE(link.seen.found.empty());  // again while it comes closer as it brakes
+    // more findings follow as the arm comes closer while braking
+    ASSERT_FALSE(link.seen.found.empty());
     EXPECT_EQ(link.seen.found[0].finding.proximity.body_b, "wall");
     EXPECT_EQ(link.seen.found[0].finding.limit_m, 0.01);
     EXPECT_EQ(link.seen.found[0].stopped, std::vector<std::string>{"a"});
@@ -100,7 +101,7 @@ TEST(SceneLinks, StopTheArmWhereTheSameObjectDoes) {
   }
 }
 
-TEST(SceneLinks, CountInTheFiguresOfARunAndInStateFrames) {
+TEST(SceneLinks, AreIncludedInMetricsAndStateFrames) {
   for (const As as : {As::link, As::mount}) {
     const WalledRun link(as, 0.025, "certified");
     const WalledRun object(As::object, 0.025, "certified");
@@ -117,7 +118,7 @@ TEST(SceneLinks, CountInTheFiguresOfARunAndInStateFrames) {
   }
 }
 
-TEST(SceneLinks, AreWaitedForAsTheSameObjectIs) {
+TEST(SceneLinks, BlockJobsLikeAnEqualObject) {
   for (const std::string policy : {"certified", "reservation", "coordinated", "earliest_start"}) {
     for (const As as : {As::link, As::mount}) {
       const WalledRun link(as, 0.0094, policy);

@@ -10,10 +10,9 @@
 
 namespace armloom {
 
-// How many random workloads a test runs: `usual`, or what the environment variable ARMLOOM_SEEDS
-// says (long runs by hand); of that a `part`, at least one. Seeds count from 1, so that a longer
-// run contains the shorter one. Throws where the variable is no number above zero: nobody means to
-// run nothing.
+// Returns the number of random workloads of a test: `usual` or the environment variable
+// ARMLOOM_SEEDS, divided by `part`, at least 1. Seeds start at 1, so that a longer run contains the
+// shorter one. Throws std::invalid_argument if ARMLOOM_SEEDS is not a whole number above 0.
 inline std::uint64_t seed_count(std::uint64_t usual, std::uint64_t part = 1) {
   std::uint64_t count = usual;
   if (const char* variable = std::getenv("ARMLOOM_SEEDS")) {

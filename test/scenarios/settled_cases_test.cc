@@ -1,4 +1,3 @@
-// When nothing can happen any more: that is said no earlier, and the run ends.
 #include "test/scenarios/crossing.h"
 
 namespace armloom {
@@ -15,7 +14,7 @@ class Settled : public ::testing::TestWithParam<std::string> {
   void inject(const FaultRequest& request) {
     ASSERT_TRUE(cell->simulation->executive().faults().inject(request));
   }
-  // Runs until nothing can happen any more, and on for longer than anything in the cell waits.
+  // Runs until settled, then 200 s more, longer than any timeout in the cell.
   void expect_nothing_more(TimePoint limit) {
     while (!cell->simulation->settled()) {
       cell->simulation->tick();
@@ -32,8 +31,8 @@ class Settled : public ::testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Policies, Settled, ::testing::ValuesIn(known_policies()));
 
-// x gives up in the crossing: y's job expires there, and x's next one waits for somebody.
-TEST_P(Settled, AfterAFaultWhenTheTimeoutsAreOver) {
+// x faults in the crossing: y's job expires, and x's next job waits for a resume.
+TEST_P(Settled, AfterAFaultAndAllTimeouts) {
   inject(fault("x", ArmFault::Kind::fault, 1s));
   cell->submit(slide("x", -1, 1, 2, "gives up"));
   cell->submit(slide("x", 1, -1, 2, "comes back"));
@@ -41,7 +40,7 @@ TEST_P(Settled, AfterAFaultWhenTheTimeoutsAreOver) {
   expect_nothing_more(at(100s));
 }
 
-TEST_P(Settled, WhileAllArmsAreStoppedAndNobodyResumes) {
+TEST_P(Settled, WhileAllArmsAreStopped) {
   cell->submit(slide("x", -1, 1, 2, "one"));
   cell->submit(slide("y", -1, 1, 3, "two"));
   cell->run_until(at(500ms));
@@ -51,13 +50,12 @@ TEST_P(Settled, WhileAllArmsAreStoppedAndNobodyResumes) {
   resume_all(cell->simulation->executive());
   cell->run_to_the_end(at(400s));
   EXPECT_EQ(cell->job("one").state, JobState::succeeded);
-  // Under reservation it was in the backlog already, and its time there was over.
+  // Under reservation the job was in the backlog already, and has expired.
   EXPECT_EQ(cell->job("two").state,
             GetParam() == "reservation" ? JobState::expired : JobState::succeeded);
 }
 
-// It moves again by itself: that is still to come.
-TEST_P(Settled, NotWhileAStallIsToEnd) {
+TEST_P(Settled, NotDuringAStallThatEnds) {
   inject(fault("x", ArmFault::Kind::stall, 500ms, 5s));
   cell->submit(slide("x", -1, 1, 2, "one"));
   cell->submit(slide("y", -1, 1, 3, "two"));
@@ -76,7 +74,7 @@ TEST_P(Settled, NotBeforeASlowMotionOrALateStart) {
   cell->submit(slide("x", -1, 1, 2, "one"));
   cell->submit(slide("y", -1, 1, 3, "two"));
   const auto monitor_stops = [&] { return cell->simulation->executive().figures().monitor_stops; };
-  // timed_discrete promises nothing of late arms: they may be stopped, until somebody resumes them.
+  // timed_discrete promises nothing about late arms: the monitor may stop them until a resume.
   while (!cell->simulation->executive().all_ended()) {
     if (GetParam() == "timed_discrete" && monitor_stops() > 0) return;
     ASSERT_FALSE(cell->simulation->settled()) << to_seconds(cell->simulation->now() - at(0s));
@@ -85,7 +83,7 @@ TEST_P(Settled, NotBeforeASlowMotionOrALateStart) {
   }
 }
 
-TEST_P(Settled, ASimulationEndsThenAndNotWhenItsLimitIsOver) {
+TEST_P(Settled, EndsASimulationBeforeItsTimeLimit) {
   CellPtr built = build_cell(crossing_description()).value();
   Log log;
   std::vector<TimedJob> jobs;
@@ -100,8 +98,7 @@ TEST_P(Settled, ASimulationEndsThenAndNotWhenItsLimitIsOver) {
   EXPECT_LT(result->ended_at, at(70s));
 }
 
-// What it waits for in vain lasts as long as the client said; nobody has to wait for that.
-TEST_P(Settled, ALongWaitOfABlockedJobIsPassedOver) {
+TEST_P(Settled, LongWaitOfABlockedJobIsSkipped) {
   struct Cycles final : Observer {
     void on_event(const Event&) override {}
     void on_state(const StateFrame&) override {}
@@ -122,8 +119,8 @@ TEST_P(Settled, ALongWaitOfABlockedJobIsPassedOver) {
   EXPECT_LT(cycles.count, 20'000);
 }
 
-// From where the arms stand still, until one moves: pauses and waits for a start are rests, too.
-TEST_P(Settled, RestsAreToldAsTheyBeginAndEnd) {
+// on_rest(true) comes when the arms rest, on_rest(false) when one moves; pauses are rests, too.
+TEST_P(Settled, RestsAreReportedAsTheyBeginAndEnd) {
   struct Rests final : Observer {
     void on_event(const Event&) override {}
     void on_state(const StateFrame&) override {}

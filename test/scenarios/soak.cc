@@ -43,7 +43,7 @@ CellDescription pandas(Random& random) {
 
 }  // namespace
 
-// Counts what must not happen.
+// Counts monitor findings and guard refusals, and records the smallest distance.
 struct Soak::Watch final : Observer {
   void on_event(const Event& event) override {
     if (std::holds_alternative<MonitorEvent>(event.body)) ++monitor;
@@ -155,7 +155,7 @@ JobRequest Soak::motion(const std::vector<std::size_t>& arms) {
   return request;
 }
 
-// Out and back, by whichever of two arms.
+// Returns a motion out and back for either of two arms.
 JobRequest Soak::loop() {
   JobRequest request{.key = "", .name = "", .trajectory = {}};
   for (const std::size_t arm : some_arms(2)) {
@@ -281,7 +281,7 @@ void Soak::inject() {
                                      .value = random_.uniform(0.1, 1.0)});
 }
 
-// The arms are at home then, and what waited is restored.
+// Restarts the server: the arms are at home, and waiting jobs are restored.
 void Soak::restart() {
   ++tally_->restarts;
   bool done = false;
@@ -304,7 +304,7 @@ void Soak::restart() {
   start(first, std::move(left));
 }
 
-// Everything may go on, until all have ended or nothing happens any more.
+// Resumes everything until all jobs have ended or the cell is settled.
 void Soak::settle() {
   (void)executive().scene().remove("ball");
   resume_all(executive());
@@ -336,7 +336,7 @@ void Soak::run(SoakTally& tally, bool expects) {
   }
   const bool hangs = !executive().all_ended();
   tally.hung += hangs ? 1 : 0;
-  // Pairs that a certified motion may bring no closer, but for rounding.
+  // Certified motions keep the clearance, except for rounding.
   const double kept_m = 0.99 * cell_->clearances.clearance_m;
   if (!disturbed_) {
     tally.monitor_findings += watch_->monitor;

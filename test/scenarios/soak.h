@@ -13,27 +13,27 @@
 
 namespace armloom {
 
-// What came of a soak, summed over its runs.
+// Sums over the runs of a soak.
 struct SoakTally {
   std::size_t runs = 0, jobs = 0, succeeded = 0, own = 0, commands = 0, restarts = 0;
   std::uint64_t monitor_findings = 0;  // without a fault or an object
   std::uint64_t guard_refusals = 0;
-  std::uint64_t too_close = 0;  // runs without a fault or an object in which arms kept too little
-  std::uint64_t hung = 0;       // runs that came to a state in which nothing will ever happen
-  double closest_m = 1e9;       // of two arms, where there was no fault and no object
+  std::uint64_t too_close = 0;  // runs without a fault or an object in which arms came too close
+  std::uint64_t hung = 0;       // runs that settled before all jobs ended
+  double closest_m = 1e9;       // of two arms, in runs without a fault or an object
   double hours = 0.0;           // simulated
 };
 
-// Ordinary commands of every kind in random order, told by a seed: jobs with trajectories, goals,
-// alternatives and approaches, for one arm or several, batches, cancel, stop, resume, replan,
-// PATCH, another policy, objects, faults and restarts. Two to four sliders, or two Pandas.
+// Random sequences of all ordinary commands, determined by a seed: jobs with trajectories, goals,
+// alternatives and moves to their start, for one arm or several, batches, cancel, stop, resume,
+// replan, PATCH, policy changes, objects, faults and restarts. Two to four sliders, or two Pandas.
 class Soak {
  public:
   enum class World { sliders, pandas };
   Soak(std::uint64_t seed, World world, const std::string& policy);
   ~Soak();
 
-  // Adds what came of it. With `expects`, a claim that is broken fails the test.
+  // Runs and adds the results to the tally. With `expects`, a broken promise fails the test.
   void run(SoakTally& tally, bool expects = true);
 
  private:
@@ -42,7 +42,7 @@ class Soak {
     std::string name;
     std::vector<std::string> joints;
     std::vector<double> home;
-    double spread;  // of a random place about home (rad, m), each joint
+    double spread;  // of random positions around home (rad, m), each joint
   };
 
   void start(std::uint64_t first_job, std::vector<RestoredJob> left);
@@ -71,7 +71,7 @@ class Soak {
   std::unique_ptr<Simulation> simulation_;
   std::map<std::string, JobRequest> requests_;  // by key
   std::map<std::string, std::vector<std::vector<double>>>
-      ends_;  // by key and arm; empty: not moved
+      ends_;  // by key and arm; empty if the job does not move the arm
   std::uint64_t next_ = 1;
   bool may_fault_ = false, may_see_objects_ = false, disturbed_ = false;
   SoakTally* tally_ = nullptr;

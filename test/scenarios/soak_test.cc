@@ -1,6 +1,4 @@
-// A soak of ordinary commands of every kind: whatever is asked in whatever order, no arm comes too
-// close to another one, the guard has nothing to refuse, and every wait ends.
-// ARMLOOM_SEEDS=10000 runs so many of each; ARMLOOM_FIRST_SEED=77 begins there.
+// ARMLOOM_SEEDS=10000 sets the number of runs; ARMLOOM_FIRST_SEED=77 the first seed.
 #include "test/scenarios/soak.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +19,8 @@ constexpr std::uint64_t kPandas = 1;
 void soak(Soak::World world, const std::string& policy, std::uint64_t seeds) {
   const char* from = std::getenv("ARMLOOM_FIRST_SEED");
   const std::uint64_t first = from != nullptr ? std::stoull(from) : 1;
-  const bool expects = std::getenv("ARMLOOM_FAULT") == nullptr;  // test/guard/faults.py counts
+  // test/guard/faults.py counts refusals itself
+  const bool expects = std::getenv("ARMLOOM_FAULT") == nullptr;
   SoakTally tally;
   for (std::uint64_t seed = first; seed < first + seeds; ++seed) {
     SCOPED_TRACE(policy + ", seed " + std::to_string(seed));
@@ -49,8 +48,8 @@ INSTANTIATE_TEST_SUITE_P(Policies, SoakOfCommands,
 TEST_P(SoakOfCommands, Sliders) { soak(Soak::World::sliders, GetParam(), seed_count(kSliders)); }
 TEST_P(SoakOfCommands, Pandas) { soak(Soak::World::pandas, GetParam(), seed_count(kPandas, 10)); }
 
-// In this order: an arm at rest beside a synchronous motion, an endless loop, an approach that was
-// placed behind its job.
+// Failures of these seeds: an arm at rest against a synchronous motion, an endless loop, a
+// move-to-start that was queued behind its own job.
 TEST(Soak, PassesSeedsThatOnceFailed) {
   for (const auto& [policy, seed] : std::vector<std::pair<std::string, std::uint64_t>>{
            {"coordinated", 7000447}, {"certified", 21000112}, {"coordinated", 20000387}}) {

@@ -7,7 +7,7 @@
 
 namespace armloom {
 
-// Sliders in one plane, all through the origin, turned by equal angles.
+// Returns sliders in one plane, all through the origin, at equal angles.
 inline CellDescription star(std::size_t arms) {
   CellDescription cell = crossing_description();
   const RobotDescription first = cell.robots[0];
@@ -25,7 +25,7 @@ inline CellDescription star(std::size_t arms) {
   return cell;
 }
 
-// The smallest distance between the balls, from their measured places.
+// Records the smallest measured distance between the balls.
 struct SmallestDistance final : Observer {
   explicit SmallestDistance(std::size_t arms) : count(arms) {}
   void on_event(const Event&) override {}

@@ -1,4 +1,3 @@
-// Stops, resumes and cancels of motions under way, through the whole executive.
 #include <gtest/gtest.h>
 
 #include "test/scenarios/crossing.h"
@@ -6,7 +5,7 @@
 namespace armloom {
 namespace {
 
-TEST(Stop, HoldsAllMotionsAndResumeFinishesThem) {
+TEST(Stop, PausesAllMotionsAndResumeFinishesThem) {
   Crossing cell;
   cell.submit(slide("x", -1, -0.4, 4, "one"));
   cell.submit(slide("y", -1, -0.4, 4, "two"));
@@ -25,9 +24,8 @@ TEST(Stop, HoldsAllMotionsAndResumeFinishesThem) {
   EXPECT_EQ(cell.job("two").state, JobState::succeeded);
 }
 
-// The other arm would come to rest in its way for good: it waits, as it would if nobody was
-// stopped.
-TEST(Stop, OfAnArmLeavesWhatWaitsForItPossible) {
+// y would rest in the path of stopped x for good, so it waits, as it would if x were not stopped.
+TEST(Stop, KeepsWaitingJobsOfTheArmPossible) {
   for (const std::string& policy : known_policies()) {
     Crossing cell(crossing_description(), policy);
     Executive& executive = cell.simulation->executive();
@@ -66,11 +64,11 @@ TEST(WindDown, BringsArmsToRestAndEndsEveryJobOnce) {
   EXPECT_EQ(cell.log.last, stands);
 }
 
-// The paper's policy has no orders that would keep others away from an arm that stops in their way.
+// timed_discrete has no passing orders that keep arms away from an arm that stops in their way.
 class TimedDiscreteStop : public ::testing::Test {
  protected:
   static constexpr ArmId kX{0};
-  // x is stopped, or stalls, in the middle.
+  // Expects that y keeps clear of x, which is stopped or stalled in the middle.
   void expect_nobody_drives_into_it(const std::string& first) {
     std::optional<CheckView> view;
     cell.simulation->executive().check(slide("y", -1, 1, 4),
@@ -92,7 +90,7 @@ class TimedDiscreteStop : public ::testing::Test {
   Crossing cell;
 };
 
-TEST_F(TimedDiscreteStop, AStoppedArmIsAtRestWhereItIsForWhatComesThen) {
+TEST_F(TimedDiscreteStop, StoppedArmBlocksLaterJobs) {
   cell.submit(slide("x", -1, 1, 4, "stopped"));
   cell.run_until(at(2s));
   cell.simulation->executive().stop({kX}, "operator");
@@ -100,7 +98,7 @@ TEST_F(TimedDiscreteStop, AStoppedArmIsAtRestWhereItIsForWhatComesThen) {
   expect_nobody_drives_into_it("stopped");
 }
 
-TEST_F(TimedDiscreteStop, SoIsOneThatStalls) {
+TEST_F(TimedDiscreteStop, StalledArmBlocksLaterJobs) {
   ASSERT_TRUE(cell.simulation->executive().faults().inject(
       {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(2s), .lasting = 8s}));
   cell.submit(slide("x", -1, 1, 4, "stalls"));
@@ -108,7 +106,7 @@ TEST_F(TimedDiscreteStop, SoIsOneThatStalls) {
   expect_nobody_drives_into_it("stalls");
 }
 
-TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatStopsInItsWay) {
+TEST_F(TimedDiscreteStop, MotionPausesBeforeAnArmThatStops) {
   cell.submit(slide("x", -1, 1, 3, "ahead"));
   cell.submit(slide("y", -1, 1, 6, "behind"));
   cell.run_until(at(1500ms));
@@ -124,7 +122,7 @@ TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatStopsInItsWay) 
   EXPECT_GT(cell.log.closest_m, 0.0);
 }
 
-TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatStallsInItsWay) {
+TEST_F(TimedDiscreteStop, MotionPausesBeforeAnArmThatStalls) {
   ASSERT_TRUE(cell.simulation->executive().faults().inject(
       {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1500ms), .lasting = 20s}));
   cell.submit(slide("x", -1, 1, 3, "ahead"));
@@ -136,7 +134,7 @@ TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatStallsInItsWay)
   EXPECT_GT(cell.log.closest_m, 0.0);
 }
 
-TEST_F(TimedDiscreteStop, AMotionUnderWayIsStoppedBeforeAnArmThatWasCanceledInItsWay) {
+TEST_F(TimedDiscreteStop, MotionPausesBeforeAnArmThatIsCanceled) {
   cell.submit(slide("x", -1, 1, 3, "ahead"));
   cell.submit(slide("y", -1, 1, 6, "behind"));
   cell.run_until(at(1500ms));

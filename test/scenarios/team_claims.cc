@@ -1,4 +1,3 @@
-// What is claimed of a world that has come to rest, and its story.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,20 +10,22 @@ namespace armloom {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr double kHoldsUnderDelays_m = 0.015;  // the cell's clearance less what tracking costs
+constexpr double kHoldsUnderDelays_m = 0.015;  // the cell's clearance minus tracking errors
 
 }  // namespace
 
 void TeamsRun::explain_what_waits() {
   const Snapshot now = executive().snapshot();
-  std::map<std::string, std::set<std::string>> waits;  // of jobs, and of "arm:" with a job
+  // waits of jobs and of arms; key "arm:NAME" for an arm with jobs
+  std::map<std::string, std::set<std::string>> waits;
   std::set<std::string> explained;
   for (const JobView& job : now.jobs) {
     if (is_terminal(job.state)) continue;
     for (const std::string& arm : job.arms) {
       auto& of_arm = waits["arm:" + arm];
       const bool behind = job.state == JobState::scheduled && job.waits_on.empty();
-      if (behind) waits[job.key].insert(of_arm.begin(), of_arm.end());  // is not told
+      // is not published as a wait
+      if (behind) waits[job.key].insert(of_arm.begin(), of_arm.end());
       of_arm.insert(job.key);
     }
     for (const WaitView& wait : job.waits_on) {
@@ -50,7 +51,7 @@ void TeamsRun::explain_what_waits() {
 
 void TeamsRun::compare() {
   const Snapshot now = executive().snapshot();
-  std::map<std::string, int> places;  // in the queue
+  std::map<std::string, int> places;  // number of the queue's lists that contain the job
   for (const auto& keys :
        {now.queue.queued, now.queue.backlog, now.queue.scheduled, now.queue.running}) {
     for (const std::string& key : keys) ++places[key];

@@ -12,7 +12,7 @@ namespace armloom {
 namespace {
 
 using namespace std::chrono_literals;
-constexpr Duration kQuiet = 45s;  // nothing happens for so long: nothing ever will
+constexpr Duration kQuiet = 45s;  // without events or motion for this long, the world is settled
 
 }  // namespace
 
@@ -124,7 +124,7 @@ void TeamsRun::submit() {
 }
 
 void TeamsRun::batch() {
-  // Of different arms, or the second one may not begin where the first one ends.
+  // The two jobs may share an arm; then the second may not start where the first ends.
   std::vector<JobRequest> jobs = {random_job(), random_job()};
   const auto answers = submit_batch(executive(), jobs, random_.chance(0.5));
   if (!answers) return;
@@ -194,7 +194,7 @@ void TeamsRun::note_own_jobs() {
     const auto* job = std::get_if<JobView>(&watched_.events[read_].body);
     if (job == nullptr) continue;
     told_[job->key] = *job;
-    if (!job->key.starts_with("aside-")) continue;
+    if (!job->key.starts_with("retreat-")) continue;
     if (own_.insert(job->key).second) keys_.push_back(job->key);
   }
 }

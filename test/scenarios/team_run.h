@@ -13,16 +13,17 @@
 
 namespace armloom {
 
-// Of all worlds of a policy.
+// Sums over all worlds of a policy.
 struct TeamTally {
   std::size_t jobs = 0, succeeded = 0, own = 0;
-  double smallest_m = 1e9;          // where no controller gave up
-  double smallest_fault_m = 1e9;    // where one did
-  double smallest_in_step_m = 1e9;  // of two arms of one motion
+  double smallest_m = 1e9;          // in worlds without an injected fault
+  double smallest_fault_m = 1e9;    // in worlds with an injected fault
+  double smallest_in_step_m = 1e9;  // between two arms of one motion
   std::uint64_t monitor_stops = 0;
 };
 
-// One world, told by its seed: commands at random, until all has come to rest, and what is claimed.
+// One random world, determined by its seed: random commands until the world has settled, and the
+// promises that it must keep.
 class TeamsRun {
  public:
   TeamsRun(std::uint64_t seed, const std::string& policy);
@@ -35,7 +36,7 @@ class TeamsRun {
 
   ArmId any_arm() { return ArmId{static_cast<std::uint32_t>(random_.index(arms_.size()))}; }
 
-  // Of one to three arms, from where clients' jobs leave them.
+  // Returns a job of one to three arms, from where client jobs leave them.
   JobRequest random_job();
   double predicted(const Snapshot& now, std::size_t arm);
   void remember(const Result<JobView>& accepted, const JobRequest& request);
@@ -47,15 +48,15 @@ class TeamsRun {
   void change_scene();
   void inject(const std::string& arm);
   void note_own_jobs();
-  // Jobs, queue and the last event of each job say the same.
+  // Expects that jobs, queue and the last event of each job agree.
   void compare();
-  // Everything may go on, until nothing has happened for long.
+  // Resumes everything until nothing has happened for kQuiet.
   void settle();
-  // By the monitor, or by a controller that gave up.
+  // Returns true if a job waits for a stop (by the monitor or a controller fault).
   bool stopped_in_vain();
-  // An arm rests for ever in the way of each.
+  // Expects that every waiting job waits, directly or not, for an arm without a job.
   void explain_what_waits();
-  // What is left is canceled. An arm may be sent aside or back even then.
+  // Cancels the remaining jobs. Retreats and returns may still follow.
   void end_all();
   void judge(TeamTally& tally);
   void tell();
@@ -65,11 +66,11 @@ class TeamsRun {
   WatchedTeam watched_;
   std::unique_ptr<Simulation> simulation_;
   std::vector<std::string> arms_;
-  std::vector<double> left_;       // by clients' jobs
-  std::vector<std::string> keys_;  // the server's own included
+  std::vector<double> left_;       // position where client jobs leave the arm
+  std::vector<std::string> keys_;  // including server-initiated jobs
   std::set<std::string> own_;
-  std::map<std::string, JobView> told_;  // as the last event of each job has it
-  std::map<std::pair<std::string, std::string>, double> goals_;  // of job and arm
+  std::map<std::string, JobView> told_;                          // the last event of each job
+  std::map<std::pair<std::string, std::string>, double> goals_;  // by job and arm
   std::size_t read_ = 0;
   bool delayed_ = false, commanded_ = false, may_fault_ = false, may_see_objects_ = false;
   bool faulted_ = false;

@@ -10,7 +10,7 @@
 namespace armloom {
 namespace {
 
-// One arm along x that crosses two others, and with four arms a second one beside it.
+// Returns one arm along x that crosses two others; with four arms a second one parallel to it.
 CellDescription ladder(std::size_t arms) {
   CellDescription cell = star(arms);
   const auto turn = Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitZ());

@@ -9,11 +9,10 @@
 
 namespace armloom {
 
-// Three or four arms that cross each other: a star, a polygon or a ladder, with settings of any
-// kind.
+// Returns three or four arms that cross each other (star, polygon or ladder) with random settings.
 [[nodiscard]] CellDescription team_cell(Random& random);
 
-// Everything that is told, and how near the balls have come.
+// Records all events and the smallest distances between balls.
 struct WatchedTeam final : Observer {
   explicit WatchedTeam(const CellDescription& cell);
   void on_event(const Event& event) override;
@@ -23,7 +22,7 @@ struct WatchedTeam final : Observer {
 
   std::vector<Eigen::Isometry3d> X_WB;
   std::vector<std::string> names;
-  std::vector<std::vector<bool>> in_step;  // the last motion of both was the same
+  std::vector<std::vector<bool>> in_step;  // true if the last motion of both arms was the same
   std::vector<Event> events;
   Configuration last;
   double smallest_m = 1e9, smallest_in_step_m = 1e9;

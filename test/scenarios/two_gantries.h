@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 
 using Place_m = std::pair<double, double>;
 
-// Balls of 10 cm radius, "a", "b" and so on, that go anywhere in one plane.
+// Returns balls of 10 cm radius, "a", "b" and so on, that can move anywhere in one plane.
 inline CellDescription gantries(OnIdleBlocker on_idle_blocker, const std::vector<Place_m>& homes) {
   CellDescription cell{.name = "gantries"};
   for (std::size_t i = 0; i < homes.size(); ++i) {
@@ -42,7 +42,7 @@ inline CellDescription gantries(OnIdleBlocker on_idle_blocker) {
   return gantries(on_idle_blocker, {{-1.0, 0.0}, {1.0, 0.0}});
 }
 
-// Straight, from rest to rest, as a client would post it.
+// Returns a straight motion from rest to rest.
 inline JobRequest go(const std::string& arm, Place_m from, Place_m to, double duration_s,
                      std::string key) {
   JobRequest request{.key = std::move(key), .name = "", .trajectory = {}};
@@ -60,7 +60,7 @@ inline JobRequest to_place(const std::string& arm, Place_m to, std::string key) 
   return goal;
 }
 
-// Beside and around places that arms stand at.
+// Positions of four walls around the arms.
 struct Walls {
   double left_m, right_m, below_m, above_m;
 };
@@ -78,7 +78,7 @@ inline void put_walls(CellDescription& cell, const Walls& at) {
   wall("above", {kLong_m, kThick_m, 0.3}, {middle.first, at.above_m});
 }
 
-// The cell on hand-driven time.
+// A cell of gantries on simulated time.
 class TwoGantries {
  public:
   explicit TwoGantries(const CellDescription& description, const std::string& policy) {
@@ -112,10 +112,10 @@ class TwoGantries {
   }
   [[nodiscard]] const Configuration& measured() const { return log_.last; }
   [[nodiscard]] double closest_m() const { return log_.closest_m; }
-  // Of one joint of the cell, from tick to tick.
+  // Returns the largest joint speed between two ticks.
   [[nodiscard]] double fastest_m_s() const { return log_.fastest_m_s; }
   [[nodiscard]] const std::vector<Event>& events() const { return log_.events; }
-  // Of a's ball from the x axis.
+  // Returns the largest distance of a's ball from the x axis.
   [[nodiscard]] double farthest_off_m() const { return log_.farthest_off_m; }
   [[nodiscard]] const Planning& planning() const { return simulation_->planning(); }
 

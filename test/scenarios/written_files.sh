@@ -1,7 +1,6 @@
 #!/bin/sh
-# What scripts of this repository wrote is what they write: the jobs files in config/ of
-# config/joint_moves.py, the robot with two arms of models/dual_panda.py, the meshes of
-# models/shuttle/shuttle.py.
+# Checks that generated files are up to date: jobs files in config/ (config/joint_moves.py), the two-armed
+# robot (models/dual_panda.py), meshes (models/shuttle/shuttle.py).
 set -e
 top=$(cd "$(dirname "$0")/../.." && pwd)
 for cell in two_pandas four_pandas panda_and_ur5e dual_panda two_shuttles; do

@@ -1,4 +1,3 @@
-// When a job is judged, and what its verdict leads to.
 #include <gmock/gmock.h>
 
 #include "core/coordination/effort.h"
@@ -8,7 +7,8 @@
 namespace armloom {
 namespace {
 
-TEST(Admission, ReservesInTheStepThatAdmits) {  // T1: same instant, one runs, one waits
+TEST(Admission,
+     ReservesTheMotionInTheAdmittingStep) {  // T1: one runs, one waits
   Bench bench(2);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId second = bench.submit(move({1}, 0, 1, 2s), at(0ms));
@@ -17,7 +17,7 @@ TEST(Admission, ReservesInTheStepThatAdmits) {  // T1: same instant, one runs, o
 
   bench.answer_free(at(1ms));
   EXPECT_EQ(bench.state(first), JobState::scheduled);
-  // The very next question already holds the first one's motion.
+  // The next question already includes the first job's motion.
   ASSERT_EQ(bench.question->candidates.front().job, second);
   ASSERT_EQ(bench.question->others.size(), 1u);
   EXPECT_EQ(bench.question->others.front().job, first);
@@ -29,7 +29,7 @@ TEST(Admission, ReservesInTheStepThatAdmits) {  // T1: same instant, one runs, o
   EXPECT_EQ(bench.job(second).waits_on.front().job, first);
 }
 
-TEST(Admission, ComparesWithTheRemainingMotionAsItWasMeasured) {  // T2
+TEST(Admission, ChecksAgainstTheRemainingMeasuredMotion) {  // T2
   Bench bench(2);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -40,8 +40,8 @@ TEST(Admission, ComparesWithTheRemainingMotionAsItWasMeasured) {  // T2
   EXPECT_EQ(bench.question->candidates.front().progress, 0ms);
 }
 
-// For questions about what else could go beside a cell that already moves.
-TEST(Admission, BesideWhatWasUnderWayBeforeComparesFromWhereThatIs) {
+// For questions in a cell that already moves.
+TEST(Admission, ChecksAgainstMotionsUnderWayFromTheirProgress) {
   const CellPtr cell = one_joint_arms(2);
   for (const Duration progress : {Duration{}, Duration{1200ms}}) {
     Scheduler scheduler(
@@ -57,7 +57,7 @@ TEST(Admission, BesideWhatWasUnderWayBeforeComparesFromWhereThatIs) {
   }
 }
 
-TEST(Admission, CountsWhatHasNotMovedYetFromItsStart) {
+TEST(Admission, ChecksAgainstAnUnstartedMotionFromItsStart) {
   Bench bench(2);
   bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.submit(move({1}, 0, 1, 2s), at(0ms));
@@ -65,7 +65,7 @@ TEST(Admission, CountsWhatHasNotMovedYetFromItsStart) {
   EXPECT_EQ(bench.question->others.front().progress, 0ms);
 }
 
-TEST(Admission, AnAnswerCountsHoweverLateItComes) {
+TEST(Admission, AcceptsALateAnswer) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(10s));
@@ -74,19 +74,19 @@ TEST(Admission, AnAnswerCountsHoweverLateItComes) {
   EXPECT_EQ(bench.dispatched.front().start_at, at(10s));
 }
 
-TEST(Admission, IgnoresAVerdictOnOlderReservations) {
+TEST(Admission, IgnoresAVerdictForAnOlderVersion) {
   Bench bench(2);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
   const JobId second = bench.submit(move({1}, 0, 1, 2s), at(100ms));
   const Version asked = bench.question->version;
-  bench.finished(first, at(101ms));  // changes what the question was about
+  bench.finished(first, at(101ms));  // raises the version
   bench.step(Judged{Verdict{Verdict::Kind::free, asked, {}, {}, 1}}, at(102ms));
   EXPECT_EQ(bench.state(second), JobState::queued);
   EXPECT_GT(bench.question->version, asked);
 }
 
-TEST(Admission, DispatchesInTheStepThatAdmitsWhereNothingHoldsTheJobBack) {
+TEST(Admission, DispatchesInTheAdmittingStep) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(5ms));
   bench.answer_free(at(6ms));
@@ -99,16 +99,16 @@ TEST(Admission, DispatchesInTheStepThatAdmitsWhereNothingHoldsTheJobBack) {
   EXPECT_EQ(bench.job(job).times.started_at, at(8ms));
 }
 
-TEST(Admission, TriesTheLargerPriorityFirst) {
+TEST(Admission, ChecksTheLargerPriorityFirst) {
   Bench bench(3);
-  bench.submit(move({0}, 0, 1, 2s), at(0ms));  // its question is open
+  bench.submit(move({0}, 0, 1, 2s), at(0ms));  // becomes the open question
   bench.submit(move({1}, 0, 1, 2s), at(0ms));
   const JobId urgent = bench.submit(move({2}, 0, 1, 2s), at(0ms), 60s, 5);
   bench.answer_free(at(1ms));
   EXPECT_EQ(bench.question->candidates.front().job, urgent);
 }
 
-TEST(Admission, RaisesABudgetThatEndedBeforeItPutsAJobOff) {
+TEST(Admission, RaisesAnExhaustedBudgetBeforeBacklogging) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   int now_ms = 1;
@@ -126,7 +126,7 @@ TEST(Admission, RaisesABudgetThatEndedBeforeItPutsAJobOff) {
   EXPECT_FALSE(bench.job(job).waits_on.front().detail.empty());
 }
 
-TEST(Admission, JudgesOthersBeforeOneWhoseBudgetWasRaised) {
+TEST(Admission, ChecksOtherJobsBeforeRetryingWithARaisedBudget) {
   Bench bench(2);
   const JobId hard = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId other = bench.submit(move({1}, 0, 1, 2s), at(0ms));
@@ -142,7 +142,7 @@ TEST(Admission, JudgesOthersBeforeOneWhoseBudgetWasRaised) {
   EXPECT_EQ(bench.state(hard), JobState::scheduled);
 }
 
-TEST(Admission, FailsWhatHitsItself) {
+TEST(Admission, FailsAJobThatCollidesWithItself) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_conflict(at(1ms), Conflict::With::self);

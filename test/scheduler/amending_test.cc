@@ -1,4 +1,3 @@
-// What is asked of a job is changed while it waits, or moves.
 #include "core/scheduler/amending.h"
 
 #include <gmock/gmock.h>
@@ -8,7 +7,6 @@
 namespace armloom {
 namespace {
 
-// Two jobs of other arms wait for the motion of the first arm.
 struct TwoWait : Bench {
   TwoWait() : Bench(3, "certified") {
     runs = submit(move({0}, 0, 1, 40s), at(0ms));
@@ -27,14 +25,14 @@ struct TwoWait : Bench {
   JobId runs{0}, earlier{0}, later{0};
 };
 
-TEST(Amending, TheLargerPriorityGoesNextAtOnceThoughAnotherOneIsAskedAbout) {
+TEST(Amending, RaisedPriorityOvertakesAnOpenQuestion) {
   TwoWait bench;
   bench.finished(bench.runs, at(1s));
   ASSERT_EQ(bench.candidate(), bench.earlier);
   bench.step(Amend{bench.later, {.priority = 5}}, at(1001ms));
   EXPECT_EQ(bench.job(bench.later).terms.priority, 5);
   bench.answer_free(at(1002ms));
-  EXPECT_EQ(bench.state(bench.earlier), JobState::backlogged) << "the answer is void";
+  EXPECT_EQ(bench.state(bench.earlier), JobState::backlogged) << "the answer is discarded";
   ASSERT_TRUE(bench.question);
   EXPECT_EQ(bench.candidate(), bench.later);
   bench.answer_free(at(1003ms));
@@ -42,7 +40,7 @@ TEST(Amending, TheLargerPriorityGoesNextAtOnceThoughAnotherOneIsAskedAbout) {
   EXPECT_EQ(bench.candidate(), bench.earlier);
 }
 
-TEST(Amending, WhatWaitsIsJudgedAgainAndTheSamePriorityIsNoReason) {
+TEST(Amending, ChangedPriorityCausesANewCheck) {
   TwoWait bench;
   ASSERT_FALSE(bench.question);
   bench.step(Amend{bench.earlier, {.priority = 0}}, at(1s));
@@ -52,20 +50,20 @@ TEST(Amending, WhatWaitsIsJudgedAgainAndTheSamePriorityIsNoReason) {
   EXPECT_EQ(bench.candidate(), bench.earlier);
 }
 
-TEST(Amending, ATimeoutCountsFromWhenTheJobFirstWasInConflict) {
+TEST(Amending, TimeoutRunsFromTheFirstConflict) {
   TwoWait bench;
   EXPECT_EQ(bench.wake_at, at(10011ms));
   bench.step(Amend{bench.earlier, {.backlog_timeout = 60s}}, at(1s));
-  EXPECT_EQ(bench.wake_at, at(10021ms)) << "that of the other one";
+  EXPECT_EQ(bench.wake_at, at(10021ms)) << "deadline of the other job";
   bench.step(Amend{bench.later, {.backlog_timeout = 30s}}, at(1s));
   EXPECT_EQ(bench.wake_at, at(30021ms));
   bench.step(Amend{bench.earlier, {.backlog_timeout = 1s}}, at(2s));
-  EXPECT_EQ(bench.state(bench.earlier), JobState::expired) << "it was over already";
+  EXPECT_EQ(bench.state(bench.earlier), JobState::expired) << "the new timeout has already passed";
   EXPECT_EQ(bench.terminal_events[bench.earlier], 1);
   EXPECT_EQ(bench.state(bench.later), JobState::backlogged);
 }
 
-TEST(Amending, WhatIsNotNamedStays) {
+TEST(Amending, KeepsTermsThatAreNotNamed) {
   TwoWait bench;
   bench.step(Amend{bench.earlier, {.priority = 7}}, at(1s));
   EXPECT_EQ(bench.job(bench.earlier).terms.backlog_timeout, 10s);
@@ -76,23 +74,22 @@ TEST(Amending, WhatIsNotNamedStays) {
   EXPECT_EQ(bench.job(bench.earlier).terms.on_timeout, OnTimeout::replan);
 }
 
-TEST(Amending, AJobThatHasEndedOrIsUnknownIsLeftAlone) {
+TEST(Amending, IgnoresEndedAndUnknownJobs) {
   TwoWait bench;
   bench.step(Cancel{bench.later}, at(1s));
   ASSERT_EQ(bench.state(bench.later), JobState::canceled);
-  ASSERT_TRUE(bench.question) << "what is left is tried again";
+  ASSERT_TRUE(bench.question) << "the remaining job is checked again";
   const Version version = bench.question->version;
   bench.step(Amend{bench.later, {.priority = 5}}, at(1s));
   bench.step(Amend{JobId{77}, {.priority = 5}}, at(1s));
   EXPECT_EQ(bench.job(bench.later).terms.priority, 0);
   bench.answer_free(at(2s));
   EXPECT_EQ(bench.state(bench.earlier), JobState::scheduled)
-      << "the answer on " << version << " counts";
+      << "the answer on " << version << " still applies";
 }
 
-// Motions that are admitted and wait for each other pass in the order of their priorities, as far
-// as none has authority where they meet.
-TEST(Amending, AdmittedMotionsChangePlacesWhereThePolicyWeighsThatAgain) {
+// Admitted motions pass in order of priority until one has authority in the region.
+TEST(Amending, RaisedPriorityReversesAPassingOrder) {
   Bench bench(2, "coordinated");
   const JobId first = bench.submit(move({0}, 0, 1, 10s), at(0ms));
   bench.answer_free(at(1ms));
@@ -113,7 +110,7 @@ TEST(Amending, AdmittedMotionsChangePlacesWhereThePolicyWeighsThatAgain) {
     bench.progressed(second, t, at(6ms) + t);
   }
   EXPECT_LE(limit_of(first), 6s);
-  EXPECT_GT(limit_of(second), 6s) << "the more urgent one passes first";
+  EXPECT_GT(limit_of(second), 6s) << "the more urgent job passes first";
 }
 
 }  // namespace

@@ -1,4 +1,3 @@
-// What is asked of arms in the way has an end.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
@@ -6,17 +5,16 @@
 namespace armloom {
 namespace {
 
-// Arm 1 goes aside for a, and for its sake arm 2.
+// Arm 1 retreats for a, and arm 2 must retreat for that retreat.
 struct Chain : Bench {
   Chain() : Bench(one_joint_arms_that_park(3), "certified") {
     a = submit(move({0}, 0, 1, 2s), at(0ms));
     answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
-    answer_free(at(2ms));  // the way
-    answer_free(at(3ms));  // the passing
+    answer_free(at(2ms));  // the retreat
+    answer_free(at(3ms));  // a's check with arm 1 gone
     way = asides.at(0).job;
     answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{2});
   }
-  // Whether arm 2 is asked about.
   bool asks_for_arm_2() const {
     return question && question->candidates.front().job == JobId{0} &&
            question->candidates.front().trajectory->arms() == std::vector{ArmId{2}};
@@ -24,7 +22,7 @@ struct Chain : Bench {
   JobId a{0}, way{0};
 };
 
-TEST(MovingAside, ForWhatHelpsAJobEndsWithThatJob) {
+TEST(Retreat, SearchForAHelperEndsWithTheHelpedJob) {
   Chain bench;
   ASSERT_TRUE(bench.asks_for_arm_2());
   bench.step(Cancel{bench.a}, at(5ms));
@@ -35,9 +33,8 @@ TEST(MovingAside, ForWhatHelpsAJobEndsWithThatJob) {
   EXPECT_EQ(bench.state(bench.way), JobState::backlogged);
 }
 
-// However often arm 1 is sent back by its client, and goes aside again: every other job that helps
-// a finds arm 2 asked before.
-TEST(MovingAside, ForWhatHelpsAJobCountsAsForThatJob) {
+// The client returns arm 1 again and again; each retreat finds that arm 2 was already asked.
+TEST(Retreat, AttemptsForHelpersCountForTheHelpedJob) {
   Chain bench;
   int asked = 0;
   double stands = 0.0;
@@ -59,7 +56,7 @@ TEST(MovingAside, ForWhatHelpsAJobCountsAsForThatJob) {
     } else if (about == JobId{0}) {
       bench.answer_free(at(now));
     } else if (about == bench.a && std::abs(bench.question->rest[1] - stands) > 1e-9) {
-      bench.answer_free(at(now));  // arm 1 stands aside
+      bench.answer_free(at(now));  // arm 1 has retreated
     } else {
       bench.answer_conflict(at(now), Conflict::With::rest, {}, ArmId{about == bench.a ? 1u : 2u});
     }

@@ -15,7 +15,7 @@ namespace armloom {
 
 using namespace std::chrono_literals;
 
-// A quintic from rest to rest of the joints with these indices, each from its place to its goal.
+// Returns a quintic from rest to rest, each joint from its start to its goal.
 inline TrajectoryPtr move(const std::vector<std::uint32_t>& arms, const std::vector<double>& from,
                           const std::vector<double>& to, Duration duration) {
   std::vector<JointId> joints;
@@ -33,14 +33,12 @@ inline TrajectoryPtr move(const std::vector<std::uint32_t>& arms, const std::vec
   return std::make_shared<const Trajectory>(joints, arm_ids, std::vector<Segment>{segment});
 }
 
-// The same, all from `from` to `to`.
 inline TrajectoryPtr move(const std::vector<std::uint32_t>& arms, double from, double to,
                           Duration duration) {
   return move(arms, std::vector<double>(arms.size(), from), std::vector<double>(arms.size(), to),
               duration);
 }
 
-// One arm from `home` to `there` and back.
 inline TrajectoryPtr visit(std::uint32_t arm, double home, double there, Duration duration) {
   const auto out = move({arm}, home, there, duration / 2),
              back = move({arm}, there, home, duration / 2);
@@ -49,13 +47,12 @@ inline TrajectoryPtr visit(std::uint32_t arm, double home, double there, Duratio
   return std::make_shared<const Trajectory>(out->joints(), out->arms(), std::move(segments));
 }
 
-// One conflict region of these boxes (times of the first motion, then of the second), by hand.
+// Returns a region of these boxes (times of the first motion, then of the second).
 template <typename... Boxes>
 ConflictRegion region(const Boxes&... boxes) {
   return {{boxes...}, Proximity{.body_a = "a", .body_b = "b", .clearance_m = 0.01}, 1s, 2s};
 }
 
-// Drives a Scheduler by hand and remembers what it asked for.
 class Bench {
  public:
   virtual ~Bench() = default;
@@ -88,14 +85,12 @@ class Bench {
   JobId submit(TrajectoryPtr trajectory, TimePoint now, Duration timeout = 60s, int priority = 0) {
     return submit(Submit{JobId{0}, std::move(trajectory), {priority, timeout}}, now);
   }
-  // The same under the next id.
   JobId submit(Submit submitted, TimePoint now) {
     submitted.job = next_id();
     step(submitted, now);
     return submitted.job;
   }
 
-  // Answers the open question.
   void answer_free(TimePoint now) {
     ASSERT_TRUE(question) << "nothing was asked";
     const Version version = question->version;
@@ -118,7 +113,7 @@ class Bench {
          now);
   }
 
-  // Free, but for these regions.
+  // Answers: free except for these regions.
   void answer_regions(TimePoint now, std::vector<PairRegions> regions) {
     ASSERT_TRUE(question) << "nothing was asked";
     Verdict verdict{Verdict::Kind::free, question->version, {}, {}, 1};
@@ -127,7 +122,7 @@ class Bench {
     step(Judged{std::move(verdict)}, now);
   }
 
-  // Not decided, as the budget of evaluations ended.
+  // Answers: undecided, evaluation budget exhausted.
   void answer_exhausted(TimePoint now, Conflict::With with) {
     ASSERT_TRUE(question) << "nothing was asked";
     Verdict verdict{Verdict::Kind::undecided, question->version, {}, {}, 1};
@@ -161,7 +156,6 @@ class Bench {
   [[nodiscard]] JobId next_id() const { return scheduler.next_job(); }
   JobState state(JobId job) const { return scheduler.find(job)->state(); }
   const Job& job(JobId id) const { return *scheduler.find(id); }
-  // How far its arms may go, as they were told last.
   Duration authority(JobId id) const {
     Duration told{};
     for (const Dispatch& d : dispatched) told = d.job == id ? std::max(told, d.authority) : told;
@@ -184,7 +178,7 @@ class Bench {
   virtual void heard(const Effect& /*effect*/) {}
 };
 
-// Under certified: an arm half a second on its way, and another one whose region with it this is.
+// An arm half a second into its motion, and a second arm with this region of both.
 struct OneBehindAnother {
   explicit OneBehindAnother(const ProgressBox& box) {
     first = bench.submit(move({0}, 0, 1, 2s), at(0ms));

@@ -1,4 +1,3 @@
-// Which of several jobs of an arm that may be taken in any order takes a turn.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
@@ -10,7 +9,7 @@ using ::testing::ElementsAre;
 
 constexpr TimePoint kAged = TimePoint{} + 2min;  // longer than scheduling.aging
 
-// The job whose turn it is waits for another arm's motion; those behind it find their way free.
+// The job whose turn it is waits for another arm; the jobs behind it are free.
 struct AnyOrder : ::testing::Test {
   AnyOrder() {
     moves = bench.submit(move({1}, 0, 1, 300s), at(0ms), 600s);
@@ -31,7 +30,6 @@ struct AnyOrder : ::testing::Test {
     EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::predecessor);
     EXPECT_EQ(bench.job(job).waits_on.front().job, before);
   }
-  // That turn is asked about first, and still has to wait.
   void answer_that_it_waits(TimePoint now) {
     ASSERT_TRUE(bench.question);
     ASSERT_EQ(bench.question->candidates.front().job, turn);
@@ -42,7 +40,7 @@ struct AnyOrder : ::testing::Test {
   JobId moves{0}, turn{0};
 };
 
-TEST_F(AnyOrder, OneThatCanGoTakesTheTurnOfOneThatCannot) {
+TEST_F(AnyOrder, FreeJobOvertakesABlockedJob) {
   const JobId other = bench.submit(visit_from(0.0), at(4ms));
   answer_that_it_waits(at(5ms));
   bench.answer_free(at(6ms));
@@ -51,18 +49,18 @@ TEST_F(AnyOrder, OneThatCanGoTakesTheTurnOfOneThatCannot) {
   EXPECT_THAT(bench.job(other).choice->jobs, ElementsAre(turn, other));
 }
 
-// Whoever is to hurry is told by its priority, and so is who is not to.
-TEST_F(AnyOrder, OneOfAnotherPriorityDoesNot) {
+// Only jobs of equal priority may be exchanged.
+TEST_F(AnyOrder, JobOfAnotherPriorityDoesNotOvertake) {
   const JobId more = bench.submit(visit_from(0.0, 1), at(4ms));
   expect_behind(more, turn);
   expect_behind(bench.submit(visit_from(0.0, -1), at(5ms)), more);
 }
 
-TEST_F(AnyOrder, OneThatBeginsElsewhereDoesNot) {
+TEST_F(AnyOrder, JobWithAnotherStartDoesNotOvertake) {
   expect_behind(bench.submit(visit_from(0.7), at(4ms)), turn);
 }
 
-TEST_F(AnyOrder, WhoHasBeenOvertakenForLongIsOvertakenNoMore) {
+TEST_F(AnyOrder, AgedJobIsNotOvertaken) {
   ASSERT_LT(TimePoint{} + bench.cell->scheduling.aging, kAged);
   const JobId other = bench.submit(visit_from(0.0), at(4ms));
   answer_that_it_waits(at(5ms));
@@ -74,9 +72,8 @@ TEST_F(AnyOrder, WhoHasBeenOvertakenForLongIsOvertakenNoMore) {
   expect_behind(bench.submit(visit_from(0.0), kAged + 2ms), turn);
 }
 
-// What could go in another order is not admitted ahead, however far the policy looks.
+// Jobs whose order is still open are not admitted ahead.
 struct AheadOfTheirTurns : ::testing::Test {
-  // Three visits of one arm; whatever is asked about is free.
   void submit_three(bool reorderable) {
     for (JobId& job : jobs) {
       Submit visit = AnyOrder::visit_from(0.0);
@@ -97,12 +94,12 @@ struct AheadOfTheirTurns : ::testing::Test {
   TimePoint now = at(0ms);
 };
 
-TEST_F(AheadOfTheirTurns, JobsInOrderAreAdmittedTogether) {
+TEST_F(AheadOfTheirTurns, JobsInGivenOrderAreAdmittedTogether) {
   submit_three(false);
   for (const JobId job : jobs) EXPECT_EQ(bench.state(job), JobState::scheduled);
 }
 
-TEST_F(AheadOfTheirTurns, OfJobsInAnyOrderTheNextIsLeftOpenUntilOneMustGo) {
+TEST_F(AheadOfTheirTurns, JobsInAnyOrderAreLeftOpenUntilOneMustStart) {
   submit_three(true);
   EXPECT_EQ(bench.state(jobs[0]), JobState::scheduled);
   EXPECT_EQ(bench.state(jobs[2]), JobState::queued);
@@ -110,8 +107,7 @@ TEST_F(AheadOfTheirTurns, OfJobsInAnyOrderTheNextIsLeftOpenUntilOneMustGo) {
   bench.finished(jobs[0], now += 1s);
   while (bench.question) bench.answer_free(now += 1ms);
   for (const JobId job : {jobs[1], jobs[2]}) {
-    EXPECT_EQ(bench.state(job), JobState::scheduled)
-        << "nobody is left that the last one could change places with";
+    EXPECT_EQ(bench.state(job), JobState::scheduled) << "no job is left to exchange with";
   }
 }
 

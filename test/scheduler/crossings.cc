@@ -36,14 +36,14 @@ bool Crossings::meet(ArmId a, Stretch of_a, ArmId b, Stretch of_b) const {
   });
 }
 
-// What is connected is one region; the evidence is of one of its boxes.
+// Joins connected boxes; the evidence is that of one box.
 std::vector<ConflictRegion> Crossings::regions_of(std::vector<Box> boxes) {
   std::vector<ConflictRegion> regions;
   while (!boxes.empty()) {
     const Box first = boxes.back();
     boxes.pop_back();
     std::vector<ProgressBox> region{first};
-    for (std::size_t i = 0; i < region.size(); ++i) {  // grows
+    for (std::size_t i = 0; i < region.size(); ++i) {  // `region` grows meanwhile
       for (std::size_t b = boxes.size(); b-- > 0;) {
         if (!touch(region[i], boxes[b])) continue;
         region.push_back(boxes[b]);
@@ -97,7 +97,7 @@ bool Crossings::meets_object(const Motion& motion) const {
   });
 }
 
-// Its arms are at the same progress always.
+// The motion's arms always move in step.
 bool Crossings::meets_itself(const Motion& motion) const {
   return std::ranges::any_of(boxes(motion, motion), [](const Box& box) {
     return box.from_a <= box.to_b && box.from_b <= box.to_a;
@@ -116,8 +116,8 @@ bool Crossings::free_beside(const Trajectory& motion, const Configuration& rest)
 
 // ---- Answers ----
 
-// Each arm that no motion moves rests where it is; of those that a motion moves which shares an
-// arm with the candidate, where that leaves it, or finds it.
+// Returns arms that rest relative to the candidate. An arm whose neighboring motion shares an arm
+// with the candidate is where that motion leaves or finds it.
 std::vector<Crossings::Standing> Crossings::standing_beside(const Question& question,
                                                             const Motion& candidate) const {
   std::vector<const Motion*> in_order;

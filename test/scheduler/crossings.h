@@ -9,8 +9,7 @@
 
 namespace armloom {
 
-// Two arms of one joint each are too close while `a` is between these places and `b` between those
-// (rad). No two of the same arm.
+// Two one-joint arms are too close while both are within these intervals (rad); `a` and `b` differ.
 struct Crossing {
   ArmId a;
   double from_a, to_a;
@@ -18,15 +17,13 @@ struct Crossing {
   double from_b, to_b;
 };
 
-// An object in the way of an arm.
 struct Object {
   ArmId arm;
   double from, to;
 };
 
-// The geometry of a cell of one-joint arms as a table, and its answers to questions of every
-// method, by the rules of core/collision: exact, but for boxes that are a microsecond too large.
-// Motions go straight from place to place (`move` and `visit` of bench_cell.h).
+// The geometry of one-joint arms as a table. Answers questions by the rules of core/collision;
+// boxes are a microsecond too large. Motions must be straight lines (bench_cell.h).
 class Crossings {
  public:
   explicit Crossings(std::vector<Crossing> table = {}) : table_(std::move(table)) {}
@@ -34,9 +31,9 @@ class Crossings {
 
   [[nodiscard]] Verdict answer(const Question& question) const;
 
-  // Whether the two may be too close while each is somewhere on its stretch; edges are free.
+  // Returns true if both may be too close on their stretches; touching edges are free.
   [[nodiscard]] bool meet(ArmId a, Stretch of_a, ArmId b, Stretch of_b) const;
-  // Whether the motion finds its way when every other arm stands there; with all objects.
+  // Returns true if the motion is free of all objects and of other arms at `rest`.
   [[nodiscard]] bool free_beside(const Trajectory& motion, const Configuration& rest) const;
 
  private:

@@ -1,4 +1,3 @@
-// A blockage costs each arm one job. What waits behind a job that failed for its ring is kept.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -8,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Two arms at 0, each in the way of the other one as soon as that goes beyond 0.3.
+// Each arm is in the way of the other beyond 0.3.
 class Blockage : public ::testing::Test {
  protected:
   static std::vector<Crossing> table() {
@@ -21,7 +20,6 @@ class Blockage : public ::testing::Test {
   }
 
   Submit blocked() const { return {JobId{0}, move({0}, 0.0, 1.0, 2s), {0, 60s}}; }
-  // The i-th of a chain of trajectories: from where the one before it ends.
   static Submit link(int i) { return {JobId{0}, move({1}, 0.5 * i, 0.5 * (i + 1), 1s), {0, 60s}}; }
   static Submit goal(int i) {
     Submit job = link(i);
@@ -40,7 +38,7 @@ class Blockage : public ::testing::Test {
   void expect_only_the_first_of_each_arm_failed() {
     EXPECT_EQ(bench.job(first).reason(), Reason::deadlock);
     EXPECT_EQ(bench.job(jobs.front()).reason(), Reason::deadlock);
-    EXPECT_EQ(failed(), 1) << "of those behind it none";
+    EXPECT_EQ(failed(), 1) << "no job behind it";
   }
   void expect_the_others_succeed_when_the_arm_has_gone() {
     bench.submit({JobId{0}, move({0}, 0.0, -1.0, 2s), {0, 60s}});
@@ -70,7 +68,7 @@ TEST_F(Blockage, CostsAChainOfTrajectoriesOneJob) {
   expect_the_others_succeed_when_the_arm_has_gone();
 }
 
-TEST_F(Blockage, OfTwoLongQueuesCostsEachOneJobAndTheRestExpires) {
+TEST_F(Blockage, OfTwoLongQueuesFailsOneJobEachAndTheRestExpires) {
   for (int i = 0; i < 3; ++i) {
     Submit job = goal(i);
     job.trajectory = move({0}, 0.5 * i, 0.5 * (i + 1), 1s);
@@ -89,8 +87,8 @@ TEST_F(Blockage, OfTwoLongQueuesCostsEachOneJobAndTheRestExpires) {
             2);
 }
 
-// A job is held on its path under `sequential`, and what stands in its way has no place before it.
-TEST(DeadlockRule, APlaceThatIsHeldByWhatWaitsForTheOtherIsPartOfTheRing) {
+// Job a is paused under `sequential`. b's arm is in a's way, and b cannot get capacity before a.
+TEST(DeadlockRule, WaitForCapacityIsPartOfTheCycle) {
   Bench bench(2, "sequential");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));

@@ -1,4 +1,3 @@
-// The search for rings and what passes along the waits, on graphs written by hand.
 #include <gmock/gmock.h>
 
 #include <random>
@@ -17,29 +16,29 @@ using ::testing::Pair;
 JobId job(std::uint64_t id) { return JobId{id}; }
 ArmId arm(std::uint32_t id) { return ArmId{id}; }
 
-// Job `waits` for the arm, whose next job is `first`.
+// Adds: job `waits` waits for arm `by`, whose next job is `first`.
 void add_blocked(std::vector<WaitsForEdge>& edges, std::uint64_t waits, std::uint32_t by,
                  std::uint64_t first) {
   edges.push_back({job(waits), arm(by)});
   edges.push_back({arm(by), job(first)});
 }
 
-TEST(Rings, NoneWhereNobodyWaits) { EXPECT_THAT(find_wait_cycles(WaitsFor({})), IsEmpty()); }
+TEST(Deadlock, NeedsWaits) { EXPECT_THAT(find_wait_cycles(WaitsFor({})), IsEmpty()); }
 
-TEST(Rings, NoneInAChainThatEndsAtAnArmWithoutAJob) {
+TEST(Deadlock, DoesNotIncludeAChainThatEndsAtAnIdleArm) {
   std::vector<WaitsForEdge> edges{{job(3), job(1)}, {job(2), arm(9)}};
   add_blocked(edges, 1, 4, 2);
   EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), IsEmpty());
 }
 
-TEST(Rings, OfTwoBeginsWithTheSmallerId) {
+TEST(Deadlock, CycleOfTwoStartsWithTheSmallerId) {
   std::vector<WaitsForEdge> edges;
   add_blocked(edges, 7, 0, 5);
   add_blocked(edges, 5, 1, 7);
   EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), ElementsAre(ElementsAre(job(5), job(7))));
 }
 
-TEST(Rings, OfThreeGoesInTheOrderOfWaiting) {
+TEST(Deadlock, CycleOfThreeIsInOrderOfWaiting) {
   std::vector<WaitsForEdge> edges;
   add_blocked(edges, 1, 2, 3);
   add_blocked(edges, 3, 1, 2);
@@ -47,7 +46,7 @@ TEST(Rings, OfThreeGoesInTheOrderOfWaiting) {
   EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), ElementsAre(ElementsAre(job(1), job(3), job(2))));
 }
 
-TEST(Rings, OfFourThroughAnOrderAndAPredecessor) {
+TEST(Deadlock, CycleMayIncludePassingOrdersAndPredecessors) {
   std::vector<WaitsForEdge> edges{{job(8), job(2)}, {job(4), job(3)}};
   add_blocked(edges, 2, 0, 4);
   add_blocked(edges, 3, 1, 8);
@@ -55,20 +54,20 @@ TEST(Rings, OfFourThroughAnOrderAndAPredecessor) {
               ElementsAre(ElementsAre(job(2), job(4), job(3), job(8))));
 }
 
-TEST(Rings, LeaveOutTheTailsThatLeadInAndOut) {
+TEST(Deadlock, CycleExcludesJobsThatOnlyLeadInOrOut) {
   std::vector<WaitsForEdge> edges{{job(1), job(3)}, {job(9), job(1)}, {job(3), arm(7)}};
   add_blocked(edges, 3, 0, 4);
   add_blocked(edges, 4, 1, 3);
   EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), ElementsAre(ElementsAre(job(3), job(4))));
 }
 
-TEST(Rings, AnArmDoesNotStandInItsOwnJobsWay) {
+TEST(Deadlock, ArmDoesNotBlockItsOwnJob) {
   std::vector<WaitsForEdge> edges{{job(2), job(2)}};
   add_blocked(edges, 1, 0, 1);
   EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), IsEmpty());
 }
 
-TEST(Rings, TwoThatDoNotMeetAreTwo) {
+TEST(Deadlock, DisjointCyclesAreReportedSeparately) {
   std::vector<WaitsForEdge> edges;
   add_blocked(edges, 3, 0, 6);
   add_blocked(edges, 6, 1, 3);
@@ -78,14 +77,14 @@ TEST(Rings, TwoThatDoNotMeetAreTwo) {
               ElementsAre(ElementsAre(job(2), job(9)), ElementsAre(job(3), job(6))));
 }
 
-TEST(Rings, OneForEachComponentTheShortestThroughItsSmallestJob) {
+TEST(Deadlock, ReportsTheShortestCycleOfAComponent) {
   std::vector<WaitsForEdge> edges{{job(1), job(2)}, {job(2), job(3)}, {job(3), job(1)},
                                   {job(3), job(2)}, {job(1), job(4)}, {job(4), job(5)},
                                   {job(5), job(6)}, {job(6), job(1)}};
   EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), ElementsAre(ElementsAre(job(1), job(2), job(3))));
 }
 
-TEST(Rings, AreTheSameInWhateverOrderTheEdgesCome) {
+TEST(Deadlock, IsIndependentOfEdgeOrder) {
   std::mt19937_64 random(3);
   std::vector<WaitsForEdge> edges;
   for (int i = 0; i < 60; ++i) edges.push_back({job(random() % 40), job(random() % 40)});
@@ -97,8 +96,7 @@ TEST(Rings, AreTheSameInWhateverOrderTheEdgesCome) {
   }
 }
 
-// By definition: a job is in a cycle if it is among those that it waits for.
-TEST(Rings, AreThereExactlyWhereAJobWaitsForItselfOn1000RandomGraphs) {
+TEST(Deadlock, MatchesTheDefinitionOnRandomGraphs) {
   std::mt19937_64 random(4);
   int with = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -129,7 +127,7 @@ TEST(Rings, AreThereExactlyWhereAJobWaitsForItselfOn1000RandomGraphs) {
   EXPECT_LT(with, 900);
 }
 
-TEST(Rings, AreFoundInAChainOfAHundredThousand) {
+TEST(Deadlock, IsFoundInACycleOfAHundredThousandJobs) {
   std::vector<WaitsForEdge> edges;
   for (std::uint64_t i = 1; i < 100'000; ++i) edges.push_back({job(i + 1), job(i)});
   EXPECT_THAT(find_wait_cycles(WaitsFor(edges)), IsEmpty());
@@ -138,13 +136,13 @@ TEST(Rings, AreFoundInAChainOfAHundredThousand) {
   EXPECT_EQ(find_wait_cycles(WaitsFor(edges)).front().size(), 100'000u);
 }
 
-TEST(Rings, AreToldByEachOfTheirJobs) {
+TEST(Deadlock, CycleCanStartWithAnyOfItsJobs) {
   EXPECT_THAT(beginning_with(job(2), {job(1), job(2), job(3)}),
               ElementsAre(job(2), job(3), job(1)));
   EXPECT_THROW((void)beginning_with(job(9), {job(1), job(2)}), std::invalid_argument);
 }
 
-TEST(WaitsFor, AllThatComesBeforeAJob) {
+TEST(WaitsFor, AllBeforeListsEveryJobAndArmBeforeAJob) {
   std::vector<WaitsForEdge> edges{{job(3), job(2)}, {job(9), job(3)}};
   add_blocked(edges, 2, 0, 1);
   const WaitsFor graph(edges);
@@ -154,7 +152,7 @@ TEST(WaitsFor, AllThatComesBeforeAJob) {
   EXPECT_THAT(graph.all_before(job(77)), IsEmpty());
 }
 
-TEST(Priorities, PassToAllThatTheMostUrgentWaitsFor) {
+TEST(Priorities, AreInheritedByAllThatAnUrgentJobWaitsFor) {
   std::vector<WaitsForEdge> edges{{job(5), job(4)}};
   add_blocked(edges, 4, 0, 3);
   add_blocked(edges, 2, 1, 3);
@@ -165,7 +163,7 @@ TEST(Priorities, PassToAllThatTheMostUrgentWaitsFor) {
                   Pair(job(5), 7)));
 }
 
-TEST(Priorities, NeverFallAndEndInARingToo) {
+TEST(Priorities, NeverDecreaseAndTerminateInACycle) {
   const WaitsFor graph({{job(1), job(2)}, {job(2), job(1)}});
   EXPECT_THAT(effective_priorities(graph, {{job(1), 3}, {job(2), 5}}),
               ElementsAre(Pair(job(1), 5), Pair(job(2), 5)));

@@ -1,5 +1,3 @@
-// Of several ways to a goal the one that arrives first, within a number of tries and a budget of
-// each.
 #include "core/scheduler/ways/detour.h"
 
 #include <gmock/gmock.h>
@@ -9,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Arm 1 holds the place on arm 0's shortest way, of 3 s, for about 40 s more.
+// Arm 1 blocks arm 0's shortest path, of 3 s, for about 40 s.
 class DetoursByHand : public ::testing::Test, protected Bench {
  protected:
   DetoursByHand() : Bench(2, "earliest_start") {}
@@ -36,11 +34,11 @@ class DetoursByHand : public ::testing::Test, protected Bench {
     const PlanMotion asked = plans_[answered_++];
     step(PlanMade{.job = asked.job, .question = asked.number, .trajectory = way_of(lasts)}, now());
   }
-  // The shortest way meets arm 1 from 2 to 40 s of that one's time.
+  // The shortest path meets arm 1 from 1 to 2 s, until 40 s of arm 1's motion.
   void answer_that_it_waits() {
     answer_regions(now(), {{goes_, holds_, {region(ProgressBox{1s, 2s, 0s, 40s})}}});
   }
-  // Ways of these durations, each free of all others. One that cannot be sooner is not judged.
+  // Offers free paths of these durations; later arrivals are not checked.
   void offer(std::vector<Duration> ways) {
     for (const Duration lasts : ways) {
       answer_plan(lasts);
@@ -57,9 +55,9 @@ class DetoursByHand : public ::testing::Test, protected Bench {
   std::size_t answered_ = 0;
 };
 
-TEST_F(DetoursByHand, TheOneThatArrivesFirstIsTakenOfAllThatAreTried) {
+TEST_F(DetoursByHand, EarliestArrivalIsChosen) {
   offer({12s, 8s, 10s, 9s});
-  if (question) answer_free(now());  // by that one again
+  if (question) answer_free(now());  // again, for the chosen path
   EXPECT_EQ(taken(), 8s);
   EXPECT_EQ(state(goes_), JobState::scheduled);
   EXPECT_EQ(asked_around(), static_cast<std::size_t>(kDetoursMax));
@@ -68,16 +66,16 @@ TEST_F(DetoursByHand, TheOneThatArrivesFirstIsTakenOfAllThatAreTried) {
   EXPECT_GT(job(goes_).goal->detour->saves, 20s);
 }
 
-TEST_F(DetoursByHand, OneThatHardlyWaitsEndsTheSearch) {
+TEST_F(DetoursByHand, PathThatHardlyWaitsEndsTheSearch) {
   offer({12s, 3200ms});
   if (question) answer_free(now());
   EXPECT_EQ(taken(), 3200ms);
   EXPECT_EQ(asked_around(), 2U);
 }
 
-// Its own way arrives before the other one, though it waits.
-TEST_F(DetoursByHand, TheShortestIsTakenWhereNoneArrivesSooner) {
-  answer_plan(50s);  // this is of no use: it is not even judged
+// It arrives earlier although it waits.
+TEST_F(DetoursByHand, ShortestPathIsKeptIfNoneArrivesEarlier) {
+  answer_plan(50s);  // too late in any case: it is not even checked
   for (int i = 1; i < kDetoursMax && answered_ < plans_.size(); ++i) answer_plan(55s);
   while (question) answer_that_it_waits();
   EXPECT_EQ(taken(), 3s);
@@ -85,12 +83,12 @@ TEST_F(DetoursByHand, TheShortestIsTakenWhereNoneArrivesSooner) {
   EXPECT_FALSE(job(goes_).goal->detour->is_taken);
 }
 
-TEST_F(DetoursByHand, EachIsLookedForWithinABudget) {
+TEST_F(DetoursByHand, EachSearchHasABudget) {
   offer({12s, 11s, 10s, 9s});
   ASSERT_EQ(asked_around(), static_cast<std::size_t>(kDetoursMax));
   for (std::size_t i = 1; i < plans_.size(); ++i) {
     EXPECT_EQ(plans_[i].question.budget, kDetourBudget);
-    EXPECT_NE(plans_[i].question.seed, plans_[i - 1].question.seed) << "another way each time";
+    EXPECT_NE(plans_[i].question.seed, plans_[i - 1].question.seed) << "another path each time";
   }
 }
 

@@ -1,4 +1,3 @@
-// Whose turn it is: how long a job can be overtaken, and priorities without inversion.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
@@ -10,7 +9,7 @@ using ::testing::IsEmpty;
 
 constexpr Duration kAging = 30s;  // the cell's
 
-// "old" of arm b waits for the motion of arm a since 2 ms; arm a's job runs for 40 s.
+// "old" of arm b waits for arm a since 2 ms; arm a's job runs for 40 s.
 struct Waits : Bench {
   Waits() : Bench(4, "certified") {
     runs = submit(move({0}, 0, 1, 40s), at(0ms));
@@ -25,7 +24,7 @@ struct Waits : Bench {
   JobId runs{0}, old{0};
 };
 
-TEST(Aging, AJobThatHasWaitedForItHoldsBackLaterOnesOfOtherArmsAndNotBefore) {
+TEST(Aging, AgedJobDefersLaterJobsOfOtherArms) {
   Waits bench;
   const JobId before = bench.submit(move({2}, 0, 1, 2s), at(5ms) + kAging - 1ns, 60s, 9);
   ASSERT_TRUE(bench.question);
@@ -39,7 +38,7 @@ TEST(Aging, AJobThatHasWaitedForItHoldsBackLaterOnesOfOtherArmsAndNotBefore) {
   EXPECT_EQ(bench.job(after).waits_on.front().job, bench.old);
 }
 
-TEST(Aging, TheOldJobGoesNextAndTheOthersAfterIt) {
+TEST(Aging, AgedJobGoesNextThenTheOthers) {
   Waits bench;
   const JobId later = bench.submit(move({2}, 0, 1, 2s), at(35s), 60s, 9);
   bench.finished(bench.runs, at(40s));
@@ -52,10 +51,10 @@ TEST(Aging, TheOldJobGoesNextAndTheOthersAfterIt) {
   EXPECT_THAT(bench.job(later).waits_on, IsEmpty());
 }
 
-TEST(Aging, WhatHasToMoveFirstForItsSakeIsNotHeldBack) {
+TEST(Aging, JobsThatMakeWayForAnAgedJobAreNotDeferred) {
   Waits bench;
   const JobId other = bench.submit(move({2}, 0, 1, 2s), at(35s), 60s, 9);
-  const JobId in_the_way = bench.submit(move({0}, 1, 0, 2s), at(35s));  // behind the running one
+  const JobId in_the_way = bench.submit(move({0}, 1, 0, 2s), at(35s));  // behind the running job
   bench.finished(bench.runs, at(40s));
   ASSERT_EQ(bench.candidate(), bench.old);
   bench.answer_conflict(at(40001ms), Conflict::With::rest, {}, ArmId{0});
@@ -70,7 +69,7 @@ TEST(Aging, WhatHasToMoveFirstForItsSakeIsNotHeldBack) {
   ASSERT_EQ(bench.candidate(), bench.old);
 }
 
-TEST(Aging, AJobThatNobodysTurnWouldLetGoHoldsNobodyBack) {
+TEST(Aging, AgedJobThatNoOtherJobBlocksDefersNoJob) {
   for (const auto with : {Conflict::With::rest, Conflict::With::scene}) {
     Bench bench(4, "certified");
     const JobId old = bench.submit(move({1}, 0, 1, 2s), at(0ms), 300s);
@@ -79,11 +78,11 @@ TEST(Aging, AJobThatNobodysTurnWouldLetGoHoldsNobodyBack) {
     ASSERT_TRUE(bench.question);
     EXPECT_EQ(bench.question->candidates.front().job, later);
     bench.answer_free(at(40001ms));
-    ASSERT_EQ(bench.question->candidates.front().job, old) << "tried again beside it";
+    ASSERT_EQ(bench.question->candidates.front().job, old) << "checked again alongside it";
   }
 }
 
-TEST(Aging, AStoppedArmsJobHoldsNobodyBack) {
+TEST(Aging, JobOfAStoppedArmDefersNoJob) {
   Waits bench;
   bench.step(Stop{{ArmId{1}}, "operator"}, at(32s));
   const JobId later = bench.submit(move({2}, 0, 1, 2s), at(35s));
@@ -91,7 +90,7 @@ TEST(Aging, AStoppedArmsJobHoldsNobodyBack) {
   EXPECT_EQ(bench.candidate(), later);
 }
 
-TEST(Aging, AnEarlierJobWithALargerPriorityStillGoesFirst) {
+TEST(Aging, EarlierJobWithALargerPriorityStillGoesFirst) {
   Bench bench(4, "certified");
   const JobId runs = bench.submit(move({0}, 0, 1, 40s), at(0ms));
   bench.answer_free(at(1ms));
@@ -105,11 +104,11 @@ TEST(Aging, AnEarlierJobWithALargerPriorityStillGoesFirst) {
   bench.answer_conflict(at(40001ms), Conflict::With::rest, {}, ArmId{3});
   ASSERT_EQ(bench.question->candidates.front().job, same) << "aged the longest";
   bench.answer_conflict(at(40002ms), Conflict::With::motion, runs, ArmId{0});
-  EXPECT_FALSE(bench.question) << "the younger one of the aged waits";
+  EXPECT_FALSE(bench.question) << "the younger of the aged jobs waits";
   EXPECT_EQ(bench.job(old).waits_on.front().job, same);
 }
 
-TEST(Aging, AHeldJobIsNeverHeldBack) {
+TEST(Aging, PausedJobIsNeverDeferred) {
   Waits bench;
   const JobId held = bench.submit(move({2}, 0, 1, 20s), at(20s));
   bench.answer_free(at(20001ms));
@@ -130,7 +129,7 @@ TEST(Aging, AHeldJobIsNeverHeldBack) {
   EXPECT_EQ(bench.candidate(), held);
 }
 
-TEST(Aging, OfLockstepIsTheRoundItself) {
+TEST(Aging, LockstepAgesByRounds) {
   Bench bench(3, "lockstep");
   const JobId runs = bench.submit(move({0}, 0, 1, 40s), at(0ms));
   bench.answer_free(at(1ms));
@@ -143,7 +142,7 @@ TEST(Aging, OfLockstepIsTheRoundItself) {
   EXPECT_EQ(bench.question->candidates.front().job, old);
 }
 
-TEST(Aging, CountsFromTheFirstTimeThatThereIsNoPlace) {
+TEST(Aging, StartsWhenCapacityIsFirstMissing) {
   Bench bench(2, "sequential");
   const JobId runs = bench.submit(move({0}, 0, 1, 40s), at(0ms), 60s, 9);
   bench.answer_free(at(1ms));
@@ -154,7 +153,7 @@ TEST(Aging, CountsFromTheFirstTimeThatThereIsNoPlace) {
   EXPECT_EQ(bench.state(next), JobState::queued);
 }
 
-TEST(Aging, UnderSequentialTheOldJobIsNextWhateverThePriorities) {
+TEST(Aging, UnderSequentialTheAgedJobGoesNext) {
   Bench bench(2, "sequential");
   const JobId first = bench.submit(move({0}, 0, 1, 40s), at(0ms));
   bench.answer_conflict(at(1ms), Conflict::With::scene);
@@ -167,29 +166,30 @@ TEST(Aging, UnderSequentialTheOldJobIsNextWhateverThePriorities) {
   EXPECT_EQ(bench.job(next).waits_on.front().kind, Wait::Kind::capacity);
 }
 
-TEST(Priority, PassesToTheJobOfTheArmInTheWay) {
+TEST(Priority, IsInheritedByTheJobOfTheBlockingArm) {
   Bench bench(3, "certified");
   const JobId urgent = bench.submit(move({0}, 0, 1, 2s), at(0ms), 60s, 9);
   const JobId middle = bench.submit(move({1}, 0, 1, 2s), at(0ms), 60s, 5);
   const JobId low = bench.submit(move({2}, 0, 1, 2s), at(0ms), 60s, 0);
   bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{2});
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, low) << "for the urgent one's sake";
+  EXPECT_EQ(bench.question->candidates.front().job, low) << "inherits the urgent job's priority";
   bench.answer_free(at(2ms));
   ASSERT_EQ(bench.question->candidates.front().job, urgent);
   bench.answer_conflict(at(3ms), Conflict::With::motion, low, ArmId{2});
   EXPECT_EQ(bench.question->candidates.front().job, middle);
 }
 
-TEST(Priority, PassesThroughTheOrderOfAnArmAndThroughPredecessors) {
+TEST(Priority, IsInheritedThroughArmQueuesAndPredecessors) {
   Bench bench(3, "certified");
   const JobId opens = bench.submit(move({2}, 0, 1, 2s), at(0ms), 60s, 0);
   const JobId middle = bench.submit(move({1}, 0, 1, 2s), at(0ms), 60s, 5);
   const JobId low = bench.submit(move({0}, 0, 1, 2s), at(0ms), 60s, 0);
-  bench.submit(move({0}, 1, 0, 2s), at(0ms), 60s, 9);  // the urgent one
+  bench.submit(move({0}, 1, 0, 2s), at(0ms), 60s, 9);  // the urgent job
   ASSERT_EQ(bench.question->candidates.front().job, opens);
   bench.answer_free(at(1ms));
-  EXPECT_EQ(bench.question->candidates.front().job, low) << "ahead of the urgent one on its arm";
+  EXPECT_EQ(bench.question->candidates.front().job, low)
+      << "ahead of the urgent job in its arm queue";
   bench.answer_free(at(2ms));
   EXPECT_EQ(bench.question->candidates.front().job, middle);
 

@@ -1,4 +1,4 @@
-// Faults that random worlds found, as small as they can be told.
+// Faults that random worlds found, as minimal cases.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 namespace armloom {
 namespace {
 
-// x stands in b's way at its end, and y, next of its arm, takes it away: both go with b.
-TEST(Admission, WhatIsAdmittedBehindAJobOfItsArmSaysThatItWaitsForIt) {
+// x ends in b's way; y, the next job of x's arm, moves it away. Both are admitted with b.
+TEST(Admission, JobAdmittedBehindAnotherReportsThatItWaits) {
   Bench bench(2, "coordinated");
   const JobId x = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -29,7 +29,7 @@ TEST(Admission, WhatIsAdmittedBehindAJobOfItsArmSaysThatItWaitsForIt) {
 }
 
 // The last report before the end is from before the region.
-TEST(Authority, GrowsWhenTheOneThatPassesFirstComesToItsEnd) {
+TEST(Authority, GrowsWhenTheFirstMotionEnds) {
   OneBehindAnother two(ProgressBox{1500ms, 1600ms, 1700ms, 1800ms});
   Bench& bench = two.bench;
   const JobId first = two.first, second = two.second;
@@ -38,11 +38,11 @@ TEST(Authority, GrowsWhenTheOneThatPassesFirstComesToItsEnd) {
   bench.progressed(second, 1500ms, at(3s));
   ASSERT_LE(bench.authority(second), 1500ms);
   bench.finished(first, at(4s));
-  EXPECT_GT(bench.authority(second), 1500ms) << "nothing is in its way any more";
+  EXPECT_GT(bench.authority(second), 1500ms) << "its way is free";
 }
 
-// Without a word of its own: it stands, and has told that before.
-TEST(Authority, GrowsInTheStepInWhichTheOneThatPassesFirstHasLeft) {
+// The second motion rests and has reported that already.
+TEST(Authority, GrowsInTheStepInWhichTheFirstMotionLeaves) {
   OneBehindAnother two(ProgressBox{1500ms, 1600ms, 1300ms, 1400ms});
   Bench& bench = two.bench;
   const JobId first = two.first, second = two.second;
@@ -56,8 +56,7 @@ TEST(Authority, GrowsInTheStepInWhichTheOneThatPassesFirstHasLeft) {
   EXPECT_GT(bench.authority(second), 1500ms);
 }
 
-// Stopped before the first report of its progress.
-TEST(Stop, OfAJobThatIsOnItsWayUnseenHoldsItThere) {
+TEST(Stop, PausesAJobThatHasNotReportedProgress) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -70,14 +69,14 @@ TEST(Stop, OfAJobThatIsOnItsWayUnseenHoldsItThere) {
   EXPECT_EQ(bench.dispatched.back().from_progress, 400ms);
 }
 
-// What waits for an arm that no job moves is asked about as well; that cannot go, x can.
-TEST(Admission, AJobThatCanGoAloneIsNotPutOffForOneThatCannotGoWithIt) {
+// `blocked`, which waits for an arm without jobs, is a candidate too. Only x can run.
+TEST(Admission, FreeJobIsNotDeferredForABlockedJob) {
   Bench bench(3, "coordinated");
   const JobId blocked = bench.submit(move({1}, 0, 1, 2s), at(0ms));
   bench.answer_regions(at(1ms), {{blocked, ArmId{2}, {region(ProgressBox{1s, 2s, 0s, 0s})}}});
   const JobId x = bench.submit(move({0}, 0, 1, 2s), at(2ms));
   while (bench.question && bench.question->candidates.size() == 1) bench.answer_free(at(3ms));
-  ASSERT_TRUE(bench.question) << "both are asked about as one";
+  ASSERT_TRUE(bench.question) << "both are candidates of one question";
   ASSERT_EQ(bench.question->candidates.front().job, x);
   bench.answer_conflict(at(4ms), Conflict::With::scene);
   ASSERT_TRUE(bench.question) << "x alone";
@@ -85,8 +84,8 @@ TEST(Admission, AJobThatCanGoAloneIsNotPutOffForOneThatCannotGoWithIt) {
   EXPECT_EQ(bench.state(x), JobState::scheduled);
 }
 
-// `waits` was admitted to pass after `leaves` has left its start; that is stopped before it moves.
-TEST(Resume, OfAJobThatHadNotMovedLetsItLeaveForThoseThatCountOnIt) {
+// `waits` may pass after `leaves` has left its start; `leaves` is stopped before it moves.
+TEST(Resume, OfAnUnstartedJobUnblocksJobsThatWaitForItsStart) {
   for (const char* policy : {"lockstep", "certified", "earliest_start"}) {
     Bench bench(2, policy);
     const JobId leaves = bench.submit(move({0}, 0, 1, 2s), at(0ms));
@@ -113,7 +112,7 @@ TEST(Resume, OfAJobThatHadNotMovedLetsItLeaveForThoseThatCountOnIt) {
   }
 }
 
-TEST(Lockstep, AJobThatPausesForAnArmLetsThatArmsNextJobJoin) {
+TEST(Lockstep, NextJobOfABlockingArmJoinsTheRound) {
   Bench bench(2, "lockstep");
   const JobId canceled = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId pauses = bench.submit(move({1}, 0, 1, 2s), at(0ms));
@@ -133,8 +132,8 @@ TEST(Lockstep, AJobThatPausesForAnArmLetsThatArmsNextJobJoin) {
   EXPECT_EQ(bench.question->candidates.front().job, next);
 }
 
-// What comes behind the canceled one ends in the step in which that comes to rest.
-TEST(Cancel, ThatTakesTheLastJobOfAnArmInTheWayIsTimedFromThatStepOn) {
+// The job behind the canceled one ends when the canceled motion comes to rest.
+TEST(Cancel, OfABlockingArmsLastJobStartsTheTimeoutOfWaitingJobs) {
   OneBehindAnother two(ProgressBox{1500ms, 1800ms, 0ms, 1200ms});
   Bench& bench = two.bench;
   bench.submit(move({0}, 1, 0, 2s), at(504ms));
@@ -154,8 +153,8 @@ TEST(Cancel, ThatTakesTheLastJobOfAnArmInTheWayIsTimedFromThatStepOn) {
   EXPECT_EQ(bench.job(two.second).reason(), Reason::backlog_timeout);
 }
 
-// Canceled in b's way, where each of its arms may be the one that is; then one of them goes.
-TEST(Blockades, ATeamThatRestsInTheWayIsThereUntilAllOfItsArmsHaveLeft) {
+// Canceled in b's way; then one arm of the team leaves.
+TEST(Blockades, TeamBlocksUntilAllOfItsArmsHaveLeft) {
   const JobId both{1}, b{2}, next{3};
   PrecedenceGraph graph(3);
   const auto admit = [&](const CoordinatedMotion& motion, const std::vector<PairRegions>& regions) {
@@ -175,12 +174,11 @@ TEST(Blockades, ATeamThatRestsInTheWayIsThereUntilAllOfItsArmsHaveLeft) {
   EXPECT_LE(graph.limit(b), 2s) << "arm 1 has not moved";
 }
 
-// Arm a's `in` leaves b no way on, b's `half` leaves a none: at first only `in` is in a sequence.
-// Then `on` comes, which takes b away from where it is in the way of `in`: now b goes first, though
-// `half` was told to wait for `in`.
+// `in` blocks b's path and `half` a's: at first only `in` is in a sequence. Then `on` moves b out
+// of the way of `in`, so that b goes first, although `half` waits for `in`.
 class InTurn : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(InTurn, WhoWaitsIsJudgedAgainWhenTheSequenceIsAnotherOne) {
+TEST_P(InTurn, WaitingJobIsCheckedAgainWhenTheSequenceChanges) {
   constexpr ArmId a{0}, b{1};
   const Crossings table(
       {{a, 0.4, 0.6, b, 0.45, 0.55}, {a, 0.95, 1.05, b, 0.2, 0.3}, {a, 0.95, 1.05, b, 0.7, 0.8}});
@@ -200,9 +198,9 @@ TEST_P(InTurn, WhoWaitsIsJudgedAgainWhenTheSequenceIsAnotherOne) {
   }
 }
 
-// `either` would be sooner done by a, behind `before`; but `stays` comes to rest in that way for
-// good, and then b leaves for where `either` could not begin.
-TEST_P(InTurn, TheArmThatRemainsDoesWhatAnotherOneCouldHaveDone) {
+// Arm a could do `either` sooner, behind `before`. But `stays` blocks that path permanently, and b
+// moves to where `either` cannot start.
+TEST_P(InTurn, RemainingArmTakesAJobThatAnotherCannotDo) {
   constexpr ArmId a{0}, c{2};
   IdealArms arms(one_joint_arms(3), std::move(*make_policy(GetParam(), *one_joint_arms(3))),
                  Crossings({{a, 0.4, 0.6, c, 0.9, 1.1}}), [](JobId) { return Habits{}; });

@@ -1,4 +1,3 @@
-// The next legs of every lane are admitted ahead, and their orders weighed again.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
@@ -19,7 +18,6 @@ struct Horizon : ::testing::Test {
   void answer_all_free() {
     while (bench.question) bench.answer_free(now += 1ms);
   }
-  // To and fro.
   std::vector<JobId> submit_legs(std::uint32_t arm, std::size_t count) {
     std::vector<JobId> jobs;
     for (std::size_t i = 0; i < count; ++i) {
@@ -28,7 +26,7 @@ struct Horizon : ::testing::Test {
     }
     return jobs;
   }
-  // Of one that has begun, and one that meets it from 4 to 4.2 s of both motions.
+  // Two motions that meet from 4 to 4.2 s of both; the first has started.
   std::pair<JobId, JobId> meet() {
     const JobId first = bench.submit(move({0}, 0, 1, 6s), now += 1ms);
     answer_all_free();
@@ -41,7 +39,7 @@ struct Horizon : ::testing::Test {
   }
 };
 
-TEST_F(Horizon, AdmitsSoManyLegsOfALane) {
+TEST_F(Horizon, AdmitsAtMostTheHorizonOfEachArmQueue) {
   const std::vector<JobId> jobs = submit_legs(0, 5);
   answer_all_free();
   for (const std::size_t ahead : {0, 1, 2}) {
@@ -57,7 +55,7 @@ TEST_F(Horizon, AdmitsSoManyLegsOfALane) {
   EXPECT_EQ(bench.state(jobs[4]), JobState::queued);
 }
 
-TEST_F(Horizon, TakesNoLegThatDoesNotBeginWhereTheLaneLeads) {
+TEST_F(Horizon, DoesNotAdmitAMotionThatStartsElsewhere) {
   const JobId out = submit_legs(0, 1).front();
   answer_all_free();
   const JobId elsewhere = bench.submit(move({0}, 0.5, 0, 2s), now += 1ms);
@@ -68,7 +66,7 @@ TEST_F(Horizon, TakesNoLegThatDoesNotBeginWhereTheLaneLeads) {
   EXPECT_EQ(bench.state(elsewhere), JobState::failed);
 }
 
-TEST_F(Horizon, AConflictAheadOfItsTurnIsNoBacklog) {
+TEST_F(Horizon, ConflictAheadOfItsTurnDoesNotBacklog) {
   const std::vector<JobId> jobs = submit_legs(0, 2);
   bench.answer_free(now += 1ms);
   bench.answer_conflict(now += 1ms, Conflict::With::rest, {}, ArmId{1});
@@ -79,7 +77,7 @@ TEST_F(Horizon, AConflictAheadOfItsTurnIsNoBacklog) {
   EXPECT_EQ(bench.state(jobs[1]), JobState::backlogged);
 }
 
-TEST_F(Horizon, WhoStallsLosesItsTurn) {
+TEST_F(Horizon, StalledMotionLosesItsPassingOrder) {
   const auto [first, second] = meet();
   EXPECT_EQ(bench.scheduler.find(second)->state(), JobState::scheduled);
   for (Duration progress = 100ms; progress < 3s; progress += 100ms) {
@@ -91,8 +89,8 @@ TEST_F(Horizon, WhoStallsLosesItsTurn) {
   EXPECT_LT(bench.authority(first), 4s);
 }
 
-// Nearer to the place than the other one, which goes slowly: if it went on now, it would be first.
-TEST_F(Horizon, WhoStallsIsExpectedToStandOn) {
+// The first motion is nearer but slow; the stalled motion would pass first if it continued now.
+TEST_F(Horizon, StalledMotionIsExpectedToKeepStalling) {
   const auto [first, second] = meet();
   for (Duration progress = 100ms; progress <= 1600ms; progress += 100ms) {
     bench.progressed(first, progress + 800ms, now += 50ms);
@@ -104,12 +102,12 @@ TEST_F(Horizon, WhoStallsIsExpectedToStandOn) {
     bench.step(Wake{}, now);
   }
   ASSERT_LT(bench.authority(first), 4s);
-  bench.progressed(second, 3800ms, now += 1ms);  // before anything is weighed again
+  bench.progressed(second, 3800ms, now += 1ms);  // before the orders are reoptimized
   EXPECT_GT(bench.authority(second), 4s);
 }
 
-// Nearer to the place all the time, but at two fifths of its speed it comes there later.
-TEST_F(Horizon, WhoIsSlowIsExpectedToStaySo) {
+// Nearer to the region, but at two fifths of its speed the first motion arrives later.
+TEST_F(Horizon, SlowMotionIsExpectedToStaySlow) {
   const auto [first, second] = meet();
   for (Duration step = 1ms; step <= 10ms; step += 1ms) {
     bench.progressed(first, 800ms + 40 * step, now += 50ms);
@@ -121,7 +119,7 @@ TEST_F(Horizon, WhoIsSlowIsExpectedToStaySo) {
   EXPECT_LT(bench.authority(first), 4s);
 }
 
-TEST_F(Horizon, WhoIsStoppedLosesItsTurn) {
+TEST_F(Horizon, StoppedMotionLosesItsPassingOrder) {
   const auto [first, second] = meet();
   bench.step(Stop{{ArmId{0}}, "operator"}, now += 1ms);
   bench.stopped(first, 500ms, now += 100ms);
@@ -136,7 +134,7 @@ TEST_F(Horizon, WhoIsStoppedLosesItsTurn) {
   EXPECT_EQ(bench.dispatched.back().job, first);
 }
 
-TEST_F(Horizon, WhoIsOnTimeKeepsIt) {
+TEST_F(Horizon, PunctualMotionKeepsItsPassingOrder) {
   const auto [first, second] = meet();
   for (Duration progress = 100ms; progress < 3s; progress += 100ms) {
     bench.progressed(first, progress + 800ms, now += 50ms);
@@ -149,7 +147,7 @@ TEST_F(Horizon, WhoIsOnTimeKeepsIt) {
 }
 
 // Arm a rests in the way of b's first motion, and moves on only together with b.
-TEST_F(Horizon, ATeamIsNotAdmittedBehindWhatOneOfItsArmsHolds) {
+TEST_F(Horizon, TeamIsNotAdmittedIfItsArmBlocksItsOtherArm) {
   const JobId held = bench.submit(move({1}, 0, 1, 6s), now += 1ms);
   bench.answer_free(now += 1ms);
   bench.progressed(held, 100ms, now += 1ms);

@@ -28,7 +28,7 @@ JobId IdealArms::submit(Submit submitted) {
   const std::vector<ArmId> arms = submitted.trajectory->arms();
   submitted.job = next_id();
   after_[submitted.job] = after;
-  const bool is_given = submitted.alternatives.empty() && submitted.!terms.reorderable;
+  const bool is_given = submitted.alternatives.empty() && !submitted.terms.reorderable;
   for (const ArmId arm : arms) {
     if (is_given) of_arm_[arm].push_back(submitted.job);
   }
@@ -94,7 +94,7 @@ bool IdealArms::answer_now() {
   return true;
 }
 
-// The first one that is due; false: none is.
+// Returns false if no planning question is due.
 bool IdealArms::answer_plan_now() {
   const auto due =
       std::ranges::find_if(plans_, [&](const OpenPlan& plan) { return plan.answer_at <= now_; });
@@ -105,7 +105,7 @@ bool IdealArms::answer_plan_now() {
   return true;
 }
 
-// Past all that stand there, else past those that stay there.
+// Avoids all arms at rest, otherwise those that cannot move.
 PlanMade IdealArms::answer_to(const PlanMotion& asked) const {
   const MotionGoal& goal = asked.question.goal;
   const auto arm = static_cast<std::uint32_t>(goal.arm.index());
@@ -170,7 +170,7 @@ void IdealArms::advance(Moving& arm, TimePoint to) const {
   }
 }
 
-// After a report, or a word from the scheduler: when it speaks next.
+// Sets the time of the next report.
 void IdealArms::plan_report(Moving& arm) {
   if (arm.braking) {
     arm.report_at = std::max(now_, arm.report_at);
@@ -216,7 +216,7 @@ void IdealArms::come_to_rest(const Moving& arm, MotionReport::Kind kind) {
   take(told);
 }
 
-// ---- What the scheduler says ----
+// ---- Effects of the scheduler ----
 
 void IdealArms::heard(const Effect& effect) {
   if (const auto* aside = std::get_if<YieldMove>(&effect))

@@ -11,50 +11,50 @@
 
 namespace armloom {
 
-// How an arm carries out one motion: exactly as far as its authority, but in its own time.
+// An arm executes a motion exactly to its authority, but with its own timing.
 struct Habits {
   Duration starts_late{};
   double speed = 1.0;  // of trajectory time
   Duration stalls_at{};
   Duration stalls_for{};
-  Duration feedback_age{};  // of what it reports
-  Duration brakes_for{};    // after Brake it goes on for so long, at most to its authority
+  Duration feedback_age{};  // age of reported progress
+  Duration brakes_for{};    // how long it continues after Brake, at most to its authority
 };
 
-// A Scheduler with arms that do what it tells them, and answers from a table of crossings: from one
-// event to the next, by a clock of its own. A plan is the straight way to its goal (a link target's
-// x is the joint's place), or none. After every step it claims what has to hold then:
-//
-//   Every arm may be anywhere from where it was measured to its authority, at the same time as
-//   every other, and no two meet (but under timed_discrete, which promises nothing).
-//   Motions of an arm begin one after the other in order of submission, where the arm stands, never
-//   before those that they come after, and never on a stopped arm. Authority never shrinks, nor
-//   grows while the arm brakes. What moves belongs to a job that has not ended.
-//   What was measured is not beyond where the arm is, nor that beyond its authority, nor that
-//   beyond its end. What moves, brakes or stands on its path is in the state that says so, and in
-//   no other. What stands says what it waits for; admitted jobs that do wait in no ring.
+// A Scheduler with arms that obey it, answered from a table of crossings, with its own clock. A
+// plan is the straight path to its goal (a link target's x is the joint's position), or none.
+// Checks after every step:
+// - Arms anywhere between measured position and authority do not meet (except under
+//   timed_discrete).
+// - Motions of an arm start in order of submission, at the arm's position, after their
+//   predecessors, and never on a stopped arm.
+// - Authority never shrinks, and does not grow while the arm brakes.
+// - Measured progress <= actual progress <= authority <= duration.
+// - Job states match whether their arms move, brake or pause.
+// - A job at rest reports what it waits for. Admitted jobs form no cycle.
 class IdealArms : public Bench {
  public:
   using HabitsOf = std::function<Habits(JobId)>;
   IdealArms(const CellPtr& description, std::unique_ptr<const Policy> policy, Crossings table,
             HabitsOf habits_of, std::uint64_t seed = 1);
 
-  // Does what comes next, if that is not after `until`: else false, and it is `until`.
+  // Processes the next event unless it is after `until`; then advances to `until` and returns
+  // false.
   bool go_on(TimePoint until);
   void run_until(TimePoint until) {
     while (go_on(until)) {
     }
   }
-  // Until nothing will happen without input. Fails after so many events: that is a livelock.
+  // Runs until nothing happens without input; more than `events_max` events are a livelock.
   void run(std::size_t events_max = 200'000);
 
   void input(const Input& input) { take(input); }
-  // Answers the open question in this instant; false: there is none.
+  // Returns false if there is no open question.
   bool answer_now();
   JobId submit(Submit submitted);
   [[nodiscard]] TimePoint now() const { return now_; }
   [[nodiscard]] double stands_at(ArmId arm) const { return q_[arm.index()]; }
-  [[nodiscard]] Duration progress(JobId moving) const;  // as it truly is
+  [[nodiscard]] Duration progress(JobId moving) const;  // the actual progress
   [[nodiscard]] bool moves(JobId job) const;
   [[nodiscard]] std::size_t moving() const { return moving_.size(); }
   [[nodiscard]] std::size_t times_released(JobId job) const;
@@ -72,11 +72,11 @@ class IdealArms : public Bench {
     TrajectoryPtr motion;
     Habits habits;
     Duration s, reported, authority;
-    TimePoint moves_from;  // starts late, or stalls until then
-    TimePoint moved_at;    // last
+    TimePoint moves_from;  // starts late, or stalls until this time
+    TimePoint moved_at;    // time of the last advance
     TimePoint report_at;
     bool has_stalled = false;
-    bool seen_to_stand = false;  // its last report was no farther than the one before
+    bool seen_to_stand = false;  // its last report showed no progress
     bool braking = false;
     Duration rests_at{};
   };
@@ -106,12 +106,12 @@ class IdealArms : public Bench {
   HabitsOf habits_of_;
   std::mt19937_64 random_;
   TimePoint now_{};
-  std::vector<double> q_;  // per arm: where it rests, or did before its motion
+  std::vector<double> q_;  // per arm: where it rests, or rested before its motion
   std::vector<Moving> moving_;
   TimePoint answer_at_ = kNever;
   std::vector<OpenPlan> plans_;
   std::map<JobId, std::vector<JobId>> after_;
-  std::map<ArmId, std::vector<JobId>> of_arm_;  // of clients, in an order that has to be kept
+  std::map<ArmId, std::vector<JobId>> of_arm_;  // jobs of clients, in an order that must be kept
   std::map<JobId, std::size_t> times_dispatched_, times_released_;
 };
 

@@ -1,4 +1,3 @@
-// What has to hold after every step.
 #include <algorithm>
 
 #include "test/scheduler/ideal_arms.h"
@@ -14,7 +13,6 @@ void IdealArms::check() {
   check_explained();
 }
 
-// Between what was measured and its authority, and with an admitted job alone.
 void IdealArms::check_moving(const Moving& arm) const {
   const Job& job = this->job(arm.job);
   const std::string what = "job " + std::to_string(arm.job.value()) + ", " + to_string(job.state());
@@ -29,7 +27,6 @@ void IdealArms::check_moving(const Moving& arm) const {
   for (const ArmId moved : arm.motion->arms()) EXPECT_EQ(scheduler.occupant(moved), arm.job);
 }
 
-// What is known of a job is what its state says, and no more.
 void IdealArms::check_phase(const Job& job) const {
   const std::string what = "job " + std::to_string(job.id.value()) + ", " + to_string(job.state());
   const bool admitted = job.state() == JobState::scheduled || job.state() == JobState::running;
@@ -46,7 +43,7 @@ void IdealArms::check_phase(const Job& job) const {
       << what;
 }
 
-// Of what is admitted and stands, as far as its reports say, nobody waits for itself in the end.
+// No admitted job that rests waits for itself.
 void IdealArms::check_orders() const {
   const auto next = [this](JobId id) -> std::optional<JobId> {
     const Job& job = this->job(id);
@@ -66,7 +63,7 @@ void IdealArms::check_orders() const {
   }
 }
 
-// Where the arm may be, and for which job; that is no job where it rests.
+// The job is 0 if the arm rests.
 std::pair<Stretch, JobId> IdealArms::stretch_of(ArmId arm) const {
   for (const Moving& moving : moving_) {
     const auto& arms = moving.motion->arms();
@@ -106,7 +103,7 @@ void IdealArms::check_explained() const {
           << "job " << id.value() << " waits for a stop, and the arm is not stopped";
     }
   }
-  if (question) return;  // it may be about to go
+  if (question) return;  // the job may be about to start
   for (const JobId id : scheduler.active()) {
     const Job& job = this->job(id);
     const bool stands = job.pausing() || !moves(id);

@@ -10,9 +10,9 @@
 namespace armloom {
 namespace {
 
-// An errand stays before its job, even if another job is ahead of both. In the wrong order they
-// sent the scheduler into an endless loop (soak, certified, seed 21000112).
-TEST(JobBook, SortsByTurnWithinTheOrderOfEachQueue) {
+// A server-initiated job stays before its job. The wrong order caused an endless loop (soak,
+// certified, seed 21000112).
+TEST(JobBook, SortsByTurnWithinEachArmQueue) {
   const CellPtr cell = one_joint_arms(1);
   State state(cell, std::move(*make_policy("certified", *cell)), cell->home(), JobId{1});
   const auto add_job = [&](std::optional<JobId> before) {

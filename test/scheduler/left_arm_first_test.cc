@@ -1,5 +1,4 @@
-// A policy of one's own is one class: here the arm with the smaller number passes first, wherever
-// there is a choice; and who cannot go by that, waits.
+// A custom policy is one class: the arm with the smaller number passes first.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -30,10 +29,10 @@ class LeftArmFirst final : public Policy {
   }
 };
 
-// They cross in the middle of their ways.
+// They cross in the middle of their paths.
 const Crossing kCross{ArmId{0}, 0.4, 0.6, ArmId{1}, 0.4, 0.6};
 
-TEST(LeftArmFirst, GoesFirstAlthoughItComesLater) {
+TEST(LeftArmFirst, LeftArmPassesFirstAlthoughItsJobIsLater) {
   IdealArms arms(one_joint_arms(2), std::make_unique<LeftArmFirst>(), Crossings({kCross}),
                  [](JobId) { return Habits{}; });
   const JobId right = arms.submit({JobId{0}, move({1}, 0, 1, 10s), 0, 60s});
@@ -49,7 +48,7 @@ TEST(LeftArmFirst, GoesFirstAlthoughItComesLater) {
   EXPECT_LT(*arms.job(left).ended_at(), *arms.job(right).ended_at());
 }
 
-TEST(LeftArmFirst, LetsTheRightOnePassThatIsThereAlready) {
+TEST(LeftArmFirst, RightArmPassesFirstIfAlreadyInTheRegion) {
   IdealArms arms(one_joint_arms(2), std::make_unique<LeftArmFirst>(), Crossings({kCross}),
                  [](JobId) { return Habits{}; });
   const JobId right = arms.submit({JobId{0}, move({1}, 0, 1, 10s), 0, 60s});

@@ -5,7 +5,7 @@
 namespace armloom {
 namespace {
 
-TEST(Lockstep, StartsOneJobOfEachArmAndTheNextOnesWhenAllHaveEnded) {
+TEST(Lockstep, StartsTheNextRoundWhenAllJobsHaveEnded) {
   Bench bench(2, "lockstep");
   const JobId left = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId right = bench.submit(move({1}, 0, 1, 3s), at(0ms));
@@ -17,7 +17,7 @@ TEST(Lockstep, StartsOneJobOfEachArmAndTheNextOnesWhenAllHaveEnded) {
   bench.progressed(left, 0ms, at(6ms));
   bench.progressed(right, 0ms, at(6ms));
   bench.finished(left, at(2s));
-  EXPECT_FALSE(bench.question);  // the arm is free, the round is not over
+  EXPECT_FALSE(bench.question);  // the arm is free, but the round is not over
   ASSERT_EQ(bench.job(left_next).waits_on.size(), 1u);
   EXPECT_EQ(bench.job(left_next).waits_on.front().kind, Wait::Kind::capacity);
   EXPECT_EQ(bench.job(left_next).waits_on.front().job, right);
@@ -26,7 +26,7 @@ TEST(Lockstep, StartsOneJobOfEachArmAndTheNextOnesWhenAllHaveEnded) {
   EXPECT_EQ(bench.question->candidates.front().job, left_next);
 }
 
-TEST(Lockstep, OneInConflictFollowsWithinTheRound) {
+TEST(Lockstep, ConflictingJobFollowsWithinTheRound) {
   Bench bench(2, "lockstep");
   const JobId left = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId right = bench.submit(move({1}, 0, 1, 2s), at(0ms));
@@ -43,7 +43,7 @@ TEST(Lockstep, OneInConflictFollowsWithinTheRound) {
   EXPECT_EQ(bench.state(left_next), JobState::queued);
 }
 
-TEST(Lockstep, AJobThatAnArmStandsInTheWayOfLetsThatArmsNextJobJoin) {
+TEST(Lockstep, JobOfABlockingArmJoinsTheRound) {
   Bench bench(2, "lockstep");
   const JobId left = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
@@ -53,8 +53,8 @@ TEST(Lockstep, AJobThatAnArmStandsInTheWayOfLetsThatArmsNextJobJoin) {
   EXPECT_EQ(bench.question->candidates.front().job, right);
 }
 
-// It may take long, or never come to a way: the others' rounds go on without it.
-TEST(Lockstep, AJobWhoseWayIsNotPlannedYetIsInNoRound) {
+// Planning may take long or fail.
+TEST(Lockstep, UnplannedJobJoinsNoRound) {
   Bench bench(2, "lockstep");
   const JobId goal = bench.submit(Submit{.job = JobId{0},
                                          .trajectory = move({0}, 0, 1, 2s),

@@ -7,11 +7,11 @@
 
 namespace armloom {
 
-// A cell of one-joint arms named a, b, c, ... without geometry: the scheduler needs none.
+// Returns one-joint arms named a, b, c, ... without geometry.
 inline CellPtr one_joint_arms(std::size_t count) {
   auto cell = std::make_shared<Cell>();
   cell->scheduling.on_idle_blocker = OnIdleBlocker::report;
-  cell->scheduling.horizon_steps = 1;  // one job of an arm at a time, easier to follow
+  cell->scheduling.horizon_steps = 1;  // one job per arm at a time, easier to follow
   cell->robots.emplace_back();
   for (std::size_t i = 0; i < count; ++i) {
     const std::string name(1, static_cast<char>('a' + i));
@@ -33,7 +33,7 @@ inline CellPtr one_joint_arms(std::size_t count) {
   return cell;
 }
 
-// The same, where arms in the way go aside: to their pose "back", at -1 rad.
+// Arms in the way retreat to their pose "back", at -1 rad.
 inline CellPtr one_joint_arms_that_park(std::size_t count) {
   auto cell = std::make_shared<Cell>(*one_joint_arms(count));
   cell->scheduling.on_idle_blocker = OnIdleBlocker::park;

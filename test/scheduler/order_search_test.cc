@@ -1,4 +1,3 @@
-// Branch and bound against all assignments there are.
 #include "core/precedence/order_search.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +9,7 @@
 namespace armloom {
 namespace {
 
-// Two to four lanes of random legs, and regions between legs of different lanes.
+// Random motions in two to four arm queues, and regions between queues.
 class RandomOrders {
  public:
   explicit RandomOrders(std::uint64_t seed) : random_(seed) {
@@ -27,7 +26,7 @@ class RandomOrders {
       }
     }
     work_.resize(lanes_);
-    if (random_() % 2 == 0) {  // else nothing waits behind them
+    if (random_() % 2 == 0) {  // otherwise nothing waits behind them
       for (Duration& work : work_) work = up_to(4s);
     }
   }
@@ -36,7 +35,7 @@ class RandomOrders {
   }
   [[nodiscard]] const std::vector<Duration>& work() const { return work_; }
 
-  // As OrderSearch has it, of one priority.
+  // The cost of OrderSearch, for equal priorities.
   [[nodiscard]] double cost_of(const Prediction& prediction) const {
     std::vector<double> ends(lanes_);
     for (std::size_t m = 0; m < motions_.size(); ++m) {
@@ -71,7 +70,7 @@ class RandomOrders {
   std::vector<Duration> work_;
 };
 
-TEST(OrderSearch, FindsNothingDearerThanTheCheapestOfAllAssignments) {
+TEST(OrderSearch, MatchesExhaustiveSearch) {
   std::size_t compared = 0, better_than_first = 0;
   for (std::uint64_t seed = 1; seed <= 1500; ++seed) {
     const RandomOrders random(seed);
@@ -106,8 +105,7 @@ TEST(OrderSearch, FindsNothingDearerThanTheCheapestOfAllAssignments) {
   EXPECT_GT(better_than_first, 50u);
 }
 
-// Two arms that meet in one place, each alone on its lane: the second waits until the first has
-// left.
+// Two arms that meet in one region: the second waits until the first has left.
 bool urgent_passes_first(Duration urgent_from, Duration urgent_to, Duration other_from,
                          Duration other_to) {
   const std::vector<CoordinatedMotion> motions = {
@@ -123,13 +121,13 @@ bool urgent_passes_first(Duration urgent_from, Duration urgent_to, Duration othe
   return open.orders().front().a_first;
 }
 
-TEST(OrderSearch, LetsTheUrgentOnePassFirstButNotAtAnyPrice) {
-  EXPECT_TRUE(urgent_passes_first(4s, 6s, 4s, 6s)) << "alike";
-  EXPECT_TRUE(urgent_passes_first(4100ms, 6100ms, 4s, 6s)) << "though the other is there before it";
-  EXPECT_FALSE(urgent_passes_first(4s, 8s, 4s, 5s)) << "4 s of the other one for 1 s of its own";
+TEST(OrderSearch, UrgentMotionPassesFirstUnlessTooCostly) {
+  EXPECT_TRUE(urgent_passes_first(4s, 6s, 4s, 6s)) << "equal times";
+  EXPECT_TRUE(urgent_passes_first(4100ms, 6100ms, 4s, 6s)) << "although the other arrives earlier";
+  EXPECT_FALSE(urgent_passes_first(4s, 8s, 4s, 5s)) << "4 s for the other against 1 s for itself";
 }
 
-// A short motion and a long one: who goes second ends 2.9 s later, or 0.4 s.
+// If it goes second, the short motion ends 2.9 s later, the long one 0.4 s.
 bool short_one_passes_first(Duration work_behind_long) {
   const std::vector<CoordinatedMotion> motions = {
       {.job = JobId(1), .arms = {ArmId(0)}, .duration = 1500ms},
@@ -144,7 +142,7 @@ bool short_one_passes_first(Duration work_behind_long) {
   return open.orders().front().a_first;
 }
 
-TEST(OrderSearch, DelaysTheLastArmLessWhereItIsKnownThatMoreWaitsForIt) {
+TEST(OrderSearch, WeighsWorkThatWaitsBehindAMotion) {
   EXPECT_TRUE(short_one_passes_first(0s));
   EXPECT_FALSE(short_one_passes_first(5s));
 }

@@ -1,4 +1,3 @@
-// Orders as times make them: now or later, at the start; and none.
 #include <gmock/gmock.h>
 
 #include "core/precedence/motion_chains.h"
@@ -18,7 +17,7 @@ CoordinatedMotion motion(JobId job, std::uint32_t arm, Duration duration) {
   return {.job = job, .arms = {ArmId{arm}}, .duration = duration};
 }
 
-struct InTime : ::testing::Test {
+struct OrdersInTime : ::testing::Test {
   PrecedenceGraph graph{4};
 
   PassingOrders decide(const CoordinatedMotion& candidate, const std::vector<PairRegions>& regions,
@@ -34,10 +33,10 @@ struct InTime : ::testing::Test {
   }
 };
 
-// B meets A, which is there from 4 to 6 s, from 1 to 2 s of its own way.
+// B meets A at 1 to 2 s of B's motion; A is there from 4 to 6 s.
 const std::vector<PairRegions> kMeet{{kB, kA, {region(ProgressBox{1s, 2s, 4s, 6s})}}};
 
-TEST_F(InTime, WhoIsThroughByTheClockBeforeTheOtherComesPassesFirst) {
+TEST_F(OrdersInTime, MotionThatLeavesInTimePassesFirst) {
   admit(motion(kA, 0, 10s), {});
   const auto orders = admit(motion(kB, 1, 3s), kMeet);
   ASSERT_THAT(orders.blockers, ::testing::IsEmpty());
@@ -47,30 +46,30 @@ TEST_F(InTime, WhoIsThroughByTheClockBeforeTheOtherComesPassesFirst) {
   EXPECT_EQ(graph.limit(kB), 3s);
 }
 
-TEST_F(InTime, WhoIsNotBeginsSoMuchLaterThatItPassesSecondWithoutAStop) {
+TEST_F(OrdersInTime, LateMotionStartsLaterToPassSecondWithoutStopping) {
   admit(motion(kA, 0, 10s), {});
-  graph.progress(kA, 3s);  // is there in 1 s, gone in 3 s
+  graph.progress(kA, 3s);  // arrives in 1 s, has left in 3 s
   const auto orders = admit(motion(kB, 1, 3s), kMeet);
   ASSERT_THAT(orders.blockers, ::testing::IsEmpty());
   EXPECT_EQ(orders.precedences.front().first(), kA);
-  EXPECT_EQ(orders.prediction.begins.back(), 2s + kShortOf) << "and 1 s to short of the place";
+  EXPECT_EQ(orders.prediction.begins.back(), 2s + kShortOf) << "and 1 s to just before the region";
   EXPECT_EQ(orders.prediction.ends.back(), 5s + kShortOf);
 }
 
-TEST_F(InTime, FromThenOnItWaitsForWhatHasHappenedAndNotForTheClock) {
+TEST_F(OrdersInTime, WaitsForProgressNotForTheClock) {
   admit(motion(kA, 0, 10s), {});
   graph.progress(kA, 3s);
   admit(motion(kB, 1, 3s), kMeet);
-  graph.progress(kA, 5s + kShortOf - 1ms);  // however long that took
+  graph.progress(kA, 5s + kShortOf - 1ms);  // whatever time that took
   EXPECT_EQ(graph.limit(kB), 0s);
   EXPECT_EQ(graph.held_back(kB)->other, kA);
   graph.progress(kA, 5s + kShortOf);
-  EXPECT_EQ(graph.limit(kB), 1s - kShortOf) << "off, and to the place where A still is";
+  EXPECT_EQ(graph.limit(kB), 1s - kShortOf) << "starts, up to the region in which A still is";
   graph.progress(kA, 6s);
   EXPECT_EQ(graph.limit(kB), 3s);
 }
 
-TEST_F(InTime, NothingLaterThanLatestIsTaken) {
+TEST_F(OrdersInTime, RejectsStartsAfterLatest) {
   admit(motion(kA, 0, 10s), {});
   graph.progress(kA, 3s);
   EXPECT_THAT(decide(motion(kB, 1, 3s), kMeet, 2s).blockers, ::testing::IsEmpty());
@@ -82,9 +81,9 @@ TEST_F(InTime, NothingLaterThanLatestIsTaken) {
   }
 }
 
-// With `latest` zero both motions go now: the second comes short of the place when the first has
-// just gone; where it would come to the place then, it waits kShortOf at its start.
-TEST_F(InTime, WhoComesLaterAnywayGoesNow) {
+// With `latest` zero both start now. If the second would arrive just when the first leaves, it
+// waits kShortOf at its start.
+TEST_F(OrdersInTime, MotionThatArrivesLaterStartsNow) {
   for (const Duration comes : {Duration(6s), 6s + kShortOf}) {
     graph = PrecedenceGraph(4);
     admit(motion(kA, 0, 10s), {});
@@ -96,15 +95,15 @@ TEST_F(InTime, WhoComesLaterAnywayGoesNow) {
       EXPECT_EQ(orders.prediction.begins.back(), kShortOf);
       graph.progress(kA, kShortOf);
     }
-    EXPECT_EQ(graph.limit(kB), comes - kShortOf) << "it leaves its start";
+    EXPECT_EQ(graph.limit(kB), comes - kShortOf) << "it starts";
     EXPECT_EQ(orders.prediction.ends.back(), comes == 6s ? 10s + kShortOf : 10s);
   }
 }
 
-TEST_F(InTime, TheLeastShiftThatPassesAllRegionsIsTaken) {
+TEST_F(OrdersInTime, ChoosesTheSmallestDelayThatPassesAllRegions) {
   admit(motion(kA, 0, 10s), {});
   admit(motion(kC, 2, 10s), {});
-  // Between A, which is there from 2 to 3 s, and C, from 6 to 8 s: 1 s of B fits from 3 s on.
+  // A is there from 2 to 3 s, C from 6 to 8 s; B fits in between.
   const auto orders = admit(
       motion(kB, 1, 2s),
       {{kB, kA, {region(ProgressBox{500ms, 1500ms, 2s, 3s})}},
@@ -122,18 +121,18 @@ TEST_F(InTime, TheLeastShiftThatPassesAllRegionsIsTaken) {
   EXPECT_EQ(graph.limit(kB), 500ms - kShortOf);
 }
 
-TEST_F(InTime, AStartIsCountedByThatOfWhoWaitsForAnother) {
+TEST_F(OrdersInTime, TimesFollowTheMotionThatStartsLater) {
   admit(motion(kA, 0, 4s), {});
   admit(motion(kB, 1, 2s), {{kB, kA, {region(ProgressBox{0s, 1s, 3s, 4s - 1ms})}}});
-  ASSERT_EQ(graph.limit(kB), 2s) << "through before A comes";
-  // C meets B's goal from its start on, and B ends there: it passes before B comes.
+  ASSERT_EQ(graph.limit(kB), 2s) << "it leaves before A arrives";
+  // C meets B's goal, where B ends: C passes before B arrives.
   const auto orders =
       admit(motion(kC, 2, 1s), {{kC, kB, {region(ProgressBox{0s, 500ms, 1s, 2s})}}});
   ASSERT_THAT(orders.blockers, ::testing::IsEmpty());
   EXPECT_EQ(graph.limit(kB), 1s - kShortOf);
 }
 
-TEST_F(InTime, WhoEndsInTheWayIsAnObstacleAndItsArmIsNamed) {
+TEST_F(OrdersInTime, MotionThatEndsInTheWayBlocksAndIsReported) {
   admit(motion(kA, 0, 5s), {});
   const auto refused =
       decide(motion(kB, 1, 3s), {{kB, kA, {region(ProgressBox{1s, 2s, 500ms, 5s})}}});
@@ -142,7 +141,7 @@ TEST_F(InTime, WhoEndsInTheWayIsAnObstacleAndItsArmIsNamed) {
   EXPECT_THAT(refused.in_the_way, ElementsAre(ArmId{0}));
 }
 
-TEST_F(InTime, OrdersOfBeforeStay) {
+TEST_F(OrdersInTime, KeepsExistingOrders) {
   admit(motion(kA, 0, 10s), {});
   admit(motion(kB, 1, 3s), kMeet);
   const auto orders =
@@ -152,35 +151,36 @@ TEST_F(InTime, OrdersOfBeforeStay) {
   EXPECT_EQ(orders.precedences.front().second(), kA);
 }
 
-TEST_F(InTime, AnArmAtRestInTheWayIsAnObstacleAtOnce) {
+TEST_F(OrdersInTime, ArmAtRestInTheWayBlocks) {
   const auto refused =
       decide(motion(kA, 0, 5s), {{kA, ArmId{2}, {region(ProgressBox{2s, 3s, 0s, 0s})}}});
   ASSERT_EQ(refused.blockers.size(), 1u);
   EXPECT_EQ(refused.blockers[0].arm, ArmId{2});
 }
 
-// ---- Gates at the start ----
+// ---- Start conditions ----
 
-TEST(Precedence, ThatWaitsAtItsStartLeavesItWhenItWillPassWithoutAStop) {
+TEST(Precedence, ReleasesTheStartWhenTheSecondCanPassWithoutStopping) {
   const ConflictRegion two =
       region(ProgressBox{1s, 4s, 2s, 3s}, ProgressBox{4s, 7s, 4s, 5s});  // 2 s, then 3 s ahead
   const Precedence order(kA, kB, two, true, true);
   EXPECT_EQ(order.limit(0s), 0s);
   EXPECT_EQ(order.limit(3s + kShortOf - 1ns), 0s);
-  EXPECT_EQ(order.limit(3s + kShortOf), 2s - kShortOf) << "off, 1 s before A has left the first";
+  EXPECT_EQ(order.limit(3s + kShortOf), 2s - kShortOf)
+      << "starts 1 s before A has left the first box";
   EXPECT_EQ(order.limit(4s), 4s - kShortOf);
   EXPECT_EQ(order.limit(7s), std::nullopt);
 }
 
-TEST(Precedence, ThatComesLaterAnywayDoesNotWaitAtItsStart) {
+TEST(Precedence, DoesNotDelayAStartIfTheSecondArrivesLater) {
   const ConflictRegion late = region(ProgressBox{1s, 2s, 3s, 4s});
   const Precedence order(kA, kB, late, true, true);
   EXPECT_EQ(order.limit(0s), 3s - kShortOf);
 }
 
-// ---- No orders ----
+// ---- orders_apart() ----
 
-TEST_F(InTime, ApartGoesOnlyWhatMeetsNothing) {
+TEST_F(OrdersInTime, OrdersApartAdmitsOnlyMotionsWithoutRegions) {
   graph.admit({motion(kA, 0, 10s)}, {});
   const std::vector<CoordinatedMotion> b{motion(kB, 1, 3s)}, c{motion(kC, 2, 3s)};
   const std::vector<PairRegions> none;
@@ -192,28 +192,28 @@ TEST_F(InTime, ApartGoesOnlyWhatMeetsNothing) {
   EXPECT_THAT(orders_apart(graph.question(b, kMeet)).blockers, ::testing::IsEmpty()) << "passed";
 }
 
-// ---- The parts ----
+// ---- Prediction and chains ----
 
-TEST(Prediction, KnowsWhenAMotionComesSomewhere) {
+TEST(Prediction, ReturnsWhenAMotionReachesAProgress) {
   const Precedence order(kA, kB, region(ProgressBox{1s, 3s, 2s, 4s}), true);
   const Prediction p = predict({{1s, 5s}, {0s, 5s}, {0s, 2s, kBehindFirst}}, {{0, 1, &order}});
-  EXPECT_EQ(p.comes_to(0, 500ms), Duration{}) << "has been there";
+  EXPECT_EQ(p.comes_to(0, 500ms), Duration{}) << "already passed";
   EXPECT_EQ(p.comes_to(0, 3s), Duration(2s));
-  EXPECT_EQ(p.comes_to(1, 2s), Duration(2s) + kShortOf + kPauseLoss) << "waits short of it";
-  EXPECT_EQ(p.comes_to(2, 1s), Duration(5s)) << "behind A on its arm";
+  EXPECT_EQ(p.comes_to(1, 2s), Duration(2s) + kShortOf + kPauseLoss) << "waits just before it";
+  EXPECT_EQ(p.comes_to(2, 1s), Duration(5s)) << "behind A in its arm queue";
   EXPECT_EQ(p.comes_to(0, 6s), std::nullopt) << "beyond its end";
 }
 
-TEST(Prediction, KnowsThatWhatIsStuckNeverComes) {
+TEST(Prediction, ReturnsNulloptForStuckMotions) {
   const Precedence ab(kA, kB, region(ProgressBox{2s, 3s, 1s, 4s}), true);
   const Precedence ba(kB, kA, region(ProgressBox{2s, 3s, 1s, 4s}), true);
   const Prediction p =
       predict({{0s, 5s}, {0s, 5s}, {0s, 1s, kBehindFirst}}, {{0, 1, &ab}, {1, 0, &ba}});
   EXPECT_THAT(p.stuck, ElementsAre(0u, 1u, 2u));
-  EXPECT_EQ(p.comes_to(2, 0s), std::nullopt) << "it never begins";
+  EXPECT_EQ(p.comes_to(2, 0s), std::nullopt) << "it never starts";
 }
 
-TEST(MotionChains, FollowEachOtherOnTheArmsThatTheyShare) {
+TEST(MotionChains, FollowEachOtherOnSharedArms) {
   const CoordinatedMotion team{.job = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
   const MotionChains chains({motion(kA, 0, 1s), motion(kB, 1, 1s), team, motion(kNext, 0, 1s)});
   EXPECT_THAT(chains.before(0), ElementsAre());
@@ -224,11 +224,11 @@ TEST(MotionChains, FollowEachOtherOnTheArmsThatTheyShare) {
     EXPECT_TRUE(chains.moves_on(first));
   }
   EXPECT_FALSE(chains.stands(2));
-  EXPECT_FALSE(chains.moves_on(2)) << "one of its arms stays";
+  EXPECT_FALSE(chains.moves_on(2)) << "one of its arms has no next motion";
   EXPECT_FALSE(chains.moves_on(3));
 }
 
-TEST(MotionChains, OfATeamStandAsLongAsOneOfItsArmsIsThere) {
+TEST(MotionChains, TeamIsPresentWhileOneOfItsArmsIs) {
   const CoordinatedMotion team{.job = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
   const MotionChains chains({motion(kA, 0, 1s), team});
   EXPECT_TRUE(chains.stands(1));

@@ -1,7 +1,5 @@
 #pragma once
 
-// Motions and regions as plain data, for the tests of passing orders.
-
 #include <utility>
 #include <vector>
 

@@ -1,4 +1,3 @@
-// Passing orders as plain data: who may go how far, whom orders and what rests hold.
 #include <gtest/gtest.h>
 
 #include "test/scheduler/passing_words.h"
@@ -22,7 +21,7 @@ struct Graph : ::testing::Test {
     if (orders.blockers.empty()) graph.admit(candidates, orders);
     return orders;
   }
-  // B meets A at A's goal, and passes there when Next has taken the arm away.
+  // B passes A's goal after Next has moved the arm away.
   void let_b_wait_until_next_has_left() {
     admit({motion(kA, 0, 5s)}, {});
     graph.granted(kA, 5s);
@@ -31,9 +30,9 @@ struct Graph : ::testing::Test {
   }
 };
 
-TEST_F(Graph, ACandidatePassesFirstWhereThatCostsLess) {
+TEST_F(Graph, CandidatePassesFirstIfCheaper) {
   admit({motion(kA, 0, 10s)}, {});
-  // B is through before A comes near: to wait for A would cost 7 s.
+  // Waiting for A would cost B 7 s.
   admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
   EXPECT_EQ(graph.limit(kB), 3s);
   EXPECT_EQ(graph.limit(kA), 6s - kShortOf);
@@ -41,17 +40,17 @@ TEST_F(Graph, ACandidatePassesFirstWhereThatCostsLess) {
   EXPECT_EQ(graph.limit(kA), 10s);
 }
 
-TEST_F(Graph, NobodyIsPassedWhereItHasAuthority) {
+TEST_F(Graph, MotionWithAuthorityInTheRegionIsNotOvertaken) {
   admit({motion(kA, 0, 10s)}, {});
   graph.granted(kA, 7s);
   admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
   EXPECT_EQ(graph.limit(kA), 10s);
-  EXPECT_EQ(graph.limit(kB), 0s) << "that costs less than a stop on its way";
+  EXPECT_EQ(graph.limit(kB), 0s) << "waiting at the start costs less than stopping on the path";
   EXPECT_EQ(graph.held_back(kB)->other, kA);
   EXPECT_EQ(graph.held_back(kB)->proximity.body_a, "a");
 }
 
-TEST_F(Graph, AGoalInTheOthersWayIsPassedBeforeItIsReached) {
+TEST_F(Graph, GoalInTheWayIsPassedBeforeItIsReached) {
   admit({motion(kA, 0, 5s)}, {});
   const auto orders = admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 4s, 5s}})}}});
   ASSERT_TRUE(orders.blockers.empty());
@@ -59,25 +58,25 @@ TEST_F(Graph, AGoalInTheOthersWayIsPassedBeforeItIsReached) {
   EXPECT_EQ(graph.limit(kB), 5s);
 }
 
-TEST_F(Graph, AnArmAtRestInTheWayIsAnObstacle) {
+TEST_F(Graph, ArmAtRestInTheWayBlocks) {
   const auto orders = admit({motion(kA, 0, 5s)}, {{kA, ArmId{2}, {region({{2s, 3s, 0s, 0s}})}}});
   ASSERT_EQ(orders.blockers.size(), 1U);
   EXPECT_EQ(orders.blockers[0].arm, ArmId{2});
   EXPECT_EQ(orders.in_the_way, std::vector<ArmId>{ArmId{2}});
 }
 
-// A ends where B starts and B ends where A starts.
+// A ends at B's start, and B ends at A's start.
 const std::vector<PairRegions> kSwap{
     {kA, kB, {region({{4s, 5s, 0s, 2s}}), region({{0s, 1s, 3s, 5s}})}}};
 
-TEST_F(Graph, ASwapSucceedsWhereThereIsRoomToPass) {
+TEST_F(Graph, SwapSucceedsIfThereIsRoomToPass) {
   const auto orders = admit({motion(kA, 0, 5s), motion(kB, 1, 5s)}, kSwap);
   ASSERT_TRUE(orders.blockers.empty());
   EXPECT_EQ(graph.limit(kA), 4s - kShortOf);
   EXPECT_EQ(graph.limit(kB), 3s - kShortOf);
 }
 
-TEST_F(Graph, ASwapWithoutRoomIsARing) {
+TEST_F(Graph, SwapWithoutRoomIsACycle) {
   const auto orders = admit({motion(kA, 0, 5s), motion(kB, 1, 5s)},
                             {{kA, kB, {region({{2s, 5s, 0s, 3s}}), region({{0s, 3s, 2s, 5s}})}}});
   ASSERT_FALSE(orders.blockers.empty());
@@ -85,8 +84,8 @@ TEST_F(Graph, ASwapWithoutRoomIsARing) {
   EXPECT_EQ(orders.blockers[0].other, kB);
 }
 
-// A's first motion comes to rest in B's way and its next one leaves.
-TEST_F(Graph, WhoLetsTheFirstMotionComeToRestLetsTheNextOneLeave) {
+// A's first motion comes to rest in B's way; its next motion leaves.
+TEST_F(Graph, MotionWaitsUntilTheNextMotionHasLeftARest) {
   admit({motion(kA, 0, 5s)}, {});
   graph.granted(kA, 5s);
   EXPECT_FALSE(
@@ -103,7 +102,7 @@ TEST_F(Graph, WhoLetsTheFirstMotionComeToRestLetsTheNextOneLeave) {
   EXPECT_EQ(graph.limit(kB), 5s);
 }
 
-TEST_F(Graph, AnAbandonedMotionBlocksWhatWouldPassItsRestAndNothingElse) {
+TEST_F(Graph, AbandonedMotionBlocksOnlyMotionsThatPassItsRest) {
   admit({motion(kA, 0, 5s)}, {});
   graph.granted(kA, 2s);
   admit({motion(kB, 1, 5s)}, {{kB, kA, {region({{2s, 3s, 1s, 4s}})}}});
@@ -119,7 +118,7 @@ TEST_F(Graph, AnAbandonedMotionBlocksWhatWouldPassItsRestAndNothingElse) {
   EXPECT_EQ(graph.limit(kB), 5s);
 }
 
-TEST_F(Graph, CancellingTheNextMotionKeepsTheGoalBeforeItBlocked) {
+TEST_F(Graph, CancelingTheNextMotionKeepsTheGoalBlocked) {
   let_b_wait_until_next_has_left();
   graph.abandon(kNext, 0s);
   graph.progress(kA, 5s);
@@ -128,8 +127,8 @@ TEST_F(Graph, CancellingTheNextMotionKeepsTheGoalBeforeItBlocked) {
   EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0});
 }
 
-// B was to wait for Next at the goal to which A would have brought the arm: A never comes there.
-TEST_F(Graph, AGoalIsInNobodysWayWhenWhoWasToComeThereIsAbandonedToo) {
+// B must wait for Next at A's goal, but A never arrives there.
+TEST_F(Graph, UnreachedGoalOfAnAbandonedMotionBlocksNothing) {
   let_b_wait_until_next_has_left();
   graph.progress(kA, 2s);
   graph.abandon(kNext, 0s);
@@ -138,28 +137,28 @@ TEST_F(Graph, AGoalIsInNobodysWayWhenWhoWasToComeThereIsAbandonedToo) {
   EXPECT_EQ(graph.limit(kB), 5s);
 }
 
-TEST_F(Graph, LargerPriorityPassesFirstWhateverItCostsOthers) {
+TEST_F(Graph, LargerPriorityPassesFirst) {
   admit({motion(kA, 0, 3s)}, {});
   CoordinatedMotion urgent = motion(kB, 1, 9s);
   urgent.priority = 1;
   admit({urgent}, {{kB, kA, {region({{5s, 8s, 1s, 2s}})}}});
-  EXPECT_EQ(graph.limit(kA), 3s) << "it is through long before";
+  EXPECT_EQ(graph.limit(kA), 3s) << "it has left long before";
   CoordinatedMotion more = motion(kC, 2, 3s);
   more.priority = 2;
   admit({more}, {{kC, kB, {region({{1s, 2s, 500ms, 9s}})}}});
-  EXPECT_EQ(graph.limit(kB), 0s) << "that costs less than a stop on its way";
+  EXPECT_EQ(graph.limit(kB), 0s) << "waiting at the start costs less than stopping on the path";
 }
 
-TEST_F(Graph, WhoKeepsItsPlaceIsNotOvertaken) {
+TEST_F(Graph, MotionThatKeepsItsPlaceIsNotOvertaken) {
   admit({motion(kA, 0, 10s)}, {});
   graph.set_outlook(kA, {.keeps_its_place = true});
   admit({motion(kB, 1, 3s)}, {{kB, kA, {region({{1s, 2s, 6s, 8s}})}}});
   EXPECT_EQ(graph.limit(kA), 10s);
-  EXPECT_EQ(graph.limit(kB), 0s) << "that costs less than a stop on its way";
+  EXPECT_EQ(graph.limit(kB), 0s) << "waiting at the start costs less than stopping on the path";
 }
 
-// B was to wait until Next has taken the arm from A's goal. What comes after that is no matter.
-TEST_F(Graph, WhoIsAbandonedBlocksOnlyThePlacesThatItWasToLeave) {
+// Later motions than Next do not matter.
+TEST_F(Graph, AbandonedMotionBlocksOnlyTheStartItShouldHaveLeft) {
   const std::vector<PairRegions> regions = {{kA, kB, {region({{4s, 5s, 2s, 3s}})}},
                                             {kNext, kB, {region({{0s, 1s, 2s, 3s}})}}};
   for (const JobId abandoned : {kC, kNext}) {
@@ -176,9 +175,8 @@ TEST_F(Graph, WhoIsAbandonedBlocksOnlyThePlacesThatItWasToLeave) {
   }
 }
 
-// A brings both arms of a team to where B and Next go on, each with one of them: there is no region
-// of A and B, which come one after the other.
-TEST_F(Graph, AnArmThatATeamLeavesInTheWayOfItsOwnOtherArmBlocksIt) {
+// A brings both arms to where B and Next start, with one arm each. A and B have no region.
+TEST_F(Graph, ArmLeftByATeamBlocksTheTeamsOtherArm) {
   CoordinatedMotion team = motion(kA, 0, 5s);
   team.arms.push_back(ArmId{1});
   admit({team}, {});
@@ -190,8 +188,8 @@ TEST_F(Graph, AnArmThatATeamLeavesInTheWayOfItsOwnOtherArmBlocksIt) {
   EXPECT_EQ(graph.held_back(kB)->arm, ArmId{1});
 }
 
-// B was to pass when kC has left its start, where Next was to bring the arm: neither comes there.
-TEST_F(Graph, WhoIsAbandonedWithWhatComesBeforeItIsInNobodysWayWhereItWouldHaveBegun) {
+// B should pass after kC has left its start, but neither Next nor kC arrives there.
+TEST_F(Graph, UnreachedStartOfAnAbandonedMotionBlocksNothing) {
   admit({motion(kA, 0, 5s)}, {});
   admit({motion(kB, 1, 5s), motion(kNext, 0, 5s), motion(kC, 0, 5s)},
         {{kB, kNext, {region({{2s, 3s, 4s, 5s}})}}, {kB, kC, {region({{2s, 3s, 0s, 1s}})}}});
@@ -202,8 +200,7 @@ TEST_F(Graph, WhoIsAbandonedWithWhatComesBeforeItIsInNobodysWayWhereItWouldHaveB
   EXPECT_EQ(graph.limit(kB), 5s);
 }
 
-// Nor is it one for who passes before the other comes there at all.
-TEST_F(Graph, WhoPassesFirstIsNotBlockedByAGoalThatTheOtherHasNotReached) {
+TEST_F(Graph, UnreachedGoalDoesNotBlockTheFirstMotion) {
   admit({motion(kA, 0, 20s)}, {});
   admit({motion(kB, 1, 5s), motion(kNext, 0, 5s)}, {{kB, kA, {region({{2s, 3s, 18s, 20s}})}}});
   ASSERT_EQ(graph.limit(kA), 18s - kShortOf);
@@ -218,8 +215,8 @@ CoordinatedMotion of_both(JobId job, Duration duration) {
   return {.job = job, .arms = {ArmId{0}, ArmId{1}}, .duration = duration};
 }
 
-// One arm rests before the region, the other one, which got ahead, in it.
-TEST_F(Graph, AnArmThatRestsFartherThanItsSiblingIsInTheWayToo) {
+// One arm rests before the region, the arm ahead inside.
+TEST_F(Graph, ArmAheadOfItsTeamBlocksToo) {
   admit({of_both(kA, 5s)}, {});
   graph.granted(kA, 5s);
   admit({motion(kB, 2, 5s)}, {{kB, kA, {region({{2s, 3s, 2s, 3s}})}}});
@@ -228,8 +225,8 @@ TEST_F(Graph, AnArmThatRestsFartherThanItsSiblingIsInTheWayToo) {
   EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
 }
 
-// A ends in B's way, and what takes its arm away takes B's too: after B.
-TEST(PassingOrders, NobodyWaitsForADepartureThatFollowsItself) {
+// The motion that moves A's arm away also moves B's, after B.
+TEST(PassingOrders, MotionDoesNotWaitForADepartureThatFollowsIt) {
   PrecedenceGraph graph(2);
   graph.admit({motion(kA, 0, 5s)}, {});
   graph.granted(kA, 5s);
@@ -241,8 +238,8 @@ TEST(PassingOrders, NobodyWaitsForADepartureThatFollowsItself) {
   EXPECT_EQ(orders.blockers[0].other, kA);
 }
 
-// A brings both arms to where B begins, in C's way; C begins when A has ended.
-TEST(PassingOrders, NobodyPassesAStartAtWhichTheOtherStandsByThen) {
+// A brings both arms to B's start, in C's way.
+TEST(PassingOrders, StartThatIsOccupiedByThenIsNotPassedFirst) {
   PrecedenceGraph graph(2);
   graph.admit({of_both(kA, 5s)}, {});
   const std::vector<CoordinatedMotion> candidates = {motion(kB, 0, 50s), motion(kC, 1, 5s)};

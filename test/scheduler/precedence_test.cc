@@ -1,4 +1,3 @@
-// Of two motions that meet: how far the second may go, and when all come to their ends.
 #include <gtest/gtest.h>
 
 #include "test/scheduler/passing_words.h"
@@ -15,8 +14,7 @@ using test::kB;
 using test::kC;
 using test::region;
 
-// What the second one may do while the first one is at `progress`.
-TEST(Precedence, HoldsTheSecondAtTheNearestBoxThatTheFirstHasNotLeft) {
+TEST(Precedence, LimitsTheSecondToTheNearestOccupiedBox) {
   const Precedence order(kA, kB, region({{1s, 2s, 4s, 6s}, {2s, 3s, 3s, 5s}, {3s, 4s, 5s, 7s}}),
                          true);
   EXPECT_EQ(order.limit(0s), 3s - kShortOf);
@@ -26,7 +24,7 @@ TEST(Precedence, HoldsTheSecondAtTheNearestBoxThatTheFirstHasNotLeft) {
   EXPECT_EQ(order.limit(4s), std::nullopt);
 }
 
-TEST(Precedence, TurnedRoundHasTheOtherOnesTimes) {
+TEST(Precedence, ReversedOrderSwapsTheTimes) {
   const Precedence order(kA, kB, region({{1s, 2s, 4s, 6s}}), false);
   EXPECT_EQ(order.first(), kB);
   EXPECT_EQ(order.limit(5s), 1s - kShortOf);
@@ -35,19 +33,19 @@ TEST(Precedence, TurnedRoundHasTheOtherOnesTimes) {
   EXPECT_EQ(order.region().time_a, 2s);
 }
 
-TEST(Prediction, AWaitCostsTheTimeUntilTheFirstHasLeftAndAPause) {
+TEST(Prediction, WaitCostsTheTimeUntilTheFirstLeavesPlusAPause) {
   const Precedence order(kA, kB, region({{1s, 3s, 2s, 4s}}), true);
   const auto ends = predict({{0s, 5s}, {0s, 5s}}, {{0, 1, &order}}).ends;
   EXPECT_EQ(ends[0], 5s);
   EXPECT_EQ(ends[1], 5s + 1s + kShortOf + kPauseLoss);
 }
 
-TEST(Prediction, WhoComesLaterAnywayDoesNotWait) {
+TEST(Prediction, MotionThatArrivesLaterDoesNotWait) {
   const Precedence order(kA, kB, region({{1s, 2s - kShortOf, 2s, 4s}}), true);
   EXPECT_EQ(predict({{0s, 5s}, {0s, 5s}}, {{0, 1, &order}}).ends[1], 5s);
 }
 
-TEST(Prediction, NamesTheRingThatIsStuck) {
+TEST(Prediction, ReportsTheCycleThatIsStuck) {
   const Precedence ab(kA, kB, region({{2s, 3s, 1s, 4s}}), true);
   const Precedence bc(kB, kC, region({{2s, 3s, 1s, 4s}}), true);
   const Precedence ca(kC, kA, region({{2s, 3s, 1s, 4s}}), true);
@@ -58,7 +56,7 @@ TEST(Prediction, NamesTheRingThatIsStuck) {
   EXPECT_EQ(stuck.ring.size(), 3U);
 }
 
-TEST(Prediction, AMotionBeginsWhenTheOneBeforeItHasEnded) {
+TEST(Prediction, MotionStartsWhenItsPredecessorHasEnded) {
   EXPECT_EQ(predict({{1s, 5s}, {0s, 2s, kBehindFirst}}, {}).ends[1], 6s);
   const MotionAhead slow{.progress = 1s, .duration = 5s, .pace = 1.5};
   EXPECT_EQ(predict({slow, {0s, 2s, kBehindFirst}}, {}).ends[1], 8s);

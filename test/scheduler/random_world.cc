@@ -33,7 +33,7 @@ CellPtr World::cell() {
   if (cell_) return cell_;
   auto made = std::make_shared<Cell>(
       *(disturbances_.parks ? one_joint_arms_that_park(arms_) : one_joint_arms(arms_)));
-  made->execution.duration_margin = 1h;  // stalls are none of the scheduler's business here
+  made->execution.duration_margin = 1h;  // stalls must not cause overruns here
   made->execution.start_tolerance_rad = 1e-7;
   made->scheduling.horizon_steps = 1 + static_cast<int>(arms_ + random_() % 5) % 6;
   return cell_ = made;
@@ -43,14 +43,15 @@ Duration World::up_to(Duration most) {
   return Duration(static_cast<Duration::rep>(random_() % static_cast<std::uint64_t>(most.count())));
 }
 
-// Of each pair of arms some places; both at home, at 0, they are free.
+// Both arms are free at home, at 0.
 std::vector<Crossing> World::table() {
   std::vector<Crossing> table;
   for (std::uint32_t a = 0; a < arms_; ++a) {
     for (std::uint32_t b = a + 1; b < arms_; ++b) {
       for (auto n = random_() % 4; n > 0; --n) {
         const double size_a = 0.02 + 0.2 * place(), size_b = 0.02 + 0.2 * place();
-        const double from_a = place() - 0.095, from_b = place() - 0.095;  // no place on an edge
+        const double from_a = place() - 0.095,
+                     from_b = place() - 0.095;  // no position is on an edge
         if (from_a <= 0.0 && from_b <= 0.0) continue;
         table.push_back({ArmId{a}, from_a, from_a + size_a, ArmId{b}, from_b, from_b + size_b});
       }
@@ -105,7 +106,6 @@ std::optional<Submit> World::draw(bool any) {
   return std::nullopt;
 }
 
-// In any order, or by any arm that can.
 std::optional<Submit> World::draw_visit(const Configuration& rest, bool any) {
   const bool by_any = random_() % 2 == 0;
   const auto first = static_cast<std::uint32_t>(random_() % arms_);
@@ -122,7 +122,6 @@ std::optional<Submit> World::draw_visit(const Configuration& rest, bool any) {
   return job;
 }
 
-// To joints or to where a link is to be, by one arm or by any.
 std::optional<Submit> World::draw_goal(const Configuration& rest) {
   Submit job{JobId{0}, nullptr, {static_cast<int>(random_() % 3), 1'000'000s}};
   if (disturbances_.cancels) job.terms.backlog_timeout = 20s + up_to(100s);

@@ -13,29 +13,28 @@ namespace armloom {
 
 struct Disturbances {
   bool delays = false;
-  bool pauses = false;  // all arms are stopped, and resumed
-  bool stops = false;   // single ones are
+  bool pauses = false;  // all arms are stopped and resumed
+  bool stops = false;   // single arms are stopped and resumed
   bool cancels = false;
   bool scenes = false;
   bool parks = false;
-  bool amends = false;   // other priorities, other timeouts
+  bool amends = false;   // changed priorities and timeouts
   bool choices = false;  // some jobs may be done in any order, or by any of several arms
-  bool goals = false;    // some say where to go, by one or any arm, or are brought to their start
-  bool crowds = false;   // jobs go wherever they like: nothing says that all can be done
+  bool goals = false;    // some jobs have goals, for one or any arm, or a move-to-start
+  bool crowds = false;   // jobs have any goals: some may be impossible
 };
 
-// A random workload of two to four arms of one joint that share places by a table, alone and in
-// teams: jobs that can all be done one after the other in the order of submission, and what
-// disturbs them. The same for the same arguments.
+// A random workload for two to four one-joint arms, alone and in teams. All jobs can be done in
+// order of submission; disturbances are added. Deterministic for equal arguments.
 class World {
  public:
   World(std::uint64_t seed, const std::string& policy, Disturbances disturbances);
 
-  // From the first job until nothing happens any more. `look` is called at many an instant.
+  // Runs until nothing happens anymore; calls `look` at many instants.
   void run(const std::function<void()>& look = [] {});
 
-  // A job for the present instant that finds its way when all that are accepted have ended, or,
-  // with `any`, wherever it goes. Nothing: none was found.
+  // Draws a job that is free after all accepted jobs have ended, or with `any` an arbitrary job;
+  // nullopt if none was found.
   [[nodiscard]] std::optional<Submit> draw(bool any = false);
   JobId submit(Submit job);
 

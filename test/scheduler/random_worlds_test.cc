@@ -1,6 +1,5 @@
-// Whole workloads without geometry, under every policy: arms that share places by a table, are
-// late, slow and stall; jobs that are canceled, arms that are stopped, scenes that change. What has
-// to hold after every step is claimed by IdealArms.
+// Complete workloads without geometry under every policy, with late, slow and stalling arms,
+// cancels, stops and scene changes. IdealArms checks the invariants.
 #include <gmock/gmock.h>
 
 #include "test/scenarios/seeds.h"
@@ -15,11 +14,10 @@ std::string waits_text(const Wait& wait) {
          (wait.arm ? " of arm " + std::to_string(wait.arm->value()) : "");
 }
 
-class Worlds : public ::testing::TestWithParam<std::string> {
+class RandomWorlds : public ::testing::TestWithParam<std::string> {
  protected:
   static bool is_timed() { return GetParam() == "timed_discrete"; }
 
-  // How many jobs have ended in each way, over all seeds.
   std::map<JobState, int> run(std::uint64_t usual, Disturbances disturbances, bool all_succeed) {
     std::map<JobState, int> ended;
     for (std::uint64_t seed = 1; seed <= seed_count(usual); ++seed) {
@@ -46,64 +44,63 @@ class Worlds : public ::testing::TestWithParam<std::string> {
     return ended;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Policies, Worlds, ::testing::ValuesIn(policy_names()),
+INSTANTIATE_TEST_SUITE_P(Policies, RandomWorlds, ::testing::ValuesIn(policy_names()),
                          [](const auto& policy) { return policy.param; });
 
-TEST_P(Worlds, WhatCanBeDoneInTurnIsDone) {
+TEST_P(RandomWorlds, FeasibleJobsSucceed) {
   EXPECT_GT(run(200, {}, true)[JobState::succeeded], 1000);
 }
 
-// timed_discrete promises it for times that are kept.
-TEST_P(Worlds, WhatCanBeDoneInTurnIsDoneHoweverLateArmsAre) {
+// timed_discrete guarantees this only for punctual arms.
+TEST_P(RandomWorlds, FeasibleJobsSucceedOnLateArms) {
   EXPECT_GT(run(200, {.delays = true}, !is_timed())[JobState::succeeded], 1000);
 }
 
-TEST_P(Worlds, WhatIsStoppedGoesOn) {
+TEST_P(RandomWorlds, StoppedJobsResumeAfterResume) {
   EXPECT_GT(run(200, {.pauses = true}, !is_timed())[JobState::succeeded], 1000);
 }
 
-TEST_P(Worlds, WhatIsStoppedLateGoesOn) {
+TEST_P(RandomWorlds, StoppedJobsResumeOnLateArms) {
   EXPECT_GT(run(200, {.delays = true, .pauses = true}, !is_timed())[JobState::succeeded], 1000);
 }
 
-TEST_P(Worlds, WhoeverIsStoppedWhatCanBeDoneInTurnIsDone) {
+TEST_P(RandomWorlds, FeasibleJobsSucceedDespiteSingleStops) {
   EXPECT_GT(run(200, {.delays = true, .stops = true}, !is_timed())[JobState::succeeded], 1000);
 }
 
-TEST_P(Worlds, WhateverIsCanceledEveryJobEndsOnce) {
+TEST_P(RandomWorlds, EveryJobEndsOnceDespiteCancels) {
   auto ended = run(200, {.delays = true, .stops = true, .cancels = true}, false);
   EXPECT_GT(ended[JobState::canceled], 50);
 }
 
-TEST_P(Worlds, OnScenesThatChangeEveryJobEndsOnce) {
+TEST_P(RandomWorlds, EveryJobEndsOnceOnChangingScenes) {
   auto ended = run(200, {.delays = true, .stops = true, .cancels = true, .scenes = true}, false);
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
-TEST_P(Worlds, WhateverIsGivenAnotherPriorityWhatCanBeDoneInTurnIsDone) {
+TEST_P(RandomWorlds, FeasibleJobsSucceedDespiteAmendments) {
   auto ended = run(200, {.delays = true, .amends = true, .choices = true}, !is_timed());
   EXPECT_GT(ended[JobState::succeeded], 1000);
 }
 
-TEST_P(Worlds, WhateverIsAmendedAndCanceledEveryJobEndsOnce) {
+TEST_P(RandomWorlds, EveryJobEndsOnceDespiteAmendmentsAndCancels) {
   auto ended = run(
       200, {.delays = true, .stops = true, .cancels = true, .parks = true, .amends = true}, false);
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
-TEST_P(Worlds, WhereArmsGoAsideEveryJobEndsOnce) {
+TEST_P(RandomWorlds, EveryJobEndsOnceWithRetreats) {
   auto ended = run(200, {.delays = true, .cancels = true, .parks = true}, false);
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
-// Of jobs in any order, and of jobs that any of several arms can do.
-TEST_P(Worlds, WhatMayBeChosenIsDoneToo) {
+TEST_P(RandomWorlds, JobsWithChoicesSucceed) {
   EXPECT_GT(run(200, {.delays = true, .choices = true}, !is_timed())[JobState::succeeded], 1000);
 }
 
-// The one of 3,000 worlds where a job is given to an arm behind one that waits for another arm,
-// whose next job would then be in its way for good: a ring, that its other arm opens.
-TEST(World, WhatWouldWaitForEverOnItsArmIsDoneByAnotherOne) {
+// A job is queued behind a job that waits for another arm, whose next job would be blocked
+// permanently: a cycle that another candidate arm resolves.
+TEST(RandomWorld, JobInACycleIsDoneByAnotherArm) {
   World world(2351, "lockstep", {.delays = true, .choices = true});
   world.run();
   ASSERT_GT(world.jobs.size(), 5u);
@@ -112,7 +109,7 @@ TEST(World, WhatWouldWaitForEverOnItsArmIsDoneByAnotherOne) {
   }
 }
 
-TEST_P(Worlds, WhateverIsCanceledOfWhatMayBeChosenEveryJobEndsOnce) {
+TEST_P(RandomWorlds, EveryJobWithChoicesEndsOnceDespiteCancels) {
   auto ended = run(200,
                    {.delays = true,
                     .stops = true,
@@ -124,20 +121,19 @@ TEST_P(Worlds, WhateverIsCanceledOfWhatMayBeChosenEveryJobEndsOnce) {
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
-// Jobs that nobody says can be done, to places, by any arm, brought to their starts: when nothing
-// happens any more, nobody waits.
-TEST_P(Worlds, EveryWaitEnds) {
+// When nothing happens anymore, no job waits, even if jobs are impossible.
+TEST_P(RandomWorlds, EveryWaitEnds) {
   auto ended = run(220, {.delays = true, .cancels = true, .goals = true, .crowds = true}, false);
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
-TEST_P(Worlds, EveryWaitEndsWhereArmsGoAside) {
+TEST_P(RandomWorlds, EveryWaitEndsWithRetreats) {
   auto ended = run(
       220, {.delays = true, .cancels = true, .parks = true, .goals = true, .crowds = true}, false);
   EXPECT_GT(ended[JobState::succeeded], 500);
 }
 
-TEST_P(Worlds, EveryWaitEndsWhateverIsStoppedAndAmended) {
+TEST_P(RandomWorlds, EveryWaitEndsDespiteStopsAndAmendments) {
   auto ended = run(220,
                    {.delays = true,
                     .stops = true,

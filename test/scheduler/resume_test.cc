@@ -1,4 +1,3 @@
-// Nobody waits for a stop when no arm is stopped: waits are explained anew when the reason is gone.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
@@ -9,7 +8,7 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-TEST(Resume, AJobThatWaitsSaysAgainWhatWasFoundInItsWay) {
+TEST(Resume, WaitingJobReportsItsOriginalBlockerAgain) {
   Bench bench(2, "certified");
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
@@ -17,12 +16,12 @@ TEST(Resume, AJobThatWaitsSaysAgainWhatWasFoundInItsWay) {
   ASSERT_THAT(bench.job(job).waits_on, SizeIs(1));
   EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::stop);
   bench.step(Resume{{ArmId{0}}}, at(3ms));
-  ASSERT_TRUE(bench.question) << "it is judged again";
+  ASSERT_TRUE(bench.question) << "it is checked again";
   ASSERT_THAT(bench.job(job).waits_on, SizeIs(1));
   EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::arm);
 }
 
-TEST(Resume, AJobThatStillBrakesWaitsForTheStopNoLonger) {
+TEST(Resume, BrakingJobNoLongerWaitsForTheStop) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -33,7 +32,7 @@ TEST(Resume, AJobThatStillBrakesWaitsForTheStopNoLonger) {
   EXPECT_THAT(bench.job(job).waits_on, IsEmpty());
 }
 
-TEST(Resume, OfOneArmOfATeamLeavesItToWaitForTheOther) {
+TEST(Resume, OfOneTeamArmLeavesTheJobWaitingForTheOther) {
   Bench bench(2);
   bench.step(Stop{{ArmId{0}, ArmId{1}}, "operator"}, at(0ms));
   const JobId job = bench.submit(move({0, 1}, 0, 1, 2s), at(1ms));

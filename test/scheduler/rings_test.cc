@@ -1,4 +1,3 @@
-// Deadlocks in the scheduler: found when they arise, named, and resolved by a job that fails.
 #include <gmock/gmock.h>
 
 #include "core/scheduler/trial.h"
@@ -10,7 +9,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// Each of two arms stands where the other one's job would go.
+// Each of two arms rests where the other arm's job must go.
 struct Swap : Bench {
   Swap() : Bench(3, "certified") {
     a = submit(move({0}, 0, 1, 2s), at(0ms));
@@ -21,7 +20,7 @@ struct Swap : Bench {
   JobId a{0}, b{0};
 };
 
-TEST(Deadlock, OfTwoIsNamedInTheStepThatFindsItAndNobodyHasFailedYet) {
+TEST(Deadlock, IsReportedBeforeAJobFails) {
   Swap bench;
   EXPECT_THAT(bench.job(bench.a).ring, ElementsAre(bench.a, bench.b));
   EXPECT_THAT(bench.job(bench.b).ring, ElementsAre(bench.b, bench.a));
@@ -31,25 +30,25 @@ TEST(Deadlock, OfTwoIsNamedInTheStepThatFindsItAndNobodyHasFailedYet) {
   EXPECT_LE(*bench.wake_at, at(3ms));
 }
 
-TEST(Deadlock, TheJobThatCameLastFailsAndTheOtherWaitsForItsArm) {
+TEST(Deadlock, FailsTheLastJobAndTheOtherWaitsForItsArm) {
   Swap bench;
   bench.step(Wake{}, at(3ms));
   EXPECT_EQ(bench.state(bench.b), JobState::failed);
   EXPECT_EQ(bench.job(bench.b).reason(), Reason::deadlock);
-  EXPECT_THAT(bench.job(bench.b).ring, ElementsAre(bench.b, bench.a)) << "kept, as the reason";
+  EXPECT_THAT(bench.job(bench.b).ring, ElementsAre(bench.b, bench.a)) << "kept as the reason";
   EXPECT_EQ(bench.terminal_events[bench.b], 1);
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
   EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
   ASSERT_TRUE(bench.question);
   bench.answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{1});
   EXPECT_EQ(bench.job(bench.a).waits_on.front().kind, Wait::Kind::arm);
-  EXPECT_THAT(bench.job(bench.a).ring, IsEmpty()) << "an arm without a job closes no ring";
+  EXPECT_THAT(bench.job(bench.a).ring, IsEmpty()) << "an idle arm closes no cycle";
   bench.step(Wake{}, at(1s));
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
 }
 
-// The answer closes the ring, and the last one of it is about to fail: in this instant it is there.
-TEST(Deadlock, OfOthersIsNotSettledForAJobThatIsAskedAbout) {
+// The trial must not resolve the cycle: the new job waits for b.
+TEST(Deadlock, IsNotResolvedWithinATrial) {
   Bench bench(3, "certified");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId b = bench.submit(move({1}, 0, 1, 2s), at(0ms));
@@ -70,8 +69,8 @@ TEST(Deadlock, OfOthersIsNotSettledForAJobThatIsAskedAbout) {
   EXPECT_EQ(waits.front().job, b);
 }
 
-// Stopped beside each other on their ways, so that neither can go on.
-TEST(Deadlock, OfTwoThatStandOnTheirPathsIsNamedToo) {
+// Stopped so that neither can continue.
+TEST(Deadlock, IncludesJobsPausedOnTheirPaths) {
   Bench bench(2, "certified");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId b = bench.submit(move({1}, 0, 1, 2s), at(0ms));
@@ -83,7 +82,7 @@ TEST(Deadlock, OfTwoThatStandOnTheirPathsIsNamedToo) {
   bench.step(Resume{{ArmId{0}, ArmId{1}}}, at(1s));
   ASSERT_EQ(bench.question->candidates.size(), 1U);
   bench.answer_conflict(at(1002ms), Conflict::With::rest, {}, ArmId{1});
-  EXPECT_THAT(bench.job(a).ring, IsEmpty()) << "the other one may be able to go";
+  EXPECT_THAT(bench.job(a).ring, IsEmpty()) << "the other job may be able to continue";
   bench.answer_conflict(at(1003ms), Conflict::With::rest, {}, ArmId{0});
   EXPECT_THAT(bench.job(a).ring, ElementsAre(a, b));
   bench.step(Wake{}, at(1004ms));
@@ -92,7 +91,7 @@ TEST(Deadlock, OfTwoThatStandOnTheirPathsIsNamedToo) {
   EXPECT_EQ(bench.state(a), JobState::scheduled);
 }
 
-TEST(Deadlock, ACanceledJobOpensTheRing) {
+TEST(Deadlock, CanceledJobBreaksTheCycle) {
   Swap bench;
   bench.step(Cancel{bench.a}, at(3ms));
   EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
@@ -101,7 +100,7 @@ TEST(Deadlock, ACanceledJobOpensTheRing) {
   EXPECT_FALSE(bench.job(bench.b).reason());
 }
 
-TEST(Deadlock, OnAnotherSceneIsJudgedAgainBeforeAnyoneFails) {
+TEST(Deadlock, IsCheckedAgainOnASceneChangeBeforeAJobFails) {
   Swap bench;
   bench.step(SceneChanged{{ArmId{0}, ArmId{1}}}, at(3ms));
   EXPECT_THAT(bench.job(bench.b).ring, IsEmpty());
@@ -110,7 +109,7 @@ TEST(Deadlock, OnAnotherSceneIsJudgedAgainBeforeAnyoneFails) {
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
 }
 
-TEST(Deadlock, OfThreeAmongOthersThatMove) {
+TEST(Deadlock, IncludesThreeJobsWhileOthersMove) {
   Bench bench(4, "certified");
   const JobId moves = bench.submit(move({3}, 0, 1, 20s), at(0ms));
   bench.answer_free(at(1ms));
@@ -130,8 +129,8 @@ TEST(Deadlock, OfThreeAmongOthersThatMove) {
   EXPECT_EQ(bench.state(moves), JobState::running);
 }
 
-TEST(Deadlock, ThroughAPredecessor) {
-  // a waits for arm b to go, whose only job comes after a.
+TEST(Deadlock, MayIncludeAPredecessor) {
+  // a waits for arm b to move away, whose only job comes after a.
   Bench bench(2, "certified");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
@@ -144,7 +143,7 @@ TEST(Deadlock, ThroughAPredecessor) {
   EXPECT_EQ(bench.state(a), JobState::backlogged);
 }
 
-TEST(Deadlock, IsNoneWhileOneOfTheTwoMovesOrWaitsForWhatMoves) {
+TEST(Deadlock, DoesNotIncludeJobsThatWaitForAMotion) {
   Bench bench(3, "certified");
   const JobId runs = bench.submit(move({2}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -156,7 +155,7 @@ TEST(Deadlock, IsNoneWhileOneOfTheTwoMovesOrWaitsForWhatMoves) {
   EXPECT_THAT(bench.job(b).ring, IsEmpty());
 }
 
-TEST(Deadlock, AStopBreaksTheSearchForIt) {
+TEST(Deadlock, DoesNotIncludeAStoppedArm) {
   Bench bench(2, "certified");
   bench.step(Stop{{ArmId{1}}, "operator"}, at(0ms));
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(1ms));

@@ -1,4 +1,3 @@
-// Arms of a ring go aside (scheduling.on_idle_blocker "park").
 #include <gmock/gmock.h>
 
 #include "test/scheduler/bench_cell.h"
@@ -9,7 +8,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// As Swap: b's arm could go aside before b, and is asked about at once.
+// Like Swap; the scheduler asks at once about a retreat of b's arm.
 struct Parking : Bench {
   explicit Parking(const char* policy = "certified") : Bench(one_joint_arms_that_park(3), policy) {
     a = submit(move({0}, 0, 1, 2s), at(0ms));
@@ -24,7 +23,6 @@ struct Parking : Bench {
     way = asides[0].job;
     back = asides[1].job;
   }
-  // The arm stands aside; nothing is decided about a since then.
   void go_aside() {
     answer_way_and_passing();
     ASSERT_EQ(question->candidates.front().job, way);
@@ -36,10 +34,10 @@ struct Parking : Bench {
   JobId a{0}, b{0}, way{0}, back{0};
 };
 
-TEST(RingUnderPark, AsksForTheWayAndThenForThePassingBeforeAnythingElse) {
+TEST(DeadlockUnderPark, ChecksTheRetreatThenTheBlockedJob) {
   Parking bench;
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->candidates.front().job, JobId{0}) << "a motion that is no job yet";
+  EXPECT_EQ(bench.question->candidates.front().job, JobId{0}) << "a motion that is not yet a job";
   EXPECT_EQ(bench.question->candidates.front().trajectory->arms(), std::vector{ArmId{1}});
   EXPECT_NEAR(bench.question->candidates.front().trajectory->goal()[0], -1.0, 1e-9);
   bench.answer_free(at(3ms));
@@ -50,7 +48,7 @@ TEST(RingUnderPark, AsksForTheWayAndThenForThePassingBeforeAnythingElse) {
   EXPECT_THAT(bench.asides, IsEmpty());
 }
 
-TEST(RingUnderPark, TheArmGoesAsideAndComesBackByJobsOfTheSchedulersOwn) {
+TEST(DeadlockUnderPark, RetreatAndReturnAreServerInitiatedJobs) {
   Parking bench;
   bench.answer_way_and_passing();
   for (const YieldMove& aside : bench.asides) {
@@ -65,7 +63,7 @@ TEST(RingUnderPark, TheArmGoesAsideAndComesBackByJobsOfTheSchedulersOwn) {
   EXPECT_TRUE(bench.job(bench.way).system_job);
 }
 
-TEST(RingUnderPark, NobodyFailsWhileAWayIsAskedFor) {
+TEST(DeadlockUnderPark, NoJobFailsWhileARetreatIsChecked) {
   Parking bench;
   EXPECT_THAT(bench.job(bench.a).ring, ElementsAre(bench.a, bench.b));
   for (const auto now : {3ms, 100ms, 5000ms}) bench.step(Wake{}, at(now));
@@ -78,20 +76,21 @@ TEST(RingUnderPark, NobodyFailsWhileAWayIsAskedFor) {
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
 }
 
-TEST(RingUnderPark, WhenEveryWayIsRefusedTheLastJobFails) {
+TEST(DeadlockUnderPark, LastJobFailsIfEveryRetreatIsRejected) {
   Parking bench;
-  bench.answer_conflict(at(3ms), Conflict::With::scene);  // b's arm cannot go
+  bench.answer_conflict(at(3ms), Conflict::With::scene);  // b's arm cannot retreat
   ASSERT_TRUE(bench.question);
   EXPECT_EQ(bench.question->candidates.front().trajectory->arms(), std::vector{ArmId{0}});
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
   bench.answer_free(at(4ms));
-  bench.answer_conflict(at(5ms), Conflict::With::rest, {}, ArmId{0});  // b would find it there too
+  bench.answer_conflict(at(5ms), Conflict::With::rest, {},
+                        ArmId{0});  // b would still collide with a's arm there
   EXPECT_EQ(bench.job(bench.b).reason(), Reason::deadlock);
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
   EXPECT_THAT(bench.asides, IsEmpty());
 }
 
-TEST(RingUnderPark, AStoppedArmGoesNowhere) {
+TEST(DeadlockUnderPark, StoppedArmDoesNotRetreat) {
   Parking bench;
   bench.step(Stop{{ArmId{1}}, "operator"}, at(3ms));
   bench.answer_free(at(4ms));
@@ -99,7 +98,7 @@ TEST(RingUnderPark, AStoppedArmGoesNowhere) {
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
 }
 
-TEST(RingUnderPark, ThePairTakesItsPlaceBeforeTheJob) {
+TEST(DeadlockUnderPark, RetreatAndReturnComeBeforeTheJob) {
   Parking bench;
   bench.answer_way_and_passing();
   EXPECT_THAT(bench.job(bench.a).ring, IsEmpty());
@@ -113,7 +112,7 @@ TEST(RingUnderPark, ThePairTakesItsPlaceBeforeTheJob) {
   EXPECT_EQ(bench.question->candidates.front().job, bench.way);
 }
 
-TEST(RingUnderPark, ThePairChangesNothingAboutWhereArmsWillStand) {
+TEST(DeadlockUnderPark, PredictedRestIsUnchangedByARetreat) {
   Parking bench;
   const JobId next = bench.submit(move({1}, 1, 2, 1s), at(2ms));
   const Configuration before = bench.scheduler.predicted_rest();
@@ -126,7 +125,7 @@ TEST(RingUnderPark, ThePairChangesNothingAboutWhereArmsWillStand) {
   EXPECT_NEAR(bench.scheduler.predicted_rest()[1], 0.0, 1e-9);
 }
 
-TEST(RingUnderPark, TheReturnDoesNotBeginWhileTheOtherWaits) {
+TEST(DeadlockUnderPark, ReturnWaitsForTheBlockedJob) {
   Parking bench;
   bench.go_aside();
   EXPECT_EQ(bench.state(bench.way), JobState::succeeded);
@@ -134,13 +133,13 @@ TEST(RingUnderPark, TheReturnDoesNotBeginWhileTheOtherWaits) {
   ASSERT_EQ(bench.question->candidates.front().job, bench.a);
   EXPECT_EQ(bench.job(bench.back).waits_on.front().kind, Wait::Kind::predecessor);
   EXPECT_EQ(bench.job(bench.back).waits_on.front().job, bench.a);
-  bench.answer_conflict(at(2001ms), Conflict::With::scene);  // for now something else is there
-  EXPECT_FALSE(bench.question) << "nobody else may be judged";
+  bench.answer_conflict(at(2001ms), Conflict::With::scene);  // something else blocks a for now
+  EXPECT_FALSE(bench.question) << "no other job may be checked";
   bench.step(Wake{}, at(20s));
   EXPECT_EQ(bench.state(bench.back), JobState::queued);
 }
 
-TEST(RingUnderPark, TheReturnIsJudgedWhenTheOtherIsAdmitted) {
+TEST(DeadlockUnderPark, ReturnIsCheckedWhenTheBlockedJobIsAdmitted) {
   Parking bench;
   bench.go_aside();
   bench.answer_free(at(2001ms));
@@ -149,16 +148,16 @@ TEST(RingUnderPark, TheReturnIsJudgedWhenTheOtherIsAdmitted) {
   EXPECT_EQ(bench.question->candidates.front().job, bench.back);
 }
 
-TEST(RingUnderPark, TheReturnIsJudgedWhenTheOtherIsCanceled) {
+TEST(DeadlockUnderPark, ReturnIsCheckedWhenTheBlockedJobIsCanceled) {
   Parking bench;
   bench.go_aside();
   bench.step(Cancel{bench.a}, at(2001ms));
-  bench.answer_free(at(2002ms));  // stale: it was about the job that was canceled
+  bench.answer_free(at(2002ms));  // stale: about the canceled job
   ASSERT_TRUE(bench.question);
   EXPECT_EQ(bench.question->candidates.front().job, bench.back);
 }
 
-TEST(RingUnderPark, TheReturnIsJudgedWhenTheOtherFails) {
+TEST(DeadlockUnderPark, ReturnIsCheckedWhenTheBlockedJobFails) {
   Parking bench;
   bench.go_aside();
   bench.answer_conflict(at(2001ms), Conflict::With::self);
@@ -167,10 +166,11 @@ TEST(RingUnderPark, TheReturnIsJudgedWhenTheOtherFails) {
   EXPECT_EQ(bench.question->candidates.front().job, bench.back);
 }
 
-TEST(RingUnderPark, WithAMoveAsideInItFailsThatAndNoClientsJob) {
+TEST(DeadlockUnderPark, CycleWithARetreatFailsOnlyTheRetreat) {
   Parking bench;
   bench.answer_way_and_passing();
-  bench.answer_conflict(at(6ms), Conflict::With::rest, {}, ArmId{0});  // the way waits for a's arm
+  bench.answer_conflict(at(6ms), Conflict::With::rest, {},
+                        ArmId{0});  // the retreat waits for a's arm
   EXPECT_THAT(bench.job(bench.a).ring, ElementsAre(bench.a, bench.way));
   EXPECT_EQ(bench.asides.size(), 2u);
   bench.step(Wake{}, at(7ms));
@@ -180,7 +180,7 @@ TEST(RingUnderPark, WithAMoveAsideInItFailsThatAndNoClientsJob) {
   EXPECT_EQ(bench.state(bench.b), JobState::backlogged);
 }
 
-TEST(RingUnderPark, WithAReturnInItTheReturnWaitsNoMoreForTheOther) {
+TEST(DeadlockUnderPark, ReturnInACycleNoLongerWaitsForTheBlockedJob) {
   Parking bench;
   bench.go_aside();
   bench.answer_conflict(at(2001ms), Conflict::With::rest, {}, ArmId{1});  // still in its way
@@ -193,33 +193,33 @@ TEST(RingUnderPark, WithAReturnInItTheReturnWaitsNoMoreForTheOther) {
   EXPECT_EQ(bench.question->candidates.front().job, bench.back);
 }
 
-// It lets nobody pass any more, but a client's job counts on it all the same.
-TEST(RingUnderPark, ThatClosesAgainWithTheReturnFailsTheOtherAndNotTheReturn) {
+// The retreat lets no job pass any more, but a client's job relies on the return.
+TEST(DeadlockUnderPark, CycleClosedAgainByTheReturnFailsTheBlockedJob) {
   Parking bench;
   bench.go_aside();
   bench.answer_conflict(at(2001ms), Conflict::With::rest, {}, ArmId{1});
   bench.step(Wake{}, at(2002ms));
   bench.answer_conflict(at(2003ms), Conflict::With::rest, {}, ArmId{0});
   EXPECT_THAT(bench.job(bench.back).ring, ElementsAre(bench.back, bench.a));
-  bench.answer_conflict(at(2004ms), Conflict::With::scene);  // a's arm cannot go aside
+  bench.answer_conflict(at(2004ms), Conflict::With::scene);  // a's arm cannot retreat
   EXPECT_EQ(bench.job(bench.a).reason(), Reason::deadlock);
   EXPECT_EQ(bench.state(bench.back), JobState::backlogged);
   EXPECT_FALSE(is_terminal(bench.state(bench.b)));
 }
 
-// A client's job has been sent for where the arm will stand.
-TEST(RingUnderPark, WithAMoveAsideThatAClientCountsOnFailsTheOther) {
+// A client's job starts at the end of the retreat.
+TEST(DeadlockUnderPark, RetreatThatAClientReliesOnIsKept) {
   Bench bench(one_joint_arms_that_park(2), "certified");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});
-  bench.answer_free(at(2ms));  // the way
-  bench.answer_free(at(3ms));  // the passing
+  bench.answer_free(at(2ms));  // the retreat
+  bench.answer_free(at(3ms));  // a's check with the arm gone
   ASSERT_EQ(bench.asides.size(), 1u);
   const JobId way = bench.asides[0].job;
   const JobId counts = bench.submit(move({1}, -1, 0.5, 2s), at(3ms));
   bench.answer_conflict(at(4ms), Conflict::With::rest, {}, ArmId{0});
   EXPECT_THAT(bench.job(a).ring, ElementsAre(a, way));
-  bench.answer_conflict(at(5ms), Conflict::With::scene);  // a's arm cannot go aside
+  bench.answer_conflict(at(5ms), Conflict::With::scene);  // a's arm cannot retreat
   EXPECT_EQ(bench.job(a).reason(), Reason::deadlock);
   EXPECT_EQ(bench.state(way), JobState::backlogged);
   EXPECT_FALSE(is_terminal(bench.state(counts)));

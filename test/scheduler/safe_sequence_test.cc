@@ -11,12 +11,11 @@ namespace {
 
 using Jobs = std::vector<JobId>;
 
-// Arms on a line whose places are numbers; which legs do not pass which places is told by hand.
+// Positions are numbers; blocked passages are set manually.
 class Lanes {
  public:
   explicit Lanes(std::size_t arms) : stands_(arms, 0.0), ends_(arms, 0.0) {}
 
-  // To the end of the arms' lanes, each of which goes to `to`.
   JobId leg(std::vector<std::uint32_t> arms, double to, Jobs after = {}) {
     WaitingLeg leg{.job = JobId{++last_}, .arms = {}, .from = {}, .to = {}, .after = after};
     for (std::uint32_t arm : arms) {
@@ -52,7 +51,6 @@ class Lanes {
     sequence.admitted(group);
     for (JobId job : group) go(job);
   }
-  // Whether this leg, the first of its lanes, finds its way free now.
   [[nodiscard]] bool passes_now(JobId job) {
     const WaitingLeg& leg = of(job);
     for (std::uint32_t arm = 0; arm < stands_.size(); ++arm) {
@@ -61,7 +59,6 @@ class Lanes {
     }
     return true;
   }
-  // The first ones of their lanes whose predecessors are done.
   [[nodiscard]] Jobs heads() const {
     Jobs heads;
     std::set<ArmId> taken;
@@ -113,11 +110,11 @@ class Lanes {
 
 constexpr std::uint32_t kA = 0, kB = 1, kC = 2;
 
-// Else it would be known for as long as a dry run, say, looks at the same place.
-TEST(Places, WhatIsKnownOfOneIsKnownWhoeverHoldsIt) {
+// Answers must stay known while no object uses the position.
+TEST(Places, KeepTheIdOfAReleasedPosition) {
   Places places;
   const auto id = [&](std::uint32_t arm, double at) {
-    return places.of(ArmId{arm}, Eigen::VectorXd::Constant(2, at))->id;  // nobody holds it
+    return places.of(ArmId{arm}, Eigen::VectorXd::Constant(2, at))->id;  // no reference is kept
   };
   std::set<std::uint64_t> ids;
   for (int i = 0; i < 1000; ++i) {
@@ -128,14 +125,14 @@ TEST(Places, WhatIsKnownOfOneIsKnownWhoeverHoldsIt) {
   EXPECT_EQ(ids.size(), 2000U);
 }
 
-TEST(SafeSequence, AnyLegMayGoWhereNobodyRestsInTheWay) {
+TEST(SafeSequence, AnyMotionMayGoIfNoArmIsInTheWay) {
   Lanes lanes(2);
   const JobId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
   EXPECT_FALSE(lanes.after({a}).first);
   EXPECT_FALSE(lanes.after({b}).first);
 }
 
-TEST(SafeSequence, WhoseGoalIsInTheWayWaits) {
+TEST(SafeSequence, MotionWhoseGoalIsInTheWayWaits) {
   Lanes lanes(2);
   const JobId b = lanes.leg({kB}, 1.0), a = lanes.leg({kA}, 1.0);
   lanes.blocked(b, kA, 1.0);
@@ -143,7 +140,7 @@ TEST(SafeSequence, WhoseGoalIsInTheWayWaits) {
   EXPECT_FALSE(lanes.after({b}).first);
 }
 
-TEST(SafeSequence, AnotherOrderThanThatOfSubmissionIsFound) {
+TEST(SafeSequence, FindsAnotherOrderThanThatOfSubmission) {
   Lanes lanes(2);
   const JobId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
   lanes.blocked(b, kA, 1.0);
@@ -151,7 +148,7 @@ TEST(SafeSequence, AnotherOrderThanThatOfSubmissionIsFound) {
   EXPECT_TRUE(lanes.after({b}).all);
 }
 
-TEST(SafeSequence, OfASwapNobodyIsWaitedFor) {
+TEST(SafeSequence, SwapCausesNoWait) {
   Lanes lanes(2);
   const JobId a = lanes.leg({kA}, 1.0), b = lanes.leg({kB}, 1.0);
   lanes.blocked(a, kB, 0.0);
@@ -164,7 +161,7 @@ TEST(SafeSequence, OfASwapNobodyIsWaitedFor) {
   EXPECT_TRUE(lanes.after({a, b}).all);
 }
 
-TEST(SafeSequence, ANextLegThatLeavesTheGoalOpensTheWay) {
+TEST(SafeSequence, NextMotionThatLeavesTheGoalUnblocks) {
   Lanes lanes(2);
   const JobId a1 = lanes.leg({kA}, 1.0), a2 = lanes.leg({kA}, 2.0), b = lanes.leg({kB}, 1.0);
   lanes.blocked(b, kA, 1.0);
@@ -174,7 +171,7 @@ TEST(SafeSequence, ANextLegThatLeavesTheGoalOpensTheWay) {
   EXPECT_EQ(lanes.after({a2}).first, std::nullopt);
 }
 
-TEST(SafeSequence, ALegOfTwoArmsGoesWhenItIsFirstOnBoth) {
+TEST(SafeSequence, TwoArmMotionGoesWhenFirstInBothQueues) {
   Lanes lanes(3);
   lanes.leg({kA}, 1.0);
   const JobId both = lanes.leg({kA, kB}, 2.0), c = lanes.leg({kC}, 1.0);
@@ -182,17 +179,17 @@ TEST(SafeSequence, ALegOfTwoArmsGoesWhenItIsFirstOnBoth) {
   EXPECT_EQ(lanes.after({c}).first, both);
 }
 
-TEST(SafeSequence, WhatComesAfterALegDoesNotGoBefore) {
+TEST(SafeSequence, SuccessorDoesNotGoBeforeItsPredecessor) {
   Lanes lanes(3);
   const JobId a = lanes.leg({kA}, 1.0);
   const JobId b = lanes.leg({kB}, 1.0, {a});
   const JobId c = lanes.leg({kC}, 1.0);
   lanes.blocked(a, kC, 1.0);
   lanes.blocked(b, kC, 0.0);
-  EXPECT_EQ(lanes.after({c}).first, a) << "b would open nothing: it comes after a";
+  EXPECT_EQ(lanes.after({c}).first, a) << "b cannot unblock c before a: b comes after a";
 }
 
-TEST(SafeSequence, WhereArmsReturnToWhereTheyCameFromNothingIsAsked) {
+TEST(SafeSequence, MotionsThatReturnNeedNoQuestions) {
   Lanes lanes(2);
   for (int n = 0; n < 100; ++n) lanes.leg({kA}, 0.0);
   const JobId b = lanes.leg({kB}, 0.0);
@@ -200,16 +197,15 @@ TEST(SafeSequence, WhereArmsReturnToWhereTheyCameFromNothingIsAsked) {
   EXPECT_EQ(lanes.asked, SafeSequence::kKnownAhead);
 }
 
-TEST(SafeSequence, AfterACancelWhatBeginsElsewhereIsInNoSequence) {
+TEST(SafeSequence, AfterACancelJobsThatStartElsewhereLeaveTheSequence) {
   Lanes lanes(2);
   const JobId a1 = lanes.leg({kA}, 1.0), a2 = lanes.leg({kA}, 2.0), b = lanes.leg({kB}, 1.0);
   EXPECT_FALSE(lanes.after({b}).first);
   EXPECT_TRUE(lanes.sequence.follows_on(a2));
-  EXPECT_FALSE(lanes.sequence.remove(a1)) << "renew() is called for";
+  EXPECT_FALSE(lanes.sequence.remove(a1)) << "the caller must call renew()";
 }
 
-// So many legs, each of which passes where all stand in the order of submission; else it may be
-// blocked.
+// Adds motions that are free in order of submission and may be blocked otherwise.
 void add_random_legs(Lanes& lanes, std::uint32_t arms, std::size_t count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto below = [&](std::uint64_t n) { return static_cast<std::uint32_t>(random() % n); };
@@ -232,8 +228,7 @@ void add_random_legs(Lanes& lanes, std::uint32_t arms, std::size_t count, std::u
   }
 }
 
-// Whatever is admitted while a sequence remains, all comes to its end.
-TEST(SafeSequence, WhatCanBeDoneInTurnIsDoneWhateverIsDoneInBetween) {
+TEST(SafeSequence, AllMotionsEndWhicheverAreAdmitted) {
   std::size_t waits = 0, ahead = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     std::mt19937_64 random(seed);

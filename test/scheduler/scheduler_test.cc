@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::ElementsAre;
 
-TEST(Backlog, IsTriedAgainWhenTheBlockerEnds) {
+TEST(Backlog, IsCheckedAgainWhenTheBlockerEnds) {
   Bench bench(2);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -20,7 +20,7 @@ TEST(Backlog, IsTriedAgainWhenTheBlockerEnds) {
   bench.answer_conflict(at(11ms), Conflict::With::motion, first, ArmId{0});
   ASSERT_FALSE(bench.question);
   bench.progressed(first, 1s, at(1s));
-  EXPECT_FALSE(bench.question) << "progress alone is no reason to try again";
+  EXPECT_FALSE(bench.question) << "progress alone causes no new check";
   bench.finished(first, at(2s));
   ASSERT_TRUE(bench.question);
   EXPECT_EQ(bench.question->candidates.front().job, second);
@@ -30,7 +30,7 @@ TEST(Backlog, IsTriedAgainWhenTheBlockerEnds) {
   EXPECT_TRUE(bench.job(second).waits_on.empty());
 }
 
-TEST(Backlog, IsTriedAgainWhenTheArmInTheWayBeginsToMove) {
+TEST(Backlog, IsCheckedAgainWhenTheBlockingArmStartsToMove) {
   Bench bench(2);
   const JobId waits = bench.submit(move({1}, 0, 1, 2s), at(0ms));
   bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{0});
@@ -42,7 +42,7 @@ TEST(Backlog, IsTriedAgainWhenTheArmInTheWayBeginsToMove) {
   EXPECT_EQ(bench.question->candidates.front().job, waits);
 }
 
-TEST(Backlog, ExpiresAJobAtItsDeadlineAndNotBefore) {
+TEST(Backlog, ExpiresAJobExactlyAtItsDeadline) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms), 100ms);
   bench.answer_conflict(at(2ms), Conflict::With::scene);
@@ -53,11 +53,11 @@ TEST(Backlog, ExpiresAJobAtItsDeadlineAndNotBefore) {
   EXPECT_EQ(bench.state(job), JobState::expired);
   EXPECT_EQ(bench.job(job).reason(), Reason::backlog_timeout);
   EXPECT_EQ(bench.job(job).detail(), "waited 0.1 s in the backlog");
-  EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::object) << "in vain, for this";
+  EXPECT_EQ(bench.job(job).waits_on.front().kind, Wait::Kind::object) << "what the job waited for";
   EXPECT_EQ(bench.terminal_events[job], 1);
 }
 
-TEST(Backlog, StartsCountingWhenTheJobIsFirstJudged) {
+TEST(Backlog, TimeoutStartsWhenTheJobIsFirstChecked) {
   Bench bench(1);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -74,18 +74,18 @@ TEST(Backlog, StartsCountingWhenTheJobIsFirstJudged) {
   EXPECT_EQ(bench.state(behind), JobState::expired);
 }
 
-TEST(Order, OfAnArmIsKept) {  // T11
+TEST(Order, OfAnArmQueueIsKept) {  // T11
   Bench bench(1);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId second = bench.submit(move({0}, 1, 0, 2s), at(0ms), 60s, 99);
   EXPECT_EQ(bench.question->candidates.front().job, first);
   bench.answer_free(at(1ms));
-  EXPECT_FALSE(bench.question) << "the second is not judged while the first runs";
+  EXPECT_FALSE(bench.question) << "the second is not checked while the first runs";
   bench.finished(first, at(2s));
   EXPECT_EQ(bench.question->candidates.front().job, second);
 }
 
-TEST(Order, AJobThatCannotBeginWhereItsArmStandsFailsAtItsTurn) {  // T11
+TEST(Order, JobWithAnotherStartFailsAtItsTurn) {  // T11
   Bench bench(1);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId same_start = bench.submit(move({0}, 0, 0.5, 2s), at(0ms));
@@ -97,7 +97,7 @@ TEST(Order, AJobThatCannotBeginWhereItsArmStandsFailsAtItsTurn) {  // T11
   EXPECT_EQ(bench.terminal_events[same_start], 1);
 }
 
-TEST(Order, AStartThatIsWholeTurnsAwaySaysSo) {
+TEST(Order, StartMismatchReportsWholeTurns) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   Bench bench(1);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
@@ -110,7 +110,7 @@ TEST(Order, AStartThatIsWholeTurnsAwaySaysSo) {
             "are not taken modulo 2 pi");
 }
 
-TEST(Order, AThousandJobsBehindACanceledOneAllAnswer) {
+TEST(Order, ThousandJobsBehindACanceledJobAllEnd) {
   Bench bench(1);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   for (int i = 0; i < 1000; ++i) bench.submit(move({0}, 1, 1.5, 2s), at(0ms));
@@ -119,19 +119,19 @@ TEST(Order, AThousandJobsBehindACanceledOneAllAnswer) {
   EXPECT_EQ(bench.terminal_events.size(), 1001u);
 }
 
-TEST(Order, TheEndOfAJobOfTwoArmsGivesBothANewHead) {
+TEST(Order, FailedTwoArmJobAdvancesBothQueues) {
   Bench bench(2);
   const JobId runs = bench.submit(move({1}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
-  const JobId both = bench.submit(move({0, 1}, 1, 2, 2s), at(2ms));  // arm 0 stands at 0
-  const JobId behind = bench.submit(move({0}, 2, 1, 2s), at(3ms));   // and here, too
+  const JobId both = bench.submit(move({0, 1}, 1, 2, 2s), at(2ms));  // arm 0 is at 0
+  const JobId behind = bench.submit(move({0}, 2, 1, 2s), at(3ms));   // also a start mismatch
   bench.finished(runs, at(2s));
   EXPECT_EQ(bench.job(both).reason(), Reason::start_mismatch);
   EXPECT_EQ(bench.job(behind).reason(), Reason::start_mismatch);
   EXPECT_FALSE(bench.question);
 }
 
-TEST(Order, PredictsWhereArmsWillStand) {
+TEST(Order, PredictsTheFinalRestOfArms) {
   Bench bench(2);
   bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.submit(move({0}, 1, 2, 2s), at(0ms));
@@ -139,7 +139,7 @@ TEST(Order, PredictsWhereArmsWillStand) {
   EXPECT_EQ(bench.scheduler.predicted_rest()[1], 0.0);
 }
 
-TEST(Synchronous, AJobOfTwoArmsWaitsForBothQueues) {
+TEST(Synchronous, TwoArmJobWaitsForBothQueues) {
   Bench bench(2);
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -150,7 +150,7 @@ TEST(Synchronous, AJobOfTwoArmsWaitsForBothQueues) {
   EXPECT_EQ(bench.job(b).waits_on.front().job, both);
 }
 
-TEST(Overrun, OfAMotionThatStandsStillEndsIt) {
+TEST(Overrun, EndsAMotionAtAStandstill) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -168,7 +168,7 @@ TEST(Overrun, OfAMotionThatStandsStillEndsIt) {
   EXPECT_EQ(bench.job(job).reason(), Reason::overrun);
 }
 
-TEST(Overrun, IsNoneWhileItMovesHoweverSlowly) {
+TEST(Overrun, DoesNotEndASlowMotion) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -181,7 +181,7 @@ TEST(Overrun, IsNoneWhileItMovesHoweverSlowly) {
   EXPECT_EQ(bench.state(job), JobState::succeeded);
 }
 
-TEST(Overrun, LeavesALongMotionItsTimeAlthoughItStandsStill) {
+TEST(Overrun, LeavesALongMotionItsDurationDespiteAStandstill) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 20s), at(0ms));
   bench.answer_free(at(1ms));
@@ -193,13 +193,13 @@ TEST(Overrun, LeavesALongMotionItsTimeAlthoughItStandsStill) {
   EXPECT_THAT(bench.braked, ElementsAre(job));
 }
 
-TEST(Scheduler, RefusesTimeThatGoesBackwards) {
+TEST(Scheduler, ThrowsOnDecreasingTime) {
   Bench bench(1);
   bench.step(Wake{}, at(10ms));
   EXPECT_THROW(bench.step(Wake{}, at(9ms)), std::invalid_argument);
 }
 
-TEST(Policies, AreKnownByName) {
+TEST(Policies, AreFoundByName) {
   const CellPtr cell = one_joint_arms(1);
   for (const std::string& name : policy_names()) {
     EXPECT_EQ((*make_policy(name, *cell))->name(), name);

@@ -20,7 +20,7 @@ TEST(Sequential, RunsOneJobAtATimeInTheWholeCell) {
   EXPECT_EQ(bench.question->candidates.front().job, second);
 }
 
-TEST(Sequential, LetsTheArmInTheWayGoFirst) {
+TEST(Sequential, LetsTheBlockingArmGoFirst) {
   Bench bench(2, "sequential");
   const JobId blocked = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId leaves = bench.submit(move({1}, 0, 1, 2s), at(0ms));
@@ -34,7 +34,7 @@ TEST(Sequential, LetsTheArmInTheWayGoFirst) {
   EXPECT_EQ(bench.state(blocked), JobState::scheduled);
 }
 
-TEST(Sequential, AHeldJobKeepsTheCellForItself) {
+TEST(Sequential, PausedJobKeepsTheCell) {
   Bench bench(2, "sequential");
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId second = bench.submit(move({1}, 0, 1, 2s), at(0ms));

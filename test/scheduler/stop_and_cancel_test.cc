@@ -7,7 +7,6 @@ namespace {
 
 using ::testing::ElementsAre;
 
-// A bench on which `count` jobs, one for each arm, are running.
 struct Running : Bench {
   explicit Running(std::size_t count) : Bench(count) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -19,7 +18,7 @@ struct Running : Bench {
   std::vector<JobId> jobs;
 };
 
-TEST(Cancel, OfAWaitingJobEndsItAtOnce) {
+TEST(Cancel, EndsAWaitingJobAtOnce) {
   Bench bench(1);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   const JobId behind = bench.submit(move({0}, 1, 0, 2s), at(0ms));
@@ -29,7 +28,7 @@ TEST(Cancel, OfAWaitingJobEndsItAtOnce) {
   EXPECT_EQ(bench.state(first), JobState::queued);
 }
 
-TEST(Cancel, OfAMotionBrakesItAndDisturbsNoOther) {  // T7
+TEST(Cancel, BrakesOnlyTheCanceledMotion) {  // T7
   Running bench(2);
   const auto [first, second] = std::tie(bench.jobs[0], bench.jobs[1]);
   bench.progressed(first, 800ms, at(803ms));
@@ -45,19 +44,19 @@ TEST(Cancel, OfAMotionBrakesItAndDisturbsNoOther) {  // T7
   EXPECT_THAT(bench.braked, ElementsAre(first));
 }
 
-TEST(Cancel, LeavesAnArmWhereItStandsForWhatIsJudgedThen) {
+TEST(Cancel, LaterChecksSeeTheArmAtItsRest) {
   Running bench(3);
   bench.step(Cancel{bench.jobs[0]}, at(803ms));
   bench.stopped(bench.jobs[0], 1s, at(1100ms));
   bench.finished(bench.jobs[2], at(2s));
   bench.submit(move({2}, 1, 0, 2s), at(3s));
   ASSERT_TRUE(bench.question);
-  EXPECT_EQ(bench.question->others.size(), 1u) << "it holds nothing any more";
+  EXPECT_EQ(bench.question->others.size(), 1u) << "it has no reservation any more";
   EXPECT_NEAR(bench.question->rest[0], 0.5, 1e-9);
 }
 
-// Each of two others was to pass where the first one was; now that stands in the way of one.
-TEST(Cancel, HoldsOnlyWhatTheRestingArmStandsInTheWayOf) {
+// The canceled arm now rests in the way of one of two other motions.
+TEST(Cancel, BlocksOnlyMotionsThatPassTheRestingArm) {
   Bench bench(3, "certified");
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -71,7 +70,7 @@ TEST(Cancel, HoldsOnlyWhatTheRestingArmStandsInTheWayOf) {
   for (const JobId job : {behind, free}) bench.progressed(job, 0ms, at(1006ms));
   bench.step(Cancel{first}, at(1007ms));
   bench.stopped(first, 1100ms, at(1107ms));
-  EXPECT_THAT(bench.braked, ElementsAre(first)) << "nobody brakes for it";
+  EXPECT_THAT(bench.braked, ElementsAre(first)) << "no arm brakes for it";
   bench.progressed(behind, 900ms, at(2s));
   bench.progressed(behind, 1400ms, at(3s));
   for (const auto now : {4s, 5s}) bench.progressed(behind, 1500ms - kShortOf, at(now));
@@ -84,8 +83,8 @@ TEST(Cancel, HoldsOnlyWhatTheRestingArmStandsInTheWayOf) {
   EXPECT_FALSE(bench.job(free).pausing());
 }
 
-// Where only another one's decision would let it go on.
-TEST(Cancel, ThatLeavesAnArmInTheWayForGoodEndsWhoWaitsForItOnItsPath) {
+// Only a client's decision could let the waiting job continue.
+TEST(Cancel, PermanentlyBlockedJobOnItsPathExpires) {
   Bench bench(2, "certified");
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -109,8 +108,8 @@ TEST(Cancel, ThatLeavesAnArmInTheWayForGoodEndsWhoWaitsForItOnItsPath) {
   EXPECT_EQ(bench.job(behind).detail(), "waited 20 s on its path");
 }
 
-// x, y and z take their arm out of b's way only together: all are admitted with b.
-TEST(Cancel, TakesWhatIsAdmittedBehindTheJobOutOfTheAdmittedAtOnce) {
+// Only together do x, y and z move their arm out of b's way.
+TEST(Cancel, UnadmitsJobsBehindTheCanceledJob) {
   Bench bench(2, "coordinated");
   const JobId x = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -132,7 +131,7 @@ TEST(Cancel, TakesWhatIsAdmittedBehindTheJobOutOfTheAdmittedAtOnce) {
   EXPECT_EQ(bench.state(b), JobState::scheduled);
 }
 
-TEST(Cancel, BeforeTheFirstMotionMovesNothing) {
+TEST(Cancel, BeforeTheStartMovesNothing) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -143,7 +142,7 @@ TEST(Cancel, BeforeTheFirstMotionMovesNothing) {
   EXPECT_EQ(bench.terminal_events[job], 1);
 }
 
-TEST(Stop, HoldsMotionsAndKeepsTheQueue) {
+TEST(Stop, PausesMotionsAndKeepsTheQueue) {
   Running bench(1);
   const JobId waits = bench.submit(move({0}, 1, 0, 2s), at(100ms));
   bench.step(Stop{{ArmId{0}}, "operator"}, at(500ms));
@@ -168,14 +167,14 @@ TEST(Stop, HoldsMotionsAndKeepsTheQueue) {
   EXPECT_EQ(bench.question->candidates.front().job, waits);
 }
 
-TEST(Stop, OfOneArmLeavesTheOthersTheirs) {
+TEST(Stop, AffectsOnlyTheStoppedArm) {
   Running bench(2);
   bench.step(Stop{{ArmId{0}}, "monitor"}, at(500ms));
   EXPECT_THAT(bench.braked, ElementsAre(bench.jobs[0]));
   EXPECT_EQ(bench.state(bench.jobs[1]), JobState::running);
 }
 
-TEST(Stop, BeforeTheFirstMotionLeavesTheJobItsPlaceAmongTheAdmitted) {
+TEST(Stop, BeforeTheStartKeepsTheJobAdmitted) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));
@@ -190,7 +189,7 @@ TEST(Stop, BeforeTheFirstMotionLeavesTheJobItsPlaceAmongTheAdmitted) {
   EXPECT_EQ(bench.dispatched.back().from_progress, 0ms);
 }
 
-TEST(Stop, ACancelDuringTheBrakeWins) {
+TEST(Stop, CancelDuringTheBrakeWins) {
   Running bench(1);
   bench.step(Stop{{ArmId{0}}, "operator"}, at(500ms));
   bench.step(Cancel{bench.jobs[0]}, at(510ms));
@@ -199,7 +198,7 @@ TEST(Stop, ACancelDuringTheBrakeWins) {
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);
 }
 
-TEST(Stop, ACancelOutlivesAConflictWithANewSceneDuringTheBrake) {
+TEST(Stop, CancelSurvivesASceneConflictDuringTheBrake) {
   Running bench(1);
   bench.step(Cancel{bench.jobs[0]}, at(500ms));
   bench.step(SceneChanged{{ArmId{0}}}, at(510ms));
@@ -208,8 +207,7 @@ TEST(Stop, ACancelOutlivesAConflictWithANewSceneDuringTheBrake) {
   EXPECT_EQ(bench.state(bench.jobs[0]), JobState::canceled);
 }
 
-// Their orders stand: what the answer says of each other's motion is not asked for again.
-TEST(Resume, LetsHeldJobsGoOnOneByOneByTheirOrders) {
+TEST(Resume, ContinuesPausedJobsInTheirPassingOrder) {
   OneBehindAnother two(ProgressBox{1s, 1500ms, 0ms, 1200ms});
   Bench& bench = two.bench;
   const JobId first = two.first, second = two.second;
@@ -222,7 +220,7 @@ TEST(Resume, LetsHeldJobsGoOnOneByOneByTheirOrders) {
     ASSERT_TRUE(bench.question);
     ASSERT_EQ(bench.question->candidates.size(), 1u);
     EXPECT_EQ(bench.question->candidates.front().job, job);
-    EXPECT_EQ(bench.question->others.size(), 1u) << "the other one's motion is still admitted";
+    EXPECT_EQ(bench.question->others.size(), 1u) << "the other job's motion is still admitted";
     bench.answer_free(at(1001ms));
     EXPECT_EQ(bench.state(job), JobState::scheduled);
     EXPECT_EQ(bench.dispatched.back().job, job);
@@ -234,7 +232,7 @@ TEST(Resume, LetsHeldJobsGoOnOneByOneByTheirOrders) {
   EXPECT_GT(bench.authority(second), 1s);
 }
 
-TEST(Resume, DoesNotMoveAHeldJobWhereAnArmHasComeToRest) {
+TEST(Resume, DoesNotContinueAPausedJobIntoARestingArm) {
   Running bench(1);
   bench.step(Stop{{ArmId{0}}, "operator"}, at(500ms));
   bench.stopped(bench.jobs[0], 600ms, at(700ms));

@@ -13,8 +13,7 @@ Eigen::Index row_of(const Trajectory& motion, ArmId arm) {
   return std::ranges::find(motion.arms(), arm) - motion.arms().begin();
 }
 
-// Of the quintic from rest to rest: the share of its time at which it has made this share of its
-// way.
+// Returns when a quintic from rest to rest has covered `way_share`, as a share of its duration.
 double time_share(double way_share) {
   double low = 0.0, high = 1.0;
   for (int i = 0; i < 45; ++i) {
@@ -34,7 +33,7 @@ double place_of(const Trajectory& motion, ArmId arm, Duration progress) {
 
 namespace {
 
-// When the arm is in the stretch on its way from `start` to `goal`, from rest to rest in T.
+// Returns nullopt if the motion never enters the stretch.
 std::optional<Span> span_on_line(double start, double goal, Duration T, Stretch stretch) {
   if (std::max(start, goal) < stretch.from || std::min(start, goal) > stretch.to) {
     return std::nullopt;

@@ -6,7 +6,7 @@
 
 namespace armloom {
 
-// A stretch of an arm's places (rad), from <= to.
+// Positions of an arm (rad), from <= to.
 struct Stretch {
   double from, to;
 };
@@ -14,10 +14,9 @@ struct Span {
   Duration from, to;
 };
 
-// Where the arm of this motion is at `progress` (rad).
 [[nodiscard]] double place_of(const Trajectory& motion, ArmId arm, Duration progress);
-// When the arm is in the stretch, line by line: a microsecond longer on either side. The motion
-// goes from rest to rest on each (`move` and `visit` of bench_cell.h).
+// Returns when the arm is in the stretch, one span per line, a microsecond longer on either side.
+// Lines go from rest to rest (bench_cell.h).
 [[nodiscard]] std::vector<Span> spans_in(const Trajectory& motion, ArmId arm, Stretch stretch);
 
 }  // namespace armloom

@@ -1,4 +1,3 @@
-// What the scheduler expects of everything admitted: told ahead, and then as it came.
 #include <gmock/gmock.h>
 
 #include "test/scheduler/ideal_arms.h"
@@ -9,10 +8,10 @@ namespace {
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-constexpr Duration kAtMost = 250ms;  // the two may differ by
+constexpr Duration kAtMost = 250ms;  // largest difference
 constexpr Duration kMoves = 10s;
 
-// They cross in the middle of their ways.
+// They cross in the middle of their paths.
 const Crossing kCross{ArmId{0}, 0.4, 0.6, ArmId{1}, 0.4, 0.6};
 
 CellPtr cell_with(std::size_t arms, int horizon_steps) {
@@ -51,8 +50,7 @@ void expect_near(TimePoint told, TimePoint came) {
       << " it was";
 }
 
-// Under every policy that moves both at once, and for whoever of the two waits.
-TEST_F(Timeline, TellsWhenWhoWaitsGoesOnAndForWhom) {
+TEST_F(Timeline, PredictsWhenAWaitingMotionContinuesAndItsBlocker) {
   for (const char* policy : {"coordinated", "earliest_start"}) {
     SCOPED_TRACE(policy);
     start(policy, 1);
@@ -80,7 +78,7 @@ TEST_F(Timeline, TellsWhenWhoWaitsGoesOnAndForWhom) {
   }
 }
 
-TEST_F(Timeline, HasAsManyLegsAsThePolicyLooksAhead) {
+TEST_F(Timeline, HasTheMotionsWithinThePolicysHorizon) {
   start("coordinated", 3);
   std::vector<JobId> jobs;
   for (int i = 0; i < 5; ++i) jobs.push_back(submit(0, i % 2, 1 - i % 2, 2s));
@@ -89,7 +87,7 @@ TEST_F(Timeline, HasAsManyLegsAsThePolicyLooksAhead) {
   ASSERT_THAT(timeline.legs, SizeIs(3));
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(timeline.legs[i].job, jobs[i]);
-    EXPECT_THAT(timeline.legs[i].pauses, IsEmpty()) << "its turn is no pause";
+    EXPECT_THAT(timeline.legs[i].pauses, IsEmpty()) << "waiting for its turn is not a pause";
     if (i == 0) continue;
     EXPECT_EQ(timeline.legs[i].starts, timeline.legs[i - 1].ends);
   }
@@ -97,7 +95,7 @@ TEST_F(Timeline, HasAsManyLegsAsThePolicyLooksAhead) {
   expect_near(*timeline.legs[2].ends, *arms->job(jobs[2]).ended_at());
 }
 
-TEST_F(Timeline, UnderTimedDiscreteMotionsJustRun) {
+TEST_F(Timeline, PredictsNoPausesUnderTimedDiscrete) {
   start("timed_discrete", 1, {}, {});
   const JobId job = submit(0, 0, 1);
   arms->run_until(at(2s));
@@ -105,10 +103,10 @@ TEST_F(Timeline, UnderTimedDiscreteMotionsJustRun) {
   expect_near(*leg(job).ends, TimePoint(kMoves));
 }
 
-TEST_F(Timeline, WhoStallsIsExpectedToDoSoForAsLongAgain) {
+TEST_F(Timeline, StallIsExpectedToLastAsLongAgain) {
   start("certified", 1, {{JobId{1}, {.stalls_at = 2s, .stalls_for = 20s}}});
   const JobId job = submit(0, 0, 1);
-  arms->run_until(at(8s));  // it has stood for 6 s
+  arms->run_until(at(8s));  // it has stalled for 6 s
   const PredictedLeg leg = this->leg(job);
   ASSERT_THAT(leg.pauses, SizeIs(1));
   EXPECT_EQ(leg.pauses[0].waits_on, std::nullopt);
@@ -116,13 +114,13 @@ TEST_F(Timeline, WhoStallsIsExpectedToDoSoForAsLongAgain) {
   expect_near(*leg.ends, at(22s));
 }
 
-// Until somebody resumes it, which nobody knows the time of.
-TEST_F(Timeline, WhoIsStoppedHasNoEndNorWhatFollowsItOrWaitsForIt) {
+// Until an operator resumes the arm, at an unknown time.
+TEST_F(Timeline, StoppedMotionAndItsDependentsHaveNoPredictedEnd) {
   start("coordinated", 2);
   const JobId first = submit(0, 0, 1), next = submit(0, 1, 0);
   arms->run_until(at(4s));
   const JobId other = submit(1, 0, 1);
-  arms->run_until(at(5s));  // the first one is where they cross
+  arms->run_until(at(5s));  // the first arm is at the crossing
   ASSERT_TRUE(leg(other).ends);
   arms->input(Stop{{ArmId{0}}, "somebody came"});
   arms->run_until(at(8s));
@@ -142,13 +140,12 @@ TEST_F(Timeline, WhoIsStoppedHasNoEndNorWhatFollowsItOrWaitsForIt) {
   EXPECT_TRUE(this->leg(first).ends && this->leg(next).ends && this->leg(other).ends);
 }
 
-// The arm came to rest in the other one's way, and no job moves it.
-TEST_F(Timeline, WhoIsHeldForGoodHasNoEndNorWhatFollowsIt) {
+TEST_F(Timeline, PermanentlyBlockedMotionHasNoPredictedEnd) {
   start("coordinated", 2);
   const JobId first = submit(0, 0, 1);
   arms->run_until(at(4s));
   const JobId second = submit(1, 0, 1), follows = submit(1, 1, 0);
-  arms->run_until(at(5200ms));  // it is there
+  arms->run_until(at(5200ms));  // the first arm is at the crossing
   ASSERT_TRUE(leg(second).ends);
   arms->input(Cancel{first});
   arms->run_until(at(6s));

@@ -1,6 +1,5 @@
-// What a Trial says of a job, and what the scheduler then does with the same job in the same
-// instant: in the midst of random workloads under every policy. ARMLOOM_SEEDS=100 looks at some
-// 8,000 states of each policy.
+// Compares the outcome of a Trial with what the scheduler then does with the job, during random
+// workloads under every policy. ARMLOOM_SEEDS=100 compares about 8,000 states per policy.
 #include "core/scheduler/trial.h"
 
 #include <gmock/gmock.h>
@@ -26,7 +25,7 @@ std::string text(const std::vector<Wait>& waits) {
   return text.empty() ? "nothing" : text;
 }
 
-// What clients see of all jobs, but for those that come.
+// Published state of all existing jobs.
 std::string told(const Scheduler& scheduler) {
   std::string text;
   for (const JobId id : scheduler.active()) {
@@ -60,7 +59,7 @@ class Look {
  private:
   IdealArms& bench() { return world_.bench(); }
 
-  // What the scheduler puts off to a step of its own.
+  // Runs the step that resolves a deadlock.
   void settle_ring(JobId id) {
     while (!bench().job(id).ring.empty() && bench().wake_at &&
            *bench().wake_at <= bench().now() + kAfterRingWasTold) {
@@ -68,8 +67,7 @@ class Look {
     }
   }
 
-  // Two in three begin with an arm that has no job, if there is one; one in three may not find its
-  // way when it comes to its turn.
+  // Two of three jobs begin with an idle arm, if any; one of three may be blocked.
   std::optional<Submit> draw() {
     if (++looks_ % 4 != 0) wait_for_room();
     std::optional<Submit> job;
@@ -138,7 +136,7 @@ class Trials : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Policies, Trials, ::testing::ValuesIn(policy_names()),
                          [](const auto& policy) { return policy.param; });
 
-TEST_P(Trials, SayWhatTheSchedulerThenDoesWithTheJob) {
+TEST_P(Trials, OutcomeMatchesTheScheduler) {
   const std::vector<Disturbances> all = {
       {},
       {.delays = true, .pauses = true},

@@ -1,4 +1,3 @@
-// Alerts wait until somebody has seen to them, and it is known who and when.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -29,7 +28,7 @@ class Alerts : public test::RunningServer {
   }
 };
 
-TEST_F(Alerts, AreAcknowledgedOnceWithWhoAndWhen) {
+TEST_F(Alerts, RecordWhoAcknowledgedThemAndWhen) {
   test::Listener listener(port());
   json open = alerts();
   ASSERT_EQ(open.size(), 1U) << "that arms may go on again is no alert: " << open;
@@ -50,8 +49,8 @@ TEST_F(Alerts, AreAcknowledgedOnceWithWhoAndWhen) {
   EXPECT_EQ(alerts()[0]["acknowledged"]["who"], "Ada") << "whoever was the first one stays";
 }
 
-// Whoever asks again and again for what is so already, as a PLC does, puts nothing out of sight.
-TEST_F(Alerts, AStopThatChangesNothingIsNone) {
+// A client that repeats a stop, as a PLC does, must not push other alerts out of sight.
+TEST_F(Alerts, AreNotRaisedByAStopThatChangesNothing) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(post("/api/v1/stop", "").status, 202);
   EXPECT_EQ(alerts().size(), 2U) << "the first stop, and this one";
   post("/api/v1/resume", "");
@@ -59,7 +58,7 @@ TEST_F(Alerts, AStopThatChangesNothingIsNone) {
   EXPECT_EQ(alerts().size(), 3U);
 }
 
-TEST(AlertBook, KeepsWhatNobodyHasSeenAndErrorsLongest) {
+TEST(AlertBook, KeepsErrorsAndUnacknowledgedAlertsLongest) {
   const WallClock clock({}, 1.0);
   AlertBook book("s", clock, nullptr);
   std::uint64_t seq = 0;
@@ -81,7 +80,7 @@ TEST(AlertBook, KeepsWhatNobodyHasSeenAndErrorsLongest) {
   EXPECT_EQ(book.alerts().size(), kAlertsKept);
 }
 
-TEST_F(Alerts, AllOfThemAreAcknowledgedOrNone) {
+TEST_F(Alerts, AreAcknowledgedAllOrNone) {
   const auto unknown = acknowledge({alerts()[0]["id"], "x:1"}, "Ada");
   EXPECT_EQ(unknown.status, 404);
   EXPECT_EQ(unknown.json()["pointer"], "/ids/1");
@@ -97,7 +96,7 @@ TEST_F(Alerts, AllOfThemAreAcknowledgedOrNone) {
   EXPECT_EQ(acknowledge({}, " Ada").status, 200);
 }
 
-TEST_F(Alerts, AreKeptWithWhoHasSeenThem) {
+TEST_F(Alerts, SurviveARestartWithTheirAcknowledgement) {
   const std::string first = alerts()[0]["id"];
   EXPECT_EQ(acknowledge({first}, "Ada").status, 200);
   post("/api/v1/arms/left/stop", "");
@@ -105,7 +104,8 @@ TEST_F(Alerts, AreKeptWithWhoHasSeenThem) {
   ASSERT_EQ(before.size(), 2U);
   end();
   start(1);
-  json after = alerts();  // the arm that was stopped still is, which this run tells again
+  // the arm is still stopped, and this session raises an alert about that again
+  json after = alerts();
   ASSERT_GE(after.size(), 2U) << after;
   after.erase(after.begin(), after.end() - 2);
   EXPECT_EQ(after, before);

@@ -1,4 +1,4 @@
-// PATCH /jobs/{id}: what was asked for of a job is changed, and by whom it was changed since.
+// PATCH /jobs/{id}.
 #include "test/server/verbs_fixture.h"
 
 namespace armloom {
@@ -23,7 +23,7 @@ class Amending : public test::VerbsFixture {
   }
 };
 
-TEST_F(Amending, ChangesWhatIsNamedAndTellsIt) {
+TEST_F(Amending, ChangesOnlyTheGivenMembersAndPublishesThem) {
   start(1.0);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   submit("a");
@@ -43,7 +43,7 @@ TEST_F(Amending, ChangesWhatIsNamedAndTellsIt) {
   EXPECT_EQ(patch("a", json::object()).status, 200) << "nothing is to be changed";
 }
 
-TEST_F(Amending, RefusesWhatCannotBe) {
+TEST_F(Amending, RefusesImpossibleChanges) {
   start(20.0);
   submit("a");
   expect_refused(patch("a", {{"priority", 2'000'000}}), 422, "/priority", 2'000'000);
@@ -57,7 +57,7 @@ TEST_F(Amending, RefusesWhatCannotBe) {
   expect_refused(patch("a", {{"priority", 1}}, "\"old\""), 409, "", "a");
 }
 
-TEST_F(Amending, OnlyWhoHasSeenTheLastChangeMayMakeTheNext) {
+TEST_F(Amending, IfMatchRequiresTheLastChange) {
   start(1.0);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   submit("a");
@@ -80,9 +80,7 @@ TEST_F(Amending, OnlyWhoHasSeenTheLastChangeMayMakeTheNext) {
   EXPECT_EQ(patch("a", {{"priority", 7}}, "*").status, 200);
 }
 
-// That a job waits for something else by now, or moves, is no change of what was asked for; but who
-// asks whether anything is new of it is told.
-TEST_F(Amending, WhatHappensToAJobIsNoChangeOfIt) {
+TEST_F(Amending, IfMatchIgnoresProgressOfTheJob) {
   start(1.0);
   submit("a");
   test::Listener listener(port());
@@ -93,7 +91,7 @@ TEST_F(Amending, WhatHappensToAJobIsNoChangeOfIt) {
   EXPECT_EQ(patch("a", {{"priority", 2}}, read).status, 200);
 }
 
-TEST_F(Amending, PagesOfAllowedSitesMaySendIfMatch) {
+TEST_F(Amending, CorsAllowsPatchAndIfMatch) {
   options_.allowed_origins = {"https://page.example"};
   start(1.0);
   test::Wire wire(port());

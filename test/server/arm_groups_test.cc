@@ -1,4 +1,3 @@
-// Which groups of an SRDF an import takes for arms.
 #include "server/import/arm_groups.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +34,7 @@ class ArmGroups : public ::testing::Test {
   std::vector<GroupChoice> choices_;
 };
 
-TEST_F(ArmGroups, AreChainsAndListsOfJointsAndNothingElse) {
+TEST_F(ArmGroups, AreChainsAndListsOfJoints) {
   EXPECT_EQ(why("left_arm"), "an arm");
   EXPECT_EQ(why("right_arm"), "an arm");
   EXPECT_EQ(why("both_arms"), "it is made of left_arm, right_arm");
@@ -43,14 +42,14 @@ TEST_F(ArmGroups, AreChainsAndListsOfJointsAndNothingElse) {
   EXPECT_EQ(why("right_hand"), "it is moved by right_arm");
   EXPECT_EQ(why("torso"), "it moves left_arm, right_arm, head");
   EXPECT_EQ(why("left_wrist"), "it is a part of left_arm");
-  EXPECT_EQ(why("left_arm_and_torso"), "it is left_arm and joints above or below it");
-  EXPECT_EQ(why("left_again"), "it holds the same joints as left_arm");
+  EXPECT_EQ(why("left_arm_and_torso"), "it contains left_arm and joints above or below it");
+  EXPECT_EQ(why("left_again"), "it has the same joints as left_arm");
   EXPECT_EQ(why("head"), "it has only 1 joint");
-  EXPECT_EQ(why("tool"), "it holds no movable joint");
+  EXPECT_EQ(why("tool"), "it has no movable joint");
 }
 
-// By joints, as the groups of many a robot are: no pair of them says that the whole is two arms.
-TEST_F(ArmGroups, AreNotAllOfThemTogetherNorTheTorso) {
+// The group "all" has no subgroups: only its joints show that it consists of two arms.
+TEST_F(ArmGroups, ExcludeTheTorsoAndTheWholeRobot) {
   choose(R"(<robot name="torso_robot">
     <group name="torso"><joint name="torso_lift"/></group>
     <group name="all"><chain base_link="base" tip_link="left_3_link"/>
@@ -69,7 +68,7 @@ TEST_F(ArmGroups, AreNotAllOfThemTogetherNorTheTorso) {
   EXPECT_EQ(why("r"), "an arm");
 }
 
-TEST_F(ArmGroups, MayBothBeginAtTheBaseOfATorsoThatIsHeldThen) {
+TEST_F(ArmGroups, MayShareATorsoThatBecomesFixed) {
   choose(R"(<robot name="torso_robot">
     <group name="l"><chain base_link="base" tip_link="left_3_link"/></group>
     <group name="r"><chain base_link="base" tip_link="right_3_link"/></group></robot>)");
@@ -80,8 +79,7 @@ TEST_F(ArmGroups, MayBothBeginAtTheBaseOfATorsoThatIsHeldThen) {
   EXPECT_EQ(tree_->links[*above.begin()].joint.name, "torso_lift");
 }
 
-// Upper arm and forearm in groups of their own, put together by name or by a chain.
-TEST_F(ArmGroups, MayBePutTogetherFromGroupsOfWhichOneMovesTheOther) {
+TEST_F(ArmGroups, MayBeCombinedFromConsecutiveGroups) {
   const std::string parts = R"(<robot name="torso_robot">
     <group name="lo"><joint name="left_1"/><joint name="left_2"/></group>
     <group name="hi"><joint name="left_3"/></group>)";
@@ -110,19 +108,19 @@ TEST_F(ArmGroups, MayBePutTogetherFromGroupsOfWhichOneMovesTheOther) {
   EXPECT_EQ(why("all"), "it is made of lo, hi, r");
 }
 
-TEST_F(ArmGroups, TakeARailThatTheSrdfPutsToTheArmButNoGripper) {
+TEST_F(ArmGroups, IncludeARailButNoGripper) {
   const std::string arm = R"(<robot name="torso_robot">
     <group name="rail"><joint name="torso_lift"/></group>
     <group name="arm"><chain base_link="torso_lift_link" tip_link="left_3_link"/></group>)";
   choose(arm + R"(<group name="rail_arm"><group name="rail"/><group name="arm"/></group></robot>)");
   EXPECT_EQ(why("rail_arm"), "an arm");
   EXPECT_EQ(why("arm"), "it is a part of rail_arm");
-  // By its joints alone a group does not say so: the rail is held.
+  // A chain alone does not make the rail part of the arm: the rail becomes fixed.
   choose(arm + R"(<group name="rail_arm"><chain base_link="base" tip_link="left_3_link"/></group>
     </robot>)");
   EXPECT_EQ(why("arm"), "an arm");
   EXPECT_EQ(why("rail"), "it moves arm");
-  // A wrist as small as a gripper is none where it moves one.
+  // A wrist as small as a gripper is still not a gripper if it carries one.
   const std::string wrist = arm + R"(<group name="wrist"><joint name="left_finger"/></group>
     <group name="arm_wrist"><group name="arm"/><group name="wrist"/></group>)";
   choose(wrist + "</robot>");
@@ -140,8 +138,7 @@ TEST_F(ArmGroups, TakeARailThatTheSrdfPutsToTheArmButNoGripper) {
   EXPECT_EQ(why("hand"), "it is moved by arm");
 }
 
-// What moves several arms is a torso, whatever group it is named in.
-TEST_F(ArmGroups, DoNotTakeTheTorsoOfTwo) {
+TEST_F(ArmGroups, DoNotIncludeASharedTorso) {
   choose(R"(<robot name="torso_robot">
     <group name="torso"><joint name="torso_lift"/></group>
     <group name="l"><chain base_link="torso_lift_link" tip_link="left_3_link"/></group>
@@ -154,13 +151,11 @@ TEST_F(ArmGroups, DoNotTakeTheTorsoOfTwo) {
   EXPECT_EQ(why("l_torso"), "it is made of torso, l");
 }
 
-TEST_F(ArmGroups, LeaveTheTorsoAboveThemToBeHeld) {
+TEST_F(ArmGroups, LeaveTheTorsoAboveThemFixed) {
   const auto above = joints_above_arms(*tree_, *semantics_, choices_);
   ASSERT_EQ(above.size(), 1U);
   EXPECT_EQ(tree_->links[*above.begin()].joint.name, "torso_lift");
 }
-
-// ---- Packages ----
 
 }  // namespace
 }  // namespace armloom

@@ -1,4 +1,3 @@
-// What is put down of who did what, and who was not let.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -13,8 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// With a data folder.
-class Audit : public test::TokenServer {
+class AuditLog : public test::TokenServer {
  protected:
   void SetUp() override {
     options_.data = fs::path(::testing::TempDir()) / "armloom-audit" /
@@ -37,7 +35,7 @@ class Audit : public test::TokenServer {
   }
 };
 
-TEST_F(Audit, KnowsWhoWasRefusedBeforeTheBodyWasRead) {
+TEST_F(AuditLog, RecordsARefusalBeforeTheBodyIsRead) {
   test::Wire wire(port());
   wire.send(
       "POST /api/v1/jobs HTTP/1.1\r\nHost: 127.0.0.1\r\nExpect: 100-continue\r\n"
@@ -50,7 +48,7 @@ TEST_F(Audit, KnowsWhoWasRefusedBeforeTheBodyWasRead) {
   EXPECT_EQ(entry["status"], 403);
 }
 
-TEST_F(Audit, AnAlertIsAcknowledgedByTheTokensNameWhateverTheClientSays) {
+TEST_F(AuditLog, RecordsTheTokensNameForAcknowledgements) {
   ASSERT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
   test::Wire wire(port());
   wire.send("GET /api/v1/alerts HTTP/1.1\r\nHost: 127.0.0.1\r\n" + bearer(tokens_["viewer"]) +
@@ -73,7 +71,7 @@ TEST_F(Audit, AnAlertIsAcknowledgedByTheTokensNameWhateverTheClientSays) {
   EXPECT_EQ(entry["path"], "/api/v1/alerts/acknowledge");
 }
 
-TEST_F(Audit, SaysWhoDidWhatAndWhoWasNotLet) {
+TEST_F(AuditLog, RecordsCommandsAndRefusalsButNotReads) {
   ASSERT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
   ASSERT_EQ(ask("GET", "/api/v1/arms", bearer(tokens_["viewer"])).status, 200);
   ASSERT_EQ(ask("POST", "/api/v1/resume", bearer(tokens_["viewer"])).status, 403);
@@ -101,7 +99,7 @@ TEST_F(Audit, SaysWhoDidWhatAndWhoWasNotLet) {
   EXPECT_EQ(entries("", 3)["entries"], page["entries"]) << "kept";
 }
 
-TEST_F(Audit, IsAskedByWhoWhatAndWhen) {
+TEST_F(AuditLog, CanBeFilteredByClientRequestAndTime) {
   ask("POST", "/api/v1/stop", bearer(tokens_["operator"]));
   ask("POST", "/api/v1/resume", bearer(tokens_["viewer"]));
   ask("DELETE", "/api/v1/jobs/none", bearer(tokens_["operator"]));

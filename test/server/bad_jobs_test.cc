@@ -1,5 +1,3 @@
-// Bad jobs of each kind of problem: refused over HTTP with place and value; afterwards nothing is
-// stored and no arm has moved.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -23,7 +21,7 @@ struct BadJobCase {
 
 json good() { return test::move("left", test::kHome, test::kMiddle); }
 
-// The good job with one place changed.
+// Returns a valid job with one value replaced.
 std::function<std::string()> with(const char* pointer, json value) {
   return [=] {
     json body = good();
@@ -58,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(
                    "/trajectory/joint_names/2", "left_panda_joint9"},
         BadJobCase{"BrokenJson",
                    [] { return std::string(R"({"trajectory": {"points": [{"positions": [0, 1)"); },
-                   400, "/trajectory/points/0/positions/2", "ends too early"},
+                   400, "/trajectory/points/0/positions/2", "ends before"},
         BadJobCase{"WrongContentType", [] { return good().dump(); }, 415, "Content-Type",
                    "text/plain", "text/plain"},
         BadJobCase{"StartElsewhere",
@@ -68,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 class BadJobs : public test::RunningServer {};
 
-TEST_F(BadJobs, UnknownIdsAndReusedIdsAreSaid) {
+TEST_F(BadJobs, ReportUnknownAndReusedIds) {
   start(1.0);
   const auto missing = get("/api/v1/jobs/nothing");
   EXPECT_EQ(missing.status, 404);

@@ -1,4 +1,3 @@
-// Batches, predecessors, and checks: several jobs at once, and jobs that are only asked about.
 #include "test/server/verbs_fixture.h"
 
 namespace armloom {
@@ -9,7 +8,7 @@ using test::kAside;
 
 class Batches : public test::VerbsFixture {};
 
-TEST_F(Batches, ABatchRunsInItsOrder) {
+TEST_F(Batches, RunInOrder) {
   start(20.0);
   test::Listener listener(port());
   json there = job("there", test::kHome, test::kMiddle);
@@ -25,7 +24,7 @@ TEST_F(Batches, ABatchRunsInItsOrder) {
   EXPECT_GE(begun["started_s"], ended_there["ended_s"]);
 }
 
-TEST_F(Batches, AnAtomicBatchWithOneBadJobStoresNothing) {
+TEST_F(Batches, StoreNothingIfAtomicWithOneBadJob) {
   start(1.0);
   json bad = job("bad", test::kMiddle, test::kHome);
   bad["trajectory"]["points"][3]["velocities"][1] = 3.41;
@@ -41,7 +40,7 @@ TEST_F(Batches, AnAtomicBatchWithOneBadJobStoresNothing) {
   EXPECT_EQ(jobs_stored(), 0U);
 }
 
-TEST_F(Batches, ABatchThatIsNotAtomicAnswersForEachJobInItsPlace) {
+TEST_F(Batches, AnswerEachJobInItsPlaceIfNotAtomic) {
   start(1.0);
   json unreadable = job("x", test::kHome, test::kMiddle);
   unreadable["priority"] = "high";
@@ -57,12 +56,12 @@ TEST_F(Batches, ABatchThatIsNotAtomicAnswersForEachJobInItsPlace) {
   EXPECT_EQ(results[0]["problem"]["pointer"], "/priority");
   EXPECT_EQ(results[1]["status"], 202);
   EXPECT_EQ(results[1]["job"]["id"], "a");
-  EXPECT_EQ(results[2]["status"], 422);  // the arm will not stand there
+  EXPECT_EQ(results[2]["status"], 422);  // the arm will not be there
   EXPECT_EQ(results[2]["problem"]["value"], test::kHome[1]);
   EXPECT_EQ(jobs_stored(), 1U);
 }
 
-TEST_F(Batches, ABatchIsBoundedAndNotEmpty) {
+TEST_F(Batches, AreBoundedAndNotEmpty) {
   start(1.0);
   expect_refused(post("/api/v1/batches", R"({"jobs": []})"), 422, "/jobs", "array of 0");
   const json many = {{"jobs", std::vector<json>(1001, json::object())}};
@@ -71,7 +70,7 @@ TEST_F(Batches, ABatchIsBoundedAndNotEmpty) {
   expect_refused(post("/api/v1/batches", R"({"jobs": [{}], "atomic": 1})"), 400, "/atomic", 1);
 }
 
-TEST_F(Batches, ACheckIsAdmissionsOwnAnswerAndChangesNothing) {
+TEST_F(Batches, CheckReportsTheVerdictOfAdmissionAndStoresNothing) {
   start(20.0);
   test::Listener listener(port());
   const json free =
@@ -84,14 +83,14 @@ TEST_F(Batches, ACheckIsAdmissionsOwnAnswerAndChangesNothing) {
 
   ASSERT_EQ(post("/api/v1/jobs", job("l", test::kHome, test::kMiddle).dump()).status, 202);
   until(listener, "l", "succeeded");
-  // The left arm rests in the way now, and would go aside for it.
+  // The left arm rests in the way now, but would retreat.
   const json later =
       post("/api/v1/check", job("x", test::kHome, test::kMiddle, "right").dump()).json();
   EXPECT_EQ(later["verdict"], "free");
   EXPECT_TRUE(later["earliest_start_s"].is_number());
   EXPECT_EQ(later["conflicts"], json::array());
   EXPECT_TRUE(later["waits_on"].is_array());
-  ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);  // stopped, it stays
+  ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);  // a stopped arm does not retreat
   const json conflict =
       post("/api/v1/check", job("x", test::kHome, test::kMiddle, "right").dump()).json();
   EXPECT_EQ(conflict["verdict"], "conflict");

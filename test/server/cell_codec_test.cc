@@ -31,7 +31,7 @@ TEST(CellCodec, ReadsTheTwoPandaCell) {
   EXPECT_EQ(right.prefix, "right_");
   EXPECT_EQ(fs::path(right.urdf), (kConfig / "../models/panda.urdf").lexically_normal());
   EXPECT_NEAR(right.X_WB.translation().x(), 0.4, 1e-12);
-  EXPECT_NEAR((right.X_WB * Eigen::Vector3d::UnitX()).x(), -0.6, 1e-12);  // turned to the other
+  EXPECT_NEAR((right.X_WB * Eigen::Vector3d::UnitX()).x(), -0.6, 1e-12);  // faces the left robot
   EXPECT_EQ(right.arms.front().home.size(), 7U);
   EXPECT_EQ(right.arms.front().limits.at("panda_joint1").brake, 7.5);
   EXPECT_EQ(right.controller.lag, std::chrono::milliseconds(20));
@@ -51,7 +51,7 @@ void PrintTo(const BadCell& bad, std::ostream* out) { *out << bad.name; }
 
 class BadCellFile : public ::testing::TestWithParam<BadCell> {};
 
-TEST_P(BadCellFile, IsRefusedWithItsPlace) {
+TEST_P(BadCellFile, IsRefusedWithPlaceAndReason) {
   json file = two_pandas();
   const json::json_pointer place(GetParam().at);
   if (GetParam().value == nullptr) {
@@ -82,12 +82,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadCell{"BoxIsFlat", "/objects/0/box", "[1, 1, 0]", "greater than zero"},
         BadCell{"TwoShapes", "/objects/0", R"({"name": "x", "box": [1,1,1], "sphere": [1]})",
                 "exactly one"},
-        BadCell{"ScaleOfABox", "/objects/0/scale", "[1, 1, 1]", "only a mesh has a scale"},
+        BadCell{"ScaleOfABox", "/objects/0/scale", "[1, 1, 1]", R"("scale" requires "mesh")"},
+        BadCell{"RenamedKey", "/scheduling/horizon_legs", "5",
+                "renamed to \"horizon_steps\" in version 0.2"},
         BadCell{"MisspeltKey", "/monitor/rate_hx", "5", "did you mean \"rate_hz\"?"},
         BadCell{"HomeIsANumber", "/robots/0/arms/0/home", "7", "or the name of a state"},
-        BadCell{"HomeIsNameless", "/robots/0/arms/0/home", "\"\"", "a name is expected"},
+        BadCell{"HomeIsNameless", "/robots/0/arms/0/home", "\"\"", "a name is required"},
         BadCell{"FixedAtText", "/robots/0/fixed/torso", "\"up\"", "a number"},
-        BadCell{"JointLimitsEmpty", "/robots/0/joint_limits", "\"\"", "a path is expected"},
+        BadCell{"JointLimitsEmpty", "/robots/0/joint_limits", "\"\"", "a path is required"},
         BadCell{"VelocityIsNegative", "/robots/0/arms/0/limits/panda_joint1/velocity_rad_s", "-1",
                 "greater than zero"},
         BadCell{"LimitInBothUnits", "/robots/0/arms/0/limits/panda_joint1",
@@ -102,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCell{"Clearance", "/clearance_m", "-0.1", "not within"}),
     [](const auto& tested) { return tested.param.name; });
 
-TEST(CellCodec, ReadsWhatMoveItUsersBring) {
+TEST(CellCodec, ReadsJointLimitsFilesFixedJointsAndNamedStates) {
   json file = two_pandas();
   file["$schema"] = "cell.schema.json";
   json& robot = file["robots"][0];
@@ -127,7 +129,7 @@ TEST(CellCodec, ReadsWhatMoveItUsersBring) {
   EXPECT_FALSE(limits.at("panda_joint1").acceleration);
 }
 
-TEST(CellCodec, TellsEveryFaultAtOnce) {
+TEST(CellCodec, ReportsAllFaultsAtOnce) {
   json file = two_pandas();
   file["clearance_m"] = -1;
   file["robots"][0]["urfd"] = "x";
@@ -143,7 +145,7 @@ TEST(CellCodec, TellsEveryFaultAtOnce) {
                                             "/monitor/rate_hz", "/objects/0/box"));
 }
 
-TEST(CellCodec, WritesTheCellAsTheDashboardNeedsIt) {
+TEST(CellCodec, WritesTheViewForTheDashboard) {
   const auto description = read_cell_text(two_pandas().dump(), kConfig);
   ASSERT_TRUE(description);
   const auto cell = build_cell(*description);

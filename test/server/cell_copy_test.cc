@@ -1,4 +1,3 @@
-// A recording is whole by itself: what its cell names lies in it.
 #include "server/recording/cell_copy.h"
 
 #include <gmock/gmock.h>
@@ -57,7 +56,7 @@ TEST_F(CellCopy, HoldsEachFileOnceAndLoads) {
   EXPECT_TRUE(build_cell(*cell));
 }
 
-TEST_F(CellCopy, OfACopyInItsPlaceIsTheSame) {
+TEST_F(CellCopy, OfACopyIntoItsOwnFolderChangesNothing) {
   const auto copy =
       copy_cell(cell_file(fs::path(source_dir()) / "config/two_shuttles.json"), folder_);
   ASSERT_TRUE(copy);
@@ -68,7 +67,6 @@ TEST_F(CellCopy, OfACopyInItsPlaceIsTheSame) {
   EXPECT_EQ(files(), before);
 }
 
-// Two packages have a mesh of one name.
 TEST_F(CellCopy, KeepsFilesOfOneNameApart) {
   write("a/meshes/arm.stl", "solid of a");
   write("b/meshes/arm.stl", "solid of b");
@@ -89,7 +87,7 @@ TEST_F(CellCopy, KeepsFilesOfOneNameApart) {
   EXPECT_LT(urdf.find("\"arm.stl\""), urdf.find("\"arm-2.stl\""));
 }
 
-TEST_F(CellCopy, SaysWhatCannotBeCopied) {
+TEST_F(CellCopy, ReportsAFileThatCannotBeCopied) {
   write("files", "in the way");
   const auto copy =
       copy_cell(cell_file(fs::path(source_dir()) / "config/two_shuttles.json"), folder_);

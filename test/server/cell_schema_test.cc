@@ -1,4 +1,3 @@
-// What is made of the description of the cell file: schema, reference, written cells.
 #include "server/codec/cell_schema.h"
 
 #include <gmock/gmock.h>
@@ -33,17 +32,17 @@ CellDescription read(const std::string& text) {
   return cell.value_or(CellDescription{});
 }
 
-TEST(CellSchema, IsTheFileThatEditorsUse) {
+TEST(CellSchema, MatchesTheFileInConfig) {
   EXPECT_EQ(read_text_file(kConfig / "cell.schema.json").value(), cell_schema_text())
       << "build/armloom schema > config/cell.schema.json";
 }
 
-TEST(CellSchema, MakesTheReference) {
+TEST(CellSchema, MatchesTheReferenceInConfig) {
   EXPECT_EQ(read_text_file(kConfig / "README.md").value(), cell_reference_text())
       << "build/armloom schema --markdown > config/README.md";
 }
 
-TEST(CellSchema, SaysTheDefaultsThatTheReaderHas) {
+TEST(CellSchema, HasTheReadersDefaults) {
   const Schema& settings = cell_schema()["properties"];
   const CellDescription defaults;
   EXPECT_EQ(settings["clearance_m"]["default"], defaults.clearance_m);
@@ -59,7 +58,7 @@ TEST(CellSchema, SaysTheDefaultsThatTheReaderHas) {
   EXPECT_FALSE(limits["brake_rad_s2"].contains("default"));
 }
 
-// Each member that a schema lists, with the place where it stands.
+// Calls look() with the path and schema of every member.
 void for_each_member(const Schema& schema, const std::string& place,
                      const std::function<void(const std::string&, const Schema&)>& look) {
   if (schema.contains("properties")) {
@@ -74,7 +73,7 @@ void for_each_member(const Schema& schema, const std::string& place,
   }
 }
 
-TEST(CellSchema, DescribesEveryFieldInASentenceThatTheReferenceHas) {
+TEST(CellSchema, DescribesEveryField) {
   const std::string reference = cell_reference_text();
   int fields = 0;
   for_each_member(cell_schema(), "", [&](const std::string& place, const Schema& member) {
@@ -119,7 +118,8 @@ TEST_P(WrittenCell, ReadsBackAsTheSame) {
   EXPECT_EQ(written(read(commented)), once) << commented;
   EXPECT_THAT(commented, HasSubstr("{\n  // Made by a test.\n"));
   EXPECT_THAT(commented, HasSubstr("    // A ball.\n    {\n      \"name\": \"ball\""));
-  const std::string about = "// What every admitted motion keeps from other arms and the scene.\n";
+  const std::string about =
+      "// Clearance that every admitted motion keeps from other arms and the scene.\n";
   EXPECT_THAT(commented, HasSubstr(about));
   std::istringstream lines(commented);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100U) << line;
@@ -129,14 +129,14 @@ INSTANTIATE_TEST_SUITE_P(Configs, WrittenCell,
                          ::testing::Values("two_pandas.json", "dual_panda.json",
                                            "panda_and_ur5e.json", "two_shuttles.json"));
 
-TEST(CommentedJson, KeepsACommentAComment) {
+TEST(CommentedJson, EscapesLineBreaksInComments) {
   const Schema schema{{"properties", {{"a", {{"description", "x"}}}}}};
   const std::string text = commented_json({{"a", 1}}, schema, {{"/a", {"one\n\"b\": 2, */ two"}}});
   EXPECT_EQ(text, "{\n  // x\n  // one \"b\": 2, */ two\n  \"a\": 1\n}\n");
   EXPECT_EQ(*parse_json(text, JsonComments::allowed), nlohmann::json({{"a", 1}}));
 }
 
-TEST(NearestName, IsTheOneThatWasMeant) {
+TEST(NearestName, SuggestsTheMisspelledName) {
   const std::string_view known[] = {"rate_hz", "reaction_s", "xyz", "rpy"};
   EXPECT_EQ(nearest_name("rate_hx", known), "rate_hz");
   EXPECT_EQ(nearest_name("raet_hz", known), "rate_hz");

@@ -1,4 +1,3 @@
-// `armloom check` as outside tools call it: jobs judged against each other.
 #include <sstream>
 #include <vector>
 
@@ -13,7 +12,7 @@ using test::Outcome;
 
 class CheckCommand : public test::CommandFixture {};
 
-TEST_F(CheckCommand, JudgesJobsAgainstEachOtherWithoutRunningThem) {
+TEST_F(CheckCommand, ChecksJobsAgainstEachOtherWithoutRunningThem) {
   const Outcome outcome = run("check --cell " + kCell + " --jobs " + conflicting_jobs().string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::vector<json> verdicts;
@@ -44,7 +43,8 @@ TEST_F(CheckCommand, JudgesJobsAgainstEachOtherWithoutRunningThem) {
 
 TEST_F(CheckCommand, NamesBadJobsWithFilePlaceAndValue) {
   json jobs = json::parse(read_text_file(conflicting_jobs()).value());
-  jobs[3]["job"] = test::move("right", test::kHome, test::kMiddle);  // it will stand in the middle
+  // the arm will be in the middle
+  jobs[3]["job"] = test::move("right", test::kHome, test::kMiddle);
   const Outcome astray =
       run("check --cell " + kCell + " --jobs " + file("astray.json", jobs.dump()).string());
   EXPECT_EQ(astray.exit_code, 2);

@@ -1,4 +1,4 @@
-// What stands around the bytes of a chunked body is bounded like a header: RFC 9112, 7.1.1.
+// Chunk extensions and trailers of a chunked body are bounded like headers (RFC 9112, 7.1.1).
 #include <gtest/gtest.h>
 
 #include <string>
@@ -8,11 +8,11 @@
 namespace armloom {
 namespace {
 
-class Chunks : public test::RunningServer {
+class ChunkedBody : public test::RunningServer {
  protected:
   void SetUp() override { start(1.0); }
 
-  // What the server says while pieces come until it closes, or all of them were sent.
+  // The server's answer, and the bytes sent before it closed the connection.
   struct Said {
     std::string answer;
     std::size_t sent = 0;
@@ -32,27 +32,27 @@ class Chunks : public test::RunningServer {
 constexpr std::size_t kPiece = 64 * 1024;
 constexpr std::size_t kPieces = 1024;
 
-TEST_F(Chunks, AnExtensionWithoutEndIsRefused) {
+TEST_F(ChunkedBody, EndlessExtensionIsRefused) {
   const Said said = said_to("5;", std::string(kPiece, 'a'), kPieces);
   EXPECT_TRUE(said.answer.starts_with("HTTP/1.1 400 ")) << said.answer.substr(0, 300);
   EXPECT_NE(said.answer.find("chunk extensions"), std::string::npos) << said.answer;
   EXPECT_LT(said.sent, kPiece * kPieces);
 }
 
-TEST_F(Chunks, ManyExtensionsAreRefusedByTheirSum) {
+TEST_F(ChunkedBody, ManyExtensionsAreRefusedBySize) {
   const std::string chunk = "1;" + std::string(1000, 'a') + "\r\nx\r\n";
   const Said said = said_to("", chunk, 64);
   EXPECT_TRUE(said.answer.starts_with("HTTP/1.1 400 ")) << said.answer.substr(0, 300);
   EXPECT_NE(said.answer.find("chunk extensions"), std::string::npos) << said.answer;
 }
 
-TEST_F(Chunks, TrailersWithoutEndAreRefused) {
+TEST_F(ChunkedBody, EndlessTrailersAreRefused) {
   const Said said = said_to("0\r\n", "X: " + std::string(kPiece, 'a') + "\r\n", kPieces);
   EXPECT_TRUE(said.answer.starts_with("HTTP/1.1 431 ")) << said.answer.substr(0, 300);
   EXPECT_LT(said.sent, kPiece * kPieces);
 }
 
-TEST_F(Chunks, AFewExtensionsAndTrailersAreReadOver) {
+TEST_F(ChunkedBody, FewExtensionsAndTrailersAreIgnored) {
   test::Wire wire(port());
   wire.send(
       "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n"

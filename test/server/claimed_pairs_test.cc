@@ -1,5 +1,5 @@
-// An SRDF that disables all pairs between two arms, as the Setup Assistant writes it: the arms pass
-// each other as if it did not, and the audit sees it alike.
+// The SRDF disables all pairs between two arms, as the Setup Assistant does. Admission and audit
+// must check the pairs that are not proven out of reach nevertheless.
 #include <gmock/gmock.h>
 
 #include "test/model/arm_row.h"
@@ -12,7 +12,7 @@ using nlohmann::json;
 using test::Outcome;
 using testing::HasSubstr;
 
-class ClaimedPairsCommand : public test::CommandFixture {
+class DisabledPairsCommand : public test::CommandFixture {
  protected:
   void SetUp() override {
     CommandFixture::SetUp();
@@ -32,7 +32,7 @@ class ClaimedPairsCommand : public test::CommandFixture {
                        {"allowed_collisions", allowed_collisions}};
     return file(name, cell.dump()).string();
   }
-  // Both arms turn to where they lie one on the other.
+  // Returns jobs that turn both arms until one lies on the other.
   std::string crossing_jobs() const {
     json jobs = json::array();
     for (const auto& [arm, to] : {std::pair{"arm0", 0.2}, {"arm1", 2.9}}) {
@@ -49,7 +49,7 @@ class ClaimedPairsCommand : public test::CommandFixture {
   }
 };
 
-TEST_F(ClaimedPairsCommand, ArmsDoNotPassThroughEachOtherNorDoesTheAuditOverlookIt) {
+TEST_F(DisabledPairsCommand, CheckAndAuditStillFindCollisions) {
   const std::string claimed = cell("claimed.json", json::array());
   const std::string jobs = crossing_jobs();
   const Outcome checked = run("check --cell " + claimed + " --jobs " + jobs);
@@ -72,15 +72,15 @@ TEST_F(ClaimedPairsCommand, ArmsDoNotPassThroughEachOtherNorDoesTheAuditOverlook
   EXPECT_TRUE(audit.last_line()["contact"].is_object()) << audit.out;
 }
 
-TEST_F(ClaimedPairsCommand, ValidateCountsWhatIsProvenAndNamesWhatIsChecked) {
+TEST_F(DisabledPairsCommand, ValidateReportsProvenAndCheckedPairs) {
   const Outcome outcome =
       run("validate --cell " +
           cell("cell.json", json::array({json::array({"arm0_1_link", "arm1_1_link"})})));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.err,
               HasSubstr("cell.json: the SRDF disables 8 pairs of links of different arms, or of an "
-                        "arm and what stands beside it: 3 proven out of reach and skipped, 1 "
-                        "allowed by the cell file, 4 checked all the same (arm0_1_link and "
+                        "arm and its surroundings: 3 proven out of reach and skipped, 1 "
+                        "allowed by the cell file, 4 checked nevertheless (arm0_1_link and "
                         "arm1_2_link at row.srdf:3, arm0_2_link and arm1_1_link at row.srdf:4, "
                         "arm0_2_link and arm1_2_link at row.srdf:5, ...); add a pair to the cell's "
                         "\"allowed_collisions\" to skip it, too\n"));

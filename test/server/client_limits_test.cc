@@ -1,4 +1,3 @@
-// How much one client may ask for, and all together.
 #include "server/http/client_limits.h"
 
 #include "server/access/token_file.h"
@@ -17,7 +16,7 @@ ClientLimits::Options few() {
       .requests = {2, 4}, .requests_of_all = {10, 5}, .jobs = {10, 100}, .jobs_of_all = {10, 150}};
 }
 
-TEST(ClientLimits, ABurstIsServedThenTheRate) {
+TEST(ClientLimits, AllowABurstAndThenTheRate) {
   ClientLimits limits(few(), kStart);
   for (int i = 0; i < 4; ++i) EXPECT_FALSE(limits.request("a", kStart)) << i;
   const auto refused = limits.request("a", kStart);
@@ -30,7 +29,7 @@ TEST(ClientLimits, ABurstIsServedThenTheRate) {
   EXPECT_TRUE(limits.request("a", kStart + 501ms));
 }
 
-TEST(ClientLimits, OneClientsRequestsAreNoOthers) {
+TEST(ClientLimits, CountEachClientSeparately) {
   ClientLimits limits(few(), kStart);
   for (int i = 0; i < 5; ++i) (void)limits.request("a", kStart);
   EXPECT_FALSE(limits.request("b", kStart));
@@ -39,7 +38,7 @@ TEST(ClientLimits, OneClientsRequestsAreNoOthers) {
   EXPECT_EQ(refused->detail, "all clients together may send 10 requests a second, 5 at once");
 }
 
-TEST(ClientLimits, JobsAreCountedOneByOneAndALargerBatchThanEverComesAtOnceStillMay) {
+TEST(ClientLimits, AllowABatchBeyondTheBurstAfterAPause) {
   ClientLimits limits(few(), kStart);
   EXPECT_FALSE(limits.jobs("a", 120, kStart)) << "more than 100, but nothing was taken before";
   EXPECT_TRUE(limits.jobs("a", 1, kStart + 1s));
@@ -49,7 +48,7 @@ TEST(ClientLimits, JobsAreCountedOneByOneAndALargerBatchThanEverComesAtOnceStill
   EXPECT_FALSE(limits.jobs("a", 50, kStart + 7s));
 }
 
-TEST(ClientLimits, WhoHasNotComeForLongIsForgotten) {
+TEST(ClientLimits, ForgetIdleClients) {
   ClientLimits limits(few(), kStart);
   for (int i = 0; i < 1000; ++i) {
     (void)limits.request("client " + std::to_string(i), kStart + i * 100ms);
@@ -59,7 +58,7 @@ TEST(ClientLimits, WhoHasNotComeForLongIsForgotten) {
 
 class Limited : public test::VerbsFixture {};
 
-TEST_F(Limited, StopIsServedHoweverMuchItsClientAsks) {
+TEST_F(Limited, StopIsNeverLimited) {
   options_.limits.requests = {0.01, 3};
   start(1.0);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(get("/api/v1/arms").status, 200);
@@ -77,7 +76,7 @@ TEST_F(Limited, StopIsServedHoweverMuchItsClientAsks) {
   EXPECT_EQ(get("/readyz").status, 200);
 }
 
-TEST_F(Limited, EachTokenIsAClient) {
+TEST_F(Limited, ClientsAreDistinguishedByToken) {
   const auto file = std::filesystem::path(::testing::TempDir()) / "armloom-limited-tokens";
   std::filesystem::remove(file);
   const std::string one = TokenFile(file).add("one", Role::operate).value();
@@ -98,7 +97,7 @@ TEST_F(Limited, EachTokenIsAClient) {
   EXPECT_EQ(ask("another"), 429);
 }
 
-TEST_F(Limited, JobsOfABatchCountOneByOne) {
+TEST_F(Limited, BatchCountsEachJob) {
   options_.limits.jobs = {0.01, 3};
   start(1.0);
   json batch{{"jobs", json::array()}};
@@ -116,7 +115,7 @@ TEST_F(Limited, JobsOfABatchCountOneByOne) {
   EXPECT_NE(metrics.find("armloom_limited_total{what=\"jobs\"} 2"), std::string::npos) << metrics;
 }
 
-TEST_F(Limited, OneAddressHasSoManyConnections) {
+TEST_F(Limited, ConnectionsPerAddressAreBounded) {
   options_.connections_per_client_max = 2;
   start(1.0);
   const auto one = std::make_unique<test::Wire>(port());
@@ -131,7 +130,7 @@ TEST_F(Limited, OneAddressHasSoManyConnections) {
   EXPECT_EQ(refused.json()["value"], "127.0.0.1");
   EXPECT_EQ(refused.headers.at("retry-after"), "1");
   two.reset();
-  for (int status = 0; status != 200;) {  // when the server has seen that it is closed
+  for (int status = 0; status != 200;) {  // until the server has noticed the closed connection
     test::Wire next(port());
     next.send("GET /healthz HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
     status = test::read_answer(next).status;

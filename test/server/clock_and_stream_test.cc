@@ -1,4 +1,3 @@
-// Cell time as wall time, and the names of runs.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -12,16 +11,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// 2026-11-21T09:33:00Z.
 const WallClock::Wall kStart{std::chrono::sys_days{std::chrono::year{2026} / 11 / 21} + 9h + 33min};
 
-TEST(WallClock, SaysCellTimesInUtcWithMilliseconds) {
+TEST(WallClock, WritesCellTimesInUtcWithMilliseconds) {
   const WallClock clock(kStart, 1.0);
   EXPECT_EQ(clock.at(at(125ms)), "2026-11-21T09:33:00.125Z");
   EXPECT_EQ(clock.at(at(14h + 27min + 1500us)), "2026-11-22T00:00:00.001Z");
 }
 
-TEST(Rfc3339, ReadsWhatItTellsAndOtherOffsets) {
+TEST(Rfc3339, ReadsItsOwnFormatAndOtherOffsets) {
   const std::int64_t instant = since_1970_ms(kStart + 125ms);
   for (const char* text : {"2026-11-21T09:33:00.125Z", "2026-11-21t09:33:00.1259z",
                            "2026-11-21 11:33:00.125+02:00", "2026-11-20T23:03:00.125-10:30"}) {
@@ -38,19 +36,19 @@ TEST(Rfc3339, ReadsWhatItTellsAndOtherOffsets) {
   }
 }
 
-TEST(WallClock, RunsAsManyTimesFasterAsTheCell) {
+TEST(WallClock, FollowsTheSpeedOfTheCell) {
   const WallClock clock(kStart, 10.0);
   EXPECT_EQ(clock.wall_at(at(30s)), kStart + 3s);
 }
 
-TEST(WallClock, LeavesWhatWasToldWhereItWasWhenTheSpeedChanges) {
+TEST(WallClock, KeepsEarlierTimesWhenTheSpeedChanges) {
   WallClock clock(kStart, 1.0);
   clock.anchor(at(10s), kStart + 10s, 5.0);
   EXPECT_EQ(clock.wall_at(at(4s)), kStart + 4s);
   EXPECT_EQ(clock.wall_at(at(20s)), kStart + 12s);
 }
 
-TEST(WallClock, MakesUpForASlipAndNotForLess) {
+TEST(WallClock, FollowsOnlyLargeSlips) {
   WallClock clock(kStart, 2.0);
   clock.observe(at(2s), kStart + 1s + WallClock::kSlip);
   EXPECT_EQ(clock.wall_at(at(2s)), kStart + 1s) << "within what a machine may be late";
@@ -60,7 +58,7 @@ TEST(WallClock, MakesUpForASlipAndNotForLess) {
   EXPECT_EQ(clock.wall_at(at(2s)), kStart + 1s);
 }
 
-// Instants older than all anchors are told by the oldest that is left.
+// Instants before all anchors are converted by the oldest remaining anchor.
 TEST(WallClock, ForgetsTheOldestAnchors) {
   WallClock clock(kStart, 1.0);
   for (std::size_t i = 1; i <= WallClock::kAnchorsMax; ++i) {
@@ -70,20 +68,20 @@ TEST(WallClock, ForgetsTheOldestAnchors) {
   EXPECT_EQ(clock.wall_at(at(0s)), kStart + 1h);
 }
 
-TEST(WallClock, TellsTimesOfAFormerRunAsBeforeTheBeginning) {
+TEST(WallClock, ConvertsTimesOfEarlierSessionsToNegativeTimes) {
   const WallClock clock(kStart, 2.0);
   EXPECT_EQ(clock.time_before(kStart - 5s), at(-10s));
   EXPECT_EQ(clock.wall_at(clock.time_before(kStart - 5s)), kStart - 5s);
   EXPECT_EQ(clock.time_before(kStart + 5s), at(0s)) << "the wall's clock was set back";
 }
 
-TEST(Streams, OfASimulatedRunFollowFromItsSeed) {
+TEST(Streams, FollowFromTheSeedOfASimulation) {
   EXPECT_EQ(stream_of_seed(7), stream_of_seed(7));
   EXPECT_NE(stream_of_seed(7), stream_of_seed(8));
   EXPECT_NE(random_stream(), random_stream());
 }
 
-// RFC 9562: the version and the variant.
+// RFC 9562: version and variant.
 TEST(Streams, AreUuids) {
   const std::regex of_seed("[0-9a-f]{8}-[0-9a-f]{4}-8[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}");
   const std::regex random("[0-9a-f]{8}-[0-9a-f]{4}-4[0-9a-f]{3}-[89ab][0-9a-f]{3}-[0-9a-f]{12}");

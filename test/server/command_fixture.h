@@ -29,7 +29,7 @@ struct Outcome {
   }
 };
 
-// The binary, called as a shell calls it, with a folder of its own for each test.
+// Runs the binary through a shell, with a separate folder for each test.
 class CommandFixture : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -50,7 +50,7 @@ class CommandFixture : public ::testing::Test {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(folder_ / "out").value(),
             read_text_file(folder_ / "err").value()};
   }
-  // The two-Panda cell with one place changed, its paths made absolute.
+  // Writes the two-Panda cell with one value replaced and absolute paths.
   std::filesystem::path changed_cell(const std::string& pointer,
                                      const nlohmann::json& value) const {
     nlohmann::json cell = nlohmann::json::parse(read_text_file(kCell).value(), nullptr, true, true);
@@ -61,7 +61,8 @@ class CommandFixture : public ::testing::Test {
     cell[nlohmann::json::json_pointer(pointer)] = value;
     return file("cell.json", cell.dump());
   }
-  // j0, j1 of the left arm and j2, j3 of the right one: to the middle and back, all at once.
+  // Writes four jobs that start at once: j0, j1 of the left arm and j2, j3 of the right arm, each
+  // to the middle and back.
   std::filesystem::path conflicting_jobs() const {
     nlohmann::json jobs = nlohmann::json::array();
     int number = 0;

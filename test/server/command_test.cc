@@ -1,4 +1,4 @@
-// The binary as outside tools call it: exit codes, the last line of stdout, one sentence on stderr.
+// The binary's interface for scripts: exit codes, last line of stdout, one sentence on stderr.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -23,7 +23,7 @@ using test::Outcome;
 
 class Command : public test::CommandFixture {};
 
-TEST_F(Command, AnOptionThatCannotBeFollowedIsNamed) {
+TEST_F(Command, NamesAnInvalidOption) {
   const std::string jobs = conflicting_jobs().string();
   const fs::path taken = file("taken", "a file where a folder should be");
   const std::string simulate = "simulate --cell " + kCell + " --jobs " + jobs;
@@ -31,7 +31,7 @@ TEST_F(Command, AnOptionThatCannotBeFollowedIsNamed) {
     std::string arguments;
     std::string says;
   } cases[] = {
-      {simulate + " --seed -1", "--seed: -1 is no whole number from 0 to 18446744073709551615"},
+      {simulate + " --seed -1", "--seed: -1 is not an integer from 0 to 18446744073709551615"},
       {simulate + " --seed 7.5", "--seed: 7.5 is no whole number"},
       {simulate + " --seed 18446744073709551616", "--seed: 18446744073709551616 is no"},
       {simulate + " --out " + taken.string(),
@@ -45,15 +45,15 @@ TEST_F(Command, AnOptionThatCannotBeFollowedIsNamed) {
        "armloom: --listen: cannot listen on elsewhere:8080: not an IP address; names are not "
        "looked up, localhost is 127.0.0.1"},
       {"serve --cell " + kCell + " --listen localhost",
-       "expected ADDRESS:PORT, as in 127.0.0.1:8080, which is this machine alone"},
+       "expected ADDRESS:PORT, for example 127.0.0.1:8080 for this machine only"},
       {"history --data /nowhere --state foo", "--state: foo not in {queued,"},
       {"replay --data /nowhere --until -1", "--until: "},
       {"serve --listen 127.0.0.1:0 --cell " + kCell + " --web /nowhere",
-       "armloom: --web: there is no folder /nowhere\n"},
+       "armloom: --web: no such folder: /nowhere\n"},
       {"serve --listen 127.0.0.1:0 --cell " + kCell + " --allow-host a/b",
-       "armloom: --allow-host: expected a host's name without a port (found \"a/b\")\n"},
+       "armloom: --allow-host: expected a host name without a port (found \"a/b\")\n"},
       {"audit --cell " + kCell + " --recording /nowhere",
-       "armloom: --recording: there is no folder /nowhere\n"},
+       "armloom: --recording: no such folder: /nowhere\n"},
       {"validate --cell /dev/zero", "armloom: /dev/zero: it is neither a file nor a pipe\n"},
       {"serve --listen 127.0.0.1:0 --cell " + kCell + " --policy hopeful", "armloom: --policy: "},
       {simulate + " --policy hopeful", "armloom: --policy: "},
@@ -69,7 +69,7 @@ TEST_F(Command, AnOptionThatCannotBeFollowedIsNamed) {
   EXPECT_EQ(run(simulate + " --seed 18446744073709551615").exit_code, 0);
 }
 
-TEST_F(Command, UsageErrorsEndWithTwo) {
+TEST_F(Command, ExitsWithTwoOnUsageErrors) {
   EXPECT_EQ(run("").exit_code, 2);
   EXPECT_EQ(run("fly").exit_code, 2);
   EXPECT_EQ(run("validate").exit_code, 2);
@@ -82,7 +82,7 @@ TEST_F(Command, AuditFindsTheContactInADoctoredRecording) {
                 folder_.string())
                 .exit_code,
             0);
-  // A state more: both arms reach across the middle of the table, through each other.
+  // Appends a state in which both arms reach across the middle of the table, through each other.
   constexpr test::Pose kReaching{0, 0.3, 0, -1.8, 0, 2.1, 0.785};
   std::string states = read_text_file(folder_ / "states.csv").value();
   const double end_s = std::stod(states.substr(states.rfind('\n', states.size() - 2) + 1));
@@ -105,7 +105,7 @@ TEST_F(Command, AuditFindsTheContactInADoctoredRecording) {
             2);
 }
 
-TEST_F(Command, BadJobsFilesAreNamedBeforeAnythingRuns) {
+TEST_F(Command, ReportsABadJobsFileBeforeAnythingRuns) {
   json bad = test::move("left", test::kHome, test::kMiddle);
   bad["trajectory"]["joint_names"][0] = "left_panda_joint9";
   const std::string jobs =
@@ -120,8 +120,8 @@ TEST_F(Command, BadJobsFilesAreNamedBeforeAnythingRuns) {
             2);
 }
 
-TEST_F(Command, AJobRefusedAtItsTimeCountsAndEndsWithOne) {
-  const json astray = test::move("left", test::kMiddle, test::kHome);  // the arm stands at home
+TEST_F(Command, ExitsWithOneIfAJobIsRefused) {
+  const json astray = test::move("left", test::kMiddle, test::kHome);  // the arm is at home
   const std::string jobs =
       file("jobs.json", json::array({{{"at", 0}, {"job", astray}}}).dump()).string();
   const Outcome outcome = run("simulate --cell " + kCell + " --jobs " + jobs);
@@ -131,8 +131,7 @@ TEST_F(Command, AJobRefusedAtItsTimeCountsAndEndsWithOne) {
       << outcome.err;
 }
 
-// The address that the server prints, read through a pipe.
-TEST_F(Command, ServeSaysItsAddressRefusesATakenPortAndEndsCleanlyOnSigterm) {
+TEST_F(Command, ServePrintsItsAddressAndEndsCleanlyOnSigterm) {
   int pipe_ends[2];
   ASSERT_EQ(pipe(pipe_ends), 0);
   const pid_t child = fork();
@@ -176,7 +175,7 @@ TEST_F(Command, ServeSaysItsAddressRefusesATakenPortAndEndsCleanlyOnSigterm) {
             0);
 }
 
-TEST(RecordingFolder, IsAnotherWhenOneIsThere) {
+TEST(RecordingFolder, IsNewIfTheFolderHasARecording) {
   const fs::path folder = fs::path(::testing::TempDir()) / "armloom-recording-folder";
   fs::remove_all(folder);
   EXPECT_EQ(Recording::unused_folder(folder), folder);

@@ -1,4 +1,3 @@
-// `armloom compare`: the table, the files, and what it says when it cannot be done.
 #include <map>
 #include <sstream>
 
@@ -13,7 +12,7 @@ using nlohmann::json;
 using test::kCell;
 using test::Outcome;
 
-constexpr std::size_t kMachineColumns = 2;  // the last ones: times of the machine
+constexpr std::size_t kMachineColumns = 2;  // the last columns: times of the machine
 
 std::vector<std::string> split(const std::string& line, char at) {
   std::vector<std::string> cells;
@@ -26,7 +25,8 @@ std::vector<std::string> split(const std::string& line, char at) {
   return cells;
 }
 
-// A Markdown table, the line below its heading left out; fails where it is none.
+// Returns the cells of a Markdown table without the line below its heading; fails the test if the
+// text is not a table.
 std::vector<std::vector<std::string>> table_of(const std::string& markdown) {
   std::vector<std::vector<std::string>> rows;
   std::istringstream lines(markdown);
@@ -38,7 +38,7 @@ std::vector<std::vector<std::string>> table_of(const std::string& markdown) {
       continue;
     }
     std::vector<std::string> cells = split(line, '|');
-    cells.erase(cells.begin());  // before the first bar
+    cells.erase(cells.begin());  // the part before the first bar
     rows.push_back(std::move(cells));
     EXPECT_EQ(rows.back().size(), rows.front().size()) << line;
   }
@@ -50,7 +50,7 @@ class Compare : public test::CommandFixture {
   std::string compare(const fs::path& jobs) const {
     return "compare --cell " + kCell + " --jobs " + jobs.string();
   }
-  // A column by its heading's beginning, as numbers, by policy.
+  // Returns the numbers of a column by policy; `heading` is the beginning of the column's heading.
   static std::map<std::string, double> column(const std::vector<std::vector<std::string>>& table,
                                               const std::string& heading) {
     std::size_t at = 0;
@@ -64,7 +64,7 @@ class Compare : public test::CommandFixture {
   }
 };
 
-TEST_F(Compare, HasOneRowForEveryPolicyAndTheOrderOfTheMakespansHolds) {
+TEST_F(Compare, PrintsEveryPolicyWithPlausibleMakespans) {
   const Outcome outcome = run(compare(test::kSource / "config/two_pandas_jobs.json"));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
@@ -83,16 +83,16 @@ TEST_F(Compare, HasOneRowForEveryPolicyAndTheOrderOfTheMakespansHolds) {
   }
   EXPECT_LT(makespan_s.at("earliest_start"), 0.8 * makespan_s.at("sequential"));
 
-  auto least = column(table, "the busiest arm's work");
-  auto together = column(table, "two or more move");
+  auto least = column(table, "busiest arm's work");
+  auto together = column(table, "two or more arms move");
   auto left = column(table, "left moves");
   auto right = column(table, "right moves");
   for (const std::string& policy : names) {
     EXPECT_GT(least[policy], 0.0) << policy;
     EXPECT_LE(least[policy], 100.0) << policy << ": a bound is none that can be undercut";
-    // An arm moves for longer than its work takes where it brakes on its way and starts again.
+    // An arm that brakes on its path and starts again moves longer than its work takes.
     EXPECT_GE(least[policy], 0.9 * std::max(left[policy], right[policy])) << policy;
-    // Both sets of instants lie in the same makespan, to a rounding of the three figures.
+    // Both sets of instants lie in the same makespan, except for rounding of the three numbers.
     EXPECT_GE(together[policy], left[policy] + right[policy] - 100.2) << policy;
     EXPECT_LE(together[policy], std::min(left[policy], right[policy]) + 0.1) << policy;
   }
@@ -101,7 +101,7 @@ TEST_F(Compare, HasOneRowForEveryPolicyAndTheOrderOfTheMakespansHolds) {
   EXPECT_EQ(column(table, "monitor stops").at("certified"), 0.0);
 }
 
-TEST_F(Compare, RepeatsForASeedButForTheTimesOfTheMachine) {
+TEST_F(Compare, RepeatsForASeedExceptMachineTimes) {
   const std::string command = compare(conflicting_jobs()) + " --seed 7";
   auto first = table_of(run(command).out);
   auto second = table_of(run(command).out);
@@ -112,7 +112,7 @@ TEST_F(Compare, RepeatsForASeedButForTheTimesOfTheMachine) {
   EXPECT_EQ(first, second);
 }
 
-TEST_F(Compare, RunsThePoliciesThatAreNamedInTheirOrder) {
+TEST_F(Compare, RunsTheGivenPoliciesInOrder) {
   const Outcome outcome = run(compare(conflicting_jobs()) + " --policies certified,sequential");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto table = table_of(outcome.out);
@@ -121,11 +121,11 @@ TEST_F(Compare, RunsThePoliciesThatAreNamedInTheirOrder) {
   EXPECT_EQ(table[2][0], "sequential");
   EXPECT_NEAR(column(table, "makespan").at("sequential"), 12.0, 0.3);  // four jobs of 3 s
   // Each arm has two jobs of 3 s.
-  EXPECT_NE(outcome.out.find("the busiest arm's work (left, 6.00 s)"), outcome.out.npos);
-  EXPECT_NEAR(column(table, "the busiest arm's work").at("sequential"), 50.0, 1.5);
+  EXPECT_NE(outcome.out.find("busiest arm's work (left, 6.00 s)"), outcome.out.npos);
+  EXPECT_NEAR(column(table, "busiest arm's work").at("sequential"), 50.0, 1.5);
 }
 
-TEST_F(Compare, WritesTheSameFiguresAsCsvAndAPictureOfThem) {
+TEST_F(Compare, WritesTheSameNumbersAsCsvAndSvg) {
   const fs::path out = folder_ / "a/b";
   const Outcome outcome =
       run(compare(conflicting_jobs()) + " --policies sequential,certified --out " + out.string());
@@ -143,7 +143,7 @@ TEST_F(Compare, WritesTheSameFiguresAsCsvAndAPictureOfThem) {
   EXPECT_EQ(column(csv, "succeeded").at("certified"), 4.0);
   EXPECT_EQ(column(csv, "unfinished").at("certified"), 0.0);
 
-  // Bars as long as the makespans, one scale for both.
+  // Bar lengths are proportional to the makespans.
   const std::string parse =
       "python3 -c \"import sys, xml.etree.ElementTree as e; "
       "print(*[r.get('width') for r in e.parse(sys.argv[1]).iter() if "
@@ -157,7 +157,7 @@ TEST_F(Compare, WritesTheSameFiguresAsCsvAndAPictureOfThem) {
   EXPECT_NEAR(certified / sequential, in_csv.at("certified") / in_csv.at("sequential"), 1e-3);
 }
 
-TEST_F(Compare, APictureIsXmlWhateverTheCellIsCalled) {
+TEST_F(Compare, EscapesTheCellNameInTheSvg) {
   const fs::path cell = changed_cell("/name", "two & <three> \"arms\" | \x01\xc3\xa9");
   const fs::path out = folder_ / "out-dir";
   const Outcome outcome =
@@ -170,10 +170,10 @@ TEST_F(Compare, APictureIsXmlWhateverTheCellIsCalled) {
       << read_text_file(out / "compare.svg").value();
 }
 
-TEST_F(Compare, JobsThatDoNotSucceedAreShown) {
+TEST_F(Compare, ReportsJobsThatDoNotSucceed) {
   json jobs = json::parse(read_text_file(conflicting_jobs()).value());
-  jobs[2]["job"]["backlog_timeout_s"] = 0.5;                     // it would have to wait for longer
-  json astray = test::move("left", test::kMiddle, test::kHome);  // the arm will stand at home
+  jobs[2]["job"]["backlog_timeout_s"] = 0.5;                     // shorter than the wait
+  json astray = test::move("left", test::kMiddle, test::kHome);  // the arm will be at home
   jobs.push_back({{"at", 0.5}, {"job", astray}});
   const Outcome outcome =
       run(compare(file("some.json", jobs.dump())) + " --policies certified,sequential");
@@ -194,7 +194,7 @@ TEST_F(Compare, JobsThatDoNotSucceedAreShown) {
   EXPECT_EQ(table_of(ended.out)[1][2], "1 expired, 1 failed");
 }
 
-TEST_F(Compare, BadInputIsNamedBeforeAnythingRuns) {
+TEST_F(Compare, ReportsBadInputBeforeAnythingRuns) {
   json bad = test::move("left", test::kHome, test::kMiddle);
   bad["trajectory"]["joint_names"][0] = "left_panda_joint9";
   const std::string bad_jobs =
@@ -213,8 +213,8 @@ TEST_F(Compare, BadInputIsNamedBeforeAnythingRuns) {
       {good + " --policies certified,hopeful", "--policies: unknown policy \"hopeful\""},
       {good + " --policies certified,", "--policies: unknown policy \"\""},
       {good + " --policies certified,sequential,certified",
-       "armloom: --policies: policy \"certified\" is named twice\n"},
-      {good + " --seed -1", "--seed: -1 is no whole number"},
+       "armloom: --policies: policy \"certified\" is listed twice: remove one\n"},
+      {good + " --seed -1", "--seed: -1 is not an integer"},
       {good + " --out " + taken.string(),
        "armloom: --out: the folder " + taken.string() + " cannot be written\n"},
   };

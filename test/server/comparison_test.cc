@@ -1,4 +1,3 @@
-// What the jobs at hand would have come to under other policies, asked of a running server.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -40,7 +39,7 @@ class Comparing : public test::RunningServer {
   }
 };
 
-TEST_F(Comparing, TellsWhatEachPolicyWouldHaveMadeOfTheJobs) {
+TEST_F(Comparing, ReportsTheResultOfEachPolicy) {
   start(20.0);
   test::Listener listener(port());
   EXPECT_EQ(get("/api/v1/comparison").status, 404);
@@ -74,7 +73,7 @@ TEST_F(Comparing, TellsWhatEachPolicyWouldHaveMadeOfTheJobs) {
   EXPECT_EQ(get("/api/v1/jobs").json()["jobs"].size(), 3U) << "nothing came to the cell";
 }
 
-TEST_F(Comparing, OneAtATimeAndItCanBeGivenUp) {
+TEST_F(Comparing, RunsOneComparisonAtATimeAndCanBeCanceled) {
   start(1.0);
   for (int i = 0; i < 30; ++i) {
     for (const char* arm : {"left", "right"}) {
@@ -94,7 +93,7 @@ TEST_F(Comparing, OneAtATimeAndItCanBeGivenUp) {
   EXPECT_EQ(remove("/api/v1/comparison").status, 200);
 }
 
-TEST_F(Comparing, RefusesWhatItCannotRun) {
+TEST_F(Comparing, RefusesUnknownPoliciesAndEmptyJobLists) {
   start(20.0);
   submit(there_and_back("left"));
   const auto unknown = post("/api/v1/comparison", R"({"policies": ["hopeful"]})");
@@ -106,8 +105,8 @@ TEST_F(Comparing, RefusesWhatItCannotRun) {
   EXPECT_EQ(post("/api/v1/comparison", R"({"since_s": 1e6})").status, 409);
 }
 
-// Where the arm was before these jobs is where the first of them begins.
-TEST_F(Comparing, JobsSinceAnInstantBeginWhereTheirArmsStoodThen) {
+// The first job starts where the arm was before these jobs.
+TEST_F(Comparing, StartsLaterJobsWhereTheirArmsWere) {
   start(50.0);
   test::Listener listener(port());
   json first = test::move("left", test::kHome, test::kMiddle);
@@ -127,7 +126,7 @@ TEST_F(Comparing, JobsSinceAnInstantBeginWhereTheirArmsStoodThen) {
   EXPECT_EQ(done["runs"][0]["succeeded"], 1) << done;
 }
 
-TEST(JobsAtHand, TheOldestGoFirst) {
+TEST(JobsAtHand, DropsTheOldestBeyondItsBounds) {
   JobsAtHand at_hand(JobsAtHand::Bounds{3, 100});
   const auto note = [&](int i, std::size_t bytes) {
     at_hand.note({std::to_string(i), TimePoint(std::chrono::seconds(i)),

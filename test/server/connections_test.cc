@@ -1,4 +1,3 @@
-// More connections than are served: who comes is told so, and a stop is taken all the same.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -15,8 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 class Connections : public test::RunningServer {};
 
-// What its body would say changes nothing: arms do not move on until it has come, or never does.
-TEST_F(Connections, AStopDoesNotWaitForABody) {
+TEST_F(Connections, StopDoesNotWaitForItsBody) {
   for (const char* path : {"/api/v1/stop", "/api/v1/arms/left/stop"}) {
     for (const char* length : {"Content-Length: 30", "Transfer-Encoding: chunked",
                                "Content-Length: 30\r\nExpect: 100-continue"}) {
@@ -39,7 +37,7 @@ TEST_F(Connections, AStopDoesNotWaitForABody) {
   EXPECT_EQ(test::read_answer(whole).status, 200) << "the connection goes on";
 }
 
-TEST_F(Connections, AConnectionTooManyIsToldSoAndTheOthersAreServed) {
+TEST_F(Connections, BeyondTheLimitAreRefusedExceptForStops) {
   options_.connections_max = 5;
   start(1.0);
   std::vector<std::unique_ptr<test::Wire>> held;
@@ -47,14 +45,14 @@ TEST_F(Connections, AConnectionTooManyIsToldSoAndTheOthersAreServed) {
   const auto refused = get("/healthz");
   EXPECT_EQ(refused.status, 503);
   EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:too-many-connections");
-  EXPECT_EQ(refused.json()["detail"], "5 connections are open, more are not served at once");
+  EXPECT_EQ(refused.json()["detail"], "5 connections are open, which is the limit");
   EXPECT_EQ(refused.headers.at("retry-after"), "1");
   EXPECT_EQ(refused.headers.at("connection"), "close");
   for (const auto& wire : held) {
     wire->send(test::request_text("GET", "/healthz", "", ""));
     EXPECT_EQ(test::read_answer(*wire).status, 200);
   }
-  // But for a stop, whose head may come in pieces.
+  // A stop is still served, even if its header comes in pieces.
   EXPECT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
   test::Wire stop(port());
   stop.send("POST /api/v1/stop HTTP/1.1\r\nHo");
@@ -62,7 +60,6 @@ TEST_F(Connections, AConnectionTooManyIsToldSoAndTheOthersAreServed) {
   const auto stopped = test::read_answer(stop);
   EXPECT_EQ(stopped.status, 202);
   EXPECT_EQ(stopped.headers.at("connection"), "close");
-  // One ends: there is room again.
   held.back()->send("GET /healthz HTTP/1.1\r\nHost: a\r\nConnection: close\r\n\r\n");
   (void)held.back()->take_all();
   held.pop_back();
@@ -70,8 +67,8 @@ TEST_F(Connections, AConnectionTooManyIsToldSoAndTheOthersAreServed) {
   while (get("/healthz").status != 200) ASSERT_LT(Clock::now(), deadline);
 }
 
-// The reserve is small, and whoever fills it keeps nobody out: the oldest goes.
-TEST_F(Connections, AStopIsTakenHoweverManyAreOpenAndWhoeverWaits) {
+// The reserve is small. Filling it locks no client out, because the oldest connection is dropped.
+TEST_F(Connections, StopIsServedWhenTheReserveIsFull) {
   options_.connections_per_client_max = 3;
   start(1.0);
   std::vector<std::unique_ptr<test::Wire>> held;
@@ -89,10 +86,8 @@ TEST_F(Connections, AStopIsTakenHoweverManyAreOpenAndWhoeverWaits) {
   EXPECT_TRUE(test::read_answer(*held[0]).json()["stopped"].get<bool>());
 }
 
-// Whoever opens connection after connection takes no place of others in the reserve, also where
-// these say late what they want.
-TEST_F(Connections, AStopIsTakenHoweverManyConnectionsAnotherOpensMeanwhile) {
-  options_.connections_max = 16;  // and 4 in the reserve
+TEST_F(Connections, StopIsServedDuringAFloodFromAnotherClient) {
+  options_.connections_max = 16;  // plus 4 in the reserve
   start(1.0);
   const auto from = [this](const char* address) {
     return std::make_unique<test::Wire>(port(), 0, address);
@@ -111,7 +106,7 @@ TEST_F(Connections, AStopIsTakenHoweverManyConnectionsAnotherOpensMeanwhile) {
   EXPECT_EQ(test::read_answer(*stop).status, 202);
 }
 
-TEST(Reserve, LetsNobodyGoWhoseRequestIsBeingAnswered) {
+TEST(Reserve, KeepsConnectionsThatAreBeingAnswered) {
   asio::io_context io;
   const auto socket = [&] {
     auto made = std::make_unique<Socket>(io);

@@ -1,4 +1,3 @@
-// Who may move arms by hand, and moves that go on only as long as somebody holds a button.
 #include "server/control/control.h"
 
 #include <gtest/gtest.h>
@@ -18,10 +17,10 @@ namespace {
 using namespace std::chrono_literals;
 using nlohmann::json;
 
-class ByHand : public test::RunningServer {
+class Jogging : public test::RunningServer {
  protected:
-  // A busy machine gets the time to say that the button is still held.
-  ByHand() { options_.jog_lease = 2s; }
+  // A long lease, because a busy machine may renew late.
+  Jogging() { options_.jog_lease = 2s; }
   std::string take(const std::string& who, bool from_another = false) {
     const auto taken = post("/api/v1/control", json{{"who", who}, {"take", from_another}}.dump());
     EXPECT_EQ(taken.status, 200) << taken.body;
@@ -36,7 +35,7 @@ class ByHand : public test::RunningServer {
     return put("/api/v1/arms/" + arm + "/jog", json{{"control", key}}.dump());
   }
   json arm(const std::string& name) { return get("/api/v1/arms/" + name).json(); }
-  // Holds on until `is` says of the job that it is enough.
+  // Renews the lease until `is` returns true for the job.
   template <class Is>
   json renew_until(const std::string& key, Is is) {
     for (;;) {
@@ -56,7 +55,7 @@ class ByHand : public test::RunningServer {
   }
 };
 
-TEST_F(ByHand, AnArmGoesAsLongAsItIsHeldAndBrakesOnItsPathWhenItIsNot) {
+TEST_F(Jogging, StopsOnThePathWhenTheLeaseExpires) {
   start(1.0);
   const std::string key = take("Ada");
   const auto begun = jog(key);
@@ -66,7 +65,7 @@ TEST_F(ByHand, AnArmGoesAsLongAsItIsHeldAndBrakesOnItsPathWhenItIsNot) {
   EXPECT_EQ(get("/api/v1/control").json()["holder"]["arm"], "left");
   EXPECT_EQ(get("/api/v1/control").json()["holder"]["job"], id);
   renew_until(key, [](const json& job) { return job["progress"] > 0.0; });
-  // Nobody says anything any more: two seconds later it has been given up.
+  // Without renewals the lease expires after two seconds, and the job is canceled.
   const json last = ended(id);
   EXPECT_EQ(last["state"], "canceled");
   EXPECT_GT(last["progress"].get<double>(), 0.0);
@@ -75,10 +74,10 @@ TEST_F(ByHand, AnArmGoesAsLongAsItIsHeldAndBrakesOnItsPathWhenItIsNot) {
   EXPECT_EQ(renew(key).status, 409) << "what has ended cannot be held";
 }
 
-TEST_F(ByHand, ItGoesToItsEndWhenItIsHeldAllTheWay) {
+TEST_F(Jogging, ReachesTheGoalIfRenewedAllTheWay) {
   start(20.0);
   const std::string key = take("Ada");
-  // 20 s of the cell's time are one of the wall's: the lease is of the wall's.
+  // 20 s of cell time are 1 s of wall time; the lease counts wall time.
   const std::string id = jog(key, "left", {{"named", "ready"}}).json()["job"]["id"];
   for (;;) {
     const auto renewed = renew(key);
@@ -88,7 +87,7 @@ TEST_F(ByHand, ItGoesToItsEndWhenItIsHeldAllTheWay) {
   EXPECT_EQ(ended(id)["state"], "succeeded");
 }
 
-TEST_F(ByHand, OneClientAtATimeAndAForeignKeyIsRefused) {
+TEST_F(Jogging, IsForTheHolderOfControlOnly) {
   start(1.0);
   EXPECT_TRUE(get("/api/v1/control").json()["holder"].is_null());
   EXPECT_EQ(jog("nobody").status, 409);
@@ -105,7 +104,7 @@ TEST_F(ByHand, OneClientAtATimeAndAForeignKeyIsRefused) {
   EXPECT_EQ(foreign.json()["type"], "urn:armloom:problem:not-in-control");
   EXPECT_EQ(put("/api/v1/arms/right/jog", json{{"control", ada}}.dump()).status, 409);
 
-  // Somebody takes it: what was held brakes at once, and its beats are no longer heard.
+  // Another client takes control: the jog motion stops at once, and its renewals are refused.
   const std::string bob = take("Bob", true);
   EXPECT_EQ(renew(ada).status, 409);
   EXPECT_EQ(ended(id)["state"], "canceled");
@@ -114,7 +113,7 @@ TEST_F(ByHand, OneClientAtATimeAndAForeignKeyIsRefused) {
   EXPECT_TRUE(get("/api/v1/control").json()["holder"].is_null());
 }
 
-TEST_F(ByHand, SaysWhereTheGoalIsWrongAndHowFastIsTooFast) {
+TEST_F(Jogging, ReportsBadGoalsAndExcessiveSpeed) {
   start(1.0);
   const std::string key = take("Ada");
   const auto nowhere = jog(key, "left", {{"named", "nowhere"}});
@@ -129,8 +128,7 @@ TEST_F(ByHand, SaysWhereTheGoalIsWrongAndHowFastIsTooFast) {
   EXPECT_EQ(fast.json()["pointer"], "/velocity_scaling_factor");
 }
 
-// A move by hand waits for what is in its way as any job does; what waits is given up, too.
-TEST_F(ByHand, ItWaitsForWhatIsInItsWayAndIsGivenUpThere) {
+TEST_F(Jogging, ExpiresWhileWaitingForAnotherArm) {
   start(1.0);
   test::Listener listener(port());
   json other = test::move("right", test::kHome, test::kMiddle, 20.0);
@@ -146,7 +144,7 @@ TEST_F(ByHand, ItWaitsForWhatIsInItsWayAndIsGivenUpThere) {
   EXPECT_EQ(get("/api/v1/jobs/other").json()["state"], "running") << "nobody else is disturbed";
 }
 
-TEST_F(ByHand, IsNeverBegunByAServerThatIsStartedAgain) {
+TEST_F(Jogging, IsNotRestoredAfterARestart) {
   const auto data = std::filesystem::path(::testing::TempDir()) / "armloom-by-hand";
   std::filesystem::remove_all(data);
   options_.data = data;
@@ -161,8 +159,8 @@ TEST_F(ByHand, IsNeverBegunByAServerThatIsStartedAgain) {
   EXPECT_EQ(job["state"].is_string() ? job["state"] : json("unknown"), "interrupted") << job;
 }
 
-// Of the machine's time: the cell's stands still while the server is stopped.
-TEST(Control, AWordThatComesLateFindsTheMoveOver) {
+// The lease counts wall time, because cell time stands still while the server is suspended.
+TEST(Control, RefusesALateRenewal) {
   Control control;
   const Control::Time begun{};
   ASSERT_TRUE(control.take("Ada", false));
@@ -173,7 +171,7 @@ TEST(Control, AWordThatComesLateFindsTheMoveOver) {
   EXPECT_FALSE(control.renew(500ms, begun + 1502ms)) << "it stays over";
 }
 
-// ---- The control cycle itself, without a server ----
+// ---- Lease in the control cycle, without a server ----
 
 class Watching final : public Observer {
  public:
@@ -183,10 +181,10 @@ class Watching final : public Observer {
     for (const ArmAuthority& motion : frame.motions)
       furthest = std::max(furthest, motion.authority);
   }
-  Duration furthest{};  // that any arm was allowed to go
+  Duration furthest{};  // largest authority of any arm
 };
 
-TEST(HoldToRun, ALapsedLeaseBringsTheArmToRestWithinItsAuthority) {
+TEST(HoldToRun, ExpiredLeaseStopsTheArmWithinItsAuthority) {
   const auto file = std::filesystem::path(source_dir()) / "config/two_pandas.json";
   const auto text = read_text_file(file);
   const auto cell = build_cell(*read_cell_text(*text, file.parent_path())).value();

@@ -1,4 +1,3 @@
-// Pages of other sites that may ask, and those that may not.
 #include <gtest/gtest.h>
 
 #include "test/server/running_server.h"
@@ -23,7 +22,7 @@ class Cors : public test::RunningServer {
   }
 };
 
-TEST_F(Cors, APageOfAnAllowedSiteMayAskCommandAndRead) {
+TEST_F(Cors, AllowedOriginMaySendAllRequests) {
   const auto asked = ask("OPTIONS", "/api/v1/jobs", kStation,
                          "Access-Control-Request-Method: POST\r\n"
                          "Access-Control-Request-Headers: authorization,content-type\r\n");
@@ -41,7 +40,7 @@ TEST_F(Cors, APageOfAnAllowedSiteMayAskCommandAndRead) {
   EXPECT_EQ(refused.headers.at("access-control-allow-origin"), kStation) << "problems, too";
 }
 
-TEST_F(Cors, EventsGoThereToo) {
+TEST_F(Cors, AllowedOriginMaySubscribeToEvents) {
   test::Wire wire(port());
   wire.send(std::string("GET /api/v1/events HTTP/1.1\r\nHost: 127.0.0.1\r\nOrigin: ") + kStation +
             "\r\n\r\n");
@@ -50,7 +49,7 @@ TEST_F(Cors, EventsGoThereToo) {
       std::string::npos);
 }
 
-TEST_F(Cors, NoOtherSiteMay) {
+TEST_F(Cors, OtherOriginsAreRefused) {
   for (const char* origin : {"https://station.example", "http://station.example:8443",
                              "https://station.example:8443.evil.example", "null"}) {
     EXPECT_EQ(ask("OPTIONS", "/api/v1/jobs", origin).status, 403) << origin;
@@ -60,7 +59,7 @@ TEST_F(Cors, NoOtherSiteMay) {
   }
 }
 
-TEST_F(Cors, AnswersDependOnThePageOnlyWhereOneAsks) {
+TEST_F(Cors, HeadersAreSentOnlyForRequestsWithAnOrigin) {
   EXPECT_EQ(get("/api/v1/arms").headers.count("access-control-allow-origin"), 0U);
   test::Wire wire(port());
   wire.send(std::string("GET /api/v1/arms HTTP/1.1\r\nHost: elsewhere.example\r\nOrigin: ") +

@@ -1,5 +1,3 @@
-// A log of inputs that was damaged is told to be, or runs as far as it can be read; nothing is
-// thrown.
 #include <gtest/gtest.h>
 
 #include "server/replay/replay.h"
@@ -40,7 +38,7 @@ class Damage {
   std::size_t below(std::size_t size) { return random_() % size; }
 
  private:
-  // A value becomes one of another type or size; the line stays JSON.
+  // Replaces a value by one of another type or size; the line remains JSON.
   void change_value(std::string& line) {
     std::size_t colon = line.find(':', random_() % line.size());
     if (colon == line.npos) colon = line.find(':');
@@ -57,7 +55,7 @@ class Damage {
   std::mt19937_64 random_;
 };
 
-// Of the lines before the first that is refused, all are taken.
+// Returns true if every line was accepted; stops at the first refused line.
 bool is_taken_whole(const std::vector<std::string>& log) {
   Told told;
   auto replay = Replay::begin(two_pandas(), log.front(), told);
@@ -68,7 +66,7 @@ bool is_taken_whole(const std::vector<std::string>& log) {
   return true;
 }
 
-TEST(DamagedLog, IsRefusedWhereItCannotBeRead) {
+TEST(DamagedLog, IsRefusedWithoutExceptions) {
   int refused = 0;
   const int runs = static_cast<int>(seed_count(8));
   constexpr int kDamages = 25;
@@ -83,7 +81,7 @@ TEST(DamagedLog, IsRefusedWhereItCannotBeRead) {
       SCOPED_TRACE("seed " + std::to_string(seed) + ": " + line.substr(0, 300));
       const auto time = Replay::time_of(line);
       if (time && *time > run.ended_at() + 1min && *time < TimePoint(32 * 24h))
-        continue;  // long, and right
+        continue;  // valid, but would replay for days
       bool whole = false;
       EXPECT_NO_THROW(whole = is_taken_whole(log));
       if (!whole) ++refused;

@@ -21,7 +21,7 @@ class DiagramOverHttp : public RunningServer {
     const auto answer = post("/api/v1/jobs", job.dump());
     ASSERT_EQ(answer.status, 202) << answer.body;
   }
-  // The right arm's wait behind the left one's.
+  // The right arm's job waits for the left arm's.
   void submit_two_that_cross() {
     submit("l", "left", test::kMiddle, 3.0);
     submit("r", "right", test::kMiddle, 4.0);
@@ -35,7 +35,7 @@ class DiagramOverHttp : public RunningServer {
   }
 };
 
-// Area by state, in s^2. Every cell lies within the rectangle.
+// Returns the area of each state in s^2; expects every cell to lie within the rectangle.
 std::map<std::string, double> areas(const json& layer, double duration_a, double duration_b) {
   std::map<std::string, double> area;
   for (const json& cell : layer["cells"]) {
@@ -50,7 +50,7 @@ std::map<std::string, double> areas(const json& layer, double duration_a, double
   return area;
 }
 
-// How many cells hold this point, not counting their borders.
+// Returns the number of cells that contain the point, borders excluded.
 int cells_at(const json& layer, double a, double b) {
   const auto within = [](const json& range, double x) { return range[0] < x && x < range[1]; };
   return static_cast<int>(std::ranges::count_if(layer["cells"], [&](const json& cell) {
@@ -67,7 +67,7 @@ std::string state_at(const json& layer, double a, double b) {
   return "nothing";
 }
 
-TEST_F(DiagramOverHttp, OfTwoThatCrossIsFreeAtTheirBeginningsAndAConflictAtTheirEnds) {
+TEST_F(DiagramOverHttp, ShowsFreeStartsAndConflictingEnds) {
   start(1.0);
   submit_two_that_cross();
   const auto answer = get("/api/v1/jobs/l/diagram?with=r");
@@ -82,7 +82,7 @@ TEST_F(DiagramOverHttp, OfTwoThatCrossIsFreeAtTheirBeginningsAndAConflictAtTheir
   ASSERT_EQ(diagram["layers"].size(), 1U);
   const json& layer = diagram["layers"][0];
   EXPECT_EQ(layer["arms"], json({"left", "right"}));
-  // What lies ahead is in the cells where it says so; asked again, nothing is drawn anew.
+  // The first contact lies in a cell of that state. The second request is answered from the cache.
   const json met = layer["first_contact"];
   EXPECT_EQ(met["state"], "conflict");
   EXPECT_EQ(state_at(layer, std::min(3.0, met["a_s"].get<double>() + 1e-6),
@@ -101,14 +101,14 @@ TEST_F(DiagramOverHttp, OfTwoThatCrossIsFreeAtTheirBeginningsAndAConflictAtTheir
   EXPECT_EQ(state_at(layer, 2.99, 3.99), "conflict");
 }
 
-TEST_F(DiagramOverHttp, CoversTheRectangleOnceOver) {
+TEST_F(DiagramOverHttp, CellsTileTheRectangle) {
   start(1.0);
   submit_two_that_cross();
   const json layer = get("/api/v1/jobs/l/diagram?with=r").json()["layers"][0];
   double whole = 0.0;
   for (const auto& [state, area] : areas(layer, 3.0, 4.0)) whole += area;
   EXPECT_NEAR(whole, 3.0 * 4.0, 1e-6);
-  // Irrational steps: no point falls on a border.
+  // Irrational steps, so that no point falls on a border.
   for (double a = 0.0123457; a < 3.0; a += 0.1414213562) {
     for (double b = 0.0987653; b < 4.0; b += 0.1732050808) {
       ASSERT_EQ(cells_at(layer, a, b), 1) << a << ", " << b;
@@ -116,7 +116,7 @@ TEST_F(DiagramOverHttp, CoversTheRectangleOnceOver) {
   }
 }
 
-TEST_F(DiagramOverHttp, KnowsWhereBothAreAndThatOneHasNotBegun) {
+TEST_F(DiagramOverHttp, ReportsTheProgressOfBothJobs) {
   start(1.0);
   test::Listener listener(port());
   submit_two_that_cross();
@@ -131,8 +131,8 @@ TEST_F(DiagramOverHttp, KnowsWhereBothAreAndThatOneHasNotBegun) {
   EXPECT_GT(after["t_s"], before["t_s"]);
 }
 
-TEST_F(DiagramOverHttp, IsDrawnForJobsThatHaveEnded) {
-  on_idle_blocker_ = OnIdleBlocker::report;  // l stays in the way, so that r never moves
+TEST_F(DiagramOverHttp, IsAvailableForEndedJobs) {
+  on_idle_blocker_ = OnIdleBlocker::report;  // l stays at r's goal, so that r never moves
   start(5.0);
   test::Listener listener(port());
   submit_two_that_cross();
@@ -147,7 +147,7 @@ TEST_F(DiagramOverHttp, IsDrawnForJobsThatHaveEnded) {
   EXPECT_GT(areas(diagram["layers"][0], 4.0, 3.0)["conflict"], 0.5);
 }
 
-TEST_F(DiagramOverHttp, SaysWhatIsWrongWithTheRequest) {
+TEST_F(DiagramOverHttp, ReportsInvalidRequests) {
   start(1.0);
   submit("l", "left", test::kMiddle);
   json back = test::move("left", test::kMiddle, test::kHome);

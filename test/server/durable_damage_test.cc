@@ -1,4 +1,3 @@
-// What a run makes of a data folder that is not as the former one had it.
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -11,7 +10,7 @@ namespace {
 using nlohmann::json;
 using test::FailingDisk;
 
-class Damaged : public Durable {
+class DamagedFolder : public Durable {
  protected:
   void damage(const char* statement) const {
     sqlite3* database = nullptr;
@@ -27,7 +26,7 @@ class Damaged : public Durable {
   }
 };
 
-TEST_F(Damaged, ASceneThatCannotBeMadeWhatItWasKeepsArmsStopped) {
+TEST_F(DamagedFolder, SceneThatCannotBeRestoredKeepsArmsStopped) {
   on_restart_ = OnRestart::continue_;
   start(1);
   ASSERT_EQ(post("/api/v1/scene/objects",
@@ -38,11 +37,11 @@ TEST_F(Damaged, ASceneThatCannotBeMadeWhatItWasKeepsArmsStopped) {
   damage("UPDATE scene_object SET text = replace(text, '0.1,', '0.2,')");
   start(1);
   EXPECT_TRUE(get("/api/v1/queue").json()["stopped"]);
-  EXPECT_TRUE(is_told("object \"crate\" is not as it was: it is damaged"));
+  EXPECT_TRUE(
+      is_told("object \"crate\" cannot be restored: its record in the data folder is damaged"));
 }
 
-// Neither begun nor passed over in silence.
-TEST_F(Damaged, AJobIsToldOf) {
+TEST_F(DamagedFolder, JobIsReportedAndNotStarted) {
   start(1);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   submit("sound");
@@ -57,14 +56,13 @@ TEST_F(Damaged, AJobIsToldOf) {
   wait_until([&] { return is_told("\"damaged\""); });
 }
 
-// The safe side: more arms stand than stood, none moves that did not.
-TEST_F(Damaged, WhereItIsNotKnownWhichArmsWereStoppedAllAreAndItIsTold) {
+TEST_F(DamagedFolder, UnknownStopsKeepAllArmsStoppedWithAnAlert) {
   start(1);
   ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
   end();
   damage("UPDATE stopped_arm SET name = 'lefu'");
   start(1);
-  wait_until([&] { return is_told("which arms were stopped is not as it was written"); });
+  wait_until([&] { return is_told("the list of stopped arms is damaged"); });
   EXPECT_EQ(state_of("left"), "stopped");
   EXPECT_EQ(state_of("right"), "stopped");
   ASSERT_EQ(post("/api/v1/resume", "").status, 202);
@@ -73,8 +71,8 @@ TEST_F(Damaged, WhereItIsNotKnownWhichArmsWereStoppedAllAreAndItIsTold) {
   EXPECT_EQ(state_of("right"), "idle");
 }
 
-// Whoever has stopped an arm beside a full disk, and starts the server anew to mend that.
-TEST_F(Durable, AStopThatWasNotWrittenKeepsAllArmsStoppedAlsoWhereARestartGoesOnByItself) {
+// An operator stops an arm while the disk is full, and restarts the server to fix the disk.
+TEST_F(Durable, UnwrittenStopKeepsAllArmsStoppedAfterRestart) {
   on_restart_ = OnRestart::continue_;
   start(1);
   ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
@@ -97,7 +95,7 @@ TEST_F(Durable, AStopThatWasNotWrittenKeepsAllArmsStoppedAlsoWhereARestartGoesOn
   EXPECT_EQ(state_of("right"), "idle");
 }
 
-TEST_F(Damaged, WhatIsGoneOfALogIsToldAndAllArmsAreStopped) {
+TEST_F(DamagedFolder, LostCommitsStopAllArmsWithAnAlert) {
   on_restart_ = OnRestart::continue_;
   start(1);
   ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
@@ -105,13 +103,13 @@ TEST_F(Damaged, WhatIsGoneOfALogIsToldAndAllArmsAreStopped) {
   end();
   damage("UPDATE written SET commits = commits - 1");
   start(1);
-  wait_until([&] { return is_told("it holds less than the former run had written"); });
+  wait_until([&] { return is_told("it holds less than the previous session wrote"); });
   EXPECT_EQ(state_of("right"), "stopped");
   ASSERT_EQ(post("/api/v1/resume", "").status, 202);
   end();
   std::filesystem::remove(data_ / "armloom.mark");
   start(1);
-  wait_until([&] { return is_told("armloom.mark beside armloom.db is gone"); });
+  wait_until([&] { return is_told("armloom.mark is missing"); });
   EXPECT_EQ(state_of("right"), "stopped");
 }
 

@@ -1,4 +1,3 @@
-// The server with a data folder on a disk that is full or broken.
 #include "test/server/durable_server.h"
 
 namespace armloom {
@@ -7,7 +6,7 @@ namespace {
 using nlohmann::json;
 using test::FailingDisk;
 
-TEST_F(Durable, AFullDiskRefusesJobsStopsArmsAndIsOverWhenItIs) {
+TEST_F(Durable, FullDiskRefusesJobsAndStopsArmsUntilItHasSpace) {
   start(1);
   submit("runs");
   wait_for("runs", "running");
@@ -39,7 +38,7 @@ TEST_F(Durable, AFullDiskRefusesJobsStopsArmsAndIsOverWhenItIs) {
   EXPECT_EQ(get("/api/v1/jobs/refused").status, 404) << "its client was told so";
 }
 
-TEST_F(Durable, WhatTheDiskDoesNotTakeDoesNotExistAndItsIdIsFree) {
+TEST_F(Durable, UnwrittenJobIsForgottenAndItsIdIsFree) {
   start(1);
   FailingDisk::fail(FailingDisk::Fault::full, 0);
   ASSERT_EQ(submit("tried").status, 507);
@@ -55,18 +54,18 @@ TEST_F(Durable, WhatTheDiskDoesNotTakeDoesNotExistAndItsIdIsFree) {
   EXPECT_EQ(job("tried")["state"], "succeeded");
 }
 
-TEST_F(Durable, WhatIsCanceledBesideAFullDiskIsNotSaidToBeKept) {
+TEST_F(Durable, CancelDuringAFullDiskIsReportedAsNotStored) {
   start(1);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   ASSERT_EQ(submit("waits").status, 202);
   FailingDisk::fail(FailingDisk::Fault::full, 0);
   const auto canceled = remove("/api/v1/jobs/waits");
   EXPECT_EQ(canceled.status, 507) << canceled.body;
-  EXPECT_NE(canceled.body.find("the next run may not know of it"), std::string::npos);
+  EXPECT_NE(canceled.body.find("done, but not stored"), std::string::npos);
   EXPECT_EQ(job("waits")["state"], "canceled") << "it is done all the same";
 }
 
-TEST_F(Durable, AnAlertThatIsAcknowledgedBesideAFullDiskIsSaidToBeSo) {
+TEST_F(Durable, AcknowledgementDuringAFullDiskIsReportedAsNotStored) {
   start(1);
   ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
   const std::string id = get("/api/v1/alerts").json()["alerts"][0]["id"];
@@ -74,12 +73,10 @@ TEST_F(Durable, AnAlertThatIsAcknowledgedBesideAFullDiskIsSaidToBeSo) {
   const nlohmann::json seen = {{"ids", {id}}, {"who", "Ada"}};
   const auto warned = post("/api/v1/alerts/acknowledge", seen.dump());
   EXPECT_EQ(warned.status, 507);
-  EXPECT_NE(warned.body.find("this is done, but the next run may not know of it"),
-            std::string::npos)
-      << warned.body;
+  EXPECT_NE(warned.body.find("done, but not stored"), std::string::npos) << warned.body;
 }
 
-TEST_F(Durable, ABrokenDiskIsNoFullOne) {
+TEST_F(Durable, BrokenDiskIsReportedUnlikeAFullDisk) {
   start(1);
   FailingDisk::fail(FailingDisk::Fault::broken, 0);
   const auto refused = submit("refused");

@@ -12,7 +12,7 @@
 
 namespace armloom {
 
-// A server with a data folder of its own, on a disk that may be told to fail.
+// A server with a separate data folder for each test, on a disk that can be made to fail.
 class Durable : public test::RunningServer {
  protected:
   void SetUp() override {

@@ -1,5 +1,4 @@
-// The server with a data folder, in one process: what a run finds of the ones before. How it stands
-// being killed: kills.py.
+// kills.py tests kills of the server.
 #include "test/server/durable_server.h"
 #include "test/source_dir.h"
 
@@ -9,7 +8,7 @@ namespace {
 using nlohmann::json;
 using test::FailingDisk;
 
-TEST_F(Durable, WhatWaitedWaitsAgainUnderAStopAndGoesOnWhenResumed) {
+TEST_F(Durable, WaitingJobsAreRestoredUnderAStop) {
   start(1);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   const std::string submitted = submit("a").json()["submitted_at"];
@@ -35,7 +34,7 @@ TEST_F(Durable, WhatWaitedWaitsAgainUnderAStopAndGoesOnWhenResumed) {
   EXPECT_LE(job("a")["ended_s"].get<double>(), job("b")["started_s"].get<double>());
 }
 
-TEST_F(Durable, WhatWasChangedOfAJobOutlivesTheServer) {
+TEST_F(Durable, ChangesOfJobsSurviveARestart) {
   start(1);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   submit("a");
@@ -56,7 +55,7 @@ TEST_F(Durable, WhatWasChangedOfAJobOutlivesTheServer) {
   EXPECT_EQ(submit("a").status, 200) << "the same request, sent again";
 }
 
-TEST_F(Durable, WhatCannotBeWrittenIsNotSaidToBeChanged) {
+TEST_F(Durable, UnwrittenChangeIsRefused) {
   start(1);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   submit("a");
@@ -70,7 +69,7 @@ TEST_F(Durable, WhatCannotBeWrittenIsNotSaidToBeChanged) {
   EXPECT_EQ(job("a")["priority"], 5);
 }
 
-TEST_F(Durable, WhatRanIsInterruptedAndWhatCameAfterItFails) {
+TEST_F(Durable, RunningJobIsInterruptedAndItsSuccessorFails) {
   start(1);
   submit("ran");
   submit("after", "right", {{"after", {"ran"}}});
@@ -91,7 +90,7 @@ TEST_F(Durable, WhatRanIsInterruptedAndWhatCameAfterItFails) {
   EXPECT_EQ(submit("ran").json()["state"], "interrupted") << "sent again, and not done again";
 }
 
-TEST_F(Durable, WhatHasSucceededCountsInLaterRuns) {
+TEST_F(Durable, SucceededJobsSatisfyLaterPredecessors) {
   start(20);
   submit("done");
   wait_for("done", "succeeded");
@@ -102,7 +101,7 @@ TEST_F(Durable, WhatHasSucceededCountsInLaterRuns) {
   EXPECT_EQ(job("then")["id"], "then");
 }
 
-TEST_F(Durable, AnOperatorsStopOutlivesTheServer) {
+TEST_F(Durable, OperatorsStopSurvivesARestart) {
   start(1);
   ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
   restart();
@@ -110,8 +109,8 @@ TEST_F(Durable, AnOperatorsStopOutlivesTheServer) {
   EXPECT_EQ(get("/api/v1/arms/right").json()["state"], "idle");
 }
 
-// What waits for an object must not find the way free because the server was started again.
-TEST_F(Durable, TheSceneThatClientsMadeOutlivesTheServer) {
+// A job that waits for an object must not find its path free after a restart.
+TEST_F(Durable, SceneChangesSurviveARestart) {
   on_restart_ = OnRestart::continue_;
   start(1);
   const std::string at = "/api/v1/scene/objects";
@@ -135,14 +134,13 @@ TEST_F(Durable, TheSceneThatClientsMadeOutlivesTheServer) {
   EXPECT_EQ(get("/api/v1/scene").json()["objects"], json::array());
 }
 
-TEST_F(Durable, AChangeOfTheSceneIsAnsweredWhenItIsOnDisk) {
+TEST_F(Durable, SceneChangeIsAcknowledgedWhenStored) {
   start(1);
   const std::string crate = R"({"name": "crate", "box": [0.1, 0.1, 0.1], "xyz": [2, 2, 2]})";
   FailingDisk::fail(FailingDisk::Fault::broken, FailingDisk::operations() + 1);
   const auto warned = post("/api/v1/scene/objects", crate);
   EXPECT_EQ(warned.status, 503) << warned.body;
-  EXPECT_NE(warned.body.find("this is done, but the next run may not know of it"),
-            std::string::npos);
+  EXPECT_NE(warned.body.find("done, but not stored"), std::string::npos);
   EXPECT_NE(get("/api/v1/scene").body.find("crate"), std::string::npos);
   EXPECT_EQ(remove("/api/v1/scene/objects/crate").status, 503);
   EXPECT_NE(get("/api/v1/scene").body.find("crate"), std::string::npos) << "as no arm is let go";
@@ -152,7 +150,7 @@ TEST_F(Durable, AChangeOfTheSceneIsAnsweredWhenItIsOnDisk) {
   EXPECT_NE(get("/api/v1/scene").body.find("crate"), std::string::npos) << "it was written later";
 }
 
-TEST_F(Durable, ContinueGoesOnByItselfWithWhatHadNotBegun) {
+TEST_F(Durable, ContinueRunsUnstartedJobsWithoutAResume) {
   on_restart_ = OnRestart::continue_;
   start(1);
   ASSERT_EQ(post("/api/v1/arms/left/stop", "").status, 202);
@@ -166,7 +164,7 @@ TEST_F(Durable, ContinueGoesOnByItselfWithWhatHadNotBegun) {
   EXPECT_EQ(job("held")["state"], "queued") << "its arm was stopped, and is";
 }
 
-TEST_F(Durable, ListsGoOnIntoFormerRuns) {
+TEST_F(Durable, ListsIncludeEarlierSessions) {
   start(20);
   for (int i = 0; i < 7; ++i) submit("old-" + std::to_string(i), i % 2 == 0 ? "left" : "right");
   wait_for("old-6", "succeeded");
@@ -186,7 +184,7 @@ TEST_F(Durable, ListsGoOnIntoFormerRuns) {
   EXPECT_EQ(get("/api/v1/jobs?arm=right&state=succeeded").json()["jobs"].size(), 3U);
 }
 
-TEST_F(Durable, AJobThatTheCellNoLongerFitsIsInterruptedAndSaysWhy) {
+TEST_F(Durable, JobThatNoLongerFitsTheCellIsInterrupted) {
   start(1);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   submit("gone", "right");

@@ -14,13 +14,13 @@ namespace {
 
 struct Undo {
   sqlite3_int64 offset;
-  std::vector<char> before;  // shorter than what was written: the file ended there
+  std::vector<char> before;  // shorter than the write if the file ended within it
   sqlite3_int64 size;
 };
 
 struct File {
   sqlite3_file base;
-  sqlite3_file* real;  // behind this in memory
+  sqlite3_file* real;  // stored right after this struct
   std::vector<Undo>* undo;
 };
 
@@ -38,7 +38,7 @@ State& state() {
   return it;
 }
 
-// SQLITE_OK, or what this operation fails with.
+// Counts an operation; returns SQLITE_OK or the error with which it must fail.
 int operation() {
   State& now = state();
   const std::uint64_t number = ++now.operations;
@@ -90,7 +90,7 @@ int sync_file(sqlite3_file* file, int /*flags*/) {
   const std::scoped_lock lock(state().mutex);
   if (const int fault = operation(); fault != SQLITE_OK) return fault;
   ++state().syncs;
-  as_ours(file)->undo->clear();  // what is written outlives this process: no need of the real one
+  as_ours(file)->undo->clear();  // no real sync: the page cache outlives this process
   return SQLITE_OK;
 }
 

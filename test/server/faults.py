@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """faults.py [--tree DIR] [--only NAME] [--patterns]: puts faults into a copy of the server, the monitor, the arms and the
-dashboard, all in one build, and switches them on one at a time. Prints which test finds each fault first, and after how many
-seconds; exit 1 if a fault is not found. With --patterns only looks whether each fault has something to change."""
+dashboard, all in one build, and switches them on one at a time. Prints the first test that finds each fault, and its time in
+seconds; exit 1 if a fault is not found. --patterns only checks that each fault still matches its source."""
 import argparse, os, re, subprocess, sys, tempfile, time
 from pathlib import Path
 
@@ -32,22 +32,22 @@ FAULTS = {'server_store_test': [
     ('an idempotency key is bound again', TABLES, '"INSERT OR IGNORE INTO request(key', 'std::string(FAULT ? "INSERT OR REPLACE" : "INSERT OR IGNORE") + " INTO request(key'),
     ('a stop ahead of the disk is not marked', MARK, 'const bool are_ahead = stops_told_ > stops_written_ ||', 'const bool are_ahead = (!FAULT && stops_told_ > stops_written_) ||'),
     ('an older copy of the store is not noticed', MARK, 'left->commits > commits_, left', '!FAULT && left->commits > commits_, left'),
-    ('of two changes of a job the first is written', 'server/store/pending.cc', 'if (change.seen) mine', 'if (change.seen && !(FAULT && mine.seen)) mine'),
+    ('the older of two changes of a job is written', 'server/store/pending.cc', 'if (change.seen) mine', 'if (change.seen && !(FAULT && mine.seen)) mine'),
 ], 'server_http_test': [
-    ('a page of the audit has no end', 'server/store/job_history.cc', 'while (found.entries.size() < most && row.step())', 'while ((FAULT || found.entries.size() < most) && row.step())'),
+    ('a page of the audit log is unbounded', 'server/store/job_history.cc', 'while (found.entries.size() < most && row.step())', 'while ((FAULT || found.entries.size() < most) && row.step())'),
     ('a job that was moving runs again after a restart', RESTART, '  if (left.may_have_moved) {', '  if (left.may_have_moved && !FAULT) {'),
     ('a restart starts jobs whose predecessor failed', RESTART, '  if (failed_before(request)) {', '  if (failed_before(request) && !FAULT) {'),
     ('a restart does not wait for resume', RESTART, 'const bool asks = cell', 'const bool asks = !FAULT && cell'),
     ('a restart forgets stopped arms', RESTART, 'if (!arms.empty()) executive', 'if (!arms.empty() && !FAULT) executive'),
-    ('unknown stops count as none', RESTART, '} else if (!knows_stops_) {', '} else if (!knows_stops_ && !FAULT) {'),
+    ('unknown stops are taken as no stops', RESTART, '} else if (!knows_stops_) {', '} else if (!knows_stops_ && !FAULT) {'),
     ('two requests with one key run side by side', ACCEPTED, 'if (taken == under_way_.end()) continue;', 'if (FAULT || taken == under_way_.end()) continue;'),
     ('an object that the operator removed comes back after a restart', RESTART, 'if (!stored.text) return is_there ?', 'if (!stored.text) return is_there && !FAULT ?'),
     ('pages of other sites may command', HEAD, 'request.foreign = request.stranger ?', 'request.foreign = request.stranger || FAULT ?'),
     ('a rebound host name is served', HEAD, 'if (authority.empty() || may_command', 'if (FAULT || authority.empty() || may_command'),
     ('a handshake without a sound key is accepted', HEAD, 'if (keys.size() == 1 && is_websocket_key', 'if (FAULT || keys.size() == 1 && is_websocket_key'),
-    ('Content-Length may stand twice', FRAMING, '  if (lengths.size() > 1) {', '  if (lengths.size() > 1 && !FAULT) {'),
-    ('Content-Length may stand beside Transfer-Encoding', FRAMING, '  if (!lengths.empty()) {', '  if (!lengths.empty() && !FAULT) {'),
-    ('roles are not asked for', ROUTER, 'if (role && guard_) {', 'if (role && guard_ && !FAULT) {'),
+    ('Content-Length may occur twice', FRAMING, '  if (lengths.size() > 1) {', '  if (lengths.size() > 1 && !FAULT) {'),
+    ('Content-Length is accepted with Transfer-Encoding', FRAMING, '  if (!lengths.empty()) {', '  if (!lengths.empty() && !FAULT) {'),
+    ('roles are not checked', ROUTER, 'if (role && guard_) {', 'if (role && guard_ && !FAULT) {'),
     ('unknown query parameters are ignored', ROUTER, 'return unknown ? std::optional(', 'return unknown && !FAULT ? std::optional('),
     ('a client may send any number of requests', LIMITS, '  one.requests.take(1);', '  if (!FAULT) one.requests.take(1);'),
     ('a batch counts as one job', LIMITS, '  one.jobs.take(asked);', '  one.jobs.take(FAULT ? 1.0 : asked);'),
@@ -58,16 +58,16 @@ FAULTS = {'server_store_test': [
     ('the next page begins with the last job again', 'server/api/job_filter.cc', 'job.id.value() >= *filter.before', 'job.id.value() >= *filter.before + (FAULT ? 1 : 0)'),
     ('an atomic batch is accepted in part', 'server/api/batch_route.cc', '  if (problems.empty()) return std::nullopt;', '  if (FAULT || problems.empty()) return std::nullopt;'),
     ('a batch answers its jobs in the wrong places', 'server/api/batch_route.cc', '      all.ids[i] = job->key;', '      all.ids[FAULT ? 0 : i] = job->key;'),
-    ('a late reader misses events and is not told', HUB, 'if (behind() > hub_.ring_.size()) return std::nullopt;', 'if (behind() > hub_.ring_.size()) {\n      if (!FAULT) return std::nullopt;\n      read_ = hub_.last_seq_ - hub_.ring_.size();\n    }'),
-    ('a slow reader holds all frames', HUB, '  while (ring_.size() > capacity_ ||', '  while ((!FAULT && ring_.size() > capacity_) ||'),
+    ('a late subscriber misses events without notice', HUB, 'if (behind() > hub_.ring_.size()) return std::nullopt;', 'if (behind() > hub_.ring_.size()) {\n      if (!FAULT) return std::nullopt;\n      read_ = hub_.last_seq_ - hub_.ring_.size();\n    }'),
+    ('a slow subscriber keeps all frames in memory', HUB, '  while (ring_.size() > capacity_ ||', '  while ((!FAULT && ring_.size() > capacity_) ||'),
     ('a resumed stream repeats its last event', HUB, 'std::make_shared<Reader>(*this, since, std::move(first));', 'std::make_shared<Reader>(*this, FAULT && since > 0 ? since - 1 : since, std::move(first));'),
-    ('states of the last minutes are kept for ever', 'server/hub/recent_states.cc', 'if (frames_.size() > kFramesMax)', 'if (frames_.size() > kFramesMax && !FAULT)'),
+    ('recent states are never dropped', 'server/hub/recent_states.cc', 'if (frames_.size() > kFramesMax)', 'if (frames_.size() > kFramesMax && !FAULT)'),
 ], 'server_operator_test': [
     ('any key gives control', 'server/control/control.cc', 'if (holder_ && equal_in', 'if (holder_ && FAULT) return {};\n  if (holder_ && equal_in'),
     ('a lease never ends', 'server/control/control.cc', 'if (now - move.held_at > lease) return false;', 'if (now - move.held_at > lease && !FAULT) return false;'),
     ('control is taken from its holder without asking', 'server/control/control.cc', 'if (holder_ && !from_another) {', 'if (holder_ && !from_another && !FAULT) {'),
 ], 'server_codec_test': [
-    ('rows of a rest are left out without saying so', STATES, '    idle_.write({*rest_from_, held_at_});', '    if (!FAULT) idle_.write({*rest_from_, held_at_});'),
+    ('omitted rows of a rest are not listed', STATES, '    idle_.write({*rest_from_, held_at_});', '    if (!FAULT) idle_.write({*rest_from_, held_at_});'),
     ('the last row of a rest is lost', STATES, '  if (rows_held_ > 0) append', '  if (rows_held_ > 0 && !FAULT) append'),
     ('times of a recording may go back', STATES, 'if (!states.empty() && state.time <= states', 'if (!FAULT && !states.empty() && state.time <= states'),
     ('a gap in a recording is not reported', STATES, '} else if (state.time - before.time > kGapMax) {', '} else if (state.time - before.time > kGapMax && !FAULT) {'),
@@ -84,17 +84,17 @@ FAULTS = {'server_store_test': [
     ('dropped feedback goes on', FAULTY, 'if (!drops) return feedback;', 'if (FAULT || !drops) return feedback;'),
     ('a stalled arm takes authority', FAULTY, 'if (active(ArmFault::Kind::stall)) allowed', 'if (!FAULT && active(ArmFault::Kind::stall)) allowed'),
 ], 'dashboard': [
-    ('an event that was heard is taken again', 'web/src/server/connection.ts', 'message.seq <= this.since_;', 'message.seq <= (FAULT ? -1 : this.since_);'),
+    ('a known event is processed again', 'web/src/server/connection.ts', 'message.seq <= this.since_;', 'message.seq <= (FAULT ? -1 : this.since_);'),
     ('a lost connection is opened from the start', 'web/src/server/connection.ts', "const resume = this.stream_ === null ?", "const resume = FAULT || this.stream_ === null ?"),
     ('ticks outlive another stop', 'web/src/recovery/checklist.ts', 'if (this.ticked_.peek().size > 0) this', 'if (this.ticked_.peek().size > 0 && !FAULT) this'),
-    ('a button that was let go moves the arm on', 'web/src/control/jog_control.ts', 'if (!is_pressed) return void', 'if (!is_pressed && !FAULT) return void'),
-    ('a hold is not renewed', 'web/src/control/jog_control.ts', '      this.beat(asked, lease_s);\n    }, every_ms);', '      if (!FAULT) this.beat(asked, lease_s);\n    }, every_ms);'),
+    ('a released button keeps the arm moving', 'web/src/control/jog_control.ts', 'if (!is_pressed) return void', 'if (!is_pressed && !FAULT) return void'),
+    ('a jog lease is not renewed', 'web/src/control/jog_control.ts', '      this.beat(asked, lease_s);\n    }, every_ms);', '      if (!FAULT) this.beat(asked, lease_s);\n    }, every_ms);'),
     ('control that was lost is shown as kept', 'web/src/control/jog_control.ts', "    this.key.value = null;\n    this.pressed.value = null;\n    ++this.asked_;", "    if (!FAULT) this.key.value = null;\n    this.pressed.value = null;\n    ++this.asked_;"),
     ('a number with a comma is read', 'web/src/frame/number_text.ts', "NaN : Number(text);", "NaN : Number(FAULT ? text.replace(',', '') : text);"),
     ('acknowledged alerts stay open', 'web/src/alerts/alert_list.ts', 'acknowledged === null);', 'FAULT || acknowledged === null);'),
     ('a recording of another cell is shown', 'web/src/recordings/player.ts', "    if (strange !== null) return", "    if (strange !== null && !FAULT) return"),
     ('a past instant shows what came later', 'web/src/state/log.ts', '?.t_s ?? Infinity) <= t_s)', '?.t_s ?? Infinity) <= (FAULT ? t_s + 2 : t_s))'),
-    ('another run of the server continues the log', 'web/src/state/log.ts', 'if (this.entries_.length > 0 && this', 'if (!FAULT && this.entries_.length > 0 && this'),
+    ('another session continues the log', 'web/src/state/log.ts', 'if (this.entries_.length > 0 && this', 'if (!FAULT && this.entries_.length > 0 && this'),
     ('a search finds jobs with any of its words', 'web/src/jobs/filter.ts', 'wanted.every((word)', '(FAULT ? wanted.some.bind(wanted) : wanted.every.bind(wanted))((word)'),
     ('an arm at fault is not listed for recovery', 'web/src/recovery/needs.ts', "filter((arm) => arm.state === 'fault' ||", "filter((arm) => (arm.state === 'fault' && !FAULT) ||"),
     ('the row under the pointer moves', 'web/src/jobs/frozen_lists.ts', '  if (pointed_at === null || at < 0) return now;', '  if (FAULT || pointed_at === null || at < 0) return now;'),
@@ -103,7 +103,7 @@ PROGRAMS = [name for name in FAULTS if name != 'dashboard'] + ['server_command_t
 
 
 def in_dashboard(tree, number):
-    """The dashboard's units; then, if they find nothing, its browser suites one by one."""
+    """Runs the dashboard's unit tests; if they find nothing, its browser suites one by one."""
     env = dict(os.environ, ARMLOOM_FAULT=str(number), ARMLOOM_BINARY=str(tree / 'build/armloom'))
     done = subprocess.run(['npx', 'vitest', 'run', '--bail=1', '--reporter=verbose'], cwd=tree / 'web', env=env, capture_output=True, text=True)
     found = re.findall(r'(?:FAIL|×)\s+(test/\S+)', done.stdout + done.stderr)
@@ -122,7 +122,7 @@ def find(tree, number, first):
     for program in [first] + [other for other in PROGRAMS if other != first]:
         begun = time.monotonic()
         code, out = run(tree, program, number, '--gtest_fail_fast', timeout=300)
-        if code != 0: return f'{program}: {(failed_in(out) or ["it does not end" if code is None else "it crashes"])[0]}', time.monotonic() - begun
+        if code != 0: return f'{program}: {(failed_in(out) or ["timeout" if code is None else "crash"])[0]}', time.monotonic() - begun
     return None, 0.0
 
 
@@ -136,7 +136,7 @@ def main():
         if not (tree / 'build').exists():
             copy(tree)
             missing = put_in(tree, [fault for _, fault in faults])
-            for one in missing: print('NOTHING TO CHANGE:', one)
+            for one in missing: print('PATTERN NOT FOUND:', one)
             if missing: return 1
         if asked.patterns: return 0
         build(tree, 'armloom', *PROGRAMS)
@@ -148,7 +148,7 @@ def main():
             if not re.search(asked.only, name): continue
             by, seconds = find(tree, number, first)
             missed += by is None
-            print(f'| {name} | {by or "NOBODY"} | {seconds:.0f} s |', flush=True)
+            print(f'| {name} | {by or "NO TEST"} | {seconds:.0f} s |', flush=True)
     return 1 if missed else 0
 
 

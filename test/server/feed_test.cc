@@ -20,7 +20,7 @@ class EventFeed : public test::RunningServer {
   }
 };
 
-TEST_F(EventFeed, BeginsWithASnapshotAndContinuesWithoutAHole) {
+TEST_F(EventFeed, StartsWithASnapshotAndHasNoGaps) {
   start(20.0);
   run_one_job();
   test::Listener listener(port());
@@ -48,7 +48,7 @@ TEST_F(EventFeed, ShowsPosesOfEveryJoint) {
   EXPECT_EQ(frame["q"]["left_panda_joint4"], -2.6);
 }
 
-TEST_F(EventFeed, ResumesWhereAReaderWas) {
+TEST_F(EventFeed, ResumesWhereASubscriberLeft) {
   start(20.0);
   std::vector<json> all;
   std::string stream;
@@ -67,7 +67,7 @@ TEST_F(EventFeed, ResumesWhereAReaderWas) {
   for (const json& event : all) EXPECT_EQ(again.next_event(), event);
 }
 
-TEST_F(EventFeed, GivesASnapshotWithAGapToAReaderOfAnotherRun) {
+TEST_F(EventFeed, ReportsAGapToSubscribersOfAnotherSession) {
   start(1.0);
   for (const char* query : {"?stream=00000000-0000-4000-8000-000000000000&since=0", "?since=0",
                             "?stream=&since=99999"}) {
@@ -78,7 +78,7 @@ TEST_F(EventFeed, GivesASnapshotWithAGapToAReaderOfAnotherRun) {
   }
 }
 
-// One Server-Sent Event: its id and its data.
+// A Server-Sent Event: id and data.
 struct SentEvent {
   std::string id;
   json data;
@@ -94,7 +94,7 @@ SentEvent next_sent(test::Wire& wire) {
   }
 }
 
-TEST_F(EventFeed, ComesAsServerSentEventsAndResumesByTheLastId) {
+TEST_F(EventFeed, ServesServerSentEventsAndResumesByLastEventId) {
   start(20.0);
   const std::string get_events = "GET /api/v1/events HTTP/1.1\r\nHost: localhost\r\n";
   std::vector<SentEvent> all;
@@ -112,7 +112,7 @@ TEST_F(EventFeed, ComesAsServerSentEventsAndResumesByTheLastId) {
   for (const SentEvent& event : all) {
     EXPECT_EQ(event.id, event.data["stream"].get<std::string>() + ":" +
                             std::to_string(event.data["seq"].get<std::uint64_t>()));
-    EXPECT_NE(event.data["type"], "state");  // poses only if asked for
+    EXPECT_NE(event.data["type"], "state");  // pose frames only on request
   }
   test::Wire again(port());
   again.send(get_events + "Last-Event-ID: " + all.front().id + "\r\n\r\n");
@@ -125,8 +125,8 @@ TEST_F(EventFeed, ComesAsServerSentEventsAndResumesByTheLastId) {
   EXPECT_EQ(next_sent(stranger).data["data"]["gap"], true);
 }
 
-// Pose frames, which this reader does not get, must not put the comment off.
-TEST_F(EventFeed, SendsACommentWhenThereWasNoEventForAWhile) {
+// Pose frames, which this subscriber does not get, must not delay the comment.
+TEST_F(EventFeed, SendsKeepAliveComments) {
   options_.keep_alive = std::chrono::milliseconds(200);
   start(1.0);
   test::Wire wire(port());
@@ -142,8 +142,8 @@ TEST_F(EventFeed, SendsACommentWhenThereWasNoEventForAWhile) {
   EXPECT_EQ(next_sent(wire).data["type"], "job");
 }
 
-// The time that one event may take to be sent is no bound on the stream.
-TEST_F(EventFeed, StaysOpenForLongerThanAnEventMayTake) {
+// send_time bounds one event, not the whole stream.
+TEST_F(EventFeed, StaysOpenLongerThanTheSendTimeout) {
   options_.keep_alive = std::chrono::milliseconds(50);
   options_.send_time = std::chrono::milliseconds(100);
   start(1.0);
@@ -154,7 +154,7 @@ TEST_F(EventFeed, StaysOpenForLongerThanAnEventMayTake) {
   for (int i = 0; i < 10; ++i) EXPECT_EQ(wire.take_until("\n\n"), ": keep-alive\n\n");
 }
 
-TEST_F(EventFeed, ShowsPosesAsServerSentEventsIfAskedFor) {
+TEST_F(EventFeed, ServesPosesAsServerSentEventsOnRequest) {
   start(1.0);
   test::Wire wire(port());
   wire.send("GET /api/v1/events?poses=1 HTTP/1.1\r\nHost: localhost\r\n\r\n");
@@ -167,7 +167,7 @@ TEST_F(EventFeed, ShowsPosesAsServerSentEventsIfAskedFor) {
   EXPECT_EQ(test::request(port(), "POST", "/api/v1/events", "{}").status, 405);
 }
 
-TEST_F(EventFeed, IsClosedToPagesOfOtherSites) {
+TEST_F(EventFeed, RefusesOtherOrigins) {
   start(1.0);
   test::Wire wire(port());
   wire.send(

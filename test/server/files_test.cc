@@ -1,4 +1,3 @@
-// Files as HTTP has them: held once, named for caches, packed for those who take it.
 #include <gtest/gtest.h>
 #include <zlib.h>
 
@@ -70,7 +69,7 @@ class Files : public test::RunningServer {
   std::string script_;
 };
 
-TEST_F(Files, AreHeldOnceForAllWhoReadThem) {
+TEST_F(Files, AreSharedInMemory) {
   StaticFiles files(folder_ / "dist", plain_refusal);
   const Response one = files.answer(get_of("/assets/app.js"));
   const Response other = files.answer(get_of("/assets/app.js"));
@@ -90,7 +89,7 @@ TEST_F(Files, AreReadAgainWhenTheyHaveChanged) {
   EXPECT_NE(header(after, "ETag"), before);
 }
 
-TEST_F(Files, ArePackedForThoseWhoTakeIt) {
+TEST_F(Files, AreCompressedOnRequest) {
   start(1.0, folder_ / "dist");
   const auto packed = ask("GET", "/assets/app.js", "Accept-Encoding: br, gzip\r\n");
   EXPECT_EQ(packed.headers.at("content-encoding"), "gzip");
@@ -111,7 +110,7 @@ TEST_F(Files, ArePackedForThoseWhoTakeIt) {
   EXPECT_EQ(head.headers.at("content-length"), std::to_string(packed.body.size()));
 }
 
-TEST_F(Files, AreNotSentAgainToThoseWhoHaveThem) {
+TEST_F(Files, AreNotSentAgainIfTheETagMatches) {
   start(1.0, folder_ / "dist");
   for (const char* target : {"/", "/openapi.json", "/docs", "/cell.schema.json"}) {
     const std::string tag = ask("GET", target, "").headers.at("etag");
@@ -126,13 +125,14 @@ TEST_F(Files, AreNotSentAgainToThoseWhoHaveThem) {
       EXPECT_NE(first.find("ETag: " + tag), std::string::npos) << first;
       EXPECT_NE(first.find("Cache-Control: "), std::string::npos) << first;
       EXPECT_EQ(first.find("Content-Length"), std::string::npos) << first;
-      EXPECT_NE(all.find("\r\n\r\nHTTP/1.1 200 OK"), std::string::npos) << all;  // no body between
+      // no body in between
+      EXPECT_NE(all.find("\r\n\r\nHTTP/1.1 200 OK"), std::string::npos) << all;
     }
     EXPECT_EQ(ask("GET", target, "If-None-Match: \"other\"\r\n").status, 200);
   }
 }
 
-TEST_F(Files, AreWhereTheKernelSaysThatTheyAre) {
+TEST_F(Files, AreNotServedThroughSymlinks) {
   write("secret", "secret");
   fs::create_symlink(folder_ / "secret", folder_ / "dist/link");
   fs::create_directory_symlink(folder_, folder_ / "dist/up");

@@ -10,7 +10,7 @@
 namespace armloom {
 namespace {
 
-// Everything the server answers to these bytes until it closes.
+// Returns all answers to the bytes until the server closes the connection.
 class Framing : public test::RunningServer {
  protected:
   std::string answers_to(const std::string& bytes) {
@@ -25,10 +25,10 @@ class Framing : public test::RunningServer {
   }
 };
 
-// A second request hidden in what the first one's framing leaves over.
+// A second request smuggled behind a request with ambiguous framing.
 const std::string kHidden = "5\r\nhello\r\n0\r\n\r\nGET /healthz HTTP/1.1\r\nHost: x\r\n\r\n";
 
-TEST_F(Framing, RefusesWhatStockBeastLetsThroughAndCloses) {
+TEST_F(Framing, RefusesAmbiguousRequestsThatBeastAccepts) {
   start(1.0);
   const std::string post = "POST /api/v1/stop HTTP/1.1\r\n";
   const std::string cases[] = {
@@ -59,7 +59,7 @@ TEST_F(Framing, RefusesWhatStockBeastLetsThroughAndCloses) {
   EXPECT_EQ(get("/api/v1/queue").json()["stopped"], false);
 }
 
-TEST_F(Framing, ServesRequestsOneAfterTheOtherOnOneConnection) {
+TEST_F(Framing, ServesPipelinedRequests) {
   start(1.0);
   const std::string answer = answers_to(
       "GET /healthz HTTP/1.1\r\nHost: [::1]:8080\r\n\r\n"
@@ -70,7 +70,7 @@ TEST_F(Framing, ServesRequestsOneAfterTheOtherOnOneConnection) {
   EXPECT_EQ(count(answer, "HTTP/1.1 200 OK"), 2) << answer;
   EXPECT_EQ(count(answer, "HTTP/1.1 202 Accepted"), 1) << answer;
   EXPECT_EQ(count(answer, "HTTP/1.0 200 OK"), 1) << answer;
-  EXPECT_EQ(count(answer, "{\"status\":\"ok\"}"), 2) << answer;  // the HEAD has none
+  EXPECT_EQ(count(answer, "{\"status\":\"ok\"}"), 2) << answer;  // the answer to HEAD has no body
 }
 
 TEST_F(Framing, RefusesABodyThatIsTooLargeBeforeItIsSent) {
@@ -89,7 +89,7 @@ TEST_F(Framing, RefusesAHeaderThatIsTooLarge) {
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 431 ")) << answer;
 }
 
-// RFC 9112, 3.
+// RFC 9112, section 3.
 TEST_F(Framing, RefusesARequestLineThatIsTooLong) {
   start(1.0);
   const std::string answer =
@@ -97,7 +97,7 @@ TEST_F(Framing, RefusesARequestLineThatIsTooLong) {
   EXPECT_TRUE(answer.starts_with("HTTP/1.1 414 ")) << answer;
 }
 
-TEST_F(Framing, AsksForABodyThatWaitsToBeAskedFor) {
+TEST_F(Framing, AnswersExpect100Continue) {
   start(1.0);
   test::Wire wire(port());
   wire.send(
@@ -108,7 +108,7 @@ TEST_F(Framing, AsksForABodyThatWaitsToBeAskedFor) {
   EXPECT_EQ(test::read_answer(wire).status, 202);
 }
 
-TEST_F(Framing, PagesOfOtherSitesMayNotStopArms) {
+TEST_F(Framing, RefusesOtherOrigins) {
   start(1.0);
   const std::string post =
       "POST /api/v1/stop HTTP/1.1\r\nHost: localhost:80\r\nConnection: close\r\nContent-Length: "
@@ -120,7 +120,7 @@ TEST_F(Framing, PagesOfOtherSitesMayNotStopArms) {
       answers_to(post + "Origin: http://localhost:80\r\n\r\n").starts_with("HTTP/1.1 202 "));
 }
 
-TEST_F(Framing, PagesWhoseNameWasMadeToPointHereMayNotCommand) {
+TEST_F(Framing, RefusesForeignHostsAgainstDnsRebinding) {
   options_.allowed_hosts = {"cell.example"};
   start(1.0);
   const auto resume = [&](const std::string& method, const std::string& host) {
@@ -137,14 +137,14 @@ TEST_F(Framing, PagesWhoseNameWasMadeToPointHereMayNotCommand) {
   }
 }
 
-TEST(HostRule, LetsPlainNamesPassWhereTheServerListensEverywhere) {
+TEST(HostRule, AllowsPlainNamesIfTheServerListensOnAllAddresses) {
   const HostRule everywhere{.names = {}, .any_plain = true};
-  EXPECT_TRUE(may_command("robots", everywhere));
-  EXPECT_FALSE(may_command("evil.example", everywhere));
-  EXPECT_FALSE(may_command("127.0.0.1.evil.example", everywhere));
+  EXPECT_TRUE(is_allowed_host("robots", everywhere));
+  EXPECT_FALSE(is_allowed_host("evil.example", everywhere));
+  EXPECT_FALSE(is_allowed_host("127.0.0.1.evil.example", everywhere));
 }
 
-TEST(Authority, IsANameWithAnOptionalPort) {
+TEST(Authority, HasANameAndAnOptionalPort) {
   for (const char* good : {"x", "localhost:8080", "127.0.0.1", "[::1]:80", "a-b.c_d", "x:"}) {
     EXPECT_TRUE(valid_authority(good)) << good;
   }
@@ -154,7 +154,7 @@ TEST(Authority, IsANameWithAnOptionalPort) {
   }
 }
 
-TEST(TargetOfRequest, IsDecodedOnceAndKeepsItsSlashes) {
+TEST(TargetOfRequest, IsDecodedOnceAndRejectsEncodedSlashes) {
   const auto target = parse_target("/api/v1/jobs/a%2eb?state=running&arm=le%66t&x=1+2");
   ASSERT_TRUE(target);
   EXPECT_EQ(target->path, "/api/v1/jobs/a.b");

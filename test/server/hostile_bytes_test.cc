@@ -1,5 +1,5 @@
-// RFC 9112 by hostile bytes: whatever a sender does to a request's framing, nobody reads a second
-// request out of what is left of the first.
+// Request smuggling (RFC 9112): whatever the framing of a request, the server never reads a second
+// request out of the first one's remains.
 #include <gtest/gtest.h>
 
 #include <cctype>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::string_literals;
 
-// Answers with their status, as they came, to `bytes` and a request behind them.
+// Returns the status codes of all answers to `bytes` and one more request.
 class HostileBytes : public test::RunningServer {
  protected:
   void SetUp() override { start(1.0); }
@@ -35,7 +35,7 @@ const std::string kPost = "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\n";
 const std::string kChunked = kPost + "Transfer-Encoding: chunked\r\n\r\n";
 const std::string kRest = "\r\n\r\n5\r\nhello\r\n0\r\n\r\n";
 
-TEST_F(HostileBytes, AreRefusedOnceAndNothingIsReadBehindThem) {
+TEST_F(HostileBytes, AreRefusedAndEndTheConnection) {
   const std::string host = "\r\nHost: localhost\r\n\r\n";
   const std::string field = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n";
   std::vector<std::string> cases;
@@ -78,18 +78,19 @@ TEST_F(HostileBytes, AreRefusedOnceAndNothingIsReadBehindThem) {
   EXPECT_EQ(statuses(kChunked + "FFFFFFFFFFFFFFFF\r\nhello\r\n"), "413 ");
 }
 
-// What a recipient has to take, or may as long as it reads it in one way.
-TEST_F(HostileBytes, ThatAreOnlyUnusualAreReadAsTheyAreMeant) {
+// Unusual requests that RFC 9112 requires or allows a recipient to accept.
+TEST_F(HostileBytes, AreAcceptedIfOnlyUnusual) {
   const std::pair<std::string, std::string> cases[] = {
       {kPost + "Content-Length: 05\r\n\r\nhello", "202 200 "},
       {kPost + "Content-Length:5\t \r\n\r\nhello", "202 200 "},
-      {kPost + "Content-Length:\r\n 5\r\n\r\nhello", "202 200 "},  // obs-fold, read as one space
+      {kPost + "Content-Length:\r\n 5\r\n\r\nhello", "202 200 "},  // obs-fold: read as one space
       {kPost + "X: a\r\n\tGET / HTTP/1.1\r\nContent-Length: 0\r\n\r\n", "202 200 "},
       {kPost + "Transfer-Encoding:\tchunked\t" + kRest, "202 200 "},
       {kChunked + "0005\r\nhello\r\n0000\r\n\r\n", "202 200 "},
       {kChunked + "5;a=\"b\";c\r\nhello\r\n0;d\r\nX-Sum: 7\r\n\r\n", "202 200 "},
       {"GET /healthz HTTP/1.1\r\nHost: localhost\r\nContent-Length: 5\r\n\r\nhello", "200 200 "},
-      {"get /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n", "405 200 "},  // methods have their case
+      // methods are case-sensitive
+      {"get /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n", "405 200 "},
       {"GET /healthz HTTP/1.1\r\nhOST:localhost\r\nX-\xe2\x82\xac!: a\r\n\r\n", "400 "},
       {"GET /healthz HTTP/1.1\r\nhOST:localhost\r\nX!#$%&'*+-.^_`|~: \xe2\x82\xac\r\n\r\n",
        "200 200 "},

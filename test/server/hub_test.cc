@@ -19,7 +19,7 @@ std::string read_all(Subscription& subscription) {
   return all;
 }
 
-TEST(Hub, ServesEveryReaderInOrderAtItsOwnPace) {
+TEST(Hub, ServesEachSubscriberInOrderAtItsOwnPace) {
   Hub hub;
   publish(hub, 1, 3);
   const SubscriptionPtr early = hub.resume(1);
@@ -30,7 +30,7 @@ TEST(Hub, ServesEveryReaderInOrderAtItsOwnPace) {
   EXPECT_EQ(read_all(*late), "");
 }
 
-TEST(Hub, GivesOnlyTheNewestFrameAndOnlyAfterEvents) {
+TEST(Hub, DeliversOnlyTheNewestFrameAfterAllEvents) {
   Hub hub;
   const SubscriptionPtr subscription = hub.resume(0);
   hub.publish_frame(text("old"));
@@ -39,7 +39,7 @@ TEST(Hub, GivesOnlyTheNewestFrameAndOnlyAfterEvents) {
   EXPECT_EQ(read_all(*subscription), "1 new ");
 }
 
-TEST(Hub, TellsAReaderThatThereAreNews) {
+TEST(Hub, NotifiesSubscribers) {
   Hub hub;
   const SubscriptionPtr subscription = hub.resume(0);
   int news = 0;
@@ -49,7 +49,7 @@ TEST(Hub, TellsAReaderThatThereAreNews) {
   EXPECT_EQ(news, 2);
 }
 
-TEST(Hub, DoesNotResumeWhatItNoLongerOrNotYetHas) {
+TEST(Hub, ResumesOnlyFromKeptEvents) {
   Hub hub(10);
   publish(hub, 1, 15);
   EXPECT_TRUE(hub.resume(5));
@@ -58,7 +58,7 @@ TEST(Hub, DoesNotResumeWhatItNoLongerOrNotYetHas) {
   EXPECT_FALSE(hub.resume(16));
 }
 
-TEST(Hub, SendsAReaderAwayThatFallsBehindAndSaysWhy) {
+TEST(Hub, DisconnectsASlowSubscriberWithAReason) {
   Hub hub(10);
   const SubscriptionPtr subscription = hub.resume(0);
   publish(hub, 1, 10);
@@ -70,7 +70,7 @@ TEST(Hub, SendsAReaderAwayThatFallsBehindAndSaysWhy) {
   EXPECT_FALSE(subscription->next());
 }
 
-TEST(Hub, SendsAwayAReaderWhoseEventsAreMoreBytesThanAreKept) {
+TEST(Hub, DisconnectsASubscriberTooManyBytesBehind) {
   Hub hub(1000, 100);
   const SubscriptionPtr subscription = hub.resume(0);
   for (std::uint64_t seq = 1; seq <= 4; ++seq) hub.publish(seq, text(std::string(25, 'e')));
@@ -78,12 +78,12 @@ TEST(Hub, SendsAwayAReaderWhoseEventsAreMoreBytesThanAreKept) {
   hub.publish(5, text("e"));
   ASSERT_TRUE(subscription->close_reason());
   EXPECT_EQ(subscription->close_reason()->why, CloseReason::Why::too_slow);
-  // An event alone is kept, however large.
+  // A single event is kept, however large.
   hub.publish(6, text(std::string(200, 'e')));
   EXPECT_TRUE(hub.resume(5)->next());
 }
 
-TEST(Hub, NumbersEventsAndTheSnapshotButNoFrames) {
+TEST(Hub, NumbersEventsAndSnapshotsButNotFrames) {
   Hub hub;
   publish(hub, 1, 3);
   const SubscriptionPtr subscription = hub.resume(2, text("snapshot"));
@@ -93,7 +93,7 @@ TEST(Hub, NumbersEventsAndTheSnapshotButNoFrames) {
   EXPECT_EQ(subscription->next()->seq, std::nullopt);
 }
 
-TEST(Hub, SendsEveryReaderAwayAtItsEnd) {
+TEST(Hub, DisconnectsAllSubscribersAtTheEnd) {
   Hub hub;
   const SubscriptionPtr subscription = hub.resume(0);
   int news = 0;
@@ -104,7 +104,7 @@ TEST(Hub, SendsEveryReaderAwayAtItsEnd) {
   EXPECT_EQ(subscription->close_reason()->why, CloseReason::Why::server_ends);
 }
 
-TEST(Hub, LetsAReaderReadToTheEndBeforeItsFarewell) {
+TEST(Hub, DeliversAllEventsBeforeTheFinalClose) {
   Hub hub;
   const SubscriptionPtr subscription = hub.resume(0, text("snapshot"));
   publish(hub, 1, 2);
@@ -117,13 +117,13 @@ TEST(Hub, LetsAReaderReadToTheEndBeforeItsFarewell) {
   EXPECT_EQ(subscription->close_reason()->why, CloseReason::Why::server_ends);
 }
 
-TEST(Hub, RefusesAHoleInTheLog) {
+TEST(Hub, RefusesAGapInTheLog) {
   Hub hub;
   publish(hub, 1, 1);
   EXPECT_THROW(hub.publish(3, text("3")), std::logic_error);
 }
 
-TEST(Hub, ForgetsReadersThatAreGone) {
+TEST(Hub, ForgetsSubscribersThatAreGone) {
   Hub hub;
   SubscriptionPtr subscription = hub.resume(0);
   EXPECT_EQ(hub.readers(), 1U);

@@ -1,4 +1,3 @@
-// `armloom import` as a shell calls it: one command makes a cell that runs.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -27,7 +26,7 @@ class Import : public test::CommandFixture {
   }
 };
 
-TEST_F(Import, MakesACellOfTwoRobotsOfOneUrdf) {
+TEST_F(Import, MakesACellWithTwoRobotsFromOneUrdf) {
   const fs::path cell = folder_ / "cell.json";
   const test::Outcome made =
       run("import" + files("panda") +
@@ -44,14 +43,14 @@ TEST_F(Import, MakesACellOfTwoRobotsOfOneUrdf) {
   ASSERT_EQ(right["arms"].size(), 1U);
   EXPECT_EQ(right["arms"][0]["name"], "right");
   EXPECT_EQ(right["arms"][0]["group"], "panda_arm");
-  EXPECT_THAT(made.err, HasSubstr("The group hand is no arm here: it is an end effector."));
+  EXPECT_THAT(made.err, HasSubstr("The group hand is not used as an arm: it is an end effector."));
   EXPECT_EQ(file["clearance_m"], 0.02);
   EXPECT_EQ(file["execution"]["duration_scaling"], 1.1);
   const std::string text = read_text_file(cell).value();
-  EXPECT_THAT(text, HasSubstr("// The watch over the measured state of all arms."));
+  EXPECT_THAT(text, HasSubstr("// Monitoring of the measured state of all arms."));
   EXPECT_EQ(run("validate --cell " + cell.string()).exit_code, 0);
   EXPECT_EQ(run("import" + files("panda") + " --out " + cell.string()).exit_code, 2);
-  EXPECT_EQ(read_text_file(cell).value(), text);  // never over a file
+  EXPECT_EQ(read_text_file(cell).value(), text);  // existing files are never overwritten
 }
 
 TEST_F(Import, WritesAbsolutePathsToStdout) {
@@ -66,7 +65,7 @@ TEST_F(Import, WritesAbsolutePathsToStdout) {
   EXPECT_EQ(run("validate --cell " + this->file("copy.json", made.out).string()).exit_code, 0);
 }
 
-TEST_F(Import, TakesRobotsOfDifferentKinds) {
+TEST_F(Import, AcceptsRobotsOfDifferentKinds) {
   const test::Outcome made =
       run("import" + files("panda") + files("ur5e") + " --robot a:x=-1 --robot b:x=1");
   ASSERT_EQ(made.exit_code, 0) << made.err;
@@ -75,9 +74,9 @@ TEST_F(Import, TakesRobotsOfDifferentKinds) {
   EXPECT_EQ(file["robots"][1]["prefix"], "b_");
 }
 
-TEST_F(Import, GuessesWhatNoFileSaysAndHoldsTheTorso) {
+TEST_F(Import, GuessesMissingLimitsAndFixesTheTorso) {
   std::string urdf = test::torso_urdf();
-  // A shoulder that turns without end, and a lift that says nothing of its velocity.
+  // Makes one shoulder continuous without limits, and one joint prismatic with zero velocity.
   const auto drop = [&](const std::string& begin, const std::string& what, const std::string& by) {
     const std::size_t at = urdf.find(what, urdf.find("<joint name=\"" + begin + "\""));
     ASSERT_NE(at, urdf.npos);
@@ -98,9 +97,10 @@ TEST_F(Import, GuessesWhatNoFileSaysAndHoldsTheTorso) {
   EXPECT_EQ(robot["arms"][0]["limits"], json({{"left_1", {{"velocity_rad_s", 0.5}}}}));
   EXPECT_EQ(robot["arms"][1]["limits"], json({{"right_2", {{"velocity_m_s", 0.05}}}}));
   EXPECT_THAT(made.err, HasSubstr("torso.urdf does not give all limits of left_1"));
-  EXPECT_THAT(made.err, HasSubstr("torso_lift moves arms and is no single one's: held where the "
-                                  "state home has it."));
-  // MoveIt's file says it: nothing to guess.
+  EXPECT_THAT(made.err,
+              HasSubstr("torso_lift moves arms and belongs to no single arm: fixed at its "
+                        "value in the state home."));
+  // With MoveIt's joint limits file nothing has to be guessed.
   const fs::path limits = file("joint_limits.yaml",
                                "joint_limits:\n"
                                "  left_1:\n    has_velocity_limits: true\n    max_velocity: 2\n"
@@ -112,8 +112,7 @@ TEST_F(Import, GuessesWhatNoFileSaysAndHoldsTheTorso) {
   EXPECT_EQ(written("told.json")["robots"][0]["joint_limits"], "joint_limits.yaml");
 }
 
-// Both arms hold the lift, which says nothing of its velocity, and neither moves it.
-TEST_F(Import, GuessesNoLimitsOfWhatItHolds) {
+TEST_F(Import, GuessesNoLimitsOfFixedJoints) {
   std::string urdf = test::torso_urdf();
   for (const std::string joint : {"torso_lift", "left_1"}) {
     const std::string limit = R"(velocity="1")";
@@ -134,7 +133,7 @@ TEST_F(Import, GuessesNoLimitsOfWhatItHolds) {
   EXPECT_THAT(run("validate --cell " + cell.string()).err, Not(HasSubstr("limits")));
 }
 
-TEST_F(Import, TakesAWholeArmMadeOfSubgroupsAndItsState) {
+TEST_F(Import, AcceptsAnArmOfSubgroupsAndItsState) {
   const fs::path srdf = file("whole.srdf", R"(<robot name="torso_robot">
     <group name="lo"><joint name="left_1"/><joint name="left_2"/></group>
     <group name="hi"><joint name="left_3"/></group>
@@ -151,16 +150,16 @@ TEST_F(Import, TakesAWholeArmMadeOfSubgroupsAndItsState) {
   EXPECT_EQ(arms[0]["home"], "ready");
 }
 
-TEST_F(Import, WritesWhatDoesNotLoadAndEndsWithTwo) {
-  // Bases in one place: no homes are free.
+TEST_F(Import, WritesACellThatDoesNotLoadAndExitsWithTwo) {
+  // Both bases are at the same place, so no homes are collision-free.
   const test::Outcome made = run("import" + files("panda") + " --robot a --robot b");
   EXPECT_EQ(made.exit_code, 2);
   EXPECT_TRUE(parse_json(made.out, JsonComments::allowed));
-  EXPECT_THAT(made.err, HasSubstr("No homes were found in which all arms stand free"));
+  EXPECT_THAT(made.err, HasSubstr("No homes were found at which all arms keep their clearance"));
   EXPECT_THAT(made.err, HasSubstr("apart at home"));
 }
 
-TEST_F(Import, NamesTheOptionThatIsWrong) {
+TEST_F(Import, NamesTheInvalidOption) {
   const fs::path no_arm = file("no_arm.srdf", "<robot name='panda'/>");
   const std::string panda = (test::kSource / "models/panda.urdf").string();
   const fs::path meshed =
@@ -170,15 +169,16 @@ TEST_F(Import, NamesTheOptionThatIsWrong) {
     std::string arguments;
     std::string says;
   } cases[] = {
-      {files("panda") + " --srdf x.srdf", "--srdf: there are 1 --urdf and 2 --srdf"},
+      {files("panda") + " --srdf x.srdf",
+       "--srdf: 1 --urdf but 2 --srdf: give one --srdf for each --urdf"},
       {files("panda") + files("ur5e") + " --robot a", "--urdf: there are 2 and 1 --robot"},
-      {files("panda") + " --joint-limits a --joint-limits b", "--joint-limits: there are 1 --urdf"},
+      {files("panda") + " --joint-limits a --joint-limits b", "--joint-limits: 1 --urdf but 2"},
       {files("panda") + " --robot a:yaw=3", "--robot: in \"a:yaw=3\": \"yaw\" is not known"},
       {files("panda") + " --robot a --robot b --prefix c_", "--prefix: several robots"},
       {files("panda") + " --package x", "--package: in \"x\": expected NAME=FOLDER"},
-      {files("panda") + " --package x=/nowhere", "there is no such folder"},
+      {files("panda") + " --package x=/nowhere", "no such folder"},
       {" --urdf /nowhere.urdf --srdf /nowhere.srdf", "/nowhere.srdf"},
-      {" --urdf " + panda + " --srdf " + no_arm.string(), "no group of it is an arm"},
+      {" --urdf " + panda + " --srdf " + no_arm.string(), "no group is an arm"},
       {" --urdf " + meshed.string() + " --srdf " + no_arm.string(), "--package far_away=FOLDER"},
       {files("panda") + " --out /nowhere/cell.json", "--out: /nowhere/cell.json cannot be written"},
   };
@@ -190,18 +190,18 @@ TEST_F(Import, NamesTheOptionThatIsWrong) {
   EXPECT_EQ(run("import --urdf " + panda).exit_code, 2);
 }
 
-// What is missing in the URDF is why no group is an arm.
-TEST_F(Import, NamesTheLinksThatAnotherRobotsSrdfMeans) {
+TEST_F(Import, ReportsAnSrdfOfAnotherRobot) {
   const std::string models = (test::kSource / "models").string();
   const test::Outcome outcome =
       run("import --urdf " + models + "/panda.urdf --srdf " + models + "/ur5e.srdf");
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("no group of it is an arm"),
-                                 HasSubstr("the SRDF is of robot ur5e, panda.urdf of robot panda"),
-                                 HasSubstr("is not in panda.urdf; the group is without it")));
+  EXPECT_THAT(outcome.err,
+              AllOf(HasSubstr("no group of it is an arm"),
+                    HasSubstr("the SRDF is for robot ur5e, but panda.urdf for robot panda"),
+                    HasSubstr("is not in panda.urdf; it is left out of the group")));
 }
 
-TEST_F(Import, ItsSchemaIsPrinted) {
+TEST_F(Import, SchemaCommandPrintsTheFilesInConfig) {
   const test::Outcome schema = run("schema");
   EXPECT_EQ(schema.exit_code, 0);
   EXPECT_EQ(schema.out, read_text_file(test::kSource / "config/cell.schema.json").value());

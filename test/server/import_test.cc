@@ -1,4 +1,3 @@
-// From a robot's own files to a cell file: what an import chooses.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -35,7 +34,7 @@ class PackageFolders : public ::testing::Test {
   fs::path top_;
 };
 
-TEST_F(PackageFolders, AreFoundByTheirFiles) {
+TEST_F(PackageFolders, AreFoundByTheirContents) {
   put("ws/arm_description/meshes/link.stl");
   put("ws/arm_moveit_config/config/arm.urdf");
   put("opt/share/hand/hand.stl");
@@ -51,16 +50,14 @@ TEST_F(PackageFolders, AreFoundByTheirFiles) {
       ElementsAre(Pair("arm_description", (top_ / "ws/arm_description").string()),
                   Pair("given", top_.string()), Pair("hand", (top_ / "opt/share/hand").string())));
   EXPECT_THAT(found.missing, ElementsAre("nowhere"));
-  // A folder of another name that holds the files, above the URDF.
+  // The folder has another name, contains the files, and is above the URDF.
   const Packages renamed = find_packages(R"("package://table_description/meshes/table.stl")",
                                          top_ / "ws/renamed/urdf/table.urdf", {}, {});
   EXPECT_THAT(renamed.folders,
               ElementsAre(Pair("table_description", (top_ / "ws/renamed").string())));
 }
 
-// ---- Placements ----
-
-TEST(Placement, IsReadInMetresAndDegrees) {
+TEST(Placement, IsReadInMetersAndDegrees) {
   const auto placed = read_placement("right:x=0.75,z=-1e-1,yaw_deg=180");
   ASSERT_TRUE(placed);
   EXPECT_EQ(placed->name, "right");
@@ -69,26 +66,24 @@ TEST(Placement, IsReadInMetresAndDegrees) {
   EXPECT_EQ(read_placement("left")->base.xyz_m, Eigen::Vector3d::Zero());
 }
 
-TEST(Placement, IsRefusedWithWhatIsWrong) {
+TEST(Placement, IsRefusedWithAReason) {
   for (const auto& [text, says] :
        {std::pair{":x=1", "the name is missing"},
-        {"a:w=1", "\"w\" is not known"},
-        {"a:yaw=90", "\"yaw\" is not known"},
-        {"a:x", "\"x\" gives no number"},
-        {"a:x=1m", "\"x=1m\" gives no number"},
-        {"a:x=nan", "\"x=nan\" gives no number"},
-        {"a:x=1,,y=2", "\"\" is not known"},
+        {"a:w=1", "\"w\" is an unknown key"},
+        {"a:yaw=90", "\"yaw\" is an unknown key"},
+        {"a:x", "\"x\" is not KEY=NUMBER"},
+        {"a:x=1m", "\"x=1m\" is not KEY=NUMBER"},
+        {"a:x=nan", "\"x=nan\" is not KEY=NUMBER"},
+        {"a:x=1,,y=2", "\"\" is an unknown key"},
         {":x=abc,foo=1,yaw_deg=nan",
-         "the name is missing; \"x=abc\" gives no number; \"foo\" is not "
-         "known; \"yaw_deg=nan\" gives no number; expected"}}) {
+         "the name is missing; \"x=abc\" is not KEY=NUMBER; \"foo\" is an "
+         "unknown key; \"yaw_deg=nan\" is not KEY=NUMBER; expected"}}) {
     const auto placed = read_placement(text);
     ASSERT_FALSE(placed) << text;
     EXPECT_EQ(placed.error().front().pointer, "--robot");
     EXPECT_THAT(placed.error().front().detail, HasSubstr(says));
   }
 }
-
-// ---- Homes ----
 
 CellDescription facing_pandas(double apart_m) {
   const fs::path folder = fs::path(source_dir()) / "config";
@@ -102,7 +97,7 @@ CellDescription facing_pandas(double apart_m) {
   return cell;
 }
 
-TEST(ChosenHomes, AreTheStatesThatSpeakOfHomeWhereTheseAreFree) {
+TEST(ChosenHomes, AreTheHomeStatesIfCollisionFree) {
   const auto cell = build_cell(facing_pandas(2.5));
   ASSERT_TRUE(cell);
   const auto homes = choose_homes(*cell);
@@ -111,8 +106,8 @@ TEST(ChosenHomes, AreTheStatesThatSpeakOfHomeWhereTheseAreFree) {
   for (const HomeCandidate& home : homes->of_arm) EXPECT_EQ(home.state, "home");
 }
 
-TEST(ChosenHomes, StandFreeWhereTheWantedOnesDoNot) {
-  // So near that both at home would touch.
+TEST(ChosenHomes, AreOtherStatesIfTheHomeStatesCollide) {
+  // Too close for both home states.
   const CellDescription near = facing_pandas(0.4);
   const auto cell = build_cell(near);
   ASSERT_TRUE(cell);
@@ -128,8 +123,8 @@ TEST(ChosenHomes, StandFreeWhereTheWantedOnesDoNot) {
   EXPECT_EQ(again->of_arm[1].q, homes->of_arm[1].q);
 }
 
-TEST(ChosenHomes, AreNotFreeWhereNothingIs) {
-  const auto cell = build_cell(facing_pandas(0.0));  // one within the other
+TEST(ChosenHomes, AreReportedAsCollidingIfNoneIsFree) {
+  const auto cell = build_cell(facing_pandas(0.0));  // the same place
   ASSERT_TRUE(cell);
   const auto homes = choose_homes(*cell);
   ASSERT_TRUE(homes);
@@ -137,7 +132,7 @@ TEST(ChosenHomes, AreNotFreeWhereNothingIs) {
   EXPECT_EQ(homes->of_arm[0].state, homes->wanted[0].state);
 }
 
-TEST(HomeCandidates, KeepTheLimits) {
+TEST(HomeCandidates, KeepTheJointLimits) {
   const auto cell = build_cell(facing_pandas(2.5));
   ASSERT_TRUE(cell);
   const Arm& arm = (*cell)->arms.front();

@@ -17,7 +17,7 @@ double job_time_s(const json& trajectory) {
                           : last["sec"].get<double>() + 1e-9 * last["nanosec"].get<double>();
 }
 
-TEST(JobCodec, ReadsWhatBecomesOfOneThatWaitsTooLongOrBeginsElsewhere) {
+TEST(JobCodec, ReadsOnTimeoutAndMoveToStart) {
   const auto job = read_job_text(
       R"({"on_timeout": "replan", "move_to_start": "plan",
           "trajectory": {"joint_names": ["a"], "points": [
@@ -31,7 +31,7 @@ TEST(JobCodec, ReadsWhatBecomesOfOneThatWaitsTooLongOrBeginsElsewhere) {
   EXPECT_EQ(bad.error().front().pointer, "/on_timeout");
 }
 
-TEST(JobCodec, ReadsWhatTheContractShows) {
+TEST(JobCodec, ReadsAllMembersOfATrajectoryJob) {
   const auto job = read_job_text(R"({
     "id": "pick-7", "name": "pick 7", "priority": -3, "backlog_timeout_s": 1.5,
     "after": [], "on_timeout": "abort", "retime": false,
@@ -60,11 +60,11 @@ TEST(JobCodec, ReadsWhatTheContractShows) {
 
 struct BadField {
   const char* name;
-  const char* at;     // where the fault is put (JSON pointer)
-  const char* value;  // as JSON; nullptr: removed
+  const char* at;     // JSON pointer to the value to spoil
+  const char* value;  // JSON text; nullptr to remove the member
   ProblemKind kind;
   const char* says;
-  const char* pointer = nullptr;  // of the answer, when it is another place
+  const char* pointer = nullptr;  // of the problem, if different from `at`
 };
 
 void PrintTo(const BadField& bad, std::ostream* out) { *out << bad.name; }
@@ -127,11 +127,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadField{"AfterIsText", "/after", "\"x\"", kMalformed, "an array"},
         BadField{"AfterHoldsNoId", "/after", "[\"x\", \"a b\"]", kInvalid, "128", "/after/1"},
         BadField{"FasterThanPlanned", "/velocity_scaling_factor", "2", kInvalid, "0.001..1"},
-        BadField{"StepsAreNotServed", "/steps", "[]", kInvalid, "not served"},
+        BadField{"StepsAreNotServed", "/steps", "[]", kInvalid, "not supported"},
         BadField{"RetimeIsNoFlag", "/retime", "1", kMalformed, "true or false"}),
     [](const auto& tested) { return tested.param.name; });
 
-TEST(JobCodec, ReadsWaysWithoutTimes) {
+TEST(JobCodec, ReadsPathsWithoutTimes) {
   json body = test::move("left", test::kHome, test::kMiddle);
   for (json& point : body["trajectory"]["points"]) point = {{"positions", point["positions"]}};
   body["retime"] = true;
@@ -155,7 +155,7 @@ TEST(JobCodec, ReadsPredecessors) {
   EXPECT_EQ(read_job(body).error().front().kind, ProblemKind::too_large);
 }
 
-TEST(JobCodec, RunsATrajectoryAtAShareOfItsSpeed) {
+TEST(JobCodec, ScalesATrajectoryInTime) {
   json body = test::move("left", test::kHome, test::kMiddle);
   const TrajectoryRequest whole = read_job(body).value().trajectory;
   body["velocity_scaling_factor"] = 0.5;
@@ -169,7 +169,7 @@ TEST(JobCodec, RunsATrajectoryAtAShareOfItsSpeed) {
   }
 }
 
-TEST(JobCodec, ReadsAlternativesInsteadOfATrajectory) {
+TEST(JobCodec, ReadsAlternatives) {
   json body = test::move("left", test::kHome, test::kMiddle);
   const json motion = body["trajectory"];
   body["alternatives"] = {motion, motion};
@@ -189,7 +189,7 @@ TEST(JobCodec, ReadsAlternativesInsteadOfATrajectory) {
   EXPECT_EQ(one.error().front().pointer, "/alternatives");
 }
 
-TEST(BatchCodec, GivesItsOrderToTheJobsThatDoNotSayTheirs) {
+TEST(BatchCodec, AppliesReorderableToJobsWithoutIt) {
   json free = test::move("left", test::kHome, test::kMiddle);
   json given = free;
   given["reorderable"] = false;
@@ -205,10 +205,10 @@ TEST(BatchCodec, GivesItsOrderToTheJobsThatDoNotSayTheirs) {
   wrong["reorderable"] = "random";
   const auto refused = read_job_text(wrong.dump());
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().front().pointer, "/order");
+  EXPECT_EQ(refused.error().front().pointer, "/reorderable");
 }
 
-TEST(JobCodec, ReadsMoveItsNestingAndPointsIntoIt) {
+TEST(JobCodec, ReadsMoveItsNestedTrajectoryWithCorrectPointers) {
   json body = test::move("left", test::kHome, test::kMiddle);
   const auto plain = read_job(body);
   body["trajectory"] = {
@@ -233,7 +233,7 @@ TEST(JobCodec, ReadsMoveItsNestingAndPointsIntoIt) {
   EXPECT_EQ(read_job(twice).error().front().pointer, "/trajectory/joint_trajectory");
 }
 
-TEST(JobCodec, ListsEveryFaultOfABody) {
+TEST(JobCodec, ReportsAllFaultsAtOnce) {
   json body = test::move("left", test::kHome, test::kMiddle);
   body["id"] = "a b";
   body["priority"] = "high";
@@ -243,7 +243,7 @@ TEST(JobCodec, ListsEveryFaultOfABody) {
   EXPECT_EQ(job.error().size(), 3U);
 }
 
-TEST(JobCodec, BoundsItsListOfFaults) {
+TEST(JobCodec, BoundsTheListOfFaults) {
   json body = test::move("left", test::kHome, test::kMiddle);
   body["trajectory"]["points"][0]["positions"] = std::vector<std::string>(1000, "x");
   const auto job = read_job(body);
@@ -260,7 +260,7 @@ TEST(JobCodec, RefusesTooManyWaypointsBeforeReadingThem) {
   EXPECT_EQ(job.error().size(), 1U);
 }
 
-TEST(JobsFile, ReadsTimesAndPointsIntoTheFile) {
+TEST(JobsFile, ReadsTimesAndReportsPointersIntoTheFile) {
   const json job = test::move("left", test::kHome, test::kMiddle);
   const auto jobs = read_jobs_text(json::array({{{"at", 0.25}, {"job", job}}}).dump());
   ASSERT_TRUE(jobs);

@@ -1,5 +1,5 @@
-// The terms of a job: what a client may ask for stays with the job and is told of it, all by one
-// description.
+// The terms of a job are stored with the job and returned with it; one description defines reader,
+// writer and schema.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -29,7 +29,7 @@ json told(const JobTerms& terms) {
   return json::parse(out.take());
 }
 
-TEST(JobTermsAreDescribedOnce, WhatIsAskedForIsTold) {
+TEST(JobTerms, AreReturnedAsRequested) {
   const json asked = {{"priority", -3},
                       {"backlog_timeout_s", 1.5},
                       {"on_timeout", "replan"},
@@ -43,7 +43,7 @@ TEST(JobTermsAreDescribedOnce, WhatIsAskedForIsTold) {
     EXPECT_EQ(is_told.value(key, json()), value) << key;
 }
 
-TEST(JobTermsAreDescribedOnce, WhatIsUsualIsToldOnlyWhereItAlwaysWas) {
+TEST(JobTerms, DefaultsAreReturnedForOldMembersOnly) {
   const auto job = asked_for("");
   ASSERT_TRUE(job);
   EXPECT_FALSE(job->terms.backlog_timeout) << "the cell's";
@@ -55,7 +55,7 @@ TEST(JobTermsAreDescribedOnce, WhatIsUsualIsToldOnlyWhereItAlwaysWas) {
   EXPECT_FALSE(is_told.contains("backlog_timeout_s"));
 }
 
-TEST(JobTermsAreDescribedOnce, WhatTheyMayNotBeIsRefusedByNameWithWhatTheyMay) {
+TEST(JobTerms, InvalidValuesAreRefusedWithTheirPointer) {
   const std::pair<const char*, const char*> cases[] = {
       {R"("priority": 1e7)", "/priority"},
       {R"("priority": 0.5)", "/priority"},
@@ -75,7 +75,7 @@ TEST(JobTermsAreDescribedOnce, WhatTheyMayNotBeIsRefusedByNameWithWhatTheyMay) {
             std::string::npos);
 }
 
-TEST(JobTermsAreDescribedOnce, TheSchemaStatesWhatAnAbsentOneMeans) {
+TEST(JobTerms, SchemaStatesTheDefaults) {
   const Schema in = job_request_format()->schema(Way::in);
   const Schema& properties = in["$of"]["properties"];
   EXPECT_EQ(properties["priority"]["default"], 0);
@@ -93,7 +93,7 @@ TEST(JobTermsAreDescribedOnce, TheSchemaStatesWhatAnAbsentOneMeans) {
   EXPECT_FALSE(is_required("reorderable"));
 }
 
-TEST(JobTermsAreDescribedOnce, AnAmendmentChangesWhatItNamesAndNothingElse) {
+TEST(JobTerms, AmendmentChangesOnlyTheGivenMembers) {
   JobTerms terms{.priority = 3, .backlog_timeout = 60s, .reorderable = true};
   apply(AmendedTerms{.backlog_timeout = 5s}, terms);
   EXPECT_EQ(terms.priority, 3);
@@ -112,7 +112,7 @@ TEST(JobTermsAreDescribedOnce, AnAmendmentChangesWhatItNamesAndNothingElse) {
   EXPECT_FALSE(other.reorderable) << "that cannot be changed later";
 }
 
-TEST(JobTermsAreDescribedOnce, AnAmendmentOfWhatCannotBeChangedIsRefused) {
+TEST(JobTerms, AmendmentOfFixedMembersIsRefused) {
   for (const char* text :
        {R"({"reorderable": true})", R"({"move_to_start": "plan"})", R"({"id": "b"})"}) {
     EXPECT_FALSE(read_job_amendment(text)) << text;
@@ -124,7 +124,7 @@ TEST(JobTermsAreDescribedOnce, AnAmendmentOfWhatCannotBeChangedIsRefused) {
   EXPECT_FALSE(amendment->terms.on_timeout);
 }
 
-TEST(JobRequests, DescribeNothingThatIsRefused) {
+TEST(JobRequests, SchemaHasNoUnsupportedMembers) {
   EXPECT_EQ(job_request_format()->schema(Way::in).dump().find("\"steps\""), std::string::npos);
 }
 

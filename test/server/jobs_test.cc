@@ -18,7 +18,7 @@ class Jobs : public test::RunningServer {
     job["id"] = id;
     return job.dump();
   }
-  // Follows the events until all of these have ended; their last views by id.
+  // Follows the events until all of these jobs have ended; returns their last views by id.
   static std::map<std::string, json> until_ended(test::Listener& listener,
                                                  std::set<std::string> ids) {
     std::map<std::string, json> ended;
@@ -49,7 +49,7 @@ TEST_F(Jobs, RunFromPostToSuccess) {
   for (std::size_t j = 0; j < 7; ++j) EXPECT_NEAR(q[j].get<double>(), test::kMiddle[j], 1e-3);
 }
 
-TEST_F(Jobs, ACanceledJobBrakesOnItsPathAndSaysSo) {
+TEST_F(Jobs, ReportStoppingWhileACanceledJobBrakes) {
   start(1.0);
   test::Listener listener(port());
   ASSERT_EQ(post("/api/v1/jobs", body("long", test::kHome, test::kMiddle)).status, 202);
@@ -67,7 +67,7 @@ TEST_F(Jobs, ACanceledJobBrakesOnItsPathAndSaysSo) {
   EXPECT_EQ(test::request(port(), "DELETE", "/api/v1/jobs/long").status, 409);
 }
 
-TEST_F(Jobs, StopHoldsThemAndResumeLetsThemEnd) {
+TEST_F(Jobs, ArePausedByStopAndFinishedAfterResume) {
   start(5.0);
   test::Listener listener(port());
   ASSERT_EQ(post("/api/v1/jobs", body("go", test::kHome, test::kMiddle)).status, 202);

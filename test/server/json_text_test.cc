@@ -23,7 +23,7 @@ void PrintTo(const BadText& bad, std::ostream* out) { *out << bad.name; }
 
 class BadJson : public ::testing::TestWithParam<BadText> {};
 
-TEST_P(BadJson, IsRefusedWithItsPlace) {
+TEST_P(BadJson, IsRefusedWithPlaceAndReason) {
   const auto result = parse_json(GetParam().text, JsonComments::refused);
   ASSERT_FALSE(result);
   const Problem& problem = result.error().front();
@@ -35,8 +35,8 @@ TEST_P(BadJson, IsRefusedWithItsPlace) {
 INSTANTIATE_TEST_SUITE_P(
     Table, BadJson,
     ::testing::Values(
-        BadText{"Empty", "", "malformed-json", "", "ends too early"},
-        BadText{"Cut", R"({"a": [1, 2)", "malformed-json", "/a/2", "ends too early"},
+        BadText{"Empty", "", "malformed-json", "", "ends before"},
+        BadText{"Cut", R"({"a": [1, 2)", "malformed-json", "/a/2", "ends before"},
         BadText{"Nan", R"({"points": [{"positions": [0, NaN]}]})", "malformed-json",
                 "/points/0/positions/1", "line 1, column 31"},
         BadText{"Trailing", "{}\n{}", "malformed-json", "", "line 2, column 1"},
@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"Escapes", R"({"a/b": {"c~d": tru}})", "malformed-json", "/a~1b/c~0d", "line 1"}),
     [](const auto& tested) { return tested.param.name; });
 
-// RFC 8259, by the cases of the published suites; here between two spaces or at a line's end.
+// RFC 8259: the cases of published suites, separated by two spaces or line ends.
 constexpr const char* kGood =
     R"(0  -0  -1  1E22  1e+2  1E-2  0e1  0.5  123.456e78  -1.0e-2  1e-10000  true  false  null
 ""  []  {}  [ ]  [[] ]  [null,1,"1",{}]  {"":0}  {"a":[]}  {"a\u0000b":1}  "\u0060\u012a"
@@ -74,7 +74,7 @@ std::vector<std::string> cases_of(std::string text) {
   return cases;
 }
 
-TEST(JsonText, IsReadWhereTheRfcSaysSo) {
+TEST(JsonText, AcceptsAllTextsOfTheRfc) {
   auto cases = cases_of(kGood);
   EXPECT_EQ(cases.size(), 30U);
   for (const char* more : {"\t\r\n{\n}\n", "[1\n]", "\"\x7f\"", "\"\xef\xbf\xbf\xe2\x80\xa8\""}) {
@@ -85,7 +85,7 @@ TEST(JsonText, IsReadWhereTheRfcSaysSo) {
   }
 }
 
-TEST(JsonText, IsRefusedWhereTheRfcSaysSo) {
+TEST(JsonText, RefusesAllTextsThatTheRfcForbids) {
   auto cases = cases_of(kBad);
   EXPECT_EQ(cases.size(), 85U);
   for (const char* more : {"", " ", "[\"\t\"]", "[\"\n\"]", "[\"\x1f\"]", "[\x0c]", "\xc2\xa0[]",
@@ -102,13 +102,13 @@ TEST(JsonText, SurvivesAMillionBrackets) {
   EXPECT_FALSE(parse_json(std::string(1'000'000, '['), JsonComments::refused));
 }
 
-TEST(JsonText, AllowsCommentsWhereTheyAreAskedFor) {
+TEST(JsonText, AllowsCommentsOnRequest) {
   const auto result = parse_json("{ /* a */ \"b\": 1 // c\n}", JsonComments::allowed);
   ASSERT_TRUE(result);
   EXPECT_EQ((*result)["b"], 1);
 }
 
-TEST(JsonText, NamesTheValueFound) {
+TEST(JsonText, ReportsTheValueFound) {
   const auto result = parse_json(R"({"a": -Infinity})", JsonComments::refused);
   ASSERT_FALSE(result);
   EXPECT_EQ(std::get<std::string>(result.error().front().value), "-Infinity");

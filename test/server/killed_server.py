@@ -1,4 +1,4 @@
-"""A server that is to be killed, and when."""
+"""A server to be killed, and the time of the kill."""
 import json
 import os
 import pathlib
@@ -13,7 +13,7 @@ API = "/api/v1"
 
 
 def swing(job_id, arm, duration_s, after):
-    """There and back, so that it can begin wherever another one has ended."""
+    """Returns a job there and back, so that it can start wherever another job has ended."""
     away = [HOME[0] + (0.3 if arm == "left" else -0.3)] + HOME[1:]
     still = [0.0] * 7
     points = [{"positions": q, "velocities": still, "time_from_start": duration_s * i / 2}
@@ -23,7 +23,7 @@ def swing(job_id, arm, duration_s, after):
 
 
 class Kill:
-    """When a server ends: `kind`, and the how manieth of what."""
+    """When the server ends: at the `nth` occurrence of `kind`."""
     KINDS = ["time", "change"]
     TRACED = ["fdatasync", "pwrite64", "full disk", "broken disk"]
     POWER_CUT = "power cut"
@@ -35,7 +35,7 @@ class Kill:
         return f"{self.kind} {self.nth}"
 
     def tracer(self):
-        """strace's words for it; the server stays our child (-D). With --seccomp-bpf no signal would be sent."""
+        """Returns the strace command; -D keeps the server our child. With --seccomp-bpf no signal would be sent."""
         inject = {"fdatasync": f"fdatasync:signal=KILL:when={self.nth}",
                   "pwrite64": f"pwrite64:signal=KILL:when={self.nth}",
                   "full disk": f"pwrite64:error=ENOSPC:when={self.nth}..{self.nth + 4}",
@@ -52,7 +52,7 @@ class Kill:
         return bool(self.tracer()) or self.cuts_power()
 
     def await_and_kill(self, server, rng):
-        """Returns whether it came where it was to come."""
+        """Kills the server; returns True if the kill came at the intended point."""
         if self.kind == "change":
             came = server.wait_for_changes(self.nth)
         elif self.kind in ("fdatasync", "pwrite64", self.POWER_CUT):
@@ -88,7 +88,7 @@ class Server:
             return False
 
     def wait_for_changes(self, count):
-        """Whether so many changes of jobs were told within two seconds."""
+        """Returns True if `count` job events were published within two seconds."""
         try:
             with urllib.request.urlopen(f"http://127.0.0.1:{self.port}{API}/events?poses=0", timeout=2) as events:
                 until = time.monotonic() + 2

@@ -1,15 +1,23 @@
 #!/usr/bin/env python3
-"""Kills the server (kill -9) while jobs come in, wait, run and end, and looks at what the next one finds.
+"""Kills the server (kill -9) while jobs are submitted, wait, run and end, and checks the state that the next one restores.
 
     test/server/kills.py ARMLOOM [--kills 12] [--seed 1] [--folder DIR] [--power-cuts LIBRARY] [--only KIND ...]
 
-One after the other, a kill comes at some time, at the Nth change of a job's state that is told, and, by strace
-where that is installed, at the Nth sync and at the Nth write of the database, N growing from the first one of the
-process; or some writes or syncs fail first, as on a full or a broken disk; or the power is cut in the place of the
-Nth sync, so that of what was not synced nothing is left, or any part of it (with the library synced_copy of the
-build). After each: every job that was acknowledged is there, once, in the order in which it was accepted; what had ended has ended as it had; what waited
-waits; what had moved is `interrupted` and stays so; arms are stopped until they are resumed. Over all runs no job
-has moved in two of them (the recordings say so). With --kills 1000 it is the long run.
+Kinds of kills, in turn; N grows from 1:
+- at a random time,
+- at the Nth published change of a job's state,
+- at the Nth sync or write of the database (needs strace),
+- after some writes or syncs that fail, as on a full or broken disk (needs strace),
+- a power cut instead of the Nth sync: unsynced data is lost or survives in part (needs the library synced_copy of
+  the build).
+
+After each kill
+- every acknowledged job is there, once, in the order of acceptance,
+- ended jobs have kept their end, and waiting jobs still wait,
+- jobs that had moved are `interrupted` and stay so,
+- arms are stopped until they are resumed.
+
+No job moves in two sessions (read from the recordings). The long run is --kills 1000.
 """
 import argparse
 import http.client
@@ -27,16 +35,16 @@ from killed_server import API, Kill, NotUp, Server, swing
 from power_cut import SyncedCopy
 
 ENDED = {"succeeded", "canceled", "expired", "failed", "interrupted"}
-ONE_LIFE = 50  # kills of one data folder, then another one is begun
+ONE_LIFE = 50  # number of kills before a new data folder
 
 
 class Trial:
-    """What is known of the jobs of all runs."""
+    """The known states of the jobs of all sessions."""
 
     def __init__(self, rng):
         self.rng = rng
-        self.order = []     # ids, as acknowledged one after the other on one connection
-        self.ended = {}     # id: the state in which it was seen to end
+        self.order = []  # ids in the order of acknowledgement on one connection
+        self.ended = {}  # id: terminal state seen
         self.next = 0
 
     def one(self, server):
@@ -47,7 +55,7 @@ class Trial:
         return swing(f"k{self.next}", arm, self.rng.choice([0.8, 1.5]), after)
 
     def load(self, server, done):
-        """Resumes, submits, cancels and looks until the server is gone."""
+        """Resumes, submits, cancels and lists jobs until the server is gone."""
         try:
             server.call("POST", API + "/resume")
             while not done.is_set():
@@ -73,7 +81,7 @@ class Trial:
             pass  # killed
 
     def look(self, server):
-        """What the new server says of all that is known; returns how many wait."""
+        """Compares the new server's jobs with the known states; returns the number of waiting jobs."""
         jobs, cursor = [], ""
         while True:
             _, page = server.call("GET", API + "/jobs?limit=1000" + cursor)
@@ -102,20 +110,20 @@ class Trial:
                 self.ended[job["id"]] = job["state"]
         _, told = server.call("GET", API + "/alerts")
         damage = [alert["text"] for alert in told["alerts"] if "data folder" in alert["text"]]
-        assert not damage, f"it is whole: {damage}"
+        assert not damage, f"reported damage, but the folder is sound: {damage}"
         if open_jobs:
             _, queue = server.call("GET", API + "/queue")
-            assert queue["stopped"], "arms may move before anyone has said so"
+            assert queue["stopped"], "arms may move before a resume"
         return len(open_jobs)
 
 
 def moved_in(folder):
-    """The jobs that were told to be running in this run."""
+    """Returns the jobs that started in this session."""
     moved = set()
     with open(folder / "events.jsonl", encoding="utf-8") as events:
         for line in events:
             if not line.endswith("\n"):
-                break  # the kill came in the middle of it
+                break  # cut off by the kill
             event = json.loads(line)
             if event["type"] == "job" and event["data"]["started_at"] is not None:
                 moved.add(event["data"]["id"])
@@ -123,7 +131,7 @@ def moved_in(folder):
 
 
 class Lives:
-    """One data folder after the other, each of many runs."""
+    """One data folder after the other, each with many sessions."""
 
     def __init__(self, program, folder, seed, kinds, library):
         self.program, self.folder, self.rng, self.kinds = program, folder, random.Random(seed), kinds
@@ -155,7 +163,7 @@ class Lives:
                 raise AssertionError(f"kill {number} of this folder, the one at {kill}: {found}") from found
             if kill.cuts_power():
                 self.synced.cut(self.rng)
-        server = Server(self.program, data, self.log)  # what the last one left
+        server = Server(self.program, data, self.log)  # checks the state after the last kill
         try:
             self.look_through(trial, server)
         finally:
@@ -175,7 +183,7 @@ class Lives:
         server = Server(self.program, data, self.log, kill.tracer(), environment)
         done = threading.Event()
         try:
-            # A server that is killed as it starts, or whose disk fails, is looked through by the next one.
+            # A server that is killed while it starts, or whose disk fails, is checked by the next session.
             if not kill.may_hinder_start():
                 self.look_through(trial, server)
             load = threading.Thread(target=trial.load, args=(server, done))
@@ -204,7 +212,7 @@ def possible_kinds(library):
 
 def run(program, kills, seed, folder, kinds, library):
     lives = Lives(program, folder, seed, kinds, library)
-    # Where other work leaves the machine little time, few jobs are acknowledged before a kill.
+    # On a busy machine few jobs are acknowledged before a kill.
     while lives.kills < kills or (not lives.saw_enough() and lives.kills < 5 * kills):
         lives.live(min(ONE_LIFE, max(kills - lives.kills, 6)))
     print(f"{lives.kills} kills, seed {seed}: {lives.acknowledged} jobs acknowledged, {lives.moved_jobs} moved, "

@@ -1,5 +1,3 @@
-// Clients with a bad day: too much, too deep, too slow, too many. Each is told what was wrong, and
-// the others notice nothing.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -32,7 +30,7 @@ class Limits : public test::RunningServer {
   }
 };
 
-TEST_F(Limits, AMillionWaypointsAreRefusedQuickly) {
+TEST_F(Limits, MillionWaypointsAreRefusedQuickly) {
   start(1.0);
   const auto body = [](std::size_t count) {
     std::string points(2 * count, ',');
@@ -46,7 +44,7 @@ TEST_F(Limits, AMillionWaypointsAreRefusedQuickly) {
   EXPECT_LT(Clock::now() - before, std::chrono::seconds(5));
 }
 
-TEST_F(Limits, ABodyOverEightMegabytesIsRefused) {
+TEST_F(Limits, BodyOverEightMegabytesIsRefused) {
   start(1.0);
   const auto answer = post("/api/v1/jobs", std::string(8 * 1024 * 1024 + 1, ' '));
   EXPECT_EQ(answer.status, 413);
@@ -54,7 +52,7 @@ TEST_F(Limits, ABodyOverEightMegabytesIsRefused) {
   EXPECT_EQ(get("/healthz").status, 200);
 }
 
-TEST_F(Limits, TextThatIsNoPlainJsonIsRefusedWithItsPlace) {
+TEST_F(Limits, InvalidJsonIsRefusedWithPlaceAndReason) {
   start(1.0);
   expect_problem(R"({"trajectory": )" + std::string(1'000'000, '['), 413,
                  "/trajectory" +
@@ -74,12 +72,12 @@ TEST_F(Limits, TextThatIsNoPlainJsonIsRefusedWithItsPlace) {
   expect_problem(huge.dump(), 422, "/trajectory/points/1/time_from_start/sec", "1099511627776");
 }
 
-TEST(ServiceOptions, GiveHeadersAndBodiesTenSeconds) {
+TEST(ServiceOptions, ReadTimeoutIsTenSeconds) {
   EXPECT_EQ(ServiceOptions{}.read_time, std::chrono::seconds(10));
   EXPECT_EQ(Site{}.read_time, std::chrono::seconds(10));
 }
 
-// Both at once: each is cut off at its time, counted from its first byte.
+// Both slow requests run at once. The time limit starts at the first byte.
 TEST_F(Limits, SlowHeadersAndBodiesAreCutOff) {
   options_.read_time = std::chrono::seconds(1);
   start(1.0);
@@ -90,7 +88,7 @@ TEST_F(Limits, SlowHeadersAndBodiesAreCutOff) {
   body.send(
       "POST /api/v1/jobs HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\n"
       "Content-Length: 100\r\n\r\n{");
-  for (int i = 0; i < 8; ++i) {  // a byte now and then does not help
+  for (int i = 0; i < 8; ++i) {  // single bytes do not extend the limit
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     header.send("X");
     body.send(" ");
@@ -100,10 +98,10 @@ TEST_F(Limits, SlowHeadersAndBodiesAreCutOff) {
   EXPECT_TRUE(body.take_all().starts_with("HTTP/1.1 408 "));
   const auto took = Clock::now() - before;
   EXPECT_GT(took, std::chrono::milliseconds(900));
-  EXPECT_LT(took, std::chrono::seconds(8));  // a busy machine; without the cut: for ever
+  EXPECT_LT(took, std::chrono::seconds(8));  // generous for a busy machine
 }
 
-// Both ends of every connection are in this process.
+// Client and server ends of all connections are in this process.
 void allow_descriptors(rlim_t count) {
   rlimit limit{};
   ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
@@ -114,12 +112,12 @@ void allow_descriptors(rlim_t count) {
   ASSERT_GE(limit.rlim_cur, count) << "the system gives too few file descriptors";
 }
 
-TEST_F(Limits, AThousandIdleConnectionsChangeNothingForOthers) {
+TEST_F(Limits, IdleConnectionsDoNotAffectOthers) {
   ASSERT_NO_FATAL_FAILURE(allow_descriptors(2'200));
   start(20.0);
   std::vector<std::unique_ptr<test::Wire>> idle;
   for (int i = 0; i < 1'000; ++i) idle.push_back(std::make_unique<test::Wire>(port()));
-  // The last in the queue of those to be accepted: when it is served, all of them are held.
+  // The last connection in the accept queue: when it is served, all others are open.
   test::Wire last(port());
   last.send(test::request_text("GET", "/healthz", "", ""));
   ASSERT_EQ(test::read_answer(last).status, 200);
@@ -136,17 +134,17 @@ TEST_F(Limits, AThousandIdleConnectionsChangeNothingForOthers) {
     EXPECT_LT(Clock::now() - asked, std::chrono::seconds(1));
   }
   until(listener, "go", "succeeded");
-  EXPECT_LT(Clock::now() - before, std::chrono::seconds(3));  // 0.15 s alone
+  EXPECT_LT(Clock::now() - before, std::chrono::seconds(3));  // 0.15 s on an idle machine
   const json one_more = get("/api/v1/jobs/go").json();
   EXPECT_EQ(one_more["state"], "succeeded");
-  for (const auto& wire : {std::ref(idle.front()), std::ref(idle.back())}) {  // held, and served
+  // still open, and served
+  for (const auto& wire : {std::ref(idle.front()), std::ref(idle.back())}) {
     wire.get()->send(test::request_text("GET", "/healthz", "", ""));
     EXPECT_EQ(test::read_answer(*wire.get()).status, 200);
   }
 }
 
-// It keeps itself alive by pongs, but lets everything wait.
-TEST_F(Limits, AReaderThatNeverReadsIsCutOff) {
+TEST_F(Limits, SubscriberThatNeverReadsIsDisconnected) {
   options_.send_buffer = 4096;
   options_.send_time = std::chrono::milliseconds(300);
   start(1.0);
@@ -165,9 +163,8 @@ TEST_F(Limits, AReaderThatNeverReadsIsCutOff) {
   }
 }
 
-// Bodies that never end, of many connections: some are told that there is no room, and a stop is
-// taken all the same.
-TEST_F(Limits, UnfinishedBodiesTakeABoundedPartOfTheMemory) {
+// Unfinished bodies of many connections: some are refused for lack of memory, but a stop is served.
+TEST_F(Limits, UnfinishedBodiesUseBoundedMemory) {
   options_.memory_max = 4 << 20U;
   start(1.0);
   const std::string head =
@@ -178,7 +175,7 @@ TEST_F(Limits, UnfinishedBodiesTakeABoundedPartOfTheMemory) {
   for (int i = 0; i < 8; ++i) {
     held.push_back(std::make_unique<test::Wire>(port()));
     held.back()->send(head + std::string(1'000'000, ' '));
-    const auto stopped = post("/api/v1/stop", "");  // all that came before has been read by then
+    const auto stopped = post("/api/v1/stop", "");  // the server has read the body by then
     EXPECT_EQ(stopped.status, 202);
   }
   for (const auto& wire : held) {
@@ -189,12 +186,13 @@ TEST_F(Limits, UnfinishedBodiesTakeABoundedPartOfTheMemory) {
   }
   EXPECT_GE(refused, 1);
   EXPECT_LE(refused, 7);
-  EXPECT_EQ(post("/api/v1/jobs", std::string(1 << 20U, ' ')).status, 400);  // there is room again
+  // the memory is free again
+  EXPECT_EQ(post("/api/v1/jobs", std::string(1 << 20U, ' ')).status, 400);
 }
 
-// What takes long to read is read aside: the strand of connections goes on.
-TEST_F(Limits, AnEnormousBodyKeepsNobodyWaiting) {
-  // It asks as often as it is answered.
+// A large body is parsed on another thread, so that the connection strand keeps serving.
+TEST_F(Limits, LargeBodyDoesNotDelayOthers) {
+  // This client sends requests as fast as they are answered.
   options_.limits.requests = options_.limits.requests_of_all = {1e6, 1e6};
   start(1.0);
   std::string some = "[{}";
@@ -205,7 +203,7 @@ TEST_F(Limits, AnEnormousBodyKeepsNobodyWaiting) {
     for (int i = 1; i < count; ++i) text += "," + some;
     return text + "]}";
   };
-  // The object, its member, the list, 23 lists of 50,000, and as many of the next as are left.
+  // Parts: object, member, list, 23 lists of 50,000, and the beginning of the next list.
   const auto refused = post("/api/v1/batches", lists_of_them(50));
   EXPECT_EQ(refused.status, 413);
   EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:too-many-parts");
@@ -215,8 +213,8 @@ TEST_F(Limits, AnEnormousBodyKeepsNobodyWaiting) {
   for (int i = 0; i < 20'000; ++i) members += "\"" + std::to_string(i) + "\":0,";
   members += "\"x\":0}";
   EXPECT_EQ(post("/api/v1/jobs", members).json()["type"], "urn:armloom:problem:too-many-members");
-  // The longest that anybody waited while it was read, as a share of that time; the best of some
-  // tries, as a machine may have something else to do for once.
+  // Longest wait of another client while the body was read, as a share of that time. The best of
+  // several attempts, because the machine may be busy.
   double share = 1.0;
   for (int attempt = 0; attempt < 5 && share > 0.5; ++attempt) {
     std::atomic<bool> answered = false;

@@ -1,7 +1,7 @@
 #pragma once
 
-// Random runs of an executive on two Pandas, with the log of its inputs and what it told: verdicts,
-// plans and words from the disk come when they like, as on a busy machine.
+// Random runs of an executive with two Pandas that record the log of its inputs and its events.
+// Verdicts, plans and store acknowledgements arrive after random delays, as on a busy machine.
 
 #include <atomic>
 #include <deque>
@@ -105,7 +105,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
   [[nodiscard]] TimePoint ended_at() const { return now_ - kControlPeriod; }
   [[nodiscard]] const Executive& executive() const { return *executive_; }
   std::vector<std::string> log;
-  std::size_t planned = 0;  // ways that were asked for and found
+  std::size_t planned = 0;  // number of /plan inquiries that found a path
 
  private:
   void answer(std::optional<MotionChecker>& checker, const Question& question,
@@ -141,7 +141,7 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
     return job;
   }
   std::string arm() { return random_() % 2 == 0 ? "left" : "right"; }
-  // From home and back.
+  // Returns a motion from home and back.
   json swing(const std::string& arm) {
     test::Pose there = random_() % 3 == 0 ? test::kMiddle : test::kHome;
     there[0] += 0.1 * static_cast<double>(random_() % 5);
@@ -217,13 +217,13 @@ class LiveRun final : public JudgementService, public StartLog, public InputLog,
       case 25:
         return (void)executive_->cancel(some_job(),
                                         now_ + Duration(random_() % 800) * kControlPeriod.count());
-      case 26:  // what only asks is not logged, and changes nothing, however long it takes
+      case 26:  // checks and plans are not logged and change nothing, however long they take
       case 27:
         return executive_->check(request(swing(arm())), [](const auto&) {});
       case 28:
         return plan();
       case 29:
-        return executive_->withdraw(some_job());
+        return executive_->roll_back(some_job());
       default:
         if (!batch_) (void)executive_->submit(request(swing(arm())));
     }

@@ -1,4 +1,3 @@
-// The server's log: lines that clients cannot forge, requests that can be found again.
 #include <gtest/gtest.h>
 
 #include <mutex>
@@ -16,7 +15,7 @@ const LogLine kHostile{LogLine::Level::warning,
                        "stopped by \"Eve\"\n[error] all is lost\x1b[2J",
                        {{"path", "/jobs/a b\r\n\xff"}, {"status", std::int64_t{404}}, {"ms", 1.5}}};
 
-TEST(LogLine, WhatClientsSayStaysOnItsLineAndIsNoCommandOfATerminal) {
+TEST(LogLine, EscapesLineBreaksAndTerminalControls) {
   const std::string text = text_of(kHostile);
   for (const char c : text) EXPECT_TRUE(static_cast<unsigned char>(c) >= ' ' && c != 0x7f) << text;
   EXPECT_NE(text.find(R"(path="/jobs/a b\u000d\n)"), std::string::npos) << text;
@@ -25,8 +24,8 @@ TEST(LogLine, WhatClientsSayStaysOnItsLineAndIsNoCommandOfATerminal) {
             "serving cell=two_pandas policy=\"\"");
 }
 
-// Also where it does so beyond ASCII: C1 controls, ends of lines, marks of the direction.
-TEST(LogLine, WhatMisleadsATerminalIsEscapedAndWhatIsReadIsNot) {
+// Also beyond ASCII: C1 controls, line separators, bidirectional marks.
+TEST(LogLine, EscapesUnicodeControlsButNotLetters) {
   const LogLine line{LogLine::Level::info,
                      "asked",
                      {{"path", "/\u202eevil\u009b31m\u0085\u2028\u2066x"}, {"name", "größe € 腕"}}};
@@ -38,7 +37,7 @@ TEST(LogLine, WhatMisleadsATerminalIsEscapedAndWhatIsReadIsNot) {
   EXPECT_EQ(json::parse(text)["name"], "größe € 腕");
 }
 
-TEST(LogLine, AsJsonIsOneObjectOnOneLine) {
+TEST(LogLine, IsOneJsonObjectOnOneLine) {
   using std::chrono::milliseconds;
   const std::string text =
       json_of(kHostile, std::chrono::system_clock::time_point(milliseconds(1500)));
@@ -77,7 +76,7 @@ class RequestLog : public test::RunningServer {
   std::mutex mutex_;
 };
 
-TEST_F(RequestLog, CommandsStandInItWithTheIdThatTheirClientWasTold) {
+TEST_F(RequestLog, RecordsCommandsWithTheirRequestId) {
   begin(LoggedRequests::commands);
   EXPECT_EQ(get("/api/v1/queue").status, 200);
   const auto stopped = post("/api/v1/stop", "");
@@ -94,7 +93,7 @@ TEST_F(RequestLog, CommandsStandInItWithTheIdThatTheirClientWasTold) {
   EXPECT_TRUE(told) << "alerts stand in it, too";
 }
 
-TEST_F(RequestLog, TakesTheClientsIdWhereItMayStandAndElseMakesOne) {
+TEST_F(RequestLog, UsesTheClientsRequestIdIfValid) {
   begin(LoggedRequests::all);
   const auto ask = [&](const std::string& field) {
     const std::string answer = answer_to(
@@ -115,7 +114,7 @@ TEST_F(RequestLog, TakesTheClientsIdWhereItMayStandAndElseMakesOne) {
   }
 }
 
-TEST_F(RequestLog, WhatIsNoHttpHasAnIdToo) {
+TEST_F(RequestLog, InvalidHttpHasARequestIdToo) {
   begin(LoggedRequests::all);
   const std::string answer = answer_to("nonsense\r\n\r\n");
   EXPECT_NE(answer.find("400 "), std::string::npos);

@@ -1,4 +1,3 @@
-// What clients ask for keeps no job waiting.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -15,7 +14,8 @@ using nlohmann::json;
 constexpr test::Pose kNear{0, -0.4, 0, -1.2, 0, 2.0, 0.785};  // over the middle of the table
 constexpr int kTurns = 200;
 
-// Goes near the other arm, turns its hand to and fro there and comes back: a second of judging.
+// Returns a motion that approaches the other arm, turns its hand back and forth there, and returns.
+// Its check takes about a second.
 json long_motion() {
   json body = test::move("right", test::kHome, kNear, 4.0, 2);
   json& points = body["trajectory"]["points"];
@@ -43,7 +43,7 @@ double answered_checks(const std::string& metrics) {
 
 class LongChecks : public test::RunningServer {};
 
-TEST_F(LongChecks, TwentyLongChecksKeepNoJobQueued) {
+TEST_F(LongChecks, DoNotDelayJobs) {
   ASSERT_NO_FATAL_FAILURE(start(20.0));
   test::Listener listener(port());
   json near = test::move("left", test::kHome, kNear, 4.0);
@@ -58,7 +58,7 @@ TEST_F(LongChecks, TwentyLongChecksKeepNoJobQueued) {
     asking.push_back(std::make_unique<test::Wire>(port()));
     ASSERT_TRUE(asking.back()->send(check));
   }
-  const auto first = test::read_answer(*asking.front());  // the others wait behind it
+  const auto first = test::read_answer(*asking.front());  // the other checks are queued behind it
   ASSERT_EQ(first.status, 200) << first.body;
   EXPECT_GT(first.json()["evaluations"], 10'000) << "this is no long check";
 

@@ -49,7 +49,7 @@ class MeshRoutes : public test::RunningServer {
   const small::Surface box_ = small::box_surface({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
 };
 
-TEST_F(MeshRoutes, ServeTheMeshesThatTheCellNames) {
+TEST_F(MeshRoutes, ServeTheMeshesOfTheCell) {
   start(1.0, {}, folder_ / "cell.json");
   const json cell = get("/api/v1/cell").json();
   const json meshes = cell["robots"][0]["meshes"];
@@ -68,7 +68,7 @@ TEST_F(MeshRoutes, ServeTheMeshesThatTheCellNames) {
   EXPECT_EQ(get("/api/v1/scene").json()["objects"], cell["objects"]);
 }
 
-TEST_F(MeshRoutes, ServeNoOtherFileAndTellNoPath) {
+TEST_F(MeshRoutes, ServeNoOtherFileAndRevealNoPath) {
   start(1.0, {}, folder_ / "cell.json");
   for (const std::string& path :
        {std::string("../cell.json"), std::string("r.urdf"), folder_.string(),
@@ -81,7 +81,7 @@ TEST_F(MeshRoutes, ServeNoOtherFileAndTellNoPath) {
   EXPECT_EQ(get("/api/v1/cell").body.find(folder_.string()), std::string::npos);
 }
 
-TEST_F(MeshRoutes, SayThatAMeshHasGone) {
+TEST_F(MeshRoutes, ReportAMissingMesh) {
   start(1.0, {}, folder_ / "cell.json");
   const std::string address =
       get("/api/v1/cell").json()["robots"][0]["meshes"]["package://p/part.stl"];
@@ -89,7 +89,7 @@ TEST_F(MeshRoutes, SayThatAMeshHasGone) {
   EXPECT_EQ(get(address).status, 404);
 }
 
-TEST_F(MeshRoutes, ServeNothingThatALinkLeadsToSinceTheStart) {
+TEST_F(MeshRoutes, DoNotFollowLinksCreatedAfterTheStart) {
   write("elsewhere.stl", "elsewhere");
   start(1.0, {}, folder_ / "cell.json");
   const std::string address =
@@ -97,7 +97,7 @@ TEST_F(MeshRoutes, ServeNothingThatALinkLeadsToSinceTheStart) {
   fs::remove(folder_ / "package/part.stl");
   fs::create_symlink(folder_ / "elsewhere.stl", folder_ / "package/part.stl");
   EXPECT_EQ(get(address).status, 404);
-  // Nor where its folder has become one.
+  // The same if the folder has become a link.
   fs::remove(folder_ / "package/part.stl");
   write("package/part.stl", small::stl_bytes(box_));
   EXPECT_EQ(get(address).status, 200);
@@ -108,7 +108,7 @@ TEST_F(MeshRoutes, ServeNothingThatALinkLeadsToSinceTheStart) {
   EXPECT_EQ(get(address).status, 404);
 }
 
-TEST_F(MeshRoutes, AreNotSentAgainToThoseWhoHaveThem) {
+TEST_F(MeshRoutes, AreNotSentAgainIfTheETagMatches) {
   start(1.0, {}, folder_ / "cell.json");
   const std::string address =
       get("/api/v1/cell").json()["robots"][0]["meshes"]["package://p/part.stl"];

@@ -1,4 +1,3 @@
-// What /metrics says after things have happened, and that the dashboard file asks for nothing else.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -15,7 +14,7 @@ using nlohmann::json;
 
 class MetricsRoute : public test::RunningServer {
  protected:
-  // Values by name and labels, as they stand there.
+  // Returns the values by name and labels, as printed.
   std::map<std::string, double> figures() {
     const auto answer = get("/metrics");
     EXPECT_EQ(answer.status, 200);
@@ -49,7 +48,7 @@ TEST_F(MetricsRoute, CountsJobsWaitsAndDecisions) {
   EXPECT_EQ(after.at("armloom_jobs_total{outcome=\"succeeded\"}"), 1);
   EXPECT_EQ(after.at("armloom_jobs_total{outcome=\"canceled\"}"), 1);
   EXPECT_GE(after.at("armloom_decision_seconds_count"),
-            2);  // the other is judged again while it waits
+            2);  // the waiting job is checked again
   EXPECT_EQ(before.at("armloom_evaluations_total"), 0);
   EXPECT_GT(after.at("armloom_evaluations_total"), 0);
   double waits = 0;
@@ -60,7 +59,7 @@ TEST_F(MetricsRoute, CountsJobsWaitsAndDecisions) {
   EXPECT_EQ(after.at("armloom_event_subscribers"), 1);
 }
 
-TEST_F(MetricsRoute, WatchesLoopsClearanceAndStops) {
+TEST_F(MetricsRoute, ReportsLoopsClearanceAndStops) {
   start(1.0);
   test::Listener listener(port());
   for (int frames = 0; frames < 3; ++frames) (void)listener.next_of("state");
@@ -78,7 +77,7 @@ TEST_F(MetricsRoute, WatchesLoopsClearanceAndStops) {
   EXPECT_EQ(values.at("armloom_storage_failed"), 0);
 }
 
-TEST_F(MetricsRoute, CountsAnswersByRouteAndStatusAndNothingThatAClientNames) {
+TEST_F(MetricsRoute, CountsResponsesByRouteAndStatusWithoutClientData) {
   start(1.0);
   EXPECT_EQ(get("/api/v1/jobs/nothing").status, 404);
   EXPECT_EQ(get("/api/v1/jobs/nobody").status, 404);
@@ -99,7 +98,7 @@ TEST_F(MetricsRoute, CountsAnswersByRouteAndStatusAndNothingThatAClientNames) {
   }
 }
 
-TEST_F(MetricsRoute, SayHowLongTheDiskTakes) {
+TEST_F(MetricsRoute, ReportsDatabaseLatency) {
   options_.data = std::filesystem::path(::testing::TempDir()) / "armloom-metrics-data";
   std::filesystem::remove_all(*options_.data);
   start(1.0);
@@ -112,7 +111,7 @@ TEST_F(MetricsRoute, SayHowLongTheDiskTakes) {
   EXPECT_GT(after.at("armloom_database_seconds_sum"), 0);
 }
 
-TEST_F(MetricsRoute, HaveEverythingThatTheGrafanaDashboardAsksFor) {
+TEST_F(MetricsRoute, HasEveryMetricOfTheGrafanaDashboard) {
   start(1.0);
   test::Listener listener(port());
   (void)listener.next_of("state");

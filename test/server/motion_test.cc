@@ -38,7 +38,7 @@ void expect_same(const json& told, const json& posted) {
   }
 }
 
-TEST_F(MotionsOverHttp, OfAJobIsTheOneThatWasPosted) {
+TEST_F(MotionsOverHttp, TrajectoryOfAJobIsReturnedAsPosted) {
   start(1.0);
   const json quintic = test::move("left", test::kHome, test::kMiddle, 3.0, 5);
   json cubic = test::move("right", test::kHome, test::kHome, 2.0, 3);
@@ -54,7 +54,7 @@ TEST_F(MotionsOverHttp, OfAJobIsTheOneThatWasPosted) {
   EXPECT_EQ(get("/api/v1/jobs/nothing/trajectory").status, 404);
 }
 
-TEST_F(MotionsOverHttp, OfAPathWithoutTimesCanBePostedAgain) {
+TEST_F(MotionsOverHttp, RetimedTrajectoryCanBePostedAgain) {
   start(1.0);
   json path = test::move("left", test::kHome, test::kMiddle, 3.0, 4);
   for (json& point : path["trajectory"]["points"]) point = {{"positions", point["positions"]}};
@@ -62,7 +62,7 @@ TEST_F(MotionsOverHttp, OfAPathWithoutTimesCanBePostedAgain) {
   submit("path", path);
   const json told = motion("path");
   EXPECT_GT(told["duration_s"], 0.1);
-  // The other arm stands where this one began.
+  // The other arm is at the equivalent start.
   std::string text = json{{"trajectory", told["trajectory"]}}.dump();
   for (std::size_t at = 0; (at = text.find("left_", at)) != std::string::npos;) {
     text.replace(at, 5, "right_");
@@ -71,7 +71,7 @@ TEST_F(MotionsOverHttp, OfAPathWithoutTimesCanBePostedAgain) {
   EXPECT_EQ(check.status, 200) << check.body;
 }
 
-TEST_F(MotionsOverHttp, ComesWithEveryFrameHowFarItMayGo) {
+TEST_F(MotionsOverHttp, StateFramesHaveProgressAndAuthority) {
   start(1.0);
   test::Listener listener(port());
   submit("there", test::move("left", test::kHome, test::kMiddle, 2.0));
@@ -87,7 +87,7 @@ TEST_F(MotionsOverHttp, ComesWithEveryFrameHowFarItMayGo) {
   while (!motions.empty()) motions = listener.next_of("state")["motions"];
 }
 
-TEST_F(MotionsOverHttp, WhatIsInTheBacklogSaysSinceWhenAndUntilWhen) {
+TEST_F(MotionsOverHttp, BackloggedJobsReportTheirTimeout) {
   options_.policy = "certified";
   start(1.0);
   test::Listener listener(port());
@@ -102,7 +102,7 @@ TEST_F(MotionsOverHttp, WhatIsInTheBacklogSaysSinceWhenAndUntilWhen) {
   EXPECT_FALSE(get("/api/v1/jobs/there").json().contains("expires_s"));
 }
 
-TEST_F(MotionsOverHttp, TheCellSaysThatItIsSimulated) {
+TEST_F(MotionsOverHttp, CellIsReportedAsSimulated) {
   start(1.0);
   EXPECT_EQ(get("/api/v1/cell").json()["simulated"], true);
 }

@@ -1,4 +1,3 @@
-// Old recordings in a data folder go, the oldest first; the running one, and all else, stays.
 #include "server/recording/old_recordings.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-class OldRecording : public ::testing::Test {
+class RecordingRetention : public ::testing::Test {
  protected:
   void SetUp() override {
     data_ = fs::path(::testing::TempDir()) / "armloom-old-recordings" /
@@ -47,7 +46,7 @@ using Names = std::vector<std::string>;
 const std::string kFirst = "2026-11-01T09-00-00Z", kSecond = "2026-11-02T09-00-00Z.2",
                   kThird = "2026-11-03T09-00-00Z";
 
-TEST_F(OldRecording, TheOldestGoUntilTheCountHolds) {
+TEST_F(RecordingRetention, RemovesTheOldestBeyondTheCount) {
   recording("", 100h);
   recording(kFirst, 72h);
   recording(kSecond, 48h);
@@ -62,13 +61,13 @@ TEST_F(OldRecording, TheOldestGoUntilTheCountHolds) {
   EXPECT_TRUE(fs::exists(data_ / kSecond / "events.jsonl"));
 }
 
-TEST_F(OldRecording, ByAgeSinceTheyWereWrittenLast) {
+TEST_F(RecordingRetention, RemovesByTimeOfLastWrite) {
   recording(kFirst, 24h * 31);
   recording(kSecond, 24h * 29);
   EXPECT_EQ(removed({.age = std::chrono::days(30)}, data_), Names{kFirst});
 }
 
-TEST_F(OldRecording, ByBytesOfAllTogether) {
+TEST_F(RecordingRetention, EnforcesTotalSize) {
   recording(kFirst, 3h, 400);
   recording(kSecond, 2h, 400);
   const fs::path running = recording(kThird, 0h, 400);
@@ -78,7 +77,7 @@ TEST_F(OldRecording, ByBytesOfAllTogether) {
   EXPECT_TRUE(fs::exists(running / "events.jsonl"));
 }
 
-TEST_F(OldRecording, WhatIsNoRecordingOfOursStays) {
+TEST_F(RecordingRetention, KeepsForeignFilesAndFolders) {
   const fs::path running = recording(kThird, 0h);
   recording("2026-11-01T09-00-00Z-keep", 99h);
   recording("for the report", 99h);
@@ -92,7 +91,7 @@ TEST_F(OldRecording, WhatIsNoRecordingOfOursStays) {
   EXPECT_TRUE(fs::exists(data_ / "2026-11-01T09-00-00Z-keep" / "events.jsonl"));
 }
 
-TEST_F(OldRecording, GoesByItselfWhileTheServerRuns) {
+TEST_F(RecordingRetention, RunsPeriodicallyInTheServer) {
   const fs::path running = recording(kThird, 0h);
   recording(kFirst, 72h);
   std::promise<std::string> told;

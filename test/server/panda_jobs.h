@@ -10,9 +10,10 @@ using Pose = std::array<double, 7>;
 
 // Poses of the two-Panda cell (rad).
 inline constexpr Pose kHome{0, -1.2, 0, -2.6, 0, 1.6, 0.785};
-inline constexpr Pose kMiddle{0, -0.7, 0, -1.8, 0, 2.6, 0};  // "coop_up": not for both arms at once
+// "coop_up": the arms collide if both are there
+inline constexpr Pose kMiddle{0, -0.7, 0, -1.8, 0, 2.6, 0};
 
-// A quintic from rest to rest through `points` waypoints, as the body of POST /jobs.
+// Returns a quintic motion from rest to rest through `points` waypoints, as a body of POST /jobs.
 inline nlohmann::json move(const std::string& arm, const Pose& from, const Pose& to,
                            double duration_s = 3.0, int points = 11) {
   nlohmann::json names = nlohmann::json::array();

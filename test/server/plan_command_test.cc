@@ -1,4 +1,3 @@
-// `armloom plan`, as a shell calls it.
 #include "test/server/command_fixture.h"
 
 namespace armloom {
@@ -15,7 +14,7 @@ class PlanCommand : public test::CommandFixture {
   }
 };
 
-TEST_F(PlanCommand, WritesAJobThatCheckAndSimulateTakeAsItIs) {
+TEST_F(PlanCommand, WritesAJobThatCheckAndSimulateAccept) {
   for (const std::string to :
        {"ready", "'[1.2, -0.4, 0.3, -1.9, 0.1, 1.8, 0.2]'",
         "'{\"pose\": {\"link\": \"left_panda_link8\", \"xyz\": [0, 0.2, 0.5], \"rpy\": [3.14, 0, "
@@ -37,14 +36,14 @@ TEST_F(PlanCommand, WritesAJobThatCheckAndSimulateTakeAsItIs) {
   }
 }
 
-TEST_F(PlanCommand, RepeatsForASeedAndSaysTheJobOnStdout) {
+TEST_F(PlanCommand, RepeatsForASeedAndPrintsTheJob) {
   const Outcome first = plan("--to extended --from ready --seed 7");
   ASSERT_EQ(first.exit_code, 0) << first.err;
   EXPECT_EQ(plan("--to extended --from ready --seed 7").out, first.out);
   EXPECT_EQ(first.last_line()["trajectory"]["joint_names"].size(), 7u);
 }
 
-TEST_F(PlanCommand, SaysWhyThereIsNoPlan) {
+TEST_F(PlanCommand, ReportsWhyThereIsNoPlan) {
   const Outcome in_the_table = plan("--to '[0, 1.7, 0, -1, 0, 1, 0]'");
   EXPECT_EQ(in_the_table.exit_code, 1);
   EXPECT_EQ(in_the_table.last_line()["result"], "goal-in-collision");
@@ -57,8 +56,8 @@ TEST_F(PlanCommand, SaysWhyThereIsNoPlan) {
   EXPECT_EQ(plan("--to '[0, 0, 0, 1, 0, 1, 0]'").last_line()["result"], "outside-limits");
 }
 
-// Only the right one gets so far.
-TEST_F(PlanCommand, OfSeveralArmsTheOneThatIsThereFirstGoes) {
+// Only the right arm can reach the pose.
+TEST_F(PlanCommand, SelectsTheArmThatArrivesFirst) {
   const auto by_arms = [&](const std::string& arguments) {
     return run("plan --cell " + test::kCell + " --arms left,right " + arguments);
   };

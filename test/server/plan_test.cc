@@ -1,4 +1,3 @@
-// POST /plan, over the loopback.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -26,7 +25,7 @@ class PlanOverHttp : public RunningServer {
   }
 };
 
-TEST_F(PlanOverHttp, AnswersATrajectoryThatPostJobsTakesAsItIs) {
+TEST_F(PlanOverHttp, ReturnsATrajectoryThatPostJobsAccepts) {
   start(20.0);
   const json plan = planned({{"arm", "left"}, {"to", {{"named", "ready"}}}});
   EXPECT_EQ(plan["verdict"]["verdict"], "free") << plan["verdict"];
@@ -40,7 +39,7 @@ TEST_F(PlanOverHttp, AnswersATrajectoryThatPostJobsTakesAsItIs) {
   EXPECT_NEAR(done["duration_s"], plan["duration_s"], 1e-6);
 }
 
-TEST_F(PlanOverHttp, BeginsWhereTheAcceptedJobsWillLeaveTheArm) {
+TEST_F(PlanOverHttp, StartsWhereAcceptedJobsWillLeaveTheArm) {
   start(1.0);
   const json first = planned({{"arm", "left"}, {"to", {{"named", "ready"}}}});
   const json job = {{"id", "first"}, {"trajectory", first["trajectory"]}};
@@ -51,7 +50,7 @@ TEST_F(PlanOverHttp, BeginsWhereTheAcceptedJobsWillLeaveTheArm) {
   for (std::size_t j = 0; j < ends.size(); ++j) EXPECT_NEAR(ends[j], begins[j], 1e-9);
 }
 
-TEST_F(PlanOverHttp, OfAnotherStartIsPlannedAndSaidNotToBeJudged) {
+TEST_F(PlanOverHttp, ReportsThatAnotherStartIsNotChecked) {
   start(1.0);
   const json plan =
       planned({{"arm", "left"}, {"to", {{"named", "home"}}}, {"start", {{"named", "ready"}}}});
@@ -59,7 +58,7 @@ TEST_F(PlanOverHttp, OfAnotherStartIsPlannedAndSaidNotToBeJudged) {
   EXPECT_EQ(plan["not_checked_reason"]["type"], "urn:armloom:problem:start-mismatch");
 }
 
-TEST_F(PlanOverHttp, SaysWhatOfTheRequestIsAtFaultAndTheNearestThatWouldDo) {
+TEST_F(PlanOverHttp, ReportsTheFaultyMemberAndTheNearestValidGoal) {
   start(1.0);
   const json beyond = {0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 0.0};
   const json table = {0.0, 1.7, 0.0, -1.0, 0.0, 1.0, 0.0};
@@ -83,7 +82,7 @@ TEST_F(PlanOverHttp, SaysWhatOfTheRequestIsAtFaultAndTheNearestThatWouldDo) {
   EXPECT_EQ(stands["links"], json({"right_panda_link7"}));
 }
 
-TEST_F(PlanOverHttp, SearchesNoLongerThanItsBudget) {
+TEST_F(PlanOverHttp, RefusesABudgetOutOfRange) {
   start(1.0);
   json body = {{"arm", "left"}, {"to", {{"named", "extended"}}}, {"budget", 0}};
   EXPECT_EQ(plan(body).json()["pointer"], "/budget");
@@ -93,7 +92,7 @@ TEST_F(PlanOverHttp, SearchesNoLongerThanItsBudget) {
   EXPECT_EQ(plan(body).status, 200);
 }
 
-TEST_F(PlanOverHttp, OfSeveralArmsTakesTheOneThatArrivesFirstAndSaysWhyNotTheOthers) {
+TEST_F(PlanOverHttp, SelectsTheFirstArmAndReportsTheOthers) {
   start(20.0);
   const json beside_left = {
       {"pose", {{"link", "panda_link8"}, {"xyz", {-0.6, 0.4, 0.5}}, {"rpy", {3.14, 0, 0}}}}};
@@ -104,20 +103,20 @@ TEST_F(PlanOverHttp, OfSeveralArmsTakesTheOneThatArrivesFirstAndSaysWhyNotTheOth
   const json body = {{"arms", {"right", "left"}}, {"move_to", beside_left}, {"id", "either"}};
   const json said = post("/api/v1/check", body.dump()).json();
   EXPECT_EQ(said["verdict"], "free") << said;
-  EXPECT_EQ(said["choice"]["taken"], "left") << said;
+  EXPECT_EQ(said["choice"]["selected"], "left") << said;
   test::Listener listener(port());
   ASSERT_EQ(post("/api/v1/jobs", body.dump()).status, 202);
   const json done = until(listener, "either", "succeeded");
   EXPECT_EQ(done["arms"], json({"left"}));
   EXPECT_EQ(done["alternatives"], json({"right", "left"}));
-  EXPECT_EQ(done["choice"]["taken"], "left");
+  EXPECT_EQ(done["choice"]["selected"], "left");
   const json nowhere = {{"pose", {{"xyz", {3, 0, 0.5}}}}};
   const auto none = this->plan({{"arms", {"right", "left"}}, {"to", nowhere}});
   EXPECT_EQ(none.status, 422);
   EXPECT_NE(none.json()["detail"].get<std::string>().find("; left: "), std::string::npos);
 }
 
-TEST_F(PlanOverHttp, RefusesWhatItDoesNotKnowWithItsPlace) {
+TEST_F(PlanOverHttp, RefusesUnknownNamesWithTheirPointer) {
   start(1.0);
   const json arm = plan({{"arm", "lft"}, {"to", {{"named", "ready"}}}}).json();
   EXPECT_EQ(arm["pointer"], "/arm");
@@ -135,7 +134,7 @@ TEST_F(PlanOverHttp, RefusesWhatItDoesNotKnowWithItsPlace) {
 
 class GoalsOverHttp : public RunningServer {};
 
-TEST_F(GoalsOverHttp, AJobToANamedStateIsPlannedToldAndDone) {
+TEST_F(GoalsOverHttp, JobWithANamedGoalIsPlannedAndDone) {
   start(20.0);
   test::Listener listener(port());
   const json body = {{"id", "go"},
@@ -159,7 +158,7 @@ TEST_F(GoalsOverHttp, AJobToANamedStateIsPlannedToldAndDone) {
   EXPECT_GT(planned["duration_s"], 1.5 * full["duration_s"].get<double>()) << "slowly";
 }
 
-TEST_F(GoalsOverHttp, OneOfAGoalAndATrajectoryIsGiven) {
+TEST_F(GoalsOverHttp, EitherGoalOrTrajectoryIsRequired) {
   start(1.0);
   json both = test::move("left", test::kHome, test::kMiddle);
   both["move_to"] = {{"named", "ready"}};
@@ -176,7 +175,7 @@ TEST_F(GoalsOverHttp, OneOfAGoalAndATrajectoryIsGiven) {
   EXPECT_EQ(answer.json()["pointer"], "/move_to/pose/link");
 }
 
-TEST_F(PlanOverHttp, AStraightLineIsKeptOrRefusedWithThePlace) {
+TEST_F(PlanOverHttp, RefusesAStraightLineThatBreaks) {
   start(1.0);
   const auto to_y = [&](double y_m) {
     const json pose = {
@@ -190,7 +189,7 @@ TEST_F(PlanOverHttp, AStraightLineIsKeptOrRefusedWithThePlace) {
   EXPECT_EQ(joints.status, 422) << joints.body;
 }
 
-TEST_F(GoalsOverHttp, AJobIsGivenAnotherWayUnderItsId) {
+TEST_F(GoalsOverHttp, ReplanKeepsTheJobId) {
   start(20.0);
   test::Listener listener(port());
   const json body = {{"id", "go"},
@@ -209,8 +208,7 @@ TEST_F(GoalsOverHttp, AJobIsGivenAnotherWayUnderItsId) {
   EXPECT_EQ(post("/api/v1/jobs/nobody/replan", "").status, 404);
 }
 
-// A verb that never answers is told that nobody waits for it any more.
-TEST(Http, ARequestKnowsWhenItsClientHasGone) {
+TEST(Http, RequestIsMarkedWhenItsClientDisconnects) {
   auto http = HttpServer::listen("127.0.0.1", 0, 4);
   ASSERT_TRUE(http);
   std::promise<std::shared_ptr<std::atomic<bool>>> asked;

@@ -1,4 +1,3 @@
-// Whatever the executive has to tell, the thread that serves connections looks at them meanwhile.
 #include "server/http/posted_tasks.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@ void take_a_while() {
   while (std::chrono::steady_clock::now() < until) std::this_thread::yield();
 }
 
-TEST(PostedTasks, ASocketHasItsTurnBetweenTasksThatWait) {
+TEST(PostedTasks, LetSocketsRunBetweenTasks) {
   asio::io_context io{1};
   PostedTasks posted(io);
   asio::local::stream_protocol::socket ours(io), peers(io);
@@ -41,7 +40,7 @@ TEST(PostedTasks, ASocketHasItsTurnBetweenTasksThatWait) {
   EXPECT_LT(done_when_read, kTasks) << "it waited for all that was posted";
 }
 
-TEST(PostedTasks, RunInTheOrderPostedThoseOfATaskLast) {
+TEST(PostedTasks, RunInOrderOfPosting) {
   asio::io_context io{1};
   PostedTasks posted(io);
   std::vector<std::size_t> order;

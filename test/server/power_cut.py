@@ -1,4 +1,4 @@
-"""What a power cut leaves of a server's data folder."""
+"""Simulates the effect of a power cut on a server's data folder."""
 import os
 import shutil
 
@@ -6,14 +6,14 @@ SECTOR = 512
 
 
 class SyncedCopy:
-    """Each file of a folder as it was when it was synced last; a library in the server's process keeps it."""
+    """A copy of each file as of its last sync, kept by a library preloaded into the server."""
 
     def __init__(self, library, data):
         self.library, self.data = library, data
         self.copy = data.with_name(data.name + "-synced")
 
     def environment(self, nth):
-        """For a server that ends in the place of its nth sync. What is there before it begins counts as synced."""
+        """Returns the environment of a server that ends instead of its nth sync. Existing files are taken as synced."""
         shutil.rmtree(self.copy, ignore_errors=True)
         self.data.mkdir(exist_ok=True)
         shutil.copytree(self.data, self.copy)
@@ -21,7 +21,7 @@ class SyncedCopy:
                 "ARMLOOM_SYNCED_TO": str(self.copy), "ARMLOOM_CUT_AT": str(nth)}
 
     def cut(self, rng):
-        """The folder becomes what is left: what was synced, and of all else nothing, or some sectors, or most."""
+        """Reduces the folder to what survives: synced data, and none, some or most of the other sectors."""
         share = rng.choice([0.0, 0.0, 0.1, 0.5, 0.9])
         for name in {*files_of(self.data), *files_of(self.copy)}:
             left = survivors(content(self.data / name), content(self.copy / name), share, rng)
@@ -41,7 +41,7 @@ def content(file):
 
 
 def survivors(now, synced, share, rng):
-    """`share`: how likely what is not synced is on disk all the same, that a file is there or is gone included."""
+    """`share`: probability that an unsynced sector, creation or removal is on disk nevertheless."""
     if (now is None) != (synced is None) and (rng.random() < share) == (now is None):
         return None
     if now is None:

@@ -1,4 +1,3 @@
-// Queries: each parameter is described once, and read and told of by that.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -35,7 +34,7 @@ Target target(std::initializer_list<std::pair<const std::string, std::string>> q
   return target;
 }
 
-TEST(Queries, AreReadAsTheyAreDescribed) {
+TEST(QueryFormat, ReadsAllParameters) {
   const auto read = wanted().read(target({{"of", "me"},
                                           {"name", ""},
                                           {"most", "100"},
@@ -51,7 +50,7 @@ TEST(Queries, AreReadAsTheyAreDescribed) {
   EXPECT_FALSE(read->whole);
 }
 
-TEST(Queries, LeaveWhatIsNotAskedForAsItIs) {
+TEST(QueryFormat, KeepsDefaultsOfAbsentParameters) {
   const auto read = wanted().read(target({{"of", "me"}}));
   ASSERT_TRUE(read);
   EXPECT_EQ(read->name, "any");
@@ -61,7 +60,7 @@ TEST(Queries, LeaveWhatIsNotAskedForAsItIs) {
   EXPECT_TRUE(read->whole);
 }
 
-TEST(Queries, SayOfEachParameterWhatIsWrongWithIt) {
+TEST(QueryFormat, ReportsEachInvalidParameter) {
   const auto read = wanted().read(
       target({{"of", "me"}, {"most", "0"}, {"level", "3"}, {"cursor", "-1"}, {"whole", "yes"}}));
   ASSERT_FALSE(read);
@@ -79,14 +78,14 @@ TEST(Queries, SayOfEachParameterWhatIsWrongWithIt) {
   EXPECT_NE(read.error()[0].detail.find("1..100"), std::string::npos);
 }
 
-TEST(Queries, TakeNoNumberThatIsOneInPart) {
+TEST(QueryFormat, RefusesTextAroundNumbers) {
   for (const char* number :
        {"", " 1", "1 ", "+1", "1.0", "0x1", "1e1", "101", "99999999999999999999999"}) {
     EXPECT_FALSE(wanted().read(target({{"of", "me"}, {"most", number}}))) << number;
   }
 }
 
-TEST(Queries, MissWhatHasToBeThere) {
+TEST(QueryFormat, RequiresMandatoryParameters) {
   for (const auto& asked : {target({}), target({{"of", ""}})}) {
     const auto read = wanted().read(asked);
     ASSERT_FALSE(read);
@@ -99,7 +98,7 @@ TEST(Queries, MissWhatHasToBeThere) {
   EXPECT_EQ(bad.error().front().kind, ProblemKind::malformed);
 }
 
-TEST(Queries, TellTheSameOfThemselves) {
+TEST(QueryFormat, DocumentsItsParameters) {
   const auto told = wanted().parameters();
   ASSERT_EQ(told.size(), 6U);
   EXPECT_TRUE(told[1].required);
@@ -109,7 +108,7 @@ TEST(Queries, TellTheSameOfThemselves) {
   EXPECT_EQ(told[5].schema["enum"], Schema::array({"0", "1"}));
 }
 
-TEST(AuditQueries, ReadTimesOfRfc3339) {
+TEST(AuditQuery, ReadsRfc3339Times) {
   const auto read = audit_query().read(target(
       {{"since", "1970-01-01T00:00:01Z"}, {"before", "1970-01-01T01:00:00+01:00"}, {"who", ""}}));
   ASSERT_TRUE(read) << read.error().front().detail;

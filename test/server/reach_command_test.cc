@@ -1,4 +1,3 @@
-// `armloom reach`, as a shell calls it.
 #include "test/server/command_fixture.h"
 
 namespace armloom {
@@ -15,7 +14,7 @@ class ReachCommand : public test::CommandFixture {
   }
 };
 
-TEST_F(ReachCommand, TellsEachArmsShareAndWhatTheyBothReach) {
+TEST_F(ReachCommand, ReportsTheReachOfEachArmAndTheOverlap) {
   const Outcome outcome = reach("--json --link panda_hand");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const json told = outcome.last_line();

@@ -1,5 +1,3 @@
-// Lists are written from what the control loop publishes: a read shows every command that was
-// answered before, and what did not change is not written again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +16,7 @@ JobSheet::JobPtr job_of(std::uint64_t id, const std::string& key) {
   return std::make_shared<const JobView>(JobView{.id = JobId{id}, .key = key});
 }
 
-TEST(JobTexts, WritesAJobAgainOnlyWhenItChanged) {
+TEST(JobTexts, SerializesAJobOnlyWhenItChanged) {
   const WallClock clock(std::chrono::system_clock::now(), 1.0);
   JobTexts texts;
   const auto one = job_of(1, "one"), two = job_of(2, "two");
@@ -36,7 +34,7 @@ class Reads : public test::VerbsFixture {
   }
 };
 
-TEST_F(Reads, ShowWhatWasAnsweredBefore) {
+TEST_F(Reads, ShowAllAcknowledgedCommands) {
   start(1.0);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   EXPECT_EQ(get("/api/v1/queue").json()["stopped"], true);
@@ -56,7 +54,7 @@ TEST_F(Reads, ShowWhatWasAnsweredBefore) {
       29U);
 }
 
-TEST_F(Reads, ASnapshotHasEveryJobOfTheQueue) {
+TEST_F(Reads, SnapshotHasEveryQueuedJob) {
   start(1.0);
   ASSERT_EQ(post("/api/v1/stop", "").status, 202);
   for (const char* id : {"a", "b"}) {

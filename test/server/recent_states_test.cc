@@ -1,4 +1,3 @@
-// What is kept of where the arms were, for who comes only now.
 #include "server/hub/recent_states.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +14,7 @@ RecentStates::Clock::time_point wall(std::chrono::milliseconds since) {
   return RecentStates::Clock::time_point{} + since;
 }
 
-TEST(RecentStates, AreTakenTenTimesASecondHoweverOftenTheyCome) {
+TEST(RecentStates, AreSampledTenTimesASecond) {
   RecentStates states;
   Configuration q(1);
   for (int i = 0; i < 3000; ++i) {  // at 30 Hz
@@ -29,7 +28,7 @@ TEST(RecentStates, AreTakenTenTimesASecondHoweverOftenTheyCome) {
   EXPECT_EQ(states.frames()[2]->q[0], 7) << "233 ms: none is lost for it";
 }
 
-TEST(RecentStates, AreForFiveMinutesTheOldestGo) {
+TEST(RecentStates, AreKeptForFiveMinutes) {
   RecentStates states;
   const Configuration q = Configuration::Zero(1);
   for (int i = 0; i < 3500; ++i) states.take(at(i * 100ms), q, wall(i * 100ms));
@@ -38,7 +37,7 @@ TEST(RecentStates, AreForFiveMinutesTheOldestGo) {
   EXPECT_EQ(states.frames().back()->time - states.frames().front()->time, 300s - 100ms);
 }
 
-TEST(RecentStates, AfterALongSilenceGoOnAtTheirPace) {
+TEST(RecentStates, AreNotMadeUpForAfterASilence) {
   RecentStates states;
   const Configuration q = Configuration::Zero(1);
   states.take(at(0s), q, wall(0ms));
@@ -47,7 +46,7 @@ TEST(RecentStates, AfterALongSilenceGoOnAtTheirPace) {
 }
 
 using Past = Durable;
-TEST_F(Past, IsTheMotionOfAJobThatHasEndedBeforeAnyoneListened) {
+TEST_F(Past, HasTheMotionOfAnEndedJob) {
   start(5);
   ASSERT_EQ(submit("swing").status, 202);
   wait_until([&] { return job("swing")["state"] == "succeeded"; });

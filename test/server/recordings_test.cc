@@ -1,5 +1,3 @@
-// Recordings as the server hands them out: these and nothing else, as they are on the disk, however
-// large, and the one that is being written as far as it is.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -53,7 +51,7 @@ class Recordings : public Durable {
   }
 };
 
-TEST_F(Recordings, AreListedNewestFirstWithWhatEachHolds) {
+TEST_F(Recordings, AreListedNewestFirstWithTheirFiles) {
   options_.record_states = true;
   start(1);
   former();
@@ -80,7 +78,7 @@ TEST_F(Recordings, AreListedNewestFirstWithWhatEachHolds) {
   EXPECT_LE(running["begun_at"], running["written_at"]);
 }
 
-TEST_F(Recordings, AreHandedOutByteForByteAfterARestartToo) {
+TEST_F(Recordings, AreServedByteForByteAfterARestart) {
   start(20);
   ASSERT_EQ(submit("swing").status, 202);
   wait_for("swing", "succeeded");
@@ -97,7 +95,7 @@ TEST_F(Recordings, AreHandedOutByteForByteAfterARestartToo) {
   EXPECT_GE(compared, 4U);
 }
 
-TEST_F(Recordings, OfTheOneThatIsWrittenSoMuchIsHandedOutAsThereIs) {
+TEST_F(Recordings, InProgressAreServedUpToTheLastLine) {
   options_.record_states = true;
   start(20);
   ASSERT_EQ(submit("swing").status, 202);
@@ -109,7 +107,7 @@ TEST_F(Recordings, OfTheOneThatIsWrittenSoMuchIsHandedOutAsThereIs) {
   const std::size_t last = states.rfind('\n', states.size() - 2) + 1;
   EXPECT_GT(std::stod(states.substr(last)), ended_s - 0.1)
       << "what was measured last is still in the memory of the server";
-  // A line that is only half there when somebody asks is left for the next time.
+  // An incomplete line is left for the next download.
   const std::string events = file("data", "events.jsonl").body;
   std::ofstream(data_ / "events.jsonl", std::ios::app) << std::string(200'000, 'x');
   EXPECT_TRUE(file("data", "events.jsonl").body.starts_with(events));
@@ -119,7 +117,7 @@ TEST_F(Recordings, OfTheOneThatIsWrittenSoMuchIsHandedOutAsThereIs) {
       << "of one that has ended all is handed out";
 }
 
-TEST_F(Recordings, NothingElseIsHandedOut) {
+TEST_F(Recordings, NoOtherFileIsServed) {
   start(1);
   former();
   const std::string secret = "secret\n";
@@ -170,7 +168,7 @@ TEST_F(Recordings, NothingElseIsHandedOut) {
   EXPECT_EQ(file(kFormer, "events.jsonl").body, "{}\n");
 }
 
-TEST_F(Recordings, ADataFolderBehindALinkIsServedAllTheSame) {
+TEST_F(Recordings, AreServedFromALinkedDataFolder) {
   fs::create_directories(data_.parent_path());
   const fs::path link = data_.string() + "-link";
   fs::remove(link);
@@ -184,7 +182,7 @@ TEST_F(Recordings, ADataFolderBehindALinkIsServedAllTheSame) {
 
 constexpr std::uintmax_t kLarge = std::uintmax_t{6} << 30U;
 
-// Sparse: it takes no room on the disk.
+// A sparse file uses no disk space.
 void make_large(const fs::path& file, std::uintmax_t bytes) {
   std::ofstream(file, std::ios::binary) << "time_s\n";
   fs::resize_file(file, bytes);
@@ -194,7 +192,7 @@ std::string asking_for(const std::string& name, const std::string& verb = "GET")
   return verb + " " + kList + "/" + name + "/states.csv HTTP/1.1\r\nHost: localhost\r\n\r\n";
 }
 
-TEST_F(Recordings, ALargeFileIsReadAsItsReaderTakesIt) {
+TEST_F(Recordings, LargeFileIsStreamed) {
   start(1);
   make_large(former() / "states.csv", kLarge);
   test::Wire wire(port());
@@ -211,7 +209,7 @@ TEST_F(Recordings, ALargeFileIsReadAsItsReaderTakesIt) {
   EXPECT_EQ(test::read_answer(asking, true).status, 200) << "and the connection goes on";
 }
 
-TEST_F(Recordings, AFileThatShrinksMeanwhileEndsTheConnection) {
+TEST_F(Recordings, FileThatShrinksEndsTheConnection) {
   start(1);
   const fs::path file = former() / "states.csv";
   make_large(file, kLarge);
@@ -222,7 +220,7 @@ TEST_F(Recordings, AFileThatShrinksMeanwhileEndsTheConnection) {
   EXPECT_LT(wire.take_all().size(), std::size_t{1} << 30U);
 }
 
-TEST_F(Recordings, NoMoreAreReadAtOnceThanThereIsRoomFor) {
+TEST_F(Recordings, SimultaneousDownloadsAreBounded) {
   start(1);
   make_large(former() / "states.csv", kLarge);
   std::vector<std::unique_ptr<test::Wire>> readers;
@@ -238,7 +236,7 @@ TEST_F(Recordings, NoMoreAreReadAtOnceThanThereIsRoomFor) {
   wait_until([&] { return file(kFormer, "events.jsonl").status == 200; });
 }
 
-TEST(WithoutADataFolder, NothingIsRecordedNorHandedOut) {
+TEST(RecordingFiles, AreEmptyWithoutADataFolder) {
   const RecordingFiles none(std::nullopt, nullptr);
   EXPECT_FALSE(none.list().is_kept);
   EXPECT_FALSE(none.is_running("data"));
@@ -246,7 +244,7 @@ TEST(WithoutADataFolder, NothingIsRecordedNorHandedOut) {
 }
 
 using Alone = test::RunningServer;
-TEST_F(Alone, AServerWithoutADataFolderSaysThatItKeepsNoRecordings) {
+TEST_F(Alone, ServerWithoutADataFolderKeepsNoRecordings) {
   start(1);
   EXPECT_EQ(get(kList).json(), json::parse(R"({"kept": false, "recordings": []})"));
   EXPECT_EQ(get(std::string(kList) + "/data/events.jsonl").status, 404);

@@ -1,4 +1,3 @@
-// A data folder is a bug report: what happened on a server is run again from it.
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -13,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-// The job when it has ended, or as it is after a minute.
+// Returns the job when it has ended, or its state after a minute.
 json ended(std::uint16_t port, const std::string& id) {
   const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   json job;
@@ -26,7 +25,8 @@ json ended(std::uint16_t port, const std::string& id) {
 class ReplayCommand : public test::CommandFixture {
  protected:
   std::string data() const { return (folder_ / "data").string(); }
-  // Jobs that meet, one of them more urgent by and by, a plan, an object, a stop; killed.
+  // Runs a server with conflicting jobs, a changed priority, a goal, an object and a stop; then
+  // kills it.
   void live() const {
     test::ServeProcess server({"--cell", test::kCell, "--data", data(), "--speed", "4"},
                               (folder_ / "log").string());
@@ -63,7 +63,7 @@ class ReplayCommand : public test::CommandFixture {
   }
 };
 
-TEST_F(ReplayCommand, ComesToTheEventsThatAKilledServerHadTold) {
+TEST_F(ReplayCommand, ReproducesTheEventsOfAKilledServer) {
   live();
   const auto replayed = run("replay --data " + data() + " --out " + (folder_ / "again").string());
   EXPECT_EQ(replayed.exit_code, 0) << replayed.out << replayed.err;
@@ -81,8 +81,8 @@ TEST_F(ReplayCommand, ComesToTheEventsThatAKilledServerHadTold) {
   EXPECT_EQ(beyond.last_line(), summary) << "nothing is known of what came after";
 }
 
-// Meshes and all: the cell's own files are not needed.
-TEST_F(ReplayCommand, WorksWhereverTheFolderIsMoved) {
+// Includes meshes: the cell's original files are not needed.
+TEST_F(ReplayCommand, WorksAfterTheFolderWasMoved) {
   namespace fs = std::filesystem;
   const fs::path source = source_dir(), site = folder_ / "site";
   fs::create_directories(site);
@@ -113,7 +113,7 @@ TEST_F(ReplayCommand, WorksWhereverTheFolderIsMoved) {
   EXPECT_EQ(replayed.last_line()["same"], true);
 }
 
-TEST_F(ReplayCommand, SaysWhatIsOtherwise) {
+TEST_F(ReplayCommand, ReportsTheFirstDifference) {
   live();
   const auto file_of = [&](const char* name) { return std::filesystem::path(data()) / name; };
   std::string events = read_text_file(file_of("events.jsonl")).value();
@@ -126,7 +126,7 @@ TEST_F(ReplayCommand, SaysWhatIsOtherwise) {
   EXPECT_NE(replayed.err.find("recorded: {"), std::string::npos) << replayed.err;
 }
 
-TEST_F(ReplayCommand, SaysHowMuchItHadToCompareWith) {
+TEST_F(ReplayCommand, ReportsTheNumberOfComparedEvents) {
   live();
   const auto file = std::filesystem::path(data()) / "events.jsonl";
   const json whole = run("replay --data " + data()).last_line();
@@ -143,7 +143,7 @@ TEST_F(ReplayCommand, SaysHowMuchItHadToCompareWith) {
   EXPECT_TRUE(nothing.last_line()["same"].is_null()) << nothing.out;
 }
 
-TEST_F(ReplayCommand, RefusesWhatIsNoRecording) {
+TEST_F(ReplayCommand, RefusesAFolderWithoutARecording) {
   const auto none = run("replay --data " + folder_.string());
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_NE(none.err.find("--data: there is no inputs.jsonl in " + folder_.string()),

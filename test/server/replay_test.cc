@@ -1,4 +1,3 @@
-// What is logged of an executive's inputs leads to the same events, byte for byte.
 #include "server/replay/replay.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +12,7 @@ using test::LiveRun;
 using test::Told;
 using test::two_pandas;
 
-TEST(Replay, ComesToTheSameEventsByteForByte) {
+TEST(Replay, ReproducesTheSameEvents) {
   const std::vector<std::string> policies{"earliest_start", "coordinated", "certified"};
   std::size_t inputs = 0, events = 0, planned = 0;
   std::map<std::string, int> ended;
@@ -53,14 +52,14 @@ TEST(Replay, ComesToTheSameEventsByteForByte) {
   EXPECT_GT(planned, seed_count(100) / 10);
 }
 
-TEST(Replay, SaysWhereItIsNotAsTheRunWas) {
+TEST(Replay, ReportsWhereItDiverges) {
   LiveRun run(3, "certified");
   run.run(3000);
   const auto judged = std::ranges::find_if(
       run.log, [](const std::string& line) { return line.find("\"judged\"") != line.npos; });
   ASSERT_NE(judged, run.log.end());
   const std::string logged = *judged;
-  judged->insert(judged->size() - 1, "1");  // of the evaluations
+  judged->insert(judged->size() - 1, "1");  // changes the number of evaluations
   Told told;
   auto replay = Replay::begin(two_pandas(), run.log.front(), told);
   for (std::size_t i = 1; i < run.log.size(); ++i) {
@@ -73,7 +72,7 @@ TEST(Replay, SaysWhereItIsNotAsTheRunWas) {
   FAIL() << "it was not seen";
 }
 
-TEST(Replay, RefusesWhatIsNoLog) {
+TEST(Replay, RefusesInvalidLogs) {
   Told told;
   for (const char* head :
        {"", "{}", "[1]", R"({"armloom_inputs": 2})", R"({"armloom_inputs": 1})"}) {

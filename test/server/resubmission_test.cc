@@ -1,4 +1,3 @@
-// Requests that are sent again, because no answer came: the same jobs, and none twice.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,8 +15,8 @@ namespace {
 
 using nlohmann::json;
 
-// Without and with a data folder.
-class Resubmission : public test::RunningServer, public ::testing::WithParamInterface<bool> {
+// Parameter: true with a data folder.
+class Idempotency : public test::RunningServer, public ::testing::WithParamInterface<bool> {
  protected:
   void SetUp() override {
     if (!GetParam()) return;
@@ -30,7 +29,7 @@ class Resubmission : public test::RunningServer, public ::testing::WithParamInte
     end();
     start(speed);
   }
-  // Waits, so that the arm stands where the next one begins.
+  // Returns a job without motion, so that the next job can start at the same place.
   static json job(const std::string& id, const std::string& arm = "left") {
     json body = test::move(arm, test::kHome, test::kHome);
     if (!id.empty()) body["id"] = id;
@@ -46,7 +45,7 @@ class Resubmission : public test::RunningServer, public ::testing::WithParamInte
   std::size_t jobs_known() { return get("/api/v1/jobs?limit=1000").json()["jobs"].size(); }
 };
 
-TEST_P(Resubmission, TheSameIdAndBodyGiveTheSameJobAndAnotherBodyIsRefused) {
+TEST_P(Idempotency, SameIdAndBodyReturnTheSameJob) {
   start(1);
   const auto first = send(job("a"));
   ASSERT_EQ(first.status, 202) << first.body;
@@ -62,7 +61,7 @@ TEST_P(Resubmission, TheSameIdAndBodyGiveTheSameJobAndAnotherBodyIsRefused) {
   EXPECT_EQ(jobs_known(), 1U);
 }
 
-TEST_P(Resubmission, SpacesAndTheOrderOfMembersAreNoOtherBody) {
+TEST_P(Idempotency, IgnoresWhitespaceAndMemberOrder) {
   start(1);
   const json body = job("a");
   ASSERT_EQ(send(body).status, 202);
@@ -70,7 +69,7 @@ TEST_P(Resubmission, SpacesAndTheOrderOfMembersAreNoOtherBody) {
   EXPECT_EQ(post("/api/v1/jobs", spaced).status, 200);
 }
 
-TEST_P(Resubmission, AKeyStandsForOneRequest) {
+TEST_P(Idempotency, KeyIdentifiesOneRequest) {
   start(1);
   const auto first = send(job(""), "pick 7");
   ASSERT_EQ(first.status, 202) << first.body;
@@ -87,8 +86,7 @@ TEST_P(Resubmission, AKeyStandsForOneRequest) {
   EXPECT_EQ(jobs_known(), 3U);
 }
 
-// A key is bound by the first answer that it got, also where the job was known by its id.
-TEST_P(Resubmission, AKeyThatCameLaterThanItsJobStandsForOneRequest) {
+TEST_P(Idempotency, KeySentAfterItsJobIdentifiesOneRequest) {
   start(1);
   ASSERT_EQ(send(job("n1")).status, 202);
   const json batch = {{"jobs", {job("n1"), job("n2", "right")}}, {"atomic", false}};
@@ -109,7 +107,7 @@ TEST_P(Resubmission, AKeyThatCameLaterThanItsJobStandsForOneRequest) {
   expect_bound();
 }
 
-TEST_P(Resubmission, WhatWasRefusedWasNotAccepted) {
+TEST_P(Idempotency, RefusedRequestDoesNotBindItsKey) {
   start(1);
   json bad = job("");
   bad["after"] = {"later"};
@@ -119,7 +117,7 @@ TEST_P(Resubmission, WhatWasRefusedWasNotAccepted) {
   EXPECT_EQ(send(bad, "k").status, 200);
 }
 
-TEST_P(Resubmission, AKeyIsPrintableAndNotTooLong) {
+TEST_P(Idempotency, KeyIsPrintableAndBounded) {
   start(1);
   EXPECT_EQ(send(job(""), std::string(255, 'k')).status, 202);
   for (const std::string& key : {std::string(256, 'k'), std::string("\xc3\xa4")}) {
@@ -129,7 +127,7 @@ TEST_P(Resubmission, AKeyIsPrintableAndNotTooLong) {
   }
 }
 
-TEST_P(Resubmission, ABatchIsOneRequest) {
+TEST_P(Idempotency, BatchIsOneRequest) {
   start(1);
   const json batch = {{"jobs", {job(""), job("", "right"), job("c")}}};
   const auto first = send("/batches", batch, "b");
@@ -147,7 +145,7 @@ TEST_P(Resubmission, ABatchIsOneRequest) {
   EXPECT_EQ(jobs_known(), 3U);
 }
 
-TEST_P(Resubmission, OfABatchThatIsNotAtomicWhatWasRefusedIsTriedAgain) {
+TEST_P(Idempotency, NonAtomicBatchRetriesRefusedJobs) {
   start(1);
   json late = job("late");
   late["after"] = {"first"};
@@ -167,7 +165,7 @@ TEST_P(Resubmission, OfABatchThatIsNotAtomicWhatWasRefusedIsTriedAgain) {
   EXPECT_EQ(jobs_known(), 4U);
 }
 
-TEST_P(Resubmission, TwoAtOnceAreOne) {
+TEST_P(Idempotency, ConcurrentDuplicatesCreateOneJob) {
   start(1);
   const std::string text = test::request_text("POST", "/api/v1/jobs", job("").dump(),
                                               "application/json\r\nIdempotency-Key: twice");
@@ -185,7 +183,7 @@ TEST_P(Resubmission, TwoAtOnceAreOne) {
   EXPECT_EQ(ids.size(), 1U);
 }
 
-TEST_P(Resubmission, IsKnownInTheNextRunWhereJobsAreKept) {
+TEST_P(Idempotency, SurvivesARestartWithADataFolder) {
   start(1);
   if (!GetParam()) {
     ASSERT_EQ(send(job("own"), "k").status, 202);
@@ -218,11 +216,11 @@ TEST_P(Resubmission, IsKnownInTheNextRunWhereJobsAreKept) {
   EXPECT_EQ(send(job("own")).json()["state"], "succeeded");
 }
 
-INSTANTIATE_TEST_SUITE_P(Jobs, Resubmission, ::testing::Bool(), [](const auto& suite) {
+INSTANTIATE_TEST_SUITE_P(Jobs, Idempotency, ::testing::Bool(), [](const auto& suite) {
   return suite.param ? std::string("Kept") : std::string("InMemory");
 });
 
-TEST(AcceptedRequests, AreKeptUpToABoundOldestFirst) {
+TEST(AcceptedRequests, ForgetTheOldestBeyondTheBound) {
   AcceptedRequests requests(3);
   for (const char* name : {"a", "b", "c", "b", "d"}) requests.remember(name, {name, {{0, name}}});
   EXPECT_EQ(requests.find("a"), nullptr);
@@ -232,7 +230,7 @@ TEST(AcceptedRequests, AreKeptUpToABoundOldestFirst) {
   }
 }
 
-TEST(AcceptedRequests, OneThatIsBeingAnsweredIsWaitedFor) {
+TEST(AcceptedRequests, WaitForAnUnansweredDuplicate) {
   AcceptedRequests requests;
   int waited = 0;
   ASSERT_TRUE(requests.begin({"a", "b"}, nullptr));

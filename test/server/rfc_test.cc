@@ -1,4 +1,3 @@
-// Details of RFC 9110, 9112 and 6455 that a client may rely on.
 #include <gtest/gtest.h>
 
 #include "test/server/running_server.h"
@@ -21,15 +20,15 @@ class Rfc : public test::RunningServer {
   }
 };
 
-// RFC 9110, 10.1.1: a 100-continue expectation of an HTTP/1.0 request is ignored.
-TEST_F(Rfc, Http10IsNeverToldToContinue) {
+// RFC 9110, 10.1.1.
+TEST_F(Rfc, Http10NeverGets100Continue) {
   const std::string answer = answers_to(
       "POST /api/v1/resume HTTP/1.0\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n{}");
   EXPECT_TRUE(answer.starts_with("HTTP/1.0 202 ")) << answer;
 }
 
-// RFC 9110, 10.1.1: who would be refused anyway is told so instead of being asked for the body.
-TEST_F(Rfc, WhoIsRefusedIsNotAskedForTheBody) {
+// RFC 9110, 10.1.1.
+TEST_F(Rfc, RefusedRequestsGetNo100Continue) {
   const std::string rest = "Expect: 100-continue\r\nContent-Length: 2\r\n\r\n";
   const std::string post = "POST /api/v1/resume HTTP/1.1\r\nHost: localhost\r\n";
   EXPECT_TRUE(
@@ -42,8 +41,8 @@ TEST_F(Rfc, WhoIsRefusedIsNotAskedForTheBody) {
                   .starts_with("HTTP/1.1 405 "));
 }
 
-// RFC 9112, 3.2.2: absolute-form is taken, and its authority counts instead of Host.
-TEST_F(Rfc, AnAbsoluteTargetIsServed) {
+// RFC 9112, 3.2.2: the authority of an absolute-form target replaces Host.
+TEST_F(Rfc, AbsoluteTargetsAreServed) {
   EXPECT_EQ(answer_to("GET http://localhost:80/api/v1/queue?  HTTP/1.1\r\nHost: x\r\n\r\n").status,
             400);
   EXPECT_EQ(answer_to("GET http://localhost:80/api/v1/queue HTTP/1.1\r\nHost: x\r\n\r\n").status,
@@ -60,8 +59,8 @@ TEST_F(Rfc, AnAbsoluteTargetIsServed) {
   }
 }
 
-// RFC 9112, 2.2: an empty line before the request line is ignored; nobody sends many.
-TEST_F(Rfc, AnEmptyLineBeforeARequestIsReadOver) {
+// RFC 9112, 2.2; many empty lines are refused.
+TEST_F(Rfc, EmptyLineBeforeARequestIsIgnored) {
   const std::string get = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n";
   test::Wire wire(port());
   wire.send("\r\n" + get);
@@ -74,8 +73,8 @@ TEST_F(Rfc, AnEmptyLineBeforeARequestIsReadOver) {
   EXPECT_EQ(answer_to(many + get).status, 400);
 }
 
-// RFC 9110, 9.3.7: of the server as a whole, and of one resource.
-TEST_F(Rfc, OptionsTellsWhatIsServed) {
+// RFC 9110, 9.3.7.
+TEST_F(Rfc, OptionsListsTheMethods) {
   const auto all = answer_to("OPTIONS * HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_EQ(all.status, 204);
   EXPECT_EQ(all.headers.at("allow"), "DELETE, GET, HEAD, OPTIONS, PATCH, POST, PUT");
@@ -87,8 +86,8 @@ TEST_F(Rfc, OptionsTellsWhatIsServed) {
   EXPECT_EQ(answer_to("GET * HTTP/1.1\r\nHost: localhost\r\n\r\n").status, 400);
 }
 
-// RFC 9110, 2.5: a higher minor version is read as the highest one known; another major one is not.
-TEST_F(Rfc, AHigherMinorVersionIsServedAnotherMajorOneIsNot) {
+// RFC 9110, 2.5.
+TEST_F(Rfc, HigherMinorVersionsAreServedOtherMajorsAreNot) {
   EXPECT_TRUE(answers_to("GET /healthz HTTP/1.2\r\nHost: localhost\r\nConnection: close\r\n\r\n")
                   .starts_with("HTTP/1.1 200 "));
   EXPECT_TRUE(
@@ -98,8 +97,8 @@ TEST_F(Rfc, AHigherMinorVersionIsServedAnotherMajorOneIsNot) {
       answers_to("GET /healthz HTTP/1.x\r\nHost: localhost\r\n\r\n").starts_with("HTTP/1.1 400 "));
 }
 
-// RFC 9112, 3.2: a target has no fragment.
-TEST_F(Rfc, AFragmentIsRefused) {
+// RFC 9112, 3.2.
+TEST_F(Rfc, FragmentsAreRefused) {
   for (const char* target : {"/healthz#", "/healthz#x", "/api/v1/jobs?limit=1#x",
                              "http://localhost/healthz#x", "http://localhost#x"}) {
     EXPECT_EQ(
@@ -109,7 +108,7 @@ TEST_F(Rfc, AFragmentIsRefused) {
   }
 }
 
-// RFC 9110, 9.3.2: HEAD has the fields that GET would have.
+// RFC 9110, 9.3.2: HEAD returns the fields of GET.
 TEST_F(Rfc, HeadOfEventsHasNoLength) {
   const std::string rest = " /api/v1/events HTTP/1.1\r\nHost: localhost\r\n\r\n";
   const std::string head = answers_to("HEAD" + rest);
@@ -119,8 +118,8 @@ TEST_F(Rfc, HeadOfEventsHasNoLength) {
   EXPECT_NE(head.find("Content-Type: text/event-stream\r\n"), head.npos) << head;
 }
 
-// RFC 9110, 8.8.3 and 13.1.1: an entity tag stands in quotes.
-TEST_F(Rfc, WhatIsNoEntityTagIsMalformed) {
+// RFC 9110, 8.8.3 and 13.1.1.
+TEST_F(Rfc, MalformedEntityTagsAreRefused) {
   const auto patch = [&](const std::string& if_match) {
     return answer_to(
                "PATCH /api/v1/jobs/x HTTP/1.1\r\nHost: localhost\r\nContent-Type: "
@@ -137,14 +136,14 @@ TEST_F(Rfc, WhatIsNoEntityTagIsMalformed) {
   }
 }
 
-// RFC 6455, 7.4: codes that are not for the wire are a protocol error.
-TEST_F(Rfc, ACloseCodeThatIsNoneIsAProtocolError) {
+// RFC 6455, 7.4.
+TEST_F(Rfc, ReservedCloseCodesAreAProtocolError) {
   const auto answer_to_close = [&](int code) {
     test::Wire wire(port());
     test::begin_websocket(wire);
     wire.send(std::string("\x88\x82\0\0\0\0", 6) + static_cast<char>(code >> 8) +
               static_cast<char>(code & 0xff));
-    const std::string all = wire.take_all();  // frames of events, and last the close
+    const std::string all = wire.take_all();  // event frames, and the close frame last
     const std::string last = all.substr(all.size() - 4);
     EXPECT_EQ(last.substr(0, 2), std::string("\x88\x02")) << code;
     return static_cast<unsigned char>(last[2]) * 256 + static_cast<unsigned char>(last[3]);
@@ -155,8 +154,8 @@ TEST_F(Rfc, ACloseCodeThatIsNoneIsAProtocolError) {
   for (const int good : {1000, 1001, 3000, 4999}) EXPECT_EQ(answer_to_close(good), good);
 }
 
-// RFC 6455, 4.2: the key is sixteen bytes in base64, the version 13.
-TEST_F(Rfc, AHandshakeMustBeSound) {
+// RFC 6455, 4.2: the key is base64 of 16 bytes, the version is 13.
+TEST_F(Rfc, InvalidHandshakesAreRefused) {
   const auto shake = [&](const std::string& key, const std::string& version) {
     return answer_to(
         "GET /api/v1/ws HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"

@@ -1,5 +1,3 @@
-// Who may what, on a server that asks for tokens: every verb of the table x whoever asks. Nothing
-// is permitted that the table does not say.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -17,14 +15,13 @@ namespace fs = std::filesystem;
 
 class Rights : public test::TokenServer {};
 
-TEST_F(Rights, AreThoseOfTheTableForEveryVerbAndRole) {
+TEST_F(Rights, MatchTheRouteTableForEveryRole) {
   std::size_t denied = 0, permitted = 0;
   for (const Route& route : all_routes()) {
     const std::string verb = route.method + " " + route.path;
     for (const char* nobody : {"", "revoked", "wrong"}) {
       const std::string token = *nobody == '\0' ? "" : bearer(tokens_[nobody] + "x");
-      const std::string shown =
-          std::string(nobody) == "revoked" ? bearer(tokens_[nobody]) : token;
+      const std::string shown = std::string(nobody) == "revoked" ? bearer(tokens_[nobody]) : token;
       const test::Answered answer = ask(route, shown);
       EXPECT_EQ(answer.status == 401, route.role.has_value())
           << verb << " by nobody: " << answer.head;
@@ -49,7 +46,7 @@ TEST_F(Rights, AreThoseOfTheTableForEveryVerbAndRole) {
   EXPECT_GT(permitted, 100U);
 }
 
-TEST_F(Rights, AreNoneForPagesOfOtherSitesAndOtherNamesWhateverTheyShow) {
+TEST_F(Rights, AreDeniedToOtherOriginsAndHosts) {
   const std::string admin = bearer(tokens_["admin"]);
   for (const Route& route : all_routes()) {
     const std::string verb = route.method + " " + route.path;
@@ -60,7 +57,7 @@ TEST_F(Rights, AreNoneForPagesOfOtherSitesAndOtherNamesWhateverTheyShow) {
   }
 }
 
-TEST_F(Rights, TheTableGivesLittleAway) {
+TEST_F(Rights, AreMinimalWithoutATokenAndForViewers) {
   std::set<std::string> open, of_viewers;
   for (const Route& route : all_routes()) {
     if (!route.role) open.insert(route.id);
@@ -74,7 +71,7 @@ TEST_F(Rights, TheTableGivesLittleAway) {
       << "which change nothing";
 }
 
-TEST_F(Rights, AMethodOrPathThatIsNotInTheTableIsNotServed) {
+TEST_F(Rights, ExistOnlyForListedMethodsAndPaths) {
   const std::string admin = bearer(tokens_["admin"]);
   EXPECT_EQ(ask("PUT", "/api/v1/jobs", admin).status, 405);
   EXPECT_EQ(ask("POST", "/api/v1/nothing", admin).status, 404);
@@ -82,7 +79,7 @@ TEST_F(Rights, AMethodOrPathThatIsNotInTheTableIsNotServed) {
   EXPECT_EQ(ask("POST", "/api/v1/stop/", "").status, 404);
 }
 
-TEST_F(Rights, TokensCountAsSoonAsTheyAreMadeAndNoLongerThanTheyAre) {
+TEST_F(Rights, FollowChangesOfTheTokenFileAtOnce) {
   const std::string fresh = TokenFile(file_).add("fresh", Role::operate).value();
   EXPECT_EQ(ask("GET", "/api/v1/arms", bearer(fresh)).status, 200);
   test::Wire events(port());
@@ -95,8 +92,8 @@ TEST_F(Rights, TokensCountAsSoonAsTheyAreMadeAndNoLongerThanTheyAre) {
   EXPECT_EQ(ask("GET", "/api/v1/arms", bearer(tokens_["admin"])).status, 401) << "nobody's";
 }
 
-// A slip of whoever edits the file takes Stop from nobody, and is told.
-TEST_F(Rights, AFileWithAMistakeIsToldAndLeavesTheTokensOfBefore) {
+// An editing mistake must lock no operator out of Stop.
+TEST_F(Rights, SurviveAnInvalidTokenFileWithAReport) {
   const std::uintmax_t size = fs::file_size(file_);
   EXPECT_EQ(ask("GET", "/readyz", "").status, 200);
   std::ofstream(file_, std::ios::app) << "a slip\n";
@@ -110,7 +107,7 @@ TEST_F(Rights, AFileWithAMistakeIsToldAndLeavesTheTokensOfBefore) {
   EXPECT_EQ(ask("POST", "/api/v1/stop", bearer(tokens_["operator"])).status, 202);
 }
 
-TEST_F(Rights, ControlEndsWithTheTokenThatTookIt) {
+TEST_F(Rights, ControlEndsWithItsToken) {
   const std::string fresh = TokenFile(file_).add("fresh", Role::operate).value();
   const std::string as_json = "Content-Type: application/json\r\n";
   const std::string admin = bearer(tokens_["admin"]);
@@ -120,18 +117,18 @@ TEST_F(Rights, ControlEndsWithTheTokenThatTookIt) {
   EXPECT_EQ(ask("POST", "/api/v1/control", admin + as_json, "{}").status, 200);
 }
 
-TEST_F(Rights, WhoIsNotLetInIsToldHow) {
+TEST_F(Rights, RefusalsHaveAWwwAuthenticateHeader) {
   const auto answer =
       ask("POST", "/api/v1/session", "Content-Type: application/json\r\n", R"({"token": "x"})");
   EXPECT_EQ(answer.status, 401);
   EXPECT_NE(answer.head.find("WWW-Authenticate: Bearer"), std::string::npos) << answer.head;
-  // Of any number of spaces (RFC 9110, 11.4).
+  // Any number of spaces is allowed (RFC 9110, 11.4).
   const std::string spaced = "Authorization: Bearer   " + tokens_["viewer"] + "\r\n";
   EXPECT_EQ(ask("GET", "/api/v1/arms", spaced).status, 200);
   EXPECT_EQ(ask("GET", "/api/v1/arms", "Authorization: Bearer   \r\n").status, 401);
 }
 
-TEST_F(Rights, EachTokenHasIdempotencyKeysOfItsOwn) {
+TEST_F(Rights, IdempotencyKeysAreScopedToTheToken) {
   const auto send = [&](const char* name, const std::string& arm) {
     const std::string body =
         R"({"arm": ")" + arm + R"(", "move_to": {"named": "ready"}, "name": "sent"})";
@@ -145,7 +142,7 @@ TEST_F(Rights, EachTokenHasIdempotencyKeysOfItsOwn) {
   EXPECT_EQ(send("admin", "right").status, 202);
 }
 
-TEST_F(Rights, AWebSocketIsClosedWhenItsTokenIsWithdrawn) {
+TEST_F(Rights, WebSocketIsClosedWhenItsTokenIsRevoked) {
   test::Wire socket(port());
   socket.send(
       "GET /api/v1/ws HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\n"
@@ -157,7 +154,7 @@ TEST_F(Rights, AWebSocketIsClosedWhenItsTokenIsWithdrawn) {
   (void)socket.take_until(std::string("\x03\xf0", 2) + "the token was revoked");
 }
 
-TEST_F(Rights, TheDashboardAsksPeopleToLogInAndKeepsTheTokenFromScripts) {
+TEST_F(Rights, DashboardRequiresLogInAndHidesTheTokenFromScripts) {
   const test::Answered page = ask("GET", "/", "");
   EXPECT_EQ(page.status, 303);
   EXPECT_NE(page.head.find("Location: /login"), std::string::npos);
@@ -178,14 +175,14 @@ TEST_F(Rights, TheDashboardAsksPeopleToLogInAndKeepsTheTokenFromScripts) {
   EXPECT_NE(left.headers.at("set-cookie").find("Max-Age=0"), std::string::npos);
 }
 
-TEST_F(Rights, TheFileHoldsNoToken) {
+TEST_F(Rights, TokenFileHasNoPlainTokens) {
   std::ifstream in(file_);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   for (const auto& [name, token] : tokens_) EXPECT_EQ(text.find(token), text.npos) << name;
   EXPECT_EQ(fs::status(file_).permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
-TEST(Tokens, HaveNamesOfTheirOwnAndAFileThatIsOneIsReadWhole) {
+TEST(Tokens, HaveUniqueNamesAndAFileThatIsReadWhole) {
   const fs::path path = fs::path(::testing::TempDir()) / "armloom-tokens";
   fs::remove(path);
   TokenFile file(path);

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 class Routes : public test::RunningServer {};
 
-TEST_F(Routes, SayWhatTheCellIs) {
+TEST_F(Routes, DescribeTheCell) {
   start(1.0);
   EXPECT_EQ(get("/healthz").json()["status"], "ok");
   EXPECT_EQ(get("/readyz").json()["ready"], true);
@@ -31,7 +31,7 @@ TEST_F(Routes, SayWhatTheCellIs) {
   EXPECT_EQ(queue["running"], json::array());
 }
 
-TEST_F(Routes, AnswerWhatIsNotServedWithAProblem) {
+TEST_F(Routes, AnswerUnknownResourcesWithAProblem) {
   start(1.0);
   const auto unknown_arm = get("/api/v1/arms/middle");
   EXPECT_EQ(unknown_arm.status, 404);
@@ -55,7 +55,7 @@ TEST_F(Routes, HeadHasTheHeadersOfGetAndNoBody) {
   EXPECT_EQ(head.headers.at("content-length"), std::to_string(whole.body.size()));
 }
 
-TEST_F(Routes, RefuseAFilterThatMeansNothing) {
+TEST_F(Routes, RefuseInvalidFilters) {
   start(1.0);
   for (const char* query :
        {"?state=lost", "?arm=middle", "?limit=0", "?limit=1001", "?limit=x", "?cursor=-1"}) {
@@ -98,7 +98,7 @@ TEST_F(Routes, RefuseBodiesThatAreEncodedOrNotInUtf8) {
   EXPECT_EQ(packed.json()["pointer"], "Content-Encoding");
 }
 
-TEST_F(Routes, SayWhatWasFoundWhereAMethodIsNotServed) {
+TEST_F(Routes, ReportTheMethodThatIsNotServed) {
   start(1.0);
   EXPECT_EQ(test::request(port(), "PATCH", "/api/v1/jobs", "{}").json()["value"], "PATCH");
 }
@@ -131,7 +131,7 @@ TEST_F(Routes, ServeTheDashboardAndNothingElse) {
   }
 }
 
-TEST_F(Routes, TheDashboardMayBeMissing) {
+TEST_F(Routes, WorkWithoutTheDashboard) {
   start(1.0, "/nonexistent");
   EXPECT_EQ(get("/").status, 404);
   EXPECT_EQ(get("/healthz").status, 200);

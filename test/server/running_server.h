@@ -16,8 +16,8 @@
 
 namespace armloom::test {
 
-// The real server on a free port of the loopback, with the two-Panda cell (or that of `file`),
-// for each test a new one.
+// The real server on a free loopback port, with the two-Panda cell (or the cell of `file`); a new
+// one for each test.
 class RunningServer : public ::testing::Test {
  protected:
   void start(double speed, std::filesystem::path web = {}, std::filesystem::path file = {}) {
@@ -39,7 +39,7 @@ class RunningServer : public ::testing::Test {
     thread_ = std::thread([this] { service_->run(false); });
   }
   void TearDown() override { end(); }
-  // As a process that is killed: nothing is wound down.
+  // Ends the server like a kill, without a graceful shutdown.
   void end() {
     if (!service_) return;
     service_->stop();
@@ -53,7 +53,7 @@ class RunningServer : public ::testing::Test {
     return request(port(), "PUT", target, body);
   }
   Answer remove(const std::string& target) { return request(port(), "DELETE", target); }
-  // The next view of this job, from the events, for which `is` holds.
+  // Returns the next published view of the job for which `is` returns true.
   template <class Is>
   static nlohmann::json next_job(Listener& listener, const std::string& id, Is is) {
     for (;;) {
@@ -75,8 +75,8 @@ class RunningServer : public ::testing::Test {
   }
 
   ServiceOptions options_;                        // for start(), which sets port, speed and web
-  std::optional<OnIdleBlocker> on_idle_blocker_;  // for start(); absent: as in the file
-  std::optional<OnRestart> on_restart_;           // likewise
+  std::optional<OnIdleBlocker> on_idle_blocker_;  // for start(); default: as in the file
+  std::optional<OnRestart> on_restart_;           // for start(); default: as in the file
 
  private:
   std::unique_ptr<Service> service_;

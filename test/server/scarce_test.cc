@@ -1,4 +1,3 @@
-// The server as a process: what it does when the system gives less than it wants.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -19,17 +18,18 @@ using nlohmann::json;
 using test::Serve;
 using Clock = std::chrono::steady_clock;
 
-// No file may grow beyond 5 MB, as on a disk that is full. The store's log begins anew before that:
-// an event of the scene names every object. Of the store on such a disk: Durable.
-TEST_F(Serve, ADiskThatFillsUpIsSaidAtOnceAndAtTheEnd) {
+// No file may grow beyond 5 MB, like on a full disk. The recording reaches the limit before the
+// database log, because each scene event lists every object. The store on a full disk:
+// durable_disk_test.cc.
+TEST_F(Serve, FullDiskIsReportedAtOnceAndAtTheEnd) {
   test::ServeProcess server({"--cell", test::kCell, "--data", data()}, log(),
-                            // More than the database's log ever has.
+                            // more than the database log ever needs
                             [] { test::set_limit(RLIMIT_FSIZE, 5'242'880); });
   const auto put = [&](const std::string& name) {
     const json box = {{"name", name}, {"box", {0.1, 0.1, 0.1}}, {"xyz", {0, 0, 3}}};
     return test::request(server.port(), "POST", "/api/v1/scene/objects", box.dump()).status;
   };
-  // Each event tells the whole scene, which has long names.
+  // Each event lists the whole scene; the names are long.
   std::string clefs;
   for (int i = 0; i < 120; ++i) clefs += "\U0001d11e";
   for (int i = 0; i < 40; ++i) ASSERT_EQ(put(std::to_string(i) + clefs), 201);
@@ -46,15 +46,15 @@ TEST_F(Serve, ADiskThatFillsUpIsSaidAtOnceAndAtTheEnd) {
   EXPECT_EQ(ready.json()["type"], "urn:armloom:problem:recording-lost");
   EXPECT_NE(ready.json()["detail"].get<std::string>().find("File too large"), std::string::npos);
   EXPECT_EQ(test::request(server.port(), "GET", "/healthz").status, 200);
-  while (server.log().find("the recording is no longer whole") == std::string::npos) {
+  while (server.log().find("the recording is incomplete") == std::string::npos) {
     ASSERT_LT(Clock::now(), deadline) << server.log();
   }
   EXPECT_NE(ready.json()["detail"].get<std::string>().find("until the server is started again"),
             std::string::npos);
-  // It is an alert, which somebody sees to.
+  // The alert must be acknowledged by an operator.
   const auto alerts = test::request(server.port(), "GET", "/api/v1/alerts").json()["alerts"];
   const auto lost = std::ranges::find_if(alerts, [](const json& alert) {
-    return alert["text"].get<std::string>().starts_with("the recording is no longer whole");
+    return alert["text"].get<std::string>().starts_with("the recording is incomplete");
   });
   ASSERT_NE(lost, alerts.end()) << alerts;
   EXPECT_EQ((*lost)["level"], "error");
@@ -62,11 +62,10 @@ TEST_F(Serve, ADiskThatFillsUpIsSaidAtOnceAndAtTheEnd) {
   test::request(server.port(), "POST", "/api/v1/alerts/acknowledge", seen.dump());
   server.signal(SIGTERM);
   EXPECT_EQ(server.wait(), 74);
-  EXPECT_NE(server.log().find("not all is written: "), std::string::npos) << server.log();
+  EXPECT_NE(server.log().find("not everything was written: "), std::string::npos) << server.log();
 }
 
-// Whatever the process has to count with: of 64 descriptors all are taken.
-TEST_F(Serve, AStopIsTakenWhenTheDescriptorsAreUsedUp) {
+TEST_F(Serve, StopIsServedWithoutFreeDescriptors) {
   test::ServeProcess server({"--cell", test::kCell}, log(),
                             [] { test::set_limit(RLIMIT_NOFILE, 64); });
   std::vector<std::unique_ptr<test::Wire>> held;
@@ -83,7 +82,7 @@ TEST_F(Serve, AStopIsTakenWhenTheDescriptorsAreUsedUp) {
   EXPECT_EQ(test::request(server.port(), "GET", "/api/v1/queue").json()["stopped"], true);
 }
 
-TEST_F(Serve, WithFewDescriptorsWhoComesIsToldSo) {
+TEST_F(Serve, ConnectionsAreRefusedIfDescriptorsAreFew) {
   const auto web = folder_ / "web";
   std::filesystem::create_directories(web);
   std::ofstream(web / "index.html") << "<html>";
@@ -98,8 +97,8 @@ TEST_F(Serve, WithFewDescriptorsWhoComesIsToldSo) {
   EXPECT_EQ(test::read_answer(*held.front()).status, 200);
 }
 
-// So few that not even half of them are left for connections.
-TEST_F(Serve, WithoutADescriptorWhoComesIsToldSoAndFilesSayBusy) {
+// So few descriptors that less than half remain for connections.
+TEST_F(Serve, ConnectionsAndFilesAreRefusedWithoutDescriptors) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "UBSan opens a pipe to look at a type, and ends the server where there is none";
 #endif

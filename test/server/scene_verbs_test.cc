@@ -1,4 +1,3 @@
-// Objects that come, move and go; good and bad.
 #include "test/server/verbs_fixture.h"
 
 namespace armloom {
@@ -8,7 +7,7 @@ using nlohmann::json;
 
 class SceneVerbs : public test::VerbsFixture {};
 
-TEST_F(SceneVerbs, ObjectsComeMoveAndGoAndEveryoneIsTold) {
+TEST_F(SceneVerbs, ObjectsAreAddedMovedRemovedAndPublished) {
   start(1.0);
   test::Listener listener(port());
   const std::uint64_t version = get("/api/v1/scene").json()["version"];
@@ -34,7 +33,7 @@ TEST_F(SceneVerbs, ObjectsComeMoveAndGoAndEveryoneIsTold) {
   expect_refused(remove("/api/v1/scene/objects/rod%201"), 404, "", "rod 1");
 }
 
-TEST_F(SceneVerbs, ObjectsThatCannotBeAreRefusedWithPlaceAndValue) {
+TEST_F(SceneVerbs, InvalidObjectsAreRefusedWithPlaceAndValue) {
   start(1.0);
   const std::string objects = "/api/v1/scene/objects";
   const std::uint64_t version = get("/api/v1/scene").json()["version"];

@@ -10,7 +10,7 @@
 
 namespace armloom::test {
 
-// The server as a process, with a folder for its data and its log.
+// The server as a process, with a folder for data and log.
 class Serve : public CommandFixture {
  protected:
   std::string log() const { return (folder_ / "log").string(); }
@@ -23,7 +23,7 @@ class Serve : public CommandFixture {
     EXPECT_EQ(answer.status, 202) << answer.body;
     return job;
   }
-  // All events of the recording; each line is whole.
+  // Returns all events of the recording; every line must be complete.
   std::vector<nlohmann::json> events() const {
     std::vector<nlohmann::json> all;
     std::ifstream in(folder_ / "data/events.jsonl");

@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kPatience_ms = 20'000;
 
-// What stands on the line "dashboard: http://127.0.0.1:PORT/".
+// Reads the port from the line "dashboard: http://127.0.0.1:PORT/".
 std::uint16_t read_port(int fd) {
   std::string text;
   while (text.find('\n') == text.npos) {

@@ -10,21 +10,21 @@
 
 namespace armloom::test {
 
-// `armloom serve` as a process of its own, as an engineer starts it. Killed at the end.
+// `armloom serve` as a child process; killed by the destructor.
 class ServeProcess {
  public:
-  // `before`: runs in the child, before it becomes the server: its limits.
+  // `before` runs in the child before exec, for example to set limits.
   ServeProcess(std::vector<std::string> arguments, const std::string& log,
                const std::function<void()>& before = {});
   ~ServeProcess();
   ServeProcess(const ServeProcess&) = delete;
   ServeProcess& operator=(const ServeProcess&) = delete;
 
-  [[nodiscard]] std::uint16_t port() const { return port_; }  // as it says it
+  [[nodiscard]] std::uint16_t port() const { return port_; }  // as printed by the server
   void signal(int number) const;
-  // Its exit code, -N when signal N has ended it; waits for that at most 20 s.
+  // Returns the exit code, or -N after signal N; throws after 20 s.
   int wait();
-  [[nodiscard]] std::string log() const;  // what it said on stderr
+  [[nodiscard]] std::string log() const;  // stderr so far
 
  private:
   pid_t pid_ = -1;

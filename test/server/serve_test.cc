@@ -1,4 +1,3 @@
-// The server as a process: what it does when the system asks it to end, or stops it.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
@@ -26,7 +25,7 @@ void wait_until_moving(std::uint16_t port) {
   }
 }
 
-TEST_F(Serve, ASignalBringsArmsToRestAndTheRecordingIsWhole) {
+TEST_F(Serve, SignalStopsTheArmsAndCompletesTheRecording) {
   for (const int number : {SIGTERM, SIGHUP, SIGINT}) {
     std::filesystem::remove_all(data());
     test::ServeProcess server({"--cell", test::kCell, "--data", data(), "--record"}, log());
@@ -48,8 +47,8 @@ TEST_F(Serve, ASignalBringsArmsToRestAndTheRecordingIsWhole) {
   }
 }
 
-// The answer comes before the disk has it: however soon the process is killed, the arm is stopped.
-TEST_F(Serve, AStopThatWasAnsweredOutlivesAKill) {
+// The answer precedes the write to disk; even a kill right after must not lose the stop.
+TEST_F(Serve, AnsweredStopSurvivesAKill) {
   for (int kill = 0; kill < 6; ++kill) {
     std::filesystem::remove_all(data());
     const std::vector<std::string> arguments{"--cell", test::kCell, "--data", data()};
@@ -65,8 +64,8 @@ TEST_F(Serve, AStopThatWasAnsweredOutlivesAKill) {
   }
 }
 
-// Who ends the server knows that the arms stop with it: what there is to see to, the next one says.
-TEST_F(Serve, AnEndStopsNoArmForTheNextRunAndIsNoAlert) {
+// The stop at the end of a session is no alert: the next session reports what needs attention.
+TEST_F(Serve, ShutdownIsNoStopAndNoAlertForTheNextSession) {
   const std::vector<std::string> arguments{"--cell", test::kCell, "--data", data()};
   const auto end = [](test::ServeProcess& server) {
     server.signal(SIGTERM);
@@ -101,12 +100,12 @@ TEST_F(Serve, AnEndStopsNoArmForTheNextRunAndIsNoAlert) {
     told += alert["text"].get<std::string>() + "\n";
   }
   EXPECT_EQ(told,
-            "stopped: left, right (the server was started again: 1 job waits; "
-            "resume to go on)\nstopped: right (operator)\n");
+            "stopped: left, right (the server was restarted: 1 job waits; "
+            "resume to continue)\nstopped: right (operator)\n");
   end(third);
 }
 
-TEST_F(Serve, AnArmThatDoesNotComeToRestHoldsNothingUp) {
+TEST_F(Serve, SlowArmDoesNotDelayTheShutdown) {
   test::ServeProcess server({"--cell", test::kCell, "--speed", "0.01", "--data", data()}, log());
   begin_job(server.port(), "go", "left");
   ASSERT_NO_FATAL_FAILURE(wait_until_moving(server.port()));
@@ -124,7 +123,7 @@ TEST_F(Serve, NohupIsRespected) {
   EXPECT_EQ(server.wait(), 0);
 }
 
-TEST_F(Serve, EventsAreOnTheirWayToTheDiskWhenTheyAreTold) {
+TEST_F(Serve, EventsAreWrittenWhenPublished) {
   test::ServeProcess server({"--cell", test::kCell, "--data", data()}, log());
   begin_job(server.port(), "go", "left");
   ASSERT_NO_FATAL_FAILURE(wait_until_moving(server.port()));
@@ -133,8 +132,8 @@ TEST_F(Serve, EventsAreOnTheirWayToTheDiskWhenTheyAreTold) {
   EXPECT_FALSE(events().empty());
 }
 
-// As under a debugger: who held the button has let it go for all that the server knows.
-TEST_F(Serve, AMoveByHandIsOverAfterTheProcessWasStopped) {
+// As under a debugger: the lease has expired while the process was suspended.
+TEST_F(Serve, JogLeaseExpiresWhileTheProcessIsSuspended) {
   test::ServeProcess server({"--cell", test::kCell, "--jog-lease", "0.3"}, log());
   const auto ask = [&](const char* method, const std::string& path, const json& body) {
     return test::request(server.port(), method, "/api/v1" + path, body.dump());
@@ -150,7 +149,7 @@ TEST_F(Serve, AMoveByHandIsOverAfterTheProcessWasStopped) {
   EXPECT_EQ(late.status, 409) << late.body;
 }
 
-TEST_F(Serve, ASignalLeavesWhatHasNotBegunToTheNextServer) {
+TEST_F(Serve, UnstartedJobsAreKeptForTheNextSession) {
   {
     test::ServeProcess server({"--cell", test::kCell, "--data", data()}, log());
     begin_job(server.port(), "go", "left");

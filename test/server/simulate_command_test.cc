@@ -1,4 +1,3 @@
-// `armloom simulate` as outside tools call it: its figures, and faults.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -18,7 +17,7 @@ using test::Outcome;
 
 class Simulate : public test::CommandFixture {};
 
-TEST_F(Simulate, EndsWithOneLineOfFiguresAndRepeatsByteForByte) {
+TEST_F(Simulate, PrintsASummaryAndRepeatsByteForByte) {
   const std::string jobs = conflicting_jobs().string();
   const std::string simulate = "simulate --cell " + kCell + " --jobs " + jobs + " --seed 7 --out ";
   const Outcome outcome = run(simulate + (folder_ / "a").string());
@@ -27,8 +26,8 @@ TEST_F(Simulate, EndsWithOneLineOfFiguresAndRepeatsByteForByte) {
   EXPECT_EQ(figures["policy"], "earliest_start");
   EXPECT_EQ(figures["jobs"]["succeeded"], 4);
   EXPECT_GE(figures["backlogged"], 1);
-  EXPECT_GT(figures["makespan_s"], 6.5);   // one has to wait ...
-  EXPECT_LT(figures["makespan_s"], 11.0);  // ... but not for everything
+  EXPECT_GT(figures["makespan_s"], 6.5);   // some job has to wait ...
+  EXPECT_LT(figures["makespan_s"], 11.0);  // ... but not for all others
   EXPECT_EQ(figures["monitor_stops"], 0);
   EXPECT_EQ(figures["arm_busy_ratio"].size(), 2U);
   EXPECT_EQ(figures["wait_s"]["max"].is_number(), true);
@@ -46,7 +45,7 @@ TEST_F(Simulate, EndsWithOneLineOfFiguresAndRepeatsByteForByte) {
   EXPECT_GT(audit.last_line()["smallest_clearance_m"], 0.0);
 }
 
-TEST_F(Simulate, WithFaultsLosesTimeAndNothingElse) {
+TEST_F(Simulate, FaultsOnlyCostTime) {
   const std::string simulate = "simulate --cell " +
                                changed_cell("/execution/duration_margin_s", 60).string() +
                                " --jobs " + conflicting_jobs().string();
@@ -63,9 +62,9 @@ TEST_F(Simulate, WithFaultsLosesTimeAndNothingElse) {
   EXPECT_GT(with.last_line()["makespan_s"], without.last_line()["makespan_s"].get<double>() + 4.0);
 }
 
-// The left arm gives up just before its goal, and the right one's job waits there for 10 min: its
-// states are few, the run ends with that, and says what it left.
-TEST_F(Simulate, AStuckLoadEndsWhenNothingCanHappenAnyMoreAndWritesNoIdleRows) {
+// The left arm faults just before its goal, and the right arm's job waits up to 10 min. The run
+// ends when the cell has settled, records few states, and reports the jobs left over.
+TEST_F(Simulate, EndsWhenSettledAndWritesNoIdleRows) {
   json jobs = json::parse(read_text_file(conflicting_jobs()).value());
   for (json& timed : jobs) timed["job"]["backlog_timeout_s"] = 600;
   const std::string faults =
@@ -75,13 +74,13 @@ TEST_F(Simulate, AStuckLoadEndsWhenNothingCanHappenAnyMoreAndWritesNoIdleRows) {
       run("simulate --cell " + kCell + " --jobs " + file("stuck.json", jobs.dump()).string() +
           " --faults " + faults + " --out " + recording);
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.err.find("armloom: nothing can happen any more at "), std::string::npos)
+  EXPECT_NE(outcome.err.find("armloom: nothing can move any more at "), std::string::npos)
       << outcome.err;
-  EXPECT_NE(outcome.err.find("job j1 did not end, it is queued, waits for stop left"),
+  EXPECT_NE(outcome.err.find("job j1 did not end; its state is queued, waits for stop left"),
             std::string::npos)
       << outcome.err;
   EXPECT_LT(fs::file_size(folder_ / "recording/states.csv"), 2'000'000U);
-  EXPECT_EQ(outcome.err.find("every limit is over"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find("all time limits have passed"), std::string::npos) << outcome.err;
 
   const std::string audit = "audit --cell " + kCell + " --recording " + recording;
   const Outcome whole = run(audit);
@@ -91,7 +90,7 @@ TEST_F(Simulate, AStuckLoadEndsWhenNothingCanHappenAnyMoreAndWritesNoIdleRows) {
   EXPECT_NE(run(audit).err.find("without a row"), std::string::npos);
 }
 
-TEST_F(Simulate, BadFaultsFilesAreNamedWithFilePlaceAndValue) {
+TEST_F(Simulate, ReportsBadFaultsFilesWithPlaceAndValue) {
   const struct {
     const char* text;
     const char* says;
@@ -115,8 +114,8 @@ TEST_F(Simulate, BadFaultsFilesAreNamedWithFilePlaceAndValue) {
       run("simulate --cell " + kCell + " --jobs " + jobs + " --faults nothing.json").exit_code, 2);
 }
 
-// The left arm's job has long ended when the run is given up, with the right one still on its way.
-TEST_F(Simulate, ArmsAreBusyForAShareOfTheRunAlsoWhereJobsDoNotEnd) {
+// The left arm's job has ended long before the run is given up; the right arm still moves.
+TEST_F(Simulate, BusyRatioIsRelativeToTheRunEvenIfJobsDoNotEnd) {
   json jobs = json::array();
   for (const char* arm : {"left", "right"}) {
     test::Pose aside = test::kHome;

@@ -52,7 +52,7 @@ TEST(StatesCsv, ReadsBackWhatItWrote) {
   EXPECT_EQ((*states)[2].time, at(std::chrono::nanoseconds(2'000'000'001)));
   EXPECT_LT(((*states)[0].q - q).cwiseAbs().maxCoeff(), 0.6e-9);
 
-  for (const std::size_t cut : {1U, 5U, 40U}) {  // killed while it wrote
+  for (const std::size_t cut : {1U, 5U, 40U}) {  // killed while writing a row
     std::ofstream(file) << text.substr(0, text.size() - cut);
     warnings.clear();
     const auto begun = read_states(file, *cell, &warnings);
@@ -60,12 +60,12 @@ TEST(StatesCsv, ReadsBackWhatItWrote) {
     EXPECT_EQ(begun->size(), 2U);
     EXPECT_EQ(
         warnings.back(),
-        "states.csv:4: the last row has no end of line: the run was cut off there, the row is "
-        "left out");
+        "states.csv:4: the last row has no line end: the recording was cut off there, the row is "
+        "ignored");
   }
 }
 
-// Rows at these milliseconds, the left arm's first joint at that place, told to be at rest or not.
+// A row to write: time, position of the left arm's first joint, and whether the arms are at rest.
 struct Row {
   int at_ms;
   double q0;
@@ -90,7 +90,7 @@ std::vector<std::int64_t> times_ms(const std::vector<RecordedState>& states) {
 using Times = std::vector<std::int64_t>;
 using Warnings = std::vector<std::string>;
 
-TEST(IdleStretches, HaveTheirFirstAndTheirLastRowAndAreDeclared) {
+TEST(IdleStretches, KeepTheirFirstAndLastRowAndAreListed) {
   const CellPtr cell = two_pandas();
   std::vector<Row> rows;
   for (int ms = 1; ms <= 500; ++ms) rows.push_back({ms, 0.0, true});
@@ -108,7 +108,7 @@ TEST(IdleStretches, HaveTheirFirstAndTheirLastRowAndAreDeclared) {
   EXPECT_EQ(after_rest, (std::vector<bool>{false, true, false, false, false, false, true}));
 }
 
-TEST(IdleStretches, AreCaughtUpWithForWhoReadsMeanwhile) {
+TEST(IdleStretches, CanBeReadWhileTheyLast) {
   const CellPtr cell = two_pandas();
   const fs::path file = folder_of_test() / "states.csv";
   StatesWriter writer(file, *cell);
@@ -129,7 +129,7 @@ TEST(IdleStretches, AreCaughtUpWithForWhoReadsMeanwhile) {
   EXPECT_EQ(warnings, Warnings{});
 }
 
-TEST(IdleStretches, OfOneOrTwoRowsLeaveNothingOut) {
+TEST(IdleStretches, OmitNothingIfShorterThanThreeRows) {
   const CellPtr cell = two_pandas();
   const fs::path file =
       recorded(*cell, {{1, 0, true}, {2, 0, true}, {3, 0.1, false}, {4, 0, true}});
@@ -137,8 +137,8 @@ TEST(IdleStretches, OfOneOrTwoRowsLeaveNothingOut) {
   EXPECT_FALSE(fs::exists(idle_file_of(file)));
 }
 
-// Nothing was commanded, and yet a joint moves: that is written row by row.
-TEST(IdleStretches, EndWhereAJointLeavesItsPlace) {
+// A joint that moves without a command is recorded row by row.
+TEST(IdleStretches, EndIfAJointMoves) {
   const CellPtr cell = two_pandas();
   ASSERT_EQ(cell->checking.tracking_error_rad, 0.001);
   std::vector<Row> rows;
@@ -151,8 +151,8 @@ TEST(IdleStretches, EndWhereAJointLeavesItsPlace) {
   EXPECT_EQ(warnings, Warnings{});
 }
 
-// What is lost is not taken for a rest: not between rows, not at the end, not what has moved.
-TEST(IdleStretches, AreNoExcuseForRowsThatAreLost) {
+// Lost rows are never taken for a rest: between rows, at the end, or after a motion.
+TEST(IdleStretches, DoNotHideLostRows) {
   const CellPtr cell = two_pandas();
   std::vector<Row> rows;
   for (int ms = 1; ms <= 200; ++ms) rows.push_back({ms, 0.0, true});
@@ -172,7 +172,7 @@ TEST(IdleStretches, AreNoExcuseForRowsThatAreLost) {
   EXPECT_EQ(warnings_of(hole).size(), 1U) << "the motion has a hole";
   const std::string cut = text.substr(0, from_row("0.300"));
   EXPECT_EQ(warnings_of(cut),
-            Warnings{"states.csv:102: rows are missing: states_idle.csv goes on"});
+            Warnings{"states.csv:102: rows are missing: states_idle.csv continues"});
   const std::string no_begin = text.substr(0, from_row("0.200")) + text.substr(from_row("0.230"));
   EXPECT_EQ(warnings_of(no_begin).size(), 2U) << "the rest has no end, and there is a hole";
 
@@ -184,14 +184,14 @@ TEST(IdleStretches, AreNoExcuseForRowsThatAreLost) {
   Warnings warnings;
   std::ofstream(file) << text.substr(0, from_row("0.211")) + text.substr(from_row("0.400"));
   ASSERT_TRUE(read_states(file, *cell, &warnings));
-  EXPECT_NE(warnings.at(0).find("arms have moved in what was to be a rest"), std::string::npos);
+  EXPECT_NE(warnings.at(0).find("arms moved in a stretch recorded as idle"), std::string::npos);
 }
 
 struct BadRecording {
   const char* name;
-  int line;          // to replace, from one
-  const char* from;  // its text ...
-  const char* to;    // ... becomes this
+  int line;          // line to change, from one
+  const char* from;  // old text
+  const char* to;    // new text
   const char* place;
   const char* says;
 };
@@ -241,7 +241,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadRecording{"TimeStands", 4, "0.003", "0.002", ":4 time_s", "increase"}),
     [](const auto& tested) { return tested.param.name; });
 
-TEST(StatesCsv, MissingAndEmptyFilesAreSaid) {
+TEST(StatesCsv, RefusesMissingAndEmptyFiles) {
   const CellPtr cell = two_pandas();
   const fs::path folder = folder_of_test();
   EXPECT_FALSE(read_states(folder / "nothing.csv", *cell));
@@ -251,7 +251,7 @@ TEST(StatesCsv, MissingAndEmptyFilesAreSaid) {
   EXPECT_FALSE(read_states(folder / "header.csv", *cell));
 }
 
-TEST(Recording, HoldsEverythingThatARerunNeeds) {
+TEST(Recording, HasEverythingForARerun) {
   const CellPtr cell = two_pandas();
   const fs::path folder = folder_of_test() / "made" / "on the way";
   const fs::path cell_file = fs::path(source_dir()) / "config/two_pandas.json";

@@ -1,4 +1,3 @@
-// What is not as it was written is told, and what was refused displaces nothing of what was done.
 #include <array>
 #include <fstream>
 
@@ -14,8 +13,7 @@ using test::job;
 using test::start;
 using test::Store;
 
-// Who is refused can be refused as often as they like: that displaces nothing of what was done.
-TEST_F(Store, WhatWasDoneIsNeverDisplacedByWhatWasRefused) {
+TEST_F(Store, KeepsAuditEntriesOfExecutedRequestsOverRefusals) {
   StoreOptions few = options();
   few.retention.audit_max = 5;
   {
@@ -46,8 +44,8 @@ TEST_F(Store, WhatWasDoneIsNeverDisplacedByWhatWasRefused) {
   EXPECT_EQ(kept(), last);
 }
 
-// An empty file beside what a server left has lost its jobs; and its log may still hold them.
-TEST_F(Store, AnEmptyFileIsSaidToBeCorruptAndNotTakenForANewOne) {
+// An empty database file has lost its jobs, but its log may still hold them.
+TEST_F(Store, RefusesAnEmptyFileAsCorrupt) {
   {
     const auto store = open();
     EXPECT_TRUE(accept(*store, 1).get());
@@ -63,7 +61,7 @@ TEST_F(Store, AnEmptyFileIsSaidToBeCorruptAndNotTakenForANewOne) {
   EXPECT_NE(why_not().find("it has no tables"), std::string::npos) << why_not();
 }
 
-TEST_F(Store, ARowThatIsNotAsItWasWrittenIsKnown) {
+TEST_F(Store, DetectsDamagedJobRows) {
   const auto leave = [&] {
     fs::remove_all(folder_);
     const auto store = open();
@@ -91,7 +89,7 @@ TEST_F(Store, ARowThatIsNotAsItWasWrittenIsKnown) {
   EXPECT_EQ((*history)->damage().value().jobs, (std::vector<std::string>{"j1", "j3"}));
   const auto found = (*history)->find("j3");
   ASSERT_FALSE(found) << "neither there as it is, nor unknown, so that it would be run again";
-  EXPECT_NE(found.error().front().detail.find("not as it was written"), std::string::npos);
+  EXPECT_NE(found.error().front().detail.find("is damaged (wrong checksum)"), std::string::npos);
   std::vector<std::string> ids;
   const auto read =
       (*history)->oldest_first({}, [&](const StoredJob& one) { ids.push_back(one.id); });
@@ -100,7 +98,7 @@ TEST_F(Store, ARowThatIsNotAsItWasWrittenIsKnown) {
   EXPECT_NE(read.error().front().detail.find("2 jobs are not as"), std::string::npos);
 }
 
-TEST_F(Store, WhichArmsWereStoppedIsKnownToBeAsItWasWrittenOrNot) {
+TEST_F(Store, DetectsDamagedStops) {
   const auto leave = [&] {
     fs::remove_all(folder_);
     const auto store = open();
@@ -125,21 +123,20 @@ TEST_F(Store, WhichArmsWereStoppedIsKnownToBeAsItWasWrittenOrNot) {
   EXPECT_EQ(open()->leftover().stopped_arms, Names{"left"});
 }
 
-// It would be read into a new file, which it is not of.
-TEST_F(Store, ALogWithoutItsFileIsLeftAsItIs) {
+// SQLite would replay the log into a new file, to which the log does not belong.
+TEST_F(Store, DoesNotTouchALogWithoutItsFile) {
   {
     const auto store = open();
     EXPECT_TRUE(accept(*store, 1).get());
   }
   fs::remove(file());
   std::ofstream(file().string() + "-wal") << "what may be jobs";
-  EXPECT_NE(why_not().find("it is gone"), std::string::npos) << why_not();
+  EXPECT_NE(why_not().find("it is missing"), std::string::npos) << why_not();
   EXPECT_FALSE(fs::exists(file()));
   EXPECT_EQ(fs::file_size(file().string() + "-wal"), 16U);
 }
 
-// Neither forgotten nor taken for one that nobody was told of.
-TEST_F(Store, AJobOfWhichAPartIsGoneIsKnown) {
+TEST_F(Store, DetectsJobsWithMissingRows) {
   {
     const auto store = open();
     for (std::uint64_t number = 1; number <= 3; ++number) {
@@ -149,7 +146,7 @@ TEST_F(Store, AJobOfWhichAPartIsGoneIsKnown) {
       store->accept({{one, "body"}}, [&](bool is_written) { written.set_value(is_written); });
       EXPECT_TRUE(written.get_future().get());
     }
-    store->see(job(4));  // no client's
+    store->see(job(4));  // not submitted by a client
     EXPECT_TRUE(store->flush());
   }
   sql("DELETE FROM body WHERE number = 1; DELETE FROM job WHERE number = 2");
@@ -163,9 +160,8 @@ TEST_F(Store, AJobOfWhichAPartIsGoneIsKnown) {
   }
 }
 
-// What a killed server left beside a file that was damaged is the best that there is to repair it
-// with.
-TEST_F(Store, TheLogBesideAFileThatIsCorruptIsLeftAsItIs) {
+// The log of a killed server beside a damaged database is the best source for a repair.
+TEST_F(Store, DoesNotTouchTheLogOfACorruptFile) {
   const fs::path copy = folder_.string() + "-killed";
   {
     const auto store = open();
@@ -182,7 +178,7 @@ TEST_F(Store, TheLogBesideAFileThatIsCorruptIsLeftAsItIs) {
   const fs::path log = file().string() + "-wal";
   const std::string of_log = all_of(log), sound = all_of(file());
   EXPECT_GT(of_log.size(), 0U);
-  std::string not_writable = sound;  // by its header: a version of later years
+  std::string not_writable = sound;  // its header names a newer version
   not_writable[18] = '\xff';
   for (const std::string& of_file : {std::string(5000, 'x') + sound.substr(5000), not_writable}) {
     std::ofstream(file(), std::ios::binary) << of_file;
@@ -192,23 +188,7 @@ TEST_F(Store, TheLogBesideAFileThatIsCorruptIsLeftAsItIs) {
   }
 }
 
-TEST_F(Store, ArmsThatAnOlderVersionHadStoppedAreStopped) {
-  {
-    const auto store = open();
-    store->stopped({"left"});
-    EXPECT_TRUE(store->flush());
-  }
-  fs::remove(folder_ / "armloom.mark");  // none of theirs
-  sql("DROP TRIGGER request_goes; DROP TABLE request; DROP TABLE written");
-  sql("DROP TABLE scene_object; ALTER TABLE stopped_arm DROP COLUMN sum; PRAGMA user_version = 6");
-  const auto store = open();
-  EXPECT_EQ(store->leftover().stopped_arms, std::vector<std::string>{"left"});
-  EXPECT_FALSE(store->leftover().stops_are_damaged);
-  EXPECT_FALSE(store->leftover().is_unmarked);
-}
-
-// Nobody is told what nobody said, nor that somebody did what they did not.
-TEST_F(Store, AnAlertOrAnEntryOfTheAuditTrailThatIsNotAsItWasWrittenIsLeftOutAndCounted) {
+TEST_F(Store, OmitsAndCountsDamagedAlertsAndAuditEntries) {
   {
     const auto store = open();
     for (const char* id : {"s:1", "s:2", "s:3"}) store->keep({id, 1000, "warning", "stopped"});

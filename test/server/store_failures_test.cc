@@ -1,4 +1,3 @@
-// Jobs on disk: what was said to be written is there, wherever a disk fails or the process ends.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -20,7 +19,7 @@ using test::job;
 using test::start;
 using test::Store;
 
-TEST_F(Store, AFullDiskIsSaidAndWhatWaitsIsWrittenWhenThereIsSpace) {
+TEST_F(Store, ReportsAFullDiskAndWritesWhenThereIsSpace) {
   std::vector<std::string> told;
   StoreOptions watched = options();
   watched.on_fault = [&](const StoreFault* fault) { told.push_back(fault ? fault->text : "well"); };
@@ -46,18 +45,18 @@ TEST_F(Store, AFullDiskIsSaidAndWhatWaitsIsWrittenWhenThereIsSpace) {
   EXPECT_TRUE(store->leftover().jobs.front().may_have_moved);
 }
 
-TEST_F(Store, WhoCannotOpenItIsToldWhatToDo) {
+TEST_F(Store, ReportsARemedyIfItCannotBeOpened) {
   FailingDisk::fail(FailingDisk::Fault::full, 0);
   EXPECT_NE(why_not().find("nothing was changed: make room on the disk"), std::string::npos);
   FailingDisk::fail(FailingDisk::Fault::broken, 0);
-  EXPECT_NE(why_not().find("see to it that it can be read and written"), std::string::npos);
+  EXPECT_NE(why_not().find("make it readable and writable"), std::string::npos);
   FailingDisk::reset();
   std::ofstream(file()) << "no database, but a text that is long enough for one";
   EXPECT_NE(why_not().find("repair it"), std::string::npos) << why_not();
 }
 
-// Another server could begin on the folder, or would not find what is written.
-TEST_F(Store, AFolderThatIsNoLongerItsOwnIsSaidAndNothingIsWritten) {
+// Otherwise another server could use the folder, or not find what this server writes.
+TEST_F(Store, StopsWritingIfItsFilesAreReplaced) {
   for (const char* name : {"armloom.lock", "armloom.db", "armloom.mark", "armloom.db-wal"}) {
     SCOPED_TRACE(name);
     fs::remove_all(folder_);
@@ -79,23 +78,23 @@ TEST_F(Store, AFolderThatIsNoLongerItsOwnIsSaidAndNothingIsWritten) {
   }
 }
 
-// What its client was told is not accepted is nowhere, whatever else is said of it.
-// What was written of it is lost, but not the file beside it; and the next run is told.
-TEST_F(Store, ALogThatIsCutOffUnderTheServerIsSaidAndNotBroughtIntoTheFile) {
+// Records in the lost log are gone, but the database file stays intact, and the next session
+// reports the loss.
+TEST_F(Store, ReportsATruncatedLogAndDoesNotCheckpointIt) {
   const fs::path log = file().string() + "-wal";
   {
     const auto store = open();
     EXPECT_TRUE(accept(*store, 1).get());
     fs::resize_file(log, 0);
     EXPECT_FALSE(accept(*store, 2).get());
-    EXPECT_NE(store->fault()->text.find("armloom.db-wal was cut off"), std::string::npos);
+    EXPECT_NE(store->fault()->text.find("armloom.db-wal was truncated"), std::string::npos);
   }
   const auto store = open();
   EXPECT_TRUE(store->leftover().is_behind);
   EXPECT_TRUE(accept(*store, 3).get());
 }
 
-TEST_F(Store, AJobThatWasGivenUpIsNeverWritten) {
+TEST_F(Store, NeverWritesARefusedJob) {
   {
     const auto store = open();
     FailingDisk::fail(FailingDisk::Fault::full, 0);
@@ -115,8 +114,7 @@ TEST_F(Store, AJobThatWasGivenUpIsNeverWritten) {
   EXPECT_FALSE(JobHistory::open(folder_).value()->find("j1").value());
 }
 
-// While nothing can be written, too.
-TEST_F(Store, WhatWasDoneHasRoomHoweverMuchWasRefused) {
+TEST_F(Store, KeepsRoomForExecutedRequestsAmongRefusals) {
   const auto store = open();
   FailingDisk::fail(FailingDisk::Fault::full, 0);
   for (int i = 0; i < 10'100; ++i) store->note({.status = 401});
@@ -128,7 +126,7 @@ TEST_F(Store, WhatWasDoneHasRoomHoweverMuchWasRefused) {
   EXPECT_EQ(newest[0].who, "Ada");
 }
 
-// What a client and the executive do to ten jobs; `acknowledged` is told what they may rely on.
+// Performs what a client and the executive do with ten jobs; reports each acknowledgement.
 void live(JobStore& store, const std::function<void(const std::string&)>& acknowledged) {
   for (std::uint64_t number = 1; number <= 10; ++number) {
     if (!accept(store, number).get()) continue;
@@ -145,7 +143,7 @@ void live(JobStore& store, const std::function<void(const std::string&)>& acknow
   }
 }
 
-// Whatever was acknowledged is there, once; nothing that may have moved can be run again.
+// Expects every acknowledged record once, and that no job that may have moved can run again.
 void expect_kept(const fs::path& folder, const std::string& acknowledged, const std::string& when) {
   StoreOptions options;
   options.vfs = FailingDisk::name();
@@ -182,8 +180,7 @@ void expect_kept(const fs::path& folder, const std::string& acknowledged, const 
 
 class Cut : public Store, public ::testing::WithParamInterface<const char*> {};
 
-// The process ends at its Nth write, or the power does: for every N.
-TEST_P(Cut, LosesNothingThatWasAcknowledgedWhereverItComes) {
+TEST_P(Cut, LosesNoAcknowledgedRecordAtAnyWrite) {
   const bool is_power = std::string(GetParam()) == "power";
   const fs::path said = folder_.string() + "-said";
   std::uint64_t cuts = 0;
@@ -205,7 +202,7 @@ TEST_P(Cut, LosesNothingThatWasAcknowledgedWhereverItComes) {
     }
     int status = 0;
     waitpid(child, &status, 0);
-    if (is_power) fs::remove(file().string() + "-shm");  // it is memory
+    if (is_power) fs::remove(file().string() + "-shm");  // shared memory, lost in a power cut
     std::ifstream in(said);
     const std::string acknowledged{std::istreambuf_iterator<char>(in), {}};
     expect_kept(folder_, acknowledged, "cut at operation " + std::to_string(nth));
@@ -216,8 +213,7 @@ TEST_P(Cut, LosesNothingThatWasAcknowledgedWhereverItComes) {
 }
 INSTANTIATE_TEST_SUITE_P(Store, Cut, ::testing::Values("process", "power"));
 
-// The Nth write fails, or that and some after it: for every N.
-TEST_F(Store, NoWriteThatFailsLosesWhatWasAcknowledged) {
+TEST_F(Store, LosesNoAcknowledgedRecordIfAnyWriteFails) {
   std::uint64_t faults = 0;
   for (const auto fault : {FailingDisk::Fault::full, FailingDisk::Fault::broken}) {
     for (std::uint64_t nth = 1;; ++nth) {

@@ -1,4 +1,4 @@
-// Whether a store holds what the former run had, as the mark beside it tells.
+// The mark (high-water mark) detects that the store beside it lacks records.
 #include <fstream>
 #include <functional>
 
@@ -12,8 +12,7 @@ using test::accept;
 using test::FailingDisk;
 using test::Store;
 
-// With a full disk, too: who starts the server anew must not find arms let go.
-TEST_F(Store, ThatStopsWereNotWrittenIsKnownToTheNextRunUntilItHasWrittenSome) {
+TEST_F(Store, ReportsUnwrittenStopsUntilStopsAreWritten) {
   {
     const auto store = open();
     store->stopped({"left"});
@@ -38,8 +37,8 @@ TEST_F(Store, ThatStopsWereNotWrittenIsKnownToTheNextRunUntilItHasWrittenSome) {
   EXPECT_FALSE(open()->leftover().stops_are_unwritten);
 }
 
-// SQLite takes what it cannot read of a log for the end of it.
-TEST_F(Store, AStoreThatHoldsLessThanWasWrittenIsKnown) {
+// SQLite takes an unreadable part of a log for the end of the log.
+TEST_F(Store, DetectsLostCommits) {
   const fs::path killed = folder_.string() + "-killed", older = folder_.string() + "-older";
   fs::remove_all(killed);
   fs::remove_all(older);
@@ -88,8 +87,8 @@ TEST_F(Store, AStoreThatHoldsLessThanWasWrittenIsKnown) {
   }
 }
 
-// Then it is not known whether there was more, as of a copy of the database alone.
-TEST_F(Store, AStoreWithoutItsMarkIsNotTakenForWhole) {
+// Without the mark, for example in a copy of the database alone, lost records cannot be excluded.
+TEST_F(Store, DetectsAMissingOrDamagedMark) {
   const auto leave = [&] {
     fs::remove_all(folder_);
     const auto store = open();
@@ -117,8 +116,8 @@ TEST_F(Store, AStoreWithoutItsMarkIsNotTakenForWhole) {
   }
 }
 
-// All that a young folder has may be in the log.
-TEST_F(Store, ANewFolderOfWhichLogAndMarkAreGoneIsNotTakenForNew) {
+// The records of a new folder may all be in the log.
+TEST_F(Store, DetectsAYoungFolderWithoutLogAndMark) {
   const fs::path killed = folder_.string() + "-killed";
   fs::remove_all(killed);
   {

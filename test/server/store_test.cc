@@ -1,5 +1,3 @@
-// Jobs on disk: what was said to be written is there in the next run, in its order, as long as it
-// is to be kept.
 #include <unistd.h>
 
 #include <cstdlib>
@@ -18,7 +16,7 @@ using test::job;
 using test::start;
 using test::Store;
 
-TEST_F(Store, WhatHadNotEndedIsThereAgainInItsOrder) {
+TEST_F(Store, RestoresUnfinishedJobsInOrder) {
   {
     const auto store = open();
     EXPECT_TRUE(store->leftover().jobs.empty());
@@ -44,7 +42,7 @@ TEST_F(Store, WhatHadNotEndedIsThereAgainInItsOrder) {
   EXPECT_TRUE(left.jobs[2].may_have_moved);
 }
 
-TEST_F(Store, ManyThatWaitShareOneSync) {
+TEST_F(Store, SharesOneSyncAmongConcurrentWrites) {
   const auto store = open();
   EXPECT_TRUE(accept(*store, 1).get());
   std::promise<void> go_on;
@@ -61,12 +59,12 @@ TEST_F(Store, ManyThatWaitShareOneSync) {
   EXPECT_EQ(FailingDisk::syncs(), before + 1) << "one that is alone costs one";
 }
 
-TEST_F(Store, OneServerForEachFolder) {
+TEST_F(Store, RefusesAFolderInUse) {
   const auto store = open();
   EXPECT_NE(why_not().find("is in use by process " + std::to_string(getpid())), std::string::npos);
 }
 
-TEST_F(Store, WhatIsNotOursOrNotWholeIsLeftAsItIs) {
+TEST_F(Store, DoesNotTouchForeignOrNewerFiles) {
   const auto holds = [&](const std::string& text) {
     const std::string why = why_not();
     EXPECT_NE(why.find(text), std::string::npos) << why;
@@ -88,7 +86,7 @@ TEST_F(Store, WhatIsNotOursOrNotWholeIsLeftAsItIs) {
   holds("it is corrupt: tables of version -5");
 }
 
-TEST_F(Store, ACorruptFileIsSaidToBeAndNotMended) {
+TEST_F(Store, ReportsACorruptFileWithoutRepair) {
   {
     const auto store = open();
     for (std::uint64_t number = 1; number <= 200; ++number) accept(*store, number).get();
@@ -100,12 +98,12 @@ TEST_F(Store, ACorruptFileIsSaidToBeAndNotMended) {
     damage << std::string(4096, '\x5a');
   }
   const std::string why = why_not();
-  EXPECT_NE(why.find("put back a copy"), std::string::npos) << why;
+  EXPECT_NE(why.find("restore a copy"), std::string::npos) << why;
   EXPECT_EQ(fs::file_size(file()), size);
 }
 
-// Jobs would come in the index's order, or not at all.
-TEST_F(Store, AnIndexThatIsNotTheTablesIsSaidToBeCorrupt) {
+// Otherwise jobs would be listed in the index's order, or not at all.
+TEST_F(Store, ReportsAMismatchedIndexAsCorrupt) {
   {
     const auto store = open();
     for (std::uint64_t number = 1; number <= 3; ++number) accept(*store, number).get();
@@ -116,8 +114,7 @@ TEST_F(Store, AnIndexThatIsNotTheTablesIsSaidToBeCorrupt) {
   EXPECT_NE(why_not().find("it is corrupt: "), std::string::npos) << why_not();
 }
 
-// Of an old version: its jobs are kept.
-TEST_F(Store, TablesAreBroughtUpToDateWhole) {
+TEST_F(Store, CreatesItsTablesAtomically) {
   fs::create_directories(folder_);
   {
     const auto store = open();
@@ -125,7 +122,7 @@ TEST_F(Store, TablesAreBroughtUpToDateWhole) {
   }
   const std::uint64_t operations = FailingDisk::operations();
   fs::remove_all(folder_);
-  // A process that ends anywhere in the making of the tables leaves what can be opened.
+  // A process that ends at any point while it creates the tables leaves a usable folder.
   for (std::uint64_t nth = 1; nth < operations; ++nth) {
     fs::remove_all(folder_);
     const pid_t child = fork();
@@ -140,7 +137,7 @@ TEST_F(Store, TablesAreBroughtUpToDateWhole) {
   }
 }
 
-TEST_F(Store, OfAlertsThoseThatNobodyHasSeenAreKeptAndErrorsLongest) {
+TEST_F(Store, KeepsErrorsAndUnacknowledgedAlertsLongest) {
   const auto alert = [](std::size_t number, const char* level) {
     return StoredAlert{.id = "s:" + std::to_string(number), .level = level, .text = "x"};
   };
@@ -159,7 +156,7 @@ TEST_F(Store, OfAlertsThoseThatNobodyHasSeenAreKeptAndErrorsLongest) {
   EXPECT_EQ(left.back().id, "s:" + std::to_string(told - 1));
 }
 
-TEST_F(Store, OldJobsThatHaveEndedAreDeleted) {
+TEST_F(Store, DeletesOldEndedJobs) {
   StoreOptions few = options();
   few.retention.jobs_max = 10;
   {
@@ -186,24 +183,11 @@ TEST_F(Store, OldJobsThatHaveEndedAreDeleted) {
   EXPECT_EQ(numbers(), last) << "one that waits is never deleted";
 }
 
-// As the first version of the program wrote them.
-constexpr const char* kFirstTables = R"(
-    CREATE TABLE job(number INTEGER PRIMARY KEY, id TEXT NOT NULL, state TEXT NOT NULL,
-      has_ended INTEGER NOT NULL, may_have_moved INTEGER NOT NULL, submitted_ms INTEGER,
-      ended_ms INTEGER, arms TEXT NOT NULL, view TEXT NOT NULL) STRICT;
-    CREATE TABLE body(number INTEGER PRIMARY KEY, text TEXT NOT NULL) STRICT;
-    CREATE TABLE stopped_arm(name TEXT PRIMARY KEY) STRICT;
-    INSERT INTO job VALUES(4, 'j4', 'queued', 0, 0, 4, NULL, '["left"]', '{"id":"j4"}');
-    INSERT INTO body VALUES(4, 'body of 4');
-    PRAGMA application_id = 0x41726d6c;
-    PRAGMA user_version = 1;
-  )";
-
-// As on a medium that is only read, or a colleague's folder.
-TEST_F(Store, AFolderThatMayNotBeWrittenIsReadAsItLies) {
+// As on a read-only medium, or in another user's folder.
+TEST_F(Store, ReadsHistoryFromAReadOnlyFolder) {
   { EXPECT_TRUE(accept(*open(), 1).get()); }
   std::filesystem::permissions(folder_, std::filesystem::perms{0555});
-  const bool is_root = geteuid() == 0;  // who may write all the same
+  const bool is_root = geteuid() == 0;  // root may write nevertheless
   if (is_root) {
     ASSERT_EQ(setresuid(65534, 65534, 0), 0);
   }
@@ -220,48 +204,23 @@ TEST_F(Store, AFolderThatMayNotBeWrittenIsReadAsItLies) {
   std::filesystem::permissions(folder_, std::filesystem::perms{0755});
 }
 
-// The number of the version may be what is damaged: then some of the steps up would succeed.
-TEST_F(Store, TablesThatAreNotWhatTheirVersionSaysAreLeftAsTheyAre) {
+TEST_F(Store, RefusesTablesOfAnOlderVersionAndLeavesThemUnchanged) {
   { EXPECT_TRUE(accept(*open(), 1).get()); }
-  sql("PRAGMA user_version = 2");
+  sql("PRAGMA user_version = 10");
   const auto read = [&] {
     std::ifstream in(file(), std::ios::binary);
     return std::string(std::istreambuf_iterator<char>(in), {});
   };
   const std::string before = read();
-  EXPECT_NE(why_not().find("nothing was changed"), std::string::npos) << why_not();
+  EXPECT_NE(why_not().find("armloom 0.1 (tables of version 10)"), std::string::npos) << why_not();
+  EXPECT_NE(why_not().find("give --data a new folder"), std::string::npos) << why_not();
+  const auto history = JobHistory::open(folder_);
+  ASSERT_FALSE(history);
+  EXPECT_NE(history.error().front().detail.find("armloom 0.1"), std::string::npos);
   EXPECT_EQ(read(), before);
 }
 
-TEST_F(Store, TablesOfTheFirstVersionAreReadAndBroughtUpToDate) {
-  std::filesystem::create_directories(folder_);
-  sql(kFirstTables);
-  {
-    const auto history = JobHistory::open(folder_);
-    ASSERT_TRUE(history) << history.error().front().detail;
-    EXPECT_EQ((*history)->find("j4").value()->state, "queued");
-    EXPECT_TRUE((*history)->of_request("k").value().empty());
-  }
-  const auto store = open();
-  ASSERT_EQ(store->leftover().jobs.size(), 1U);
-  EXPECT_EQ(store->leftover().jobs[0].body, "body of 4");
-  StoredJob next = job(5);
-  next.origin = {"digest", "k", "whole", 0};
-  auto promise = std::make_shared<std::promise<bool>>();
-  store->accept({{next, "body"}}, [promise](bool is_written) { promise->set_value(is_written); });
-  store->see(job(5, "backlogged"));
-  ASSERT_TRUE(promise->get_future().get());
-  ASSERT_TRUE(store->flush());
-  const auto history = JobHistory::open(folder_);
-  const auto found = (*history)->of_request("k").value();
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].id, "j5");
-  EXPECT_EQ(found[0].origin.key_digest, "whole");
-  EXPECT_EQ((*history)->find("j5").value()->origin.digest, "digest");
-  EXPECT_EQ((*history)->find("j4").value()->origin.digest, "");
-}
-
-TEST_F(Store, HistoryIsReadByStateArmAndPage) {
+TEST_F(Store, FiltersHistoryByStateArmAndPage) {
   const auto store = open();
   for (std::uint64_t number = 1; number <= 30; ++number) {
     accept(*store, number).get();
@@ -282,8 +241,6 @@ TEST_F(Store, HistoryIsReadByStateArmAndPage) {
   EXPECT_EQ((*history)->find("j24").value()->state, "succeeded");
   EXPECT_FALSE((*history)->find("none").value());
 }
-
-// ---- A disk that fails ----
 
 }  // namespace
 }  // namespace armloom

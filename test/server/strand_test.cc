@@ -1,4 +1,3 @@
-// The control loop is nobody's queue: what takes long is taken part by part, and stops go before.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -38,7 +37,7 @@ class Queues final : public Observer {
   QueueView last;
 };
 
-TEST(Strand, CyclesAndWhatIsUrgentGoOnWhileSomethingLongIsTakenPartByPart) {
+TEST(Strand, RunsCyclesAndUrgentTasksBetweenPartsOfALongTask) {
   Queues observer;
   const auto loop = RealTimeLoop::start(two_pandas(), {}, 1.0, observer);
   ASSERT_TRUE(loop);
@@ -78,11 +77,11 @@ class Alerts final : public Observer {
   }
   void on_tick(TimePoint, const Configuration&) override {}
   void on_state(const StateFrame&) override {}
-  std::vector<std::string> told;  // the loop's thread
+  std::vector<std::string> told;  // loop thread only
   std::promise<void> first;
 };
 
-TEST(Strand, ALoopThatWasHeldUpSaysSoOnce) {
+TEST(Strand, ReportsADelayedLoopOnce) {
   Alerts alerts;
   const auto loop = RealTimeLoop::start(two_pandas(), {}, 1.0, alerts);
   ASSERT_TRUE(loop);
@@ -94,7 +93,7 @@ TEST(Strand, ALoopThatWasHeldUpSaysSoOnce) {
   hold_up();
   std::promise<std::vector<std::string>> told;
   TimePoint at{};
-  (*loop)->post_in_parts([&](Executive& executive) {  // until cycles go on after it
+  (*loop)->post_in_parts([&](Executive& executive) {  // until cycles continue after the delay
     if (at == TimePoint{}) at = executive.now();
     if (executive.now() - at < 20ms) return false;
     told.set_value(alerts.told);
@@ -102,10 +101,10 @@ TEST(Strand, ALoopThatWasHeldUpSaysSoOnce) {
   });
   const auto texts = told.get_future().get();
   ASSERT_EQ(texts.size(), 1U) << "of a busy machine it is said once in a minute";
-  EXPECT_TRUE(texts[0].starts_with("the control loop was held up for ")) << texts[0];
+  EXPECT_TRUE(texts[0].starts_with("the control loop was delayed by ")) << texts[0];
 }
 
-TEST(Strand, ALongQueueIsToldSeldomAndAStopOfAllAtOnce) {
+TEST(Strand, PublishesALongQueueRarelyButAStopAtOnce) {
   constexpr std::size_t kJobs = 400;
   Queues observer;
   const auto simulation = Simulation::create(two_pandas(), {}, observer);

@@ -1,4 +1,3 @@
-// Pages of other sites, framed, rebound or embedding: what a browser would let them do here.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Strangers : public test::RunningServer {
+class ForeignPages : public test::RunningServer {
  protected:
   test::Answer ask(const std::string& method, const std::string& target,
                    const std::string& fields) {
@@ -21,7 +20,7 @@ class Strangers : public test::RunningServer {
   }
 };
 
-TEST_F(Strangers, CannotReadByANameThatWasMadeToPointHere) {
+TEST_F(ForeignPages, CannotReadByDnsRebinding) {
   options_.allowed_hosts = {"cell.example"};
   start(1.0);
   for (const char* target : {"/api/v1/jobs", "/api/v1/cell", "/api/v1/events", "/", "/docs",
@@ -35,19 +34,19 @@ TEST_F(Strangers, CannotReadByANameThatWasMadeToPointHere) {
     EXPECT_EQ(ask("GET", "/api/v1/jobs", std::string("Host: ") + host + "\r\n").status, 200)
         << host;
   }
-  // Whoever only wants to know whether the process is there may come by any name.
+  // A liveness probe may use any host name.
   EXPECT_EQ(ask("GET", "/healthz", "Host: evil.example\r\n").status, 200);
 }
 
-// A program of long ago, without Host: no browser is that.
-TEST_F(Strangers, AProgramThatSpeaksHttp10MayRead) {
+// An old program without Host is not a browser, so DNS rebinding does not apply.
+TEST_F(ForeignPages, DoNotIncludeHttp10Programs) {
   start(1.0);
   test::Wire wire(port());
   wire.send("GET /api/v1/jobs HTTP/1.0\r\n\r\n");
   EXPECT_EQ(test::read_answer(wire).status, 200);
 }
 
-TEST_F(Strangers, CannotFrameOrEmbedWhatIsServedHere) {
+TEST_F(ForeignPages, CannotFrameOrEmbedResponses) {
   const fs::path folder = fs::path(::testing::TempDir()) / "armloom-framed";
   fs::create_directories(folder);
   std::ofstream(folder / "index.html") << "<html>";

@@ -1,8 +1,8 @@
-// Preloaded into a server (LD_PRELOAD), this keeps a copy of what a power cut would leave of a
-// folder: each file as it was when it was synced last. Or it is the cut, by ending the process in
-// the place of a sync.
-//   ARMLOOM_SYNCED_OF: the folder; ARMLOOM_SYNCED_TO: the copy; ARMLOOM_CUT_AT: the sync that never
-//   comes (0: none)
+// LD_PRELOAD library for tests of power cuts. Keeps a copy of each file of a folder as of its last
+// sync. Can also end the process instead of a sync. Environment:
+// - ARMLOOM_SYNCED_OF: the folder
+// - ARMLOOM_SYNCED_TO: the copy
+// - ARMLOOM_CUT_AT: number of the sync that ends the process (0: none)
 #include <dlfcn.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -38,7 +38,7 @@ int real_rename(const char* from, const char* to) {
   return real(from, to);
 }
 
-// Whole or not at all: the process may be killed meanwhile.
+// Replaces the copy atomically, because the process may be killed meanwhile.
 void keep_file(const fs::path& from, const fs::path& to) {
   const fs::path part = copy().to.string() + ".part";
   fs::create_directories(to.parent_path());
@@ -46,7 +46,7 @@ void keep_file(const fs::path& from, const fs::path& to) {
   real_rename(part.c_str(), to.c_str());
 }
 
-// What was removed from the folder is gone for good once the folder itself is synced.
+// A removal from the folder is durable once the folder itself is synced.
 void keep_removals(const fs::path& from, const fs::path& to) {
   if (!fs::exists(to)) return;
   const std::vector<fs::directory_entry> kept(fs::directory_iterator(to), {});
@@ -75,7 +75,7 @@ int sync_and_keep(int fd, const char* name) {
 
 }  // namespace
 
-// A file of the folder that was synced has its new name from now on.
+// A rename takes effect in the copy, too, if the file has been synced.
 extern "C" int rename(const char* from, const char* to) {
   const auto within = [](const char* name) {
     return fs::weakly_canonical(name).lexically_relative(copy().of);

@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 using test::RunningServer;
 
-constexpr double kAtMost_s = 0.2;  // that what was told and what came may differ by
+constexpr double kAtMost_s = 0.2;  // accepted difference between prediction and outcome
 constexpr double kPauseLoss_s = 0.3;
 
 class TimelineOverHttp : public RunningServer {
@@ -29,7 +29,7 @@ class TimelineOverHttp : public RunningServer {
   }
 };
 
-TEST_F(TimelineOverHttp, OfACellAtRestHasEveryArmAndNoLeg) {
+TEST_F(TimelineOverHttp, ListsEveryArmOfACellAtRest) {
   start(1.0);
   const json told = timeline();
   ASSERT_EQ(told["arms"].size(), 2U);
@@ -40,8 +40,8 @@ TEST_F(TimelineOverHttp, OfACellAtRestHasEveryArmAndNoLeg) {
   }
 }
 
-// Both want the middle: one goes there and back, the other waits for it.
-TEST_F(TimelineOverHttp, TellsAheadWhenTheSecondGoesAndForWhomItWaits) {
+// Both jobs end in the middle: one arm goes there and back, the other waits for it.
+TEST_F(TimelineOverHttp, PredictsTheStartAndTheBlockerOfAJob) {
   options_.policy = "coordinated";
   start(1.0);
   test::Listener listener(port());
@@ -50,7 +50,7 @@ TEST_F(TimelineOverHttp, TellsAheadWhenTheSecondGoesAndForWhomItWaits) {
   until(listener, "l", "running");
   submit("r", test::move("right", test::kHome, test::kMiddle, 3.0));
   json told = timeline();
-  while (told["arms"][1]["steps"].empty()) told = timeline();  // judged, and in its place
+  while (told["arms"][1]["steps"].empty()) told = timeline();  // checked, and in its place
   const json leg = told["arms"][1]["steps"][0];
   EXPECT_EQ(leg["id"], "r");
   EXPECT_EQ(leg["arms"], json::array({"right"}));
@@ -62,7 +62,7 @@ TEST_F(TimelineOverHttp, TellsAheadWhenTheSecondGoesAndForWhomItWaits) {
   EXPECT_EQ(pause["waits_on"]["links"].size(), 2U);
   const json came = until(listener, "r", "succeeded");
   EXPECT_NEAR(leg["starts_s"], came["started_s"], kAtMost_s);
-  // Of a pause on the way the cost is taken to be kPauseLoss; it may be less.
+  // The prediction counts kPauseLoss_s for a pause on the path; the real loss may be less.
   const double late_s = leg["ends_s"].get<double>() - came["ended_s"].get<double>();
   EXPECT_GE(late_s, -kAtMost_s);
   EXPECT_LE(late_s, (pause["at_s"] > 0.0 ? kPauseLoss_s : 0.0) + kAtMost_s);

@@ -1,4 +1,3 @@
-// The server through TLS, as a client of OpenSSL's sees it.
 #include <gtest/gtest.h>
 #include <openssl/bio.h>
 #include <openssl/evp.h>
@@ -32,7 +31,7 @@ using Owned = std::unique_ptr<T, Free<kFree>>;
 void close_file(std::FILE* file) { std::fclose(file); }
 using File = Owned<std::FILE, close_file>;
 
-// A key, and a certificate of its own for it.
+// Writes a key and a self-signed certificate.
 void write_certificate(const fs::path& certificate, const fs::path& key) {
   const Owned<EVP_PKEY, EVP_PKEY_free> pair(EVP_EC_gen("P-256"));
   const Owned<X509, X509_free> made(X509_new());
@@ -51,7 +50,7 @@ void write_certificate(const fs::path& certificate, const fs::path& key) {
             1);
 }
 
-// A connection; its reads end after ten seconds.
+// A TLS connection; reads time out after ten seconds.
 class TlsWire {
  public:
   explicit TlsWire(std::uint16_t port, int version_max = 0)
@@ -70,7 +69,7 @@ class TlsWire {
     ASSERT_EQ(BIO_write(bio_.get(), text.data(), static_cast<int>(text.size())),
               static_cast<int>(text.size()));
   }
-  // Until `mark` has come, or the server has closed.
+  // Reads until `mark` has arrived or the server has closed.
   std::string read_until(const std::string& mark) {
     std::string text;
     char some[4096];
@@ -108,10 +107,10 @@ class Tls : public test::RunningServer {
   std::string token_;
 };
 
-TEST_F(Tls, RequestsAndStreamsAreServedAsWithoutIt) {
+TEST_F(Tls, ServesRequestsAndStreams) {
   TlsWire wire(port());
   ASSERT_TRUE(wire.is_open());
-  for (const char* path : {"/api/v1/arms/left", "/healthz"}) {  // one after the other
+  for (const char* path : {"/api/v1/arms/left", "/healthz"}) {  // on one connection
     wire.send(asking(std::string("GET ") + path));
     const std::string answer = wire.read_until("}");
     EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << answer;
@@ -127,7 +126,7 @@ TEST_F(Tls, RequestsAndStreamsAreServedAsWithoutIt) {
   EXPECT_NE(events.read_until("snapshot").find("data: {"), std::string::npos);
 }
 
-TEST_F(Tls, TheCookieGoesNowhereElse) {
+TEST_F(Tls, MarksTheCookieSecure) {
   TlsWire wire(port());
   const std::string body = R"({"token": ")" + token_ + "\"}";
   wire.send(asking("POST /api/v1/session", "Content-Type: application/json\r\nContent-Length: " +
@@ -137,8 +136,8 @@ TEST_F(Tls, TheCookieGoesNowhereElse) {
             std::string::npos);
 }
 
-// Whoever is between can show a page under this name without TLS.
-TEST_F(Tls, PagesThatCameWithoutItAreOfAnotherSite) {
+// Without TLS an attacker in between can show a page under this host name.
+TEST_F(Tls, TreatsHttpPagesAsAnotherOrigin) {
   for (const auto& [scheme, answer] : {std::pair("http", "403"), std::pair("https", "202")}) {
     TlsWire wire(port());
     wire.send(asking("POST /api/v1/resume",
@@ -147,7 +146,7 @@ TEST_F(Tls, PagesThatCameWithoutItAreOfAnotherSite) {
   }
 }
 
-TEST_F(Tls, WhoSpeaksPlainlyOrInAnOldVersionIsNotServedAndHoldsUpNobody) {
+TEST_F(Tls, RefusesPlainAndOldClientsWithoutDelayingOthers) {
   test::Wire plain(port());
   plain.send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_EQ(plain.take_all().find("HTTP/1.1 200"), std::string::npos);

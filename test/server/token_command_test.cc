@@ -1,4 +1,3 @@
-// `armloom token`, and what `armloom serve` wants before others may reach it.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -23,7 +22,7 @@ class Token : public test::CommandFixture {
   }
 };
 
-TEST_F(Token, IsMadeListedAndWithdrawn) {
+TEST_F(Token, IsAddedListedAndRevoked) {
   const std::string token = add("cell-7", "operator");
   EXPECT_TRUE(token.starts_with("armloom_")) << token;
   EXPECT_EQ(token.size(), 72U);
@@ -36,7 +35,7 @@ TEST_F(Token, IsMadeListedAndWithdrawn) {
   EXPECT_EQ(run("token add --tokens " + tokens() + " --name a --role root").exit_code, 2);
 }
 
-TEST_F(Token, TheFileStaysReadableToWhomItWas) {
+TEST_F(Token, FileKeepsItsPermissions) {
   namespace fs = std::filesystem;
   add("a", "viewer");
   EXPECT_EQ(fs::status(tokens()).permissions(), fs::perms{0600}) << "nobody else, unless it is let";
@@ -45,7 +44,7 @@ TEST_F(Token, TheFileStaysReadableToWhomItWas) {
   EXPECT_EQ(fs::status(tokens()).permissions(), fs::perms{0640});
 }
 
-TEST_F(Token, AServerThatOthersReachDoesNotStartWithoutTokensAndTls) {
+TEST_F(Token, IsRequiredWithTlsBeyondLoopback) {
   add("a", "viewer");
   for (const std::string& options :
        {std::string(" --listen 0.0.0.0:0"), " --listen [::]:0 --tokens " + tokens(),
@@ -61,7 +60,7 @@ TEST_F(Token, AServerThatOthersReachDoesNotStartWithoutTokensAndTls) {
   }
   const auto half = run(serve(" --listen 127.0.0.1:0 --tls-key y"));
   EXPECT_EQ(half.exit_code, 2);
-  EXPECT_NE(half.err.find("go together"), std::string::npos) << half.err;
+  EXPECT_NE(half.err.find("must be given together"), std::string::npos) << half.err;
   const auto none = run(serve(" --listen 127.0.0.1:0 --tokens " + tokens() + "x"));
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_NE(none.err.find("cannot be read"), std::string::npos) << none.err;
@@ -77,8 +76,8 @@ TEST_F(Token, AServerThatOthersReachDoesNotStartWithoutTokensAndTls) {
       << missing.err;
 }
 
-// What a variable that is not set leaves behind must not open a server to everybody.
-TEST_F(Token, AnEmptyValueIsNone) {
+// An unset shell variable (empty value) must not open the server to everybody.
+TEST_F(Token, EmptyOptionsAreRefused) {
   for (const char* option : {"--tokens", "--data", "--tls-certificate", "--allow-host"}) {
     const auto refused = run(serve(" --listen 127.0.0.1:0 " + std::string(option) + " ''"));
     EXPECT_EQ(refused.exit_code, 2) << option;
@@ -90,7 +89,7 @@ TEST_F(Token, AnEmptyValueIsNone) {
   EXPECT_NE(alone.err.find("--record requires --data"), std::string::npos) << alone.err;
 }
 
-TEST_F(Token, IsAskedForOnLoopbackWhereTheFileIsGiven) {
+TEST_F(Token, IsRequiredOnLoopbackIfAFileIsGiven) {
   const std::string token = add("a", "viewer");
   test::ServeProcess server({"--cell", test::kCell, "--tokens", tokens()},
                             (folder_ / "log").string());

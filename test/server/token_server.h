@@ -18,7 +18,7 @@ struct Answered {
   std::string head;
 };
 
-// A server that asks for tokens, of which there is one for each role and one that was revoked.
+// A server with one token for each role and one revoked token.
 class TokenServer : public RunningServer {
  protected:
   void SetUp() override {
@@ -39,7 +39,7 @@ class TokenServer : public RunningServer {
   static std::string bearer(const std::string& token) {
     return "Authorization: Bearer " + token + "\r\n";
   }
-  // Only the head of the answer: some never end.
+  // Returns only the header of the response, because some responses never end.
   Answered ask(const std::string& method, const std::string& path, const std::string& headers,
                const std::string& body = "", const std::string& host = "127.0.0.1") {
     Wire wire(port());

@@ -4,11 +4,11 @@
 
 namespace armloom::test {
 
-// A robot as MoveIt users have them, small: two arms of three joints with a hand each on a torso
-// that lifts, and a head. Its SRDF has groups of every kind.
+// A small robot as MoveIt users have them: two arms of three joints, each with a hand, on a lifting
+// torso with a head. Its SRDF has groups of every kind.
 inline std::string torso_urdf() {
   std::string text = R"(<robot name="torso_robot"><link name="base"/>)";
-  struct Moves {  // prismatic or revolute, along or about this axis, as far as this
+  struct Moves {  // joint type, axis and limits
     std::string type, axis, limit;
   };
   const auto joint = [&](const std::string& name, const std::string& parent, const std::string& xyz,

@@ -1,4 +1,3 @@
-// `armloom validate` as outside tools call it: what a cell holds, and what is wrong with it.
 #include <sstream>
 
 #include "test/server/command_fixture.h"
@@ -13,7 +12,7 @@ using test::Outcome;
 
 class ValidateCommand : public test::CommandFixture {};
 
-TEST_F(ValidateCommand, PrintsWhatACellHolds) {
+TEST_F(ValidateCommand, PrintsTheContentsOfACell) {
   const Outcome outcome = run("validate --cell " + kCell);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("left_panda_joint4"), std::string::npos);
@@ -22,13 +21,13 @@ TEST_F(ValidateCommand, PrintsWhatACellHolds) {
   EXPECT_EQ(outcome.err, "");
 }
 
-TEST_F(ValidateCommand, MarksTheLimitsThatAreDefaults) {
+TEST_F(ValidateCommand, MarksDefaultLimits) {
   const fs::path cell =
       changed_cell("/robots/0/arms/0/limits",
                    {{"panda_joint1", {{"acceleration_rad_s2", 5}, {"jerk_rad_s3", 900}}}});
   const Outcome outcome = run("validate --cell " + cell.string());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  const auto limits = [&](const std::string& joint) {  // without the spaces between
+  const auto limits = [&](const std::string& joint) {  // joined by single spaces
     std::istringstream line(outcome.out.substr(outcome.out.find("    " + joint) + 4));
     std::string text, word;
     for (int i = 0; i < 8 && line >> word; ++i) text += (i > 0 ? " " : "") + word;
@@ -44,7 +43,7 @@ TEST_F(ValidateCommand, MarksTheLimitsThatAreDefaults) {
   EXPECT_EQ(outcome.err, "");
 }
 
-TEST_F(ValidateCommand, WarnsOfABrakeWeakerThanTheAcceleration) {
+TEST_F(ValidateCommand, WarnsIfABrakeIsWeakerThanTheAcceleration) {
   const fs::path cell =
       changed_cell("/robots/1/arms/0/limits", {{"panda_joint1", {{"brake_rad_s2", 1.5}}},
                                                {"panda_joint2", {{"brake_rad_s2", 3.75}}},
@@ -55,16 +54,15 @@ TEST_F(ValidateCommand, WarnsOfABrakeWeakerThanTheAcceleration) {
   EXPECT_EQ(outcome.err,
             "armloom: warning: " + limits +
                 "panda_finger_joint1/brake_m_s2: joint right_panda_finger_joint1: brake_m_s2 is "
-                "0.5, less than its acceleration_m_s2 of 3.75: a stop takes longer than the motion "
-                "took to begin\n"
-                "armloom: warning: " +
+                "0.5, less than its acceleration_m_s2 of 3.75: the joint takes longer to stop than "
+                "to reach its speed; check the value\narmloom: warning: " +
                 limits +
                 "panda_joint1/brake_rad_s2: joint right_panda_joint1: brake_rad_s2 is 1.5, less "
-                "than its acceleration_rad_s2 of 3.75: a stop takes longer than the motion took to "
-                "begin\n");
+                "than its acceleration_rad_s2 of 3.75: the joint takes longer to stop than to "
+                "reach its speed; check the value\n");
 }
 
-TEST_F(ValidateCommand, NothingIsPrintedAsMinusZero) {
+TEST_F(ValidateCommand, NeverPrintsMinusZero) {
   const fs::path cell =
       changed_cell("/robots/0/arms/0/home", {-0.0, -1.2, -0.0, -2.6, 0.0, 1.6, 0.785});
   const Outcome outcome = run("validate --cell " + cell.string());
@@ -76,7 +74,7 @@ TEST_F(ValidateCommand, NothingIsPrintedAsMinusZero) {
   EXPECT_NE(outcome.out.find("home 0, -1.2, 0, -2.6, 0, 1.6, 0.785"), std::string::npos);
 }
 
-TEST_F(ValidateCommand, BadCellsAreNamedWithFilePlaceAndValue) {
+TEST_F(ValidateCommand, ReportsBadCellsWithPlaceAndValue) {
   const struct {
     const char* pointer;
     json value;
@@ -88,7 +86,7 @@ TEST_F(ValidateCommand, BadCellsAreNamedWithFilePlaceAndValue) {
       {"/robots/1/prefix", "left_", "left_"},
       {"/clearance_m", "wide", "/clearance_m"},
       {"/unknown", 1, "/unknown"},
-      {"/robots/1/base/xyz", {-0.3, 0, 0.1}, "/home"},  // on top of the other
+      {"/robots/1/base/xyz", {-0.3, 0, 0.1}, "/home"},  // inside the other robot
       {"/scheduling/policy", "hopeful", "hopeful"},
   };
   for (const auto& bad : cases) {

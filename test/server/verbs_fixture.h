@@ -9,9 +9,9 @@
 
 namespace armloom::test {
 
-inline constexpr Pose kAside{1.2, -1.2, 0, -2.6, 0, 1.6, 0.785};  // turned away from the other
+inline constexpr Pose kAside{1.2, -1.2, 0, -2.6, 0, 1.6, 0.785};  // turned away from the other arm
 
-// What the tests of verbs beyond jobs share.
+// Helpers for tests of routes beyond /jobs.
 class VerbsFixture : public RunningServer {
  protected:
   static nlohmann::json job(const std::string& id, const Pose& from, const Pose& to,

@@ -1,4 +1,3 @@
-// Single arms, and the simulation: speed and faults.
 #include "test/server/verbs_fixture.h"
 
 namespace armloom {
@@ -8,8 +7,6 @@ using nlohmann::json;
 using test::kAside;
 
 class Verbs : public test::VerbsFixture {};
-
-// ---- Single arms ----
 
 TEST_F(Verbs, OneArmStopsAndResumesAlone) {
   start(5.0);
@@ -36,16 +33,15 @@ TEST_F(Verbs, OneArmStopsAndResumesAlone) {
   expect_refused(post("/api/v1/arms/middle/resume", ""), 404, "request target", "middle");
 }
 
-// ---- The simulation ----
-
-TEST_F(Verbs, TheSpeedChangesAndWallTimesStayRight) {
+TEST_F(Verbs, SpeedChangeKeepsWallTimesRight) {
   start(1.0);
   test::Listener listener(port());
   const auto changed = put("/api/v1/sim/speed", R"({"speed": 50})");
   ASSERT_EQ(changed.status, 200) << changed.body;
   EXPECT_EQ(changed.json()["speed"], 50.0);
   EXPECT_EQ(get("/api/v1/cell").json()["speed"], 50.0);
-  double told = 0.0;  // to every client, with the poses; those of before are on their way still
+  // sent to every client with the poses; frames with the old speed may still arrive
+  double told = 0.0;
   for (int i = 0; i < 1000 && told != 50.0; ++i) told = listener.next_of("state")["speed"];
   EXPECT_EQ(told, 50.0);
   ASSERT_EQ(post("/api/v1/jobs", job("l", test::kHome, kAside, "left", 10.0).dump()).status, 202);
@@ -53,7 +49,7 @@ TEST_F(Verbs, TheSpeedChangesAndWallTimesStayRight) {
   const auto second_of = [](const std::string& at) { return std::stod(at.substr(17, 6)); };
   double took_s = second_of(ended["ended_at"]) - second_of(ended["started_at"]);
   if (took_s < 0.0) took_s += 60.0;
-  EXPECT_LT(took_s, 5.0);  // 10 s in the cell, 0.2 s on the wall; a busy machine slips
+  EXPECT_LT(took_s, 5.0);  // 10 s of cell time, 0.2 s of wall time, plus slips of a busy machine
   EXPECT_GT(took_s, 0.1);
   EXPECT_EQ(get("/api/v1/jobs/l").json(), ended);
   for (const char* speed : {"0", "-1", "1000.5"}) {
@@ -64,7 +60,7 @@ TEST_F(Verbs, TheSpeedChangesAndWallTimesStayRight) {
   expect_refused(put("/api/v1/sim/speed", "{}"), 422, "/speed", nullptr);
 }
 
-TEST_F(Verbs, FaultsThatCannotBeAreRefusedWithPlaceAndValue) {
+TEST_F(Verbs, InvalidFaultsAreRefusedWithPlaceAndValue) {
   start(1.0);
   const std::string faults = "/api/v1/sim/faults";
   expect_refused(post(faults, R"({"arm": "middle", "kind": "stall"})"), 422, "/arm", "middle");

@@ -27,7 +27,7 @@ JobView waiting_job() {
   return job;
 }
 
-TEST(Views, AJobThatWaitsSaysForWhat) {
+TEST(Views, WaitingJobReportsItsBlocker) {
   const WallClock clock(std::chrono::system_clock::time_point{}, 2.0);
   const json job = json::parse(text_of(*job_format(), waiting_job(), &clock));
   EXPECT_EQ(job["id"], "b");
@@ -44,13 +44,13 @@ TEST(Views, AJobThatWaitsSaysForWhat) {
   EXPECT_EQ(job["cycle"], json::array());
 }
 
-TEST(Views, AJobOfADeadlockTellsItsRing) {
+TEST(Views, DeadlockedJobReportsItsCycle) {
   JobView job = waiting_job();
   job.cycle = {"b", "a"};
   EXPECT_EQ(json::parse(text_of(*job_format(), job))["cycle"], json({"b", "a"}));
 }
 
-TEST(Views, AnEndedJobSaysWhy) {
+TEST(Views, EndedJobReportsItsReason) {
   JobView job = waiting_job();
   job.waits_on.clear();
   job.state = JobState::expired;
@@ -60,13 +60,13 @@ TEST(Views, AnEndedJobSaysWhy) {
   EXPECT_FALSE(result.contains("submitted_at"));
 }
 
-TEST(Views, ASimulatedEventHasNoWallTime) {
+TEST(Views, SimulatedEventHasNoWallTime) {
   const Event event{7, at(milliseconds(26682)), Alert{Alert::Level::warning, "x"}};
   EXPECT_EQ(event_json(event, "s", nullptr), R"({"stream":"s","seq":7,"type":"alert","t_s":26.682,)"
                                              R"("data":{"level":"warning","text":"x"}})");
 }
 
-TEST(Problems, BecomeDocumentsAndSentences) {
+TEST(Problems, AreWrittenAsDocumentsAndSentences) {
   const Problems problems{{ProblemKind::invalid, "limit-exceeded",
                            "/trajectory/points/14/velocities/3", "too fast", 3.41},
                           {ProblemKind::invalid, "x", "/y", "z", {}}};

@@ -1,5 +1,5 @@
-// RFC 6455 by frames, as the published suites try them: fragmentation, UTF-8, control frames,
-// close, limits.
+// RFC 6455, frame by frame, like the published suites: fragmentation, UTF-8, control frames, close,
+// limits.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -20,7 +20,7 @@ std::string masked(std::string payload) {
   return std::string(kMask, 4) + payload;
 }
 
-// `first`: FIN, reserved bits and opcode. `length`: as it is told, where that is not the shortest.
+// `first`: FIN, reserved bits and opcode. `length`: its encoding, if not the shortest.
 std::string frame(int first, const std::string& payload = "", std::string length = "") {
   const std::size_t size = payload.size();
   if (length.empty() && size < 126) length = std::string(1, static_cast<char>(size));
@@ -40,7 +40,7 @@ class WebSocketFrames : public test::RunningServer {
  protected:
   void SetUp() override { start(1.0); }
 
-  // What comes back, events left out: pongs as "pong:payload ", and the close with its code.
+  // Returns the response without events: pongs as "pong:payload ", and the close code.
   std::string answer_to(const std::string& frames) {
     test::Wire wire(port());
     test::begin_websocket(wire);
@@ -54,7 +54,7 @@ class WebSocketFrames : public test::RunningServer {
   }
 };
 
-TEST_F(WebSocketFrames, ThatBreakTheProtocolEndTheConnectionWithItsCode) {
+TEST_F(WebSocketFrames, InvalidFramesCloseWithTheRightCode) {
   const std::string a126(126, 'a');
   const std::pair<const char*, std::vector<std::string>> broken[] = {
       {"1002",
@@ -96,7 +96,7 @@ TEST_F(WebSocketFrames, ThatBreakTheProtocolEndTheConnectionWithItsCode) {
   }
 }
 
-TEST_F(WebSocketFrames, ThatAreSoundAreReadOverAndPingsAreAnswered) {
+TEST_F(WebSocketFrames, ValidFramesAreIgnoredAndPingsAreAnswered) {
   const std::string a125(125, 'a');
   std::string pings, pongs;
   for (const char i : "0123456789"s) {

@@ -9,25 +9,25 @@
 
 namespace armloom::test {
 
-// A plain loopback socket with a deadline on every read: what a client does, byte for byte.
+// A plain loopback socket with a deadline on every read, for tests that send exact bytes.
 class Wire {
  public:
-  // `receive_buffer`: bytes that the system takes for a reader that does not; zero: as it likes.
-  // `from`: the client's address, one of the loopback's.
+  // `receive_buffer`: size of the receive buffer in bytes; 0: system default. `from`: the client's
+  // loopback address.
   explicit Wire(std::uint16_t port, int receive_buffer = 0, const char* from = "127.0.0.1");
   ~Wire();
   Wire(const Wire&) = delete;
   Wire& operator=(const Wire&) = delete;
 
-  // Whether all of it went: else the peer has closed, its answer says why.
+  // Returns false if the peer has closed the connection.
   bool send(std::string_view bytes);
-  // At least one byte more, or nothing: the peer has closed. Throws when a minute passes.
+  // Receives at least one byte; false if the peer has closed. Throws after a minute.
   bool receive();
-  // Exactly `size` bytes from what was received; throws when the peer closes before.
+  // Returns exactly `size` received bytes; throws if the peer closes before.
   std::string take(std::size_t size);
-  // Up to and with `mark`.
+  // Returns everything up to and including `mark`.
   std::string take_until(std::string_view mark);
-  // Everything until the peer closes.
+  // Returns everything until the peer closes.
   std::string take_all();
 
  private:
@@ -43,27 +43,27 @@ struct Answer {
   [[nodiscard]] nlohmann::json json() const { return nlohmann::json::parse(body); }
 };
 
-// Begins a WebSocket; throws when it is refused.
+// Upgrades to a WebSocket; throws if the server refuses.
 void begin_websocket(Wire& wire, const std::string& query = "");
-// One frame of a server, which masks none.
+// A frame of the server; server frames are unmasked.
 struct Frame {
   int first = 0;  // FIN, reserved bits and opcode
   std::string payload;
 };
 Frame take_frame(Wire& wire);
-// Its bytes, the most significant first.
+// Returns the big-endian number.
 std::size_t number_of(const std::string& bytes);
 
-// Reads one response from the wire. `head`: it has no body whatever its Content-Length says.
+// Reads one response. `head`: a response to HEAD, without a body.
 Answer read_answer(Wire& wire, bool head = false);
 
-// One request on a connection of its own.
+// Sends one request on a new connection.
 Answer request(std::uint16_t port, const std::string& method, const std::string& target,
                const std::string& body = "", const std::string& content_type = "application/json");
 std::string request_text(const std::string& method, const std::string& target,
                          const std::string& body, const std::string& content_type);
 
-// A WebSocket client that can only listen.
+// A WebSocket client that only listens.
 class Listener {
  public:
   Listener(std::uint16_t port, const std::string& query = "");
@@ -72,11 +72,11 @@ class Listener {
     int code = 0;
     std::string reason;
   };
-  // The next text message; nullopt when the server has closed (see closed()).
+  // Returns the next text message; nullopt if the server has closed (see closed()).
   std::optional<nlohmann::json> next();
-  // The next message of this type, others skipped.
+  // Returns the next message of this type.
   nlohmann::json next_of(const std::string& type);
-  // The next message that has a seq.
+  // Returns the next message with a seq.
   nlohmann::json next_event();
   [[nodiscard]] const Closed& closed() const { return closed_; }
 

@@ -11,8 +11,7 @@ namespace {
 constexpr int kThrows = 60;
 constexpr int kSteps = 160;
 
-// A state in the unit cube: the place of each motion in what remains of it, and each joint's
-// deviation.
+// Progress of each motion in what remains of it (0 to 1), and each joint's deviation.
 struct Point {
   double candidate = 0.0;
   double other = 0.0;

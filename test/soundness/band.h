@@ -8,10 +8,9 @@
 
 namespace armloom::soundness {
 
-// Looks for the state of what remains of both motions in which the arms come closest, each joint up
-// to `tracking_error` off its path: random places and deviations (their extremes among them), then
-// steps from the best one, each kept when it brings them closer. Returns the smallest exact
-// distance found (at most horizon_m).
+// Result of a search for the closest states of both remaining motions, each joint up to
+// `tracking_error` off its path. Starts from random and extreme states, then keeps each step that
+// brings the arms closer.
 struct Attack {
   double distance_m;
   double candidate_s, other_s;  // trajectory times
@@ -19,9 +18,8 @@ struct Attack {
 [[nodiscard]] Attack attack(bench::ExactScene& exact, const MovingPair& pair, double tracking_error,
                             double horizon_m, std::mt19937_64& random);
 
-// The same two motions with the candidate starting so late, after the pair's own start, that they
-// have just ceased to meet a region (to 0.1 ms): free, but hardly. Nothing where they meet none at
-// the pair's own start, or some at each of the later ones that were tried.
+// Delays the candidate until the motions just miss all regions (to 0.1 ms). Returns nullopt if they
+// meet none without delay, or one after every tried delay.
 [[nodiscard]] std::optional<MovingPair> hardly_free(const Verdict& regions, const MovingPair& pair);
 
 }  // namespace armloom::soundness

@@ -14,8 +14,7 @@ namespace {
 constexpr double kRounding_m = 1e-6;
 constexpr double kHorizonOfAttack_m = 0.06;
 
-// One set of pairs for all methods; each is asked about as it is and, where that is a conflict,
-// started just so late that it is free.
+// Pairs for all methods; conflicts are also checked with the delay that just makes them free.
 struct Scenery {
   Scenery()
       : exact(bench::two_pandas()),
@@ -54,7 +53,7 @@ TEST(HardlyFree, PairsKeepTheClearanceAtEverySampledInstant) {
   EXPECT_GE(tight, found / 2);
 }
 
-TEST(Swept, MotionsKeepTheClearanceInAnyCombinationOfPlaces) {
+TEST(Swept, FreeMotionsKeepTheClearanceAtAnyProgress) {
   constexpr double kTracking_rad = 0.001;
   Scenery& s = scenery();
   const Cell& cell = s.exact.cell();
@@ -73,7 +72,7 @@ TEST(Swept, MotionsKeepTheClearanceInAnyCombinationOfPlaces) {
   }
   std::cout << free << " free, closest " << closest_m << " m\n";
   EXPECT_GE(free, 40U);
-  // An attack that never comes close would prove nothing.
+  // An attack that never comes close proves nothing.
   EXPECT_LE(closest_m, cell.clearances.clearance_m + 0.004);
 }
 

@@ -6,13 +6,12 @@
 namespace armloom::soundness {
 namespace {
 
-// One run for all claims about it.
 const Report& report() {
   static const Report made = measure(300, 6, {0.1, 0.05, 0.01, 0.001});
   return made;
 }
 
-TEST(Truth, OfSkippedSamplesIsThatOfAllSamples) {
+TEST(Truth, SkippingSamplesDoesNotChangeTheResult) {
   bench::ExactScene exact(bench::two_pandas());
   const Pool pool(exact, 6, 11);
   TruthSampler sampler(exact);
@@ -28,14 +27,14 @@ TEST(Truth, OfSkippedSamplesIsThatOfAllSamples) {
   EXPECT_GE(below, 1U);
 }
 
-TEST(CertifiedCheck, IsAskedAboutEnoughCollisionsAndNearMisses) {
+TEST(CertifiedCheck, MeasurementIncludesCollisionsAndNearMisses) {
   const double collide = static_cast<double>(report().colliding) / 300.0;
   EXPECT_GE(collide, 0.07);
   EXPECT_LE(collide, 0.20);
   EXPECT_GE(report().close, 40U);
 }
 
-TEST(CertifiedCheck, MissesNoPairThatComesCloserThanTheClearance) {
+TEST(CertifiedCheck, MissesNoPairCloserThanTheClearance) {
   EXPECT_EQ(report().missed, 0U);
   EXPECT_EQ(report().missed_collisions, 0U);
   for (const std::string& failure : report().failures) ADD_FAILURE() << failure;
@@ -43,7 +42,7 @@ TEST(CertifiedCheck, MissesNoPairThatComesCloserThanTheClearance) {
 
 TEST(CertifiedCheck, RaisesFewFalseAlarms) { EXPECT_LE(report().false_alarm_share(), 0.05); }
 
-TEST(DiscreteCheck, MissesCollisionsThatTheCertifiedOneFinds) {
+TEST(DiscreteCheck, MissesCollisionsThatTheCertifiedCheckFinds) {
   const Report& r = report();
   ASSERT_EQ(r.discrete.size(), 4U);
   EXPECT_GE(r.discrete[0].without.pairs, 1U);

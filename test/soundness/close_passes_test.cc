@@ -11,9 +11,8 @@
 namespace armloom::soundness {
 namespace {
 
-// Two Pandas that have to keep 1 mm only, and keep to their paths exactly. What stays open of
-// joints that are off their paths: open_pairs_test.cc.
-TEST(ClosePasses, AreDecidedWhenTheBudgetIsRaised) {
+// Two Pandas with 1 mm clearance and no tracking error (see also open_pairs_test.cc).
+TEST(ClosePasses, AreDecidedWithARaisedBudget) {
   Cell cell = *bench::two_pandas();
   cell.clearances.clearance_m = 0.001;
   const auto shared = std::make_shared<const Cell>(std::move(cell));

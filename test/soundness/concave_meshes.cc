@@ -16,7 +16,7 @@ namespace {
 
 using Index3 = std::array<int, 3>;
 
-// Which blocks of a grid are full.
+// The full blocks of a grid.
 struct Blocks {
   Index3 count;
   std::vector<bool> full;
@@ -80,7 +80,7 @@ class Surfacer {
     }
   }
 
-  // Two triangles for each side of a block that borders on nothing, outside on the left hand's.
+  // Adds two triangles for each free side of a block, consistently oriented.
   void fill(MeshData& mesh) {
     for (int z = 0; z < blocks_.count[2]; ++z) {
       for (int y = 0; y < blocks_.count[1]; ++y) {
@@ -135,7 +135,7 @@ void scale(MeshData& mesh, const MeshWish& wish, std::mt19937_64& random) {
   for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
   const double factor = wish.size_m / box.diagonal().norm();
   for (Eigen::Vector3d& p : mesh.vertices) {
-    // A block is 0.3 long at least: corners moved by less than half of that keep their order.
+    // Blocks are at least 0.3 long, so the order of corners is kept.
     const auto moved = [&] { return 0.3 * wish.noise * between(random, -1.0, 1.0); };
     const Eigen::Vector3d noise(moved(), moved(), moved());
     p = factor * (p - box.center() + noise);

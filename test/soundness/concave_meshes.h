@@ -8,34 +8,32 @@
 
 namespace armloom::soundness {
 
-// A closed concave mesh of blocks in a grid whose planes lie at random distances: an L, a U, a C, a
-// ring, a frame, a box with a slot, a hollow box (a room with no door) or blocks at random, corners
-// moved at random by up to `noise` of a block. About `size_m` large, about the origin. With pieces
-// and surface as a mesh that was read from a file has them.
+// A closed concave mesh of blocks, about `size_m` large, around the origin: an L, a U, a C, a ring,
+// a frame, a box with a slot, a closed hollow box or random blocks. Corners are moved by up to
+// `noise` of a block. Has pieces and surface, like a loaded mesh.
 struct MeshWish {
   double size_m = 0.3;
   double noise = 0.0;   // 0 to 0.25
-  bool crumbs = false;  // and a small loose box beside it
+  bool crumbs = false;  // adds a small separate box
 };
 [[nodiscard]] MeshPtr concave_mesh(const MeshWish& wish, std::mt19937_64& random);
 
-// A prism over a curve that goes twice about the z-axis (and so meets itself): inside of its
-// smaller turn, up to 0.12 m from the axis and 0.2 m from the origin along it, the surface winds
-// twice about each point. With a surface only.
+// Returns a prism over a curve that goes twice around the z-axis. Up to 0.12 m from the axis and
+// 0.2 m from the origin along the axis, the surface winds twice around each point. Has a surface
+// only.
 [[nodiscard]] MeshPtr twice_wound_mesh();
 
-// The mesh with some triangles turned over: where outside is cannot be told by them any more.
+// Flips some triangles, so that orientation no longer tells outside from inside.
 [[nodiscard]] MeshPtr turned_over(const MeshData& mesh, std::mt19937_64& random);
 
-// For each corner the smallest one that it hangs together with.
+// Returns for each vertex the smallest vertex of its connected component.
 [[nodiscard]] std::vector<std::uint32_t> components_of(const MeshData& mesh);
 
-// Whether one of the components winds about the point, by solid angles: no rays, no tree.
-// Precondition: the triangles are of one mind about outside.
+// Returns true if a component winds around the point, by solid angles. Precondition: consistently
+// oriented triangles.
 [[nodiscard]] bool winds_about(const MeshData& mesh, const std::vector<std::uint32_t>& components,
                                const Eigen::Vector3d& p);
 
-// Uniform in [from, to).
 [[nodiscard]] double between(std::mt19937_64& random, double from, double to);
 
 }  // namespace armloom::soundness

@@ -5,20 +5,20 @@
 
 namespace armloom::soundness {
 
-// Where one arm of a pair is on its way, and the other on its own.
+// Progress of both motions of a pair.
 struct PlaceOfPair {
   Duration own_time;
   Duration other_time;
 };
-// What is tried: each joint up to `tracking_error` off its path, from `throws` random deviations.
+// Each joint is up to `tracking_error` off its path, from `throws` random deviations.
 struct DeviationAttack {
   double tracking_error;
   int throws;
-  double horizon_m;  // what is farther apart is not told
+  double horizon_m;  // larger distances are not computed
 };
 
-// The smallest exact distance of the two arms of a pair that is found at a place, or within 50 ms
-// of it: steps downhill, joint by joint and time by time, from there and from each throw.
+// Returns the smallest exact distance found at a place or within 50 ms of it. Steps downhill, joint
+// by joint and time by time, from the place and from each random deviation.
 [[nodiscard]] double closest_with_deviations(bench::ExactScene& exact, const MovingPair& pair,
                                              const PlaceOfPair& place,
                                              const DeviationAttack& attack,

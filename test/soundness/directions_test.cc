@@ -1,4 +1,4 @@
-// What the filter says two capsules keep along one direction, against the same capsules moved.
+// Compares the claimed separation along one direction with capsules that really moved.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr int kLanes = filter::kLanes;
 constexpr std::size_t kMoves = 40;
 constexpr double kMargin_m = 2e-6;
 
-// One arm, its joints within their spans, eight times.
+// One arm in eight lanes, each joint within its span.
 class Arm {
  public:
   Arm(std::mt19937_64& random, double span_max) : linkage_(random), view_(linkage_.view()) {
@@ -46,8 +46,7 @@ class Arm {
     }
   }
 
-  // Every joint anywhere within its span, as far as drifts allow, mostly at an end of it; in the
-  // first lane at rest.
+  // Moves every joint within its span, mostly to an end; the first lane is at rest.
   void move(std::mt19937_64& random) {
     std::vector<double> q;
     std::array<double, kLanes> share;  // of all drifts
@@ -72,7 +71,6 @@ class Arm {
   [[nodiscard]] NumberedCapsule capsule(int number) const {
     return {number, linkage_.capsules[static_cast<std::size_t>(number)]};
   }
-  // One stretch: all of the spans.
   [[nodiscard]] filter::SweptCapsule swept(int capsule) const {
     const float* at = capsules_.data() + capsule * 6 * kLanes;
     return {at, at, sweeps_.data() + capsule * filter::kSweep * kLanes, 0, 1};
@@ -93,16 +91,16 @@ class Arm {
   RandomLinkage linkage_;
   filter::ArmKinematics view_;
   std::vector<double> middle_, most_, frames_;
-  std::vector<double> drift_;  // the share of most_ that all joints go together
+  std::vector<double> drift_;  // share of most_ by which all joints move together
   std::vector<float> axes_, capsules_, motion_bounds_, sweeps_, spans_, drifts_, looses_;
 };
 
 struct Tally {
   std::size_t pairs = 0;
-  double closest = 1.0;  // how much more than the limit was kept, as a share of what was lost
+  double closest = 1.0;  // separation beyond the limit, as a share of the loss
 };
 
-// The largest limit that the first lane's capsules are said to keep; none: not even contact.
+// Returns the largest limit that the first lane's capsules are claimed to keep; -1 if none.
 double largest_kept(const Arm& a, const Arm& b, int capsule_a, int capsule_b) {
   const auto kept = [&](double limit_m) {
     const filter::Pair pair =
@@ -154,7 +152,7 @@ Tally attack(double span_max, std::size_t rounds) {
   return tally;
 }
 
-TEST(Directions, KeepCapsulesApartByNoMoreThanTheyDo) {
+TEST(DirectionBound, IsSoundAndTight) {
   const Tally small = attack(0.05, 3'000);
   EXPECT_GE(small.pairs, 1'000U);
   EXPECT_LE(small.closest, 0.1);  // an attack that never comes close would prove nothing

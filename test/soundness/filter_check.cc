@@ -22,11 +22,10 @@ namespace armloom::soundness {
 namespace {
 
 constexpr std::size_t kLanes = filter::kLanes;
-constexpr double kNear_m = 0.05;         // pairs this close are held against plain FCL too
+constexpr double kNear_m = 0.05;         // closer pairs are also compared with plain FCL
 constexpr double kFclRounding_m = 1e-6;  // of FCL's own distances
-constexpr float kFar_m = 1e3F;  // a limit that leaves every pair open, so that all are told
+constexpr float kFar_m = 1e3F;           // leaves every pair open
 
-// One arm in eight configurations.
 struct PlacedArm {
   explicit PlacedArm(const ArmKinematics& arm)
       : kinematics(arm),
@@ -59,7 +58,7 @@ class Checker {
     for (std::uint32_t a = 0; a < bodies_.cell->arms.size(); ++a) {
       linkages_.emplace_back(bodies_, ArmId{a});
     }
-    linkages_.emplace_back(bodies_, std::nullopt);  // what stands still
+    linkages_.emplace_back(bodies_, std::nullopt);  // static bodies
     for (const ArmKinematics& kinematics : linkages_) arms_.emplace_back(kinematics);
     for (std::size_t a = 0; a + 1 < arms_.size(); ++a) {
       for (std::size_t b = a + 1; b + 1 < arms_.size(); ++b) {

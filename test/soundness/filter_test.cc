@@ -25,29 +25,28 @@ void expect_never_too_far(const CellPtr& cell, std::size_t states) {
   for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
 }
 
-TEST(Filter, OfTwoPandasIsNeverAboveTheExactDistance) {
+TEST(Filter, NeverExceedsTheExactDistanceOfTwoPandas) {
   expect_never_too_far(cell_of_file("two_pandas.json"), 10'000);
 }
 
-TEST(Filter, OfAPandaAndAUr5eIsNeverAboveTheExactDistance) {
+TEST(Filter, NeverExceedsTheExactDistanceOfAPandaAndAUr5e) {
   expect_never_too_far(cell_of_file("panda_and_ur5e.json"), 2'000);
 }
 
-TEST(Filter, OfADualArmRobotIsNeverAboveTheExactDistance) {
+TEST(Filter, NeverExceedsTheExactDistanceOfADualArmRobot) {
   expect_never_too_far(cell_of_file("dual_panda.json"), 2'000);
 }
 
-TEST(Filter, OfTwoArmsWithMeshesIsNeverAboveTheExactDistance) {
+TEST(Filter, NeverExceedsTheExactDistanceOfArmsWithMeshes) {
   expect_never_too_far(cell_of_file("two_shuttles.json"), 2'000);
 }
 
-TEST(Filter, TakesARoundingMarginOfAtMostTenMicrometres) {
+TEST(Filter, HasARoundingMarginOfAtMostTenMicrometers) {
   const FilterReport report = check_filter(cell_of_file("two_pandas.json"), 8, 1);
   EXPECT_GT(report.margin_m, 1e-7);
   EXPECT_LE(report.margin_m, 1e-5);
 }
 
-// Configurations of an arm, how far its joints may be from them, and what it is compared with.
 struct Comparison {
   const RandomLinkage& arm;
   std::vector<double> q;
@@ -57,7 +56,6 @@ struct Comparison {
   unsigned lanes = 0xFF;
 };
 
-// All that one kernel makes of one arm held against itself.
 struct Results {
   Results(const filter::Kernel& kernel, const Comparison& of) : Results(kernel, of, of.arm) {}
 
@@ -135,13 +133,13 @@ std::vector<filter::BoxPair> boxes_for(const RandomLinkage& arm, std::mt19937_64
   return boxes;
 }
 
-TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
+TEST(Kernels, AreBitIdenticalOnEveryInstructionSet) {
   const std::vector<const filter::Kernel*> kernels = filter::kernels();
   ASSERT_GE(kernels.size(), 2U);
   ASSERT_EQ(kernels.front(), &filter::kScalarKernel);
   std::mt19937_64 random(41);
   std::size_t hits = 0, left_out = 0;
-  for (int round = 0; round < 1'250; ++round) {  // of eight configurations
+  for (int round = 0; round < 1'250; ++round) {  // of eight configurations each
     const RandomLinkage arm(random);
     Comparison of{arm, std::vector<double>(static_cast<std::size_t>(arm.joints * kLanes)),
                   std::vector<float>(arm.frames.size() * kLanes)};
@@ -175,8 +173,7 @@ TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
   EXPECT_GE(left_out, 10'000U);
 }
 
-// What each joint may do at most, at once, never moves a point of a capsule farther than its bound.
-TEST(Kernels, BoundEveryMotionThatStaysWithinTheSpans) {
+TEST(Kernels, BoundEveryMotionWithinTheSpans) {
   std::mt19937_64 random(43);
   const filter::Kernel& kernel = filter::best_kernel();
   double tightest = 0.0;
@@ -219,7 +216,7 @@ TEST(Kernels, BoundEveryMotionThatStaysWithinTheSpans) {
       }
     }
   }
-  EXPECT_GE(tightest, 0.7);  // half of it would be too little
+  EXPECT_GE(tightest, 0.7);  // half of the true motion would be too little
 }
 
 }  // namespace

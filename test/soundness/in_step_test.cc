@@ -1,5 +1,4 @@
-// Arms that move as one may get out of step (in_step.h): spheres on crossing rails, where it is
-// known in closed form how close they come then.
+// Spheres on crossing rails, whose smallest distance is known in closed form.
 #include "core/coordination/in_step.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +32,7 @@ CellPtr two_rails() {
   return small::shared(std::move(cell));
 }
 
-// Both over their crossing at constant speed, the one on y `ahead_m` before the other.
+// Both cross at constant speed; the arm on y is `ahead_m` ahead.
 TrajectoryPtr crossing(const Cell& cell, double ahead_m) {
   Segment segment{Duration{}, 4s, {}};
   segment.coefficients.setZero(2, 6);
@@ -44,11 +43,11 @@ TrajectoryPtr crossing(const Cell& cell, double ahead_m) {
                                             std::vector<Segment>{segment});
 }
 
-TEST(InStep, ArmsKeepTheClearanceHoweverFarOneIsBehind) {
+TEST(InStep, ArmsKeepTheClearanceForAnyAllowedLag) {
   const CellPtr cell = two_rails();
   const double behind_s =
       to_seconds(kOutOfStep + kUntilTold) + stopping_reach_s(*cell, *crossing(*cell, 0.0));
-  // Centres at (s, s + ahead) are |ahead| / sqrt(2) apart at least.
+  // Centers at (s, s + ahead) are at least |ahead| / sqrt(2) apart.
   const double least_m =
       std::sqrt(2.0) * (2.0 * kRadius_m + kClearance_m + 2.0 * kTracking_m) + kSpeed_m_s * behind_s;
   for (const double side : {1.0, -1.0}) {

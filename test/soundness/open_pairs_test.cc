@@ -1,5 +1,5 @@
-// What no effort decides, where two Pandas have to keep 5 mm only with each joint up to 1 mrad off
-// its path. Whatever is left open is so close, with its deviations, that little is lost.
+// Pairs that no effort decides, with 5 mm clearance and 1 mrad tracking error, are so close that
+// little is lost.
 #include <gtest/gtest.h>
 
 #include "test/soundness/soundness.h"
@@ -21,11 +21,11 @@ void expect_open_only_where_close(const CheckMethod& method, std::size_t open_ma
   }
 }
 
-TEST(OpenPairs, OfSweptMotionsKeepHardlyMoreThanTheClearance) {
+TEST(OpenPairs, OfSweptMotionsAreCloseToTheClearance) {
   expect_open_only_where_close(Swept{0.001}, 2);
 }
 
-TEST(OpenPairs, OfConflictRegionsKeepHardlyMoreThanTheClearance) {
+TEST(OpenPairs, OfConflictRegionsAreCloseToTheClearance) {
   expect_open_only_where_close(Coordinated{0.001}, 4);
 }
 

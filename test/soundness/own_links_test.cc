@@ -7,8 +7,7 @@
 #include "test/collision/small_cell.h"
 #include "test/soundness/concave_meshes.h"
 
-// Links of one arm, each joint off its path: what is called free keeps its distance wherever they
-// are. The joints that carry both links move neither from the other; those between them do.
+// Joints that carry both links do not change their distance; joints between the links do.
 namespace armloom::soundness {
 namespace {
 
@@ -25,7 +24,7 @@ CellPtr folding_arm() {
   return small::shared(std::move(cell));
 }
 
-TEST(OwnLinks, KeepTheirDistanceWithJointsOffTheirPaths) {
+TEST(OwnLinks, KeepTheirDistanceDespiteTrackingErrors) {
   const CellPtr cell = folding_arm();
   const PlanningScenePtr scene = PlanningScene::build(cell).value();
   MotionChecker checker(scene);
@@ -45,7 +44,7 @@ TEST(OwnLinks, KeepTheirDistanceWithJointsOffTheirPaths) {
   for (int i = 0; i < 60; ++i) {
     std::vector<double> bent;
     for (std::size_t j = 0; j < kJoints; ++j) bent.push_back(between(random, -3.0, 3.0));
-    if (!free_up_to(bent, 0.0) || free_up_to(bent, 1.0)) continue;  // never too close, here
+    if (!free_up_to(bent, 0.0) || free_up_to(bent, 1.0)) continue;  // never too close, skip
     double most = 0.0;
     for (double from = 0.0, to = 1.0; to - from > 1e-3;) {
       const double middle = 0.5 * (from + to);
@@ -69,7 +68,7 @@ TEST(OwnLinks, KeepTheirDistanceWithJointsOffTheirPaths) {
     near += any_near ? 1 : 0;
   }
   EXPECT_GE(folded, 10);
-  EXPECT_GE(2 * near, folded);  // else the bounds are so wide that nothing was tried
+  EXPECT_GE(2 * near, folded);  // otherwise the bounds are too wide for this test
 }
 
 }  // namespace

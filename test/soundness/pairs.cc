@@ -15,9 +15,9 @@ namespace {
 constexpr double kLimitShare = 0.9;
 constexpr double kRangeShare = 0.9;
 constexpr double kKnot_s = 0.1;
-constexpr double kSameSide = 0.03;  // so that some collide, and most do not
+constexpr double kSameSide = 0.03;  // so that some pairs collide and most do not
 
-// middle + sum of c[k] cos(k w t). c[5] and c[6] make the accelerations vanish at both ends.
+// middle + sum of c[k] cos(k w t). c[5] and c[6] make the accelerations zero at both ends.
 struct Wave {
   double middle = 0.0;
   double w = 0.0;
@@ -166,7 +166,7 @@ std::vector<MovingPair> random_pairs(bench::ExactScene& exact, const Pool& pool,
   const double least_m = exact.cell().clearances.clearance_m + 0.001;
   while (pairs.size() < count) {
     const std::size_t arm = random() % 2;
-    // They face each other: turned the same way, they turn away from each other.
+    // The arms face each other: equal rotations move them apart.
     const std::size_t turn = random() % 2;
     const std::size_t other_turn = uniform(random, 0.0, 1.0) < kSameSide ? 1 - turn : turn;
     const auto any = [&](std::size_t of, std::size_t turned) {

@@ -18,7 +18,7 @@ namespace {
 
 using Shape = std::shared_ptr<fcl::CollisionGeometryd>;
 
-// What the pieces of a closed mesh stand for: its triangles.
+// Returns the triangles of a closed mesh, which replace its pieces.
 Shape surface_of(const SurfaceTree& tree) {
   auto model = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
   std::vector<fcl::Triangle> triangles;
@@ -52,7 +52,7 @@ Shape shape_of(const ConvexShape& body) {
 }  // namespace
 
 struct PlainFcl::Shapes {
-  std::vector<Shape> of_body;  // null: another piece of the same mesh stands for this one, too
+  std::vector<Shape> of_body;  // nullptr if another piece of the same mesh represents this one
 };
 
 PlainFcl::PlainFcl(const PlanningScene::Bodies& bodies)

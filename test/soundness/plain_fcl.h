@@ -8,14 +8,13 @@
 
 namespace armloom::soundness {
 
-// Distances of parts by FCL alone, in double: its own shapes made anew from the bodies' sizes, no
-// bounds and no proofs before or behind it. What the engine's distances are held against.
+// Reference distances by FCL alone, in double, with own shapes and without bounds and proofs.
 class PlainFcl {
  public:
   explicit PlainFcl(const PlanningScene::Bodies& bodies);
   ~PlainFcl();
 
-  // The smallest distance over the parts' bodies; zero or negative in contact, and zero where FCL
+  // Returns the smallest distance over the bodies' shapes; at most zero in contact or if FCL
   // throws.
   [[nodiscard]] double distance(std::size_t body_a, const Eigen::Isometry3d& X_WA,
                                 std::size_t body_b, const Eigen::Isometry3d& X_WB) const;

@@ -8,9 +8,8 @@
 namespace armloom::soundness {
 namespace {
 
-// A band without width is the plan's line: what lies on it must be found there in spite of
-// seconds being rounded, else a conflict cell proves nothing.
-TEST(ProgressBand, WithoutABandHoldsEveryStateOfItsPlan) {
+// Without width the band is the planned line, which must be found despite rounding of seconds.
+TEST(ProgressBand, WithoutWidthContainsEveryPlannedState) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 100'000; ++i) {
     const Duration progress_a = from_seconds(uniform(random, 0.0, 9.0));
@@ -29,9 +28,8 @@ TEST(ProgressBand, WithoutABandHoldsEveryStateOfItsPlan) {
   }
 }
 
-// A band is covered by the times of the cells that it meets: random states of it, however late the
-// motions are, lie in some time range of their own cell.
-TEST(ProgressBand, MeetsEveryCellThatHoldsOneOfItsStates) {
+// Random states of a band, with any lag, lie in a time range of their cell.
+TEST(ProgressBand, MeetsEveryCellWithOneOfItsStates) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 100'000; ++i) {
     const auto lag = [&] { return random() % 3 == 0 ? 0.0 : uniform(random, 0.0, 0.8); };
@@ -62,8 +60,7 @@ TEST(ProgressBand, MeetsEveryCellThatHoldsOneOfItsStates) {
   }
 }
 
-// Where times do not count, whatever is left of both motions counts.
-TEST(ProgressBand, ThatIsSweptHoldsTheWholeRectangleOfWhatRemains) {
+TEST(ProgressBand, SweptBandContainsTheRemainingRectangle) {
   std::mt19937_64 random(7);
   for (int i = 0; i < 100'000; ++i) {
     const ProgressBand r{.progress_a = uniform(random, 0.0, 9.0),

@@ -8,7 +8,7 @@
 
 namespace armloom::soundness {
 
-// A random tree of turning, sliding and mimic joints with capsules, as the kernels take it.
+// A random tree of revolute, prismatic and mimic joints with capsules.
 struct RandomLinkage {
   explicit RandomLinkage(std::mt19937_64& random) {
     const int frame_count = 1 + static_cast<int>(random() % 9);

@@ -1,5 +1,5 @@
-// The regions of pairs of Pandas against exact shapes: whatever is outside of all boxes keeps the
-// clearance, wherever each arm is on its own way, with its tracking error.
+// Compares the regions of pairs of Pandas with exact shapes, at any progress and with tracking
+// errors.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace armloom::soundness {
 namespace {
 
 constexpr std::size_t kPairs = 120;
-constexpr std::size_t kStates = 600;  // of each pair, and as many about its outlines
+constexpr std::size_t kStates = 600;  // per pair, and as many near its outlines
 constexpr double kTracking_rad = 0.003;
 constexpr double kRounding_m = 1e-6;
 constexpr double kHorizon_m = 0.05;
@@ -27,7 +27,7 @@ bool hold(const PairRegions& pair, Duration a, Duration b) {
   });
 }
 
-// Of the two motions; null: free everywhere.
+// Returns nullptr if the motions have no regions with each other.
 const PairRegions* between_motions_of(const Verdict& verdict) {
   const auto found = std::ranges::find_if(verdict.regions, [](const PairRegions& pair) {
     return std::holds_alternative<JobId>(pair.b);
@@ -39,10 +39,10 @@ struct Tally {
   std::size_t pairs = 0;
   std::size_t with_regions = 0;
   std::size_t boxes_max = 0;
-  std::size_t outside = 0;  // states looked at
+  std::size_t outside = 0;  // states checked
   double closest_m = kHorizon_m;
-  std::size_t inside = 0;       // states in boxes, of those that are spread evenly
-  std::size_t inside_free = 0;  // of them, more than kLoose_m above the clearance
+  std::size_t inside = 0;       // evenly spread states that are inside boxes
+  std::size_t inside_free = 0;  // of these, more than kLoose_m above the clearance
 };
 constexpr double kLoose_m = 0.05;
 
@@ -57,7 +57,7 @@ class Attack {
       if (tally_.pairs == kPairs) break;
       const Verdict verdict =
           checker.judge(pair.question(exact_.cell(), Coordinated{kTracking_rad}));
-      if (verdict.kind != Verdict::Kind::free) continue;  // one alone
+      if (verdict.kind != Verdict::Kind::free) continue;  // a candidate alone is in conflict
       ++tally_.pairs;
       attack(pair, between_motions_of(verdict));
     }
@@ -122,8 +122,7 @@ class Attack {
         << "pair " << tally_.pairs << " at " << to_seconds(a) << " and " << to_seconds(b) << " s";
   }
 
-  // The smallest distance about q_ that is found with each joint off its path, one way or the
-  // other.
+  // Returns the smallest distance near q_ with each joint off its path.
   double off_the_paths(const MovingPair& pair) {
     double distance_m = exact_.between_arms(q_, kHorizon_m);
     if (distance_m >= kHorizon_m) return distance_m;
@@ -156,16 +155,15 @@ const Tally& tally() {
   return made;
 }
 
-TEST(Regions, LeaveNoStateOutsideThatComesCloserThanTheClearance) {
+TEST(Regions, ContainEveryStateCloserThanTheClearance) {
   EXPECT_EQ(tally().pairs, kPairs);
   EXPECT_GE(tally().with_regions, 30U);
   EXPECT_GE(tally().outside, 80'000U);
-  // An attack that never comes close would prove nothing.
   RecordProperty("closest_um", static_cast<int>(1e6 * tally().closest_m));
   EXPECT_LE(tally().closest_m, bench::two_pandas()->clearances.clearance_m + 0.010);
 }
 
-TEST(Regions, HoldLittleThatIsWellClear) {
+TEST(Regions, ContainFewStatesThatAreWellClear) {
   RecordProperty("inside", static_cast<int>(tally().inside));
   RecordProperty("inside_free", static_cast<int>(tally().inside_free));
   RecordProperty("boxes_max", static_cast<int>(tally().boxes_max));

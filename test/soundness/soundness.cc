@@ -59,14 +59,13 @@ void measure_certified(const MovingPair& pair, const Truth& truth, const Verdict
   ++report.pairs;
 }
 
-// Times from the question's instant on, in seconds.
 struct Stay {
   double from_s;
   double to_s;
 };
 
-// When a motion that goes on as planned is between two places; one that never leaves stays for
-// ever.
+// Returns when a planned motion is between two progress values (forever if it ends there); nullopt
+// if never.
 std::optional<Stay> stay_of(const Motion& motion, Duration from, Duration to) {
   const Duration end = motion.trajectory->duration();
   const Duration now = std::clamp(motion.progress, Duration{}, end);
@@ -131,7 +130,7 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
   for (const MovingPair& pair : random_pairs(exact, pool, count, seed + 1)) {
     const Truth truth = sampler.of(pair);
     report.truth_samples += truth.looked_at;
-    // What the candidate does to itself and to what stands still is asked, and kept, before.
+    // Caches the checks of the candidate against itself and static bodies.
     Question alone = pair.question(cell, kExactly);
     alone.others.clear();
     static_cast<void>(checker.judge(alone));
@@ -149,7 +148,7 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
       const auto free = [&](MotionChecker& by) {
         return between_motions(by.judge(pair.question(cell, method))) == nullptr;
       };
-      if (!free(checker_without)) continue;  // a clearance does not make it miss more
+      if (!free(checker_without)) continue;  // a clearance does not cause more misses
       if (contact_s < 0.0) contact_s = contact_time_s(pair, exact_without);
       note_missed(row.without, truth.smallest_m, contact_s);
       if (free(checker)) note_missed(row.with_clearance, truth.smallest_m, contact_s);
@@ -166,22 +165,22 @@ void print_markdown(const Report& r, std::ostream& out) {
     return text.str();
   };
   out << "| pairs of timed motions | " << r.pairs << " |\n|---|---|\n"
-      << "| truly collide | " << r.colliding << " (" << share(r.colliding, r.pairs) << ") |\n"
+      << "| collide | " << r.colliding << " (" << share(r.colliding, r.pairs) << ") |\n"
       << "| closer than the clearance of 20 mm | " << r.below << " |\n"
       << "| from there to 100 mm | " << r.close << " |\n"
-      << "| exact samples of 0.5 ms that could not be skipped, a pair | "
+      << "| exact samples of 0.5 ms per pair that could not be skipped | "
       << r.truth_samples / std::max<std::size_t>(r.pairs, 1) << " |\n"
       << "| **certified: collisions missed** | " << r.missed_collisions << " |\n"
-      << "| certified: pairs below the clearance called free | " << r.missed << " |\n"
+      << "| certified: pairs below the clearance reported free | " << r.missed << " |\n"
       << "| certified: false alarms among " << r.above << " pairs above clearance + 50 mm | "
       << r.false_alarms << " (" << share(r.false_alarms, r.above) << ") |\n"
-      << "| certified: first state of a region later than the truth's, at most | "
+      << "| certified: first state of a region later than the true one, at most | "
       << milli(r.first_conflict_late_max_s) << " ms |\n"
       << "| certified: evaluations of the two motions, mean / most | "
       << r.evaluations_total / std::max<std::size_t>(r.pairs, 1) << " / " << r.evaluations_max
       << " |\n\n";
   out << "| of the " << r.colliding
-      << " pairs that collide, called free | at clearance 0 | deepest | longest contact | at 20 mm "
+      << " colliding pairs, reported free | at clearance 0 | deepest | longest contact | at 20 mm "
          "| deepest |\n|---|---|---|---|---|---|\n";
   for (const DiscreteRow& row : r.discrete) {
     out << "| every " << row.step_s << " s | " << row.without.pairs << " | "

@@ -39,11 +39,11 @@ bool filters(std::size_t states, std::uint64_t seed) {
   return sound;
 }
 
-// The distances of surfaces (surface_check.h).
 bool surfaces(std::size_t count, std::uint64_t seed) {
   const SurfaceReport report = check_surfaces(count, seed);
-  std::cout << "| pairs | apart | in contact | of these one inside of the other | apart though "
-               "pieces are closer than 1 mm | said too far | false contacts | shortfall |\n"
+  std::cout << "| pairs | apart | in contact | of these, one inside the other | apart "
+               "although pieces are closer than 1 mm | distance too large | false contacts | "
+               "shortfall |\n"
                "|---|---|---|---|---|---|---|---|\n| "
             << report.pairs << " | " << report.apart << " | " << report.in_contact << " | "
             << report.inside << " | " << report.opened << " | " << report.too_far << " | "
@@ -52,15 +52,15 @@ bool surfaces(std::size_t count, std::uint64_t seed) {
   return report.too_far == 0 && report.false_contacts == 0;
 }
 
-// What stays open where two Pandas have to keep 5 mm only, each joint 1 mrad off its path.
+// Reports pairs that stay open at 5 mm clearance and 1 mrad tracking error.
 bool open(std::size_t count, std::uint64_t seed) {
   const struct {
     const char* name;
     CheckMethod method;
   } methods[] = {{"swept", Swept{0.001}}, {"coordinated", Coordinated{0.001}}};
   bool kept = true;
-  std::cout << "| method | pairs | free | conflict | open | each keeps (mm) | evaluations, mean / "
-               "most |\n|---|---|---|---|---|---|---|\n";
+  std::cout << "| method | pairs | free | conflict | open | smallest distance (mm) | evaluations, "
+               "mean / most |\n|---|---|---|---|---|---|---|\n";
   for (const auto& [name, method] : methods) {
     const OpenPairs found = find_open(count, seed, method);
     std::cout << "| " << name << " | " << found.pairs << " | " << found.free << " | "
@@ -78,8 +78,8 @@ bool open(std::size_t count, std::uint64_t seed) {
 }  // namespace
 }  // namespace armloom::soundness
 
-// soundness pairs|filter|open|surfaces [count [seed]]: the tables of
-// test/soundness/README.md. Fails where one of the claims there does not hold.
+// soundness pairs|filter|open|surfaces [count [seed]]: prints a table of README.md; fails if a
+// claim is violated.
 int main(int argc, char** argv) {
   using namespace armloom::soundness;
   try {

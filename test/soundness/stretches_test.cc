@@ -1,5 +1,5 @@
-// What the filter says two capsules keep along one direction in every stretch of a motion, against
-// the same capsules anywhere on their ways.
+// Compares the claimed separation in every stretch of a motion with capsules anywhere on their
+// paths.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace {
 
 constexpr int kLanes = filter::kLanes;
 constexpr double kMargin_m = 2e-6;
-constexpr double kLoose = 0.001;  // rad, m: of each joint beside its line
+constexpr double kLoose = 0.001;  // rad or m: deviation of each joint from its line
 
-// A line in joint space in eight stretches, and where its capsules are in between.
+// A line in joint space in eight stretches.
 class Passing {
  public:
   Passing(std::mt19937_64& random, double way_max) : linkage_(random) {
@@ -42,7 +42,7 @@ class Passing {
     return {at_.data() + capsule * 6 * kLanes, stretches_.data() + capsule * 6 * kLanes,
             sweeps_.data() + capsule * filter::kSweep * kLanes, 0, kLanes};
   }
-  // Eight places of the way, off it by what is loose.
+  // Returns the capsule at eight random states, off the line by up to kLoose.
   [[nodiscard]] std::vector<CenteredSegment> somewhere(int capsule, std::mt19937_64& random) const {
     std::vector<double> shares;
     for (int lane = 0; lane < kLanes; ++lane) shares.push_back(uniform(random, -1.0, 1.0));
@@ -98,8 +98,7 @@ class Passing {
   std::vector<float> at_, stretches_, sweeps_;
 };
 
-// How much of the pairs' way is not known to be kept apart though it is, at least.
-TEST(Stretches, KeepCapsulesApartAllAlongAMotionByNoMoreThanTheyDo) {
+TEST(Stretches, BoundIsSoundAndTight) {
   std::mt19937_64 random(53);
   std::size_t pairs = 0;
   double closest_m = 1.0;

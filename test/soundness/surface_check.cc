@@ -21,11 +21,10 @@ using Model = fcl::BVHModel<fcl::OBBRSSd>;
 constexpr double kFclRounding_m = 1e-9;  // of FCL's distances of triangles
 constexpr double kLimit_m = 0.1;
 
-// A solid as the engine has it, and as the truth does.
 struct Shown {
   std::vector<ConvexShape> shapes;
   CollisionBody body;
-  MeshPtr mesh;  // the truth: of one mind about outside; of a primitive: inscribed
+  MeshPtr mesh;  // the reference; for a primitive: inscribed
   std::vector<std::uint32_t> components;
   std::shared_ptr<Model> model;
   bool is_mesh = true;
@@ -42,10 +41,10 @@ std::shared_ptr<Model> model_of(const MeshData& mesh) {
   return model;
 }
 
-// Points of the primitive's surface; their hull is inscribed.
+// Returns points on the primitive's surface; their hull is inscribed.
 std::vector<Eigen::Vector3d> points_of(const std::vector<PlacedShape>& shapes) {
   std::vector<Eigen::Vector3d> points;
-  constexpr int kAround = 16;  // convex_hull() simplifies what has many corners: too large then
+  constexpr int kAround = 16;  // more corners would be simplified
   for (const PlacedShape& placed : shapes) {
     const auto add = [&](double x, double y, double z) {
       points.emplace_back(placed.X_LS * Eigen::Vector3d(x, y, z));
@@ -122,7 +121,7 @@ Shown show(bool primitive, double size_m, std::mt19937_64& random) {
 
 Eigen::Isometry3d random_turn(std::mt19937_64& random) {
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  if (random() % 4 == 0) return X;  // faces along faces
+  if (random() % 4 == 0) return X;  // keeps faces parallel
   const Eigen::Vector3d axis(between(random, -1, 1), between(random, -1, 1),
                              between(random, -1, 1));
   X.linear() = Eigen::AngleAxisd(between(random, -3.0, 3.0),
@@ -139,7 +138,8 @@ double surfaces_m(const Shown& a, const Eigen::Isometry3d& X_WA, const Shown& b,
   return std::max(0.0, d);
 }
 
-// Surfaces that do not touch: whether a component of one, any corner of it, is inside of the other.
+// For surfaces that do not touch: returns true if a component of the inner mesh is inside the outer
+// mesh.
 bool holds(const Shown& outer, const Shown& inner, const Eigen::Isometry3d& X_OI) {
   for (std::size_t i = 0; i < inner.components.size(); ++i) {
     if (inner.components[i] != i) continue;
@@ -165,7 +165,6 @@ class Checker {
     const Eigen::Isometry3d X_WA = random_turn(random_);
     for (int placing = 0; placing < 4; ++placing) {
       Eigen::Isometry3d X_WB = random_turn(random_);
-      // From the middle of the one outwards.
       const Eigen::Vector3d way(between(random_, -1, 1), between(random_, -1, 1),
                                 between(random_, -1, 1));
       X_WB.translation() = between(random_, 0.0, small_one ? 0.3 : 0.45) * way.normalized();
@@ -201,7 +200,6 @@ class Checker {
 
   static double distance(const Shown& a, const Eigen::Isometry3d& X_WA, const Shown& b,
                          const Eigen::Isometry3d& X_WB, double limit_m) {
-    // One list of shapes, as in a scene.
     std::vector<ConvexShape> shapes = a.shapes;
     shapes.insert(shapes.end(), b.shapes.begin(), b.shapes.end());
     CollisionBody body_b = b.body;

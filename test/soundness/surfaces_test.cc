@@ -18,7 +18,7 @@
 namespace armloom::soundness {
 namespace {
 
-TEST(Surfaces, AreNeverSaidToBeFartherApartThanTheyAre) {
+TEST(Surfaces, DistanceIsNeverOverestimated) {
   const SurfaceReport report = check_surfaces(6'000, 51);
   EXPECT_EQ(report.too_far, 0U) << "by up to " << report.worst_m << " m";
   for (const std::string& failure : report.failures) ADD_FAILURE() << failure;
@@ -30,12 +30,12 @@ TEST(Surfaces, AreNeverSaidToBeFartherApartThanTheyAre) {
   EXPECT_GE(report.apart, 1'000U);
   EXPECT_GE(report.in_contact, 1'000U);
   EXPECT_GE(report.inside, 50U);
-  EXPECT_GE(report.opened, 50U);  // else the pieces alone have been tested
+  EXPECT_GE(report.opened, 50U);  // otherwise only the pieces were tested
   EXPECT_EQ(report.false_contacts, 0U);
   EXPECT_LE(report.shortfall_m, 1e-7);
 }
 
-TEST(Surfaces, EncloseWhatTheyWindAbout) {
+TEST(Surfaces, EnclosePointsInside) {
   std::mt19937_64 random(52);
   std::size_t enclosed = 0;
   std::size_t outside = 0;
@@ -63,7 +63,7 @@ TEST(Surfaces, EncloseWhatTheyWindAbout) {
   EXPECT_LE(wrongly, outside / 20);
 }
 
-TEST(Surfaces, EncloseWhatTheyWindAboutTwice) {
+TEST(Surfaces, EnclosePointsInsideTwice) {
   std::mt19937_64 random(54);
   const MeshPtr mesh = twice_wound_mesh();
   const auto components = components_of(*mesh);
@@ -84,8 +84,7 @@ TEST(Surfaces, EncloseWhatTheyWindAboutTwice) {
   EXPECT_GE(outside, 500);
 }
 
-// Pairs that come closer than a limit are found whether or not the distance is asked for.
-TEST(Surfaces, AreCloserThanALimitWhenTheirDistanceIs) {
+TEST(Surfaces, CloserThanAgreesWithTheDistance) {
   std::mt19937_64 random(53);
   int closer = 0;
   for (int i = 0; i < 60; ++i) {
@@ -107,8 +106,7 @@ TEST(Surfaces, AreCloserThanALimitWhenTheirDistanceIs) {
   EXPECT_GE(closer, 500);
 }
 
-// A rough distance is never too large, no smaller than allowed, and exact where it has to be.
-TEST(Surfaces, AreToldAsRoughlyAsAllowed) {
+TEST(Surfaces, RoughDistanceIsWithinItsTolerance) {
   std::mt19937_64 random(54);
   constexpr Roughness kRough{0.02, 0.01};
   int rough = 0;
@@ -139,8 +137,7 @@ TEST(Surfaces, AreToldAsRoughlyAsAllowed) {
   EXPECT_GE(exact, 20);
 }
 
-// What balls inside of two solids say at once.
-TEST(InnerBalls, ProveOnlyWhatIsSoAndMostOfWhatOverlaps) {
+TEST(InnerBalls, ProveMostOverlapsAndNothingElse) {
   std::mt19937_64 random(55);
   const Eigen::Isometry3d X_WA = Eigen::Isometry3d::Identity();
   std::size_t proven = 0;
@@ -176,9 +173,8 @@ TEST(InnerBalls, ProveOnlyWhatIsSoAndMostOfWhatOverlaps) {
   EXPECT_GE(proven, overlaps / 3);
 }
 
-// The closest pair is that of all pairs that are near.
 void expect_the_closest(small::ScaledQuery& checker, const Configuration& q) {
-  constexpr double kHorizon_m = kSurfaceWithin_m;  // farther ones may be told of their pieces
+  constexpr double kHorizon_m = kSurfaceWithin_m;  // beyond, distances may be of pieces
   const std::vector<NearPair> near = checker.near(q, kHorizon_m);
   double least_m = kHorizon_m;
   for (const NearPair& pair : near) {
@@ -190,8 +186,8 @@ void expect_the_closest(small::ScaledQuery& checker, const Configuration& q) {
   EXPECT_NEAR(std::max(closest_m, 0.0), std::max(least_m, 0.0), 1e-9);
 }
 
-// Eight states at once, balls first, against the distances of all pairs.
-TEST(Surfaces, DecideWholeStatesAsTheirDistancesDo) {
+// Eight states at once, inner balls first.
+TEST(Surfaces, StateChecksAgreeWithDistances) {
   std::mt19937_64 random(56);
   std::size_t close = 0;
   std::size_t clear = 0;
@@ -236,12 +232,12 @@ TEST(Surfaces, DecideWholeStatesAsTheirDistancesDo) {
   EXPECT_GE(clear, 150U);
 }
 
-// By samples of both, which are never closer than they are.
-TEST(Triangles, AreNeverSaidToBeFartherApartThanTheyAre) {
+// Compares with samples, which are never closer than the triangles.
+TEST(Triangles, DistanceIsNeverOverestimated) {
   std::mt19937_64 random(54);
   double shortfall = 0.0;
   const auto corner = [&] {
-    // Often on a grid: parallel edges, faces in one plane, corners that coincide.
+    // Often on a grid: parallel edges, coplanar faces, coinciding corners.
     const bool round = random() % 2 == 0;
     Eigen::Vector3d p(between(random, -1, 1), between(random, -1, 1), between(random, -1, 1));
     return round ? Eigen::Vector3d((2.0 * p).array().round() / 2.0) : p;

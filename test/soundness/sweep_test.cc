@@ -1,5 +1,5 @@
-// What bodies and surfaces keep however the joints that carry them are off, against the same shapes
-// really moved: nothing said to be kept is ever undercut.
+// Compares claimed separations, for any deviation of the carrying joints, with shapes that really
+// moved.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kRounding_m = 1e-6;  // exact_distance() may be that much too small
+constexpr double kRounding_m = 1e-6;  // exact_distance() may be too small by this much
 
 Vector3d any_vector(std::mt19937_64& random, double size) {
   return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
@@ -38,7 +38,7 @@ Isometry3d any_pose(std::mt19937_64& random, const Vector3d& at) {
   return X;
 }
 
-// Up to seven joints, mostly turning, about axes up to a metre away.
+// Up to seven joints, mostly revolute.
 std::vector<MovingAxis> any_axes(std::mt19937_64& random, double span_max) {
   std::vector<MovingAxis> axes(random() % 8);
   const bool drift = random() % 2 == 0;
@@ -51,8 +51,8 @@ std::vector<MovingAxis> any_axes(std::mt19937_64& random, double span_max) {
   return axes;
 }
 
-// The motion of what the axes carry when each is off by its share of what is loose and all by the
-// last share of their drifts.
+// Returns the motion of a body whose joints deviate by their share of `loose`, and all by the last
+// share of their drifts.
 Isometry3d moved(const std::vector<MovingAxis>& axes, const std::vector<double>& share) {
   Isometry3d E = Isometry3d::Identity();
   for (std::size_t j = 0; j < axes.size(); ++j) {
@@ -95,7 +95,6 @@ std::vector<ConvexShape> any_body(std::mt19937_64& random) {
   return make_convex_shapes(shapes);
 }
 
-// Two bodies somewhere near each other, each carried by joints.
 struct Two {
   ConvexShape a, b;
   Isometry3d X_WA, X_WB;
@@ -137,7 +136,6 @@ std::vector<double> any_share(std::mt19937_64& random, std::size_t joints) {
   return share;
 }
 
-// The smallest distance of many deviations, those downhill among them.
 double closest(const Two& two, std::mt19937_64& random) {
   double closest_m = 10.0;
   for (int i = 0; i < 6; ++i) {
@@ -167,7 +165,7 @@ double closest(const Two& two, std::mt19937_64& random) {
 struct Tally {
   std::size_t claims = 0;
   std::size_t undercut = 0;
-  double loss_m = 0.0;  // closest found less the claim, summed up
+  double loss_m = 0.0;  // sum of (closest distance found - claim)
 };
 Tally attack(std::size_t pairs, double span_max, std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -187,21 +185,20 @@ Tally attack(std::size_t pairs, double span_max, std::uint64_t seed) {
   return tally;
 }
 
-TEST(Sweeps, OfSmallDeviationsAreNeverUndercutAndTight) {
+TEST(Sweeps, AreSoundAndTightForSmallDeviations) {
   const Tally tally = attack(4000, 0.001, 41);
   EXPECT_GE(tally.claims, 2000U);
   EXPECT_EQ(tally.undercut, 0U);
-  // Levers would count some 2.5 mm: half a milliradian at 0.7 m, seven joints.
+  // A bound by levers would lose about 2.5 mm.
   EXPECT_LE(tally.loss_m / static_cast<double>(tally.claims), 0.0001);
 }
 
-TEST(Sweeps, OfLargeDeviationsAreNeverUndercut) {
+TEST(Sweeps, AreSoundForLargeDeviations) {
   EXPECT_GE(attack(4000, 0.05, 42).claims, 1000U);
   EXPECT_GE(attack(8000, 0.3, 43).claims, 200U);
 }
 
-// The solids of the same bodies: triangles and radii, as they stand for pieces of meshes too.
-TEST(Sweeps, OfSurfacesAreNeverUndercut) {
+TEST(Sweeps, AreSoundForSurfaces) {
   std::mt19937_64 random(44);
   std::size_t said = 0;
   for (int i = 0; i < 120; ++i) {

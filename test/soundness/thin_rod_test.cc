@@ -3,8 +3,7 @@
 #include "core/collision/check/motion_checker.h"
 #include "test/collision/small_cell.h"
 
-// T4: two thin rods, each turned about its own base, sweep through one crossing fast, between the
-// samples of the discrete check.
+// Defect T4: two thin rods cross quickly between the samples of the discrete check.
 namespace armloom::soundness {
 namespace {
 
@@ -20,8 +19,8 @@ CellPtr two_rods() {
   return small::shared(std::move(cell));
 }
 
-// The left rod swings past +x from below to above; the right one stands, pointing at the left.
-// The middle of the way is passed `offset` after a multiple of every step of the discrete check.
+// The left rod swings past +x; the right rod rests and points at the left one. The left rod passes
+// the middle `offset` after a multiple of every discrete step.
 Question crossing(const Cell& cell, Duration offset, const CheckMethod& method) {
   const double half = small::kHalfTurn;
   const Motion left{
@@ -30,7 +29,7 @@ Question crossing(const Cell& cell, Duration offset, const CheckMethod& method) 
   return {1, TimePoint{}, {left}, {right}, cell.home(), method};
 }
 
-TEST(ThinRod, CrossedBetweenTwoSamplesIsFoundByCertifiedChecksOnly) {
+TEST(ThinRod, CrossedBetweenSamplesIsFoundByCertifiedChecksOnly) {
   const CellPtr cell = two_rods();
   MotionChecker checker(PlanningScene::build(cell).value());
   const Duration offset = 22ms;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kRounding_m = 1e-6;
 
-// Bounds how far any point of a motion's arm travels from the question's instant on.
+// Bounds how far any point of a motion's arm travels from the question's time on.
 class Odometer {
  public:
   Odometer(const Motion& motion, const std::vector<double>& levers)
@@ -102,7 +102,6 @@ Truth TruthSampler::of(const MovingPair& pair) {
     return one.at(t_s) + two.at(t_s);
   };
   const std::size_t count = samples(pair);
-  // Some of the samples first, so that most of the others need not be looked at.
   double bound_m = kHorizon_m;
   std::size_t looked_at = 0;
   for (std::size_t k = 0; k <= count; k += 100, ++looked_at) {
@@ -116,7 +115,6 @@ Truth TruthSampler::of(const MovingPair& pair) {
     const double distance_m = at(pair, t_s, matters_m + 0.15);
     ++truth.looked_at;
     note(truth, distance_m, t_s, clearance_m);
-    // The first sample at which the arms can be closer than what matters.
     const double room_m = distance_m - matters_m - kRounding_m + travelled(k);
     std::size_t near = k + 1;
     std::size_t far = count + 1;

@@ -8,12 +8,11 @@
 
 namespace armloom::soundness {
 
-// What the check leaves open of random pairs of motions of two Pandas that have to keep
-// kCloseClearance_m only, with all the effort there is (core/coordination/effort.h). Of
-// Coordinated: pairs with a region in which no conflict is proven.
+// Pairs of motions with a clearance of kCloseClearance_m that stay open at the highest effort
+// (core/coordination/effort.h). For Coordinated: with a region in which no conflict is proven.
 struct OpenPair {
   std::size_t pair;
-  double keeps_m;  // with every deviation that was tried, about where it is open
+  double keeps_m;  // smallest distance found near the open states
 };
 struct OpenPairs {
   std::size_t pairs = 0;
@@ -21,10 +20,10 @@ struct OpenPairs {
   std::size_t conflict = 0;
   std::vector<OpenPair> open;
   double evaluations_mean = 0.0;
-  std::uint64_t evaluations_max = 0;  // for all askings of a pair
+  std::uint64_t evaluations_max = 0;  // over all questions about a pair
 };
 inline constexpr double kCloseClearance_m = 0.005;
-inline constexpr double kHardly_m = 0.002;  // what is open keeps less than this above it
+inline constexpr double kHardly_m = 0.002;  // open pairs keep less than the clearance plus this
 [[nodiscard]] OpenPairs find_open(std::size_t pairs, std::uint64_t seed, const CheckMethod& method);
 
 }  // namespace armloom::soundness

@@ -18,7 +18,6 @@ using testing::random_spline;
 using testing::SplineScale;
 using testing::uniform;
 
-// No tolerance beyond the limits, and jerk limits that matter.
 Cell strict_cell() {
   Cell cell = testing::test_cell();
   cell.checking.limit_tolerance = 0.0;
@@ -35,7 +34,7 @@ Eigen::VectorXd random_place(std::mt19937_64& random, const Cell& cell,
   return q;
 }
 
-// The largest share of a limit that the motion uses; jerk by differences of the acceleration.
+// Returns the largest share of a limit that is used; jerk by differences.
 double share_of(const Cell& cell, const Trajectory& line) {
   double share = 0.0;
   const Duration step = line.duration() / 4000;
@@ -54,7 +53,7 @@ double share_of(const Cell& cell, const Trajectory& line) {
   return share;
 }
 
-TEST(JointLine, TakesAsMuchLongerAsTheCellIsSlower) {
+TEST(JointLine, DurationScalesWithTheCellsVelocityFactor) {
   Cell cell = strict_cell();
   const auto& joints = cell.arms[0].joints;
   std::mt19937_64 random(5);
@@ -66,7 +65,7 @@ TEST(JointLine, TakesAsMuchLongerAsTheCellIsSlower) {
   EXPECT_NEAR(to_seconds(slow), 4 * to_seconds(fast), 1e-6);
 }
 
-TEST(JointLine, KeepsEveryLimitAndTakesNoLongerThanOneOfThemNeeds) {
+TEST(JointLine, KeepsAllLimitsAndUsesOneFully) {
   std::mt19937_64 random(11);
   for (int i = 0; i < 60; ++i) {
     SCOPED_TRACE(i);
@@ -86,7 +85,7 @@ TEST(JointLine, KeepsEveryLimitAndTakesNoLongerThanOneOfThemNeeds) {
   }
 }
 
-TEST(JointLine, IsStraightAndAtRestAtBothEndsExactly) {
+TEST(JointLine, IsStraightAndExactlyAtRestAtBothEnds) {
   std::mt19937_64 random(12);
   const Cell cell = strict_cell();
   const std::vector<JointId> joints = cell.arm(ArmId(1)).joints;
@@ -109,7 +108,7 @@ TEST(JointLine, IsStraightAndAtRestAtBothEndsExactly) {
   }
 }
 
-TEST(JointLine, ToWhereItStandsIsAShortRest) {
+TEST(JointLine, ToItsOwnStartIsAShortRest) {
   const Cell cell = strict_cell();
   const std::vector<JointId> joints = cell.arm(ArmId(2)).joints;
   const Eigen::VectorXd here = Eigen::Vector2d(0.3, -0.4);
@@ -118,7 +117,7 @@ TEST(JointLine, ToWhereItStandsIsAShortRest) {
   EXPECT_EQ(line->goal(), here);
 }
 
-TEST(JointLine, IsRefusedAsEveryTrajectoryIs) {
+TEST(JointLine, IsValidatedLikeEveryTrajectory) {
   const Cell cell = strict_cell();
   const std::vector<JointId> joints = cell.arm(ArmId(2)).joints;
   const auto outside = joint_line(cell, joints, Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 3));
@@ -131,13 +130,12 @@ TEST(JointLine, IsRefusedAsEveryTrajectoryIs) {
                std::invalid_argument);
 }
 
-// Slow enough for the limits.
 TrajectoryPtr valid_spline(std::mt19937_64& random, const Cell& cell, bool quintic) {
   const SplineScale slow{.reach = 0.3, .shortest_s = 1.0, .longest_s = 2.0};
   return validate(random_spline(random, slow, quintic), cell).value();
 }
 
-TEST(Retraced, IsWhereItWasAtTheMirroredTimeWithTheVelocityNegated) {
+TEST(Retraced, MirrorsTimeAndNegatesVelocity) {
   std::mt19937_64 random(13);
   const Cell cell = strict_cell();
   for (int i = 0; i < 100; ++i) {
@@ -160,7 +158,7 @@ TEST(Retraced, IsWhereItWasAtTheMirroredTimeWithTheVelocityNegated) {
   }
 }
 
-TEST(Retraced, TwiceIsTheSameMotion) {
+TEST(Retraced, TwiceIsTheOriginalMotion) {
   std::mt19937_64 random(14);
   const Cell cell = strict_cell();
   for (int i = 0; i < 100; ++i) {
@@ -182,7 +180,7 @@ TEST(Retraced, TwiceIsTheSameMotion) {
   }
 }
 
-// What validate() granted the way there, it grants the way back: as waypoints, through all checks.
+// Checks the reversed motion again with validate().
 TEST(Retraced, KeepsEveryLimitOfTheCell) {
   std::mt19937_64 random(15);
   const Cell cell = strict_cell();

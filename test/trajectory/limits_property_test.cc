@@ -14,7 +14,7 @@ namespace {
 using testing::random_spline;
 using testing::uniform;
 
-// Limits of joints pair_a and pair_b with the cell's tolerance of 0.05.
+// Limits of pair_a and pair_b, with the tolerance of 0.05.
 constexpr double kPositionMax = 2.8;
 constexpr double kVelocityMax = 2.0 * 1.05;
 constexpr double kAccelerationMax = 4.0 * 1.05;
@@ -27,7 +27,6 @@ void scale(TrajectoryRequest& request, double factor) {
   }
 }
 
-// The same motion without limits, to look at what validate() would refuse.
 TrajectoryPtr unlimited(const TrajectoryRequest& request, Cell cell) {
   for (Joint& joint : cell.joints) {
     joint.lower = -1e6;
@@ -38,7 +37,6 @@ TrajectoryPtr unlimited(const TrajectoryRequest& request, Cell cell) {
 
 struct Peak {
   double position = 0.0, velocity = 0.0, acceleration = 0.0;
-  // The largest share of a limit that is used.
   [[nodiscard]] double share() const {
     return std::max(
         {position / kPositionMax, velocity / kVelocityMax, acceleration / kAccelerationMax});
@@ -63,11 +61,11 @@ Peak peak_of(const Trajectory& trajectory, Duration step) {
   return peak;
 }
 
-constexpr Duration kCoarse = std::chrono::milliseconds(2);  // enough to know the scale
+constexpr Duration kCoarse = std::chrono::milliseconds(2);  // sufficient for scaling
 constexpr Duration kDense = std::chrono::microseconds(100);
 
-// Splines are scaled so that their peaks lie closely below, closely above, and far from a limit.
-TEST(LimitsProperty, DenseSamplingAndValidationAgreeOn500RandomSplines) {
+// Peaks are scaled to just below, just above, or far from a limit.
+TEST(LimitsProperty, ValidationAgreesWithDenseSampling) {
   const Cell cell = testing::test_cell();
   std::mt19937_64 random(20240611);
   int accepted = 0;
@@ -98,8 +96,8 @@ TEST(LimitsProperty, DenseSamplingAndValidationAgreeOn500RandomSplines) {
   EXPECT_GE(refused, 250);
 }
 
-// What is refused is really reached, where the sentence says: the value is no mere bound.
-TEST(LimitsProperty, ARefusalNamesAValueThatTheMotionReaches) {
+// The reported value must be reached at the reported place.
+TEST(LimitsProperty, ReportedValueIsReachedByTheMotion) {
   const Cell cell = testing::test_cell();
   std::mt19937_64 random(7);
   int only_between = 0;
@@ -113,7 +111,7 @@ TEST(LimitsProperty, ARefusalNamesAValueThatTheMotionReaches) {
     const auto result = validate(request, cell);
     ASSERT_FALSE(result);
     double share = 0.0;
-    bool at_waypoint = false;  // then the segments beside it are not looked at for their worst
+    bool at_waypoint = false;  // then adjacent segments are not searched for their worst value
     for (const Problem& problem : result.error()) {
       const double value = std::abs(std::get<double>(problem.value));
       const double limit = problem.slug == "position-limit"   ? kPositionMax

@@ -6,8 +6,8 @@
 #include "core/trajectory/validate.h"
 #include "test/trajectory/test_cell.h"
 
-// Rest and limits, at and between waypoints. Joints pair_a and pair_b may go to 2.8 rad, 2 rad/s
-// and 4 rad/s^2; the tolerance of 0.05 makes that 2.1 rad/s and 4.2 rad/s^2.
+// Limits of pair_a and pair_b: 2.8 rad, 2 rad/s and 4 rad/s^2; with the tolerance of 0.05, 2.1
+// rad/s and 4.2 rad/s^2.
 namespace armloom {
 namespace {
 
@@ -20,7 +20,6 @@ TrajectoryRequest pair_request(const std::vector<Knot>& knots) {
   return request_of({"pair_a", "pair_b"}, knots);
 }
 
-// The same with accelerations, all zero.
 TrajectoryRequest quintic_request(const std::vector<Knot>& knots) {
   TrajectoryRequest request = pair_request(knots);
   for (WaypointRequest& point : request.points) point.accelerations = {0.0, 0.0};
@@ -34,7 +33,7 @@ Problems refused(const TrajectoryRequest& request, const Cell& cell = test_cell(
 }
 bool accepted(const TrajectoryRequest& request) { return refused(request).empty(); }
 
-// Both joints of pair move alike: two problems that differ in the joint's name. Checks the first.
+// Expects the same problem for both joints, which move alike; checks the first.
 void expect_between(const TrajectoryRequest& request, const std::string& slug,
                     const std::string& pointer, double value, const std::string& detail) {
   const Problems problems = refused(request);
@@ -47,7 +46,7 @@ void expect_between(const TrajectoryRequest& request, const std::string& slug,
   EXPECT_NEAR(std::get<double>(problems[0].value), value, 1e-8);
 }
 
-TEST(Limits, AWaypointTooFastIsNamedAsTheContractSays) {
+TEST(Limits, TooFastWaypointIsReportedWithPlaceAndValue) {
   TrajectoryRequest request = quiet_panda_request("left");
   request.points[14].velocities[3] = 3.41;
   const Problems problems = refused(request);
@@ -56,13 +55,13 @@ TEST(Limits, AWaypointTooFastIsNamedAsTheContractSays) {
   EXPECT_EQ(problems[0].pointer, "/points/14/velocities/3");
   EXPECT_EQ(problems[0].value, decltype(Problem::value){3.41});
   EXPECT_EQ(problems[0].detail, "waypoint 14, left_panda_joint4: 3.41 rad/s exceeds 2.175");
-  // What is left are the accelerations of the segments on both sides; the speed is said once.
+  // The remaining problems are accelerations of the adjacent segments.
   for (std::size_t i = 1; i < problems.size(); ++i) {
     EXPECT_EQ(problems[i].slug, "acceleration-limit");
   }
 }
 
-TEST(Limits, PositionsAtWaypointsMayBeOutByAMicroradianAndNoMore) {
+TEST(Limits, PositionsMayExceedALimitByAMicroradian) {
   EXPECT_TRUE(accepted(pair_request({{0, 0, 0}, {4, 2.8 + 0.9e-6, 0}})));
   const Problems problems = refused(pair_request({{0, 0, 0}, {4, 2.8 + 1.1e-6, 0}}));
   ASSERT_EQ(problems.size(), 2u);
@@ -73,11 +72,11 @@ TEST(Limits, PositionsAtWaypointsMayBeOutByAMicroradianAndNoMore) {
             "waypoint 0, pair_a: -2.9 rad is below -2.8");
 }
 
-TEST(Limits, VelocitiesAndAccelerationsMayOvershootByTheToleranceAndNoMore) {
-  // Rest to rest as a cubic: largest speed 1.5 D / T in the middle.
+TEST(Limits, VelocityAndAccelerationMayExceedALimitByTheTolerance) {
+  // Largest speed 1.5 D / T, in the middle.
   EXPECT_TRUE(accepted(pair_request({{0, -2, 0}, {3, -2 + 4.2, 0}})));
   EXPECT_FALSE(accepted(pair_request({{0, -2, 0}, {3, -2 + 4.2 + 1e-6, 0}})));
-  // Largest acceleration 6 D / T^2 at both ends.
+  // Largest acceleration 6 D / T^2, at both ends.
   EXPECT_TRUE(accepted(pair_request({{0, 0, 0}, {1, 0.7, 0}})));
   EXPECT_FALSE(accepted(pair_request({{0, 0, 0}, {1, 0.7 + 1e-6, 0}})));
 
@@ -97,7 +96,7 @@ TEST(Limits, GivenAccelerationsAreCheckedAtTheirWaypoint) {
   EXPECT_EQ(problems[0].detail, "waypoint 1, pair_b: -4.5 rad/s^2 exceeds 4");
 }
 
-TEST(Limits, ACubicTooFastOnlyBetweenWaypointsIsFound) {
+TEST(Limits, FindsExcessVelocityInsideACubic) {
   expect_between(pair_request({{0, -2.2, 0}, {1, -2.2, 0}, {4, 2.3, 0}, {5, 2.3, 0}}),
                  "velocity-limit", "/points/2", 2.25,
                  "between waypoints 1 and 2 (t = 2.5 s), pair_a: 2.25 rad/s exceeds 2");
@@ -105,13 +104,12 @@ TEST(Limits, ACubicTooFastOnlyBetweenWaypointsIsFound) {
                  "between waypoints 0 and 1 (t = 1.5 s), pair_a: -2.25 rad/s exceeds 2");
 }
 
-TEST(Limits, ACubicThatSwingsOutOnlyBetweenWaypointsIsFound) {
-  // From 2.79 rad at 0.2 rad/s to 2.79 rad at -0.2 rad/s in 1 s: 0.05 rad further in between.
+TEST(Limits, FindsExcessPositionInsideACubic) {
+  // From 0.2 rad/s to -0.2 rad/s in 1 s: overshoots 2.79 rad by 0.05 rad.
   const TrajectoryRequest request =
       pair_request({{0, 1.5, 0}, {3, 2.79, 0.2}, {4, 2.79, -0.2}, {7, 1.5, 0}});
   expect_between(request, "position-limit", "/points/2", 2.84,
                  "between waypoints 1 and 2 (t = 3.5 s), pair_a: 2.84 rad exceeds 2.8");
-  // A swing of 0.00009 is let go, one of 0.00011 is not.
   const auto swing = [](double rad) {
     return pair_request({{0, 2, 0}, {3, 2.8, 4 * rad}, {4, 2.8, -4 * rad}, {7, 2, 0}});
   };
@@ -119,8 +117,8 @@ TEST(Limits, ACubicThatSwingsOutOnlyBetweenWaypointsIsFound) {
   EXPECT_FALSE(accepted(swing(0.00011)));
 }
 
-TEST(Limits, ACubicsAccelerationIsCheckedOnBothSidesOfAWaypoint) {
-  // 6 D / T^2 = 4.5 where the second segment begins and -4.5 where it ends; 0 in the others.
+TEST(Limits, ChecksAccelerationOnBothSidesOfAWaypoint) {
+  // 6 D / T^2 = 4.5 at the start of the second segment, -4.5 at its end.
   const Problems problems =
       refused(pair_request({{0, 0, 0}, {1, 0, 0}, {2, 0.75, 0}, {3, 0.75, 0}}));
   ASSERT_EQ(problems.size(), 2u);
@@ -130,18 +128,18 @@ TEST(Limits, ACubicsAccelerationIsCheckedOnBothSidesOfAWaypoint) {
             "between waypoints 1 and 2 (t = 1 s), pair_a: 4.5 rad/s^2 exceeds 4");
 }
 
-TEST(Limits, AQuinticBeyondALimitOnlyBetweenWaypointsIsFound) {
-  // Minimum jerk: largest speed 1.875 D / T in the middle,
+TEST(Limits, FindsExcessInsideAQuintic) {
+  // Minimum jerk: largest speed 1.875 D / T, in the middle.
   expect_between(quintic_request({{0, -1.5, 0}, {3, 2.0, 0}}), "velocity-limit", "/points/1",
                  2.1875, "between waypoints 0 and 1 (t = 1.5 s), pair_a: 2.1875 rad/s exceeds 2");
-  // largest acceleration 10 / sqrt(3) D / T^2 at (1/2 -+ sqrt(3)/6) T.
+  // Largest acceleration 10 / sqrt(3) D / T^2 at (1/2 -+ sqrt(3)/6) T.
   const Problems problems = refused(quintic_request({{0, 0, 0}, {1, 0.75, 0}}));
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_EQ(problems[0].slug, "acceleration-limit");
   EXPECT_NEAR(std::abs(std::get<double>(problems[0].value)), 7.5 / std::sqrt(3.0), 1e-8);
 }
 
-TEST(Limits, ASpeedThatIsBrokenAtAWaypointIsNotSaidAgainForItsSegments) {
+TEST(Limits, ExcessAtAWaypointIsNotRepeatedForItsSegments) {
   const TrajectoryRequest request =
       pair_request({{0, -2.5, 0}, {1.5, -1, 2.3}, {3, 2, 0.5}, {5, 2.5, 0}});
   std::size_t speeds = 0;
@@ -153,7 +151,7 @@ TEST(Limits, ASpeedThatIsBrokenAtAWaypointIsNotSaidAgainForItsSegments) {
   EXPECT_EQ(speeds, 2u);
 }
 
-TEST(Limits, SpeaksOfMetresForPrismaticJointsAndLeavesContinuousOnesUnbounded) {
+TEST(Limits, UsesMetersForPrismaticJointsAndNoBoundsForContinuousJoints) {
   const Problems problems = refused(request_of({"lift"}, {{0, 0, 0}, {1, 0.5, 0}, {9, 1.5, 0}}));
   ASSERT_EQ(problems.size(), 3u);
   EXPECT_EQ(problems[0].detail,
@@ -164,7 +162,7 @@ TEST(Limits, SpeaksOfMetresForPrismaticJointsAndLeavesContinuousOnesUnbounded) {
   EXPECT_FALSE(accepted(request_of({"wheel"}, {{0, 0, 0}, {10, 100, 0}})));
 }
 
-TEST(Limits, EndsThatAreRoundedToRestBecomeExactlyRest) {
+TEST(Limits, EndsNearlyAtRestBecomeExactlyAtRest) {
   const auto result =
       validate(pair_request({{0, 0, 9e-5}, {1, 0.1, 0.1}, {2, 0.2, -9e-5}}), test_cell());
   ASSERT_TRUE(result);
@@ -175,7 +173,7 @@ TEST(Limits, EndsThatAreRoundedToRestBecomeExactlyRest) {
   EXPECT_LT(state.velocity.cwiseAbs().maxCoeff(), 1e-8);
 }
 
-TEST(Limits, EndsInMotionAreRefused) {
+TEST(Limits, EndsInMotionAreRejected) {
   Problems problems = refused(pair_request({{0, 0, 2e-4}, {1, 0.1, 0}}));
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_EQ(problems[0].slug, "not-at-rest");
@@ -190,7 +188,7 @@ TEST(Limits, EndsInMotionAreRefused) {
   EXPECT_EQ(problems[1].pointer, "/points/1/velocities/1");
 }
 
-TEST(Limits, OverflowIsRefusedAndNeverBecomesNaN) {
+TEST(Limits, OverflowIsRejected) {
   const Problems problems = refused(request_of({"wheel"}, {{0, -1.7e308, 0}, {1, 1.7e308, 0}}));
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].slug, "not-finite");
@@ -200,7 +198,7 @@ TEST(Limits, OverflowIsRefusedAndNeverBecomesNaN) {
   EXPECT_FALSE(accepted(request_of({"wheel"}, {{0, 0, 0}, {1e-6, 1e300, 0}})));
 }
 
-TEST(Limits, StopsAtTheBoundOfProblems) {
+TEST(Limits, ReportsAtMostTheMaximumOfProblems) {
   TrajectoryRequest request = quiet_panda_request("left", 100);
   for (WaypointRequest& point : request.points) point.positions[1] = 9.0;
   const Problems problems = refused(request);

@@ -22,7 +22,7 @@ Polynomial random_polynomial(std::mt19937_64& random) {
   return p;
 }
 
-TEST(Polynomial, CubicMeetsPositionAndVelocityAtBothEnds) {
+TEST(Polynomial, CubicMatchesPositionAndVelocityAtBothEnds) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 200; ++i) {
     const KnotState a{uniform(random, -3, 3), uniform(random, -2, 2)};
@@ -38,7 +38,7 @@ TEST(Polynomial, CubicMeetsPositionAndVelocityAtBothEnds) {
   }
 }
 
-TEST(Polynomial, QuinticMeetsAccelerationTooAtBothEnds) {
+TEST(Polynomial, QuinticMatchesAccelerationAtBothEnds) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 200; ++i) {
     const KnotState a{uniform(random, -3, 3), uniform(random, -2, 2), uniform(random, -5, 5)};
@@ -86,33 +86,32 @@ TEST(Polynomial, BoundsTightenWithTheSquareOfTheInterval) {
   EXPECT_NEAR(bounds(p, 0.7, 0.7).upper, evaluate(p, 0.7), 1e-12);
 }
 
-TEST(Polynomial, FindsTheWorstPlaceAndItsValue) {
-  // 1 - (t - 0.3)^2: the top is inside, 1 at 0.3.
+TEST(Polynomial, WorstOutsideReturnsTimeAndValue) {
+  // 1 - (t - 0.3)^2: the maximum is inside, 1 at 0.3.
   const Polynomial hill = {0.91, 0.6, -1.0, 0.0, 0.0, 0.0};
   EXPECT_FALSE(worst_outside(hill, 1.0, {-kInfinity, 1.0}));
   const auto above = worst_outside(hill, 1.0, {-kInfinity, 0.95});
   ASSERT_TRUE(above);
   EXPECT_NEAR(above->t_s, 0.3, 1e-4);
   EXPECT_NEAR(above->value, 1.0, 2e-9);
-  // Its lowest place is the far end.
+  // The minimum is at the far end.
   const auto below = worst_outside(hill, 1.0, {0.8, kInfinity});
   ASSERT_TRUE(below);
   EXPECT_DOUBLE_EQ(below->t_s, 1.0);
   EXPECT_NEAR(below->value, 0.51, 1e-12);
-  // Left on both sides: the larger excess is the answer.
+  // Exceeds both limits: the larger excess counts.
   EXPECT_NEAR(worst_outside(hill, 1.0, {0.6, 0.9})->value, 1.0, 2e-9);
   EXPECT_NEAR(worst_outside(hill, 1.0, {0.7, 0.9})->value, 0.51, 1e-12);
 }
 
-TEST(Polynomial, DecidesAgainstALimitThatIsTouchedExactly) {
+TEST(Polynomial, AcceptsALimitThatIsTouchedExactly) {
   const Polynomial constant = {2.175, 0.0, 0.0, 0.0, 0.0, 0.0};
   EXPECT_FALSE(worst_outside(constant, 3.0, {-2.175, 2.175}));
-  // Its rounding noise is no excess either, and a limit that it breaks by more is.
   EXPECT_FALSE(worst_outside({2.1750000000000003, 0.0, 0.0, 0.0, 0.0, 0.0}, 3.0, {-2.175, 2.175}));
   EXPECT_TRUE(worst_outside(constant, 3.0, {-2.175, 2.17499}));
 }
 
-TEST(Polynomial, AgreesWithDenseSamplesOnWhetherALimitIsBroken) {
+TEST(Polynomial, WorstOutsideAgreesWithDenseSamples) {
   std::mt19937_64 random(4);
   int broken = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -127,7 +126,6 @@ TEST(Polynomial, AgreesWithDenseSamplesOnWhetherALimitIsBroken) {
     }
     if (!found) continue;
     ++broken;
-    // What it reports is reached there, and nothing sampled is worse.
     EXPECT_GT(std::abs(found->value), limit);
     EXPECT_NEAR(evaluate(p, found->t_s), found->value, 1e-9 * std::abs(found->value)) << i;
     EXPECT_GE(std::abs(found->value), worst - 1e-8 * worst) << i;
@@ -136,15 +134,15 @@ TEST(Polynomial, AgreesWithDenseSamplesOnWhetherALimitIsBroken) {
   EXPECT_LT(broken, 1600);
 }
 
-TEST(Polynomial, EndsItsSearchOnHugeFlatAndWildPolynomials) {
+TEST(Polynomial, TerminatesOnHugeAndFlatPolynomials) {
   EXPECT_TRUE(worst_outside({-1e20, 4e20, -4e20, 0.0, 0.0, 0.0}, 1.0, {-1.0, 1.0}));
   EXPECT_FALSE(worst_outside({1.0, 0.0, 0.0, 0.0, 0.0, 0.0}, 0.0, {-1.0, 1.0}));
-  // (2t - 1)^4, negated and lifted to touch the limit in a flat top.
+  // (2t - 1)^4, negated and lifted, touches the limit with a flat maximum.
   EXPECT_FALSE(worst_outside({0.0, 8.0, -24.0, 32.0, -16.0, 0.0}, 1.0, {-1.0, 1.0}));
   EXPECT_TRUE(worst_outside({0.0, 8.0, -24.0, 32.0, -16.0, 0.0}, 1.0, {-1.0, 1.0 - 1e-6}));
 }
 
-TEST(Polynomial, MagnitudeTellsOverflow) {
+TEST(Polynomial, MagnitudeDetectsOverflow) {
   EXPECT_FALSE(std::isfinite(magnitude(cubic({-1.7e308}, {1.7e308}, 1e-6), 1e-6)));
   EXPECT_FALSE(std::isfinite(magnitude(quintic({-1.7e308}, {1.7e308}, 1e-6), 1e-6)));
   EXPECT_DOUBLE_EQ(magnitude({-1.0, 2.0, -3.0, 0.0, 0.0, 0.0}, 2.0), 17.0);

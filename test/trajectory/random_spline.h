@@ -11,12 +11,11 @@ inline double uniform(std::mt19937_64& random, double from, double to) {
 }
 
 struct SplineScale {
-  double reach;                  // of positions, velocities and accelerations, to either side
+  double reach;                  // of positions, velocities, accelerations
   double shortest_s, longest_s;  // of a segment
 };
 
-// Of the arm "pair": one to five segments, cubic or quintic, as clients send them; at rest at both
-// ends, but for the accelerations.
+// Returns one to five cubic or quintic segments of the arm "pair", with zero velocity at both ends.
 inline TrajectoryRequest random_spline(std::mt19937_64& random, const SplineScale& scale,
                                        bool quintic) {
   TrajectoryRequest request{{"pair_a", "pair_b"}, {}};

@@ -7,7 +7,7 @@
 #include "core/trajectory/validate.h"
 #include "test/trajectory/test_cell.h"
 
-// Names and shape: every refusal with its slug, pointer and value (T12 among them).
+// Every rejection with its slug, pointer and value (defect T12 among them).
 namespace armloom {
 namespace {
 
@@ -25,7 +25,6 @@ Problems refused(const TrajectoryRequest& request) {
   return result.error();
 }
 
-// The only problem of a request.
 void expect_only(const TrajectoryRequest& request, const std::string& slug,
                  const std::string& pointer, const Value& value,
                  ProblemKind kind = ProblemKind::invalid) {
@@ -42,7 +41,7 @@ TrajectoryRequest pair_request() {
   return request_of({"pair_a", "pair_b"}, {{0.0, 0.0, 0.0}, {1.0, 0.2, 0.1}, {2.0, 0.3, 0.0}});
 }
 
-TEST(Validate, AcceptsAQuietMotionAndKeepsTheOrderOfItsJoints) {
+TEST(Validate, KeepsTheJointOrderOfTheRequest) {
   TrajectoryRequest request = quiet_panda_request("right");
   std::swap(request.joint_names[0], request.joint_names[2]);
   for (WaypointRequest& point : request.points) {
@@ -60,14 +59,14 @@ TEST(Validate, AcceptsAQuietMotionAndKeepsTheOrderOfItsJoints) {
   }
 }
 
-TEST(Validate, MakesOneMotionOfJointsOfSeveralArmsInAnyOrder) {
+TEST(Validate, AcceptsJointsOfSeveralArmsInAnyOrder) {
   const auto result = validate(
       request_of({"wheel", "pair_b", "lift", "pair_a"}, {{0, 0.1, 0}, {1, 0.2, 0}}), test_cell());
   ASSERT_TRUE(result);
   EXPECT_EQ((*result)->arms(), (std::vector<ArmId>{ArmId(2), ArmId(3), ArmId(4)}));
 }
 
-TEST(Validate, TakesGripperJointsOrLeavesThemOut) {
+TEST(Validate, AcceptsOptionalGripperJoints) {
   TrajectoryRequest request = quiet_panda_request("left");
   request.joint_names.push_back("left_panda_finger_joint1");
   for (WaypointRequest& point : request.points) {
@@ -80,7 +79,7 @@ TEST(Validate, TakesGripperJointsOrLeavesThemOut) {
   EXPECT_EQ((*result)->arms(), std::vector<ArmId>{ArmId(0)});
 }
 
-TEST(Validate, RefusesNamesThatItCannotMove) {
+TEST(Validate, RejectsUnknownUnownedAndDuplicateJoints) {
   TrajectoryRequest request = pair_request();
   request.joint_names = {"pair_a", "pair_b", "nobody"};
   for (WaypointRequest& point : request.points) {
@@ -94,15 +93,15 @@ TEST(Validate, RefusesNamesThatItCannotMove) {
   expect_only(request, "duplicate-joint", "/joint_names/2", "pair_a");
 }
 
-TEST(Validate, RefusesAnArmThatIsNotWhole) {
+TEST(Validate, RejectsIncompleteArms) {
   expect_only(request_of({"pair_b"}, {{0, 0, 0}, {1, 0.1, 0}}), "missing-joint", "/joint_names",
               1.0);
-  // A gripper joint alone touches its arm too.
+  // A gripper joint alone requires its arm's joints too.
   EXPECT_EQ(refused(request_of({"left_panda_finger_joint1"}, {{0, 0, 0}, {1, 0.01, 0}})).size(),
             7u);
 }
 
-TEST(Validate, RefusesNoJointsNoWaypointsAndOneWaypoint) {
+TEST(Validate, RejectsEmptyRequestsAndSingleWaypoints) {
   expect_only(request_of({"pair_a", "pair_b"}, {}), "empty-trajectory", "/points", 0.0);
   expect_only(request_of({"pair_a", "pair_b"}, {{0, 0, 0}}), "too-few-points", "/points", 1.0);
   const Problems problems = refused({});
@@ -112,7 +111,7 @@ TEST(Validate, RefusesNoJointsNoWaypointsAndOneWaypoint) {
   EXPECT_EQ(problems[1].pointer, "/points");
 }
 
-TEST(Validate, RefusesMoreWaypointsThanTheBoundAndNotTheBoundItself) {
+TEST(Validate, RejectsMoreThanTheMaximumOfWaypoints) {
   TrajectoryRequest request = pair_request();
   request.points.clear();
   for (std::size_t k = 0; k < kWaypointsMax; ++k) {
@@ -123,7 +122,7 @@ TEST(Validate, RefusesMoreWaypointsThanTheBoundAndNotTheBoundItself) {
   expect_only(request, "too-many-points", "/points", 10'001.0, ProblemKind::too_large);
 }
 
-TEST(Validate, RefusesRowsOfTheWrongSize) {
+TEST(Validate, RejectsRowsOfTheWrongSize) {
   TrajectoryRequest request = pair_request();
   request.points[1].positions.push_back(0.0);
   expect_only(request, "size-mismatch", "/points/1/positions", 3.0);
@@ -139,7 +138,7 @@ TEST(Validate, RefusesRowsOfTheWrongSize) {
   expect_only(request, "size-mismatch", "/points/1/accelerations", 4.0);
 }
 
-TEST(Validate, RefusesMissingVelocitiesAndPartialAccelerations) {
+TEST(Validate, RejectsMissingVelocitiesAndPartialAccelerations) {
   TrajectoryRequest request = pair_request();
   request.points[1].velocities.clear();
   expect_only(request, "no-velocities", "/points/1", Value{});
@@ -154,7 +153,7 @@ TEST(Validate, RefusesMissingVelocitiesAndPartialAccelerations) {
   EXPECT_TRUE(validate(request, test_cell()));
 }
 
-TEST(Validate, RefusesWhatIsNoFiniteNumberAndNeverSaysNaNAsANumber) {
+TEST(Validate, RejectsNonFiniteNumbers) {
   TrajectoryRequest request = pair_request();
   request.points[1].positions[1] = kNaN;
   expect_only(request, "not-finite", "/points/1/positions/1", "nan");
@@ -172,7 +171,7 @@ TEST(Validate, RefusesWhatIsNoFiniteNumberAndNeverSaysNaNAsANumber) {
   expect_only(request, "not-finite", "/points/1/time_from_start", "inf");
 }
 
-TEST(Validate, RefusesTimesThatDoNotBeginAtZero) {
+TEST(Validate, RejectsTimesThatDoNotStartAtZero) {
   TrajectoryRequest request = pair_request();
   request.points[0].time_from_start_s = 0.25;
   expect_only(request, "first-time-not-zero", "/points/0/time_from_start", 0.25);
@@ -180,13 +179,13 @@ TEST(Validate, RefusesTimesThatDoNotBeginAtZero) {
   expect_only(request, "negative-time", "/points/0/time_from_start", -0.25);
   request.points[0].time_from_start_s = -1e300;
   expect_only(request, "negative-time", "/points/0/time_from_start", -1e300);
-  request.points[0].time_from_start_s = 1e-10;  // a rounding, less than half a nanosecond
+  request.points[0].time_from_start_s = 1e-10;  // rounding error below half a nanosecond
   EXPECT_TRUE(validate(request, test_cell()));
   request.points[0].time_from_start_s = -0.0;
   EXPECT_TRUE(validate(request, test_cell()));
 }
 
-TEST(Validate, RefusesEqualFallingAndTooCloseTimes) {
+TEST(Validate, RejectsEqualDecreasingAndTooCloseTimes) {
   TrajectoryRequest request = pair_request();
   request.points[1].time_from_start_s = 0.0;
   expect_only(request, "time-not-increasing", "/points/1/time_from_start", 0.0);
@@ -199,7 +198,7 @@ TEST(Validate, RefusesEqualFallingAndTooCloseTimes) {
               HasSubstr("is 9e-07 s after waypoint 1; at least 1e-06 s is needed"));
 }
 
-TEST(Validate, HandlesTheShortestSegmentExactly) {
+TEST(Validate, SamplesTheShortestSegmentExactly) {
   const auto result = validate(
       request_of({"pair_a", "pair_b"}, {{0, 0.5, 0}, {kSegmentMin_s, 0.5, 0}}), test_cell());
   ASSERT_TRUE(result);
@@ -211,7 +210,7 @@ TEST(Validate, HandlesTheShortestSegmentExactly) {
   }
 }
 
-TEST(Validate, RefusesMotionsLongerThanTheBound) {
+TEST(Validate, RejectsMotionsLongerThanTheMaximum) {
   TrajectoryRequest request = pair_request();
   request.points[1].velocities = {0.0, 0.0};
   request.points[2].time_from_start_s = kDurationMax_s;
@@ -222,7 +221,7 @@ TEST(Validate, RefusesMotionsLongerThanTheBound) {
   expect_only(request, "too-long", "/points/2/time_from_start", 1e300);
 }
 
-TEST(Validate, SaysWhyAJointHasNoValueOfItsOwn) {
+TEST(Validate, ReportsWhyAJointHasNoValueOfItsOwn) {
   Cell cell = test_cell();
   cell.robots.emplace_back().joints_without_value = {{"torso", "is held at 0.3"},
                                                      {"finger", "follows thumb"}};
@@ -236,7 +235,7 @@ TEST(Validate, SaysWhyAJointHasNoValueOfItsOwn) {
   EXPECT_EQ(why("finger"), "joint finger follows thumb, and has no value of its own: leave it out");
 }
 
-TEST(Validate, ReturnsAllProblemsOfNamesAndShapeTogetherUpToTheBound) {
+TEST(Validate, ReturnsAllProblemsUpToTheMaximum) {
   TrajectoryRequest request = pair_request();
   request.joint_names[1] = "pair_x";
   request.points[1].positions.pop_back();

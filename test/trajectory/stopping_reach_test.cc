@@ -8,8 +8,7 @@
 #include "core/trajectory/validate.h"
 #include "test/trajectory/test_cell.h"
 
-// How far a motion still gets when it brakes, against braking step by step from everywhere on it.
-// The joints of `pair` brake with 8 rad/s^2.
+// Compares stopping_reach_s() with simulated brakes. The joints of `pair` brake with 8 rad/s^2.
 namespace armloom {
 namespace {
 
@@ -25,7 +24,7 @@ TrajectoryPtr motion(const Cell& cell, const std::vector<Knot>& knots, bool quin
   return validate(request, cell).value();
 }
 
-// |q' s'' + q'' r^2| <= brake at every step of a hundredth of a millisecond.
+// Keeps |q' s'' + q'' r^2| <= brake at every step of 0.01 ms.
 double braked_from(const Trajectory& trajectory, double at_s, double brake) {
   constexpr double kStep_s = 1e-5;
   JointState state;
@@ -54,7 +53,7 @@ double longest_brake(const Trajectory& trajectory, double brake) {
   return longest_s;
 }
 
-TEST(StoppingReach, IsNoLessThanAnyBrakeTakesAndLittleMore) {
+TEST(StoppingReach, BoundsEverySimulatedBrakeTightly) {
   const Cell cell = test_cell();
   const std::vector<std::vector<Knot>> ways = {
       {{0.0, -1.2, 0.0}, {2.4, 1.2, 0.0}},                  // one long segment

@@ -11,7 +11,6 @@
 #include "core/model/cell.h"
 #include "core/trajectory/validate.h"
 
-// A cell built by hand, so that these tests need no robot files.
 namespace armloom::testing {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -29,7 +28,7 @@ inline JointId add_joint(Cell& cell, const std::string& name, std::optional<ArmI
   return JointId(static_cast<std::uint32_t>(cell.joints.size() - 1));
 }
 
-// Seven joints with a Panda's limits (acceleration as in the cell of the scenario) and one finger.
+// Adds seven joints with a Panda's limits and one finger.
 inline void add_panda(Cell& cell, const std::string& name) {
   const Limits panda[] = {{-2.8973, 2.8973, 2.175}, {-1.7628, 1.7628, 2.175},
                           {-2.8973, 2.8973, 2.175}, {-3.0718, -0.0698, 2.175},
@@ -46,7 +45,7 @@ inline void add_panda(Cell& cell, const std::string& name) {
   cell.arms.push_back(arm);
 }
 
-// One arm with symmetric limits: 2.8 rad, 2 rad/s, 4 rad/s^2.
+// Adds an arm with symmetric limits: 2.8 rad, 2 rad/s, 4 rad/s^2.
 inline void add_pair_arm(Cell& cell) {
   const ArmId id(static_cast<std::uint32_t>(cell.arms.size()));
   Arm arm{"pair", RobotId(0), "pair", {}, {}, {}, Eigen::VectorXd::Zero(2), {}};
@@ -83,8 +82,8 @@ inline std::vector<std::string> panda_joint_names(const std::string& arm) {
   return names;
 }
 
-// A quiet motion of `count` waypoints, 0.1 s apart, within every limit and without accelerations: a
-// Panda at its scenario's home, all joints there and back by up to 0.05 rad.
+// Returns a valid motion of a Panda near home: `count` waypoints, 0.1 s apart, without
+// accelerations; all joints move up to 0.05 rad and back.
 inline TrajectoryRequest quiet_panda_request(const std::string& arm, std::size_t count = 20) {
   const std::vector<double> home = {0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785};
   TrajectoryRequest request{panda_joint_names(arm), {}};
@@ -104,7 +103,6 @@ inline TrajectoryRequest quiet_panda_request(const std::string& arm, std::size_t
   return request;
 }
 
-// Waypoints of joints `names`, all joints alike: {time, position, velocity}.
 struct Knot {
   double time_s;
   double position;

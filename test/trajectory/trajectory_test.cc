@@ -15,8 +15,8 @@ namespace {
 using namespace std::chrono_literals;
 using testing::test_cell;
 
-// The interpolation that ROS's joint_trajectory_controller documents, written independently of
-// core/trajectory: Hermite basis functions of u = t / T, for p and its first two derivatives.
+// The interpolation of ROS's joint_trajectory_controller, written independently: Hermite basis
+// functions of u = t / T, with two derivatives.
 struct Reference {
   double position, velocity, acceleration;
 };
@@ -59,7 +59,6 @@ Reference hermite_quintic(const WaypointRequest& a, const WaypointRequest& b, st
   return r;
 }
 
-// Four waypoints at uneven times, uneven in both joints of "pair".
 TrajectoryRequest uneven_request(bool with_accelerations) {
   TrajectoryRequest request{{"pair_a", "pair_b"},
                             {{{0.0, 1.0}, {0.0, 0.0}, {0.3, -0.2}, 0.0},
@@ -78,7 +77,7 @@ TrajectoryPtr accepted(const TrajectoryRequest& request) {
   return *result;
 }
 
-// Largest difference to the reference over 1000 instants of each segment.
+// Largest difference over 1000 instants of each segment.
 Reference largest_difference(const TrajectoryRequest& request, bool quintic) {
   const TrajectoryPtr trajectory = accepted(request);
   Reference worst{0.0, 0.0, 0.0};
@@ -106,14 +105,14 @@ Reference largest_difference(const TrajectoryRequest& request, bool quintic) {
   return worst;
 }
 
-TEST(Trajectory, InterpolatesAsTheCubicOfRosWithoutAccelerations) {
+TEST(Trajectory, UsesRosCubicsWithoutAccelerations) {
   const Reference worst = largest_difference(uneven_request(false), false);
   EXPECT_LT(worst.position, 1e-13);
   EXPECT_LT(worst.velocity, 1e-12);
   EXPECT_LT(worst.acceleration, 1e-11);
 }
 
-TEST(Trajectory, InterpolatesAsTheQuinticOfRosWithAccelerations) {
+TEST(Trajectory, UsesRosQuinticsWithAccelerations) {
   const Reference worst = largest_difference(uneven_request(true), true);
   EXPECT_LT(worst.position, 1e-13);
   EXPECT_LT(worst.velocity, 1e-12);
@@ -132,7 +131,7 @@ TEST(Trajectory, PassesThroughEveryWaypointFromBothSides) {
         const auto row = static_cast<Eigen::Index>(j);
         EXPECT_NEAR(state.position[row], point.positions[j], 2e-9);
         EXPECT_NEAR(state.velocity[row], point.velocities[j], 2e-9);
-        const bool at_rest =  // outside of the motion nothing accelerates
+        const bool at_rest =  // there is no acceleration outside of the motion
             (k == 0 && offset < 0ns) || (k + 1 == request.points.size() && offset >= 0ns);
         EXPECT_NEAR(state.acceleration[row], at_rest ? 0.0 : point.accelerations[j], 2e-8);
       }
@@ -156,7 +155,7 @@ TEST(Trajectory, DerivativesAgreeWithFiniteDifferences) {
   }
 }
 
-TEST(Trajectory, RestsAtItsStartBeforeAndAtItsGoalAfter) {
+TEST(Trajectory, RestsBeforeItsStartAndAfterItsEnd) {
   const TrajectoryPtr trajectory = accepted(uneven_request(true));
   EXPECT_EQ(trajectory->duration(), 2'900ms);
   JointState state;
@@ -174,7 +173,7 @@ TEST(Trajectory, RestsAtItsStartBeforeAndAtItsGoalAfter) {
   EXPECT_TRUE(trajectory->goal().isApprox(Eigen::Vector2d(0.4, 0.9), 1e-14));
 }
 
-TEST(Trajectory, SamplesPositionsAloneAsInTheWholeState) {
+TEST(Trajectory, SamplePositionsAgreesWithSample) {
   const TrajectoryPtr trajectory = accepted(testing::quiet_panda_request("left", 100));
   JointState state;
   Eigen::VectorXd position;
@@ -185,10 +184,10 @@ TEST(Trajectory, SamplesPositionsAloneAsInTheWholeState) {
   }
 }
 
-TEST(Trajectory, FindsTheSegmentWhateverTheirNumber) {
+TEST(Trajectory, FindsTheSegmentForAnyNumberOfSegments) {
   for (std::size_t count = 2; count < 40; ++count) {
     const TrajectoryRequest request = testing::quiet_panda_request("left", 40);
-    TrajectoryRequest part{request.joint_names, {}};  // all at rest, each waypoint elsewhere
+    TrajectoryRequest part{request.joint_names, {}};  // at rest at all waypoints
     for (std::size_t k = 0; k < count; ++k) {
       part.points.push_back(
           {request.points[k].positions, std::vector<double>(7, 0.0), {}, static_cast<double>(k)});
@@ -202,7 +201,7 @@ TEST(Trajectory, FindsTheSegmentWhateverTheirNumber) {
   }
 }
 
-TEST(Trajectory, KeepsTheCallersMemory) {
+TEST(Trajectory, ReusesTheCallersMemory) {
   const TrajectoryPtr trajectory = accepted(uneven_request(true));
   JointState state;
   trajectory->sample(0s, state);
@@ -223,7 +222,7 @@ Segment segment(Duration start, Duration duration, Eigen::Index rows) {
   return result;
 }
 
-TEST(Trajectory, HoldsCoefficientsAndStartsOnly) {
+TEST(Trajectory, StoresOnlyCoefficientsAndStarts) {
   constexpr std::size_t kSegments = 10'000;
   std::vector<Segment> segments;
   for (std::size_t i = 0; i < kSegments; ++i) segments.push_back(segment(i * 1ms, 1ms, 2));
@@ -236,7 +235,7 @@ TEST(Trajectory, HoldsCoefficientsAndStartsOnly) {
   EXPECT_EQ(trajectory.segment(kSegments - 1).duration, 1ms);
 }
 
-TEST(Trajectory, RefusesToBeMadeOfPartsThatDoNotFit) {
+TEST(Trajectory, ThrowsOnInconsistentParts) {
   const std::vector<JointId> joints = {JointId(0), JointId(1)};
   const std::vector<ArmId> arms = {ArmId(0), ArmId(1)};
   const Segment first = segment(0s, 1s, 2);

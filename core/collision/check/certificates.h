@@ -9,10 +9,10 @@
 namespace armloom {
 
 // Returns the arms of one motion from its present progress on, or one arm at rest (`motion` is
-// null), as certificates name them. Precondition: `arms` are its entries, not empty.
+// null). Precondition: `arms` are its entries, not empty.
 [[nodiscard]] CertifiedSide certified_side(std::span<MotionStore::Entry* const> arms,
                                            const Motion* motion);
-// Precondition: both have been compared in this scene, and kept apart but for `blocked`.
+// Precondition: both were compared in this scene and are free outside `blocked`.
 [[nodiscard]] PairCertificate pair_certificate(const PlanningScene& scene, CertifiedSide a,
                                                CertifiedSide b, std::vector<ProgressBox> blocked);
 

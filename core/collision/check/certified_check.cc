@@ -13,7 +13,7 @@
 namespace armloom {
 namespace {
 
-// Of every pair of a candidate, before any is let part.
+// Returns the smallest limits of the candidates' pairs, before any pair is allowed to part.
 ClearanceBound least_asked(const PlanningScene::Bodies& bodies, const Question& question) {
   const PairLimits limits = PairLimits::of(*bodies.cell);
   ClearanceBound bound{limits.clearance_m, limits.self_clearance_m};
@@ -62,7 +62,7 @@ std::vector<CertifiedCheck::ArmMotion> CertifiedCheck::arms_of(const Motion& mot
   return arms;
 }
 
-// Arms of candidates, of others, and those at rest, in this order.
+// Returns arms of candidates, then of others, then those at rest.
 std::vector<CertifiedCheck::ArmMotion> CertifiedCheck::all_arms() {
   const Cell& cell = store_.scene()->cell();
   std::vector<bool> moved(cell.arms.size(), false);
@@ -106,7 +106,7 @@ Verdict CertifiedCheck::swept() {
   return std::move(verdict_);
 }
 
-// The candidates with themselves, what stands still, and arms that are out of their reach.
+// Certifies the candidates with themselves, static bodies, and arms out of their reach.
 void CertifiedCheck::certify_alone() {
   const PlanningScene& scene = *store_.scene();
   const SceneFingerprint& content = scene.fingerprint();
@@ -136,7 +136,7 @@ void CertifiedCheck::certify_alone() {
   }
 }
 
-// Every candidate's motion with every other motion and every arm at rest: all of it is free.
+// Certifies all of each candidate with every other motion and every arm at rest.
 void CertifiedCheck::certify_swept(const std::vector<ArmMotion>& all, std::size_t candidates) {
   struct Side {
     const Motion* motion;
@@ -161,7 +161,7 @@ void CertifiedCheck::certify_swept(const std::vector<ArmMotion>& all, std::size_
   }
 }
 
-// Each candidate by itself, as its plan has it; only then the regions of the pairs.
+// Checks each candidate by itself first, then finds the regions of the pairs.
 Verdict CertifiedCheck::coordinated() {
   for (const Motion& motion : question_.candidates) {
     if (store_.is_interrupted()) break;
@@ -202,7 +202,7 @@ void CertifiedCheck::check_swept(const ArmMotion& own, const ArmMotion& other) {
       own, &other);
 }
 
-// Two arms of one synchronous motion: side by side, or one of them as far behind as it can get.
+// Checks two arms of one synchronous motion, each as far behind the other as it can get.
 void CertifiedCheck::check_in_step(const ArmMotion& own, const ArmMotion& other) {
   const double apart_s = to_seconds(kOutOfStep + kUntilTold);
   const double duration_s = to_seconds(own.entry->duration());
@@ -233,7 +233,7 @@ void CertifiedCheck::ask(const OrientedDiagram& diagram, const ProgressBand& ban
   if (const auto parting = parting_of(diagram, band)) {
     answer = parting.ask(band, budget);
     verdict_.evaluations += answer.evaluations;
-    if (answer.free) {  // pairs that are held to less: that is what is proven
+    if (answer.free) {  // certified with the smaller limits of parting pairs
       parting.lower(*verdict_.clearance_bound);
       return;
     }

@@ -6,18 +6,18 @@
 
 namespace armloom {
 
-// One question by a certified method (Swept, Coordinated), answered from a store in which it has
-// begun (MotionStore::begin_question). What they claim: motion_checker.h.
+// Answers one question by a certified method (guarantees: motion_checker.h). The question must have
+// begun in the store (MotionStore::begin_question).
 class CertifiedCheck {
  public:
-  // Store and question outlive it.
+  // Store and question must outlive it.
   CertifiedCheck(MotionStore& store, const Question& question);
   [[nodiscard]] Verdict swept();
   [[nodiscard]] Verdict coordinated();
 
  private:
   struct ArmMotion {       // one arm of a motion, or an arm at rest
-    const Motion* motion;  // null: at rest
+    const Motion* motion;  // null if at rest
     MotionStore::Entry* entry;
 
     [[nodiscard]] double progress_s() const;
@@ -42,10 +42,10 @@ class CertifiedCheck {
   Verdict verdict_;
 };
 
-// What a cell budget grows with: `cells` for each 10 s of the longest motion.
+// Returns a budget of `cells` for each 10 s of the longest motion, at least `cells`.
 [[nodiscard]] std::uint64_t cell_budget(std::uint64_t cells, double longest_s);
 
-// With joints up to `tracking_error` off their paths; adds to `evaluations`.
+// Joints may be up to `tracking_error` off their paths. Adds to `evaluations`.
 [[nodiscard]] PassageAnswer check_passage(MotionStore& store, const PassageQuestion& passage,
                                           Configuration rest, double tracking_error,
                                           std::uint64_t& evaluations);

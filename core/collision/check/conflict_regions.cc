@@ -9,8 +9,8 @@
 namespace armloom {
 namespace {
 
-// One axis cut wherever a cell begins or ends. Cuts no farther apart than kTouch are one, and
-// columns reach from the first of their cut to the last of the next.
+// One axis, cut at the edges of all cells. Cuts within kTouch are merged; a column reaches from the
+// first of its cuts to the last of the next.
 class Axis {
  public:
   explicit Axis(std::vector<Duration> cuts) {
@@ -25,13 +25,13 @@ class Axis {
     }
   }
 
-  // An axis without width has one column all the same.
+  // An axis without width has one column.
   [[nodiscard]] int columns() const { return std::max(1, static_cast<int>(first_.size()) - 1); }
   [[nodiscard]] Duration from(int column) const { return first_[index(column)]; }
   [[nodiscard]] Duration to(int column) const {
     return last_[std::min(index(column) + 1, last_.size() - 1)];
   }
-  // The first column that begins at the cut or behind it.
+  // Returns the first column at or after the cut.
   [[nodiscard]] int place(Duration cut) const {
     return static_cast<int>(std::ranges::lower_bound(last_, cut) - last_.begin());
   }
@@ -65,7 +65,7 @@ std::pair<Axis, Axis> axes_of(const std::vector<BlockedCell>& cells,
   return {Axis(std::move(a)), Axis(std::move(b))};
 }
 
-// What is free and closed in on all sides, as rectangles.
+// Returns the enclosed free fields, as rectangles.
 std::vector<Span> holes_of(const Lines& solid, const Axis& axis_a, const Axis& axis_b,
                            const ProgressBox& remaining) {
   const Lines free = solid.gaps();
@@ -94,7 +94,6 @@ std::vector<Span> holes_of(const Lines& solid, const Axis& axis_a, const Axis& a
   return holes;
 }
 
-// The solid fields of a diagram: cells that are blocked, and the holes in them.
 class SolidFields {
  public:
   SolidFields(const std::vector<Span>& cells, const Axis& axis_a, const Axis& axis_b,
@@ -118,7 +117,7 @@ class SolidFields {
     const auto behind = std::ranges::upper_bound(runs, b, {}, &Run::from);
     return component_of(a, static_cast<std::size_t>(behind - runs.begin()) - 1);
   }
-  // The rectangles of every component. `along_a`: first joined along A, then along B.
+  // Returns the rectangles of each component, joined along A or B first.
   [[nodiscard]] std::vector<std::vector<Span>> rectangles(bool along_a) const {
     std::vector<std::vector<Span>> spans(components_);
     const auto take = [&](const Span& span) {
@@ -138,25 +137,25 @@ class SolidFields {
     for (int line = 0; line < along_b_.count(); ++line) first_.push_back(runs.first(line));
     component_.resize(runs.size());
     for (std::size_t r = 0; r < runs.size(); ++r) {
-      const std::size_t root = runs.root(r);  // not behind r
+      const std::size_t root = runs.root(r);  // root <= r
       component_[r] = root == r ? components_++ : component_[root];
     }
   }
 
-  Lines along_b_;                       // a line for each column of A
-  Lines along_a_;                       // a line for each column of B
+  Lines along_b_;                       // one line per column of A
+  Lines along_a_;                       // one line per column of B
   std::vector<std::size_t> first_;      // by line of along_b_: its first run
   std::vector<std::size_t> component_;  // by run of along_b_
   std::size_t components_ = 0;
 };
 
 Duration::rep area_of(const ProgressBox& box) {
-  // In microseconds: the square of nanoseconds would run over after some seconds.
+  // In microseconds, because squared nanoseconds overflow after some seconds.
   const auto width = [](Duration from, Duration to) { return (to - from).count() / 1000 + 1; };
   return width(box.from_a, box.to_a) * width(box.from_b, box.to_b);
 }
 
-// Whether x tells more than y.
+// Returns true if x is better evidence than y.
 bool tells_more(const BlockedCell& x, const BlockedCell& y) {
   if (x.evidence != y.evidence) return x.evidence > y.evidence;
   if (x.evidence == BlockedCell::Evidence::none) return area_of(x.box) > area_of(y.box);

@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-// A rectangle of fields: columns of both axes, the last one not included.
+// A rectangle of fields: half-open ranges of columns.
 struct Span {
   int from_a, to_a, from_b, to_b;
 };
@@ -18,13 +18,13 @@ struct Span {
   return {span.from_b, span.to_b, span.from_a, span.to_a};
 }
 
-// Fields of one line, side by side.
+// Consecutive fields of one line.
 struct Run {
   int from, to;
 };
 
-// Lines of fields as runs, so that the cost follows the rectangles and never the area: one column
-// of A is one line here, and runs go along B.
+// Fields as runs by line, so that the cost does not grow with the area. A line is one column of A;
+// runs go along B.
 class Lines {
  public:
   Lines(int lines, int places) : runs_(static_cast<std::size_t>(lines)), places_(places) {}
@@ -33,7 +33,7 @@ class Lines {
     for (int line = span.from_a; line < span.to_a; ++line)
       at(line).push_back({span.from_b, span.to_b});
   }
-  // Sorts the runs of each line and joins those that touch; the others assume it.
+  // Sorts and joins the runs of each line, as the other functions require.
   void join() {
     for (std::vector<Run>& runs : runs_) {
       std::ranges::sort(runs, {}, &Run::from);
@@ -48,7 +48,7 @@ class Lines {
       if (!runs.empty()) runs.resize(last + 1);
     }
   }
-  // What is in no run.
+  // Returns the fields that are in no run.
   [[nodiscard]] Lines gaps() const {
     Lines gaps(count(), places_);
     for (int line = 0; line < count(); ++line) {
@@ -74,7 +74,7 @@ class Lines {
   int places_;
 };
 
-// Runs that hang together are one set, named by its first run. Runs are numbered line by line.
+// Sets of connected runs, each named by its first run. Runs are numbered line by line.
 class ConnectedRuns {
  public:
   ConnectedRuns(const Lines& lines, bool corners) {
@@ -87,7 +87,6 @@ class ConnectedRuns {
     }
   }
 
-  // The first run of the line.
   [[nodiscard]] std::size_t first(int line) const { return first_[static_cast<std::size_t>(line)]; }
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::size_t root(std::size_t run) { return sets_.root(run); }
@@ -108,10 +107,10 @@ class ConnectedRuns {
   DisjointSets sets_;
 };
 
-// Calls take(rectangle) for equal runs of lines that follow each other.
+// Calls take(rectangle) for equal runs on consecutive lines.
 template <class Take>
 void each_rectangle(const Lines& lines, const Take& take) {
-  struct Open {  // reaches to the line at hand
+  struct Open {
     Run run;
     int since;
   };

@@ -8,15 +8,14 @@
 namespace armloom {
 namespace {
 
-// The first cut of a line: as many stretches as the filter looks at in one go.
+// The first cut yields as many stretches as the filter checks at once.
 constexpr int kFirstLevels = 3;
-// Pairs move towards each other at least this share of what they may move in all directions,
-// mostly: where more than that would have to be nothing, it is not asked.
+// Bodies mostly move towards each other by at least this share of their motion bounds. With less
+// room, no proof is tried.
 constexpr double kLineTowardsShare = 0.25;
-// Times along a line are no times: its whole length takes this.
 constexpr Duration kLength = std::chrono::seconds(1);
 
-// A node of the line, beside all of what stands still.
+// Returns a node of the line and the node of a static counterpart.
 TubePair::Nodes nodes_of(const TubePair& pair, const std::shared_ptr<MotionTube>& line, int node) {
   if (pair.is_self()) return {node, node};
   return pair.a() == line ? TubePair::Nodes{node, TimeTree::root()}
@@ -79,12 +78,12 @@ TubePair LineChecker::pair_with(const Counterpart& other,
   return turned ? TubePair(setting, other.tube, tube) : TubePair(setting, tube, other.tube);
 }
 
-// From what the filter has left open of one stretch.
+// Decides a stretch from what the filter left open.
 LineChecker::Stretch LineChecker::look(TubePair& pair, TubePair::Nodes at,
                                        std::vector<TubePair::Undecided>& undecided) const {
   if (undecided.empty()) return Stretch::free;
   using Undecided = TubePair::Undecided;
-  // The largest distance that a pair may have, as far as the capsules tell.
+  // Returns the largest possible excess over the limit, according to the capsules.
   const auto room = [](const Undecided& u) {
     return std::max(u.distance_m, 0.0) + u.slack_m - u.limit_m;
   };
@@ -92,7 +91,7 @@ LineChecker::Stretch LineChecker::look(TubePair& pair, TubePair::Nodes at,
   for (const Undecided& u : undecided) {
     const NarrowPair& narrow = pair.narrow(u.narrow, u.box);
     const bool hopeless = room(u) < kLineTowardsShare * u.moves_m();
-    if (hopeless) {  // no distance would do: whether it is a conflict is soon found out
+    if (hopeless) {  // cannot be proven free, so only a conflict is checked
       const bool may_be = room(u) < 0.0;
       return may_be && pair.limits_kept(narrow, at, {&u.limit_m, 1}) == 0 ? Stretch::conflict
                                                                           : Stretch::open;
@@ -109,7 +108,7 @@ LineChecker::Stretch LineChecker::look(TubePair& pair, TubePair::Nodes at,
   return Stretch::free;
 }
 
-// Level by level, so that a conflict is met early; nothing: the line is free.
+// Searches level by level, so that conflicts are found early; nullopt if the line is free.
 std::optional<LineChecker::Found> LineChecker::search(const std::shared_ptr<MotionTube>& tube,
                                                       double distance) {
   std::vector<int> level{TimeTree::root()};
@@ -190,7 +189,7 @@ LineChecker::Worst LineChecker::worst_of(TubePair& pair, const std::shared_ptr<M
     return c.distance_m - limit_m(c.pair);
   };
   if (!close.empty()) return {*std::ranges::min_element(close, {}, missing), 0.0};
-  // None is too close at its middle: one would have to be farther away for all of the stretch.
+  // No pair is too close at the middle: find the pair that is too close for the whole stretch.
   const TubePair::Nodes nodes = nodes_of(pair, tube, found.node);
   pair.filter({&nodes, 1});
   std::optional<Worst> worst;

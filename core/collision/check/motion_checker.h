@@ -8,54 +8,50 @@
 
 namespace armloom {
 
-// Answers Questions by the method that they name, and keeps what it has learnt: the tubes of
-// motions and the coordination diagrams of pairs live as long as they are asked about, so that a
-// question asked again as time goes on costs next to nothing.
+// Answers Questions by the method that they name. Keeps tubes and diagrams as long as questions use
+// them, so that repeating a question costs next to nothing.
 //
-// Swept: candidates against themselves, what stands still, each other and every other motion or
-// resting arm, all of what remains of one against all of the other; but the arms of one synchronous
-// motion as Coordinated has it. With each arm's motion bounds
-// (motion_tube.h) and the tracking error the cell's clearance_m (self_clearance_m of an arm from
-// itself, mount_clearance_m from its mount) is kept in every such state. Conflicts name one state
-// with each counterpart, of an arm alone the first in time, to within
-// CoordinationDiagram::kFirst_s; `undecided`: nothing is proven either way, the conflicts are the
-// cells that could not be decided. `clearance_bound` of a free verdict: the smallest limits
-// that pairs were held to.
+// Swept: checks what remains of the candidates against themselves, static bodies, each other, and
+// what remains of every other motion or resting arm. Arms of one synchronous motion are checked as
+// in Coordinated. The cell's clearance_m (self_clearance_m of an arm from itself, mount_clearance_m
+// from its mount) is kept in every such state, with the tracking error.
+// - Conflicts name one state for each counterpart; for an arm alone the first in time, to within
+//   CoordinationDiagram::kFirst_s.
+// - `undecided`: neither is proven; the conflicts are cells that could not be decided.
+// - `clearance_bound` of a free verdict: the smallest limits of all pairs.
 //
-// Coordinated: candidates against themselves and what stands still, from their progress on, as
-// above; the arms of one synchronous motion against each other, in step and as far ahead of each
-// other as they can get (in_step.h). Where that is free the verdict is, and names the regions of
-// the pairs (pair_regions.h) with the same margins.
+// Coordinated: checks candidates against themselves and static bodies as above, and arms of one
+// synchronous motion as far ahead of each other as they can get (in_step.h). If all this is free,
+// the verdict is free and names the conflict regions of the pairs (pair_regions.h), with the same
+// margins.
 //
-// Pairs that are too close at the question's beginning may part: they are held to
-// OrientedDiagram::kPartingShare of the distance that they have there, and are no conflict while
-// they keep that; unless the question does not let them (may_part).
+// If the question permits (may_part), pairs that are too close at its start may part: they must
+// keep OrientedDiagram::kPartingShare of their present distance.
 //
-// Holds the scratch: one per worker thread, not thread-safe. Deterministic: the same questions in
-// the same order have the same answers, evaluations included.
+// Deterministic: equal questions in equal order get equal answers, evaluations included. Not
+// thread-safe: use one per worker thread.
 class MotionChecker {
  public:
   explicit MotionChecker(PlanningScenePtr scene)
       : store_(std::move(scene)), query_(store_.scene()) {}
 
-  // From now on judges in this scene of the same cell. Diagrams of arms are kept.
+  // Switches to another scene of the cell. Keeps diagrams of pairs of arms if the attached objects
+  // are the same.
   void look_at(PlanningScenePtr scene);
   [[nodiscard]] const PlanningScenePtr& scene() const { return store_.scene(); }
 
-  // Preconditions as timed_discrete_check() has them.
-  // `progress`: another thread may watch it and end the check early. Then the verdict is void
-  // (Verdict::interrupted) and everything learnt is forgotten, so that later answers do not depend
-  // on how far the check came.
+  // Preconditions as for timed_discrete_check(). Another thread may end the check early by
+  // `progress`. The verdict is then void (Verdict::interrupted) and all diagrams are dropped, so
+  // that later answers do not depend on when the check ended.
   [[nodiscard]] Verdict judge(const Question& question, CheckProgress* progress = nullptr);
-  // The verdict of a check that was interrupted; forgets as that does.
+  // Returns the verdict of an interrupted check; drops all diagrams.
   [[nodiscard]] Verdict interrupted(const Question& question);
 
-  // The whole coordination diagram of two motions of different arms, neighbours of one state
-  // joined.
+  // Returns the coordination diagram of two motions of different arms, with neighbors of equal
+  // state merged.
   [[nodiscard]] Diagram draw(const Drawing& drawing, CheckProgress* progress = nullptr);
 
-  // A pair of motions needs no more cells than this, for each 10 s of the longer one; else its
-  // question is undecided.
+  // Cell budget of a pair of motions for each 10 s of the longer motion.
   inline static constexpr std::uint64_t kBudget = 1000;
 
  private:

@@ -19,7 +19,6 @@ bool share_an_arm(const Motion& a, const Motion& b) {
   return std::ranges::any_of(a.trajectory->arms(), [&](ArmId arm) { return moves(b, arm); });
 }
 
-// Where the trajectory's joints are at that time.
 void put(const Trajectory& trajectory, Duration time, Configuration& q) {
   Eigen::VectorXd position;
   trajectory.sample_positions(time, position);
@@ -102,7 +101,7 @@ std::vector<PairRegionSearch::Side> PairRegionSearch::standing_beside(const Moti
       return motion != nullptr && !share_an_arm(candidate, *motion);
     };
     if (compared(before) || compared(behind)) continue;
-    Configuration rest = question_.rest;  // not where its next motion begins
+    Configuration rest = question_.rest;  // not the start of its next motion
     if (before != nullptr) put(*before->trajectory, before->trajectory->duration(), rest);
     sides.push_back(resting(arm, rest));
   }
@@ -123,7 +122,7 @@ std::vector<PairRegions> PairRegionSearch::find() {
       pairs.emplace_back(&*own, &rests.emplace_back(std::move(rest)));
     }
   }
-  std::uint64_t cells = 0;  // of the outlines and of close passes
+  std::uint64_t cells = 0;  // for outlines and close passes
   for (const auto& [a, b] : pairs) cells += 2 * cells_for(*a, *b) * a->arms.size() * b->arms.size();
   store_.expect(cells);
   std::vector<PairRegions> found;
@@ -134,7 +133,7 @@ std::vector<PairRegions> PairRegionSearch::find() {
 void PairRegionSearch::compare(Side& a, Side& b, std::vector<PairRegions>& found) {
   if (b.motion != nullptr && share_an_arm(*a.motion, *b.motion)) return;
   layers_.clear();
-  bool apart = true;  // all arms: an ApartCertificate says so
+  bool apart = true;  // true: ApartCertificates cover the pair
   for (MotionStore::Entry* arm_a : a.arms) {
     for (MotionStore::Entry* arm_b : b.arms) {
       apart = apart && store_.out_of_reach(arm_a->arm, arm_b->arm);
@@ -184,7 +183,7 @@ OrientedDiagram PairRegionSearch::outlined(const Side& a, const Side& b, Oriente
   return parting;
 }
 
-// What is not free in any of the layers, in components.
+// Returns the components of what is not free in any layer.
 std::vector<BlockedRegion> PairRegionSearch::blocked(const Side& a, const Side& b) {
   blocked_.clear();
   leaves_.clear();
@@ -202,8 +201,8 @@ std::vector<BlockedRegion> PairRegionSearch::blocked(const Side& a, const Side& 
   return blocked_regions(blocked_, {a.now(), a.end(), b.now(), b.end()});
 }
 
-// At regions in which no conflict is proven: motions may pass each other closely there. Whether
-// anything is known now that was not before.
+// Refines regions without a proven conflict, in which motions may pass each other closely. Returns
+// true if cells were evaluated.
 bool PairRegionSearch::refine_close_passes(const std::vector<BlockedRegion>& regions,
                                            std::uint64_t budget) {
   std::uint64_t looked_at = 0;

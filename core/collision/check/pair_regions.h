@@ -13,37 +13,34 @@
 
 namespace armloom {
 
-// The regions of one Coordinated question: every candidate against every motion of other arms and
-// every arm that no motion moves. Diagrams are those of the store, and are refined no further than
-// resolution_of() (but see kClosest); what is not known when kCells are used up counts as not free.
+// Finds the conflict regions of one Coordinated question: every candidate against every motion of
+// other arms and every arm at rest. Refines the store's diagrams to resolution_of() (but see
+// kClosest). What is unknown when the budget is used up is not free.
 //
-// Motions that share an arm follow each other and are not compared: those that are not to come,
-// then others, then candidates, as named. Where an arm stands before, between and after its motions
-// is an end of one of their axes; but for those that share an arm with the candidate: there it
-// counts as an arm at rest.
+// Motions that share an arm are not compared. They run in this order: motions that are not to come,
+// then those to come; each part others first, then candidates, as named. The rests of an arm
+// before, between and after its motions are ends of their axes. If these motions share an arm with
+// the candidate, the arm is compared as an arm at rest instead.
 //
-// A pair that is too close where both stand now may part (motion_checker.h); there, neither is to
-// come.
+// A pair that is too close now may part (motion_checker.h) unless a motion is to come.
 class PairRegionSearch {
  public:
-  // `store` and `question` outlive it; no question is begun in the store meanwhile.
+  // `store` and `question` must outlive it; no other question may begin in the store meanwhile.
   PairRegionSearch(MotionStore& store, const Question& question);
 
-  // By candidate; for each, others, candidates named behind it, arms at rest. Pairs that are free
-  // everywhere are left out.
+  // Returns the regions by candidate: with others, candidates named after it, arms at rest. Omits
+  // pairs that are free everywhere.
   [[nodiscard]] std::vector<PairRegions> find();
-  // Of all pairs that can reach each other, also those that are free everywhere.
+  // Includes pairs that are free everywhere; excludes pairs out of reach.
   [[nodiscard]] std::vector<Certificate> take_certificates() { return std::move(certificates_); }
-  // What pairs that part were held to; +inf: there are none.
+  // Returns the smallest limits of pairs that part; +inf if none does.
   [[nodiscard]] const ClearanceBound& parted() const { return parted_; }
-  // Where no conflict is proven, a larger effort might have found more that is free.
+  // Returns true if a larger effort might find more free states.
   [[nodiscard]] bool exhausted() const { return exhausted_; }
-  // Cells looked at.
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
-  // Where one of the motions takes no longer than kShort; where both do, fine cells are as much
-  // wider as the shorter one is longer, up to twice: what an arm loses at a region is the same
-  // share.
+  // If the shorter motion takes longer than kShort, fine cells widen with it, up to twice: a wait
+  // at a region then costs the same share of time.
   inline static constexpr Duration kShort = std::chrono::seconds(5);
   inline static constexpr CoordinationDiagram::Resolution kResolution{
       .coarse = std::chrono::milliseconds(160),
@@ -52,21 +49,21 @@ class PairRegionSearch {
                   .coarse = std::chrono::milliseconds(160),
                   .slope = 0.5}};
   [[nodiscard]] static CoordinationDiagram::Resolution resolution_of(Duration shorter);
-  // Of two arms, for each second of both motions together.
+  // Cell budget of two arms, for each second of both motions.
   inline static constexpr double kCells = 500.0;
-  // More than this no pair of arms gets, whatever the effort: the cost of a check does not grow
-  // with the square of a motion's length. What is not decided by then counts as not free.
+  // Largest cell budget of two arms, so that a check's cost does not grow with the square of a
+  // motion's length.
   inline static constexpr std::uint64_t kCellsMax = 400'000;
-  // Where no conflict is proven it may be a close pass: there, down to here, at as many cells more;
-  // with more than the usual effort as far as cells go.
+  // A region without a proven conflict may be a close pass: it is refined to this width, with the
+  // same budget again. With effort > 1 to CellTree::kFinest.
   inline static constexpr Duration kClosest = std::chrono::milliseconds(2);
 
  private:
   struct Side {  // a motion, or an arm at rest
     std::variant<JobId, ArmId> who;
-    const Motion* motion;  // null: at rest
+    const Motion* motion;  // null if at rest
     std::vector<MotionStore::Entry*> arms;
-    std::optional<CertifiedSide> certified = {};  // once it was asked for
+    std::optional<CertifiedSide> certified = {};  // built on first use
 
     [[nodiscard]] Duration now() const;
     [[nodiscard]] const CertifiedSide& certify();
@@ -91,9 +88,9 @@ class PairRegionSearch {
   ClearanceBound parted_;
   bool exhausted_ = false;
   std::vector<Certificate> certificates_;
-  std::vector<const Motion*> in_order_;  // all motions: of each arm, as they follow each other
-  // Of the two sides at hand:
-  std::vector<OrientedDiagram> layers_;  // one arm of one against one of the other
+  std::vector<const Motion*> in_order_;  // all motions; of each arm in the order they run in
+  // For the current two sides:
+  std::vector<OrientedDiagram> layers_;  // each arm of one side against each of the other
   std::vector<BlockedCell> blocked_;
   std::vector<std::pair<std::size_t, CoordinationDiagram::Blocked>> leaves_;  // layer, by blocked_
 };

@@ -11,18 +11,17 @@
 namespace armloom {
 namespace {
 
-// A pair that rests or moves in parallel keeps its distance but for rounding.
+// Rounding of the distance of a pair that rests or moves in parallel.
 constexpr double kSameDistance_m = 1e-6;
 
-// A motion of the question while the judgement walks through time.
 struct Runner {
   const Motion* motion;
   bool candidate;
-  Duration progress;  // trajectory time at the instant at hand
-  bool moved = true;  // since the instant before
+  Duration progress;  // trajectory time
+  bool moved = true;  // since the last instant
 };
 
-// A pair that was too close at the first instant and has not cleared since.
+// A pair that has been too close since the first instant.
 struct Parting {
   PairId pair;
   double first_clearance_m;
@@ -31,7 +30,7 @@ struct Parting {
 
 class Judgement {
  public:
-  // `stay`: motions that may stay do so.
+  // `stay`: motions that may stay do.
   Judgement(const Question& question, ClearanceQuery& query, bool stay)
       : question_(question),
         stay_(stay),
@@ -92,7 +91,7 @@ class Judgement {
     }
   }
 
-  // Puts every motion where it is at t; whether anything moved.
+  // Moves every motion to time t; returns true if any moved.
   bool advance(Duration t, bool first) {
     bool any = false;
     for (Runner& runner : runners_) {
@@ -139,7 +138,7 @@ class Judgement {
     std::erase_if(parting_, [](const Parting& parting) { return !parting.still_close; });
   }
 
-  // Adds the conflict, or replaces that with the same counterpart if this one is closer.
+  // Adds the conflict, or replaces a farther conflict with the same counterpart.
   void report(const NearPair& near, std::vector<Conflict>& conflicts) const {
     Conflict found = conflict_of(near);
     for (Conflict& known : conflicts) {
@@ -158,7 +157,7 @@ class Judgement {
     Proximity proximity = query_.describe(near);
     const Runner* own = runner_of(proximity.arm_a);
     const Runner* other = runner_of(proximity.arm_b);
-    // Body a is the candidate's; of two candidates, the one that was named first.
+    // Body a belongs to the candidate; of two, to the first named.
     const bool b_is_own =
         other != nullptr && other->candidate && (own == nullptr || !own->candidate || other < own);
     if (b_is_own) {
@@ -192,9 +191,9 @@ class Judgement {
   const Cell& cell_;
   Configuration q_;
   std::vector<Runner> runners_;               // candidates first
-  std::vector<const Runner*> runner_of_arm_;  // by ArmId; null: at rest
+  std::vector<const Runner*> runner_of_arm_;  // by ArmId; null if at rest
   std::vector<bool> of_candidates_;           // by ArmId
-  std::vector<bool> moved_;                   // by ArmId: since the instant before
+  std::vector<bool> moved_;                   // by ArmId: since the last instant
   std::vector<Parting> parting_;
   std::vector<NearPair> near_;
   Eigen::VectorXd positions_;

@@ -6,33 +6,28 @@
 
 namespace armloom {
 
-// Answers a Question by the paper's discrete check: all candidates and all others are put where
-// they are at equal instants, every `method.step` from the question's instant until the last of
-// them has come to rest (both ends included), and each combined state is checked with the cell's
-// clearance_m (an arm from itself: self_clearance_m, from its mount: mount_clearance_m): candidates
-// against everything (not others among themselves). So a rest before, between and after motions
-// counts, and the others' *remaining* motion is what is compared. Between the instants nothing is
-// promised.
+// Answers a Question by the paper's discrete check. Places all candidates and others at instants
+// every `method.step`, from the question's instant until the last motion rests, both included.
+// Checks candidates against everything, but not others among themselves, with the cell's
+// clearance_m (self_clearance_m of an arm from itself, mount_clearance_m from its mount). So rests
+// before, between and after motions are covered, and the *remaining* motion of others. Collisions
+// between the instants are not detected.
 //
-// A pair that is already too close at the first instant may part: it is no conflict as long as it
-// never comes closer than it was then, until it has cleared. Where the depth of a contact is
-// unknown (flat cylinders, box against box) it counts as zero, so that such a pair may stay in
-// contact. Where the question does not let them (may_part), that is a conflict.
+// If the question permits (may_part), a pair that is too close at the first instant may part. It is
+// no conflict while it never comes closer than then, until it has cleared. An unknown depth of
+// contact (flat cylinders, box against box) is taken as zero, so such a pair may stay in contact.
 //
-// Counterparts are another job, an arm at rest, an object or a static link (With::scene), and the
-// candidate's own links (With::self; also the other arms of the same synchronous motion). Stops at
-// the first instant with a conflict and reports every counterpart of that instant, each with its
-// closest pair; two candidates that conflict are reported once, the one that is named first as the
-// candidate.
+// Counterparts are another job, an arm at rest, an object or static link (With::scene), and the
+// candidate's own links (With::self; also the other arms of a synchronous motion). Stops at the
+// first instant with a conflict and reports each counterpart with its closest pair. Two candidates
+// in conflict are reported once, the first named as the candidate.
 //
-// A motion that stays (Motion::Stands) is at rest at its progress; one that may stay is compared
-// both ways, and both must be free.
+// A motion that stays (Motion::Stands) rests at its progress. If a motion may stay, both cases must
+// be free.
 //
-// Pairs of which neither side has moved since the last instant are not looked at again;
-// `evaluations` counts the instants that were looked at. Deterministic.
-// Preconditions (throws std::invalid_argument): the method is TimedDiscrete (throws
-// std::bad_variant_access) with step > 0, `rest` has one entry per joint, no arm in
-// two motions.
+// Pairs are skipped while neither side moves; `evaluations` counts checked instants. Deterministic.
+// Preconditions: the method is TimedDiscrete (throws std::bad_variant_access) with step > 0, `rest`
+// has one entry per joint, no arm is in two motions (throws std::invalid_argument).
 [[nodiscard]] Verdict timed_discrete_check(const Question& question, ClearanceQuery& query);
 
 }  // namespace armloom

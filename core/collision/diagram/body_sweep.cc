@@ -27,7 +27,7 @@ struct MovingGroup {
   std::span<const MovingAxis> axes;
 };
 
-// All pieces of two groups, each convex.
+// Returns true if every pair of convex pieces of the two groups is proven to keep limit_m.
 bool groups_keep_apart(const std::vector<ConvexShape>& shapes, const MovingGroup& a,
                        const MovingGroup& b, double limit_m, double enough_m) {
   PlacedConvexShape own_a;
@@ -45,11 +45,11 @@ bool groups_keep_apart(const std::vector<ConvexShape>& shapes, const MovingGroup
   return true;
 }
 
-// Most cells that are free are known to be after some hundred triangles; of those that need more,
-// halves are soon decided.
+// Most free cells are proven with some hundred pairs of triangles. Others are decided faster by
+// halving.
 constexpr int kMostAsked = 500;
 
-// The surfaces of two bodies, everything in the frame of the first one's tree, T.
+// The surfaces of two bodies in the frame T of the first one's tree.
 class SweptSurfaces final : public KeptApart {
  public:
   SweptSurfaces(const MovingSolid& a, const MovingSolid& b, double limit_m)
@@ -104,8 +104,7 @@ double swept_gap(const MovingShape& a, const MovingShape& b, const Vector3d& n_W
   return -Sweep(a.axes, n_W).reach(a.shape, a.at) - Sweep(b.axes, -n_W).reach(b.shape, b.at);
 }
 
-// Where no two triangles can meet, neither comes to be inside of the other that was not there
-// before.
+// If no two triangles can meet, neither surface gets inside the other.
 bool surfaces_keep_apart(const MovingSolid& a, const MovingSolid& b, double limit_m,
                          double enough_m) {
   SweptSurfaces swept(a, b, limit_m);

@@ -9,22 +9,21 @@
 
 namespace armloom {
 
-// A body somewhere in the world, and the joints that may move it, base to tip. Of two bodies of one
-// arm those joints only that carry one of them: what carries both does not part them.
+// A body and the joints that may move it, base to tip. For two bodies of one arm, omit joints
+// upstream of both, which do not change their distance.
 struct MovingBody {
   PlacedBody at;
   std::span<const MovingAxis> axes;
 };
 
-// Whether two bodies are proven to keep limit_m wherever these joints are within their spans: for
-// each two shapes, or triangles of surfaces, there is a direction across which one never reaches
-// within limit_m of the other (Sweep). Those that are enough_m apart already are not looked at;
-// that this is enough is the caller's to know. May say no where yes is true, never the reverse.
-// Precondition: they are apart here (body_distance() is above zero).
+// Returns true if the bodies are proven to keep limit_m for all joint values within the spans. Each
+// pair of shapes or surface triangles needs a direction along which the two stay limit_m apart
+// (Sweep). Pairs that are enough_m apart here are skipped; the caller must know that this suffices.
+// Never wrongly true. Precondition: the bodies are apart here (body_distance() > 0).
 [[nodiscard]] bool keep_apart(const std::vector<ConvexShape>& shapes, const MovingBody& a,
                               const MovingBody& b, double limit_m, double enough_m);
 
-// The same of two surfaces. Precondition: neither is inside of the other here.
+// The same for two surfaces. Precondition: neither lies inside the other here.
 struct MovingSolid {
   PlacedSolid at;
   std::span<const MovingAxis> axes;
@@ -32,8 +31,8 @@ struct MovingSolid {
 [[nodiscard]] bool surfaces_keep_apart(const MovingSolid& a, const MovingSolid& b, double limit_m,
                                        double enough_m);
 
-// The gap along n (of unit length, from a to b) that two shapes keep so; negative: they may
-// overlap.
+// Returns a lower bound of the gap between two shapes along the unit vector n_W (from a to b), for
+// all joint values within the spans; may be negative.
 struct MovingShape {
   const ConvexShape& shape;
   const PlacedConvexShape& at;

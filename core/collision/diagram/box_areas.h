@@ -9,10 +9,10 @@
 
 namespace armloom {
 
-// Boxes that hardly overlap, for questions about points: a search over one axis.
+// Boxes that hardly overlap, for point queries by a search along axis A.
 class BoxAreas {
  public:
-  // Precondition: not empty.
+  // Precondition: `boxes` is not empty.
   explicit BoxAreas(std::vector<ProgressBox> boxes) : boxes_(std::move(boxes)) {
     std::ranges::sort(boxes_, {}, &ProgressBox::from_a);
     hull_ = boxes_.front();
@@ -39,7 +39,7 @@ class BoxAreas {
 
  private:
   std::vector<ProgressBox> boxes_;  // by from_a
-  std::vector<Duration> to_a_;      // the largest so far
+  std::vector<Duration> to_a_;      // largest to_a up to this box
   ProgressBox hull_;
 };
 

@@ -10,8 +10,8 @@
 
 namespace armloom {
 
-// The cells of a diagram: rectangles over the times of two motions, halved along one side or both.
-// The first one covers both motions; the children of a cell follow each other.
+// The cells of a diagram: rectangles over the times of two motions, halved along one axis or both.
+// The first cell covers both motions; children are consecutive.
 class CellTree {
  public:
   enum class CellState : std::uint8_t { unknown, free, mixed, conflict, finest, inner };
@@ -20,22 +20,22 @@ class CellTree {
     int b;
     int children = -1;  // first of two or four
     CellState state = CellState::unknown;
-    bool split_a = false;  // how to split: for the children of inner cells, and for mixed ones
+    bool split_a = false;  // of mixed cells: how to split; of inner cells: how they were split
     bool split_b = false;
-    std::uint8_t levels = 1;  // of a mixed cell: how many halvings at once
-    int witness = -1;         // at its middle
+    std::uint8_t levels = 1;  // of a mixed cell: halvings at once
+    int witness = -1;         // at its middle, or -1
 
     [[nodiscard]] int child_count() const { return (split_a ? 2 : 1) * (split_b ? 2 : 1); }
   };
 
-  // Wider stretches of a motion are hardly ever free in one: they are halved unseen.
+  // Wider stretches are hardly ever free as a whole: they are halved without a check.
   inline static constexpr Duration kWide = std::chrono::milliseconds(700);
   // Cells are not split below this width.
   inline static constexpr Duration kFinest = std::chrono::microseconds(500);
 
   CellTree(std::shared_ptr<TimeTree> a, std::shared_ptr<TimeTree> b);
 
-  // References hold until the next split.
+  // References stay valid until the next split.
   [[nodiscard]] Node& at(int cell) { return cells_[static_cast<std::size_t>(cell)]; }
   [[nodiscard]] const Node& at(int cell) const { return cells_[static_cast<std::size_t>(cell)]; }
   [[nodiscard]] int size() const { return static_cast<int>(cells_.size()); }
@@ -45,25 +45,24 @@ class CellTree {
   [[nodiscard]] const TimeTree& a() const { return *a_; }
   [[nodiscard]] const TimeTree& b() const { return *b_; }
   [[nodiscard]] ProgressBox box_of(const Node& cell) const;
-  // On either side.
   [[nodiscard]] bool wider(const Node& cell, Duration than) const {
     return a_->width(cell.a) > than || b_->width(cell.b) > than;
   }
-  // Neither motion has passed all of it.
+  // Returns true if neither motion has completely passed the cell.
   [[nodiscard]] bool remains(const Node& cell, Duration now_a, Duration now_b) const {
     return a_->to(cell.a) >= now_a && b_->to(cell.b) >= now_b;
   }
 
-  // As its split_a, split_b say; children of further levels likewise.
+  // Splits as split_a and split_b say; children too if `levels` > 1.
   void split(int cell, int levels);
-  // An unknown one that is hardly free in one is split before it is looked at: down to `wide`, at
-  // least kWide.
+  // Splits an unknown cell that is wider than `wide` (at least kWide) without a check.
   void split_if_wide(int cell, Duration wide = kWide);
-  // A mixed one. Where the side that moves more is fine already, the other one is halved.
+  // Splits a mixed cell that is wider than `resolution`. Halves the other axis if the preferred
+  // axis is fine already.
   void split_if_coarse(int cell, Duration resolution);
 
-  // Calls visit(leaf) for what touches the cell, corners included, until it says yes: whether it
-  // did.
+  // Calls visit(leaf) for leaves that touch `of`, corners included, until it returns true. Returns
+  // true if it did.
   template <class Visit>
   bool leaves_at(const Node& of, const Visit& visit) const {
     std::vector<int>& open = walk_;
@@ -84,7 +83,7 @@ class CellTree {
     return false;
   }
 
-  // Calls visit(leaf) for each leaf below cells for which descend(box) holds.
+  // Calls visit(leaf) for each leaf below cells for which descend(box) is true.
   template <class Descend, class Visit>
   void leaves_where(const Descend& descend, const Visit& visit) const {
     std::vector<int>& open = walk_;
@@ -106,7 +105,7 @@ class CellTree {
   std::shared_ptr<TimeTree> a_;
   std::shared_ptr<TimeTree> b_;
   std::vector<Node> cells_;
-  mutable std::vector<int> walk_;  // of leaves_at()
+  mutable std::vector<int> walk_;  // scratch
 };
 
 }  // namespace armloom

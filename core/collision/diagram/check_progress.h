@@ -6,13 +6,13 @@
 
 namespace armloom {
 
-// One check as other threads see it: how far it is, and that it is to end early. Thread-safe.
+// Lets other threads watch a check and end it early. Thread-safe.
 class CheckProgress {
  public:
-  // The check may look at so many cells.
+  // Sets how many cells the check may evaluate.
   void expect(std::uint64_t cells) { expected_ = cells; }
   void add(std::uint64_t cells) { done_ += cells; }
-  // The share of its budget that the check has used, 0 to 1. Most checks end long before 1.
+  // Returns the used share of the budget, 0 to 1. Most checks end long before 1.
   [[nodiscard]] double share() const {
     const std::uint64_t expected = expected_;
     if (expected == 0) return 0.0;

@@ -6,13 +6,12 @@
 #include "core/collision/filter/kernel.h"
 
 namespace armloom {
-// One question on its way.
 struct CoordinationDiagram::Search {
   const ProgressBand& band;
   std::uint64_t budget;
   std::vector<Open> open;
   Answer answer;
-  double conflict_at_s = ProgressBand::kUnbounded;   // of the earliest that is proven
+  double conflict_at_s = ProgressBand::kUnbounded;   // of the earliest proven conflict
   double undecided_at_s = ProgressBand::kUnbounded;  // of the earliest cell that cannot be refined
   int undecided = -1;
 
@@ -49,7 +48,7 @@ std::optional<TimeRange> CoordinationDiagram::meets(const ProgressBand& band,
                         to_seconds(box.to_b));
 }
 
-// The conflict at the cell's middle.
+// Returns the proven conflict at the cell's middle, or null.
 const CoordinationDiagram::NarrowWitness* CoordinationDiagram::proven(const Node& cell) const {
   if (cell.witness < 0) return nullptr;
   const NarrowWitness& found = found_[static_cast<std::size_t>(cell.witness)];
@@ -58,7 +57,7 @@ const CoordinationDiagram::NarrowWitness* CoordinationDiagram::proven(const Node
 
 // ---- The question ----
 
-// Adds the unknown leaves below the cell that the question needs; takes note of what is known.
+// Adds the unknown leaves below the cell that the question needs; notes known conflicts.
 void CoordinationDiagram::collect(int index, Search& search) {
   const auto times = meets(search.band, tree_.at(index));
   if (!times || times->from > search.conflict_at_s - kFirst_s) return;
@@ -74,7 +73,7 @@ void CoordinationDiagram::collect(int index, Search& search) {
     case CellState::unknown:
       search.open.push_back(open);
       break;
-    case CellState::conflict:  // none of whose states is known to be the region's: still not free
+    case CellState::conflict:  // no state of the band known to conflict: still not free
       if (search.conflict_at_s <= times->to) break;
       [[fallthrough]];
     case CellState::finest:
@@ -128,8 +127,7 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const ProgressBand& band,
   return answer;
 }
 
-// A cell with a conflict at its middle: is that, or what the plan passes in the cell, one of the
-// question's band?
+// Notes the conflict at the cell's middle, or where the plan passes the cell, if it is in the band.
 void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
   const Node& cell = tree_.at(open.cell);
   const NarrowWitness* found = proven(cell);
@@ -149,7 +147,7 @@ void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
   search.answer.conflict = witness;
 }
 
-// The state that the plan itself passes in the middle of its time in the cell.
+// Returns the planned state at the middle of its time in the cell, if it is a conflict.
 std::optional<CoordinationDiagram::Witness> CoordinationDiagram::on_the_line(
     const Open& open, const ProgressBand& band) {
   const Node& cell = tree_.at(open.cell);

@@ -13,81 +13,79 @@
 
 namespace armloom {
 
-// Two motions of different arms collide or not as a function of where each is along its own path
-// (O'Donnell and Lozano-Perez 1989): cells over (trajectory time of A, trajectory time of B) that
-// are certified free, in conflict, or not known yet. Cells are refined only where a question needs
-// it, and kept, so that the same question asked again costs next to nothing. Of one arm against
-// what stands still, or against itself, the second axis has no length.
+// The progress of two motions of different arms determines if they collide (O'Donnell and
+// Lozano-Perez 1989). Cells over (trajectory time of A, trajectory time of B) are certified
+// free, in conflict, or not known yet. They are refined only where a question needs it, and kept,
+// so that repeating a question costs next to nothing. For one arm against static bodies, or against
+// itself, the second axis has no length.
 //
-// A cell is free when for every pair of bodies the distance at its middle, less what each body may
-// move during the cell (MotionTube), is at least the pair's limit: then so is the distance in every
-// state of the cell. Capsules answer first; where they leave it open, the exact distance of the two
-// bodies at the middle does. What it leaves open for what the bodies may move, whichever way, may
-// still be free for what they may move towards each other (body_sweep.h).
+// A cell is free if every pair of bodies keeps its limit in all its states: the distance at its
+// middle, less the motion of both bodies within the cell (MotionTube), is at least the limit.
+// Capsules are tried first, then the exact distance, last the motion of the bodies towards each
+// other only (body_sweep.h).
 //
-// Not thread-safe; a tube may be shared by several diagrams of one thread.
+// Not thread-safe; diagrams of one thread may share tubes.
 class CoordinationDiagram {
  public:
   explicit CoordinationDiagram(TubePair pair);
   [[nodiscard]] TubePair& pair() { return pair_; }
-  // Memory that it holds, but for its tubes.
+  // Without its tubes.
   [[nodiscard]] std::size_t bytes() const {
     return static_cast<std::size_t>(tree_.size()) * sizeof(Node) +
            found_.size() * sizeof(NarrowWitness);
   }
 
-  // Two bodies too close to each other.
   struct Witness {
     PairId pair;
-    double distance_m;  // exact if it is below the limit; else (undecided) what is known
+    double distance_m;  // exact if below the limit, else a lower bound
     Duration time_a;    // trajectory times
     Duration time_b;
-    double at_s;  // when the question's band first holds it, from its beginning
+    double at_s;  // from the start of the question's band until it first contains this state
   };
   struct Answer {
     bool free = false;
     bool exhausted = false;  // the budget ended before the question was decided
-    // Not free: the first state in time that is proven to be a conflict, to within kFirst; or,
-    // where none is proven, the first cell that could not be decided.
+    // If proven, the first conflict in time, to within kFirst_s; else the first cell that could not
+    // be decided. nullopt if free.
     std::optional<Witness> conflict;
     bool proven = false;
-    std::uint64_t evaluations = 0;  // cells and states that were looked at for this question
+    std::uint64_t evaluations = 0;  // cells and states
   };
-  // Looks at no more than `budget` cells and states; so do the others, which return how many.
+  // Evaluates at most `budget` cells and states. The refine functions stop within a batch of eight
+  // after `budget`; they return the number of evaluated cells (at least `budget` if interrupted).
   [[nodiscard]] Answer ask(const ProgressBand& band, std::uint64_t budget);
 
-  // Refines the rectangle of what remains of both motions until each cell is free, in conflict, or
-  // no wider than `resolution`.
+  // Refines what remains of both motions until each cell is free, in conflict, or no wider than
+  // `resolution`.
   std::uint64_t refine(Duration now_a, Duration now_b, Duration resolution, std::uint64_t budget);
 
-  // Finds where what is free of the rectangle of what remains of both motions ends: what is not
-  // borders on it, or on where both stand now, in cells no wider than `fine`, or `coarse` where
-  // their middle is proven to be a conflict, and where motions pass it as fine as `passing` says.
-  // What lies behind them is not looked at: no motion gets there.
+  // Refines the border of the free part of what remains of both motions: cells that touch a free
+  // cell, or an edge where a motion is now. They become no wider than `fine`, or `coarse` if their
+  // middle is in conflict, and as `passing` requires where motions pass a region. Cells behind the
+  // border are not evaluated: no motion gets there.
   struct Resolution {
     Duration coarse;
     Duration fine;
     PassingResolution passing;
   };
   //
-  // Of long motions the first cells are as much wider as it takes for few of them to cover all, so
-  // that the budget goes to where motions are near each other. A diagram that is full (kFull) is
-  // refined no further, but begun anew when less than half of it remains.
+  // Long motions begin with wider cells, so that the budget goes where motions are close. A full
+  // diagram (kFull) is not refined further; it starts again when less than half of its area
+  // remains.
   std::uint64_t refine_outline(Duration now_a, Duration now_b, const Resolution& resolution,
                                std::uint64_t budget);
 
-  // The leaves that meet the rectangle of what remains and are not known to be free, in a fixed
-  // order.
+  // Returns the leaves of what remains that are not known to be free, in a fixed order.
   struct Blocked {
     ProgressBox box;
-    std::optional<Witness> found;  // at the middle, exactly; at_s is not set
-    bool proven = false;           // that is closer than its limit
+    std::optional<Witness> found;  // at the middle; at_s is not set
+    bool proven = false;           // closer than its limit
   };
   [[nodiscard]] std::vector<Blocked> blocked(Duration now_a, Duration now_b) const;
 
-  // Motions that pass each other closely leave places that are neither free nor in conflict at a
-  // resolution. Halves those whose middle lies in one of the areas, until each is free or no wider
-  // than `finest`, or one is proven to be a conflict: then it is no close pass.
+  // Close passes leave cells that are neither free nor in conflict. Halves such cells with the
+  // middle in one of `areas`, until each is free or no wider than `finest`. Stops at a proven
+  // conflict, because it is no close pass.
   std::uint64_t refine_close_passes(const std::vector<ProgressBox>& areas, Duration finest,
                                     std::uint64_t budget);
 
@@ -96,14 +94,13 @@ class CoordinationDiagram {
     ProgressBox box;
     CellState state;
   };
-  // The leaves, in a fixed order; unknown ones are those that no question needed.
+  // Returns the leaves, in a fixed order. Unknown leaves were never needed.
   [[nodiscard]] std::vector<CellView> cells() const;
 
-  // First cells are no more than this share of the budget.
+  // Largest share of the budget for the first cells.
   inline static constexpr double kFirstShare = 0.125;
   inline static constexpr int kFull = 1'000'000;
 
-  // How far the time of a first conflict may be off.
   inline static constexpr double kFirst_s = 0.01;
 
  private:
@@ -152,14 +149,14 @@ class CoordinationDiagram {
   [[nodiscard]] bool clears(Node& cell, TubePair::Undecided& undecided);
 
   TubePair pair_;
-  CellTree tree_;  // axes: times of the tubes; of an arm and itself the second one has no length
+  CellTree tree_;  // axes: times of the tubes; the second may have no length
   std::vector<NarrowWitness> found_;
   struct Outlined {
     Duration now_a, now_b;
     Resolution resolution;
   };
-  std::optional<Outlined> outlined_;  // as refine_outline() has completed it
-  double begun_with_s2_ = 0.0;        // what remained when the first outline was asked for
+  std::optional<Outlined> outlined_;  // last completed refine_outline()
+  double begun_with_s2_ = 0.0;        // area at the first refine_outline()
 };
 
 }  // namespace armloom

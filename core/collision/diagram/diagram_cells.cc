@@ -1,4 +1,3 @@
-// One batch of cells: from the filter over the exact distance to a state.
 #include <algorithm>
 #include <limits>
 
@@ -7,14 +6,14 @@
 namespace armloom {
 namespace {
 
-// A side is halved together with the other if it moves at least this share as much.
+// Both sides are halved if the smaller motion is at least this share of the larger.
 constexpr double kBothShare = 0.5;
 
-// Parts move towards each other at least this share of what they may move in all directions,
-// mostly: where more than that would have to be nothing, it is not asked.
+// Bodies mostly move towards each other by at least this share of their motion bounds. With less
+// room, no proof is tried.
 constexpr double kTowardsShare = 0.25;
 
-// What is not below the limit is known well enough to this share of the motion.
+// Required accuracy of surface distances above the limit, as a share of the motion.
 constexpr double kRoughShare = 0.125;
 
 }  // namespace
@@ -23,7 +22,7 @@ TubePair::Nodes CoordinationDiagram::nodes_of(const Node& cell) const {
   return {cell.a, pair_.is_self() ? cell.a : cell.b};
 }
 
-// Up to eight.
+// Precondition: at most eight cells.
 void CoordinationDiagram::evaluate(std::span<const int> cells) {
   TubePair::Nodes nodes[filter::kLanes];
   for (std::size_t i = 0; i < cells.size(); ++i) nodes[i] = nodes_of(tree_.at(cells[i]));
@@ -31,9 +30,8 @@ void CoordinationDiagram::evaluate(std::span<const int> cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) decide(cells[i], pair_.undecided(i));
 }
 
-// Whether the pair keeps its limit all over the cell; notes it if not. Where capsules keep it in
-// the middle there is no conflict to be proven: only the direction that parts the bodies is asked
-// for.
+// Returns true if the pair is proven to keep its limit throughout the cell. If capsules keep the
+// limit at the middle, there is no conflict to prove: only the separating direction is tried.
 bool CoordinationDiagram::clears(Node& cell, TubePair::Undecided& u) {
   const NarrowPair& pair = pair_.narrow(u.narrow, u.box);
   const double enough_m = u.limit_m + u.moves_m();
@@ -50,14 +48,13 @@ bool CoordinationDiagram::clears(Node& cell, TubePair::Undecided& u) {
   return false;
 }
 
-// From what the filter has left open to the cell's state.
 void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& undecided) {
   using Undecided = TubePair::Undecided;
   Node& cell = tree_.at(index);
   cell.state = CellState::free;
   if (undecided.empty()) return;
 
-  // What is in conflict all over the cell makes that of it; what is not clear splits it.
+  // A conflict throughout the cell decides the cell. A pair that is not cleared splits it.
   constexpr double kProven = -std::numeric_limits<double>::infinity();
   const auto passes = [&](Undecided& u) {
     if (u.short_m == kProven) return true;
@@ -72,22 +69,22 @@ void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& un
     }
     return false;
   };
-  // By the capsules, a conflict most likely: unless the one is in a notch of the other.
+  // Most likely a conflict, unless one body is in a notch of the other.
   const auto closest = std::ranges::min_element(
       undecided, {}, [](const Undecided& u) { return u.distance_m + u.slack_m - u.limit_m; });
   if (closest->distance_m + closest->slack_m < closest->limit_m && !passes(*closest)) return;
   const auto worst = std::ranges::max_element(undecided, {}, &Undecided::needs_m);
-  if (worst->needs_m() > TubePair::kAlongShapes_m) {  // no distance would do: none is asked
+  if (worst->needs_m() > TubePair::kAlongShapes_m) {  // no distance can suffice
     choose_split(cell, *worst);
     return;
   }
-  std::iter_swap(undecided.begin(), worst);  // mostly it is the one that does not
+  std::iter_swap(undecided.begin(), worst);  // most likely the pair that fails
   for (Undecided& u : undecided) {
     if (!passes(u)) return;
   }
 }
 
-// Keeps the closest pair of a cell's middle.
+// Keeps the closest pair at a cell's middle.
 void CoordinationDiagram::note(Node& cell, const NarrowWitness& found) {
   if (cell.witness < 0) {
     cell.witness = static_cast<int>(found_.size());
@@ -102,7 +99,7 @@ void CoordinationDiagram::choose_split(Node& cell, const TubePair::Undecided& wo
   cell.split_b = worst.towards_b_m >= kBothShare * worst.towards_a_m;
   if (!(cell.split_a && tree_.a().width(cell.a) > CellTree::kFinest) &&
       !(cell.split_b && tree_.b().width(cell.b) > CellTree::kFinest)) {
-    cell.split_a = cell.split_b = true;  // what is left
+    cell.split_a = cell.split_b = true;  // whichever is still wide enough
   }
   const double room_m = worst.distance_m + worst.slack_m - worst.limit_m;
   const double shrink = room_m > 0.0 ? worst.moves_m() / room_m : 2.0;

@@ -1,4 +1,3 @@
-// What makes cells finer but for questions of times, all in one loop.
 #include <algorithm>
 #include <utility>
 
@@ -9,16 +8,15 @@
 namespace armloom {
 namespace {
 
-// Neither decided nor as fine as cells can be.
 bool is_refinable(const CellTree::Node& cell) {
   return cell.state == CellTree::CellState::mixed || cell.state == CellTree::CellState::unknown;
 }
 
 }  // namespace
 
-// expand(leaves, unknown): splits leaves as far as they have to be, and names what is to be looked
-// at; follow(unknown): the leaves to go on with. As far as the budget goes; returns how many cells
-// were looked at.
+// Refines `leaves` within the budget; returns the number of evaluated cells. expand(leaves,
+// unknown) splits leaves as required and lists cells to evaluate. follow(unknown) returns the next
+// leaves.
 template <class Expand, class Follow>
 std::uint64_t CoordinationDiagram::refine_from(std::vector<int> leaves, std::uint64_t budget,
                                                const Expand& expand, const Follow& follow) {
@@ -73,7 +71,7 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
   for (; width >= CellTree::kWide && looked_at < budget; width /= 2) {
     looked_at += refine(now_a, now_b, width, budget - looked_at);
   }
-  // A motion that is still to come finds the other one anywhere on its way: hence the edges.
+  // A motion that is to come may find the other motion anywhere on its path, so edges are entries.
   const auto may_be_entered = [&](const Node& cell) {
     return tree_.a().from(cell.a) <= now_a || tree_.b().from(cell.b) <= now_b ||
            tree_.leaves_at(cell,
@@ -82,7 +80,7 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
   const auto may_be_finer = [&](int index) {
     return is_refinable(tree_.at(index)) && tree_.remains(tree_.at(index), now_a, now_b);
   };
-  std::vector<int> border;  // leaves that may be entered from what is free
+  std::vector<int> border;  // leaves next to free cells or edges
   for (int i = 0; i < tree_.size(); ++i) {
     if (may_be_finer(i) && may_be_entered(tree_.at(i))) border.push_back(i);
   }
@@ -127,13 +125,13 @@ double CoordinationDiagram::area_s2(Duration now_a, Duration now_b) const {
   return to_seconds(tree_.a().duration() - now_a) * to_seconds(tree_.b().duration() - now_b);
 }
 
-// kWide, doubled until the first cells are few enough.
+// Returns kWide, doubled until the first cells are few enough.
 Duration CoordinationDiagram::first_width(Duration now_a, Duration now_b,
                                           std::uint64_t budget) const {
   const double cells_max = kFirstShare * static_cast<double>(budget);
   const double area = area_s2(now_a, now_b);
   Duration width = CellTree::kWide;
-  // Cells are halves of halves: up to twice as fine as they may be.
+  // Halving makes cells up to twice as fine as required.
   while (4.0 * area > cells_max * to_seconds(width) * to_seconds(width)) width *= 2;
   return width;
 }
@@ -148,7 +146,8 @@ void CoordinationDiagram::begin_anew_if_passed(Duration now_a, Duration now_b) {
   if (tree_.size() == 1) begun_with_s2_ = area;
 }
 
-// Whether a refinement of before holds, where both stand now too.
+// Returns true if an earlier refinement is still valid at the current progress of both motions and
+// at least as fine as requested.
 bool CoordinationDiagram::is_outlined(Duration now_a, Duration now_b,
                                       const Resolution& resolution) const {
   if (!outlined_ || outlined_->now_a > now_a || outlined_->now_b > now_b) return false;
@@ -163,7 +162,6 @@ bool CoordinationDiagram::is_outlined(Duration now_a, Duration now_b,
   return std::none_of(tree_.begin(), tree_.end(), blurs);
 }
 
-// A leaf of what remains that is not known to be free.
 bool CoordinationDiagram::is_open(const Node& cell, Duration now_a, Duration now_b) const {
   return cell.state != CellState::inner && cell.state != CellState::free &&
          tree_.remains(cell, now_a, now_b);
@@ -174,14 +172,14 @@ OpenLeaf CoordinationDiagram::open_leaf(int index) const {
   return {index, tree_.box_of(cell), is_refinable(cell), proven(cell) != nullptr};
 }
 
-// Of the children those are looked at that bear on where a motion passes: the corner, and its
-// neighbours, which cannot be free where their common corner is in conflict.
+// Evaluates only children that affect where a motion passes: the corner and its neighbors. If the
+// leaf's middle is in conflict, the neighbors touch it and cannot be free.
 void CoordinationDiagram::split_passing_edge(const CoarseLeaf& leaf, std::vector<int>& unknown) {
   const bool middle_is_open = proven(tree_.at(leaf.cell)) == nullptr;
   tree_.split_if_coarse(leaf.cell, leaf.allowed);
   const Node cell = tree_.at(leaf.cell);
   if (cell.state != CellState::inner) return;
-  // In order: along B, then along A. The corner (to_a, from_b) is the one where A passes first.
+  // Children are ordered along B, then along A. A passes first at the corner (to_a, from_b).
   const int a_first = cell.split_a ? (cell.split_b ? 2 : 1) : 0;
   const int b_first = cell.split_b ? 1 : 0;
   for (int child = 0; child < cell.child_count(); ++child) {
@@ -196,7 +194,7 @@ std::uint64_t CoordinationDiagram::refine_passing_edges(Duration now_a, Duration
                                                         std::uint64_t budget) {
   const ProgressBox remaining{now_a, tree_.a().duration(), now_b, tree_.b().duration()};
   bool ended = false;
-  std::vector<int> open;  // no cell that is not open becomes so
+  std::vector<int> open;  // a cell never becomes open again
   int seen = 0;
   const auto expand = [&](const std::vector<int>&, std::vector<int>& unknown) {
     for (; seen < tree_.size(); ++seen) open.push_back(seen);

@@ -63,7 +63,7 @@ void MotionStore::count() {
   named_ = {};
 }
 
-// Of those that were asked about at one time the first arm's first.
+// Drops the least recently used entry; of several, that of the first arm.
 void MotionStore::drop_oldest() {
   const auto asked_at = [](const std::unique_ptr<Entry>& entry) { return entry->asked_at; };
   std::vector<std::unique_ptr<Entry>>* of_arm = nullptr;

@@ -13,41 +13,38 @@
 
 namespace armloom {
 
-// Keeps the tubes of motions and rests, and the diagrams between them, while they are asked about.
-// What links and held objects do to each other outlives a change of the scene's objects. Not
-// thread-safe.
+// Keeps the tubes of motions and rests, and their diagrams, while questions use them. Diagrams of
+// links and attached objects survive a change of objects. Not thread-safe.
 class MotionStore {
  public:
   explicit MotionStore(PlanningScenePtr scene);
 
-  // Objects have changed, or what arms hold; the cell is the same. Everything is forgotten if the
-  // scene does not hold as the one before does (PlanningScene::holds_as).
+  // Switches to another scene of the same cell. Drops everything if the attached objects differ
+  // (PlanningScene::holds_as).
   void look_at(PlanningScenePtr scene);
   [[nodiscard]] const PlanningScenePtr& scene() const { return scene_; }
 
-  // One arm's motion, or its rest.
   struct Entry {
     ArmId arm;
-    TrajectoryPtr trajectory;  // null: a rest
-    std::vector<double> rest;  // of the arm's joints, rows of its kinematics
+    TrajectoryPtr trajectory;  // null if at rest
+    std::vector<double> rest;  // the arm's joints, rows as in its kinematics
     double tracking_error;
     std::shared_ptr<MotionTube> tube;
     std::uint64_t asked_at;
-    std::vector<Entry*> compared = {};            // those that it has a diagram with
-    std::optional<double> stopping_reach_s = {};  // once it was asked for
+    std::vector<Entry*> compared = {};            // have a diagram with it
+    std::optional<double> stopping_reach_s = {};  // cached
     std::size_t bytes = 0;                        // of the tube, as last counted
 
     [[nodiscard]] Duration duration() const { return tube->duration(); }
   };
-  // Of each arm kKept entries are kept, those that questions named last. References hold until the
-  // next begin_question().
+  // When a question begins, each arm keeps the entries used last. References stay valid until the
+  // next begin_question() or look_at().
   inline static constexpr std::size_t kKept = 64;
-  // Entries and diagrams hold no more memory than this when a question begins: entries that were
-  // asked about longest ago go first.
+  // Memory limit when a question begins; the least recently used entries are dropped first.
   inline static constexpr std::size_t kBytesKept = std::size_t{192} << 20;
   // `progress`: null, or outlives the question.
   void begin_question(CheckProgress* progress = nullptr);
-  // The check at hand: it may use so many cells; whether it is to end early.
+  // Announces how many cells the check may use; returns true if it must end early.
   void expect(std::uint64_t cells);
   [[nodiscard]] bool is_interrupted() const;
   [[nodiscard]] Entry& motion(const TrajectoryPtr& trajectory, ArmId arm, const Configuration& rest,
@@ -55,17 +52,16 @@ class MotionStore {
 
   [[nodiscard]] double stopping_reach_s(Entry& entry) const;
 
-  // Of two arms, empty where they are out of reach; of an arm and what stands still; of an arm and
+  // Diagrams of two arms (empty if out of reach), of an arm and static bodies, of an arm with
   // itself.
   [[nodiscard]] OrientedDiagram between(Entry& own, Entry& other);
   [[nodiscard]] OrientedDiagram with_still(const Entry& own);
   [[nodiscard]] OrientedDiagram with_itself(const Entry& own);
 
-  // The arms cannot come closer than the cell's clearance, wherever they are.
   [[nodiscard]] bool out_of_reach(ArmId a, ArmId b) const;
 
  private:
-  using Key = std::pair<const Entry*, const Entry*>;  // of two arms; of one: twice the same
+  using Key = std::pair<const Entry*, const Entry*>;  // two arms; or the same entry twice
   struct Diagram {
     std::unique_ptr<CoordinationDiagram> cells;
     std::size_t bytes = 0;  // as last counted
@@ -85,7 +81,7 @@ class MotionStore {
   void count();
 
   PlanningScenePtr scene_;
-  PlanningScenePtr links_;  // the scene that cross and self pairs were read from
+  PlanningScenePtr links_;  // source of cross and self pairs
   std::vector<std::shared_ptr<const ArmGeometry>> arms_;
   struct Scratch {
     std::vector<std::shared_ptr<MotionTube::Scratch>> tubes;  // by arm
@@ -95,7 +91,7 @@ class MotionStore {
   std::shared_ptr<MotionTube> still_;
   struct Pairs {
     std::map<std::pair<ArmId, ArmId>, PairSet> cross;
-    std::map<ArmId, PairSet> still;  // made when asked for
+    std::map<ArmId, PairSet> still;  // built on first use
   };
   Pairs pairs_;
   std::vector<std::vector<std::unique_ptr<Entry>>> entries_;  // by arm
@@ -104,14 +100,13 @@ class MotionStore {
   };
   Kept diagrams_;
   std::uint64_t question_ = 0;
-  // The entries and diagrams of the present question. Only they grow: begin_question() and
-  // look_at() renew their counts.
+  // Entries and diagrams of the current question. Only these grow and are recounted.
   struct Named {
     std::vector<Entry*> entries;
     std::vector<Diagram*> diagrams;
   };
   Named named_;
-  std::size_t bytes_ = 0;  // of all entries and diagrams, as last counted
+  std::size_t bytes_ = 0;  // as last counted
 };
 
 }  // namespace armloom

@@ -10,7 +10,7 @@ namespace armloom {
 namespace {
 
 using filter::kLanes;
-// Rounding of positions and times: far above what it can be, far below what matters.
+// Generous bound of the rounding of positions and times.
 constexpr double kRounding = 1e-8;
 
 std::size_t lane_size(std::size_t rows) { return rows * static_cast<std::size_t>(kLanes); }
@@ -108,12 +108,12 @@ void MotionTube::place(std::span<const int> nodes) {
   if (count > 0) place_batch({batch, count});
 }
 
-// The configuration in the middle of the interval, and how far each joint may be from it: at all,
-// and from a line through it.
+// Fills a lane with the configuration at the middle of the interval, and with bounds of the joints'
+// deviation from it and from a line through it.
 void MotionTube::fill_lane(int node, int lane) {
   Scratch& s = *scratch_;
   if (trajectory_) trajectory_->enclose_about_line(from(node), to(node), s.line);
-  // Nodes are cut in whole nanoseconds: neither half is longer than this.
+  // Nodes are cut at whole nanoseconds, so neither half is longer than this.
   const double half_s = 0.5 * to_seconds(width(node)) + 1e-9;
   for (std::size_t row = 0; row < rest_.size(); ++row) {
     const std::size_t place = lane_size(row) + static_cast<std::size_t>(lane);
@@ -125,7 +125,7 @@ void MotionTube::fill_lane(int node, int lane) {
     } else {
       s.q[place] = s.line.position[column];
       drift = s.line.velocity[column] * half_s;
-      // The rounding of a drift to float is far below a millionth of it.
+      // Covers the rounding of a drift to float.
       loose += s.line.off[column] + kRounding + 1e-6 * std::abs(drift);
     }
     s.joints.span[place] = round_up(std::abs(drift) + loose);
@@ -144,7 +144,7 @@ void MotionTube::place_batch(std::span<const int> nodes) {
       fill_lane(nodes[i], lane);
       continue;
     }
-    for (std::size_t row = 0; row < rest_.size(); ++row) {  // an unused lane: as the last one
+    for (std::size_t row = 0; row < rest_.size(); ++row) {  // unused lane: copy the last one
       const std::size_t to = lane_size(row) + static_cast<std::size_t>(lane);
       s.q[to] = s.q[lane_size(row) + i];
       for (auto* rows : {&s.joints.span, &s.joints.drift, &s.joints.loose}) {

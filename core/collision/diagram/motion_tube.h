@@ -12,7 +12,7 @@
 
 namespace armloom {
 
-// The kinematics of an arm, or of what stands still, with the pairs of its own bodies.
+// An arm with its self-collision pairs, or all static bodies.
 struct ArmGeometry {
   ArmGeometry(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm)
       : kinematics(bodies, arm),
@@ -21,15 +21,14 @@ struct ArmGeometry {
   PairSet self;
 };
 
-// One arm's motion over its trajectory time, or what stands still. A node holds the arm at the
-// middle of its interval, and for each capsule how far any point of it may be from there during the
-// interval, `tracking_error` of each joint (rad, m) included. Nodes are kept: the motion's
-// comparisons with all others share them. Not thread-safe.
+// One arm's motion over its trajectory time, or all static bodies. A node holds the arm at the
+// middle of its interval, and bounds how far any point of each capsule may be from there during the
+// interval, `tracking_error` of each joint (rad, m) included. All comparisons of the motion share
+// its nodes. Not thread-safe.
 class MotionTube : public TimeTree {
  public:
-  // Joints of the arm that are not in the trajectory stand where `rest` (whole cell) has them;
-  // without a trajectory all do, and there is one node for all times.
-  // Tubes of one arm in one thread may share their scratch.
+  // Joints that are not in the trajectory rest as in `rest` (whole cell). Without a trajectory, one
+  // node covers all times. Tubes of one arm and thread may share their scratch.
   struct Scratch;
   [[nodiscard]] static std::shared_ptr<Scratch> make_scratch(const ArmGeometry& geometry);
   MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPtr trajectory,
@@ -40,14 +39,14 @@ class MotionTube : public TimeTree {
   [[nodiscard]] const ArmGeometry& geometry() const { return *geometry_; }
   [[nodiscard]] const TrajectoryPtr& trajectory() const { return trajectory_; }
 
-  // Computes nodes that are not yet (eight at once). Before it the functions below are undefined.
+  // Computes missing nodes, eight at once. Required before place_of(), axes_of() and self_hits().
   void place(std::span<const int> nodes);
-  // Memory that it holds, its trajectory and the tree of times included.
+  // Includes the trajectory and the tree of times.
   [[nodiscard]] std::size_t bytes() const;
-  // A node is this wide, or made up of stretches that are.
+  // Wider nodes consist of stretches of at most this width.
   inline static constexpr Duration kStretch = std::chrono::microseconds(87'500);
 
-  // Eight nodes side by side, as the kernels have placed them.
+  // Eight nodes side by side, as the kernels place them.
   struct Block {
     std::vector<float> capsules;      // [capsule][6][kLanes]
     std::vector<float> motion_bound;  // [capsule][kLanes]: motion bounds, m
@@ -65,8 +64,7 @@ class MotionTube : public TimeTree {
   [[nodiscard]] Place place_of(int node) const {
     return {blocks_[at(node).block].get(), at(node).lane};
   }
-  // Stretches side by side that make up a placed node: its halves' halves down to kStretch, placed
-  // together when first asked for. A node of more than eight has none.
+  // The consecutive stretches of a placed node, placed on first use. Empty if more than eight.
   struct Stretches {
     const Block* block = nullptr;
     int first = 0;
@@ -74,11 +72,10 @@ class MotionTube : public TimeTree {
   };
   [[nodiscard]] Stretches stretches_of(int node);
 
-  // The axes of the node that carry what a frame of the kinematics carries, base to tip, without
-  // the first `skipped`.
+  // Writes the axes that move a frame of the kinematics, base to tip, without the first `skipped`.
   void axes_of(int node, int frame, std::size_t skipped, std::vector<MovingAxis>& axes) const;
-  // Pairs of the arm's own links (ArmGeometry::self) that are undecided over the interval; the
-  // motion bound is that against each other.
+  // Pairs of the arm's own links (ArmGeometry::self) that are undecided over the interval, with the
+  // bound of their relative motion.
   struct SelfHit {
     int pair;
     float distance;
@@ -86,7 +83,7 @@ class MotionTube : public TimeTree {
   };
   [[nodiscard]] std::span<const SelfHit> self_hits(int node) const;
 
-  // The configuration at a trajectory time, rows as ArmKinematics::joints.
+  // Writes the configuration at this time, rows as ArmKinematics::joints.
   void configuration(Duration time, double* q);
 
  private:

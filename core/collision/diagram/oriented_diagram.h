@@ -9,9 +9,9 @@
 
 namespace armloom {
 
-// A coordination diagram as the side that asks sees it: A is its own motion here, whichever axis
-// that is in the diagram. Empty where no two bodies can come too close. Not thread-safe; owned by
-// the store (motion_store.h), but for that of a parting.
+// A coordination diagram as the asking motion sees it: A is always its own axis. Empty if no two
+// bodies can come too close. Not thread-safe. The store (motion_store.h) owns the cells, except
+// those of parting_at().
 class OrientedDiagram {
  public:
   OrientedDiagram() = default;
@@ -22,7 +22,7 @@ class OrientedDiagram {
     return cells_ != nullptr && !setting_.pairs->empty();
   }
 
-  // As CoordinationDiagram has them.
+  // See CoordinationDiagram.
   [[nodiscard]] CoordinationDiagram::Answer ask(ProgressBand band, std::uint64_t budget) const;
   std::uint64_t refine(Duration resolution, std::uint64_t budget) const;  // all of both motions
   std::uint64_t refine_outline(Duration now_a, Duration now_b,
@@ -34,17 +34,17 @@ class OrientedDiagram {
                                                                   Duration now_b) const;
   [[nodiscard]] std::vector<CoordinationDiagram::CellView> cells() const;
 
-  // The closest pair there, exactly.
+  // Returns the closest pair at these times, exactly.
   [[nodiscard]] CoordinationDiagram::Witness closest_at(Duration time_a, Duration time_b) const;
-  // The evidence; body_a is the own one's.
+  // Returns the evidence; body_a belongs to the asking motion.
   [[nodiscard]] Proximity proximity_of(const CoordinationDiagram::Witness& found) const;
   [[nodiscard]] bool is_self(const CoordinationDiagram::Witness& found) const;
 
-  // Pairs that are too close where both stand now may part: the same motions, nothing known yet,
-  // with each of these held to kPartingShare of the distance that it has there. Empty: none is.
+  // Returns a new diagram for pairs that are too close now and may part: each must keep
+  // kPartingShare of its present distance. Empty if no pair is too close.
   inline static constexpr double kPartingShare = 0.8;
   [[nodiscard]] OrientedDiagram parting_at(Duration now_a, Duration now_b) const;
-  // Lowers the bound to what every pair here is held to.
+  // Lowers the bound to the limits of the pairs here.
   void lower(ClearanceBound& bound) const;
 
  private:

@@ -12,11 +12,11 @@
 namespace armloom {
 namespace {
 
-// Joins leaves that touch, in a sweep along A: leaves do not overlap, so those that a line across A
-// cuts are in order along B, and a leaf that begins there finds its neighbors by binary search.
+// Joins leaves that touch, by a sweep along A. Leaves do not overlap, so those that a line across A
+// cuts are ordered along B: binary search finds the neighbors of a new leaf.
 class TouchingLeaves {
  public:
-  // Given by from_a, then from_b.
+  // Precondition: sorted by from_a, then from_b.
   explicit TouchingLeaves(const std::vector<OpenLeaf>& leaves) : leaves_(leaves) {
     for (std::size_t i = 0; i < leaves.size(); ++i) sets_.add();
     for (std::size_t begin = 0; begin < leaves.size();) {
@@ -63,7 +63,8 @@ class TouchingLeaves {
   std::priority_queue<Place, std::vector<Place>, std::greater<>> ending_;  // by to_a
 };
 
-// Leaves that touch are one component, named by its first leaf. Given by from_a.
+// Returns the component of each leaf, named by its first leaf. Precondition: sorted by from_a,
+// from_b.
 std::vector<std::size_t> components_of(const std::vector<OpenLeaf>& leaves) {
   TouchingLeaves touching(leaves);
   std::vector<std::size_t> component(leaves.size());
@@ -71,12 +72,11 @@ std::vector<std::size_t> components_of(const std::vector<OpenLeaf>& leaves) {
   return component;
 }
 
-// A and B exchanged.
 ProgressBox exchanged(const ProgressBox& box) {
   return {box.from_b, box.to_b, box.from_a, box.to_a};
 }
 
-// A leaf as it looks where A passes first; for the other side with A and B exchanged.
+// A leaf's corner where A passes first; with A and B exchanged, where B does.
 struct Corner {
   Duration far;   // to_a
   Duration near;  // from_b
@@ -84,14 +84,13 @@ struct Corner {
   std::size_t leaf;
 };
 
-// Of one component: the corners with nothing of it farther out, far and near ascending.
+// The corners of a component with nothing of it farther out; far and near ascending.
 struct Staircase {
   std::vector<Corner> corners;
-  // What a path by the clock has to keep clear of for certain: the largest far - near that is
-  // proven.
+  // A path by the clock must clear at least this: the largest proven far - near.
   Duration certain = Duration::min() / 4;
 
-  // In the order of the leaves: of two alike the first one counts.
+  // Keeps the first of equal corners.
   void add(const Corner& corner) {
     const auto at = std::ranges::lower_bound(corners, corner.far, {}, &Corner::far);
     if (at != corners.end() && at->near <= corner.near) return;
@@ -107,8 +106,8 @@ struct Staircase {
   }
 };
 
-// How wide each leaf may be on this side; Duration::max(): it does not matter there. box_of(leaf):
-// as it looks where A passes first.
+// Returns the allowed width of each leaf on this side, Duration::max() for any width. box_of(box)
+// turns a box so that A passes first.
 template <class BoxOf>
 std::vector<Duration> allowed_widths(const std::vector<OpenLeaf>& leaves,
                                      const std::vector<std::size_t>& component, const BoxOf& box_of,

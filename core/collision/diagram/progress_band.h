@@ -5,10 +5,10 @@
 
 namespace armloom {
 
-// Which places of a coordination diagram (progress of A, progress of B) a question is about: as
-// time t >= 0 goes on, both advance second by second from where they are to their ends and rest
-// there; each may be up to its lag behind its point (a(t), b(t)), but never behind where it is now.
-// Seconds of trajectory time; 0 <= progress <= duration.
+// The states (progress of A, progress of B) that a question is about. As time t >= 0 passes, both
+// advance second by second to their ends and rest there. Each may be up to its lag behind its
+// planned point (a(t), b(t)), but never behind its present progress. Seconds of trajectory time; 0
+// <= progress <= duration.
 struct ProgressBand {
   inline static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
@@ -18,19 +18,19 @@ struct ProgressBand {
   double lag_b = 0.0;
   double duration_a = 0.0;
   double duration_b = 0.0;
-  bool swept = false;  // whatever the times: the whole rectangle of what remains of the two motions
+  bool swept = false;  // at all times: the rectangle of all that remains
 };
 
-// Times at which the band covers a part of a cell.
+// Times at which the band covers part of a cell.
 struct TimeRange {
   double from;
   double to;  // may be infinite
 };
 
-// When the band meets the cell [a1, a2] x [b1, b2] in more than a point of time; nothing: never.
+// Returns when the band meets the cell [a1, a2] x [b1, b2] for more than an instant, or nullopt.
 [[nodiscard]] std::optional<TimeRange> meets(const ProgressBand& band, double a1, double a2,
                                              double b1, double b2);
-// When the band first holds the point; nothing: never.
+// Returns when the band first contains the point, or nullopt.
 [[nodiscard]] std::optional<double> first_at(const ProgressBand& band, double a, double b);
 
 }  // namespace armloom

@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Of some ten roundings of coordinates of a few metres.
+// Bound of some ten roundings of coordinates of a few meters.
 constexpr double kRounding_m = 1e-13;
 
 }  // namespace
@@ -31,7 +31,7 @@ Sweep::Sweep(std::span<const MovingAxis> axes, const Vector3d& n_W) : axes_(axes
   }
 }
 
-// n . p with what the joints may add to it, to first order.
+// Returns n . p plus a first-order bound of what the joints add.
 double Sweep::at(const Vector3d& p_W) const { return n_.dot(p_W) + added(p_W); }
 
 double Sweep::added(const Vector3d& p_W) const {
@@ -40,14 +40,14 @@ double Sweep::added(const Vector3d& p_W) const {
   return sum;
 }
 
-// What a ball adds to at() of its centre: for each choice of signs at() is linear with the slope
-// n + sum +-m, all m across n.
+// Returns what a ball adds to at() of its center. For each choice of signs, at() is linear with the
+// slope n + sum +-m, and all m are normal to n.
 double Sweep::round(double radius_m) const { return radius_m * std::hypot(1.0, turn_); }
 
-// The second sum (class comment) for points within radius_m of the centre.
+// Returns the second sum (class comment) for points within radius_m of the center.
 double Sweep::remainder(const Vector3d& center_W, double radius_m) const {
   double sum = 0.0;
-  double turned = 0.0;  // by the axes before
+  double turned = 0.0;  // by the previous axes
   for (const MovingAxis& axis : axes_) {
     if (axis.prismatic) {
       sum += axis.span() * turned;
@@ -60,7 +60,7 @@ double Sweep::remainder(const Vector3d& center_W, double radius_m) const {
   return sum + kRounding_m;
 }
 
-// The rim of a flat end about its centre: as round(), with what of the slope lies in the disc.
+// Bounds the rim of a flat end: like round(), with the part of the slope within the disc.
 double Sweep::of_cylinder(const ConvexShape& shape, const PlacedConvexShape& placed) const {
   const Vector3d along = placed.X_WS.linear().col(2);
   const Vector3d across = n_ - n_.dot(along) * along;

@@ -6,14 +6,14 @@
 
 namespace armloom {
 
-// A motion's time as a binary tree of intervals; nodes are made when asked for. A rest has one node
-// without width, for all times.
+// A motion's time as a binary tree of intervals, created on first use. A rest has one node of zero
+// width, for all times.
 class TimeTree {
  public:
   explicit TimeTree(Duration duration = {}) : nodes_{{Duration{}, duration}} {}
 
   [[nodiscard]] Duration duration() const { return nodes_.front().to; }
-  // The whole motion. Children are two halves, side by side: first_child(n) and the one after it.
+  // The whole motion. Children are two halves: first_child(n) and the next node.
   [[nodiscard]] static int root() { return 0; }
   [[nodiscard]] int first_child(int node) {
     if (at(node).children < 0) {

@@ -1,4 +1,4 @@
-// A batch of cells of a TubePair: which pairs of capsules are left open in each.
+// Filters a batch of cells of a TubePair: which pairs of capsules stay undecided in each.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -15,7 +15,6 @@ using Block = MotionTube::Block;
 
 }  // namespace
 
-// The nodes of a batch in their tube, lane by lane.
 struct TubePair::Batch {
   const MotionTube& tube;
   Gathered& to;
@@ -29,7 +28,7 @@ struct TubePair::Batch {
     side = {rows(&Block::capsules, to.capsules), rows(&Block::motion_bound, to.motion_bound),
             rows(&Block::ball, to.ball)};
   }
-  // The block that they are, in its order; null: they are none. That of a rest has it in all lanes.
+  // Returns the block that has this batch lane by lane, else null. A rest fills all lanes.
   [[nodiscard]] const Block* as_block() const {
     if (tube.size() == 1) return of[0].block;
     for (std::size_t lane = 0; lane < count; ++lane) {
@@ -37,7 +36,7 @@ struct TubePair::Batch {
     }
     return of[0].block;
   }
-  // Every row of them: the block's own where they are one.
+  // Returns a row of all lanes, gathered unless the batch is one block.
   [[nodiscard]] const float* rows(std::vector<float> Block::*member,
                                   std::vector<float>& gathered) const {
     if (const Block* block = as_block()) return (block->*member).data();
@@ -52,7 +51,6 @@ struct TubePair::Batch {
   }
 };
 
-// The cells of a batch as pairs of capsules meet in them.
 struct TubePair::Lanes {
   struct Side {
     MotionTube::Place at;
@@ -67,10 +65,10 @@ struct TubePair::Lanes {
     }
   };
   std::array<Side, kLanes> a, b;
-  unsigned lost = 0;  // no distance of one pair would do: of the others none is looked for
+  unsigned lost = 0;  // by lane: a pair cannot be proven apart; others are not tried
 };
 
-// Along the direction that parts the capsules of a hit, whichever of their stretches they are in.
+// Bounds a hit along the direction that separates its capsules, for all pairs of stretches.
 void TubePair::look_along(Lanes& lanes, const filter::Hit& hit, unsigned lane,
                           filter::Parted& parted) const {
   const filter::Pair& pair = setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)];
@@ -83,8 +81,8 @@ void TubePair::look_along(Lanes& lanes, const filter::Hit& hit, unsigned lane,
   if (short_m > slack_m(narrow(hit.pair, false)) + kAlongShapes_m) lanes.lost |= 1U << lane;
 }
 
-// Of the pairs that bounds of their motion leave open, those that stay so along the direction that
-// parts them. Of each cell the closest pair is looked at first. Returns their number.
+// Keeps the hits that stay undecided along the separating direction; returns their number. Tries
+// the closest pair of each cell first.
 int TubePair::left_open(unsigned of_batch, int hits) {
   Scratch& s = *setting_.scratch;
   Lanes lanes;
@@ -147,7 +145,7 @@ void TubePair::place_all(std::span<const Nodes> nodes) {
 void TubePair::filter(std::span<const Nodes> batch) {
   Scratch& s = *setting_.scratch;
   place_all(batch);
-  if (is_self()) return;  // its tube has filtered them
+  if (is_self()) return;  // the tube has filtered its own pairs
   const Batch a(*a_, s.nodes_a, s.a);
   const Batch b(*b_, s.nodes_b, s.b);
   s.side_a = a.side;
@@ -170,8 +168,8 @@ std::vector<TubePair::Undecided>& TubePair::undecided(std::size_t lane) {
   Scratch& s = *setting_.scratch;
   const PairSet& set = *setting_.pairs;
   s.undecided.clear();
-  // Where nothing more is known, parts move towards each other at least this share of what they
-  // may move in all directions, mostly.
+  // By default: bodies mostly move towards each other by at least this share of their motion
+  // bounds.
   constexpr double kTowardsShare = 0.25;
   const auto add = [&](int entry, bool box, double distance_m, double moves_a_m,
                        double moves_m) -> Undecided& {

@@ -73,7 +73,7 @@ std::size_t TubePair::limits_kept(const NarrowPair& pair, Nodes at,
 bool TubePair::keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, double enough_m) {
   const KinematicBody& a = body_a(pair);
   const KinematicBody& b = body_b(pair);
-  std::size_t common = 0;  // what moves both does not part them
+  std::size_t common = 0;  // joints upstream of both bodies do not change their distance
   if (is_self()) {
     const auto of_a = a_->kinematics().ancestors(a.frame);
     const auto of_b = a_->kinematics().ancestors(b.frame);
@@ -110,7 +110,7 @@ std::vector<TubePair::PairDistance> TubePair::too_close_at(Duration time_a, Dura
   for (const auto* pairs : {&setting_.pairs->narrow, &setting_.pairs->narrow_boxes}) {
     for (std::size_t i = 0; i < pairs->size(); ++i) {
       const NarrowPair& pair = (*pairs)[i];
-      if (i > 0 && pair.pair == (*pairs)[i - 1].pair) continue;  // another capsule of the same
+      if (i > 0 && pair.pair == (*pairs)[i - 1].pair) continue;  // another capsule of this pair
       const double distance_m = placed_distance(pair, pair.limit_m);
       if (distance_m < pair.limit_m) close.push_back({pair.pair, distance_m});
     }

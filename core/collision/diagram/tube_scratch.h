@@ -8,14 +8,14 @@
 
 namespace armloom {
 
-// Nodes of one tube that lie apart, side by side.
+// Nodes from different blocks, side by side.
 struct TubePair::Gathered {
   std::vector<float> capsules, motion_bound, ball;  // MotionTube::Block
 };
 
-// What is at hand: nodes to be filtered, what is open of one of them, one state.
+// Nodes being filtered, what is open in one of them, and one state.
 struct TubePair::Scratch {
-  CheckProgress* progress = nullptr;  // of the check at hand; null: nobody watches it
+  CheckProgress* progress = nullptr;  // null if not watched
   Gathered a, b;
   struct Hits {
     std::vector<filter::Hit> of;

@@ -11,13 +11,13 @@
 namespace armloom {
 namespace {
 
-// A rotation that takes z to the axis.
+// Returns a rotation that takes z to the axis.
 Eigen::Matrix3d z_to(const Eigen::Vector3d& axis) {
   if (axis == Eigen::Vector3d::UnitZ()) return Eigen::Matrix3d::Identity();
   return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
 }
 
-// Right angles leave numbers like 6e-17 and 1 - 1e-16.
+// Removes rounding of right angles, such as 6e-17 or 1 - 1e-16.
 double without_dust(double x) {
   const double whole = std::round(x);
   return std::abs(x - whole) < 1e-14 ? whole : x;

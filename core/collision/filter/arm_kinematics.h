@@ -11,8 +11,7 @@
 
 namespace armloom {
 
-// A body (scene_bodies.h) of a kinematics: the frame that carries it (-1: it stands in the world)
-// and its capsules in the filter.
+// A body (scene_bodies.h): the frame that moves it (-1: static) and its capsules in the filter.
 struct KinematicBody {
   std::size_t body;  // in PlanningScene::Bodies::bodies
   int frame;
@@ -21,35 +20,34 @@ struct KinematicBody {
   int capsules_end;
 };
 
-// One arm, with what it holds, as the filter's kernels want it: only what moves is a frame, fixed
-// links are folded into the frame that carries them, every frame's joint turns about its z. Works
-// for any tree of revolute, continuous, prismatic and mimic joints. Or all that stands still,
-// static links and objects: a kinematics without frames. Immutable.
+// One arm with its attached objects, in the form of the filter's kernels. Only movable joints
+// become frames, each with its axis as z; fixed links belong to the frame that moves them. Works
+// for any tree of revolute, continuous, prismatic and mimic joints. Static links and objects form a
+// kinematics without frames. Immutable.
 class ArmKinematics {
  public:
-  // No arm: what stands still.
+  // nullopt: static bodies.
   ArmKinematics(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm);
 
   [[nodiscard]] std::optional<ArmId> arm() const { return arm_; }
-  // Rows of the q that the kernels take. Joints upstream that no arm moves are among them.
+  // Rows of the kernels' q, including upstream joints that no arm moves.
   [[nodiscard]] const std::vector<JointId>& joints() const { return joints_; }
   [[nodiscard]] const std::vector<KinematicBody>& bodies() const { return bodies_; }
   [[nodiscard]] const std::vector<filter::Frame>& frames() const { return frames_; }
   [[nodiscard]] const std::vector<filter::Capsule>& capsules() const { return capsules_; }
   [[nodiscard]] int motion_bound_rows() const { return motion_bound_rows_; }
   [[nodiscard]] filter::ArmKinematics view() const;
-  // No point of a body, nor any joint, ever has a larger coordinate in the world (m).
+  // Upper bound of all world coordinates of its bodies and joints (m).
   [[nodiscard]] double extent_m() const { return extent_m_; }
-  // The frames that carry one, itself the last; none of the world (-1).
+  // Returns the frames from the root to this frame; empty for the world (-1).
   [[nodiscard]] std::span<const int> ancestors(int frame) const;
-  // How many ancestors two capsules share.
   [[nodiscard]] int common_ancestors(int capsule_a, int capsule_b) const;
 
  private:
-  struct Carried {  // a link: the frame that carries it, and where in it
+  struct Carried {  // the frame that moves a link, and its pose there
     int frame = -1;
     Eigen::Isometry3d X_FL = Eigen::Isometry3d::Identity();
-    double reach_m = 0.0;  // of the link's origin from the world's, at most
+    double reach_m = 0.0;  // upper bound, from the world's origin to the link's
   };
   Carried carry(const Cell& cell, LinkId link, std::vector<int>& seen,
                 std::vector<Carried>& carried);
@@ -67,26 +65,25 @@ class ArmKinematics {
   double extent_m_ = 0.0;
 };
 
-// The pose of each frame of one configuration, in double: [frame][12] as filter::Frame::C.
-// q as ArmKinematics::joints.
+// Writes the pose of each frame, in double: [frame][12] as filter::Frame::C. `q` as
+// ArmKinematics::joints.
 void place_frames(const ArmKinematics& kinematics, const double* q, double* frames);
-// Where a body is; `frames` as above, `stride` between consecutive numbers.
+// `frames` as above; `stride` between consecutive numbers.
 [[nodiscard]] Eigen::Isometry3d body_pose(const KinematicBody& body, const double* frames,
                                           int stride = 1);
 
-// A capsule of a body, fixed in the world or in a frame.
 [[nodiscard]] filter::Capsule kernel_capsule(const Eigen::Isometry3d& X_FP,
                                              const Eigen::Vector3d& p_PA,
                                              const Eigen::Vector3d& p_PB, double radius_m);
-// One of the capsules that the kernels know by their numbers.
+// A capsule with its index in the kernels' arrays.
 struct NumberedCapsule {
   int number;
   const filter::Capsule& capsule;
 };
-// What the kernel needs to know of a pair; `margin_m` is the rounding margin.
+// `margin_m`: rounding margin.
 [[nodiscard]] filter::Pair kernel_pair(const NumberedCapsule& a, const NumberedCapsule& b,
                                        double limit_m, double margin_m);
-// The smallest float not below x.
+// Returns the smallest float that is not below x.
 [[nodiscard]] float round_up(double x);
 
 }  // namespace armloom

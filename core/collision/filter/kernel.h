@@ -1,20 +1,20 @@
 #pragma once
 
 // The conservative filter: capsules of eight configurations at once. Plain data and function
-// pointers only, because this header is included by files that are compiled for other instruction
-// sets: nothing here may be emitted twice (no standard library, no Eigen).
+// pointers only: files compiled for other instruction sets include this header, so it must not emit
+// code (no standard library, no Eigen).
 //
-// Every array is "structure of arrays": the last index is the lane, one configuration each. Poses
-// are computed in double and rounded once to float, so that the rounding margin is a few float
-// roundings of a coordinate, whatever the length of the chain. The same operations in the same
-// order run on every instruction set: results are equal bit for bit.
+// The last index of every array is the lane, one configuration each. Poses are computed in double
+// and rounded once to float, so the rounding margin is a few float roundings of a coordinate,
+// however long the chain. All instruction sets perform the same operations in the same order:
+// results are bitwise equal.
 
 namespace armloom::filter {
 
 inline constexpr int kLanes = 8;
 
-// A movable joint and the frame that it moves, turned so that its axis is the frame's z:
-// X_parent * C * motion(multiplier * q[joint] + offset).
+// A movable joint and its frame, whose z is the joint's axis: X_parent * C * motion(multiplier *
+// q[joint] + offset).
 struct Frame {
   int parent;  // smaller than the own index; -1: the world
   int joint;   // row of q
@@ -25,17 +25,17 @@ struct Frame {
   double C[12];  // columns x, y, z, then the origin; m
 };
 
-// A capsule fixed in a frame (-1: in the world). Its ancestors are the frames from the root to its
+// A capsule fixed in a frame (-1: the world). Its ancestors are the frames from the root to its
 // own, as indices in ArmKinematics::ancestors.
 struct Capsule {
   int frame;
   double center[3];  // in the frame, m
-  double half[3];    // from the centre to one end of the axis
+  double half[3];    // from the center to one end
   float radius_up;   // rounded up
   float ball_up;     // radius and half length, rounded up
   int ancestors_begin;
   int depth;                // number of ancestors
-  int motion_bounds_begin;  // first of its depth + 1 rows in the array of motion bounds
+  int motion_bounds_begin;  // first of its depth + 1 rows
 };
 
 struct ArmKinematics {
@@ -47,95 +47,90 @@ struct ArmKinematics {
 };
 
 // q: [joint][kLanes], rad or m. Outputs: frames [frame][12][kLanes] as Frame::C; axes
-// [frame][6][kLanes]: origin and z axis; capsules [capsule][6][kLanes]: centre and half axis.
+// [frame][6][kLanes]: origin and z axis; capsules [capsule][6][kLanes]: center and half axis.
 struct Placed {
   double* frames;
   float* axes;
   float* capsules;
 };
 
-// How far the joint of each frame may be from the configuration, [frame][kLanes] (rad, m), rounded
-// up: by no more than span, and by s * drift + e, the same s for all of them from -1 to 1, |e| <=
-// loose; |drift| + loose is no more than the span by much.
+// Bounds of each joint's deviation from the configuration, [frame][kLanes] (rad, m), rounded up. It
+// is at most span; it is also s * drift + e, with |e| <= loose and the same s, from -1 to 1, for
+// all joints. |drift| + loose is at most span, but for rounding.
 struct JointMotions {
   const float* span;
   const float* drift;
   const float* loose;
 };
 
-// How far each capsule may move.
 struct MotionBounds {
   float* rows;    // [row][kLanes], see Capsule::motion_bounds_begin
   float* sweeps;  // [capsule][kSweep][kLanes]
 };
-// What a capsule passes: both ends of its axis move by s V and something of at most this length
-// more, -1 <= s <= 1. V of the end at center + half, V of the other one, the length.
+// A sweep: both ends of a capsule's axis move by s V, -1 <= s <= 1, and a vector of at most some
+// length. V of the end at center + half, V of the other end, the length.
 inline constexpr int kSweep = 7;
 
-// Capsules whose motion bounds are known, as one side of a comparison.
+// One side of a comparison: capsules with known motion bounds.
 struct Side {
   const float* capsules;      // as Placed::capsules
-  const float* motion_bound;  // [row][kLanes], m; null on both sides: nothing moves
-  const float* ball;  // [4][kLanes]: centre and radius of a ball around all of them as far as
-                      // they may move (Kernel::enclose); not read where pairs have no groups
+  const float* motion_bound;  // [row][kLanes], m; null for both sides: no motion
+  const float* ball;  // [4][kLanes]: center, radius of Kernel::enclose; only for pairs with groups
 };
 
-// A capsule in one configuration, and what it passes from there in up to kLanes stretches of a
-// motion, side by side: those of [first, end).
+// A capsule in one configuration, and its sweeps in the stretches [first, end), side by side.
 struct SweptCapsule {
-  const float* at;        // of Placed::capsules, at its lane
-  const float* capsules;  // of Placed::capsules, in the middle of each stretch
-  const float* sweeps;    // of MotionBounds::sweeps, from there
+  const float* at;        // in Placed::capsules, at its lane
+  const float* capsules;  // in Placed::capsules, at the middle of each stretch
+  const float* sweeps;    // in MotionBounds::sweeps
   int first, end;
 };
 
-// Two of them along the direction that parts their axes.
+// Two swept capsules along the direction that separates them.
 struct Parted {
-  float distance;    // what they keep at least (m), with their radii and margins
-  float towards[2];  // how much closer each comes along it than where it is at
+  float distance;    // lower bound (m), less radii and margins
+  float towards[2];  // how much closer each comes along it
 };
 
-// Two capsules to compare, with what does not change. Rows of the sides' motion_bound arrays say
-// how far each may move.
+// Two capsules to compare. Rows of the sides' motion_bound arrays bound their motion.
 struct Pair {
   int a, b;
   int row_a, row_b;
-  float limit_up;        // distance to be kept
+  float limit_up;        // required distance
   float radii_up;        // both radii and the rounding margin
   float ends_up;         // both half lengths
-  float end_b_up;        // b's half length, and what an inexact foot point may add
+  float end_b_up;        // b's half length, and the effect of an inexact foot point
   float aa, bb;          // squared half lengths
   float inv_aa, inv_bb;  // zero for a point
 };
 
-// Consecutive pairs of one capsule of one side, held against the other side's ball first.
+// Consecutive pairs of a capsule, which is first compared with the other side's ball.
 struct Group {
   int capsule;
   int row;
   int begin;  // pairs
   int end;
   float limit_up;  // the largest of its pairs
-  float size_up;   // the capsule's radius and half length, and the margin
+  float size_up;   // radius, half length and margin
 };
 struct Groups {
   const Group* all;
-  int count;  // none: every pair is looked at
-  bool of_b;  // the capsules are the second side's, the ball the first one's
-  // The second side's capsules, held against the first side's ball; begin, end are not read. None:
-  // all of them are looked at. At most 64.
+  int count;  // 0: every pair is compared
+  bool of_b;  // capsules of the second side, ball of the first
+  // The second side's capsules, compared with the first side's ball (begin, end are unused); at
+  // most 64. Empty: none is skipped.
   const Group* others;
   int other_count;
   float limit_up;  // the largest of all pairs
 };
 
-// What two sides are compared by.
 struct Pairs {
   const Pair* all;
   int count;
   Groups groups;
 };
 
-// A capsule against a solid box that stands still.
+// A capsule against a static box.
 struct BoxPair {
   int a;
   int row_a;
@@ -146,8 +141,8 @@ struct BoxPair {
   float radius_up;  // of the capsule, with the rounding margin
 };
 
-// A pair that is not proven to keep its limit in some lanes. distance: a lower bound at the
-// configuration itself; motion_bound: what motion may take from it.
+// A pair that is undecided in some lanes. distance: lower bound at the configuration; motion_bound:
+// how much motion may reduce it.
 struct Hit {
   int pair;
   unsigned lanes;  // bit by lane
@@ -158,21 +153,22 @@ struct Hit {
 struct Kernel {
   const char* name;
   void (*place)(const ArmKinematics& kinematics, const double* q, const Placed& out);
-  // `at`: as place() made it. Row m of a capsule bounds how far any point of it moves
-  // against anything that shares its first m ancestors: the sum over the other ancestors of span
-  // times the lever about that joint at this configuration. (Changing the joints one after another
-  // from base to tip, each turns what is behind it in the shape that it has here: hence the levers
-  // at hand bound motions of any size.) Sweeps are the drifts' motion to first order, and all else
-  // that may be added to it along any direction (sweep.h: what is loose, and the second sum).
+  // `at`: output of place(). Row m bounds how far any point of a capsule moves relative to anything
+  // that shares its first m ancestors: the sum over the other ancestors of span times the lever
+  // about that joint here. (If joints change one by one from base to tip, each turns the rest in
+  // its present shape: so the levers here bound motions of any size.) Sweeps hold the first-order
+  // motion of the drifts, and a bound of all other motion along any direction (sweep.h: loose parts
+  // and the second sum).
   void (*inflate)(const ArmKinematics& kinematics, const Placed& at, const JointMotions& motions,
                   const MotionBounds& out);
-  // The ball of a side; rows[c] is the row of capsule c in `motion_bound`. Null: nothing moves.
+  // Writes the ball of a side. rows[c] is the row of capsule c in `motion_bound`, which is null
+  // without motion.
   void (*enclose)(const ArmKinematics& kinematics, const float* capsules, const float* motion_bound,
                   const int* rows, float* ball);
-  // Writes the pairs that are undecided in one of `lanes`; returns their number. `hits` has room
-  // for all pairs.
+  // Writes the pairs that are undecided in `lanes`; returns their number. `hits` has room for all
+  // pairs.
   int (*near_pairs)(const Side& a, const Side& b, const Pairs& pairs, unsigned lanes, Hit* hits);
-  // What the two capsules keep, whichever stretch each is in.
+  // The result holds for all combinations of stretches.
   Parted (*parted)(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair);
   int (*near_boxes)(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits);
 };
@@ -181,10 +177,10 @@ extern const Kernel kScalarKernel;    // one lane after the other: the reference
 extern const Kernel kBaselineKernel;  // SSE2: every x86-64
 extern const Kernel kAvx2Kernel;
 
-// Rounding margin of near_pairs and near_boxes (m), to be added to radii_up and radius_up: where no
-// coordinate is larger than `extent_m`. With u = 2^-24: a centre or an end of an axis is rounded
-// once, to within sqrt(3) u extent; with differences, products with a unit vector (itself 4 u off)
-// and sums of at most 2 sqrt(3) extent, 16 roundings in all.
+// Rounding margin of near_pairs and near_boxes (m) if no coordinate exceeds `extent_m`; part of
+// radii_up and radius_up. With u = 2^-24, a center or end of an axis is rounded once, to within
+// sqrt(3) u extent. With differences, products with a unit vector (off by 4 u) and sums of at most
+// 2 sqrt(3) extent, 16 roundings in all.
 constexpr float rounding_margin(double extent_m) {
   return static_cast<float>(16.0 * 5.97e-8 * 1.7321 * extent_m);
 }

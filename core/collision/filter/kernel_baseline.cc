@@ -11,7 +11,7 @@ struct D {
   __m128d v;
   static D load(const double* p) { return {_mm_loadu_pd(p)}; }
   static D all(double x) { return {_mm_set1_pd(x)}; }
-  // To the nearest integer, ties to even: adding 1.5 * 2^52 leaves no digit for a fraction.
+  // Ties to even: adding 1.5 * 2^52 leaves no digit for a fraction.
   static D round(D a) {
     const __m128d shift = _mm_set1_pd(6755399441055744.0);
     return {_mm_sub_pd(_mm_add_pd(a.v, shift), shift)};

@@ -1,18 +1,18 @@
 #pragma once
 
-// The one source of the kernels, with kernel_pairs.h: where capsules are, and how far they may
-// move. Included once by each file of an instruction set, with D (doubles) and F (floats) being its
-// vector types; everything is in an unnamed namespace, so that no code of one set can be linked
-// into another.
-//   D, F: kLanes, load(p), all(x), +, -, *, max(a, b);  F also: sqrt, abs, /, not_at_least(a, b)
-//   (bits by lane of !(a >= b)), store(p);  D also: round, select(odd, a, b), store, store_float.
+// The common source of the kernels, with kernel_pairs.h: where capsules are, and bounds of their
+// motion. Each instruction set's file includes it once, with its vector types D (doubles) and F
+// (floats). The unnamed namespace prevents code of one set from being linked into another.
+// - D, F: kLanes, load(p), store(p), all(x), +, -, *
+// - F also: max(a, b), min(a, b), sqrt, abs, /, not_at_least(a, b) (bits by lane of !(a >= b))
+// - D also: round, select(odd, a, b), store_float(p)
 
 #include "core/collision/filter/kernel.h"
 
 namespace armloom::filter {
 namespace {
 
-// fdlibm's polynomials on [-pi/4, pi/4] after removing k * pi/2 in two parts; good to 1e-16 for
+// fdlibm's polynomials on [-pi/4, pi/4], after subtracting k * pi/2 in two parts. Error 1e-16 for
 // |x| < 1e6.
 template <class D>
 inline void sin_cos(D x, D& sin_x, D& cos_x) {
@@ -155,13 +155,13 @@ inline Vec<F> minus(const Vec<F>& a, const Vec<F>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-// What moves a capsule, base to tip: sums over its ancestors.
+// Sums over a capsule's ancestors, base to tip.
 template <class F>
 struct SweepSums {
   F zero = F::all(0.0F);
   Vec<F> ahead{zero, zero, zero};   // of the end at center + half
-  Vec<F> behind{zero, zero, zero};  // of the other one
-  F off = zero;                     // what is loose, and what is bent
+  Vec<F> behind{zero, zero, zero};  // of the other end
+  F off = zero;                     // loose parts, and second-order terms
   F turned = zero;
 
   void add(const Vec<F>& v, F by) {
@@ -181,7 +181,7 @@ struct SweepSums {
   }
 };
 
-// Float roundings of a lever are below one part in 1e5 and a micrometre.
+// Allows for float roundings of a lever: below one part in 1e5 and a micrometer.
 template <class F>
 void inflate(const ArmKinematics& kinematics, const Placed& at, const JointMotions& motions,
              const MotionBounds& out) {
@@ -222,7 +222,7 @@ void inflate(const ArmKinematics& kinematics, const Placed& at, const JointMotio
         sum = sum + lever * by * F::all(1.00001F);
         sum.store(rows + k * kLanes + l);
       }
-      // sqrt(1 + t^2) - 1 <= t^2 / 2; the last term: roundings of the moments about each axis.
+      // sqrt(1 + t^2) - 1 <= t^2 / 2. Last term: roundings of the moments about each axis.
       const F turned = sweep.turned;
       const F size = F::abs(center.x) + F::abs(center.y) + F::abs(center.z);
       sweep.off = sweep.off + half_one * F::all(capsule.radius_up) * turned * turned +

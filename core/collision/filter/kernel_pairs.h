@@ -1,13 +1,13 @@
 #pragma once
 
-// The second part of the one source of the kernels (kernel_lanes.h): which pairs may be near.
+// The common source of the kernels, part 2 (kernel_lanes.h): which pairs may be near.
 
 #include "core/collision/filter/kernel_lanes.h"
 
 namespace armloom::filter {
 namespace {
 
-// From (nearly) the nearest point of b's axis to that of a's; w: from b's centre to a's.
+// Returns the vector from (nearly) the nearest point of b's axis to a's. w: from b's center to a's.
 template <class F>
 inline Vec<F> between_axes(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pair& pair) {
   const F one = F::all(1.0F);
@@ -24,8 +24,8 @@ inline Vec<F> between_axes(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, 
   return {w.x + s * ha.x - t * hb.x, w.y + s * ha.y - t * hb.y, w.z + s * ha.z - t * hb.z};
 }
 
-// A lower bound of the distance of the axes: the gap between two planes that hold them apart,
-// across the direction of (nearly) nearest points. Errors of these points lower it, never raise it.
+// Returns a lower bound of the distance of the axes: the gap between planes normal to the direction
+// of the (nearly) nearest points. Errors of these points only lower it.
 template <class F>
 inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pair& pair) {
   const Vec<F> v = between_axes(w, ha, hb, pair);
@@ -34,13 +34,12 @@ inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pai
   return gap / F::max(length, F::all(1e-20F));
 }
 
-// All lanes alike.
 template <class F>
 inline Vec<F> spread(const float* at) {
   return {F::all(at[0]), F::all(at[kLanes]), F::all(at[2 * kLanes])};
 }
 
-// How much farther than its own centre a capsule's axis reaches along d in any of its stretches.
+// Returns how much farther than its center a capsule's axis reaches along d in any stretch.
 template <class F>
 inline float reach_along(const SweptCapsule& of, const Vec<F>& d) {
   const Vec<F> center = spread<F>(of.at);
@@ -57,7 +56,7 @@ inline float reach_along(const SweptCapsule& of, const Vec<F>& d) {
   return most;
 }
 
-// Roundings: as axis_gap(), and those of the direction and of centres, once more.
+// 3e-6: roundings as in axis_gap(), and those of the direction and centers.
 template <class F>
 Parted parted(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair) {
   const Vec<F> w = minus(spread<F>(a.at), spread<F>(b.at));
@@ -78,11 +77,11 @@ Parted parted(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair) {
           {of_a - own[kLanes], of_b - own[2 * kLanes]}};
 }
 
-// About the middle of the box around the capsules' centres.
+// Centers the ball in the bounding box of the capsules' centers.
 template <class F>
 void enclose(const ArmKinematics& kinematics, const float* capsules, const float* motion_bound,
              const int* rows, float* ball) {
-  if (kinematics.capsule_count == 0) {  // an arm without shapes: nothing is compared with it
+  if (kinematics.capsule_count == 0) {  // an arm without shapes: never compared
     for (int i = 0; i < 4 * kLanes; ++i) ball[i] = 0.0F;
     return;
   }
@@ -111,7 +110,7 @@ void enclose(const ArmKinematics& kinematics, const float* capsules, const float
   }
 }
 
-// Whether the pair is undecided in some of the lanes; then its hit is filled.
+// Returns the lanes in which the pair is undecided; `hit` is filled for these.
 template <class F, bool kMoving>
 inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& hit) {
   const float* at_a = a.capsules + pair.a * 6 * kLanes;
@@ -129,7 +128,7 @@ inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& h
     const F reach = keep + F::all(pair.ends_up);
     if (F::not_at_least(dot(w, w), reach * reach) == 0) continue;
     const Vec<F> ha = Vec<F>::load(at_a + 3 * kLanes + l);
-    // The ball of b against the axis of a.
+    // The ball around b against the axis of a.
     const F one = F::all(1.0F);
     const F t = F::max(F::all(-1.0F), F::min(one, dot(ha, w) * F::all(-pair.inv_aa)));
     const Vec<F> v = {w.x + t * ha.x, w.y + t * ha.y, w.z + t * ha.z};
@@ -144,7 +143,7 @@ inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& h
   return near;
 }
 
-// Whether the group's capsule, one of `own`, may come near the other side's ball in some lane.
+// Returns true if the group's capsule, of side `own`, may be near the other side's ball.
 template <class F, bool kMoving>
 inline bool near_ball(const Side& own, const Side& other, const Group& group) {
   const float* at = own.capsules + group.capsule * 6 * kLanes;
@@ -158,7 +157,7 @@ inline bool near_ball(const Side& own, const Side& other, const Group& group) {
   return near != 0;
 }
 
-// Whether the balls of both sides may come near each other in some lane.
+// Returns true if the balls of both sides may be near each other.
 template <class F>
 inline bool near_balls(const Side& a, const Side& b, float limit_up) {
   unsigned near = 0;
@@ -177,7 +176,7 @@ int near_pairs_of(const Side& a, const Side& b, const Pairs& of, unsigned lanes,
   const Pair* pairs = of.all;
   const Groups& groups = of.groups;
   int found = 0;
-  unsigned long long of_b = ~0ULL;  // capsules of b that are looked at, where they are counted out
+  unsigned long long of_b = ~0ULL;  // capsules of b to compare
   const auto look = [&](int begin, int end) {
     for (int p = begin; p < end; ++p) {
       if (groups.other_count > 0 && (of_b >> pairs[p].b & 1U) == 0) continue;
@@ -214,7 +213,7 @@ int near_pairs(const Side& a, const Side& b, const Pairs& pairs, unsigned lanes,
   return near_pairs_of<F, true>(a, b, pairs, lanes, hits);
 }
 
-// The gap across the box's faces: a lower bound, the distance itself before a face.
+// Uses the gap across the box's faces: a lower bound, exact in front of a face.
 template <class F>
 int near_boxes(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits) {
   int found = 0;

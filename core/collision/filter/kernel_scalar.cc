@@ -1,4 +1,4 @@
-// One lane at a time: the reference that the vector kernels are held against.
+// One lane at a time: the reference for the vector kernels.
 #include <cmath>
 
 #include "core/collision/filter/kernel_pairs.h"
@@ -11,7 +11,7 @@ struct D {
   double v;
   static D load(const double* p) { return {*p}; }
   static D all(double x) { return {x}; }
-  // To the nearest integer, ties to even, as the vector kernels have it.
+  // Ties to even, as the vector kernels.
   static D round(D a) { return {(a.v + 6755399441055744.0) - 6755399441055744.0}; }
   static D select(D odd, D a, D b) { return odd.v == 1.0 ? a : b; }
   void store(double* p) const { *p = v; }

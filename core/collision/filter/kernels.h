@@ -6,10 +6,10 @@
 
 namespace armloom::filter {
 
-// The fastest kernel that this processor runs. ARMLOOM_KERNEL=scalar|baseline|avx2 in the
-// environment asks for another one (ignored where it cannot run), for measurements.
+// Returns the fastest kernel that this processor runs. For measurements, the environment variable
+// ARMLOOM_KERNEL=scalar|baseline|avx2 selects another (ignored if it cannot run).
 [[nodiscard]] const Kernel& best_kernel();
-// All that this processor runs, the reference first.
+// Returns all kernels that this processor runs, the reference first.
 [[nodiscard]] std::vector<const Kernel*> kernels();
 
 }  // namespace armloom::filter

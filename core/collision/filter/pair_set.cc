@@ -10,7 +10,7 @@
 namespace armloom {
 namespace {
 
-// No point of the body's capsules has a larger coordinate.
+// Returns an upper bound of the coordinates of the body's capsule axes.
 double extent_of(const KinematicBody& body, const ArmKinematics& still) {
   double extent_m = 0.0;
   for (int c = body.capsules_begin; c < body.capsules_end; ++c) {
@@ -30,7 +30,6 @@ double limit_of(const PlanningScene::Bodies& bodies, const PairGroup& group) {
   return group.limit_m(PairLimits::of(*bodies.cell));
 }
 
-// A body with the capsules of its side.
 struct BodyCapsules {
   const KinematicBody& body;
   const std::vector<filter::Capsule>& of_side;
@@ -42,7 +41,6 @@ struct BodyCapsules {
   }
 };
 
-// All pairs of capsules of the two bodies.
 void add_capsules(PairSet& set, const NarrowPair& narrow, const BodyCapsules& a,
                   const BodyCapsules& b, double margin_m) {
   for (int i = a.begin(); i < a.end(); ++i) {
@@ -74,7 +72,7 @@ void add_boxes(PairSet& set, const NarrowPair& narrow, const BodyCapsules& a, co
   }
 }
 
-// Brings the pairs of one capsule of the side that `of_second` names together, as groups.
+// Groups the pairs by capsule of the side that `of_second` selects.
 void group(PairSet& set, const std::vector<filter::Capsule>& capsules, bool of_second,
            double margin_m) {
   const auto capsule_of = [of_second](const filter::Pair& pair) {
@@ -102,7 +100,7 @@ void group(PairSet& set, const std::vector<filter::Capsule>& capsules, bool of_s
   set.limits_changed();
 }
 
-// The second side's capsules, unless they are too many for the kernel.
+// Adds the second side's capsules, unless they are too many for the kernel.
 void add_others(PairSet& set, const std::vector<filter::Capsule>& capsules, double margin_m) {
   if (capsules.size() > 64) return;
   for (std::size_t c = 0; c < capsules.size(); ++c) {
@@ -149,7 +147,7 @@ PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& 
       const BodyPair& pair = bodies.pairs[i];
       const NarrowPair narrow{PairId{static_cast<std::uint32_t>(i)}, index_of(a.bodies(), pair.a),
                               index_of(b.bodies(), pair.b), limit_of(bodies, group)};
-      if (narrow.body_b < 0) continue;  // one that stands still, or moves
+      if (narrow.body_b < 0) continue;  // of another group: a static body, or one of the arm
       const KinematicBody& body_a = a.bodies()[static_cast<std::size_t>(narrow.body_a)];
       const KinematicBody& body_b = b.bodies()[static_cast<std::size_t>(narrow.body_b)];
       const double extent_m = std::max(a.extent_m(), b.arm() ? b.extent_m() : extent_of(body_b, b));

@@ -8,7 +8,7 @@
 
 namespace armloom {
 
-// What stands behind a pair of capsules: two bodies that must not come closer than limit_m.
+// The bodies of a pair of capsules; they must not come closer than limit_m.
 struct NarrowPair {
   PairId pair;  // in PlanningScene::Bodies::pairs
   int body_a;   // in the kinematics of the first side
@@ -16,8 +16,8 @@ struct NarrowPair {
   double limit_m;
 };
 
-// The pairs of one comparison, for the filter and for what comes behind it. Entry i of `pairs`
-// belongs to narrow[i], entry i of `boxes` to narrow_boxes[i].
+// The pairs of one comparison, for the broad phase and the narrow phase. Entry i of `pairs` belongs
+// to narrow[i], entry i of `boxes` to narrow_boxes[i].
 struct PairSet {
   std::vector<filter::Pair> pairs;
   std::vector<NarrowPair> narrow;
@@ -26,14 +26,13 @@ struct PairSet {
   std::vector<filter::Group> groups;  // of pairs: by the first side's capsules, or ...
   bool groups_of_second = false;      // ... by the second side's
   std::vector<filter::Group> others;  // filter::Groups::others
-  float limit_up = 0.0F;              // the largest of pairs
+  float limit_up = 0.0F;              // largest limit of pairs
 
   [[nodiscard]] bool empty() const { return pairs.empty() && boxes.empty(); }
-  // For the filter: whole groups are passed over where balls prove them; or every pair is looked
-  // at.
+  // For the broad phase: balls may skip whole groups, or every pair is compared.
   [[nodiscard]] filter::Pairs grouped() const;
   [[nodiscard]] filter::Pairs ungrouped() const;
-  // limit_m(pair): what it is held to from now on.
+  // Sets the limit of each pair to limit_m(pair).
   template <class Limit>
   void set_limits(const Limit& limit_m) {
     const auto set_all = [&](auto& entries, std::vector<NarrowPair>& of) {
@@ -49,10 +48,10 @@ struct PairSet {
   void limits_changed();
 };
 
-// All pairs that are looked at between two arms (the first one's id is the smaller), an arm and
-// what stands still, or an arm and itself (a and b are one), with the cell's limits. Rows of the
-// sides' motion_bound arrays: one for each capsule; of an arm and itself those of the kinematics's
-// motion bounds, where what both capsules share does not count.
+// Returns the pairs to check, with the cell's limits: of two arms (the first has the smaller id),
+// an arm and static bodies, or an arm and itself (a and b are the same). Rows in motion_bound: one
+// per capsule; for an arm and itself those of its kinematics, without the motion that both capsules
+// share.
 [[nodiscard]] PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& a,
                                     const ArmKinematics& b);
 }  // namespace armloom

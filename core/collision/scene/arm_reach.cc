@@ -6,7 +6,7 @@
 namespace armloom {
 namespace {
 
-// More than tracking errors and rounding move a link.
+// Exceeds what tracking errors and rounding move a link.
 constexpr double kSlack_m = 0.05;
 
 class Chain {

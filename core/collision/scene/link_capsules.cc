@@ -26,10 +26,9 @@ LinkCapsule capsule_of(const ConvexShape& round) {
   return {center - round.p_SE_P, center + round.p_SE_P, round.radius_m};
 }
 
-// What is known of a shape before any capsule is fitted.
 struct Spanned {
   Balls balls;
-  Balls outer;  // those that matter when partitions are compared
+  Balls outer;  // balls that matter when partitions are compared
   Points axes;
 };
 
@@ -45,7 +44,7 @@ Spanned span(const ConvexShape& shape) {
   return spanned;
 }
 
-// Which shapes go to the first capsule; the others go to the second.
+// True for shapes of the first capsule.
 using Partition = std::vector<bool>;
 
 LinkCapsule fit_group(const std::vector<Spanned>& shapes, const Partition& partition, bool group,
@@ -71,7 +70,7 @@ std::vector<Partition> all_partitions(std::size_t count) {
   return partitions;
 }
 
-// The first k along each axis of the body against the rest.
+// Returns for each axis of the body all splits of the shapes into the first k and the rest.
 std::vector<Partition> partitions_along_axes(const std::vector<ConvexShape>& shapes) {
   std::vector<Partition> partitions;
   std::vector<std::size_t> order(shapes.size());
@@ -128,7 +127,7 @@ double distance_from(const ConvexShape& shape, const Eigen::Vector3d& p_P) {
   return distance_to_surface(*shape.solid->tree, shape.solid->X_PT.inverse(Eigen::Isometry) * p_P);
 }
 
-// Points on the surface: rings along the side, and the caps.
+// Returns points on the surface: rings along the side, and the caps.
 Points surface_points(const LinkCapsule& capsule) {
   static const Points kDirections = spread_directions(96);
   const Eigen::Vector3d along = capsule.p_PB - capsule.p_PA;
@@ -177,7 +176,7 @@ double volume_of(const std::vector<LinkCapsule>& capsules) {
   return volume;
 }
 
-// A round shape that holds all others: no fit can be better.
+// Returns a round shape that contains all others, because no fit can be better.
 std::optional<LinkCapsule> shape_around_all(const std::vector<ConvexShape>& shapes) {
   for (const ConvexShape& round : shapes) {
     if (round.kind != ConvexShapeKind::round) continue;
@@ -248,7 +247,7 @@ bool contains(const LinkCapsule& capsule, const ConvexShape& shape) {
 }
 
 LinkCapsules fit_capsules(const std::vector<ConvexShape>& shapes) {
-  if (shapes.empty()) throw std::invalid_argument("capsules around no shape");
+  if (shapes.empty()) throw std::invalid_argument("fit_capsules: needs at least one shape");
   if (const auto around = shape_around_all(shapes)) {
     LinkCapsules fitted{{*around}, 0.0};
     fitted.overestimate_m = overestimate_of(fitted.capsules, shapes);

@@ -7,28 +7,30 @@
 
 namespace armloom {
 
-// One or two capsules in place of all shapes of a body.
+// One or two capsules that enclose all shapes of a body.
 struct LinkCapsules {
-  std::vector<LinkCapsule> capsules;  // each shape lies wholly inside one of them
-  double overestimate_m = 0.0;  // how far their surface stands off the shapes at most: measured at
-                                // some hundred points, so a little too small, and at least 0
+  std::vector<LinkCapsule> capsules;  // each shape lies completely in one capsule
+  double overestimate_m = 0.0;  // how far their surface stands off the shapes at most, at least 0:
+                                // slightly too small (some hundred samples)
 };
 
-// The balls that span a shape, in the body's frame: the two end balls of a round shape, the corners
-// of a box or hull, 64 corners around each end of a cylinder (0.12 % of the radius outside).
+// Returns balls that span a shape, in the body's frame: both ends of a round shape, the corners of
+// a box or hull, 64 corners around each end of a cylinder (0.12 % of the radius outside).
 [[nodiscard]] std::vector<Ball> extreme_balls(const ConvexShape& shape);
 
-// Whether the shape lies wholly in the capsule: never a wrong yes; a wrong no only within rounding,
-// and within 0.12 % of a cylinder's radius.
+// Returns true if the shape lies completely in the capsule. Never wrongly true; wrongly false only
+// within rounding and 0.12 % of a cylinder's radius.
 [[nodiscard]] bool contains(const LinkCapsule& capsule, const ConvexShape& shape);
 
-// Capsules around the shapes, small in volume. A round shape that holds all others gives exactly
-// its own capsule. There are two when they have less than kTwoVolume of the one's volume together;
-// or when they stand off less than kTwoOverestimate as far, kTwoGain_m at least, and are not larger
-// together. The two are the best partition of the shapes: of all for up to 8 shapes, else of those
-// across a principal axis. A single shape is not cut: meshes come in pieces
-// (core/geometry/mesh/convex_pieces.h). Every shape is checked: std::logic_error if one lies in
-// neither. Deterministic; about a millisecond. Precondition: at least one shape.
+// Returns small capsules around the shapes. A round shape that contains all others yields its own
+// capsule. There are two capsules if
+// - their volume together is below kTwoVolume of the single capsule, or
+// - they stand off less than kTwoOverestimate as far, by at least kTwoGain_m, with no larger
+//   volume.
+// The two are the best of all partitions for up to 8 shapes, else of those across a principal axis.
+// A single shape is not cut: meshes come in pieces (core/geometry/mesh/convex_pieces.h). Throws
+// std::logic_error if a shape lies in neither. Deterministic; takes about a millisecond.
+// Precondition: at least one shape.
 inline constexpr double kTwoVolume = 0.75;
 inline constexpr double kTwoOverestimate = 0.75;
 inline constexpr double kTwoGain_m = 0.005;

@@ -12,12 +12,12 @@ namespace {
 
 constexpr double kRounding_m = 1e-6;
 
-// Looks for two parts that may be too close, the closest first.
+// Searches for two parts that may be too close, the closest first.
 class Search {
  public:
   Search(SweptLink& a, SweptLink& b, double limit_m) : a_(a), b_(b), limit_m_(limit_m) {}
 
-  // Returns true if the links are proven apart. Counts comparisons down from `budget`.
+  // Returns true if the links are proven apart. Decrements `budget` for each comparison.
   bool proves(int& budget) {
     if (!add(0, 0, budget)) return false;
     while (!open_.empty()) {
@@ -36,7 +36,7 @@ class Search {
     bool operator<(const Open& other) const { return least_m > other.least_m; }
   };
 
-  // Returns false if that ends the search: the links may meet, or the budget is used up.
+  // Returns false if the search must end: the links may meet, or the budget is used up.
   bool add(std::size_t of_a, std::size_t of_b, int& budget) {
     if (budget-- <= 0) return false;
     const PartGap gap = gap_between(a_.part(of_a), b_.part(of_b));

@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// What bodies keep from each other (m): an arm from other arms and all that stands still, from
-// itself (Cell::is_own), and from its mount, where at most clearance_m counts.
+// Required distances (m): of an arm from other arms and static bodies, from itself (Cell::is_own),
+// and from its mount (at most clearance_m).
 struct PairLimits {
   double clearance_m;
   double self_clearance_m;
@@ -17,8 +17,7 @@ struct PairLimits {
     return {cell.clearances.clearance_m, cell.clearances.self_clearance_m,
             cell.clearances.mount_limit_m()};
   }
-  // Where `clearance_m` takes the place of the cell's, an arm keeps the same shares of it from
-  // itself and its mount as in the cell.
+  // Replaces the cell's clearance_m, and scales the other two limits by the same factor.
   [[nodiscard]] static PairLimits scaled(const Cell& cell, double clearance_m) {
     const PairLimits own = of(cell);
     const auto share = [&](double limit_m) {

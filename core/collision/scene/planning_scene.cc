@@ -14,7 +14,7 @@
 namespace armloom {
 namespace {
 
-// A sphere about the middle of the shapes' bounding boxes.
+// Sets a sphere around the center of the shapes' bounding boxes.
 void bound(const std::vector<ConvexShape>& shapes, CollisionBody& body) {
   Eigen::AlignedBox3d box;
   for (std::size_t i = body.shapes_begin; i < body.shapes_end; ++i) {
@@ -51,8 +51,8 @@ void add_body(PlanningScene::Bodies& scene, CollisionBody body,
   scene.bodies.push_back(std::move(body));
 }
 
-// A link is one body, as its shapes move as one. Of one that stands still each box is a body, as it
-// would be as an object: a sphere, or a capsule, says little about a table.
+// A link is one body. But each box of a static link is a body, like a box object, because a
+// sphere or capsule is a poor bound of a table.
 void add_link(PlanningScene::Bodies& scene, LinkId id) {
   const Cell& cell = *scene.cell;
   const Link& link = cell.link(id);
@@ -73,7 +73,7 @@ void add_link(PlanningScene::Bodies& scene, LinkId id) {
   add_body(scene, std::move(body), others);
 }
 
-// What is held, against anything.
+// Returns true if the attached object may touch the other body.
 bool held_allowed(const PlanningScene::Bodies& scene, std::size_t held,
                   const CollisionBody& other) {
   if (!other.carrier) return false;
@@ -94,7 +94,7 @@ bool allowed(const PlanningScene::Bodies& scene, std::size_t index_a, std::size_
          scene.out_of_reach->contains(std::minmax(*a.link, *b.link));
 }
 
-// Adds the pairs of the arm's bodies with all bodies that `wanted` names, as one group.
+// Adds a group: the arm's bodies against the bodies that `wanted` selects.
 template <class Wanted>
 void add_group(PlanningScene::Bodies& scene, PairGroup group, const Wanted& wanted) {
   group.pairs_begin = scene.pairs.size();
@@ -142,7 +142,6 @@ void add_pairs(PlanningScene::Bodies& scene) {
   }
 }
 
-// Parts from `end` on are taken away.
 void cut(PlanningScene::Bodies& scene, std::size_t end) {
   if (end == scene.bodies.size()) return;
   scene.shapes.resize(scene.bodies[end].shapes_begin);
@@ -173,7 +172,7 @@ void set_reach(PlanningScene::Bodies& scene) {
   }
 }
 
-// Precondition: the bodies end with what is held.
+// Precondition: the attached objects are the last bodies.
 void add_objects(PlanningScene::Bodies& scene) {
   for (const CollisionObject& object : scene.objects) {
     CollisionBody body;

@@ -12,52 +12,51 @@
 
 namespace armloom {
 
-// Everything that a collision query needs and that does not move: the shapes of all links and
-// objects, held ones too (each cylinder with two end spheres of its radius merged into the exact
-// capsule; each mesh its convex pieces or hull as FCL geometry and, where it is closed, its
-// triangles behind them), and the pairs that must be looked at (the allowed-collision matrix,
-// applied). Immutable and shared by all threads; a changed scene is a new one.
+// The immutable part of collision queries: shapes of all links, objects and attached objects, and
+// the pairs to check (after the allowed-collision matrix). A cylinder with two end spheres of its
+// radius becomes one exact capsule; a mesh becomes convex pieces or its hull as FCL geometry, and
+// its triangles if it is closed. Shared by all threads; a change makes a new scene.
 class PlanningScene {
  public:
-  // Problems: a mesh whose data is missing (Mesh::data), an object name used twice or unknown in
-  // the cell's allowed collisions.
+  // Problems: a mesh without data (Mesh::data), an object name that is used twice or is unknown in
+  // the allowed collisions.
   [[nodiscard]] static Result<std::shared_ptr<const PlanningScene>> build(CellPtr cell);
   ~PlanningScene();
 
-  // The same cell with other objects; the links' shapes are shared, what arms hold stays. Pairs
-  // that may touch by an object's name still may. Problems: as build, or a name that a held object
-  // has, with pointers "/objects/<index>/...".
+  // Returns the scene with other objects; link shapes are shared, attached objects stay. Pairs
+  // allowed by an object's name stay allowed. Problems, with pointers "/objects/<index>/...": as
+  // for build(), or an attached object's name.
   [[nodiscard]] Result<std::shared_ptr<const PlanningScene>> with_objects(
       std::vector<CollisionObject> objects) const;
   [[nodiscard]] const std::vector<CollisionObject>& objects() const;
 
-  // The same cell and objects, with these objects held instead of all that were. A held object is a
-  // part of the arm that moves its link: it is looked at against everything that links of the arm
-  // are, and what other arms hold; and against the arm's own links but its `touch` and the hand
-  // that holds it (hand_of). A pair of a link and this name that may touch by the cell file still
-  // may. Pairs that the SRDF allows to the carrying link are not allowed to what it carries.
-  // Problems: a link or touch that the cell does not have, a link that no arm moves, a name that an
-  // object, a link or another attachment has, a mesh without data; with pointers
-  // "/attachments/<index>/...".
+  // Returns the scene with only these attached objects. An attached object is part of the arm that
+  // moves its link. It is checked against everything that the arm's links are checked against,
+  // against attached objects of other arms, and against the arm's own links except `touch` and the
+  // hand that holds it (hand_of). Pairs of a link and an object name in the cell file stay allowed.
+  // SRDF pairs of the carrying link do not apply to the object.
+  //
+  // Problems, with pointers "/attachments/<index>/...": an unknown link or touch, a link that no
+  // arm moves, a name in use, a mesh without data.
   [[nodiscard]] Result<std::shared_ptr<const PlanningScene>> with_attachments(
       std::vector<Attachment> attachments) const;
   [[nodiscard]] const std::vector<Attachment>& attachments() const;
-  // Whether both scenes were made from one call of with_attachments(), or hold nothing: links and
-  // held objects are the same then, given the same cell.
+  // Returns true if both scenes come from the same call of with_attachments(), or have no attached
+  // objects: links and attached objects are then equal, given the same cell.
   [[nodiscard]] bool holds_as(const PlanningScene& other) const;
 
   [[nodiscard]] const Cell& cell() const;
-  // The content of the scene, for certificates.
+  // The scene's content as hashes, for certificates.
   [[nodiscard]] const SceneFingerprint& fingerprint() const;
 
-  struct Bodies;  // FCL inside; only core/collision looks at it
+  struct Bodies;  // has FCL types; for core/collision only
   [[nodiscard]] const Bodies& bodies() const;
 
  private:
   PlanningScene();
   std::unique_ptr<Bodies> bodies_;
 };
-// A pair of bodies that a scene looks at (PlanningScene::Bodies::pairs), in the scene's order.
+// A pair that a scene checks (PlanningScene::Bodies::pairs), in the scene's order.
 using PairId = Id<struct PairTag>;
 using PlanningScenePtr = std::shared_ptr<const PlanningScene>;
 

@@ -24,24 +24,23 @@
 
 namespace armloom {
 
-// A link with shapes, a box of one that stands still, or an object, held or not: what is placed as
-// one, with its convex shapes.
+// Shapes that move together: a link, one box of a static link, an object, or an attached object.
 struct CollisionBody {
   std::string name;
-  std::optional<LinkId> link;     // none: an object
-  std::optional<LinkId> carrier;  // what it moves with: the link itself, or that which holds it
-  std::optional<ArmId> arm;       // that moves it; none: it stands still
-  std::optional<RobotId> robot;   // none: an object that stands still
-  // In the carrier, or in the world if it has none; of a link the identity.
+  std::optional<LinkId> link;     // nullopt: an object
+  std::optional<LinkId> carrier;  // moves the body: its link, or the link it is attached to
+  std::optional<ArmId> arm;       // moves the body; nullopt: it is static
+  std::optional<RobotId> robot;   // nullopt: a static object
+  // Pose in the carrier, or in the world; identity for a link.
   Eigen::Isometry3d X_CP = Eigen::Isometry3d::Identity();
   std::size_t shapes_begin = 0;  // range in Bodies::shapes
   std::size_t shapes_end = 0;
   struct BoundingSphere {
-    Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // its centre
+    Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // its center
     double radius_m = 0.0;
   } sphere = {};
   bool has_pieces = false;  // of a closed mesh, among its shapes
-  bool lone_box = false;    // its only shape is a box: a sphere says little about a table
+  bool lone_box = false;    // its only shape is a box: a sphere would be a poor bound
   LinkCapsules fitted;      // in P
 
   [[nodiscard]] bool held() const { return carrier && !link; }
@@ -52,13 +51,12 @@ struct CollisionBody {
   }
 };
 
-// The evidence of two bodies that are `clearance_m` apart.
 [[nodiscard]] inline Proximity proximity_of(const CollisionBody& a, const CollisionBody& b,
                                             double clearance_m) {
   return {a.name, b.name, a.arm, b.arm, !b.carrier, clearance_m, a.held(), b.held()};
 }
 
-// Two bodies that must not touch. The first belongs to the group's first arm.
+// The first body belongs to the group's `arm`.
 struct BodyPair {
   std::size_t a;
   std::size_t b;
@@ -67,14 +65,14 @@ struct BodyPair {
 // A clearance of zero still forbids contact, where distances are zero.
 inline constexpr double kTouching_m = 1e-9;
 
-// All pairs of one counterpart: judged or skipped together. The kind is what limits, conflicts, the
-// monitor and all figures go by.
+// All pairs with one counterpart, checked or skipped together. Limits, conflicts, the monitor and
+// metrics go by the kind.
 struct PairGroup {
   enum class Kind {
-    arms,   // links of two arms, with what they hold
-    still,  // an arm against all that stands still: objects and links, but for its mount
-    mount,  // an arm against its mount: scene too, but for the limit (Cell::is_mount)
-    self,   // an arm against itself: what it moves and holds
+    arms,   // links and attached objects of two arms
+    still,  // an arm and static bodies, except its mount
+    mount,  // an arm and its mount (Cell::is_mount): scene with another limit
+    self,   // an arm and itself, attached objects included
   };
   Kind kind;
   ArmId arm;
@@ -91,19 +89,18 @@ struct PairGroup {
   }
 };
 
-// Pairs are in the order of their groups: arms by (arm, other), then still and mount by arm, then
-// self by arm; in a group by link, then held object, then object.
+// Pairs are sorted by group: arms by (arm, other), then still and mount by arm, then self by arm.
+// Within a group: by link, attached object, object.
 struct PlanningScene::Bodies {
   CellPtr cell;
   std::vector<CollisionObject> objects;
   std::shared_ptr<const std::vector<Attachment>> attachments;  // shared while objects change
-  // Links in the order of their ids, then held objects, then objects.
+  // Links in the order of their ids, attached objects, objects.
   std::vector<CollisionBody> bodies;
-  std::size_t links_end = 0;  // bodies before it are links
-  // Claimed pairs (AllowedCollisions) that are proven out of reach; the same in all scenes of a
-  // cell.
+  std::size_t links_end = 0;  // in `bodies`
+  // Proven claimed pairs (AllowedCollisions); equal in all scenes of a cell.
   std::shared_ptr<const std::set<LinkPair>> out_of_reach;
-  std::size_t held_end = 0;  // bodies from links_end to it are held
+  std::size_t held_end = 0;  // attached objects: from links_end to it
   std::vector<ConvexShape> shapes;
   std::vector<BodyPair> pairs;
   std::vector<PairGroup> groups;

@@ -10,17 +10,17 @@
 
 namespace armloom {
 
-// The content that certificates rely on, as hashes: poses and shapes (the triangles of meshes), the
-// distances that are kept, and the pairs that are not looked at.
+// Hashes of the content that certificates rely on: poses and shapes (triangles of meshes), required
+// distances, and pairs that are not checked.
 
-// Returns the cell's links without objects; the arms hold nothing. `out_of_reach`: pairs that are
-// not looked at because the checker has proven them apart.
+// Returns the cell's links, without objects and attached objects. `out_of_reach`: pairs that are
+// not checked because they are proven apart.
 [[nodiscard]] SceneFingerprint fingerprint_of_links(const Cell& cell,
                                                     const std::set<LinkPair>& out_of_reach);
-// Returns `links` with what arms hold.
+// Returns `links` with attached objects.
 [[nodiscard]] std::vector<Fingerprint> fingerprint_of_arms(
     const Cell& cell, const SceneFingerprint& links, const std::vector<Attachment>& attachments);
-// Returns SceneFingerprint::objects. Precondition: `bodies` is complete but for pairs and groups.
+// Returns SceneFingerprint::objects. Precondition: `bodies` is complete except pairs and groups.
 [[nodiscard]] std::vector<std::vector<Fingerprint>> fingerprint_of_objects(
     const PlanningScene::Bodies& bodies);
 

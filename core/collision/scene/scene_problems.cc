@@ -24,7 +24,8 @@ std::optional<Problem> carrier_problem(const Cell& cell, LinkId id, const std::s
   const Link& link = cell.link(id);
   if (link.arm) return std::nullopt;
   return Problem{ProblemKind::invalid, "link-not-of-arm", pointer,
-                 "no arm moves the link " + link.name + ": it cannot hold an object", link.name};
+                 "no arm moves link " + link.name + ", so objects cannot be attached to it",
+                 link.name};
 }
 
 }  // namespace
@@ -51,13 +52,13 @@ void find_object_problems(const std::vector<CollisionObject>& objects,
     const std::string& name = objects[i].name;
     const bool taken = is_held(name);
     if (names.insert(name).second && !taken) continue;
-    problems.push_back({ProblemKind::conflict, "name-taken", pointer + "/name",
-                        (taken ? "a held object is named " : "two objects are named ") + name,
-                        name});
+    problems.push_back(
+        {ProblemKind::conflict, "name-taken", pointer + "/name",
+         (taken ? "an attached object is already named " : "two objects are named ") + name, name});
   }
 }
 
-// Only at the start: an object of the cell file may be taken away later.
+// Only for a new scene: an object of the cell file may be removed later.
 void find_unknown_allowed(const Cell& cell, Problems& problems) {
   std::set<std::string> names;
   for (const CollisionObject& object : cell.objects) names.insert(object.name);
@@ -65,14 +66,14 @@ void find_unknown_allowed(const Cell& cell, Problems& problems) {
     if (names.contains(object)) continue;
     problems.push_back(
         {ProblemKind::invalid, "unknown-name", "/allowed_collisions",
-         "no object is named " + object + " (allowed to touch " + cell.link(link).name + ")",
+         "no object is named " + object + ", but it is allowed to touch " + cell.link(link).name,
          object});
   }
 }
 
 void find_attachment_problems(const Cell& cell, const std::vector<CollisionObject>& objects,
                               const std::vector<Attachment>& attachments, Problems& problems) {
-  std::map<std::string, std::string> taken;  // name, by what
+  std::map<std::string, std::string> taken;  // name, owner
   for (const Link& link : cell.links) taken.emplace(link.name, "a link");
   for (const CollisionObject& object : objects) taken.emplace(object.name, "an object");
   for (std::size_t i = 0; i < attachments.size(); ++i) {
@@ -87,10 +88,10 @@ void find_attachment_problems(const Cell& cell, const std::vector<CollisionObjec
       if (held.touch[k].index() < cell.links.size()) continue;
       add(carrier_problem(cell, held.touch[k], pointer + "/touch/" + std::to_string(k)));
     }
-    const auto [known, fresh] = taken.emplace(held.object.name, "another held object");
+    const auto [known, fresh] = taken.emplace(held.object.name, "another attached object");
     if (fresh) continue;
     problems.push_back({ProblemKind::conflict, "name-taken", pointer + "/object/name",
-                        known->second + " is named " + held.object.name, held.object.name});
+                        known->second + " is already named " + held.object.name, held.object.name});
   }
 }
 

@@ -8,8 +8,8 @@
 
 namespace armloom {
 
-// What is wrong with what a scene shall be made of (planning_scene.h has what may not be); with
-// pointers "/objects/<index>/..." and "/attachments/<index>/...".
+// Add what planning_scene.h calls problems, with pointers "/objects/<index>/..." and
+// "/attachments/<index>/...".
 void find_link_problems(const Cell& cell, Problems& problems);
 void find_object_problems(const std::vector<CollisionObject>& objects,
                           const std::vector<Attachment>& held, Problems& problems);

@@ -70,7 +70,7 @@ void SweptLink::add_intervals(const Cell& cell, const std::vector<JointId>& driv
     const double lower = std::max(joint.lower, -kFarthestPosition) - beyond;
     const double upper = std::min(joint.upper, kFarthestPosition) + beyond;
     Interval interval{0.5 * (lower + upper), 0.5 * (upper - lower)};
-    // A turn is all that there is, unless another link follows the joint at another rate.
+    // A full turn covers all poses, unless another link follows the joint at another rate.
     const auto turns_by_itself = [&](const Step& step) {
       return step.interval != i || (!step.prismatic && std::abs(step.multiplier) == 1.0);
     };
@@ -99,17 +99,17 @@ void SweptLink::bound_reach() {
   }
 }
 
-// How far the step's joint moves a point at most that is far_m from its axis while all joints after
-// it are at the center.
+// Returns how far the step's joint moves a point at most that is far_m from its axis, with all
+// later joints at the center.
 double SweptLink::shift(const Step& step, const Part& part, double far_m) const {
   const double half = std::abs(step.multiplier) * part.intervals[step.interval].half;
   if (step.prismatic) return half;
   return half >= kPi ? 2.0 * far_m : 2.0 * far_m * std::sin(0.5 * half);
 }
 
-// From the center the joints move one after the other, from the root on: each turns about its axis
-// what comes after it, which is at the center still. So the distances from the axes there count,
-// and the way of a point is no longer than the sum.
+// Bounds the motion. The joints leave the center one after the other, from the root on, so each
+// turns the rest of the chain while that is still at the center. Hence the distances from the axes
+// at the center apply, and a point moves by at most the sum.
 void SweptLink::place(Part& part) const {
   std::vector<PlacedStep> placed;
   Eigen::Isometry3d X_WF = Eigen::Isometry3d::Identity();
@@ -148,7 +148,7 @@ void SweptLink::place(Part& part) const {
   enclose(part, placed);
 }
 
-// About the capsules with their motion, or about where a joint can be: the smallest ball.
+// Sets the smallest ball: around the capsules with their motion, or around a joint's reach.
 void SweptLink::enclose(Part& part, const std::vector<PlacedStep>& placed) const {
   part.ball = {part.capsules.front().line.center, 0.0};
   for (const Part::Segment& capsule : part.capsules) {

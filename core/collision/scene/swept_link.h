@@ -12,18 +12,17 @@
 
 namespace armloom {
 
-// Every place that a link can be at while the joints that move it go through all their values,
-// covered by capsules: a tree of parts, each for a box of joint values, halved where it is asked
-// for. Joints of no arm stand still at home. Not shared by threads.
+// Capsules that cover a link at all values of its joints: a tree of parts, each for a box of joint
+// values, halved on request. Joints of no arm stay at home. Not thread-safe.
 class SweptLink {
  public:
-  // A joint's values: center - half to center + half.
+  // Joint values from center - half to center + half.
   struct Interval {
     double center = 0.0;
     double half = 0.0;
   };
-  // The link's capsules with all joints at the center of their intervals; how far any point of them
-  // moves within the intervals at most; and a ball that holds the link at all these values.
+  // The link's capsules with all joints at their centers, a bound of their motion within the
+  // intervals, and a ball around the link for all these values.
   struct Part {
     std::vector<Interval> intervals;
     struct Segment {
@@ -33,23 +32,22 @@ class SweptLink {
     std::vector<Segment> capsules;
     double motion_m = 0.0;
     Ball ball;
-    std::size_t widest = 0;  // the interval that moves the link most
-    std::size_t halves = 0;  // its first half, the second is next to it; 0: not halved
+    std::size_t widest = 0;  // interval that moves the link most
+    std::size_t halves = 0;  // first half, the second is next; 0: none
   };
   static constexpr std::size_t kPartsMax = 4096;
   static constexpr double kFinest_m = 1e-3;  // parts that move less are not halved
 
-  // `beyond`: how far each joint may be outside its limits (rad or m).
+  // `beyond`: how far joints may exceed their limits (rad or m).
   SweptLink(const PlanningScene::Bodies& bodies, LinkId link, double beyond);
 
-  // Number 0 is the whole.
+  // Part 0 covers all joint values.
   [[nodiscard]] const Part& part(std::size_t number) const { return parts_[number]; }
-  // Returns the number of the part's first half; nullopt if it cannot be halved.
+  // Returns the first half's number; nullopt if the part cannot be halved.
   [[nodiscard]] std::optional<std::size_t> halve(std::size_t number);
 
  private:
-  // A joint on the way from the root to the link. Its frame lies at X_PJ in that of the one before,
-  // or in the world.
+  // A joint between root and link. X_PJ: its frame in the previous step's frame, or in the world.
   struct Step {
     Eigen::Isometry3d X_PJ;
     Eigen::Vector3d axis;
@@ -57,7 +55,7 @@ class SweptLink {
     double multiplier;
     double offset;
     std::size_t interval;
-    double reach_m = 0.0;  // no point of the link is ever farther from the frame's origin
+    double reach_m = 0.0;  // farthest point of the link from the frame's origin
   };
   struct PlacedStep {
     Eigen::Vector3d p;     // the frame's origin, before its joint moves
@@ -77,8 +75,8 @@ class SweptLink {
   std::vector<Part> parts_;
 };
 
-// How far apart two parts are: at least, at all their joint values; and with the joints at the
-// centers, where capsules stand for shapes.
+// Lower bound of the distance of two parts, and the distance of their capsules with joints at the
+// centers.
 struct PartGap {
   double least_m;
   double at_centers_m;

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kFound = -std::numeric_limits<double>::max();  // no limit is closer
 
-// Of the convex shapes; where pieces are among them, the first that is close enough to ask their
-// surface.
+// Returns the distance of the convex shapes. With pieces of meshes: the first distance that is
+// small enough to query the surface.
 double shapes_distance(const std::vector<ConvexShape>& shapes, const ShapeGroups& a,
                        const ShapeGroups& b, double limit_m) {
   const bool pieces = a.are_pieces() || b.are_pieces();
@@ -28,7 +28,7 @@ double shapes_distance(const std::vector<ConvexShape>& shapes, const ShapeGroups
   return smallest;
 }
 
-// `of_solids`(a, b, limit): what is to be known of two solids.
+// of_solids(a, b, limit_m) decides about two solids.
 template <class OfSolids>
 double smallest_distance(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                          const PlacedBody& b, double limit_m, const OfSolids& of_solids) {

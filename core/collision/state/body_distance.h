@@ -8,35 +8,34 @@
 
 namespace armloom {
 
-// A body somewhere in the world.
 struct PlacedBody {
   const CollisionBody& body;
   Eigen::Isometry3d X_WP;
 };
 
-// Surfaces are asked no farther than this: beyond it the distance of pieces, or this one where that
-// is smaller, is near enough, and a surface's would cost milliseconds.
+// Surfaces are queried only up to this distance, because they cost milliseconds. Farther bodies get
+// the larger of this and the distance of their pieces.
 inline constexpr double kSurfaceWithin_m = 0.05;
 
-// The distance of two bodies where it is below `limit_m`, else at least limit_m; zero or negative
-// in contact. Convex shapes answer first (capsules, then GJK); what pieces of a closed mesh call
-// closer is decided by its surface (solid.h). Never larger than the true distance; exact but for
-// pieces of meshes that are farther apart than kSurfaceWithin_m.
+// Returns the distance of two bodies if below `limit_m`, else at least limit_m; zero or negative in
+// contact. Convex shapes come first (capsules, then GJK); if pieces of a closed mesh seem closer,
+// its surface decides (solid.h). Never larger than the true distance; exact except for pieces of
+// meshes farther apart than kSurfaceWithin_m.
 [[nodiscard]] double body_distance(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                                    const PlacedBody& b, double limit_m,
                                    const Roughness& of_surfaces = {});
 
-// Whether balls prove it (surely_closer_than, solid.h): what is soon known.
+// Returns true if inner balls prove it (surely_closer_than, solid.h); fast.
 [[nodiscard]] bool bodies_surely_closer_than(const std::vector<ConvexShape>& shapes,
                                              const PlacedBody& a, const PlacedBody& b,
                                              double limit_m);
 
-// Whether body_distance() is below limit_m, found out sooner.
+// Returns true if body_distance() is below limit_m; faster.
 [[nodiscard]] bool bodies_closer_than(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                                       const PlacedBody& b, double limit_m);
 
-// How many of these limits body_distance() is not below, found out sooner: of surfaces each limit
-// is decided by itself, which takes a fraction of their distance. Precondition: ascending.
+// Returns how many of these limits body_distance() reaches; faster, because surfaces decide each
+// limit without computing a distance. Precondition: ascending.
 [[nodiscard]] std::size_t limits_kept(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                                       const PlacedBody& b, std::span<const double> limits_m);
 

@@ -52,19 +52,21 @@ Problems check_home(const PlanningScenePtr& scene) {
     const std::string allow = "add [\"" + proximity.body_a + "\", \"" + proximity.body_b +
                               "\"] to the cell's \"allowed_collisions\"";
     const auto claim = claim_of(*scene, pair.pair);
-    const std::string may_touch = "; where these two may touch, " + allow;
+    const std::string may_touch = "; if these two may touch, " + allow;
     std::string remedy =
-        self ? " (where these always are so close add to the SRDF <disable_collisions link1=\"" +
+        self ? " (if these two are always so close, add to the SRDF <disable_collisions link1=\"" +
                    proximity.body_a + "\" link2=\"" + proximity.body_b +
-                   "\" reason=\"Adjacent\"/>, with the names there; else give another \"home\")"
-             : " (give another \"home\", or place one of them elsewhere" +
+                   "\" reason=\"Adjacent\"/> with the link names of the SRDF; else give another "
+                   "\"home\")"
+             : " (give another \"home\" or move one of them" +
                    (proximity.arm_b && !claim ? "" : may_touch) +
-                   (claim ? "; " + *claim + " disables the pair, which proves nothing" : "") + ")";
+                   (claim ? "; " + *claim + " disables the pair without proof, so it is checked"
+                          : "") +
+                   ")";
     if (query.is_mount(pair.pair) && proximity.clearance_m > 0.0) {
-      remedy = " (" + proximity.body_b + " carries the arm: where only this link stands so close " +
-               "to it, " + allow +
-               "; where all of the arm passes it so closely by design, and it " +
-               "is no table, add \"mount_clearance_m\": " +
+      remedy = " (" + proximity.body_b + " carries the arm: if only this link is so close " +
+               "to it, " + allow + "; if the whole arm passes it so closely by design, and it " +
+               "is not a table, add \"mount_clearance_m\": " +
                text_of(std::floor(proximity.clearance_m * 1000.0) / 1000.0) + " to the cell)";
     }
     problems.push_back({ProblemKind::invalid, "home-conflict", home_pointer(cell, *proximity.arm_a),

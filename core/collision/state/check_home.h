@@ -5,10 +5,9 @@
 
 namespace armloom {
 
-// Every pair of bodies that is closer than the cell's clearance_m (of an arm from itself:
-// self_clearance_m) while all arms stand at home, with its distance: such a cell is refused. Empty:
-// the homes are free. Points at the home of the arm that the first body belongs to
-// ("/robots/0/arms/0/home").
+// Returns all pairs that are closer than their limits (clearance_m, self_clearance_m,
+// mount_clearance_m) with all arms at home, each with its distance. Such a cell is refused. Each
+// pointer names the home of the first body's arm ("/robots/0/arms/0/home").
 [[nodiscard]] Problems check_home(const PlanningScenePtr& scene);
 
 }  // namespace armloom

@@ -17,25 +17,24 @@ bool includes(const PairGroup& group, const std::vector<bool>& arms) {
 }  // namespace
 
 struct ClearanceQuery::Scratch {
-  // A pair that the filter leaves open in one lane.
+  // A pair that is undecided in one lane.
   struct Open {
     PlacedBody a;
     PlacedBody b;
     double limit_m;
     std::size_t lane;
-    float least_m;  // of the capsules
+    float least_m;  // from the capsules
   };
-  // A pair that the filter leaves open in a single state.
   struct Candidate {
-    double least_m;  // no distance is below it
+    double least_m;  // lower bound
     std::size_t pair;
   };
 
   PlanningScenePtr scene;
   const PlanningScene::Bodies& bodies;
   PlacedCell placed;
-  std::vector<Open> open;          // of meshes, which take long
-  std::vector<std::size_t> order;  // of these: where capsules overlap most, the first is often it
+  std::vector<Open> open;          // pairs of meshes, which are slow
+  std::vector<std::size_t> order;  // of `open`: deepest overlap of capsules first
   LinkPoses X_WL;
   std::vector<Candidate> candidates;
 
@@ -48,8 +47,8 @@ struct ClearanceQuery::Scratch {
     return bodies_closer_than(bodies.shapes, o.a, o.b, o.limit_m);
   }
 
-  // Adds lanes in which one of the hits is too close indeed. Meshes that balls do not settle are
-  // left open: most states that are too close have some pair that overlaps deeply.
+  // Adds lanes in which a hit is too close. Leaves pairs of meshes open if balls do not decide
+  // them, because most bad states also have a pair that overlaps deeply.
   void decide_soon(const PlacedCell::Comparison& c, std::span<const filter::Hit> found,
                    const std::vector<NarrowPair>& narrow, unsigned& close) {
     for (const filter::Hit& hit : found) {
@@ -93,7 +92,7 @@ struct ClearanceQuery::Scratch {
 
   // ---- One state ----
 
-  // By pair, of the groups that `wanted` names.
+  // Writes the candidates of the groups that `wanted` selects, sorted by pair.
   template <class Wanted>
   void find_candidates(const Configuration& q, const Wanted& wanted) {
     const Configuration* const state[] = {&q};
@@ -122,8 +121,8 @@ struct ClearanceQuery::Scratch {
     return body_distance(bodies.shapes, {a, a.pose(X_WL)}, {b, b.pose(X_WL)}, limit_m);
   }
 
-  // The closest pair of the group, when closer than the limit. What keeps the others from it is
-  // asked last.
+  // Returns the closest pair of the group, if closer than the limit. Tries pairs with a large lower
+  // bound last.
   [[nodiscard]] std::optional<NearPair> closest(const PairGroup& group, double limit_m) {
     std::optional<NearPair> found;
     const double asked_m = limit_m;
@@ -139,7 +138,7 @@ struct ClearanceQuery::Scratch {
       limit_m = d;
       found = {PairId{static_cast<std::uint32_t>(at->pair)}, d, asked_m};
     }
-    // Other groups are found by pair.
+    // Restore the order for other groups.
     std::sort(begin, end, [](const Candidate& x, const Candidate& y) { return x.pair < y.pair; });
     return found;
   }
@@ -204,7 +203,7 @@ std::vector<Proximity> ClearanceQuery::closest_apart(const Configuration& q, dou
   std::vector<Proximity> found;
   for (const PairGroup& group : scratch_->bodies.groups) {
     if (group.kind == Kind::self) continue;
-    // The mount is one of the things that stand still, whose group comes just before.
+    // Static bodies and the mount are one counterpart here; the mount's group comes just after.
     const bool goes_on = group.kind == Kind::mount && !found.empty() && !found.back().arm_b &&
                          found.back().arm_a == group.arm;
     const auto pair = scratch_->closest(group, goes_on ? found.back().clearance_m : horizon_m);

@@ -53,7 +53,7 @@ void PlacedCell::set_limits(const PairLimits& limits) {
 
 void PlacedCell::place(std::span<const Configuration* const> states) {
   if (states.empty() || states.size() > kStatesAtOnce) {
-    throw std::invalid_argument("ClearanceQuery: one to eight states");
+    throw std::invalid_argument("ClearanceQuery: needs one to eight states");
   }
   for (Side& arm : std::span(arms_).first(arms_.size() - 1)) {
     const std::vector<JointId>& joints = arm.kinematics.joints();

@@ -9,28 +9,28 @@
 
 namespace armloom {
 
-// So many states are looked at in one go.
+// Number of states that are checked at once.
 inline constexpr auto kStatesAtOnce = static_cast<std::size_t>(filter::kLanes);
 
-// Up to eight configurations of a whole cell as the filter's kernels place them, and all pairs that
-// the scene looks at, with limits of one's own. Not thread-safe.
+// Up to eight configurations of a whole cell as the kernels place them, and all pairs to check with
+// their limits. Not thread-safe.
 class PlacedCell {
  public:
   PlacedCell(const PlanningScene::Bodies& bodies, const PairLimits& limits);
 
   void set_limits(const PairLimits& limits);
   [[nodiscard]] const PairLimits& limits() const { return limits_; }
-  // One to eight; throws std::invalid_argument otherwise.
+  // Places one to eight states; throws std::invalid_argument otherwise.
   void place(std::span<const Configuration* const> states);
 
-  // The pairs of two arms, of an arm and itself (b == a), or of an arm and what stands still.
+  // The pairs of two arms, an arm and itself (b == a), or an arm and static bodies.
   struct Comparison {
     std::size_t a;
     std::size_t b;
     PairSet pairs;
   };
   [[nodiscard]] const std::vector<Comparison>& comparisons() const { return comparisons_; }
-  // Calls visit(hits, what stands behind them) for what the filter leaves open in these lanes.
+  // Calls visit(hits, narrow pairs) for the pairs that the filter leaves undecided in these lanes.
   template <class Visit>
   void filter(const Comparison& c, unsigned lanes, const Visit& visit) {
     const filter::Kernel& kernel = filter::best_kernel();
@@ -46,11 +46,11 @@ class PlacedCell {
                                   static_cast<int>(set.boxes.size()), lanes, hits_.data())),
           set.narrow_boxes);
   }
-  // Parts of a side (Comparison::a, b) where they are placed.
+  // `side`: Comparison::a or b.
   [[nodiscard]] PlacedBody body(std::size_t side, int index, std::size_t lane) const;
 
  private:
-  struct Side {  // an arm with room for eight placements, or what stands still
+  struct Side {  // an arm with eight placements, or the static bodies
     Side(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm);
     void place();
     [[nodiscard]] filter::Side side() const { return {capsules.data(), nullptr, ball.data()}; }
@@ -63,7 +63,7 @@ class PlacedCell {
 
   const PlanningScene::Bodies& bodies_;
   PairLimits limits_;
-  std::vector<Side> arms_;  // the last one is what stands still
+  std::vector<Side> arms_;  // the last one: static bodies
   std::vector<Comparison> comparisons_;
   std::vector<filter::Hit> hits_;
 };

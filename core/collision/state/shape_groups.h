@@ -7,7 +7,7 @@
 
 namespace armloom {
 
-// The shapes of one body, group after group: those that stand for one solid stand together.
+// Iterates over groups of a body's shapes. Shapes of the same solid are one group.
 class ShapeGroups {
  public:
   ShapeGroups(const std::vector<ConvexShape>& shapes, const PlacedBody& body)

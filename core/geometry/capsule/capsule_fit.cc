@@ -20,15 +20,13 @@ using Directions = std::vector<Eigen::Vector3d>;
 
 constexpr int kOutermostDirections = 60;
 
-// What the search moves: a line, and how much wider the capsule is than the line asks for (a wider
-// one may be shorter).
+// The search's variables: a line, and extra width (a wider capsule may be shorter).
 struct Axis {
   Eigen::Vector3d point;
   Eigen::Vector3d direction;  // unit
   double widening = 0.0;
 };
 
-// The smallest capsule of that width about the axis.
 LinkCapsule capsule_about(const Axis& axis, const Balls& balls) {
   double radius = 0.0;
   for (const Ball& ball : balls) {
@@ -47,7 +45,7 @@ LinkCapsule capsule_about(const Axis& axis, const Balls& balls) {
     low = std::min(low, t + along);
     high = std::max(high, t - along);
   }
-  if (low > high) {  // one ball about any point between holds them all
+  if (low > high) {  // one ball about any point between contains all balls
     low = high = 0.5 * (low + high);
     const Eigen::Vector3d center = axis.point + low * axis.direction;
     radius = 0.0;
@@ -66,13 +64,13 @@ double extent_of(const Balls& balls) {
   return extent;
 }
 
-// Two unit vectors across a unit vector.
+// Returns two perpendicular unit vectors across `direction`.
 std::array<Eigen::Vector3d, 2> across(const Eigen::Vector3d& direction) {
   const Eigen::Vector3d first = direction.unitOrthogonal();
   return {first, direction.cross(first)};
 }
 
-// Through the middle of what the balls cover across the direction.
+// Returns the line along the direction through the middle of the balls.
 Axis axis_along(const Eigen::Vector3d& direction, const Balls& balls) {
   const auto sides = across(direction);
   Axis axis{Eigen::Vector3d::Zero(), direction};
@@ -108,7 +106,7 @@ Candidate rated(const Axis& axis, const Balls& balls) {
   return {axis, capsule_about(axis, balls).volume_m3()};
 }
 
-using Step = Eigen::Matrix<double, 5, 1>;  // turn (rad), shift (of the extent), widening
+using Step = Eigen::Matrix<double, 5, 1>;  // rotation (rad), shift (share of the extent), widening
 
 Axis moved(const Axis& axis, const Step& step, double extent) {
   const auto sides = across(axis.direction);
@@ -119,8 +117,7 @@ Axis moved(const Axis& axis, const Step& step, double extent) {
   return next;
 }
 
-// Pattern search: the coordinates, and as the volume has creases along which no coordinate leads
-// down, some directions between them; halves the step when none helps.
+// Pattern search along the coordinates and, because the volume has creases, random directions.
 Candidate improved(Candidate best, const Balls& balls, double extent) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -137,7 +134,7 @@ Candidate improved(Candidate best, const Balls& balls, double extent) {
           for (double& value : step) value = normal(random);
           step *= size / step.norm();
         }
-        // Turns are about the balls' middle.
+        // Rotations are about the balls' center.
         best.axis.point += best.axis.direction.dot(center - best.axis.point) * best.axis.direction;
         for (const double sign : {1.0, -1.0}) {
           const Candidate next = rated(moved(best.axis, sign * step, extent), balls);
@@ -152,7 +149,7 @@ Candidate improved(Candidate best, const Balls& balls, double extent) {
   return best;
 }
 
-// Rounding must not leave a ball outside.
+// Corrects the radius for rounding and verifies containment.
 LinkCapsule checked(LinkCapsule capsule, const Balls& balls) {
   double reach = 0.0;
   capsule.radius_m = 0.0;

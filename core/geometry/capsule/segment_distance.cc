@@ -9,7 +9,7 @@ namespace {
 constexpr double kPoint_m2 = 1e-24;  // squared length below which a segment is a point
 
 struct Outside {
-  double squared;     // of the distance from the box
+  double squared;     // squared distance from the box
   double derivative;  // half of d(squared)/ds
 };
 
@@ -61,7 +61,8 @@ double segment_box_distance(const CenteredSegment& segment, const Eigen::Vector3
   const Outside last = outside_at(p0 + d, d, half_size_m);
   if (last.derivative <= 0.0) return std::sqrt(last.squared);
 
-  // The derivative never falls along the segment: each breakpoint narrows where its zero can lie.
+  // The derivative never decreases along the segment, so each breakpoint narrows the interval of
+  // its zero.
   double left = 0.0;
   double right = 1.0;
   double slope_left = first.derivative;

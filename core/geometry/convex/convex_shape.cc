@@ -43,7 +43,7 @@ ConvexShape primitive_body(const PlacedShape& placed) {
   return body;
 }
 
-// Before cylinders are merged with their caps.
+// Adds a shape's bodies, before cylinders and caps are merged.
 void add_plain_bodies(const PlacedShape& placed, std::vector<ConvexShape>& bodies) {
   const auto* mesh = std::get_if<Mesh>(&placed.shape);
   if (mesh == nullptr) {
@@ -68,7 +68,7 @@ bool is_sphere(const ConvexShape& body) {
   return body.kind == ConvexShapeKind::round && body.half_length_m == 0.0;
 }
 
-// The sphere that caps the cylinder's end (+1 or -1 along its axis).
+// Returns the sphere at the cylinder's end (+1 or -1).
 std::optional<std::size_t> cap_at(const std::vector<ConvexShape>& bodies,
                                   const ConvexShape& cylinder, double end) {
   const Eigen::Vector3d p_end = cylinder.X_PS * Eigen::Vector3d(0, 0, end * cylinder.half_length_m);
@@ -82,14 +82,13 @@ std::optional<std::size_t> cap_at(const std::vector<ConvexShape>& bodies,
   return std::nullopt;
 }
 
-// Radius of a capsule about the cylinder's axis that still contains the cap.
+// Returns the radius of a capsule about the axis that contains the cap.
 double radius_with(const ConvexShape& cylinder, double end, const ConvexShape& cap) {
   const Eigen::Vector3d p_end = cylinder.X_PS * Eigen::Vector3d(0, 0, end * cylinder.half_length_m);
   return std::max(cylinder.radius_m, cap.radius_m + (cap.X_PS.translation() - p_end).norm());
 }
 
-// The segment's distance from the box, in the box's frame; the box's size is in its body (of a
-// hull, that of the box around it).
+// Returns the distance of a world segment from a box (hull: its box).
 double segment_to_box(const PlacedConvexShape& at_box, const ConvexShape& box,
                       const CenteredSegment& segment) {
   const auto R_BW = at_box.X_WS.linear().transpose();
@@ -97,7 +96,7 @@ double segment_to_box(const PlacedConvexShape& at_box, const ConvexShape& box,
       {R_BW * (segment.center - at_box.X_WS.translation()), R_BW * segment.half}, box.half_size_m);
 }
 
-// The widest gap across the faces of a and b: six of the fifteen separating axes.
+// Returns the widest gap across faces: six of the fifteen separating axes.
 double face_gap(const ConvexShape& a, const PlacedConvexShape& at_a, const ConvexShape& b,
                 const PlacedConvexShape& at_b) {
   const Eigen::Matrix3d R_AB = at_a.X_WS.linear().transpose() * at_b.X_WS.linear();
@@ -114,7 +113,7 @@ bool has_box(const ConvexShape& body) {
   return body.kind == ConvexShapeKind::box || body.kind == ConvexShapeKind::hull;
 }
 
-// At least one of them is a hull: the better of its capsule and its box.
+// Bounds a pair with a hull by the better of its capsule and box.
 double bound_of_hull(const ConvexShape& a, const PlacedConvexShape& at_a, const ConvexShape& b,
                      const PlacedConvexShape& at_b) {
   if (a.kind != ConvexShapeKind::hull) return bound_of_hull(b, at_b, a, at_a);
@@ -170,7 +169,7 @@ void place(const ConvexShape& body, const Eigen::Isometry3d& X_WP, PlacedConvexS
 
 Eigen::Isometry3d shape_pose(const ConvexShape& body, const PlacedConvexShape& placed) {
   if (body.kind != ConvexShapeKind::round) return placed.X_WS;
-  // Any turn about the axis is the same body.
+  // Any rotation about the axis gives the same body.
   Eigen::Isometry3d X_WS = Eigen::Isometry3d::Identity();
   X_WS.translation() = placed.segment.center;
   if (body.half_length_m > 0.0) {
@@ -217,7 +216,7 @@ std::optional<Separation> separation(const ConvexShape& a, const PlacedConvexSha
 double distance_below(const ConvexShape& a, const PlacedConvexShape& at_a, const ConvexShape& b,
                       const PlacedConvexShape& at_b, double limit_m) {
   const double reach = limit_m + a.bounding_radius_m() + b.bounding_radius_m();
-  if (reach <= 0.0) return limit_m;  // no depth of overlap is that large
+  if (reach <= 0.0) return limit_m;  // no overlap is that deep
   if ((at_a.segment.center - at_b.segment.center).squaredNorm() >= reach * reach) return limit_m;
   const Bound bound = lower_bound(a, at_a, b, at_b);
   if (bound.distance_m >= limit_m) return limit_m;

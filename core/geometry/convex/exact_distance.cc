@@ -27,16 +27,14 @@ class ExactGeometry {
 
 namespace {
 
-// FCL's tolerance bounds one step of GJK, not its error: at 1e-12 the error measured is below 1e-7
-// m.
+// FCL's tolerance bounds one GJK step, not the error, which is below 1e-7 m at 1e-12.
 constexpr double kGjkTolerance = 1e-12;
-// Now and then GJK stops far from the end all the same (libccd's of two boxes that turn about
-// parallel axes: 1 in 20, of other shapes 1 in 5000), or claims contact where there is none (of
-// boxes). Then FCL's own one is asked, libccd's the other way around, and at last the bodies'
-// surfaces: their nearest triangles.
+// Sometimes GJK still stops early (libccd's for 1 in 20 pairs of boxes rotated about parallel axes,
+// 1 in 5000 of other shapes) or reports false contact (boxes). Then FCL's own solver is tried, then
+// libccd's with the bodies swapped, and last the nearest triangles of the surfaces.
 constexpr double kProofGap_m = 5e-7;
 
-// The largest n·(x - center) over the body; n of unit length, in world axes.
+// Returns the largest n·(x - center) over the body; n of unit length, in world axes.
 double support(const ConvexShape& body, const Eigen::Isometry3d& X_WS, const Eigen::Vector3d& n_W) {
   const Eigen::Vector3d n = X_WS.linear().transpose() * n_W;
   const double along = std::abs(n.z()) * body.half_length_m;
@@ -53,16 +51,15 @@ double support(const ConvexShape& body, const Eigen::Isometry3d& X_WS, const Eig
   return along + body.radius_m;
 }
 
-// Between two planes across n that hold the bodies; negative: they overlap along n.
+// Returns the bodies' gap along n; negative if they overlap along n.
 double gap_along(const ConvexShape& a, const Eigen::Isometry3d& X_WA, const ConvexShape& b,
                  const Eigen::Isometry3d& X_WB, const Eigen::Vector3d& n) {
   return n.dot(X_WB.translation() - X_WA.translation()) - support(a, X_WA, n) -
          support(b, X_WB, -n);
 }
 
-// What FCL says, and what of it is certain: the gap between two parallel planes, across the
-// direction of FCL's nearest points (n, from a to b), that hold the bodies apart. Both zero in
-// contact.
+// FCL's distance and the gap between separating planes across the direction of its nearest points
+// (n, from a to b). Both zero in contact.
 struct Proof {
   double claimed;
   double proven;
@@ -89,12 +86,12 @@ Proof prove(const ConvexShape& a, const Eigen::Isometry3d& X_WA, const ConvexSha
   return {0.0, 0.0, Eigen::Vector3d::Zero(), true};
 }
 
-// The planes across the direction of the nearest triangles of the bodies' surfaces. (That of a
-// piece is of its whole mesh.)
+// Finds separating planes by the nearest triangles of the surfaces. Not for pieces, whose surface
+// is the whole mesh's.
 std::optional<Separation> prove_by_surfaces(const ConvexShape& a, const Eigen::Isometry3d& X_WA,
                                             const ConvexShape& b, const Eigen::Isometry3d& X_WB) {
   if (a.solid == nullptr || b.solid == nullptr || a.is_piece || b.is_piece) return std::nullopt;
-  // A solid's tree stands in the part's frame, the poses are of the shapes'.
+  // The tree is in the part's frame; the poses are of the shape frames.
   const auto solid = [](const ConvexShape& body, const Eigen::Isometry3d& X_WS) {
     return PlacedSolid{*body.solid, X_WS * body.X_PS.inverse(Eigen::Isometry) * body.solid->X_PT};
   };
@@ -150,13 +147,13 @@ std::optional<Separation> exact_separation(const ConvexShape& a, const Eigen::Is
                                            const ConvexShape& b, const Eigen::Isometry3d& X_WB) {
   const Proof one = prove(a, X_WA, b, X_WB);
   Separation best{one.proven, one.n};
-  // Of boxes it may claim contact too where there is none.
+  // Contact of boxes may be reported wrongly.
   const bool boxes = a.kind == ConvexShapeKind::box && b.kind == ConvexShapeKind::box;
   if (one.failed || one.claimed - one.proven >= kProofGap_m || (boxes && !one.is_settled())) {
     const Proof other = prove(a, X_WA, b, X_WB, fcl::GST_INDEP);
     if (other.proven > best.distance_m) best = {other.proven, other.n};
     if (!other.is_settled()) {
-      const Proof turned = prove(b, X_WB, a, X_WA);  // GJK takes another way
+      const Proof turned = prove(b, X_WB, a, X_WA);  // GJK then takes other steps
       if (turned.proven > best.distance_m) best = {turned.proven, -turned.n};
       const auto found = turned.is_settled() ? std::nullopt : prove_by_surfaces(a, X_WA, b, X_WB);
       if (found && found->distance_m > best.distance_m) best = *found;

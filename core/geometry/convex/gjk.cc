@@ -10,12 +10,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Shapes with flat faces take some 5 to 10; a rim comes nearer by a share of what is left.
+// Shapes with flat faces take 5 to 10 steps; on a curved rim, convergence is only linear.
 constexpr int kMostSteps = 48;
-// A tetrahedron that is no higher has no inside.
+// A flatter tetrahedron has no inside.
 constexpr double kLeastHeight_m = 1e-11;
 
-// A shape without what is added around it all: a segment where it is round.
+// A shape without the radius around it: a segment if it is round.
 struct Core {
   const ConvexShape& shape;
   const PlacedConvexShape& at;
@@ -24,8 +24,8 @@ struct Core {
   [[nodiscard]] double radius_m() const {
     return shape.kind == ConvexShapeKind::round ? shape.radius_m : 0.0;
   }
-  // The point that is farthest along n, from the shape's centre; of a hull, from the corner where
-  // the last one was.
+  // Returns the farthest point along n, from the shape's center. A hull's search starts at the last
+  // corner.
   [[nodiscard]] Vector3d farthest(const Vector3d& n_W) {
     if (shape.kind == ConvexShapeKind::round) {
       return n_W.dot(at.segment.half) < 0.0 ? Vector3d(-at.segment.half) : at.segment.half;
@@ -44,7 +44,7 @@ struct Core {
     }
     return at.X_WS.linear() * p;
   }
-  // How far it reaches along n beyond p, its farthest point: nothing but for hulls.
+  // Returns the reach beyond farthest(); nonzero only for hulls.
   [[nodiscard]] double beyond(const Vector3d& n_W) const {
     if (shape.kind != ConvexShapeKind::hull) return 0.0;
     const Vector3d n = at.X_WS.linear().transpose() * n_W;
@@ -52,14 +52,14 @@ struct Core {
   }
 };
 
-// Up to four points of the difference, of which none can be left out.
+// Up to four points of the difference, all of which are needed.
 class Simplex {
  public:
   void add(const Vector3d& p) { points_[static_cast<std::size_t>(size_++)] = p; }
   [[nodiscard]] bool has(const Vector3d& p) const {
     return std::find(points_.begin(), points_.begin() + size_, p) != points_.begin() + size_;
   }
-  // Its point nearest to the origin; keeps the corners that this one lies between. All four: the
+  // Returns the point nearest to the origin, and keeps only the corners around it; all four if the
   // origin is inside.
   [[nodiscard]] Vector3d reduce() {
     switch (size_) {
@@ -109,7 +109,7 @@ class Simplex {
     return keep(between(0, 1, share));
   }
 
-  // C. Ericson, "Real-Time Collision Detection", 5.1.5, of the origin.
+  // C. Ericson, "Real-Time Collision Detection", 5.1.5, for the origin.
   [[nodiscard]] Nearest of_triangle(int i, int j, int k) const {
     const Vector3d& a = points_[static_cast<std::size_t>(i)];
     const Vector3d& b = points_[static_cast<std::size_t>(j)];
@@ -133,12 +133,12 @@ class Simplex {
     if (va <= 0.0 && d4 >= d3 && d5 >= d6) {
       return between(j, k, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
     }
-    // Along the normal: better conditioned than the sum of the corners' shares.
+    // Better conditioned than barycentric coordinates.
     const Vector3d n = ab.cross(ac);
     return {n * (n.dot(a) / n.squaredNorm()), {i, j, k}, 3};
   }
 
-  // Of the faces that the origin lies outside of, or in the plane of.
+  // Checks only faces that have the origin outside or in their plane.
   Vector3d of_tetrahedron() {
     constexpr std::array<std::array<int, 4>, 4> kFaces{
         {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}}};
@@ -174,7 +174,7 @@ std::optional<Separation> gjk(const ConvexShape& a, const PlacedConvexShape& at_
   const double radii_m = of_a.radius_m() + of_b.radius_m();
   const Vector3d centers = at_b.segment.center - at_a.segment.center;
   Simplex simplex;
-  Vector3d nearest = centers;  // of the difference b - a, to the origin
+  Vector3d nearest = centers;  // of b - a, to the origin
   double length = nearest.norm();
   for (int step = 0; step < kMostSteps && length > 0.0; ++step) {
     const Vector3d n = nearest / length;
@@ -194,7 +194,7 @@ std::optional<Separation> gjk(const ConvexShape& a, const PlacedConvexShape& at_
     const double before = length;
     length = nearest.norm();
     if (simplex.is_full() || length <= radii_m) return Separation{0.0, n};  // they share a point
-    if (step > 0 && !(length < before)) return std::nullopt;  // no nearer for rounding
+    if (step > 0 && !(length < before)) return std::nullopt;  // no progress because of rounding
   }
   return std::nullopt;
 }

@@ -27,7 +27,7 @@ Eigen::Matrix3d principal_axes(const Points& points) {
   return R;
 }
 
-// The axes in the same cyclic order, so that the box is longest along z.
+// Returns the axes in the same cyclic order, with the box's longest side along z.
 Eigen::Matrix3d turned_to_z(const Eigen::Matrix3d& R, const Eigen::Vector3d& sizes) {
   Eigen::Index longest = 0;
   sizes.maxCoeff(&longest);
@@ -70,7 +70,7 @@ HullShape fit_hull(const ConvexHull& hull_M) {
   for (const Eigen::Vector3d& p_M : points) {
     const Eigen::Vector3d p = X_SM * p_M;
     shape.hull.vertices.push_back(p);
-    // From the corners as they are kept, so that rounding is on the safe side.
+    // Computed from the stored corners, so that rounding is on the safe side.
     shape.half_size_m = shape.half_size_m.cwiseMax(p.cwiseAbs());
     shape.radius_m = std::max(shape.radius_m, std::hypot(p.x(), p.y()));
   }

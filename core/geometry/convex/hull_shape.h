@@ -8,24 +8,23 @@
 
 namespace armloom {
 
-// The convex hull of a mesh, or of a piece of one, in a frame S of its own, with what bounds it
-// there: S stands in the middle of a box that holds the hull tightly (the better of the mesh's own
-// axes and the principal axes of the hull's corners), its z along the longest side.
+// The convex hull of a mesh or piece, with its bounds. Its frame S is centered in a tight box
+// around it (along the mesh's axes or the corners' principal axes), with z along the longest side.
 struct HullShape {
   ConvexHull hull;              // corners in S
   Eigen::Isometry3d X_MS;       // S in the mesh's frame
   Eigen::Vector3d half_size_m;  // of the box
-  double radius_m = 0.0;        // of a capsule about z that contains the hull ...
-  double half_length_m = 0.0;   // ... and half the length of its axis
+  double radius_m = 0.0;        // of a capsule about z that contains the hull
+  double half_length_m = 0.0;   // half its axis
 
-  // Of each corner those it shares an edge with, one after the other.
+  // Neighbors of each corner along edges, corner by corner.
   std::vector<std::uint32_t> neighbors;
-  std::vector<std::uint32_t> neighbors_end;  // of each corner
+  std::vector<std::uint32_t> neighbors_end;  // end of each corner's neighbors
 
-  // The largest n . x of all corners; n in S.
+  // Returns the largest n . x of all corners; n in S.
   [[nodiscard]] double support(const Eigen::Vector3d& n_S) const;
-  // The corner with it, most likely: uphill from another one along edges, which few corners are
-  // looked at for. Where faces are flat but for rounding it may end beside it.
+  // Walks uphill along edges to the corner with the largest n . x. May end at its neighbor if faces
+  // are flat except for rounding.
   [[nodiscard]] std::uint32_t uphill(const Eigen::Vector3d& n_S, std::uint32_t from) const;
 };
 

@@ -32,9 +32,9 @@ SurfaceTreePtr box_tree(const Vector3d& half) {
                                                  {1, 7, 5}});
 }
 
-// A regular polygon whose sides touch the circle, up and down, with both ends' centres.
+// A prism whose sides touch the cylinder, with a center vertex at each end.
 SurfaceTreePtr prism_tree(double radius_m, double half_length_m) {
-  const double angle = std::acos(radius_m / (radius_m + kPrismOverestimate_m));  // half of a side's
+  const double angle = std::acos(radius_m / (radius_m + kPrismOverestimate_m));  // half a side's
   const auto count = static_cast<std::uint32_t>(
       std::clamp(std::ceil(std::numbers::pi / angle), 16.0, double{kPrismCornersMost}));
   // A little more than needed, for rounding.

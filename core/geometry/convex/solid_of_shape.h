@@ -4,12 +4,12 @@
 
 namespace armloom {
 
-// How far the prism that stands for a cylinder is outside of it at most.
+// How far a cylinder's prism may be outside the cylinder.
 inline constexpr double kPrismOverestimate_m = 1e-4;
 inline constexpr int kPrismCornersMost = 256;
 
-// The body itself as a surface (a hull: its faces). Of a cylinder a prism around it, for large ones
-// of kPrismCornersMost corners (of 1.3 m radius: 0.1 mm outside).
+// Returns the body as a surface (hull: its faces; cylinder: a prism around it, with
+// kPrismCornersMost corners if large: 0.1 mm outside for 1.3 m radius).
 [[nodiscard]] SolidPtr solid_of(const ConvexShape& body);
 
 }  // namespace armloom

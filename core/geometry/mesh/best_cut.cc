@@ -11,10 +11,10 @@
 namespace armloom {
 namespace {
 
-constexpr int kOffsets = 7;        // cuts tried along an axis, before the best is refined
+constexpr int kOffsets = 7;        // cuts tried along an axis before refinement
 constexpr int kRefinements = 5;    // each halves the distance to the next cut tried
-constexpr double kBeside = 1e-5;   // of the extent: a cut passes a face at this distance
-constexpr int kEstimateFrom = 80;  // directions whose farthest points stand for a side
+constexpr double kBeside = 1e-5;   // of the extent: distance of a cut from a face
+constexpr int kEstimateFrom = 80;  // directions whose farthest points represent a side
 
 double estimated_volume(const Points& points) {
   static const Points kDirections = spread_directions(kEstimateFrom);
@@ -35,7 +35,6 @@ double estimated_volume(const Points& points) {
   return hull ? volume_m3(*hull) : std::numeric_limits<double>::infinity();
 }
 
-// A surface, and its corners once each.
 struct Estimated {
   const Polygons& surface;
   Points corners;
@@ -51,7 +50,7 @@ Estimated without_doubles(const Polygons& surface) {
   return estimated;
 }
 
-// Of the hulls of what lies on either side.
+// Estimates the volume of both sides' hulls.
 double estimated_volume(const Estimated& cell, Eigen::Index axis, double at) {
   Points low;
   Points high;
@@ -61,7 +60,7 @@ double estimated_volume(const Estimated& cell, Eigen::Index axis, double at) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3d& p = cell.surface.corners[i];
       const Eigen::Vector3d& next = cell.surface.corners[i + 1 < end ? i + 1 : begin];
-      if (!(p[axis] < at && next[axis] > at)) continue;  // its neighbour has it the other way
+      if (!(p[axis] < at && next[axis] > at)) continue;  // the neighbor has this edge reversed
       low.push_back(p + (at - p[axis]) / (next[axis] - p[axis]) * (next - p));
       high.push_back(low.back());
     }
@@ -70,7 +69,6 @@ double estimated_volume(const Estimated& cell, Eigen::Index axis, double at) {
   return estimated_volume(low) + estimated_volume(high);
 }
 
-// The best cut at one of the places, if it is better.
 void try_cuts(const Estimated& cell, Eigen::Index axis, const std::vector<double>& places,
               Cut& best) {
   for (const double at : places) {
@@ -79,8 +77,7 @@ void try_cuts(const Estimated& cell, Eigen::Index axis, const std::vector<double
   }
 }
 
-// Just before and behind the corner of the surface that is next to the cut: concave edges are
-// where a cut gains most.
+// Returns positions next to the corner nearest to the cut: cuts gain most at concave edges.
 std::vector<double> beside_corner(const Points& corners, const Cut& cut, double extent) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& p : corners) {
@@ -111,7 +108,7 @@ Cut best_cut(const Polygons& surface) {
   return best;
 }
 
-// Sutherland and Hodgman.
+// Algorithm of Sutherland and Hodgman.
 Polygons clipped(const Polygons& polygons, const Cut& cut, double sign) {
   const auto [axis, at, volume_m3] = cut;
   Polygons kept;

@@ -9,7 +9,7 @@ namespace armloom {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-// Convex polygons, corner after corner; the i-th ends before ends[i].
+// Convex polygons, corner by corner; polygon i ends before ends[i].
 struct Polygons {
   Points corners;
   std::vector<std::size_t> ends;
@@ -19,13 +19,13 @@ struct Polygons {
 struct Cut {
   Eigen::Index axis = 0;
   double at = 0.0;
-  double volume_m3 = std::numeric_limits<double>::infinity();  // of both sides, estimated
+  double volume_m3 = std::numeric_limits<double>::infinity();  // estimated hulls of both sides
 };
 
-// The cut that leaves the smallest hulls on both of its sides, as far as some trials show.
+// Returns the tried cut with the smallest hulls on both sides.
 [[nodiscard]] Cut best_cut(const Polygons& surface);
 
-// What lies at sign * (x - cut.at) >= 0 along the cut's axis.
+// Returns the part with sign * (x - cut.at) >= 0 along the cut's axis.
 [[nodiscard]] Polygons clipped(const Polygons& polygons, const Cut& cut, double sign);
 
 }  // namespace armloom

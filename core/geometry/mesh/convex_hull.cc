@@ -28,7 +28,7 @@ struct Facet {
 };
 using Facets = std::vector<Facet>;
 
-// What qhull writes about an error, kept in memory.
+// qhull's error output, kept in memory.
 class ErrorText {
  public:
   ErrorText() : file_(open_memstream(&text_, &size_)) {}
@@ -65,7 +65,7 @@ Facets facets_of(qhT* qh) {
       found.corners[i] = static_cast<std::uint32_t>(qh_pointid(qh, vertex->point));
       p[i++] = Eigen::Vector3d(vertex->point);
     }
-    // qhull keeps the corners in no order.
+    // qhull's corners are unordered.
     if ((p[1] - p[0]).cross(p[2] - p[0]).dot(found.normal) < 0.0) {
       std::swap(found.corners[1], found.corners[2]);
     }
@@ -95,7 +95,7 @@ tl::expected<Facets, std::string> run_qhull(const Points& points) {
   return facets;
 }
 
-// Every point as a small cube, when the points have no volume to speak of.
+// Returns a small cube for each point, or nullopt if the points have volume.
 std::optional<Points> thickened(const Points& points) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
@@ -121,7 +121,7 @@ std::optional<Points> thickened(const Points& points) {
   return cubes;
 }
 
-// The corners of an icosahedron whose edges were halved twice, on the unit sphere.
+// Returns a unit icosahedron's corners after halving its edges twice.
 Points directions() {
   const double t = 0.5 * (1.0 + std::sqrt(5.0));
   Points corners;
@@ -165,9 +165,9 @@ Points directions() {
   return corners;
 }
 
-// The corners of the polytope of half spaces that touch the hull's corners in all directions. A
-// half space n . (x - inside) <= h is the point n / h of the dual hull, and a facet of that hull is
-// a corner of the polytope.
+// Returns the corners of a polytope of half spaces that touch the hull in all directions(). A half
+// space n . (x - inside) <= h is the point n / h of the dual hull; each facet of the dual hull is a
+// corner of the polytope.
 tl::expected<Points, std::string> corners_around(const Points& hull) {
   Eigen::Vector3d inside = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : hull) inside += p / static_cast<double>(hull.size());
@@ -184,7 +184,7 @@ tl::expected<Points, std::string> corners_around(const Points& hull) {
   return corners;
 }
 
-// The points that facets name, and no others.
+// Returns only the points used by facets.
 Points corners_of(const Facets& facets, const Points& points) {
   std::set<std::uint32_t> used;
   for (const Facet& facet : facets) used.insert(facet.corners.begin(), facet.corners.end());

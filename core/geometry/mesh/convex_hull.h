@@ -9,22 +9,21 @@
 
 namespace armloom {
 
-// A convex polytope that contains a set of points.
 struct ConvexHull {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> faces;  // counter-clockwise from outside, closed
 };
 
-// Points that all lie within kFlat_m of a plane have no volume: each of them is taken as a cube of
-// this side, so that the hull is that much too large and never too small.
+// Points within kFlat_m of a plane have no volume: each becomes a cube of this side, so that the
+// hull is slightly too large, never too small.
 inline constexpr double kFlat_m = 2e-4;
-// A hull with more vertices than this is replaced by a simpler polytope around it, which touches it
-// in 162 directions (for a sphere at most 1.5 % of the radius too large).
+// Hulls with more vertices are replaced by a simpler polytope around them that touches them in 162
+// directions (for a sphere at most 1.5 % of the radius too large).
 inline constexpr std::size_t kMaxHullVertices = 400;
-// No point lies farther outside of a face than this (it is measured for every point).
+// No point lies farther than this outside a face (checked for every point).
 inline constexpr double kHullTolerance_m = 1e-6;
 
-// The hull of the points, by qhull. The error is qhull's reason, or that the tolerance was missed.
+// Returns the hull of the points by qhull, or qhull's error, or that the tolerance is missed.
 // Precondition: at least one point, all finite.
 [[nodiscard]] tl::expected<ConvexHull, std::string> convex_hull(
     const std::vector<Eigen::Vector3d>& points);

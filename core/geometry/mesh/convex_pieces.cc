@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kEscapeDirections = 40;
 
-// A box of space and what lies of the surface in it.
+// A box of space, and the part of the surface in it.
 struct Block {
   Eigen::AlignedBox3d box;
   Polygons surface;
@@ -24,7 +24,7 @@ struct Block {
   double volume_m3 = 0.0;
 };
 
-// Whether the ray may hit the triangle; a doubt is a yes.
+// Returns true if the ray may hit the triangle, including doubtful cases.
 bool may_hit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
              const std::array<Eigen::Vector3d, 3>& t) {
   constexpr double kDoubt = 1e-10;
@@ -39,13 +39,13 @@ bool may_hit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
     any_negative = any_negative || side < -size;
   }
   if (any_positive && any_negative) return false;
-  // The line hits; behind the origin when all corners are.
+  // The line hits, behind the origin if all corners are.
   return std::any_of(t.begin(), t.end(), [&](const Eigen::Vector3d& p) {
     return direction.dot(p - from) > -kDoubt * ((p - from).norm() + kDoubt);
   });
 }
 
-// Whether some ray leaves the point without hitting the surface: then nothing encloses it.
+// Returns true if a ray from p does not hit the surface, so that nothing encloses p.
 bool escapes(const Eigen::Vector3d& p, const MeshData& mesh) {
   static const Points kDirections = spread_directions(kEscapeDirections);
   return std::any_of(kDirections.begin(), kDirections.end(), [&](const Eigen::Vector3d& n) {
@@ -55,7 +55,6 @@ bool escapes(const Eigen::Vector3d& p, const MeshData& mesh) {
   });
 }
 
-// The corners of the box that the mesh may enclose.
 Points enclosed_corners(const Eigen::AlignedBox3d& box, const MeshData& mesh) {
   Points corners;
   for (int i = 0; i < 8; ++i) {
@@ -67,7 +66,7 @@ Points enclosed_corners(const Eigen::AlignedBox3d& box, const MeshData& mesh) {
   return corners;
 }
 
-// By its triangles' orientation; wrong when they overlap or are not of one mind.
+// Returns the volume by orientation; wrong if triangles overlap or are inconsistent.
 double enclosed_volume(const MeshData& mesh) {
   double sum = 0.0;
   for (const Triangle& t : mesh.triangles) {
@@ -93,7 +92,7 @@ std::optional<Block> side_of(const Block& cell, const Cut& cut, double sign, con
   return side;
 }
 
-// Both sides of the cell's best cut, when it gains enough.
+// Returns both sides of the best cut; empty if it gains too little.
 std::vector<Block> parted(const Block& cell, const MeshData& mesh, double least_gain_m3) {
   const Cut cut = best_cut(cell.surface);
   if (!(cut.volume_m3 < cell.volume_m3)) return {};
@@ -129,7 +128,7 @@ std::vector<ConvexHull> convex_pieces(const MeshData& mesh) {
   if (open.front().volume_m3 - enclosed_volume(mesh) < least_gain_m3) return {mesh.hull};
   std::vector<ConvexHull> pieces;
   while (!open.empty()) {
-    // The largest first: the number of pieces is bounded.
+    // Largest first, because the number of pieces is limited.
     const auto largest =
         std::max_element(open.begin(), open.end(),
                          [](const auto& a, const auto& b) { return a.volume_m3 < b.volume_m3; });

@@ -78,7 +78,7 @@ Checked<void> check_vertices(const MeshData& mesh) {
   return {};
 }
 
-// A point is no body: nothing of it could be touched.
+// Refuses a single point, because it could never be touched.
 Checked<void> check_extent(const MeshData& mesh) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);
@@ -87,20 +87,20 @@ Checked<void> check_extent(const MeshData& mesh) {
   const std::string point = text_of(p.x()) + " " + text_of(p.y()) + " " + text_of(p.z());
   return refuse(ProblemKind::invalid, "mesh-without-extent",
                 "every corner of its " + std::to_string(mesh.triangles.size()) +
-                    " triangles is the one point " + point,
+                    " triangles is the same point " + point,
                 point);
 }
 
-// What assimp may read: all that the file says of its surface, and nothing else.
+// Input for assimp: the file's complete surface, and nothing else.
 struct MeshText {
   std::string bytes;
-  std::size_t triangles;  // of a DAE: at most
+  std::size_t triangles;  // upper bound for a DAE
 };
 
 Checked<MeshText> unchecked_size(std::string bytes, MeshFormat format) {
   const auto unreadable = [](const std::string& why) {
     return refuse(ProblemKind::malformed, "mesh-unreadable",
-                  why + " (copy the file, or export it, again)");
+                  why + " (copy or export the file again)");
   };
   if (format == MeshFormat::dae) {
     auto essence = read_dae_essence(bytes);
@@ -145,16 +145,17 @@ Checked<MeshPtr> load(const std::string& path, const Eigen::Vector3d& scale) {
   if (!mesh) return tl::unexpected(mesh.error());
   if (*format != MeshFormat::dae && mesh->triangles.size() != text->triangles) {
     return refuse(ProblemKind::unsupported, "mesh-unreadable",
-                  "its faces are " + std::to_string(text->triangles) + " triangles, but only " +
-                      std::to_string(mesh->triangles.size()) +
-                      " could be made of them: export it as triangles",
+                  "its faces should give " + std::to_string(text->triangles) +
+                      " triangles, but only " + std::to_string(mesh->triangles.size()) +
+                      " could be made: export it as triangles",
                   static_cast<double>(mesh->triangles.size()));
   }
   if (const auto sound = check_vertices(*mesh); !sound) return tl::unexpected(sound.error());
   if (const auto extent = check_extent(*mesh); !extent) return tl::unexpected(extent.error());
   auto hull = convex_hull(mesh->vertices);
   if (!hull)
-    return refuse(ProblemKind::invalid, "mesh-hull", "it has no convex hull: " + hull.error());
+    return refuse(ProblemKind::invalid, "mesh-hull",
+                  "its convex hull cannot be computed: " + hull.error());
   mesh->hull = *std::move(hull);
   auto sides = one_sided(mesh->triangles);
   mesh->both_sides = !sides;
@@ -194,7 +195,7 @@ Result<MeshPtr> load_mesh(const std::string& path, const Eigen::Vector3d& scale,
   Checked<MeshPtr> mesh;
   try {
     mesh = load(path, scale);
-  } catch (const std::exception& error) {  // assimp's own, for some broken files
+  } catch (const std::exception& error) {  // thrown by assimp for some broken files
     mesh = refuse(ProblemKind::malformed, "mesh-unreadable", error.what());
   }
   if (mesh) return *std::move(mesh);

@@ -16,7 +16,7 @@
 namespace armloom {
 namespace {
 
-// The bytes in memory as assimp's only file.
+// Presents bytes in memory as assimp's only file.
 class OneStream final : public Assimp::IOStream {
  public:
   explicit OneStream(const std::string& bytes) : bytes_(bytes) {}
@@ -60,12 +60,12 @@ class OneFile final : public Assimp::IOSystem {
   const std::string& bytes_;
 };
 
-// Collects the triangles of all nodes, equal points once.
+// Collects the triangles of all nodes and merges equal points.
 class Collector {
  public:
   explicit Collector(const Eigen::Vector3d& scale) : scale_(scale) {}
 
-  // False: over the bound.
+  // Returns false if there are too many triangles.
   bool add(const aiScene& scene, const aiNode& node, const aiMatrix4x4& X_FP) {
     const aiMatrix4x4 X_FN = X_FP * node.mTransformation;
     for (unsigned m = 0; m < node.mNumMeshes; ++m) {
@@ -98,7 +98,7 @@ class Collector {
     const Eigen::Vector3d as_written(p_N.x, p_N.y, p_N.z);
     const aiVector3D p = X_FN * p_N;
     const Eigen::Vector3d p_S = scale_.cwiseProduct(Eigen::Vector3d(p.x, p.y, p.z));
-    // NaN is unordered and may not be a key; the caller reports it, as the file has it.
+    // NaN is unordered and cannot be a key. The caller reports it as written in the file.
     if (!p_S.allFinite()) {
       mesh.vertices.push_back(as_written.allFinite() ? p_S : as_written);
       return next;
@@ -112,7 +112,7 @@ class Collector {
   std::map<std::tuple<double, double, double>, std::uint32_t> known_;
 };
 
-// Only the importer for the file's own kind: assimp else also looks at the content.
+// Keeps only the importer for the file's format; assimp would also guess from the content.
 void keep_only(Assimp::Importer& importer, const char* extension) {
   std::set<Assimp::BaseImporter*> others;
   for (std::size_t i = 0; i < importer.GetImporterCount(); ++i)
@@ -120,7 +120,7 @@ void keep_only(Assimp::Importer& importer, const char* extension) {
   others.erase(importer.GetImporter(extension));
   for (Assimp::BaseImporter* other : others) {
     importer.UnregisterLoader(other);
-    delete other;  // assimp forgets it without freeing it
+    delete other;  // assimp does not free it
   }
 }
 

@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// A reason for refusing, without the place.
+// A refusal, without the mesh's name.
 struct MeshRefusal {
   ProblemKind kind;
   std::string slug;
@@ -28,9 +28,9 @@ using Checked = tl::expected<T, MeshRefusal>;
 
 enum class MeshFormat { stl, obj, dae };
 
-// The one file that knows assimp. All triangles of a file's bytes, of all its nodes, in the shape's
-// frame; equal points once. Refused: what assimp cannot read, and more triangles than
-// kMaxMeshTriangles. May throw, for some broken files.
+// Reads all triangles of all nodes with assimp (used only here), in the shape's frame, merging
+// equal points. Refuses what assimp cannot read and more than kMaxMeshTriangles. May throw for some
+// broken files.
 [[nodiscard]] Checked<MeshData> import_mesh(const std::string& bytes, MeshFormat format,
                                             const Eigen::Vector3d& scale);
 

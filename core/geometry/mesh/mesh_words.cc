@@ -30,7 +30,7 @@ std::optional<float> float_of(std::string_view word) {
   const auto [at, error] = std::from_chars(word.data(), end, number);
   if (at != end || error == std::errc::invalid_argument) return std::nullopt;
   if (error == std::errc{}) return number;
-  const auto exponent = word.find_first_of("eE");  // out of a float's range: which end of it?
+  const auto exponent = word.find_first_of("eE");  // out of range: too small or too large?
   const bool tiny = exponent != word.npos && word.substr(exponent + 1).starts_with('-');
   const bool zero = tiny || word.find_first_not_of("-0") == word.find('.');
   return zero ? 0.0F : std::numeric_limits<float>::infinity();

@@ -8,16 +8,15 @@
 
 namespace armloom {
 
-// The words of a mesh file in text, with their lines.
+// Words of a mesh file, with line numbers.
 class MeshWords {
  public:
   explicit MeshWords(std::string_view text) : rest_(text) {}
 
-  // The next word; empty at the end.
+  // Returns the next word; empty at the end.
   [[nodiscard]] std::string_view next();
-  // What is left of the line that the last word stands in.
   void skip_line();
-  // Of the last word, from 1.
+  // Line of the last word, from 1.
   [[nodiscard]] std::size_t line() const { return line_; }
 
  private:
@@ -25,11 +24,11 @@ class MeshWords {
   std::size_t line_ = 1;
 };
 
-// A decimal number, also nan and inf; what is too large for a float is infinite. Nothing: it is
-// none, or more than one.
+// Parses a decimal number, nan or inf; infinity if too large for a float; nullopt if not one
+// number.
 [[nodiscard]] std::optional<float> float_of(std::string_view word);
 
-// 'word' for a message: cut short, and without what would not print.
+// Quotes a word for a message, shortened, unprintable characters replaced.
 [[nodiscard]] std::string quoted(std::string_view word);
 
 }  // namespace armloom

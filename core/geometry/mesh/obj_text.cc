@@ -14,7 +14,7 @@ namespace {
 
 using Error = std::optional<std::string>;
 
-// What says nothing of the surface.
+// Keywords without effect on the surface.
 constexpr std::array<std::string_view, 20> kPassedOver = {
     "vt",     "vn",       "vp",       "o",          "g",         "s", "mg",
     "usemtl", "mtllib",   "usemap",   "maplib",     "lod",       "l", "p",
@@ -39,17 +39,18 @@ class ObjReader {
     if (first == "f" || first == "fo") return read_face(words, line);
     if (is_one_of(first, kPassedOver)) return std::nullopt;
     if (is_one_of(first, kFreeForm)) {
-      return quoted(first) + " is of a free-form surface, which is not read: export triangles";
+      return quoted(first) +
+             " belongs to a free-form surface, which is not supported: export triangles";
     }
-    return quoted(first) + " is no word of an OBJ file";
+    return quoted(first) + " is not an OBJ keyword";
   }
 
-  // Corners may name vertices that come later.
+  // Checks the largest vertex index, because faces may use vertices that come later.
   [[nodiscard]] Error at_end() const {
     if (largest_ <= vertices_) return std::nullopt;
     return "line " + std::to_string(largest_line_) + ": a face names vertex " +
-           std::to_string(largest_) + ", and the file has " + std::to_string(vertices_) +
-           ": was it cut off?";
+           std::to_string(largest_) + ", but the file has " + std::to_string(vertices_) +
+           " vertices: was it cut off?";
   }
 
  private:
@@ -61,8 +62,8 @@ class ObjReader {
     out.text += 'v';
     for (std::size_t i = 1; i < words.size(); ++i) {
       const auto number = float_of(words[i]);
-      if (!number) return quoted(words[i]) + " is no number";
-      if (i <= 3 || numbers == 4) add(*number);  // what follows else is a colour
+      if (!number) return quoted(words[i]) + " is not a number";
+      if (i <= 3 || numbers == 4) add(*number);  // other numbers are a color
     }
     out.text += '\n';
     ++vertices_;
@@ -75,7 +76,7 @@ class ObjReader {
     out.text += 'f';
     for (std::size_t i = 1; i < words.size(); ++i) {
       const auto index = index_of(words[i]);
-      if (!index || *index == 0) return quoted(words[i]) + " is no corner of a face";
+      if (!index || *index == 0) return quoted(words[i]) + " is not a corner of a face";
       if (*index > largest_) {
         largest_ = *index;
         largest_line_ = line;
@@ -97,7 +98,7 @@ class ObjReader {
     out.text.append(digits.begin(), end);
   }
 
-  // Of v, v/vt, v//vn or v/vt/vn.
+  // Returns the vertex index of v, v/vt, v//vn or v/vt/vn.
   static std::optional<long long> index_of(std::string_view word) {
     std::optional<long long> vertex;
     for (int part = 0; part < 3; ++part) {

@@ -7,18 +7,17 @@
 
 namespace armloom {
 
-// The vertices and faces of an OBJ file, as assimp reads them safely: one to a line, numbers with a
-// digit in front, corners by the vertex' index alone and counted from the first.
+// Vertices and faces of an OBJ file as assimp reads them safely: one per line, numbers with a
+// leading digit, corners by absolute vertex index only.
 struct ObjText {
   std::string text;
-  std::size_t triangles;  // a face of n corners is n - 2
+  std::size_t triangles;  // a face of n corners has n - 2
 };
 
-// Whatever the file says of its surface is in it, or there is an error (assimp drops what it does
-// not understand): half a sentence that names the line. Errors are a word that OBJ does not know, a
-// vertex that is not three numbers (a weight or a colour may follow), a face of fewer than three
-// corners or with a corner that is no vertex, a free-form surface. An OBJ has no end of its own:
-// one that was cut off between two lines is only known by what it no longer encloses.
+// Reads an OBJ file. Unlike assimp, never drops part of its surface silently. The error is a phrase
+// that names the line: an unknown keyword, a vertex that is not three numbers (a weight or color
+// may follow), a face with fewer than three corners or an invalid corner, or a free-form surface. A
+// file cut off between two lines is detected only if its surface is not closed.
 [[nodiscard]] tl::expected<ObjText, std::string> read_obj(std::string_view bytes);
 
 }  // namespace armloom

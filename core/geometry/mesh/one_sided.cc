@@ -12,9 +12,9 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-// A triangle whichever side it is seen from, and how often it is there from each.
+// A triangle of either orientation, with its count for each.
 struct Face {
-  std::size_t first;  // the first triangle of it
+  std::size_t first;  // its first triangle
   std::array<std::size_t, 2> sides{};
   [[nodiscard]] bool doubled() const { return sides[0] == sides[1]; }
 };
@@ -25,13 +25,13 @@ Triangle sorted(Triangle t) {
   return t;
 }
 
-// Which way around the corners go, from the smallest on.
+// Returns the direction of the corners, from the smallest index on.
 std::size_t side_of(const Triangle& t) {
   const auto least = static_cast<std::size_t>(std::ranges::min_element(t) - t.begin());
   return t[(least + 1) % 3] < t[(least + 2) % 3] ? 0 : 1;
 }
 
-// Soon found out, as mostly there is none.
+// A fast test, because most meshes have none.
 bool any_twice(const std::vector<Triangle>& triangles) {
   std::vector<Triangle> keys;
   for (const Triangle& t : triangles) keys.push_back(sorted(t));
@@ -43,7 +43,7 @@ Faces faces_of(const std::vector<Triangle>& triangles) {
   Faces faces;
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     const Triangle key = sorted(triangles[i]);
-    if (key[0] == key[1] || key[1] == key[2]) continue;  // no area, no side
+    if (key[0] == key[1] || key[1] == key[2]) continue;  // no area, no orientation
     ++faces.try_emplace(key, Face{i}).first->second.sides[side_of(triangles[i])];
   }
   return faces;
@@ -53,7 +53,7 @@ std::array<Edge, 3> edges_of(const Triangle& key) {
   return {Edge{key[0], key[1]}, Edge{key[0], key[2]}, Edge{key[1], key[2]}};
 }
 
-// The doubled faces, each once, and what is left of them without those on free edges.
+// The doubled faces, each once, after repeated removal of faces with free edges.
 class Doubled {
  public:
   explicit Doubled(const Faces& faces) {
@@ -81,7 +81,6 @@ class Doubled {
   [[nodiscard]] bool empty() const {
     return std::ranges::none_of(left_, [](const auto& entry) { return entry.second; });
   }
-  // Whether a face that is left has the edge.
   [[nodiscard]] bool has(const Edge& edge) const {
     const auto at = at_.find(edge);
     return at != at_.end() && !at->second.empty();

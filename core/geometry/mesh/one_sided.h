@@ -7,12 +7,14 @@
 
 namespace armloom {
 
-// The triangles without the other side of solids that are there from both sides: CAD programs and
-// Blender write each face twice, once turned around. Such a surface winds about no point, so that
-// nothing were inside of it. Of faces that are there as often one way as the other one is kept, if
-// they enclose something by themselves: when all that hang on a free edge are taken off, again and
-// again, these are left. So sheets, bins and the wall between two boxes, which have two sides by
-// right, stay as they are. Nothing, where other faces hang on what is left: then nobody can say.
+// Removes the second side of solids that are modeled from both sides: CAD programs and Blender
+// write each face twice, once reversed. The winding number of such a surface is zero, so it would
+// enclose nothing.
+//
+// A face is doubled if it occurs equally often in both orientations. Doubled faces with a free edge
+// are dropped repeatedly; the rest encloses something, and one side is kept. So sheets, bins and
+// the wall between two boxes keep both sides. Returns nullopt if other faces share an edge with the
+// rest, because the solid is then ambiguous.
 [[nodiscard]] std::optional<std::vector<Triangle>> one_sided(std::vector<Triangle> triangles);
 
 }  // namespace armloom

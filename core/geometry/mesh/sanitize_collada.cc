@@ -19,7 +19,7 @@ using tinyxml2::XMLElement;
 constexpr std::size_t kSaturated = 1'000'000'000'000'000;
 constexpr unsigned kMaxInputs = 64;
 
-// Carries the reason out of the depth of a document; never leaves this file.
+// Carries the reason out of nested calls; caught in this file.
 struct Fault {
   std::string why;
 };
@@ -45,16 +45,16 @@ void keep_children(XMLElement& element, std::initializer_list<std::string_view> 
   });
 }
 
-// An attribute that is a whole number; `otherwise` where it is absent.
+// Returns a whole-number attribute, or `otherwise` if absent.
 unsigned count_of(const XMLElement& element, const char* attribute, unsigned otherwise) {
   unsigned value = otherwise;
   const auto read = element.QueryUnsignedAttribute(attribute, &value);
   if (read == tinyxml2::XML_SUCCESS || read == tinyxml2::XML_NO_ATTRIBUTE) return value;
   throw Fault{std::string("<") + element.Name() + "> " + attribute + " is '" +
-              element.Attribute(attribute) + "', which is no count"};
+              element.Attribute(attribute) + "', which is not a valid count"};
 }
 
-// Calls visit(number) for each word of the element's text; every one must be a Number.
+// Calls visit(number) for each word of the text. Throws if a word is not a Number.
 template <class Number, class Visit>
 void each_number(const XMLElement& element, const char* what, const Visit& visit) {
   std::string_view text = element.GetText() == nullptr ? "" : element.GetText();
@@ -67,7 +67,7 @@ void each_number(const XMLElement& element, const char* what, const Visit& visit
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc{} || end != word.data() + word.size()) {
       throw Fault{std::string("<") + element.Name() + "> holds '" +
-                  std::string(word.substr(0, 40)) + "', which is no " + what};
+                  std::string(word.substr(0, 40)) + "', which is not a valid " + what};
     }
     visit(number);
     text.remove_prefix(word.size());
@@ -81,8 +81,8 @@ std::size_t count_numbers(const XMLElement& element, const char* what) {
   return count;
 }
 
-// Arrays hold as many numbers as they say, and accessors ask for no more. Returns how many elements
-// the longest accessor has.
+// Checks that arrays hold their stated count and accessors stay within. Returns the element count
+// of the longest accessor.
 std::size_t check_source(XMLElement& source) {
   std::size_t longest = 0;
   keep_children(source, {"float_array", "technique_common"});
@@ -91,9 +91,8 @@ std::size_t check_source(XMLElement& source) {
     if (!is_one_of(array, {"float_array"})) return;
     const std::size_t numbers = count_numbers<double>(array, "number");
     if (count_of(array, "count", 0) != numbers) {
-      throw Fault{"<float_array> says that it holds " +
-                  std::to_string(count_of(array, "count", 0)) + " numbers and holds " +
-                  std::to_string(numbers)};
+      throw Fault{"<float_array> states a count of " + std::to_string(count_of(array, "count", 0)) +
+                  " but holds " + std::to_string(numbers) + " numbers"};
     }
     if (array.Attribute("id") != nullptr) arrays[array.Attribute("id")] = numbers;
   });
@@ -116,8 +115,8 @@ std::size_t check_source(XMLElement& source) {
   return longest;
 }
 
-// The triangles of <triangles>, <polylist> and the like. Corners are indices, one for each input;
-// none reaches `elements`.
+// Returns the triangle count of <triangles>, <polylist> and similar. Checks that all indices (one
+// per corner and input) are below `elements`.
 std::size_t check_primitive(XMLElement& part, std::size_t elements) {
   keep_children(part, {"input", "p", "vcount"});
   unsigned inputs = 0;
@@ -132,7 +131,8 @@ std::size_t check_primitive(XMLElement& part, std::size_t elements) {
     });
   });
   if (inputs == 0 || inputs > kMaxInputs) {
-    throw Fault{std::string("<") + part.Name() + "> has no <input>, or one of too large an offset"};
+    throw Fault{std::string("<") + part.Name() + "> has no <input>, or an <input> offset above " +
+                std::to_string(kMaxInputs - 1)};
   }
   std::size_t corners = 0;
   std::size_t lists = 0;
@@ -153,14 +153,14 @@ std::size_t check_primitive(XMLElement& part, std::size_t elements) {
   const bool triangles = is_one_of(part, {"triangles"});
   const std::size_t expected = by_count ? polygons : triangles ? corners / 3 : lists;
   if ((by_count && announced != corners) || count_of(part, "count", 0) != expected) {
-    throw Fault{std::string("<") + part.Name() + "> holds other than it says"};
+    throw Fault{std::string("<") + part.Name() + ">: its count does not match its content"};
   }
   return triangles ? corners / 3 : corners;
 }
 
 class DaeReader {
  public:
-  // Cuts and checks the document. Throws Fault.
+  // Reduces and checks the document. Throws Fault.
   explicit DaeReader(XMLElement& root) {
     keep_children(
         root, {"asset", "library_geometries", "library_nodes", "library_visual_scenes", "scene"});
@@ -195,7 +195,7 @@ class DaeReader {
   }
 
   void read_node(XMLElement& node) {
-    // To leave these out would change the shape, not only its looks.
+    // Dropping these would change the shape, not only its appearance.
     each_child(node, [](const XMLElement& child) {
       if (is_one_of(child, {"skew", "instance_controller"})) {
         throw Fault{std::string("<") + child.Name() + "> is not supported"};
@@ -215,12 +215,12 @@ class DaeReader {
     });
   }
 
-  // The triangles that a node or scene places, its own and those of nodes that it names. Nodes
-  // without geometry multiply too: each naming counts as one more.
+  // Returns the triangle count of a node or scene with the nodes it instances. Each instance adds
+  // one, because empty nodes can multiply too.
   std::size_t below(const XMLElement& node) {
     const auto known = placed_.find(&node);
     if (known != placed_.end()) return known->second;
-    if (!open_.insert(&node).second) throw Fault{"its nodes place themselves"};
+    if (!open_.insert(&node).second) throw Fault{"its nodes instance each other in a cycle"};
     std::size_t total = 0;
     for (const auto* child = node.FirstChildElement(); child != nullptr;
          child = child->NextSiblingElement()) {
@@ -256,7 +256,8 @@ class DaeReader {
 tl::expected<DaeEssence, std::string> read_dae_essence(std::string_view bytes) {
   tinyxml2::XMLDocument document;
   if (document.Parse(bytes.data(), bytes.size()) != tinyxml2::XML_SUCCESS) {
-    return tl::unexpected("it is no XML: line " + std::to_string(document.ErrorLineNum()));
+    return tl::unexpected("it is not well-formed XML: line " +
+                          std::to_string(document.ErrorLineNum()));
   }
   XMLElement* root = document.RootElement();
   if (root == nullptr || std::string_view(root->Name()) != "COLLADA") {

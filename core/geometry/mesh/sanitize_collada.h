@@ -7,15 +7,15 @@
 
 namespace armloom {
 
-// A COLLADA document cut down to its geometry, after everything in that has been checked that
-// assimp trusts: assimp 5.2 reads past the end of arrays whose accessors promise too much, follows
-// nodes that place themselves for ever, and fills the memory when an index is no number.
+// A COLLADA document reduced to its geometry and checked, because assimp 5.2 reads past the end of
+// arrays if an accessor is too long, recurses forever through cyclic nodes, and fills the memory if
+// an index is not a number.
 struct DaeEssence {
-  std::string text;       // asset, geometries, nodes and scenes; no materials, images, controllers
-  std::size_t triangles;  // at most; each geometry as often as nodes place it, saturates at 10^15
+  std::string text;       // asset, geometries, nodes, scenes; no materials, images, controllers
+  std::size_t triangles;  // upper bound, with every instance included; saturates at 10^15
 };
 
-// The error is half a sentence: "<p> holds 'x', which is no index".
+// The error is a phrase: "<p> holds 'x', which is not a valid index".
 [[nodiscard]] tl::expected<DaeEssence, std::string> read_dae_essence(std::string_view bytes);
 
 }  // namespace armloom

@@ -12,7 +12,7 @@
 namespace armloom {
 namespace {
 
-constexpr std::size_t kHeader = 84;    // of a binary file: 80 bytes, then the count
+constexpr std::size_t kHeader = 84;    // binary file: 80 bytes, then the count
 constexpr std::size_t kTriangle = 50;  // 12 floats and two bytes
 
 bool is(std::string_view word, std::string_view keyword) {
@@ -31,7 +31,7 @@ bool is_whole_binary(std::string_view bytes) {
   return bytes.size() >= kHeader && bytes.size() == kHeader + kTriangle * count_of(bytes);
 }
 
-// Headers of binary files may begin with "solid" too, but hold zeros or coordinates soon.
+// Binary headers may begin with "solid" too, but unprintable bytes follow.
 bool is_text(std::string_view bytes) {
   const std::string_view start = bytes.substr(0, 1000);
   const bool prints = std::ranges::all_of(start, [](char c) { return c < 0 || c >= '\t'; });
@@ -42,13 +42,13 @@ class StlText {
  public:
   explicit StlText(std::string_view text) : words_(text) {}
 
-  // Nothing where there is an error.
+  // Returns false on an error.
   bool read() {
     while (true) {
       std::string_view word = words_.next();
       if (word.empty()) break;
       if (!is(word, "solid")) return stray(word, "'solid'");
-      words_.skip_line();  // its name
+      words_.skip_line();  // solid's name
       for (word = words_.next(); is(word, "facet"); word = words_.next()) {
         if (!read_facet()) return false;
       }
@@ -101,8 +101,8 @@ class StlText {
   }
 
   bool stray(std::string_view word, const std::string& due) {
-    if (word.empty()) return fail("the file ends where " + due + " is due: it was cut off");
-    return fail(quoted(word) + " stands where " + due + " is due");
+    if (word.empty()) return fail("expected " + due + ", but the file ends: it was cut off");
+    return fail("expected " + due + ", found " + quoted(word));
   }
 
   bool fail(const std::string& why) {
@@ -120,13 +120,14 @@ class StlText {
 std::string wrong_length(std::string_view bytes) {
   const std::string size = std::to_string(bytes.size()) + " bytes";
   if (bytes.size() < kHeader) {
-    return "it is no STL: " + size + " that do not begin with 'solid', and a binary file has " +
-           std::to_string(kHeader) + " at least";
+    return "it is not an STL: it has " + size +
+           " and does not begin with 'solid'; a binary STL has at least " +
+           std::to_string(kHeader) + " bytes";
   }
   const std::size_t due = kHeader + kTriangle * count_of(bytes);
-  return "its header announces " + std::to_string(count_of(bytes)) + " triangles, which are " +
-         std::to_string(due) + " bytes, and it has " + size + ": it " +
-         (bytes.size() < due ? "was cut off" : "holds more than it says") + ", or is no STL";
+  return "its header announces " + std::to_string(count_of(bytes)) + " triangles (" +
+         std::to_string(due) + " bytes), but it has " + size + ": it " +
+         (bytes.size() < due ? "was cut off" : "holds more than it says") + ", or is not an STL";
 }
 
 }  // namespace

@@ -7,14 +7,13 @@
 
 namespace armloom {
 
-// An STL file as a binary one: the triangles of a file in text, of all its solids, and a binary
-// file as it is. Whatever the file holds is in it, or there is an error: half a sentence that names
-// the line ("line 12: 'facte' stands where 'facet' or 'endsolid' is due"). A text must come to its
-// `endsolid`, and a binary file have the length that its count of triangles makes, so that a file
-// that was cut off is known. Upper and lower case are alike; normals are not looked at.
+// Returns an STL file in binary form: a binary file unchanged, a text file with the triangles of
+// all its solids. The error is a phrase that names the line ("line 12: expected 'facet' or
+// 'endsolid', found 'facte'"). Detects truncated files: a text must end with `endsolid`, a binary
+// file must have the length given by its triangle count. Ignores case and normals.
 [[nodiscard]] tl::expected<std::string, std::string> read_stl(std::string bytes);
 
-// Of what read_stl gives.
+// Returns the triangle count of read_stl()'s result.
 [[nodiscard]] std::size_t triangles_of_stl(std::string_view binary);
 
 }  // namespace armloom

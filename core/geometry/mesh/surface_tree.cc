@@ -12,24 +12,22 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-// Not smaller than x.
 float rounded_up(double x) {
   const auto near = static_cast<float>(x);
   if (static_cast<double>(near) >= x) return near;
   return std::nextafter(near, std::numeric_limits<float>::infinity());
 }
 
-// A triangle, or the share of one that lies in a box: a long triangle would need a box that is
-// mostly empty.
+// A triangle, or its part in a box. One box around a long triangle would be mostly empty.
 struct Share {
   std::uint32_t triangle;
   Eigen::AlignedBox3d box;
 };
 
-constexpr double kShare = 1.0 / 16.0;  // of the surface's extent: larger triangles are shared out
-constexpr double kRounding = 1e-12;    // of the same: shares are larger by that than they are
+constexpr double kShare = 1.0 / 16.0;  // of the extent: larger triangles are divided
+constexpr double kRounding = 1e-12;    // of the extent: shares are enlarged by this
 
-constexpr float kNoBox_m = -1e18F;  // half an extent of none: it is far from everything
+constexpr float kNoBox_m = -1e18F;  // half extent of an unused box
 
 const SurfaceTree::Box kNoBox{Eigen::Vector3f::Zero(), Eigen::Vector3f::Constant(kNoBox_m), 0,
                               true};
@@ -54,7 +52,7 @@ class Builder {
   }
 
  private:
-  // Halves the polygon until it is small, or fills its box anyway.
+  // Halves the polygon until it is small or fills its box well.
   void share_out(std::uint32_t triangle, const std::vector<Eigen::Vector3d>& polygon) {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& p : polygon) box.extend(p);
@@ -91,7 +89,6 @@ class Builder {
     return kept;
   }
 
-  // The depth is the logarithm of the number of shares.
   SurfaceTree::Box box_of(std::size_t begin, std::size_t end) {
     SurfaceTree::Box box = bound(begin, end);
     box.leaf = end - begin == 1;
@@ -121,7 +118,7 @@ class Builder {
     return index;
   }
 
-  // Where the upper half begins. One share is its own upper half.
+  // Returns the start of the upper half. A single share is its own upper half.
   std::size_t halve(std::size_t begin, std::size_t end) {
     Eigen::AlignedBox3d middles;
     for (std::size_t i = begin; i < end; ++i) middles.extend(shares_[i].box.center());
@@ -158,7 +155,7 @@ std::uint32_t root_of(std::vector<std::uint32_t>& above, std::uint32_t i) {
   return i;
 }
 
-// Of a triangle with a corner twice what is left is one edge there and back: no rim.
+// A triangle with a repeated corner has an edge in both directions: not open.
 std::vector<Edge> sorted_edges(const std::vector<Triangle>& triangles, bool directed) {
   std::vector<Edge> edges;
   edges.reserve(3 * triangles.size());

@@ -11,25 +11,24 @@ namespace armloom {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// How many edges border an odd number of triangles. None: the surface has no rim, it closes.
+// Returns the number of edges that border an odd number of triangles; zero if closed.
 [[nodiscard]] std::size_t open_edges(const std::vector<Triangle>& triangles);
 [[nodiscard]] bool is_closed(const std::vector<Triangle>& triangles);
 
-// The triangles of a surface in a tree of boxes, for distances that ask few of them. Everything is
-// in the frame T of the vertices, in metres. Some 100 bytes a triangle, more where they are long.
-// Immutable.
+// Triangles in a tree of boxes, so that distance queries visit few of them. All in the frame T of
+// the vertices (m). About 100 bytes per triangle, more if long. Immutable.
 struct SurfaceTree {
-  // A box along the axes of T around all triangles below it, or shares of them.
+  // A box along the axes of T around all triangles, or parts of triangles, below it.
   struct Box {
     Eigen::Vector3f center;
-    Eigen::Vector3f half;  // rounded up, so that the box holds its triangles
-    std::uint32_t below;   // of a leaf its triangle, else a node
+    Eigen::Vector3f half;  // rounded up, so that the box contains its triangles
+    std::uint32_t below;   // leaf: its triangle; else a node
     bool leaf;
   };
-  // Up to four boxes, coordinate by coordinate: four are looked at in one step.
+  // Up to four boxes, stored by coordinate so that four are tested in one step.
   struct Node {
     std::array<Eigen::Array4f, 3> center;
-    std::array<Eigen::Array4f, 3> half;  // of a box that is not there: far below zero
+    std::array<Eigen::Array4f, 3> half;  // far below zero for an unused box
     std::array<std::uint32_t, 4> below;
     std::array<bool, 4> leaf;
 
@@ -41,22 +40,21 @@ struct SurfaceTree {
               leaf[i]};
     }
   };
-  // Triangles that hang together by common corners. Of a closed surface each component is closed.
+  // Triangles connected by common corners. In a closed surface each component is closed.
   struct Component {
-    std::uint32_t vertex;  // one of its corners
-    // Each edge is passed as often one way as the other: the triangles are of one mind about where
-    // outside is (either side), so that a winding number is defined.
+    std::uint32_t vertex;  // one of its vertices
+    // Each edge is used equally often in both directions, so that a winding number is defined.
     bool oriented;
   };
 
-  Box root;  // around everything
+  Box root;  // around all triangles
   std::vector<Node> nodes;
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
   std::vector<std::uint32_t> component_of;  // by triangle
   std::vector<Component> components;
-  double reach_m = 0.0;   // of the farthest vertex from the origin of T
-  bool encloses = false;  // is_closed(), and enough triangles to hold a volume
+  double reach_m = 0.0;   // farthest vertex from the origin of T
+  bool encloses = false;  // is_closed(), with enough triangles for a volume
 
   [[nodiscard]] std::array<Eigen::Vector3d, 3> corners(std::uint32_t triangle) const {
     const Triangle& t = triangles[triangle];
@@ -65,10 +63,10 @@ struct SurfaceTree {
 };
 using SurfaceTreePtr = std::shared_ptr<const SurfaceTree>;
 
-// Long triangles are shared out among several leaves first, each with a box around its share.
-// Halved at the median along the longest side, and again, until a leaf is one share. Degenerate
-// triangles (a point, a segment) are as good as others. Deterministic; half a second for half a
-// million triangles. Precondition: at least one triangle, all numbers finite.
+// Builds the tree: divides long triangles into parts, each with a box, and halves at the median
+// along the longest side until each leaf has one part. Accepts degenerate triangles (points,
+// segments). Deterministic; half a second for half a million triangles. Precondition: at least one
+// triangle, all numbers finite.
 [[nodiscard]] SurfaceTreePtr make_surface_tree(std::vector<Eigen::Vector3d> vertices,
                                                std::vector<Triangle> triangles);
 

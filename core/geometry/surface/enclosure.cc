@@ -14,7 +14,7 @@ namespace {
 using Eigen::Array4f;
 using Eigen::Vector3d;
 
-// Nothing about them is special: no face of a robot is made along one.
+// Arbitrary, so that robot faces are unlikely to be parallel to a ray.
 const std::array<Vector3d, 12> kRays = {{{0.8365, 0.4127, 0.3613},
                                          {-0.3119, 0.8741, -0.3724},
                                          {0.2371, -0.4509, 0.8606},
@@ -27,13 +27,13 @@ const std::array<Vector3d, 12> kRays = {{{0.8365, 0.4127, 0.3613},
                                          {-0.4471, 0.3812, 0.8092},
                                          {0.1219, 0.9318, 0.3418},
                                          {-0.5237, -0.2411, -0.8171}}};
-constexpr double kDoubt = 1e-12;     // relative: below it a sign is not certain
-constexpr std::size_t kMost = 64;    // crossings that one ray may have
-constexpr std::size_t kDepth = 128;  // of the stack: the tree is as deep as its logarithm
+constexpr double kDoubt = 1e-12;     // relative: a sign below it is uncertain
+constexpr std::size_t kMost = 64;    // most crossings of one ray
+constexpr std::size_t kDepth = 128;  // stack size: the tree's depth is logarithmic
 
 enum class Hit { no, from_behind, from_front, doubtful };
 
-// The ray from the origin along n.
+// Classifies the ray from the origin along n.
 Hit hit_of(const Vector3d& n, const std::array<Vector3d, 3>& t) {
   double side[3];
   bool any_positive = false;
@@ -49,7 +49,7 @@ Hit hit_of(const Vector3d& n, const std::array<Vector3d, 3>& t) {
     clear = clear && std::abs(side[i]) > doubt;
   }
   if (any_positive && any_negative) return Hit::no;
-  // The line may cross the triangle; its place along the ray is between those of the corners.
+  // The line may cross the triangle, at a distance between those of the corners.
   const double along[3] = {n.dot(t[0]), n.dot(t[1]), n.dot(t[2])};
   if (along[0] < 0.0 && along[1] < 0.0 && along[2] < 0.0) return Hit::no;
   if (!clear) return Hit::doubtful;
@@ -64,8 +64,7 @@ Hit hit_of(const Vector3d& n, const std::array<Vector3d, 3>& t) {
   return rise > 0.0 ? Hit::from_behind : Hit::from_front;
 }
 
-// Which of the boxes the ray may meet: the slabs of their axes, wider than rounding may make them.
-// `slack_m`: that of a float of the numbers at hand.
+// Returns which boxes the ray may meet: a slab test with `slack_m` for rounding to float.
 Eigen::Array<bool, 4, 1> may_meet(const SurfaceTree::Node& node, const Vector3d& p,
                                   const Vector3d& inverse, float slack_m) {
   Array4f from = Array4f::Zero();
@@ -87,18 +86,17 @@ struct Crossing {
   int turn;
 };
 
-// What one ray crosses.
 struct Crossings {
   std::array<Crossing, kMost> all;
   std::size_t count = 0;
   bool doubtful = false;
 };
 
-// False: it is not certain whether the ray crosses the triangle, or too many are crossed.
+// Returns false if it is uncertain whether the ray crosses, or if it crosses too many.
 bool add_crossing(const SurfaceTree& tree, std::uint32_t triangle, const Vector3d& p,
                   const Vector3d& n, Crossings& crossings) {
   const Triangle& t = tree.triangles[triangle];
-  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;  // no area to be crossed
+  if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return true;  // no area
   auto corners = tree.corners(triangle);
   for (Vector3d& corner : corners) corner -= p;
   const Hit hit = hit_of(n, corners);
@@ -135,13 +133,14 @@ Crossings cross(const SurfaceTree& tree, const Vector3d& p, const Vector3d& n) {
 
 enum class Answer { outside, enclosed, open };
 
-// What a clear ray says: it is open where it crosses components that are not of one mind.
+// Returns a clear ray's answer; `open` if only components of inconsistent orientation might enclose
+// the point.
 Answer answer_of(const SurfaceTree& tree, Crossings& crossings) {
   const auto begin = crossings.all.begin();
   const auto place = [](const Crossing& c) { return std::pair(c.component, c.triangle); };
   std::sort(begin, begin + static_cast<std::ptrdiff_t>(crossings.count),
             [&](const Crossing& a, const Crossing& b) { return place(a) < place(b); });
-  // Several leaves may have the triangle.
+  // Several leaves may share the triangle.
   const auto end =
       std::unique(begin, begin + static_cast<std::ptrdiff_t>(crossings.count),
                   [](const Crossing& a, const Crossing& b) { return a.triangle == b.triangle; });

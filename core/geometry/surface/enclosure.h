@@ -6,14 +6,13 @@
 
 namespace armloom {
 
-// Whether the surface may enclose a point that does not lie on it. What is enclosed: every point
-// about which one of its components winds (a winding number other than zero: surfaces that overlap
-// or lie in each other are one solid, and a room between several boxes is none). Where a
-// component's triangles are not of one mind about outside: every point that no ray leaves without
-// crossing that component.
+// Returns true if the surface may enclose a point that is not on it. It encloses every point about
+// which a component has a nonzero winding number: overlapping or nested surfaces are one solid, and
+// a space between several boxes is outside. A component of inconsistent orientation encloses every
+// point that no ray leaves without crossing it.
 //
-// A yes may be wrong, a no never: twelve rays are cast until one passes all triangles clearly, none
-// of them at an edge or along a face, and says which; when there is none, that is a yes.
+// False is certain; true may be wrong. Up to twelve rays are cast until one passes all triangles
+// clearly, neither at an edge nor along a face. If none does, the result is true.
 [[nodiscard]] bool may_enclose(const SurfaceTree& tree, const Eigen::Vector3d& p_T);
 
 }  // namespace armloom

@@ -10,21 +10,19 @@
 
 namespace armloom {
 
-// Balls that lie in a solid: where those of two overlap, the solids do, and neither GJK nor a
-// triangle is asked. Immutable.
+// Balls inside a solid: if those of two solids overlap, so do the solids. Immutable.
 class InnerBalls {
  public:
-  InnerBalls() = default;  // none
+  InnerBalls() = default;  // no balls
   explicit InnerBalls(const std::vector<Ball>& balls);
 
-  // Whether it is certain that a ball of these and one of the others, whose frame stands at X, come
-  // closer than limit_m, or overlap. In single precision, four at once; what rounding may do is
-  // taken off.
+  // Returns true if a ball of these and a ball of `others` (X: their frame in this frame) are
+  // certainly closer than limit_m or overlap. Single precision, minus the rounding error.
   [[nodiscard]] bool surely_meet(const InnerBalls& others, const Eigen::Isometry3d& X,
                                  double limit_m) const;
 
  private:
-  // Coordinate by coordinate. Of one that is not there the radius is far below zero.
+  // Four balls, by coordinate. The radius of an unused ball is far below zero.
   struct Four {
     Eigen::Array4f x;
     Eigen::Array4f y;
@@ -32,17 +30,17 @@ class InnerBalls {
     Eigen::Array4f radius_m;
   };
   std::vector<Four> fours_;
-  double reach_m_ = 0.0;  // of the farthest center from the origin
+  double reach_m_ = 0.0;  // largest reach of a ball from the origin
 };
 
-// Large ones inside of a solid that lies in the box about `center`, at most kInnerBalls. depth_m:
-// how far a point inside of it is from its surface, or less; not above zero elsewhere. It is asked
-// some 500 times.
+// Returns at most kInnerBalls large balls inside a solid in the box about `center`. depth_m returns
+// a lower bound of an inside point's distance to the surface, at most zero elsewhere, and is called
+// about 500 times.
 inline constexpr std::size_t kInnerBalls = 16;
 using Depth = std::function<double(const Eigen::Vector3d& p)>;
 [[nodiscard]] std::vector<Ball> inner_balls(const Eigen::Vector3d& center,
                                             const Eigen::Vector3d& half_m, const Depth& depth_m);
-// The same inside of a surface, none where it encloses nothing; some milliseconds.
+// Returns balls inside a surface, none if it encloses nothing. Takes some milliseconds.
 [[nodiscard]] std::vector<Ball> inner_balls(const SurfaceTree& tree);
 
 }  // namespace armloom

@@ -10,7 +10,7 @@ namespace armloom {
 namespace {
 
 using Eigen::Vector3d;
-// Surfaces that do not touch: whether a component of one is inside of the other.
+// Returns true if a component of `inner` is inside `outer`. Precondition: they do not touch.
 bool lies_inside(const SurfaceTree& inner, const SurfaceTree& outer,
                  const Eigen::Isometry3d& X_OI) {
   if (!outer.encloses) return false;
@@ -23,7 +23,7 @@ bool lies_inside(const SurfaceTree& inner, const SurfaceTree& outer,
   });
 }
 
-// Of the second solid's tree in that of the first.
+// Returns the pose of b's tree in a's tree frame.
 Eigen::Isometry3d X_AB_of(const PlacedSolid& a, const PlacedSolid& b) {
   return a.X_WT.inverse(Eigen::Isometry) * b.X_WT;
 }

@@ -12,46 +12,46 @@
 
 namespace armloom {
 
-// What a body really is, as a surface: all points within radius_m of the tree's triangles, and all
-// that they enclose (encloses()). A closed mesh is its triangles as the file has them; a box or the
-// hull of an open mesh its faces; a cylinder a prism around it (kPrismOverestimate_m); a capsule or
-// sphere its axis, a triangle without area, with its radius.
+// A body's true shape: all points within radius_m of the tree's triangles, and all that they
+// enclose (encloses()).
+// - closed mesh: its triangles as in the file
+// - box, or hull of an open mesh: its faces
+// - cylinder: a prism around it (kPrismOverestimate_m)
+// - capsule or sphere: its axis, a triangle without area, with its radius
 struct Solid {
   SurfaceTreePtr tree;
-  Eigen::Isometry3d X_PT = Eigen::Isometry3d::Identity();  // of the tree's frame, in the part's P
+  Eigen::Isometry3d X_PT = Eigen::Isometry3d::Identity();  // the tree's frame in the part's frame P
   double radius_m = 0.0;
-  InnerBalls inner = {};  // that lie in it, in the tree's frame
+  InnerBalls inner = {};  // balls inside it, in the tree's frame
 };
 using SolidPtr = std::shared_ptr<const Solid>;
 
-// A solid whose tree stands somewhere in the world.
 struct PlacedSolid {
   const Solid& solid;
   Eigen::Isometry3d X_WT;
 };
 
-// min(distance, limit_m) of two solids; zero where they touch, overlap or one is inside of the
-// other. Never larger than the true distance (each pair of triangles is proven apart,
-// triangle_distance.h; the rounding of the tree's boxes is taken off); measured less than 1e-9 m
-// below it, and what is allowed. What lies farther than limit_m is passed over: cheap when limit_m
-// is small. Throws nothing, allocates nothing; any thread.
+// Returns min(distance, limit_m) of two solids; zero if they touch, overlap or contain each other.
+// Never larger than the true distance: each pair of triangles is proven apart
+// (triangle_distance.h), minus rounding. Measured less than 1e-9 m below it, plus what `rough`
+// allows. Small limits are cheap. Never throws, allocates nothing; thread-safe.
 [[nodiscard]] double solid_distance(const PlacedSolid& a, const PlacedSolid& b, double limit_m,
                                     const Roughness& rough = {});
 
-// Whether they are closer than limit_m, which is found out sooner than how close.
+// Returns true if closer than limit_m. Faster than the distance.
 [[nodiscard]] bool closer_than(const PlacedSolid& a, const PlacedSolid& b, double limit_m);
 
-// Whether balls inside of them prove that they are closer than limit_m: most that overlap deeply.
+// Returns true if inner balls prove closer_than(), as in most deep overlaps.
 [[nodiscard]] bool surely_closer_than(const PlacedSolid& a, const PlacedSolid& b, double limit_m);
 
-// The direction from a to b of their nearest triangles, of unit length, in the world; nothing where
-// two touch. Convex solids are as far apart along it as they are (radii included).
+// Returns the unit direction from a to b of their nearest triangles, in the world, or nullopt if
+// they touch. Along it, convex solids are apart by their whole distance (radii included).
 [[nodiscard]] std::optional<Eigen::Vector3d> direction_apart(const PlacedSolid& a,
                                                              const PlacedSolid& b);
 
-// Whether every two triangles (with the radii) that are closer than within_m are kept apart, which
-// tells of triangles without radii. Ends with the first that are not. Whether one solid is inside
-// of the other is not asked.
+// Returns true if `kept` accepts every two triangles (passed without radii) that are closer than
+// within_m, radii included. Stops at the first rejected. Does not check if one solid is inside the
+// other.
 [[nodiscard]] bool surfaces_apart(const PlacedSolid& a, const PlacedSolid& b, double within_m,
                                   KeptApart& kept);
 

@@ -10,18 +10,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Claims and proofs that differ by less are the same.
+// A distance is proven if its bounds differ by less.
 constexpr double kProven = 1e-10;
-// Of a normal that rounding, down to the smallest numbers there are, has left meaningless.
+// Smaller squared normals are meaningless because of rounding.
 constexpr double kLeastSquare = 1e-60;
 
-// The best gap so far, and the nearest points'.
+// The best proven gap so far, and the smallest distance of points found.
 class Search {
  public:
   Search(const TrianglePoints& a, const TrianglePoints& b, double limit_m)
       : a_(a), b_(b), limit_m_(limit_m) {}
 
-  // A direction that might part them. True: nothing better can be found.
+  // Tries a direction that may separate them. Returns true if final.
   bool try_direction(const Vector3d& from_a_to_b, double length) {
     const double a = std::max({from_a_to_b.dot(a_[0]), from_a_to_b.dot(a_[1]),  //
                                from_a_to_b.dot(a_[2])});
@@ -35,7 +35,6 @@ class Search {
     return proven_ >= limit_m_ || proven_ >= claimed_ - kProven;
   }
 
-  // Points of both.
   bool try_points(const Vector3d& p_a, const Vector3d& p_b) {
     const Vector3d gap = p_b - p_a;
     const double squared = gap.squaredNorm();
@@ -57,12 +56,12 @@ class Search {
   double claimed_squared_ = std::numeric_limits<double>::infinity();
   double claimed_ = std::numeric_limits<double>::infinity();
   double proven_ = 0.0;
-  Vector3d direction_ = Vector3d::Zero();  // that proves it
+  Vector3d direction_ = Vector3d::Zero();  // proves proven_
   double length_ = 1.0;
 };
 
-// The nearest points of p + s u and q + t v, s and t from 0 to 1 (Ericson, "Real-Time Collision
-// Detection", 5.1.9).
+// Tries the nearest points of p + s u and q + t v, s and t from 0 to 1 (Ericson, "Real-Time
+// Collision Detection", 5.1.9).
 bool try_edges(const Vector3d& p, const Vector3d& u, const Vector3d& q, const Vector3d& v,
                Search& search) {
   const Vector3d r = p - q;
@@ -82,7 +81,7 @@ bool try_edges(const Vector3d& p, const Vector3d& u, const Vector3d& q, const Ve
   return search.try_points(p + s * u, q + t * v);
 }
 
-// The corner of one nearest to the other's plane, where it stands over the face.
+// Tries the other triangle's corner nearest to the face's plane, if its projection is on the face.
 bool try_face(const TrianglePoints& face, const TrianglePoints& other, bool face_is_a,
               Search& search) {
   const Vector3d normal = (face[1] - face[0]).cross(face[2] - face[0]);

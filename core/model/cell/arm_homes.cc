@@ -17,12 +17,12 @@ void warn_if_held_elsewhere(const RobotBuild& robot, const ArmBuild& build, std:
   if (!link.joint.held || std::abs(*link.joint.held - value) <= 1e-6) return;
   diagnostics.warn({ProblemKind::invalid, "fixed-joint", build.pointer + "/home",
                     "arm " + build.description->name + ": home has joint " + link.joint.name +
-                        " at " + text_of(value) + ", and \"fixed\" holds it at " +
-                        text_of(*link.joint.held) + ", which counts",
+                        " at " + text_of(value) + ", but \"fixed\" holds it at " +
+                        text_of(*link.joint.held) + "; the fixed value applies",
                     value});
 }
 
-// Adds to `faults` why the state can be no home, and returns its values in the arm's order.
+// Returns values in the arm's order. Adds to `faults` why the state cannot be a home.
 Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const std::string& name,
                           NamedState& state, const Cell& cell) {
   const auto& joints = cell.arm(arm.id).joints;
@@ -33,7 +33,7 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
   Eigen::VectorXd values(static_cast<Eigen::Index>(joints.size()));
   Eigen::Index row = 0;
   for (const std::size_t index : arm.group) {
-    if (!robot.joints[index]) {  // held
+    if (!robot.joints[index]) {  // fixed
       const auto value = state.values.find(index);
       if (value != state.values.end() && name == arm.description->home_state)
         warn_if_held_elsewhere(robot, arm, index, value->second, state.faults);
@@ -44,7 +44,7 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
     const auto value = state.values.find(index);
     values[row++] = value == state.values.end() ? 0.0 : value->second;
     if (value == state.values.end()) {
-      if (state.unread.contains(index)) continue;  // which is told
+      if (state.unread.contains(index)) continue;  // already reported
       state.faults.add({ProblemKind::invalid,
                         "missing",
                         place,
@@ -61,8 +61,7 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
   return values;
 }
 
-// Reads the states of the arm's group. Those with faults are left out: their faults are problems
-// when the arm's home is such a one, and else warnings.
+// Keeps states without faults. Faults are problems for the arm's home, else warnings.
 void read_named_states(const RobotBuild& robot, const ArmBuild& build,
                        std::map<std::string, NamedState>& states, Cell& cell,
                        Diagnostics& diagnostics) {
@@ -85,7 +84,7 @@ std::string listed(const std::map<std::string, NamedState>& states) {
   return text.empty() ? "none" : text;
 }
 
-// Of an arm whose home is a state's name. A state that is there and has faults told them itself.
+// Reports a home that names an unknown state. A state with faults has reported them already.
 void refuse_unknown_state(const RobotBuild& robot, const ArmDescription& arm,
                           const std::string& pointer, Diagnostics& diagnostics) {
   std::map<std::string, NamedState> none;
@@ -96,21 +95,20 @@ void refuse_unknown_state(const RobotBuild& robot, const ArmDescription& arm,
   }
   if (states->contains(arm.home_state)) return;
   diagnostics.in_cell("unknown-state", pointer + "/home",
-                      "arm " + arm.name + ": home '" + arm.home_state + "' is no state of group '" +
-                          arm.group + "'" +
+                      "arm " + arm.name + ": home '" + arm.home_state +
+                          "' is not a state of group '" + arm.group + "'" +
                           (robot.semantics ? " in " + robot.semantics->file : "") +
                           "; its states: " + listed(*states),
                       arm.home_state);
 }
 
-// Of a robot whose tree is not known: the SRDF's states and the cell's homes, each against the
-// other.
+// Without a tree, checks the SRDF's states and the cell's homes against each other.
 void tell_homes_without_tree(RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.semantics) return;
   const auto& arms = robot.description->arms;
   for (std::size_t a = 0; a < arms.size(); ++a) {
     const ArmDescription& arm = arms[a];
-    if (!robot.semantics->groups.contains(arm.group)) continue;  // which is told
+    if (!robot.semantics->groups.contains(arm.group)) continue;  // already reported
     for (auto& [name, state] : robot.semantics->states[arm.group]) {
       if (name == arm.home_state)
         diagnostics.merge(std::exchange(state.faults, {}));
@@ -122,7 +120,7 @@ void tell_homes_without_tree(RobotBuild& robot, Diagnostics& diagnostics) {
   }
 }
 
-// The home that the description names as a state, or nothing with the reason told.
+// Returns the home that is named as a state, or nullopt with a report.
 std::optional<Eigen::VectorXd> named_home(const RobotBuild& robot, const ArmBuild& build,
                                           const Arm& arm, Diagnostics& diagnostics) {
   const std::string& name = build.description->home_state;
@@ -132,8 +130,7 @@ std::optional<Eigen::VectorXd> named_home(const RobotBuild& robot, const ArmBuil
   return std::nullopt;
 }
 
-// The home that the description lists: a value for each joint of the group, those that are held
-// also or left out.
+// Returns the listed home, with or without values for fixed joints, or nullopt with a report.
 std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBuild& build,
                                            const Arm& arm, Diagnostics& diagnostics) {
   const std::vector<double>& home = build.description->home;
@@ -156,8 +153,8 @@ std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBui
     diagnostics.in_cell("wrong-size", build.pointer + "/home",
                         "arm " + arm.name + ": home has " + std::to_string(home.size()) +
                             " values, the group has " + std::to_string(arm.joints.size()) +
-                            " joints; give one for each of " + names +
-                            (robot.semantics ? ", or the name of one of its states" : ""),
+                            " joints; give one value for each of " + names +
+                            (robot.semantics ? ", or the name of a state" : ""),
                         static_cast<double>(home.size()));
     return std::nullopt;
   }
@@ -176,7 +173,7 @@ void check_home(const ArmBuild& build, const Arm& arm, const Cell& cell, Diagnos
   }
 }
 
-// Where the grippers' joints start.
+// Sets the start positions of joints outside the arm groups.
 void settle_grippers(const RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
   for (const auto& joint : robot.joints) {
     if (!joint) continue;
@@ -201,8 +198,9 @@ void settle_grippers(const RobotBuild& robot, Cell& cell, Diagnostics& diagnosti
       const auto& grippers = cell.arm(build.id).gripper_joints;
       if (!joint || std::find(grippers.begin(), grippers.end(), *joint) == grippers.end()) {
         if (!robot.tree.patched)
-          refuse("unknown-joint", " has no gripper's joint " + name +
-                                      " (one below the arm, in no arm's group, and no mimic)");
+          refuse("unknown-joint", " has no gripper joint " + name +
+                                      " (a movable joint below the arm, in no arm's group, that "
+                                      "follows no other joint)");
         continue;
       }
       Joint& one = cell.joints[joint->index()];
@@ -227,7 +225,7 @@ void settle_homes(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
       const Joint& joint = cell.joint(arm.joints[j]);
       arm.home[static_cast<Eigen::Index>(j)] = std::clamp(0.0, joint.lower, joint.upper);
     }
-    if (robot.tree.patched) continue;  // the group may hold other joints than meant
+    if (robot.tree.patched) continue;  // the group may contain unintended joints
     const std::string& named = build.description->home_state;
     if (robot.semantics)
       read_named_states(robot, build, robot.semantics->states[arm.group], cell, diagnostics);

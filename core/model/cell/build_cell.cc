@@ -19,7 +19,7 @@
 namespace armloom {
 namespace {
 
-// Fills in the shape's triangles when it is a mesh.
+// Loads the triangles of a mesh shape.
 void load_mesh_of(Shape& shape, const std::string& pointer, const std::string& whose,
                   MeshCache& meshes, Diagnostics& diagnostics) {
   auto* mesh = std::get_if<Mesh>(&shape);
@@ -44,7 +44,7 @@ void load_meshes_of_objects(Cell& cell, MeshCache& meshes, Diagnostics& diagnost
   for (std::size_t o = 0; o < cell.objects.size(); ++o) {
     const auto* mesh = std::get_if<Mesh>(&cell.objects[o].shape);
     std::error_code error;
-    // check_objects has told of the others.
+    // Other objects were reported by check_objects.
     if (mesh == nullptr || !std::filesystem::is_regular_file(mesh->path, error)) continue;
     if (!mesh->scale.allFinite() || (mesh->scale.array() == 0.0).any()) continue;
     load_mesh_of(cell.objects[o].shape, "/objects/" + std::to_string(o) + "/mesh",
@@ -58,8 +58,8 @@ std::set<std::string> used_groups(const RobotDescription& robot) {
   return groups;
 }
 
-// The robot's files as far as they can be read. Without a URDF its tree has nothing and no name can
-// be held against it; what the other files say is still held against each other.
+// Reads the robot's files as far as possible. Without a readable URDF the tree is empty and its
+// names are unknown; the other files are still checked against each other.
 RobotBuild read_robot(const RobotDescription& description, std::size_t index, MeshCache& meshes,
                       Diagnostics& diagnostics) {
   const std::string pointer = "/robots/" + std::to_string(index);
@@ -119,7 +119,7 @@ void add_joints(RobotBuild& robot, Cell& cell) {
                            .robot = robot.id,
                            .arm = std::nullopt,
                            .kind = *link.joint.motion,
-                           .lower = 0.0,  // these until settle_limits
+                           .lower = 0.0,  // until settle_limits
                            .upper = 0.0,
                            .velocity_max = kDefaultVelocity,
                            .acceleration_max = kDefaultAcceleration,
@@ -158,8 +158,8 @@ void add_links(RobotBuild& robot, Cell& cell) {
   }
 }
 
-// Prefixed names must not repeat. Two robots of one URDF without prefixes repeat all of them: the
-// first is enough to tell.
+// Reports one prefixed link and joint name of another robot: without prefixes, robots of one URDF
+// share all.
 void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links,
                           std::set<std::string>& joints, Diagnostics& diagnostics) {
   const auto first_taken = [&](const auto& by_name, std::set<std::string>& known) {
@@ -173,8 +173,8 @@ void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links,
   const auto report = [&](const std::string& kind, const std::optional<std::string>& name) {
     if (!name) return;
     diagnostics.in_cell("duplicate-name", robot.pointer + "/prefix",
-                        "robot " + robot.description->name + ": " + kind + " " + *name +
-                            " is a name of another robot too; prefixes must differ",
+                        "robot " + robot.description->name + ": another robot also has a " + kind +
+                            " named " + *name + "; give the robots different prefixes",
                         robot.description->prefix);
   };
   report("link", first_taken(robot.tree.by_link, links));
@@ -189,10 +189,10 @@ void check_objects_are_no_links(const CellDescription& description,
     const std::string& name = description.objects[o].name;
     const bool link = links.contains(name);
     if (!link && !robots.contains(name)) continue;
-    diagnostics.in_cell(
-        "duplicate-name", "/objects/" + std::to_string(o) + "/name",
-        "the name " + name + " of an object is a " + (link ? "link" : "robot") + "'s name too",
-        name);
+    diagnostics.in_cell("duplicate-name", "/objects/" + std::to_string(o) + "/name",
+                        "the name " + name + " of an object is also a " +
+                            (link ? "link" : "robot") + "'s name; rename the object",
+                        name);
   }
 }
 
@@ -283,7 +283,7 @@ Result<CellPtr> build_cell(const CellDescription& description, Problems& warning
     add_robot(std::move(build), *cell, diagnostics);
   }
   check_objects_are_no_links(description, links, diagnostics);
-  // Without the names of a robot's links those would seem unknown.
+  // Unread link names would be reported as unknown.
   if (complete) allow_pairs_of_cell(description, *cell, diagnostics);
   warn_of_cell(description, *cell, diagnostics);
   warn_of_settings(description, *cell, diagnostics);

@@ -6,13 +6,12 @@
 
 namespace armloom {
 
-// Reads the URDF, SRDF and joint limits files that the description names and builds the cell.
-// Checks everything it can and returns every problem found, not only the first. Place is
-// "panda.urdf: joint panda_joint3" or a JSON pointer into the cell file
-// ("/robots/0/arms/0/home/3"); where a line in the cell file would help, the sentence says it. Does
-// not look at collisions: that homes are free is checked by core/collision.
-// `warnings` becomes what can be taken but is hardly meant, or is left out, each with what follows
-// from it; also when there are problems.
+// Reads the URDF, SRDF and joint limits files that the description names, and builds the cell.
+// Returns every problem found, not only the first. The place of a problem is "panda.urdf:12: joint
+// panda_joint3" or a JSON pointer into the cell file ("/robots/0/arms/0/home/3"). If a line in the
+// cell file would help, the message quotes it. Collisions are not checked: core/collision checks
+// that homes are collision-free. `warnings` is overwritten, also if there are problems, with
+// probable mistakes and ignored input, each with its consequence.
 [[nodiscard]] Result<CellPtr> build_cell(const CellDescription& description, Problems& warnings);
 [[nodiscard]] Result<CellPtr> build_cell(const CellDescription& description);
 

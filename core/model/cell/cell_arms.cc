@@ -5,7 +5,7 @@
 namespace armloom {
 namespace {
 
-// Groups that an arm could be: those that hold joints which the cell moves.
+// Lists the groups that an arm can have: those with joints that the cell moves.
 std::string usable_groups(const RobotBuild& robot) {
   std::string text;
   for (const auto& [name, joints] : robot.semantics->groups) {
@@ -14,11 +14,11 @@ std::string usable_groups(const RobotBuild& robot) {
     if ((movable || robot.tree.nameless) && text.size() < 200)
       text += (text.empty() ? "" : ", ") + name;
   }
-  return text.empty() ? "no group of it holds one" : "groups that do: " + text;
+  return text.empty() ? "no group has movable joints" : "groups with movable joints: " + text;
 }
 
-// Joints of the arm, held ones too. Without an SRDF the robot is one arm of all its joints, and its
-// group has no name.
+// Returns the arm's joints, fixed ones included, or nullopt with a report. Without an SRDF all
+// joints form one arm, whose group has no name.
 std::optional<RobotSemantics::JointSet> group_joints(const RobotBuild& robot,
                                                      const ArmDescription& arm,
                                                      const std::string& pointer,
@@ -38,18 +38,19 @@ std::optional<RobotSemantics::JointSet> group_joints(const RobotBuild& robot,
   } else {
     const auto group = robot.semantics->groups.find(arm.group);
     if (group == robot.semantics->groups.end()) {
-      return refuse("group '" + arm.group + "' is not in " + robot.semantics->file +
-                    "; an arm needs movable joints, " + usable_groups(robot));
+      return refuse("group '" + arm.group + "' is not in " + robot.semantics->file + "; " +
+                    usable_groups(robot));
     }
     joints = group->second;
   }
   const bool movable = std::any_of(joints.begin(), joints.end(),
                                    [&](std::size_t i) { return robot.joints[i].has_value(); });
   if (movable) return joints;
-  if (robot.tree.patched) return std::nullopt;  // joints may hang elsewhere than meant
+  if (robot.tree.patched) return std::nullopt;  // joints may be misplaced
   if (!joints.empty())
-    return refuse("all joints of group '" + arm.group + "' are held by \"fixed\"");
-  return refuse("group '" + arm.group + "' holds no movable joint" +
+    return refuse("all joints of group '" + arm.group +
+                  "' are held by \"fixed\"; an arm needs a joint that can move");
+  return refuse("group '" + arm.group + "' has no movable joint" +
                 (robot.semantics ? "; " + usable_groups(robot) : ""));
 }
 
@@ -71,11 +72,11 @@ void add_arms(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
             .home = {},
             .named_states = {}};
     for (const std::size_t index : *group) {
-      if (!robot.joints[index]) continue;  // held
+      if (!robot.joints[index]) continue;  // fixed
       const JointId joint_id = *robot.joints[index];
       arm.joints.push_back(joint_id);
       Joint& joint = cell.joints[joint_id.index()];
-      if (!joint.arm) joint.arm = id;  // else shared, which refuse_shared_joints tells
+      if (!joint.arm) joint.arm = id;  // else shared: refuse_shared_joints reports it
     }
     cell.robots[robot.id.index()].arms.push_back(id);
     cell.arms.push_back(std::move(arm));
@@ -84,7 +85,7 @@ void add_arms(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
 }
 
 void assign_to_arms(const RobotBuild& robot, Cell& cell) {
-  // A gripper's mimic joint may carry further joints anywhere in the tree: repeat until it settles.
+  // A gripper's mimic joint may carry joints anywhere in the tree: repeat until stable.
   for (bool settled = false; !settled;) {
     settled = true;
     for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {

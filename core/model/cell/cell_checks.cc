@@ -14,19 +14,17 @@ namespace {
 void check_name(const std::string& name, const std::string& kind, const std::string& pointer,
                 std::set<std::string>& known, Diagnostics& diagnostics) {
   if (name.empty()) {
-    diagnostics.in_cell("missing", pointer, "a name of " + kind + " is empty", name);
+    diagnostics.in_cell("missing", pointer, "the name of " + kind + " is empty", name);
   } else if (!known.insert(name).second) {
-    diagnostics.in_cell("duplicate-name", pointer, "the name " + name + " of " + kind + " is taken",
-                        name);
+    diagnostics.in_cell("duplicate-name", pointer,
+                        "the name " + name + " of " + kind + " is already taken", name);
   } else if (!is_plain_name(name)) {
     diagnostics.in_cell("bad-name", pointer,
-                        "the name of " + kind + " stands in paths of the API: " + kPlainNameRule,
-                        name);
+                        "the name of " + kind + " is used in API paths: " + kPlainNameRule, name);
   }
 }
 
-// The rule that a setting breaks is said in words; `holds` is false for NaN with all the
-// comparisons that are used below.
+// Reports a setting that breaks `rule`. All comparisons below make `holds` false for NaN.
 void require(bool holds, double value, const std::string& pointer, const std::string& rule,
              Diagnostics& diagnostics) {
   if (holds && std::isfinite(value)) return;

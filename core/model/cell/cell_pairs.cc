@@ -7,8 +7,8 @@ namespace armloom {
 
 namespace {
 
-// Returns true for links of different arms, and for an arm's link and one that stands still and
-// carries no part of that arm.
+// Returns true for links of different arms, and for an arm's link and a static link that is not its
+// mount.
 bool is_only_claimed(const Cell& cell, LinkId a, LinkId b) {
   const auto& arm_a = cell.link(a).arm;
   const auto& arm_b = cell.link(b).arm;

@@ -26,12 +26,12 @@ void warn_of_brakes(const CellDescription& description, const Cell& cell,
         const std::string unit = linear ? "m_s2" : "rad_s2";
         const std::string pointer = "/robots/" + std::to_string(r) + "/arms/" + std::to_string(a) +
                                     "/limits/" + pointer_token(name) + "/brake_" + unit;
-        diagnostics.warn({ProblemKind::invalid, "weak-brake", pointer,
-                          "joint " + robot.prefix + name + ": brake_" + unit + " is " +
-                              text_of(*given.brake) + ", less than its acceleration_" + unit +
-                              " of " + text_of(acceleration) +
-                              ": a stop takes longer than the motion took to begin",
-                          *given.brake});
+        diagnostics.warn(
+            {ProblemKind::invalid, "weak-brake", pointer,
+             "joint " + robot.prefix + name + ": brake_" + unit + " is " + text_of(*given.brake) +
+                 ", less than its acceleration_" + unit + " of " + text_of(acceleration) +
+                 ": the joint takes longer to stop than to reach its speed; check the value",
+             *given.brake});
       }
     }
   }
@@ -48,9 +48,9 @@ void warn_of_lags(const CellDescription& description, Diagnostics& diagnostics) 
          "/robots/" + std::to_string(r) + "/controller/lag_s",
          "robot " + robot.name + ": lag_s is " + text_of(lag_s) +
              ", more than checking delay_s of " + text_of(delay_s) +
-             ": its arms follow late, and whoever passes after one of them waits that "
-             "much longer, as motions go by measured progress; give a smaller lag_s, or a "
-             "delay_s of at least lag_s if that is meant",
+             ": its arms follow late, and arms that pass after them wait that much longer, because "
+             "passing depends on measured progress; reduce lag_s, or raise delay_s to at least "
+             "lag_s if the lag is real",
          lag_s});
   }
 }
@@ -65,8 +65,8 @@ void warn_of_noise(const CellDescription& description, Diagnostics& diagnostics)
                       "/robots/" + std::to_string(r) + "/controller/noise_rad",
                       "robot " + robot.name + ": noise_rad is " + text_of(noise_rad) +
                           ", more than checking tracking_error_rad of " + text_of(error_rad) +
-                          ": its arms are measured farther from their paths than motions are "
-                          "certified for; tracking_error_rad has to cover the noise",
+                          ": measured positions deviate farther from the paths than motions "
+                          "are certified for; raise tracking_error_rad to cover the noise",
                       noise_rad});
   }
 }
@@ -75,7 +75,7 @@ class MeshWarnings {
  public:
   explicit MeshWarnings(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  // Each file once: robots of one kind share their meshes.
+  // Checks each file once: robots of one kind share their meshes.
   void look_at(const Shape& shape, const std::string& place, const std::string& whose,
                bool of_link) {
     const auto* mesh = std::get_if<Mesh>(&shape);
@@ -88,28 +88,29 @@ class MeshWarnings {
     if (size_m < kTiny_m) {
       warn("tiny-mesh", place,
            named + " is " + text_of(std::round(1e6 * size_m) / 1e6) +
-               " m long, hardly meant (is the file in metres already? then its scale is too "
-               "small): as good as nothing is checked there",
+               " m long, probably a unit error (scale applied to a file already in meters?); "
+               "almost nothing is checked for this mesh",
            mesh->path);
     } else if (is_flat(*mesh->data)) {
-      warn("flat-mesh", place, named + " is flat: it has no inside", mesh->path);
-    } else if (const std::size_t open = mesh->data->open_edges; open > 0) {
-      warn(
-          "open-mesh", place,
-          named + " does not close: " + std::to_string(open) +
-              " edges border one triangle only (holes; or was the file cut off?). What it encloses "
-              "is not known, so its convex hull is checked: notches and hollows count as filled",
-          mesh->path);
-    } else if (mesh->data->both_sides) {
-      warn("two-sided-mesh", place,
-           named +
-               " has faces from both sides, and others on their edges: what it encloses is not "
-               "known, so its convex pieces are checked: notches and hollows may count as filled",
+      warn("flat-mesh", place, named + " is flat: it encloses no volume; check the file",
            mesh->path);
+    } else if (const std::size_t open = mesh->data->open_edges; open > 0) {
+      warn("open-mesh", place,
+           named + " is not closed: " + std::to_string(open) +
+               " edges border only one triangle (holes, or a truncated file?). Its inside is "
+               "unknown, so its convex hull is checked: notches and hollows are treated as solid",
+           mesh->path);
+    } else if (mesh->data->both_sides) {
+      warn(
+          "two-sided-mesh", place,
+          named +
+              " has two-sided faces with other faces on their edges: its inside is unknown, so its "
+              "convex pieces are checked: notches and hollows may be treated as solid",
+          mesh->path);
     }
     if (size_m > (of_link ? kHuge_m : kHugeObject_m)) {
       warn("huge-mesh", place,
-           named + " is " + text_of(size_m) + " m long, hardly meant (millimetres? then " +
+           named + " is " + text_of(size_m) + " m long, probably a unit error (millimeters? then " +
                (of_link ? "the URDF's mesh needs scale=\"0.001 0.001 0.001\""
                         : "the object needs \"scale\": [0.001, 0.001, 0.001]") +
                "); it fills the cell",

@@ -5,10 +5,10 @@
 
 namespace armloom {
 
-// Warns of what is allowed but hardly meant, each with its consequence: brakes weaker than what
-// they have to brake, arms that lag more, or are measured less exactly, than motions are certified
-// for, meshes without an inside or as large as if millimetres were read as metres. The cell was
-// built from the description, as far as it could be.
+// Warns of probable mistakes, each with its consequence. The cell may be incomplete. Checked are:
+// - brakes weaker than the acceleration,
+// - arms with more lag or measurement noise than motions are certified for,
+// - meshes that are flat or not closed, or whose size suggests a unit error.
 void warn_of_cell(const CellDescription& description, const Cell& cell, Diagnostics& diagnostics);
 
 }  // namespace armloom

@@ -13,7 +13,7 @@ const ArmBuild* arm_of(const RobotBuild& robot, const Joint& joint) {
   return found == robot.arms.end() ? nullptr : &*found;
 }
 
-// Those that can be limited.
+// Lists the joints that can have limits.
 std::string joints_of(const RobotTree& tree) {
   std::string names;
   for (const TreeLink& link : tree.links) {
@@ -33,10 +33,10 @@ std::string no_such_joint(const RobotBuild& robot, const ArmDescription& arm,
                                            joints_of(robot.tree)
                                      : meant);
   }
-  return sentence + ": it is of another arm, or of none, or follows another joint";
+  return sentence + ": it belongs to another arm or to none, or follows another joint";
 }
 
-// Limits may name joints of the arm and of its gripper.
+// Reports names in "limits" that are neither joints of the arm nor of its gripper.
 void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
                  Diagnostics& diagnostics) {
   for (const auto& [name, given] : arm.description->limits) {
@@ -45,7 +45,7 @@ void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
     if (link != robot.tree.by_joint.end() && robot.tree.links[link->second].joint.held) {
       diagnostics.warn({ProblemKind::invalid, "fixed-joint", pointer,
                         "arm " + arm.description->name + ": the limits of " + name +
-                            " say nothing, as \"fixed\" holds it",
+                            " have no effect, because \"fixed\" holds it",
                         name});
       continue;
     }
@@ -53,13 +53,13 @@ void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
     const auto joint =
         link == robot.tree.by_joint.end() ? std::nullopt : robot.joints[link->second];
     if (joint && cell.joint(*joint).arm == arm.id) continue;
-    if (joint && robot.tree.patched) continue;  // it may hang elsewhere than meant
+    if (joint && robot.tree.patched) continue;  // it may be misplaced
     diagnostics.in_cell("unknown-joint", pointer, no_such_joint(robot, *arm.description, name),
                         name);
   }
 }
 
-// Of arms whose groups could not be found: names that no joint has.
+// Reports unknown joint names in "limits" of arms whose groups were not found.
 void check_names_without_group(const RobotBuild& robot, Diagnostics& diagnostics) {
   if (robot.tree.nameless) return;
   const auto& arms = robot.description->arms;
@@ -78,7 +78,7 @@ void check_names_without_group(const RobotBuild& robot, Diagnostics& diagnostics
   }
 }
 
-// Of a file that is behind its URDF.
+// Warns of a file that is older than the URDF.
 void warn_of_stale_joints(const RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.limits_file || robot.tree.nameless) return;
   std::string names;
@@ -93,7 +93,7 @@ void warn_of_stale_joints(const RobotBuild& robot, Diagnostics& diagnostics) {
        file + ": joints that are not in " + robot.tree.file + " are left out: " + names, names});
 }
 
-// Of a robot whose joints are not known, faults in joint_limits.yaml could be of any of them.
+// Without known joints, reports all faults: any joint may need the limits.
 void tell_limits_without_joint(RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.limits_file || !robot.tree.nameless) return;
   for (auto& [name, joint] : robot.limits_file->joints) {
@@ -101,9 +101,9 @@ void tell_limits_without_joint(RobotBuild& robot, Diagnostics& diagnostics) {
   }
 }
 
-// Joints that follow another one go where that takes them, beyond their own limits, too.
+// Warns of mimic joints that the followed joint moves beyond their own limits.
 void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
-  constexpr double kRounding = 2e-3;  // rad or m: two limits that were meant to fit
+  constexpr double kRounding = 2e-3;  // rad or m
   for (const TreeLink& link : robot.tree.links) {
     if (!link.joint.mimic) continue;
     const auto driver = robot.joints[link.joint.mimic->driver];
@@ -123,7 +123,8 @@ void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Diagnostics& diag
                           text_of(from) + " to " + text_of(to) + ", beyond its own limits [" +
                           (own.lower ? text_of(*own.lower) : "-inf") + ", " +
                           (own.upper ? text_of(*own.upper) : "inf") +
-                          "]: here it goes there, the robot may stop short; check <mimic>",
+                          "]: it is checked at these positions, but the robot may stop short of "
+                          "them; check <mimic>",
                       below ? from : to});
   }
 }
@@ -137,7 +138,7 @@ void report_needs(const ArmBuild& arm, const Needs& needs, const std::string& ur
       "limits-missing", arm.pointer + (first ? "" : "/limits"),
       "arm " + arm.description->name + ": " + urdf + none + needs.names + "; add to the arm" +
           (first ? " \"limits\": {" + needs.members + "}" : "'s \"limits\" " + needs.members) +
-          ", with what the robot really allows");
+          ", with the robot's real limits");
 }
 
 }  // namespace
@@ -151,7 +152,7 @@ void settle_limits(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
       continue;
     }
     Joint& joint = cell.joints[robot.joints[i]->index()];
-    // What is to be held needs no limits.
+    // A shared joint must be fixed, so it needs no limits.
     const bool shared = robot.shared.contains(*robot.joints[i]);
     const ArmBuild* arm = shared ? nullptr : arm_of(robot, joint);
     const bool own =

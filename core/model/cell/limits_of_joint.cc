@@ -6,10 +6,10 @@
 namespace armloom {
 namespace {
 
-// Files round: a limit that is above the URDF's by less than this share is the URDF's.
+// A limit that exceeds the URDF's by less than this share was only rounded: the URDF's applies.
 constexpr double kRounding = 1e-3;
 
-// Beyond what robots do.
+// Limits beyond these are implausible.
 constexpr double kFarthestTurn_rad = 20.0;
 constexpr double kFarthestSlide_m = 20.0;
 constexpr double kFastestTurn_rad_s = 30.0;
@@ -59,7 +59,7 @@ void LimitsOfJoint::settle(LimitsFile::Joint* filed, Needs& needs) {
   settle_velocity();
   settle_rates();
   warn_of_units();
-  // A faulty limit that another file replaces, or nobody needs, is only odd.
+  // A faulty limit that is unneeded or replaced is only a warning.
   if (own_ && !missing_.empty()) {
     needs.faulty = needs.faulty || link_.joint.limits.faults.count() > 0;
     diagnostics_.merge(std::move(link_.joint.limits.faults));
@@ -80,8 +80,8 @@ void LimitsOfJoint::check_units() {
       right.replace(angular, 4, "_m");
     else
       right.replace(key.find("_m"), 2, "_rad");
-    std::string rest(slides ? " is of joints that turn, and this one slides"
-                            : " is of joints that slide, and this one turns");
+    std::string rest(slides ? " is for rotating joints, but this joint is prismatic"
+                            : " is for prismatic joints, but this joint rotates");
     rest += ": give ";
     rest += right;
     diagnostics_.in_cell("wrong-unit", pointer_ + "/" + key,
@@ -129,7 +129,7 @@ std::optional<double> LimitsOfJoint::from_file(const std::optional<double>& valu
   if (wider_by > kRounding * std::max(1.0, std::abs(*urdf))) {
     warn("limit-exceeded", place_,
          std::string(name) + " is " + text_of(*value) + ", wider than the URDF's " +
-             text_of(*urdf) + ", which counts",
+             text_of(*urdf) + "; the URDF's value applies",
          *value);
   }
   return urdf;
@@ -154,8 +154,9 @@ void LimitsOfJoint::settle_velocity() {
   const std::string limit = json_member(name, "1");
   if (own_) return need("velocity", limit);
   warn("missing", place_in_urdf(),
-       "there is no limit of velocity; for the gripper's joint 1 is taken. Else add to arm " +
-           arm_->description->name + " \"limits\": {\"" + link_.joint.name + "\": {" + limit + "}}",
+       "no velocity limit; assuming 1 " + joint_.unit() +
+           "/s for this gripper joint. To set it, add to arm " + arm_->description->name +
+           " \"limits\": {\"" + link_.joint.name + "\": {" + limit + "}}",
        kDefaultVelocity);
 }
 
@@ -184,7 +185,7 @@ void LimitsOfJoint::settle_rates() {
 void LimitsOfJoint::warn_of_units() {
   if (arm_ == nullptr) return;
   const bool slides = joint_.kind == JointKind::prismatic;
-  const char* meant = slides ? " (millimetres?)" : " (degrees?)";
+  const char* meant = slides ? " (millimeters?)" : " (degrees?)";
   const double farthest = slides ? kFarthestSlide_m : kFarthestTurn_rad;
   const double fastest = slides ? kFastestSlide_m_s : kFastestTurn_rad_s;
   const bool endless = joint_.kind == JointKind::continuous;
@@ -193,20 +194,22 @@ void LimitsOfJoint::warn_of_units() {
   };
   if (beyond(joint_.lower) || beyond(joint_.upper)) {
     warn("wrong-unit", place_in_urdf(),
-         "it may go from " + text_of(joint_.lower) + " to " + text_of(joint_.upper) + " " +
-             joint_.unit() + ", hardly meant" + meant + ": jobs that go so far are taken",
+         "its limits are " + text_of(joint_.lower) + " to " + text_of(joint_.upper) + " " +
+             joint_.unit() + ", probably a unit error" + meant +
+             ": jobs that move that far are accepted",
          beyond(joint_.lower) ? joint_.lower : joint_.upper);
   }
   if (joint_.acceleration_max > kStrongest) {
     warn("wrong-unit", place_.empty() ? place_in_urdf() : place_,
-         "its acceleration is " + text_of(joint_.acceleration_max) + " " + joint_.unit() +
-             "/s^2, hardly meant" + meant + ": jobs that speed up so are taken",
+         "its acceleration limit is " + text_of(joint_.acceleration_max) + " " + joint_.unit() +
+             "/s^2, probably a unit error" + meant +
+             ": jobs that accelerate that much are accepted",
          joint_.acceleration_max);
   }
   if (joint_.velocity_max > fastest) {
     warn("wrong-unit", place_in_urdf(),
-         "its velocity is " + text_of(joint_.velocity_max) + " " + joint_.unit() +
-             "/s, hardly meant" + meant + ": jobs that go so fast are taken",
+         "its velocity limit is " + text_of(joint_.velocity_max) + " " + joint_.unit() +
+             "/s, probably a unit error" + meant + ": jobs that move that fast are accepted",
          joint_.velocity_max);
   }
 }

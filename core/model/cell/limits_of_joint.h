@@ -7,24 +7,23 @@
 
 namespace armloom {
 
-// What an arm's joint needs and no file gives, as members of the cell file's "limits".
+// Limits that an arm's joint needs and no file gives, as members of the cell file's "limits".
 struct Needs {
   std::string names;    // "velocity of j1, position of j2"
   std::string members;  // "\"j1\": {\"velocity_rad_s\": 1}"
-  bool faulty = false;  // the URDF gives some of them, with faults that are told
+  bool faulty = false;  // the URDF gives faulty ones, which are reported
 };
 
 void append_item(std::string& list, const char* separator, const std::string& item);
 [[nodiscard]] std::string json_member(const std::string& key, const std::string& value);
 
-// Settles the limits of one joint. Whose joint it is decides what has to be known of it: an arm's
-// own joint needs all; a gripper's joint takes defaults, with a warning; what no arm moves needs
-// nothing.
+// Determines the limits of one joint. An arm's own joint needs position and velocity limits from a
+// file. A gripper joint takes defaults, with a warning. A joint that no arm moves needs no limits.
 class LimitsOfJoint {
  public:
   struct OwnerOfJoint {
-    const ArmBuild* arm;  // none: no arm moves the joint
-    bool own;             // of the arm's group, not of its gripper
+    const ArmBuild* arm;  // nullptr if no arm moves the joint
+    bool own;             // in the arm's group, not in its gripper
   };
   LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint, OwnerOfJoint owner,
                 Diagnostics& diagnostics);
@@ -39,23 +38,24 @@ class LimitsOfJoint {
 
   void need(const std::string& word, const std::string& members);
 
-  // The cell's number if it can be one and is no wider than the URDF's; `wider` compares with that.
+  // Returns the cell file's value. Reports it and returns nullopt if not finite or, per `wider`,
+  // wider than the URDF's.
   std::optional<double> from_cell(const std::optional<double>& value, const std::string& name,
                                   const std::optional<double>& urdf, bool wider);
 
-  // Keys in the cell whose unit is of joints that move otherwise.
+  // Reports keys whose unit does not fit the joint.
   void check_units();
 
   void refuse(const char* slug, const std::string& name, const std::string& rest, double value);
 
-  // The number of joint_limits.yaml, or the URDF's where that is narrower.
+  // Returns the narrower value of joint_limits.yaml and the URDF.
   std::optional<double> from_file(const std::optional<double>& value, const char* name,
                                   const std::optional<double>& urdf, double wider_by);
 
   // limits_of_position.cc
   void settle_positions();
 
-  // As the URDF specification has it, and MoveIt.
+  // Sets the missing limit to 0, as the URDF specification and MoveIt do.
   void take_zero_for_the_other(UrdfLimits& urdf);
 
   void refuse_crossed();
@@ -71,7 +71,7 @@ class LimitsOfJoint {
 
   void settle_rates();
 
-  // Limits of an arm's joint that are hardly meant, as degrees and millimetres are.
+  // Warns of limits that look like degrees or millimeters.
   void warn_of_units();
 
   [[nodiscard]] std::string place_in_urdf() const;
@@ -79,13 +79,13 @@ class LimitsOfJoint {
   const RobotBuild& robot_;
   TreeLink& link_;
   Joint& joint_;
-  const ArmBuild* arm_;  // as of its OwnerOfJoint
+  const ArmBuild* arm_;  // see OwnerOfJoint
   bool own_;
   Diagnostics& diagnostics_;
   JointLimitsDescription cell_;
   JointLimitsDescription file_;
-  std::string pointer_;  // of the joint's limits in the cell file
-  std::string place_;    // of them in joint_limits.yaml
+  std::string pointer_;  // in the cell file
+  std::string place_;    // in joint_limits.yaml
   std::string words_;
   std::string missing_;
 };

@@ -41,24 +41,25 @@ void LimitsOfJoint::settle_positions() {
 
 void LimitsOfJoint::take_zero_for_the_other(UrdfLimits& urdf) {
   const bool lower = !urdf.lower;
-  if (urdf.lower.value_or(0.0) > urdf.upper.value_or(0.0)) return;  // no range: say it
+  if (urdf.lower.value_or(0.0) > urdf.upper.value_or(0.0)) return;  // empty range: reported later
   (lower ? urdf.lower : urdf.upper) = 0.0;
   if (arm_ == nullptr) return;
   warn("missing", place_in_urdf(),
-       lower ? "limit lower is missing; the URDF specification takes 0"
-             : "limit upper is missing; the URDF specification takes 0",
+       lower ? "limit lower is missing; 0 is used, as the URDF specification says"
+             : "limit upper is missing; 0 is used, as the URDF specification says",
        0.0);
 }
 
-// Of limits whose fault is told: that homes and states lie outside would only follow.
+// Opens the limits after their fault was reported, so that homes and states outside them are not
+// reported as well.
 void LimitsOfJoint::say_nothing_more() {
   joint_.lower = -kInfinity;
   joint_.upper = kInfinity;
 }
 
 void LimitsOfJoint::refuse_crossed() {
-  const std::string sentence = "joint " + link_.joint.name + ": the limits leave nothing, from " +
-                               text_of(joint_.lower) + " to " + text_of(joint_.upper);
+  const std::string sentence = "joint " + link_.joint.name + ": the limits leave no range: lower " +
+                               text_of(joint_.lower) + " is above upper " + text_of(joint_.upper);
   if (cell_.lower || cell_.upper)
     return diagnostics_.in_cell("limits-crossed", pointer_, sentence, joint_.lower);
   if (arm_ != nullptr)
@@ -73,9 +74,9 @@ void LimitsOfJoint::need_positions(bool lower, bool upper) {
   if (upper) append_item(members, ", ", json_member(key("upper", "_rad", "_m"), "1"));
   if (own_) return need("position", members);
   warn("missing", place_in_urdf(),
-       "there are no limits of position; the gripper's joint stays at " + text_of(joint_.lower) +
-           ". Else add to arm " + arm_->description->name + " \"limits\": {\"" + link_.joint.name +
-           "\": {" + members + "}}",
+       "no position limits; this gripper joint stays at " + text_of(joint_.lower) +
+           ". To set them, add to arm " + arm_->description->name + " \"limits\": {\"" +
+           link_.joint.name + "\": {" + members + "}}",
        joint_.lower);
 }
 

@@ -22,13 +22,14 @@ void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Diagnostics& d
   if (!links.empty()) {
     tell("links",
          links +
-             " have a <visual> and no <collision>: they are seen in the dashboard, and nothing "
-             "keeps away from them; give each a <collision>, as its <visual> or simpler",
+             " have a <visual> but no <collision>: the dashboard shows them, but they are not "
+             "checked, so collisions with them are not detected; give each a <collision>, like its "
+             "<visual> or simpler",
          links);
   }
   for (const ArmBuild& build : robot.arms) {
     const Arm& arm = cell.arm(build.id);
-    std::size_t own = 0;  // none of a group that is another arm's already
+    std::size_t own = 0;  // 0 if the group belongs to another arm
     std::size_t solid = 0;
     for (std::size_t i = 0; i < robot.links.size(); ++i) {
       if (cell.link(robot.links[i]).arm != build.id) continue;
@@ -37,7 +38,9 @@ void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Diagnostics& d
     }
     if (own > 0 && solid == 0)
       tell("arm " + arm.name,
-           "none of its links has a <collision>: nothing that it does can be a conflict", arm.name);
+           "no link has <collision> geometry, so its motions are not checked and it may hit "
+           "anything; add <collision> elements to its links",
+           arm.name);
   }
 }
 

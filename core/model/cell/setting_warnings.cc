@@ -5,7 +5,7 @@
 namespace armloom {
 namespace {
 
-// Beyond these a setting is hardly meant.
+// Settings beyond these are probably mistakes.
 constexpr double kLargeError_rad = 0.1;
 constexpr double kLargeTolerance = 0.5;
 constexpr double kLargeStart_rad = 0.1;
@@ -29,7 +29,7 @@ class SettingWarnings {
   }
 
  private:
-  // The key is the pointer's last part; `consequence` goes on after its value.
+  // The key is the pointer's last part; `consequence` follows the value.
   void warn(const std::string& pointer, double value, const std::string& consequence) const {
     const std::string key = pointer.substr(pointer.rfind('/') + 1);
     diagnostics_.warn({ProblemKind::invalid, "doubtful-setting", pointer,
@@ -39,7 +39,7 @@ class SettingWarnings {
   void warn_of_clearances() const {
     const double clearance_m = given_.clearance_m;
     const std::string counts =
-        ", more than clearance_m, which counts here, too: " + text_of(clearance_m) + " m";
+        ", more than clearance_m, so clearance_m applies: " + text_of(clearance_m) + " m";
     if (given_.self_clearance_m > clearance_m &&
         given_.self_clearance_m != CellDescription{}.self_clearance_m)
       warn("/self_clearance_m", given_.self_clearance_m, counts);
@@ -47,8 +47,8 @@ class SettingWarnings {
       warn("/mount_clearance_m", *given_.mount_clearance_m, counts);
     if (clearance_m == 0.0)
       warn("/clearance_m", clearance_m,
-           ": motions may touch what they pass, and whatever the files, the mounts or the "
-           "measurement are off is not covered");
+           ": motions may touch, and model, mounting and measurement errors are not covered; set a "
+           "clearance larger than these errors");
   }
 
   void warn_of_checking() const {
@@ -56,45 +56,47 @@ class SettingWarnings {
     const double error_rad = checking.tracking_error_rad;
     if (error_rad == 0.0)
       warn("/checking/tracking_error_rad", error_rad,
-           ": motions are certified for arms that keep exactly to their paths, which none does");
+           ": motions are certified for arms that follow their paths exactly, which no arm does; "
+           "set the real tracking error");
     if (error_rad > kLargeError_rad)
-      warn("/checking/tracking_error_rad", error_rad,
-           " for each joint, so that arms count as thick as they are then off: hardly anything "
-           "will be free");
+      warn(
+          "/checking/tracking_error_rad", error_rad,
+          " for each joint: arms are checked with that much deviation, so almost no motion will be "
+          "free of conflicts");
     if (checking.limit_tolerance > kLargeTolerance)
       warn("/checking/limit_tolerance", checking.limit_tolerance,
-           ": jobs may exceed the joints' velocities and accelerations by that share");
+           ": jobs may exceed the joints' velocity and acceleration limits by that share");
     const double step_s = to_seconds(checking.time_step);
     if (given_.scheduling.policy == "timed_discrete" && step_s > kLongStep_s)
       warn("/checking/time_step_s", step_s,
-           ": timed_discrete does not see what happens between two such steps; a certified policy "
-           "does");
+           ": timed_discrete misses collisions between two such steps; reduce it, or use a "
+           "certified policy");
     if (given_.execution.start_tolerance_rad > kLargeStart_rad)
       warn("/execution/start_tolerance_rad", given_.execution.start_tolerance_rad,
-           ": a job may begin with its joints that far off its path, and what lies between is not "
-           "checked");
+           ": a job may begin with its joints that far off its path, and the motion onto the path "
+           "is not checked");
   }
 
   void warn_of_monitor() const {
     if (given_.monitor.stop_clearance_m == 0.0 && given_.clearance_m > 0.0)
       warn("/monitor/stop_clearance_m", 0.0,
-           ": the monitor stops arms only when they touch; a share of clearance_m leaves them way "
-           "to brake");
+           ": the monitor stops arms only when they touch; set a part of clearance_m, so that they "
+           "can brake before");
     const double reaction_s = to_seconds(given_.monitor.reaction);
     const double rate_hz = given_.monitor.rate_hz;
     if (rate_hz > 0.0 && rate_hz < kSeldom_hz)
       warn("/monitor/rate_hz", rate_hz,
-           ": the monitor looks only every " + text_of(1.0 / rate_hz) +
-               " s, and sees an arm that leaves its path that much later");
+           ": the monitor checks only every " + text_of(1.0 / rate_hz) +
+               " s, and detects an arm that leaves its path that much later");
     if (reaction_s > kLongReaction_s)
       warn("/monitor/reaction_s", reaction_s,
-           ": an arm that is to stop goes on that long before it brakes, so that much of its way "
-           "ahead has to be free, and others wait for it");
+           ": a stopping arm moves on that long before it brakes, so that much of its path must be "
+           "free, and other arms wait for it");
     if (given_.monitor.rate_hz > 0.0 && reaction_s * given_.monitor.rate_hz < 1.0)
       warn("/monitor/reaction_s", reaction_s,
-           ", less than from one look of the monitor to the next (" +
-               text_of(1.0 / given_.monitor.rate_hz) +
-               " s): arms have gone on longer before they brake than stops are certified for");
+           ", less than the monitor's period (" + text_of(1.0 / given_.monitor.rate_hz) +
+               " s): arms may move on longer before they brake than stops are certified for; raise "
+               "reaction_s or rate_hz");
   }
 
   void warn_of_places() const {
@@ -103,8 +105,8 @@ class SettingWarnings {
       const double away_m = X.translation().norm();
       if (away_m <= kFar_m) return;
       diagnostics_.warn({ProblemKind::invalid, "far-away", pointer,
-                         whose + " stands " + text_of(away_m) +
-                             " m away from the cell's origin, hardly meant (millimetres?)",
+                         whose + " is " + text_of(away_m) +
+                             " m away from the cell's origin, probably a unit error (millimeters?)",
                          away_m});
     };
     for (std::size_t r = 0; r < given_.robots.size(); ++r)
@@ -128,7 +130,8 @@ class SettingWarnings {
                  pointer_token(name) + "/brake_" + (slides ? "m_s2" : "rad_s2"),
              *limits.brake,
              ", over ten times the joint's acceleration of " + text_of(one.acceleration_max) +
-                 ": stops are certified for a brake that strong");
+                 ": stops are certified for a brake that strong; if the real one is weaker, arms "
+                 "stop too late");
       }
     }
   }

@@ -5,9 +5,9 @@
 
 namespace armloom {
 
-// Warns of settings that are allowed but hardly meant, each with its consequence: clearances that
-// another one lowers or that are 0, deviations that no arm keeps or that leave nothing free,
-// monitoring and tolerances that catch little, limits beyond what arms do, what stands far away.
+// Warns of settings that are probably mistakes, each with its consequence: clearances of 0 or
+// without effect, tracking errors that no arm keeps or that leave nothing free, slow monitoring,
+// large tolerances, implausible limits, and robots or objects far away.
 void warn_of_settings(const CellDescription& description, const Cell& cell,
                       Diagnostics& diagnostics);
 

@@ -8,7 +8,7 @@ namespace {
 
 using JointsOfTheCell = std::set<JointId>;
 
-// For each link, by tree index, the joints whose values place it: those above it and its own.
+// Returns for each tree index the joints that place the link: its own and those above.
 std::vector<JointsOfTheCell> joints_above(const RobotBuild& robot, const Cell& cell) {
   std::vector<JointsOfTheCell> above;
   for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
@@ -19,7 +19,7 @@ std::vector<JointsOfTheCell> joints_above(const RobotBuild& robot, const Cell& c
   return above;
 }
 
-// Joints whose values say where the arm's own motions happen: its own, and all above them.
+// Returns the joints that place the arm's motions: its own and all above.
 JointsOfTheCell joints_that_place(const Arm& arm, ArmId id, const Cell& cell,
                                   const RobotBuild& robot,
                                   const std::vector<JointsOfTheCell>& above) {
@@ -36,7 +36,7 @@ std::string plain_name(const RobotBuild& robot, const Cell& cell, JointId joint)
   return cell.joint(joint).name.substr(robot.description->prefix.size());
 }
 
-// The line that holds the joints where they stand nearest to 0.
+// Returns the line that fixes the joints at permitted values nearest to 0.
 std::string line_to_hold(const RobotBuild& robot, const Cell& cell,
                          const std::vector<JointId>& joints) {
   std::string members;
@@ -56,7 +56,7 @@ std::string line_to_hold(const RobotBuild& robot, const Cell& cell,
 }  // namespace
 
 void refuse_shared_joints(RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
-  if (robot.tree.patched) return;  // joints may hang elsewhere than meant
+  if (robot.tree.patched) return;  // joints may be misplaced
   const auto above = joints_above(robot, cell);
   std::vector<JointsOfTheCell> places;
   for (const ArmBuild& arm : robot.arms)
@@ -87,14 +87,14 @@ void refuse_shared_joints(RobotBuild& robot, const Cell& cell, Diagnostics& diag
     const auto& own = cell.arm(arm.id).joints;
     return !std::all_of(own.begin(), own.end(), [&](JointId j) { return shared.contains(j); });
   });
-  const std::string remedy =
-      leaves_arms
-          ? "hold what they share (" + line_to_hold(robot, cell, joints) + ") or make them one arm"
-          : "one of them moves the other, so make them one arm";
+  const std::string remedy = leaves_arms
+                                 ? "hold the shared joints (" + line_to_hold(robot, cell, joints) +
+                                       ") or make them one arm"
+                                 : "one of them moves the other, so make them one arm";
   diagnostics.in_cell("shared-joint", robot.pointer + "/arms",
                       "robot " + robot.description->name + ": arms " + arms +
-                          " share the movable joints " + names +
-                          ", so that each moves the other; " + remedy,
+                          " share the movable joints " + names + ", so each moves the other; " +
+                          remedy,
                       names);
 }
 

@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Joints of no arm whose values place the link.
+// Returns the joints of no arm that place the link.
 std::set<JointId> standing_above(const Cell& cell, LinkId id) {
   std::set<JointId> joints;
   for (std::optional<LinkId> link = id; link; link = cell.link(*link).parent) {
@@ -27,17 +27,16 @@ class StandingJoints {
     std::string names;
     std::string line;
     for (const auto& [joint, arms] : arms_above_) {
-      if (arms.size() > 1) continue;  // refuse_shared_joints tells of it
+      if (arms.size() > 1) continue;  // reported by refuse_shared_joints
       list(joint, names, line, std::string::npos);
     }
     if (!names.empty()) {
-      diagnostics_.in_cell(
-          "stationary-joint", robot_.pointer,
-          "robot " + robot_.description->name + ": " + names +
-              " would move an arm and is in no arm's group, so where it stands has "
-              "to be said: " +
-              how_to_hold(line),
-          names);
+      diagnostics_.in_cell("stationary-joint", robot_.pointer,
+                           "robot " + robot_.description->name + ": " + names +
+                               " would move an arm but is in no arm's group, so its position must "
+                               "be given: " +
+                               how_to_hold(line),
+                           names);
     }
     warn_of_others();
     warn_of_gaps();
@@ -52,7 +51,7 @@ class StandingJoints {
     }
   }
 
-  // Of what has a shape: a table that slides, the head beside the arms.
+  // Warns of other joints that move shapes, such as a sliding table.
   void warn_of_others() {
     std::set<JointId> others;
     for (const LinkId link : robot_.links) {
@@ -68,13 +67,14 @@ class StandingJoints {
     diagnostics_.warn(
         {ProblemKind::invalid, "stationary-joint", robot_.pointer,
          "robot " + robot_.description->name + ": " + names +
-             " in no arm's group, so what hangs there is checked where it stands at 0 "
-             "(or at the limit next to it); if it stands elsewhere " +
+             " in no arm's group, so the links that it moves are checked only at its position 0 "
+             "(or at the limit next to 0); if it is elsewhere, " +
              how_to_hold(line),
          names});
   }
 
-  // A joint between those of an arm's group moves what the group's motions are checked with.
+  // Warns of a gripper joint between joints of an arm's group: its position changes the geometry
+  // that the group's motions are checked against.
   void warn_of_gaps() {
     for (const ArmBuild& build : robot_.arms) {
       std::set<std::string> skipped;
@@ -92,8 +92,8 @@ class StandingJoints {
             {ProblemKind::invalid, "group-with-gap", build.pointer + "/group",
              "arm " + build.description->name + ": joint " + name +
                  " is between joints of group '" + build.description->group +
-                 "' and not in it: it counts as a gripper's joint, and jobs that do not "
-                 "name it leave it where it is",
+                 "' but not in it: it is treated as a gripper joint, and jobs that do not "
+                 "name it leave it where it is; add it to the group, or hold it with \"fixed\"",
              name});
       }
     }
@@ -126,7 +126,7 @@ class StandingJoints {
 }  // namespace
 
 void tell_standing_joints(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
-  if (robot.tree.patched) return;  // joints may hang elsewhere than meant
+  if (robot.tree.patched) return;  // joints may be misplaced
   StandingJoints(robot, cell, diagnostics).tell();
 }
 

@@ -33,7 +33,7 @@ std::string scalar_of(const YAML::Node& node) {
   return node.IsScalar() ? node.Scalar() : node.IsNull() ? "nothing" : "no single value";
 }
 
-// The keys of one joint, each read once. Doubled keys are told: YAML lets the first one count.
+// Reads the keys of one joint. Reports duplicates, of which YAML silently uses the first.
 class JointReader {
  public:
   JointReader(const YAML::Node& node, const std::string& file, const std::string& name,
@@ -90,14 +90,14 @@ class JointReader {
       const std::string key = scalar_of(member.first);
       const std::string place = place_of(member.first.Mark());
       if (!seen.insert(key).second) {
-        report(place, "duplicate", key + " stands there twice", key, joint_.faults);
+        report(place, "duplicate", key + " is given twice", key, joint_.faults);
       } else if (std::find(kKnown.begin(), kKnown.end(), key) == kKnown.end()) {
         unknown(place, key);
       }
     }
   }
 
-  // One that is nearly a known one was meant to limit something.
+  // A key similar to a known key was probably meant as a limit.
   void unknown(const std::string& place, const std::string& key) {
     const auto meant = nearest_name(key, kKnown);
     if (meant) {
@@ -114,7 +114,7 @@ class JointReader {
     return at_line(file_, mark) + ": joint " + name_;
   }
 
-  // Whether the limit counts: what stands there does, unless its has_... is false, as for MoveIt.
+  // Returns true if the limit is present and its has_... is not false, or if its has_... is true.
   [[nodiscard]] bool counts(const std::optional<bool>& has, const char* limit) const {
     return has ? *has : static_cast<bool>(node_[limit]);
   }
@@ -131,13 +131,13 @@ class JointReader {
     report(place_of(value.Mark()), "wrong-type",
            std::string(key) + " is '" + scalar_of(value) + "', not true or false", scalar_of(value),
            joint_.faults);
-    return true;  // so that its number is looked at, too
+    return true;  // so that its number is checked, too
   }
 
   std::optional<double> number(const char* key, const char* because) {
     const YAML::Node value = node_[key];
     if (!value) {
-      report(joint_.place, "missing", std::string(key) + " is missing, and " + because + " is true",
+      report(joint_.place, "missing", std::string(key) + " is missing, but " + because + " is true",
              {}, joint_.faults);
       return std::nullopt;
     }
@@ -157,7 +157,7 @@ class JointReader {
     if (tag == "!degrees") return read * std::numbers::pi / 180.0;
     if (!tag.starts_with('!') || tag == "!" || tag == "!radians") return read;
     report(place_of(value.Mark()), "unknown-tag",
-           std::string(key) + " has the tag " + tag + ", known here are !degrees and !radians", tag,
+           std::string(key) + " has the unknown tag " + tag + "; use !degrees or !radians", tag,
            joint_.faults);
     return std::nullopt;
   }
@@ -171,12 +171,12 @@ class JointReader {
     return std::nullopt;
   }
 
-  // MoveIt's Pilz planner has it below zero.
+  // MoveIt's Pilz planner uses negative numbers.
   std::optional<double> deceleration() {
     const auto read = number("max_deceleration", "has_deceleration_limits");
     if (!read || *read != 0.0) return read ? std::optional(std::abs(*read)) : std::nullopt;
     report(place_of(node_["max_deceleration"].Mark()), "not-positive",
-           "max_deceleration is 0, so nothing could stop", 0.0, joint_.faults);
+           "max_deceleration is 0, so the joint could never stop", 0.0, joint_.faults);
     return std::nullopt;
   }
 
@@ -195,12 +195,12 @@ void check_scaling(const YAML::Node& root, const std::string& file, Diagnostics&
     if (read && *read > 0.0 && *read <= 1.0) continue;
     warn(at_line(file, value.Mark()), "not-a-number",
          std::string(key) + " is '" + scalar_of(value) +
-             "', not a number above 0 and at most 1; it is of plans, and plays no part here",
+             "', but must be above 0 and at most 1; ignored, because it affects planning only",
          scalar_of(value), diagnostics);
   }
 }
 
-// Where `joint_limits` is a key: at the top, or where ROS 2's parameter files have it.
+// Returns the map with `joint_limits`: the root, or nested as by ROS 2.
 YAML::Node holder_of_limits(YAML::Node node) {
   for (const char* key : {"/**", "move_group", "ros__parameters", "robot_description_planning"}) {
     if (node.IsMap() && !node["joint_limits"] && node[key]) node.reset(YAML::Node(node[key]));
@@ -213,10 +213,11 @@ std::optional<LimitsFile> read_document(const YAML::Node& document, const std::s
   const YAML::Node holder = holder_of_limits(document);
   const YAML::Node joints = holder.IsMap() ? holder["joint_limits"] : YAML::Node();
   if (!holder.IsMap() || !joints || !(joints.IsMap() || joints.IsNull())) {
-    report(file, "missing",
-           "there is no joint_limits with joints in it; it has to hold joint_limits: and below it, "
-           "indented, each joint: with its has_velocity_limits: true, max_velocity: 1 and the like",
-           {}, diagnostics);
+    report(
+        file, "missing",
+        "there is no joint_limits with joints in it; it must contain joint_limits: and below it, "
+        "indented, each joint: with its has_velocity_limits: true, max_velocity: 1 etc.",
+        {}, diagnostics);
     return std::nullopt;
   }
   check_scaling(holder, file, diagnostics);

@@ -69,7 +69,8 @@ class GroupReader {
   void warn_unknown(const std::string& what, const std::string& name, const XmlPlace& place) const {
     if (tree_.nameless) return;
     place.warn("unknown-name",
-               what + " " + name + " is not in " + tree_.file + "; the group is without it", name);
+               what + " " + name + " is not in " + tree_.file + "; it is left out of the group",
+               name);
   }
 
   void add_chain(const XMLElement& chain, const XmlPlace& place, Group& group) const {
@@ -80,7 +81,7 @@ class GroupReader {
     std::optional<std::size_t> link = *tip;
     for (; link && *link != *base; link = tree_.links[*link].parent) joints.insert(*link);
     if (!link) {
-      if (tree_.patched) return;  // links may hang elsewhere than meant
+      if (tree_.patched) return;  // links may be misplaced
       return place.at(chain).report("broken-chain",
                                     "tip_link " + tree_.links[*tip].name +
                                         " is not below base_link " + tree_.links[*base].name,
@@ -102,15 +103,16 @@ class GroupReader {
   void add(std::size_t joint, const XmlPlace& place, Group& group) const {
     const TreeLink& link = tree_.links[joint];
     if (link.joint.many_values) {
-      place.report("unsupported-joint",
-                   "joint " + link.joint.name + " is floating or planar, which no arm can hold",
-                   link.joint.name, ProblemKind::unsupported);
+      place.report(
+          "unsupported-joint",
+          "joint " + link.joint.name + " is floating or planar, which an arm cannot contain",
+          link.joint.name, ProblemKind::unsupported);
     } else if (link.joint.is_independent() || link.joint.held) {
       group.joints.insert(joint);
     }
   }
 
-  // Joints of the group and of all groups below it. A group met while it is open holds itself.
+  // A group that is met while it is open contains itself.
   const JointSet& joints_of(const std::string& name, Group& group) {
     if (group.mark != Group::Mark::fresh) return group.joints;
     group.mark = Group::Mark::open;
@@ -118,10 +120,10 @@ class GroupReader {
       const XmlPlace place(file_, group.line, "group " + name, group.faults);
       const auto found = groups_.find(subgroup);
       if (found == groups_.end()) {
-        place.warn("unknown-name", "group " + subgroup + " does not exist; the group is without it",
-                   subgroup);
+        place.warn("unknown-name",
+                   "group " + subgroup + " does not exist; it is left out of the group", subgroup);
       } else if (found->second.mark == Group::Mark::open) {
-        place.report("group-cycle", "group " + subgroup + " holds this group too: a cycle",
+        place.report("group-cycle", "group " + subgroup + " also contains this group: a cycle",
                      subgroup);
       } else {
         const JointSet& below = joints_of(subgroup, found->second);
@@ -132,7 +134,7 @@ class GroupReader {
     return group.joints;
   }
 
-  // Of a used group and of all below it. Each once: cycles end.
+  // Reports a used group's faults and those of groups below, each once.
   void tell_faults(const std::string& name) {
     const auto found = groups_.find(name);
     if (found == groups_.end() || !told_.insert(name).second) return;
@@ -153,7 +155,7 @@ class GroupReader {
 std::map<std::string, JointSet> read_groups(const XMLElement& srdf, const std::string& file,
                                             const RobotTree& tree, const GroupNames& names,
                                             Diagnostics& diagnostics) {
-  constexpr std::size_t kMaxGroups = 1000;  // also bounds how deep groups can hold each other
+  constexpr std::size_t kMaxGroups = 1000;  // also bounds the nesting of groups
   GroupReader reader(file, tree, names.virtual_joints, diagnostics);
   std::size_t count = 0;
   for (const auto* group = srdf.FirstChildElement("group"); group != nullptr;

@@ -19,12 +19,10 @@ struct GroupNames {
   const std::set<std::string>& used;
 };
 
-// Every group of the SRDF with the joints that it holds: independent ones, and those that the cell
-// holds; fixed and mimic joints, which MoveIt lists too, are dropped. As in MoveIt, a link stands
-// for the joint above it and a chain for the joints between its base link and its tip link.
-// Virtual joints may be named and are ignored. Names that are not there are left out with a
-// warning; what else is wrong with a group is a problem if the group is used, or below one that
-// is, and else a warning.
+// Returns every group of the SRDF with its independent and held joints. As in MoveIt, a link
+// denotes the joint above it, and a chain the joints between its base link and its tip link.
+// Virtual joints are ignored. Unknown names are left out with a warning. Other faults are problems
+// in used groups and groups below them, and warnings elsewhere.
 [[nodiscard]] std::map<std::string, RobotSemantics::JointSet> read_groups(
     const tinyxml2::XMLElement& srdf, const std::string& file, const RobotTree& tree,
     const GroupNames& names, Diagnostics& diagnostics);

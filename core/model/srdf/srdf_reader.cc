@@ -13,8 +13,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Elements of one tag that name links which the URDF does not have: told together, as an SRDF that
-// is behind its URDF has many of them.
+// Elements of one tag with links unknown to the URDF, reported together: an outdated SRDF has many.
 struct StaleElements {
   std::size_t stale = 0;
   std::size_t all = 0;
@@ -65,13 +64,14 @@ class SrdfReader {
   void check_name() const {
     const XmlPlace place(file_, srdf_.GetLineNum(), "robot", diagnostics_);
     const std::string name =
-        place.only_warning("whether it is of the URDF's robot is not known").name(srdf_, "name");
+        place.only_warning("it may belong to another robot than the URDF").name(srdf_, "name");
     if (name.empty() || name == tree_.name || tree_.links.empty()) return;
-    place.warn("other-robot",
-               "the SRDF is of robot " + name + ", " + tree_.file + " of robot " + tree_.name +
-                   "; pairs of links that it disables are not checked, and its groups are taken as "
-                   "they are, so it has to be of the same robot",
-               name);
+    place.warn(
+        "other-robot",
+        "the SRDF is for robot " + name + ", but " + tree_.file + " for robot " + tree_.name +
+            "; its groups and disabled pairs of links are used all the same, so a wrong SRDF "
+            "can hide collisions: use the SRDF of this robot",
+        name);
   }
 
   bool is_root(const std::string& link) const {
@@ -89,14 +89,14 @@ class SrdfReader {
         place.warn("other-child",
                    "child_link " + std::string(child) + " is not the root link " +
                        tree_.links.front().name + " of " + tree_.file +
-                       "; it is left out: the root link stands where \"base\" of the cell has it",
+                       "; it is left out: the cell's \"base\" places the root link",
                    std::string(child));
       }
       const char* type = joint.Attribute("type");
       if (type == nullptr || std::string_view(type) == "fixed") return;
       place.warn("moving-base",
-                 std::string("the robot's base is ") + type +
-                     " by it; here it stands where \"base\" of the cell has it",
+                 std::string("it makes the robot's base ") + type +
+                     "; here the base does not move: the cell's \"base\" places it",
                  std::string(type));
     });
     return names;
@@ -114,7 +114,7 @@ class SrdfReader {
       place.report("unknown-name", "joint " + name + " is not in " + tree_.file, name);
   }
 
-  // A state with a fault can be no home and no goal; its faults say why.
+  // Faults make the state unusable as home and goal.
   void read_state(const XMLElement& element, const std::set<std::string>& virtual_joints,
                   RobotSemantics& semantics) const {
     const std::string consequence = "the state is left out";
@@ -154,12 +154,12 @@ class SrdfReader {
         static_cast<void>(line.of("joint " + name).number(element, "value", Presence::required));
         return;
       }
-      return line.warn("unknown-name",
-                       "joint " + name + " is not in " + tree_.file + "; the state is without it",
-                       name);
+      return line.warn(
+          "unknown-name",
+          "joint " + name + " is not in " + tree_.file + "; it is left out of the state", name);
     }
     const TreeLink& link = tree_.links[found->second];
-    if (!link.joint.is_independent() && !link.joint.held) return;  // it has no value of its own
+    if (!link.joint.is_independent() && !link.joint.held) return;  // it has no value
     const auto value = line.of("joint " + name).number(element, "value", Presence::required);
     if (!value) {
       state.unread.insert(found->second);
@@ -167,7 +167,7 @@ class SrdfReader {
     }
     if (!group.contains(found->second)) {
       return line.warn("foreign-joint",
-                       "joint " + name + " is not in the group; the state is without it", name);
+                       "joint " + name + " is not in the group; it is left out of the state", name);
     }
     if (!state.values.emplace(found->second, *value).second) {
       line.report("duplicate-name", "joint " + name + " has more than one value", name);
@@ -196,11 +196,10 @@ class SrdfReader {
     for (const auto& [tag, stale] : stale_) {
       if (stale.stale == 0) continue;
       XmlPlace(file_, 0, tag, diagnostics_)
-          .warn("unknown-name",
-                std::to_string(stale.stale) + " of " + std::to_string(stale.all) +
-                    " name links that are not in " + tree_.file + " (" + stale.examples +
-                    (stale.stale > 3 ? ", ..." : "") +
-                    "); they are left out, and the links that were meant stay checked");
+          .warn("unknown-name", std::to_string(stale.stale) + " of " + std::to_string(stale.all) +
+                                    " name links that are not in " + tree_.file + " (" +
+                                    stale.examples + (stale.stale > 3 ? ", ..." : "") +
+                                    "); they are left out, and the intended links stay checked");
     }
   }
 
@@ -238,7 +237,7 @@ class SrdfReader {
   std::string file_;
   const RobotTree& tree_;
   Diagnostics& diagnostics_;
-  std::map<std::string, StaleElements> stale_;  // tag -> those with unknown links
+  std::map<std::string, StaleElements> stale_;  // by tag
   const XMLElement* last_stale_ = nullptr;
 };
 

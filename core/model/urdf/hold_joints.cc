@@ -16,8 +16,8 @@ struct NamedTree {
   const RobotTree& tree;
 };
 
-// The tree index of a joint that can be held, or nothing with the reason told. A value beyond the
-// limits is told, too, and put to the nearest one.
+// Returns the tree index of a joint that can be fixed, or nullopt with a report. Reports and clamps
+// a value beyond the limits.
 std::optional<std::size_t> holdable(const std::string& name, double& value,
                                     const std::string& pointer, const NamedTree& of,
                                     Diagnostics& diagnostics) {
@@ -31,7 +31,7 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
     if (tree.nameless) return std::nullopt;
     static_cast<void>(refuse("unknown-joint", "fixed joint " + name + " is not in " + tree.file +
                                                   did_you_mean(name, tree.by_joint)));
-    // Held under the name that is meant: that arms hang on that joint need not be told then.
+    // Fix the joint that was probably meant, to avoid follow-up problems.
     const auto meant = nearest_key(name, tree.by_joint);
     Diagnostics unsaid;
     return meant ? holdable(*meant, value, pointer, of, unsaid) : std::nullopt;
@@ -40,21 +40,22 @@ std::optional<std::size_t> holdable(const std::string& name, double& value,
   if (link.joint.mimic) {
     return refuse("held-mimic", "joint " + name + " follows joint " +
                                     tree.links[link.joint.mimic->driver].joint.name +
-                                    ": hold that one");
+                                    ": hold that joint instead");
   }
   if (link.joint.many_values)
-    return refuse("unsupported-joint", "joint " + name + " is floating or planar: it has no value");
+    return refuse("unsupported-joint",
+                  "joint " + name + ": floating and planar joints cannot be fixed");
   if (!link.joint.motion)
-    return refuse("held-fixed", "joint " + name + " is fixed in " + tree.file);
+    return refuse("held-fixed", "joint " + name + " is already fixed in " + tree.file);
   if (!std::isfinite(value))
-    return refuse("not-a-number", "joint " + name + " is held at " + text_of(value));
+    return refuse("not-a-number",
+                  "joint " + name + " is held at " + text_of(value) + ", not a finite number");
   const UrdfLimits& limits = link.joint.limits;
   if ((limits.lower && value < *limits.lower) || (limits.upper && value > *limits.upper)) {
     static_cast<void>(
         refuse("limit-exceeded", "joint " + name + " is held at " + text_of(value) + ", outside [" +
                                      (limits.lower ? text_of(*limits.lower) : "-inf") + ", " +
                                      (limits.upper ? text_of(*limits.upper) : "inf") + "]"));
-    // Nothing else of the robot is wrong for that.
     if (limits.lower) value = std::max(value, *limits.lower);
     if (limits.upper) value = std::min(value, *limits.upper);
   }
@@ -75,7 +76,7 @@ std::string text_of_vector(const Eigen::Vector3d& v) {
   return text_of(v.x()) + " " + text_of(v.y()) + " " + text_of(v.z());
 }
 
-// Fixed-axis roll, pitch, yaw; where only their sum is known, yaw is 0.
+// Returns fixed-axis roll, pitch, yaw; at gimbal lock, yaw is 0.
 Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
   const double level = std::hypot(R(0, 0), R(1, 0));
   const double pitch = std::atan2(-R(2, 0), level);
@@ -95,7 +96,7 @@ void fix_in_text(const TreeLink& link, tinyxml2::XMLElement& joint) {
   joint.InsertFirstChild(origin);
 }
 
-// Precondition: the text was read before.
+// Precondition: the text was parsed before.
 void fix_in_text(RobotTree& tree) {
   tinyxml2::XMLDocument document;
   if (document.Parse(tree.text.data(), tree.text.size()) != tinyxml2::XML_SUCCESS) return;
@@ -112,10 +113,9 @@ void fix_in_text(RobotTree& tree) {
   tree.text = printer.CStr();
 }
 
-// Of the joint above links[index]; none: it moves.
+// nullopt if the joint above links[index] moves.
 std::optional<double> value_held_at(const TreeLink& link, std::size_t index,
                                     const std::map<std::size_t, double>& held) {
-  // Whatever it follows moves, it does not.
   if (link.joint.mimic && link.joint.mimic->multiplier == 0.0) return link.joint.mimic->offset;
   const auto own = held.find(link.joint.mimic ? link.joint.mimic->driver : index);
   if (own == held.end()) return std::nullopt;

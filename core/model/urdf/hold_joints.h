@@ -8,12 +8,10 @@
 
 namespace armloom {
 
-// Holds joints at a value (rad or m), as a cell file's "fixed" has them by name: they are fixed
-// joints from then on, and so are the mimic joints that follow them, and those that follow a joint
-// with multiplier 0. Names must be movable joints
-// that follow no other; values finite and within the URDF's limits. The URDF's text is changed
-// alike, so that whoever draws the robot from it sees it so. `pointer` is of the robot in the cell
-// file.
+// Fixes joints at a value (rad or m), by name as in the cell file's "fixed", and mimic joints that
+// follow them or have multiplier 0. Names must be movable joints that are not mimics; values must
+// be finite and within the URDF's limits. Also changes the URDF's text, from which clients draw the
+// robot. `pointer` points to the robot in the cell file.
 void hold_joints(const std::map<std::string, double>& fixed, const std::string& pointer,
                  const std::string& robot, RobotTree& tree, Diagnostics& diagnostics);
 

@@ -23,7 +23,7 @@ bool is_below(const fs::path& folder, const fs::path& file) {
   return differ.first == folder.end() && differ.second != file.end();
 }
 
-// The path of file:///path or file://localhost/path, with %20 and the like decoded.
+// Decodes file:///path or file://localhost/path.
 std::string path_of_file_uri(std::string_view uri) {
   uri.remove_prefix(kFile.size());
   if (uri.starts_with("localhost/")) uri.remove_prefix(std::string_view("localhost").size());
@@ -42,8 +42,8 @@ std::string path_of_file_uri(std::string_view uri) {
   return path;
 }
 
-// The folder that a user would name as the package of a mesh: the one that holds "meshes", else the
-// mesh's own. By its name alone, as it lies where nothing may be looked at.
+// Returns the folder that contains "meshes", else the mesh's folder. Uses only the name: the
+// location must not be read.
 fs::path package_folder_of(const fs::path& mesh) {
   fs::path above;
   for (const fs::path& part : mesh.parent_path()) {
@@ -53,7 +53,7 @@ fs::path package_folder_of(const fs::path& mesh) {
   return mesh.parent_path();
 }
 
-// "; there is Arm.stl", where the file's name differs in case only: other systems do not mind.
+// Returns a hint if a file's name differs only in case.
 std::string spelt_otherwise(const fs::path& file) {
   const auto lower = [](std::string text) {
     std::ranges::transform(text, text.begin(),
@@ -64,7 +64,7 @@ std::string spelt_otherwise(const fs::path& file) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(file.parent_path(), error)) {
     const std::string name = entry.path().filename().string();
-    if (lower(name) == wanted) return "; there is " + name;
+    if (lower(name) == wanted) return "; did you mean " + name + "?";
   }
   return {};
 }
@@ -73,15 +73,15 @@ std::string line_of_package(const std::string& name, const std::string& folder) 
   return "add to the robot \"packages\": {\"" + name + "\": \"" + folder + "\"}";
 }
 
-// An absolute path: below the URDF's own folder or one that the cell names. Of what lies elsewhere
-// the answer is the same whether or not it is there.
+// Resolves an absolute path. Outside the permitted folders the answer does not reveal whether the
+// file exists.
 tl::expected<fs::path, std::string> resolve_absolute(
     const fs::path& file, const fs::path& urdf_folder,
     const std::map<std::string, std::string>& packages) {
   std::error_code error;
   if (!file.is_absolute()) return tl::unexpected<std::string>("names a file of another host");
   fs::path real_file = fs::weakly_canonical(file, error);
-  if (error) real_file = file.lexically_normal();  // one that must not be looked at
+  if (error) real_file = file.lexically_normal();  // must not be read
   const auto found = [&]() -> tl::expected<fs::path, std::string> {
     if (!fs::exists(real_file, error))
       return tl::unexpected("does not exist: " + real_file.string() + spelt_otherwise(real_file));
@@ -103,7 +103,6 @@ tl::expected<fs::path, std::string> resolve_absolute(
       line_of_package(package.filename().string(), package.string()));
 }
 
-// Every <mesh filename="...">, in the document's order.
 std::vector<tinyxml2::XMLElement*> named_meshes(tinyxml2::XMLDocument& document) {
   struct Finder final : tinyxml2::XMLVisitor {
     std::vector<tinyxml2::XMLElement*> meshes;
@@ -118,8 +117,7 @@ std::vector<tinyxml2::XMLElement*> named_meshes(tinyxml2::XMLDocument& document)
   return found.meshes;
 }
 
-// Where a package of this name may be: a folder of that name above the URDF, or beside one of
-// those.
+// Looks for a folder of the package's name above the URDF, or next to a folder above it.
 std::string likely_folder(const std::string& package, const fs::path& urdf_folder) {
   std::error_code error;
   const fs::path start = fs::canonical(urdf_folder.empty() ? "." : urdf_folder, error);
@@ -156,15 +154,15 @@ tl::expected<fs::path, std::string> resolve_mesh(
     inside = uri.substr(slash + 1);
   } else if (uri.find("://") != std::string::npos) {
     return tl::unexpected<std::string>(
-        "is neither package:// nor file:// nor a path from the URDF's folder; nothing is fetched "
-        "from elsewhere: save the file beside the URDF, and name that");
+        "is neither package:// nor file:// nor a path from the URDF's folder; nothing is "
+        "downloaded: save the file next to the URDF, and give its path");
   }
   if (folder.empty()) folder = ".";
   std::error_code error;
 
   const fs::path lexical = inside.lexically_normal();
   const bool leaves = !lexical.empty() && *lexical.begin() == "..";
-  if (leaves && !uri.starts_with(kPackage)) {  // ../meshes, as beside an urdf folder
+  if (leaves && !uri.starts_with(kPackage)) {  // ../meshes, for an urdf folder next to it
     return resolve_absolute(fs::absolute(folder / lexical, error), urdf_folder, packages);
   }
   if (inside.is_absolute() || lexical.empty() || leaves) {
@@ -174,7 +172,7 @@ tl::expected<fs::path, std::string> resolve_mesh(
   if (error) return tl::unexpected("lies in a folder that does not exist: " + folder.string());
   const fs::path real_file = fs::weakly_canonical(real_folder / lexical, error);
   if (error || !is_below(real_folder, real_file))
-    return tl::unexpected("leaves its folder " + folder.string() + " through a link");
+    return tl::unexpected("leaves its folder " + folder.string() + " through a symbolic link");
   if (!fs::exists(real_file, error))
     return tl::unexpected("does not exist: " + (folder / lexical).string() +
                           spelt_otherwise(folder / lexical));

@@ -7,27 +7,25 @@
 
 namespace armloom {
 
-// Resolves a mesh reference of a URDF to a file that exists.
+// Resolves a mesh reference of a URDF to an existing file:
 //   package://name/rest          below the folder packages[name]
-//   relative/path                below the URDF's own folder; ../path as an absolute one
+//   relative/path                below the URDF's own folder; ../path like an absolute path
 //   file:///path, /absolute/path below the URDF's own folder or any of the packages' folders
-// Anything else (http://) is refused, and so is a path that leaves its folder, as written or
-// through symbolic links: a robot description from elsewhere must not make the server read, or
-// show, other files than those that the cell file lets it, nor tell which there are. The error is
-// half a sentence for "mesh <uri> ...", with the line that the cell lacks where one would help.
+// Refuses other schemes (http://) and paths that leave their folder, as written or through symbolic
+// links. A foreign robot description must not make the server read or show files that the cell file
+// does not permit, or reveal which files exist. The error continues the sentence "mesh <uri> ..."
+// and quotes the line to add to the cell file, if one helps.
 [[nodiscard]] tl::expected<std::filesystem::path, std::string> resolve_mesh(
     const std::string& uri, const std::filesystem::path& urdf_folder,
     const std::map<std::string, std::string>& packages);
 
-// All meshes that the URDF names, in visuals too, as it names them, with their files: those that
-// resolve_mesh finds and whose names say that they can be read (is_mesh_name). Precondition: the
-// text is XML, else nothing is found.
+// Returns the mesh names of the URDF, also in visuals, with their files, if resolved and of a
+// readable format (is_mesh_name). Empty if the text is not XML.
 [[nodiscard]] std::map<std::string, std::string> mesh_files(
     const std::string& urdf_text, const std::filesystem::path& urdf_folder,
     const std::map<std::string, std::string>& packages);
 
-// The URDF with other names for its meshes, by the names that it has; the others stay.
-// Precondition: as above, else the text.
+// Returns the URDF with mesh names replaced by `names`, or unchanged if it is not XML.
 [[nodiscard]] std::string with_mesh_names(const std::string& urdf_text,
                                           const std::map<std::string, std::string>& names);
 

@@ -13,41 +13,41 @@
 
 namespace armloom {
 
-// What the URDF says of how a joint may move; whether that is enough depends on whose joint it is.
+// Joint limits in the URDF; the joint's role decides whether they suffice.
 struct UrdfLimits {
-  std::optional<double> lower;  // rad or m; none: absent, or no number
+  std::optional<double> lower;  // rad or m; nullopt if not a number
   std::optional<double> upper;
-  std::optional<double>
-      velocity;        // > 0; none: absent, no number, or 0, which says nothing (MoveIt)
-  Diagnostics faults;  // numbers that are none, limits that cross
+  std::optional<double> velocity;  // > 0; nullopt if not a number, or 0 (as in MoveIt)
+  Diagnostics faults;              // faulty numbers, crossed limits
 };
 
-// One robot as its URDF describes it: plain data between the reader and the cell. Names are without
-// prefix. A joint is known by the index of the link that it moves.
+// One robot as described by its URDF. Names have no prefix. A joint has the index of the link that
+// it moves.
 struct TreeJoint {
   struct Mimic {
-    std::size_t driver;  // link whose joint is followed; that joint is movable and no mimic itself
+    std::size_t driver;  // link of the followed joint, which is movable and not a mimic
     double multiplier;
     double offset;
   };
 
-  std::string name;                 // empty: of the root
-  std::optional<JointKind> motion;  // none: fixed, or of the root
+  std::string name;                 // empty for the root
+  std::optional<JointKind> motion;  // nullopt if fixed, or for the root
   bool many_values = false;         // floating or planar: fixed at its origin
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // unit
   std::optional<Mimic> mimic;
   UrdfLimits limits;
-  // By the cell file's "fixed", or as a mimic of multiplier 0: rad or m, which X_PJ then contains.
+  // Value of a joint fixed by the cell file or a mimic multiplier of 0 (rad or m); included in
+  // X_PJ.
   std::optional<double> held;
   int line = 0;  // in the file
 
-  // With a value of its own: it becomes a Joint of the cell.
+  // Returns true if the joint becomes a Joint of the cell.
   [[nodiscard]] bool is_independent() const { return motion.has_value() && !mimic.has_value(); }
 };
 struct TreeLink {
   std::string name;
-  std::optional<std::size_t> parent;  // smaller than the own index; none: root
+  std::optional<std::size_t> parent;  // smaller than the own index; nullopt for the root
   TreeJoint joint;                    // the one above
   std::vector<PlacedShape> shapes;
   bool seen = false;   // it has a <visual>
@@ -58,19 +58,19 @@ struct TreeLink {
 };
 
 struct RobotTree {
-  std::string name;  // of the robot, as the file has it
-  std::string file;  // file name without folder, as places name it
+  std::string name;  // of the robot
+  std::string file;  // as used in places, without folder
   std::string text;
   std::vector<TreeLink> links;                  // depth first: parents before children
   std::map<std::string, std::size_t> by_link;   // link name -> index
-  std::map<std::string, std::size_t> by_joint;  // joint name -> index of the link that it moves
-  // What hangs where is wrong in the file and was told: links may hang elsewhere than meant, so
-  // what follows from that need not be told again.
+  std::map<std::string, std::size_t> by_joint;  // joint name -> index
+  // The file's structure is faulty, as reported: links may be misplaced, so consequences need not
+  // be reported.
   bool patched = false;
-  // A link or joint of it has no name: what other files name may be that one.
+  // A link or joint has no name, so unknown names in other files may be its name.
   bool nameless = false;
 
-  // "arm.urdf:12: link forearm"; of the joint above the link "arm.urdf:17: joint elbow".
+  // Return "arm.urdf:12: link forearm" and, for the joint above, "arm.urdf:17: joint elbow".
   [[nodiscard]] std::string place_of_link(const TreeLink& link) const {
     return file + ":" + std::to_string(link.line) + ": link " + link.name;
   }

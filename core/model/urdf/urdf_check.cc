@@ -15,22 +15,22 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Files round their axes: one is off by less than this.
+// Rounding of axes to length 1.
 constexpr double kUnitAxis = 0.01;
 
-// The limits of a <safety_controller> count where they are narrower, as for MoveIt.
+// A <safety_controller> applies if narrower, as in MoveIt.
 void narrow_to_soft_limits(const XMLElement& joint, double lower, double upper,
                            const XmlPlace& place, XMLElement& limit) {
   const auto* safety = joint.FirstChildElement("safety_controller");
   if (safety == nullptr) return;
-  const XmlPlace odd = place.only_warning("the <limit> counts");
+  const XmlPlace odd = place.only_warning("the <limit> applies");
   const auto soft_lower = odd.number(*safety, "soft_lower_limit", Presence::optional);
   const auto soft_upper = odd.number(*safety, "soft_upper_limit", Presence::optional);
   const double from = std::max(lower, soft_lower.value_or(lower));
   const double to = std::min(upper, soft_upper.value_or(upper));
   if (from > to || (from == to && lower < upper)) {
     odd.at(*safety).report("limits-crossed",
-                           "the soft limits leave nothing of the <limit>, from " + text_of(from) +
+                           "the soft limits leave no range of the <limit>: from " + text_of(from) +
                                " to " + text_of(to),
                            from);
     return;
@@ -39,7 +39,7 @@ void narrow_to_soft_limits(const XMLElement& joint, double lower, double upper,
   limit.SetAttribute("upper", text_of(to).c_str());
 }
 
-// urdfdom wants a limit, with effort and velocity; the notes say what of it the file gives.
+// Adds effort and velocity, which urdfdom requires.
 void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace& place,
                  UrdfNotes::Joint& notes, XMLElement& to) {
   XMLElement& copy = *to.InsertNewChildElement("limit");
@@ -56,12 +56,12 @@ void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace&
   place.only_warning("efforts play no part in the checks")
       .number(*limit, "effort", Presence::optional);
   const auto velocity = number("velocity");
-  notes.velocity = velocity && *velocity > 0.0;  // 0 says nothing, as for MoveIt
+  notes.velocity = velocity && *velocity > 0.0;  // 0 means no limit, as in MoveIt
   if (velocity && *velocity < 0.0)
     faults.at(*limit).report(
         "not-positive", "limit velocity is " + text_of(*velocity) + ", it must be greater than 0",
         *velocity);
-  if (type == "continuous") return;  // MoveIt's too ignore what stands there
+  if (type == "continuous") return;  // as in MoveIt
   const auto lower = number("lower");
   const auto upper = number("upper");
   const bool crossed = lower && upper && *lower > *upper;
@@ -85,8 +85,8 @@ void check_axis(const XMLElement& joint, const XmlPlace& place, XMLElement& to) 
     if (std::abs(norm - 1.0) > kUnitAxis)
       place.at(*axis).warn("axis-not-unit",
                            std::string("axis xyz '") + axis->Attribute("xyz") +
-                               "' is not of length 1: only its direction counts, and a value of "
-                               "the joint is radians or metres along it all the same",
+                               "' is not of length 1: only its direction is used; values of the "
+                               "joint are still radians or meters",
                            norm);
     return;
   }
@@ -97,8 +97,7 @@ void check_axis(const XMLElement& joint, const XmlPlace& place, XMLElement& to) 
                            norm);
 }
 
-// The type for urdfdom. A joint of several values stands at its origin, as MoveIt has it by
-// default.
+// A floating or planar joint is fixed at its origin, as by default in MoveIt.
 std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes::Joint& notes) {
   std::string type = place.name(joint, "type");
   if (type == "fixed" || type == "revolute" || type == "prismatic" || type == "continuous")
@@ -106,7 +105,9 @@ std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes
   if (type == "floating" || type == "planar") {
     notes.many_values = true;
     place.warn("unsupported-joint",
-               "joint type " + type + " is not moved here: what hangs on it stands at its origin",
+               "joint type " + type +
+                   " is not supported: the joint is fixed at its origin, and the links below it "
+                   "are checked there",
                type);
     return "fixed";
   }
@@ -114,9 +115,9 @@ std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes
     place.report(
         "unknown-joint-type",
         "joint type '" + type +
-            "' is not known (revolute, continuous, prismatic, fixed, floating, planar are)",
+            "' is not known (known: revolute, continuous, prismatic, fixed, floating, planar)",
         type);
-  // As what its limits would fit, so that all else of it is told.
+  // Guess from the limits, to find other faults.
   const auto* limit = joint.FirstChildElement("limit");
   if (limit == nullptr) return "continuous";
   return limit->Attribute("lower") || limit->Attribute("upper") ? "revolute" : "continuous";
@@ -161,7 +162,7 @@ XmlPlace place_of(const XMLElement& element, const std::string& file, Diagnostic
   return {file, element.GetLineNum(), element.Name() + named, diagnostics};
 }
 
-// Links and joints count directly below <robot> only: in another element they would vanish.
+// urdfdom would ignore links and joints in other elements than <robot>.
 void refuse_what_holds_links(const XMLElement& robot, const std::string& file,
                              Diagnostics& diagnostics) {
   const auto has_part = [](const XMLElement& element) {
@@ -181,7 +182,7 @@ void refuse_what_holds_links(const XMLElement& robot, const std::string& file,
         .report("misplaced",
                 "<" + tag +
                     "> holds a part of the robot, which would be left out: <link> and <joint> "
-                    "stand directly below <robot>, and <collision> in a <link>",
+                    "must be directly below <robot>, and <collision> in a <link>",
                 tag);
   }
 }

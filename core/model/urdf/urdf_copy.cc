@@ -11,7 +11,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr double kRobotEnds_m = 10.0;  // robots end before; millimetres read as metres do not
+constexpr double kRobotEnds_m = 10.0;  // larger than any robot in meters
 
 }  // namespace
 
@@ -19,7 +19,7 @@ void warn_if_far(double length_m, const std::string& what, const XmlPlace& place
   if (length_m <= kRobotEnds_m) return;
   place.warn("far-away",
              what + " is " + text_of(length_m) +
-                 " m, hardly meant (millimetres?); what hangs there is checked that far away",
+                 " m, probably a unit error (millimeters?); its links are checked at that distance",
              length_m);
 }
 
@@ -48,8 +48,8 @@ void warn_if_degrees(const std::vector<double>& rpy, const XmlPlace& place) {
   if (far == rpy.end()) return;
   place.warn("degrees",
              "origin rpy holds " + text_of(*far) +
-                 ", more than a turn: angles are in rad (degrees?), and it is turned "
-                 "by as many",
+                 ", more than a full turn: angles are in rad (degrees?), and this one is "
+                 "used as rad",
              *far);
 }
 

@@ -28,7 +28,7 @@ bool copy_lengths(const XMLElement& shape, const char* attribute, std::size_t si
   return true;
 }
 
-// The name stays as it is; where the mesh lies goes to the notes.
+// The name stays unchanged; its path goes to the notes.
 bool copy_mesh(const XMLElement& mesh, const XmlPlace& place, const MeshFolders& folders,
                UrdfNotes& notes, XMLElement& to) {
   place.only_attributes(mesh, {"filename", "scale"});
@@ -59,8 +59,8 @@ bool copy_shape(const XMLElement& shape, const XmlPlace& place, const MeshFolder
   }
   place.at(shape).report("unsupported-shape",
                          "collision geometry <" + std::string(kind) +
-                             "> is not supported (box, cylinder, sphere, mesh are; a capsule is a "
-                             "cylinder and two spheres)",
+                             "> is not supported (supported: box, cylinder, sphere, mesh; for a "
+                             "capsule, use a cylinder and two spheres)",
                          std::string(kind), ProblemKind::unsupported);
   return false;
 }
@@ -85,7 +85,7 @@ bool copy_collision(const XMLElement& collision, const XmlPlace& place, const Me
   return copy_shape(*shape, place, folders, notes, copy) && placed;
 }
 
-// Visuals and masses play no part in the model; their numbers still reach the dashboard.
+// Only the dashboard uses these numbers.
 void check_visual(const XMLElement& visual, const XmlPlace& place, XMLElement& unused) {
   copy_origin(visual, place, unused);
   const auto* geometry = visual.FirstChildElement("geometry");
@@ -118,7 +118,7 @@ void check_link(const XMLElement& link, const XmlPlace& place, const MeshFolders
   place.refuse_child(link, "geometry", "in a <collision>");
   XMLElement& unused = *to.GetDocument()->NewElement("unused");
   check_inertial(link, place.only_warning("masses play no part in the checks"), unused);
-  const XmlPlace seen = place.only_warning("it is seen in the dashboard, and not checked");
+  const XmlPlace seen = place.only_warning("it is only displayed, not checked");
   for (const auto* child = link.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
     const std::string_view tag = child->Name();

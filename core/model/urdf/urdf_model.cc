@@ -16,7 +16,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Keeps what urdfdom says while it reads; console_bridge has one handler for all threads.
+// Collects messages per thread: console_bridge has one handler for all threads.
 class UrdfdomWords : public console_bridge::OutputHandler {
  public:
   static std::string& said() {
@@ -44,7 +44,7 @@ urdf::ModelInterfaceSharedPtr parse(const XMLElement& robot) {
   }
 }
 
-// Whether everything that was written was read: urdfdom drops collisions that it does not like.
+// Returns false if urdfdom dropped parts, such as collisions that it rejects.
 bool is_complete(const urdf::ModelInterface& model, const XMLElement& robot) {
   for (const auto* link = robot.FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link")) {
@@ -90,7 +90,7 @@ void take_joint(const urdf::Joint& joint, UrdfNotes::Joint notes, TreeJoint& tak
   taken.limits.faults = std::move(notes.faults);
 }
 
-// Through all the mimics that it follows, which do not go in a ring (urdf_check.h).
+// Mimics form no cycle (urdf_check.h).
 TreeJoint::Mimic mimic_of(const urdf::Joint& joint, const urdf::ModelInterface& model,
                           const RobotTree& tree) {
   const urdf::JointMimic& own = *joint.mimic;

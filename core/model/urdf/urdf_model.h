@@ -8,9 +8,9 @@
 
 namespace armloom {
 
-// Has urdfdom read a mended robot (urdf_check.h), and takes its model over: links depth first,
-// children by their joints' names; without text. Nothing, with urdfdom's words in `diagnostics`,
-// when it refuses the robot or any part of it. Threads: any.
+// Parses a mended robot (urdf_check.h) with urdfdom: links depth first, children in the order of
+// their joints' names, without text. Returns nullopt, with urdfdom's message in `diagnostics`, if
+// urdfdom refuses or drops any part. Threads: any.
 [[nodiscard]] std::optional<RobotTree> read_with_urdfdom(const tinyxml2::XMLElement& mended,
                                                          const std::string& file, UrdfNotes notes,
                                                          Diagnostics& diagnostics);

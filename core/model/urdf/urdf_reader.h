@@ -11,20 +11,19 @@
 
 namespace armloom {
 
-// A robot has at most this many links: pairs of links are stored and checked.
+// Bounds the pairs of links that are stored and checked.
 inline constexpr std::size_t kMaxLinksOfRobot = 1000;
 
-// Reads a URDF that was loaded from `path`; places are "panda.urdf: joint panda_joint3". All that
-// is wrong goes to `diagnostics`, and the robot is read as far as it can be, so that what else is
-// wrong with the cell can be told at once: the tree only holds what was meant when nothing was
-// added. Nothing when the text is no XML, or of too many links. Meshes are resolved (see
-// mesh_path.h) and not loaded (build_cell does).
+// Reads a URDF that was loaded from `path`; places are "panda.urdf:12: joint panda_joint3". After
+// faults, the tree holds what could be read, so that the rest of the cell can be checked. Returns
+// nullopt if the text is not XML, has too many links, or is refused by urdfdom. Meshes are resolved
+// (mesh_path.h), not loaded.
 [[nodiscard]] std::optional<RobotTree> read_urdf(std::string text,
                                                  const std::filesystem::path& path,
                                                  const std::map<std::string, std::string>& packages,
                                                  Diagnostics& diagnostics);
 
-// What is known of a robot whose URDF cannot be read: nothing but the file's name.
+// Returns the tree for an unreadable URDF: only the file's name.
 [[nodiscard]] RobotTree unread_robot(const std::filesystem::path& path);
 
 }  // namespace armloom

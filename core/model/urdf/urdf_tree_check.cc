@@ -21,8 +21,9 @@ std::string listed(const std::set<std::string>& names) {
   return text;
 }
 
-// Connects the elements of a mended robot, whose names are unique. A joint whose child is missing,
-// unknown or moved by another one gets a made link; what then is no tree hangs on a made root.
+// Connects the elements of a mended robot, whose names are unique. A joint gets a made link if its
+// child is missing, unknown or already moved by another joint. Other loose parts are attached to a
+// made root.
 class TreeMender {
  public:
   TreeMender(XMLElement& robot, const std::string& file, UrdfNotes& notes, Diagnostics& diagnostics)
@@ -32,7 +33,7 @@ class TreeMender {
     const std::size_t before = diagnostics_.count();
     index_names();
     connect();
-    if (all_children_known_) check_one_root();  // else a root may only be misspelt elsewhere
+    if (all_children_known_) check_one_root();  // else a root may be a misspelled child
     notes_.patched = notes_.patched || diagnostics_.count() != before || !all_children_known_ ||
                      !notes_.loose.empty();
     fix_faulty_mimics();
@@ -75,7 +76,7 @@ class TreeMender {
     const auto found = links_.find(link);
     if (found != links_.end()) return &found->second;
     if (end == "child") all_children_known_ = false;
-    if (!link.empty())  // else told with the element
+    if (!link.empty())  // else reported with the element
       report_joint(joint, "unknown-link",
                    end + " link " + link + " does not exist" + did_you_mean(link, links_), link);
     return nullptr;
@@ -88,11 +89,11 @@ class TreeMender {
           find_end(name, "parent", joint->FirstChildElement("parent")->Attribute("link"));
       Node* child = find_end(name, "child", link);
       if (child != nullptr && child->joint != nullptr) {
-        report_joint(
-            name, "two-parents",
-            "child link " + link + " already hangs on joint " + child->joint->Attribute("name"),
-            link);
-        all_children_known_ = false;  // which link this one was to move
+        report_joint(name, "two-parents",
+                     "child link " + link + " already has the parent joint " +
+                         child->joint->Attribute("name"),
+                     link);
+        all_children_known_ = false;  // the intended child is unknown
         child = nullptr;
       }
       if (child == nullptr) child = &childless_[name];
@@ -124,7 +125,7 @@ class TreeMender {
     if (roots.size() > 1)
       return report("two-roots",
                     "more than one root link: " + listed_with_lines(roots) +
-                        "; hang all but one on a <joint>, as type=\"fixed\"",
+                        "; attach all but one to a <joint>, for example of type=\"fixed\"",
                     listed(roots));
     for (const auto* starts : {&roots, &notes_.loose}) {
       for (const std::string& start : *starts) {
@@ -132,7 +133,7 @@ class TreeMender {
       }
     }
     if (hanging.empty()) return;
-    report("loop", "links hang in a loop and not below a root: " + listed_with_lines(hanging),
+    report("loop", "links form a cycle without a root: " + listed_with_lines(hanging),
            listed(hanging));
   }
 
@@ -143,7 +144,7 @@ class TreeMender {
       const Node* node = open.back();
       open.pop_back();
       for (const Node* child : node->children) {
-        if (names.erase(child->name) != 0) open.push_back(child);  // else seen: a loop
+        if (names.erase(child->name) != 0) open.push_back(child);  // else visited: a loop
       }
     }
   }
@@ -169,11 +170,11 @@ class TreeMender {
       const bool fixed = joint->Attribute("type", "fixed") != nullptr;
       if (!fixed && joint->FirstChildElement("mimic") == nullptr) movable.insert(name);
     }
-    return "; the joints that one can follow: " + (movable.empty() ? "none" : listed(movable));
+    return "; joints that it could follow: " + (movable.empty() ? "none" : listed(movable));
   }
 
   bool is_mimic_right(const std::string& name, const std::string& followed) const {
-    if (followed.empty()) return false;  // told with the element
+    if (followed.empty()) return false;  // reported with the element
     const auto refuse = [&](const std::string& slug, const std::string& sentence) {
       report_joint(name, slug, sentence, followed);
       return false;
@@ -185,14 +186,14 @@ class TreeMender {
     if (followed == name) return refuse("mimic-ring", "the joint mimics itself");
     if (driver->second->Attribute("type", "fixed") != nullptr)
       return refuse("mimic-fixed", "mimic joint " + followed + " is fixed");
-    // Farther on, what is wrong is told with the joint whose mimic it is.
+    // Faults farther along are reported with their joint.
     std::set<std::string> passed{name};
     for (auto next = driver; next != joints_.end() && !next->second->Attribute("type", "fixed");) {
       const auto* mimic = next->second->FirstChildElement("mimic");
       if (mimic == nullptr) return true;
       if (!passed.insert(next->first).second)
         return refuse("mimic-ring",
-                      "mimic joint " + followed + " and those that it follows go in a ring");
+                      "mimic joint " + followed + " and the joints that it follows form a cycle");
       next = joints_.find(mimic->Attribute("joint"));
     }
     return false;
@@ -207,7 +208,7 @@ class TreeMender {
     }
     for (const auto* some : {&links_, &childless_}) {
       for (const auto& [name, node] : *some) {
-        // Roots first: what is left then hangs in loops, or on nothing.
+        // Roots first: the remaining nodes hang in loops or have no parent.
         nodes.insert(node.joint == nullptr ? nodes.begin() : nodes.end(), &node);
         names.insert(node.name);
       }

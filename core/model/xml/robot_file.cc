@@ -8,7 +8,7 @@
 namespace armloom {
 namespace {
 
-// How many bytes the character takes that begins at `at`; zero: it is none of UTF-8 (RFC 3629).
+// Returns the bytes of the UTF-8 character (RFC 3629) at `at`, or 0 if invalid.
 std::size_t utf8_length(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
@@ -28,8 +28,7 @@ std::size_t utf8_length(const std::string& text, std::size_t at) {
   return overlong || beyond ? 0 : length;
 }
 
-// The text goes out again as JSON, which must be UTF-8. A file that names another encoding would
-// be read wrongly by the XML library as well.
+// Texts are also sent as JSON, which must be UTF-8.
 std::optional<Problem> utf8_fault(const std::string& text, const std::string& path) {
   std::size_t line = 1;
   for (std::size_t at = 0; at < text.size();) {

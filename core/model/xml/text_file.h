@@ -10,9 +10,9 @@ namespace armloom {
 
 inline constexpr std::size_t kMaxRobotFileBytes = std::size_t{16} << 20;
 
-// The whole file as text. A Problem, with pointer and the sentence's beginning ("robot left") as
-// given, when it is no regular file (a pipe would block), cannot be read, is longer than
-// kMaxRobotFileBytes or holds a zero byte (at which XML libraries stop reading).
+// Returns the whole file. Fails if it is not a regular file (a pipe would block), is unreadable, is
+// longer than kMaxRobotFileBytes, or contains a zero byte (at which XML libraries stop). `whose`
+// begins the sentence ("robot left").
 [[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& path,
                                                  const std::string& pointer,
                                                  const std::string& whose);

@@ -51,7 +51,7 @@ struct Output {
   bool in_time = false;
 };
 
-// Appends what is there; false at the end of the stream or of what may be read.
+// Returns false at the end of the stream or beyond kMaxRobotFileBytes.
 bool read_some(int from, std::string& text) {
   std::array<char, 4096> buffer;
   const ssize_t count = read(from, buffer.data(), buffer.size());
@@ -80,7 +80,7 @@ Output read_both(const Pipe& out, const Pipe& err, std::chrono::seconds at_most)
   return output;
 }
 
-// Zero, or the error of the start.
+// Returns 0 or the error number.
 int start(const std::string& file, const Pipe& out, const Pipe& err, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -96,8 +96,7 @@ int start(const std::string& file, const Pipe& out, const Pipe& err, pid_t& chil
   return error;
 }
 
-// What a program says on its standard error, in one line. xacro says first what is wrong and then
-// where; of a traceback of Python only the last line is of use.
+// Keeps only the last line of a Python traceback.
 std::string in_one_line(const std::string& text) {
   constexpr std::size_t kMost = 1000;
   std::istringstream lines(text);
@@ -117,17 +116,19 @@ std::string in_one_line(const std::string& text) {
 tl::expected<ExpandedXacro, std::string> expand_xacro(const std::filesystem::path& file,
                                                       std::chrono::seconds at_most) {
   const auto refuse = [](std::string why) { return tl::unexpected(std::move(why)); };
-  // Absolute: a name that begins with - would be an option.
+  // Use an absolute path: a name that begins with - would be an option.
   const std::string path = std::filesystem::absolute(file).string();
   Pipe out;
   Pipe err;
-  if (!out.is_open() || !err.is_open()) return refuse("no pipe is left for it");
+  if (!out.is_open() || !err.is_open()) return refuse("no pipe could be opened");
   pid_t child = 0;
   const int error = start(path, out, err, child);
   if (error == ENOENT) {
     const std::string plain = (file.parent_path() / file.stem()).string();
-    return refuse("the program xacro is not installed; expand it where it is (xacro " + path +
-                  " > " + plain + ") and name that file, or install it (pip install xacro)");
+    return refuse(
+        "the program xacro is not installed; install it (pip install xacro), or expand the "
+        "file elsewhere (xacro " +
+        path + " > " + plain + ") and use the result");
   }
   if (error != 0) return refuse(std::string("xacro cannot be started: ") + std::strerror(error));
   out.close_write_end();
@@ -144,7 +145,7 @@ tl::expected<ExpandedXacro, std::string> expand_xacro(const std::filesystem::pat
     return refuse("xacro took more than " + std::to_string(at_most.count()) + " s");
   std::string said = in_one_line(output.err);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    return refuse(said.empty() ? "xacro fails and says nothing" : "xacro says: " + said);
+    return refuse(said.empty() ? "xacro failed without a message" : "xacro says: " + said);
   return ExpandedXacro{std::move(output.out), std::move(said)};
 }
 

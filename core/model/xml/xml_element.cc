@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-// The first <!...> that is no comment: DOCTYPE, ENTITY and the like.
+// Returns the first DOCTYPE, ENTITY or similar.
 const tinyxml2::XMLUnknown* find_declaration(const tinyxml2::XMLNode& node) {
   for (const auto* child = node.FirstChild(); child != nullptr; child = child->NextSibling()) {
     if (const auto* unknown = child->ToUnknown()) return unknown;
@@ -20,7 +20,7 @@ const tinyxml2::XMLUnknown* find_declaration(const tinyxml2::XMLNode& node) {
   return nullptr;
 }
 
-// An element that a xacro macro stands behind, anywhere in the file.
+// Returns the first element of the xacro namespace, at any depth.
 const tinyxml2::XMLElement* find_xacro(const tinyxml2::XMLElement& element) {
   for (const auto* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
@@ -38,13 +38,13 @@ std::string why_malformed(const tinyxml2::XMLDocument& document, const std::stri
   const auto what = [&]() -> std::string {
     switch (document.ErrorID()) {
       case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-        return "the element that begins here is not closed by its own name";
+        return "the element that begins here has no matching closing tag";
       case tinyxml2::XML_ERROR_PARSING_ELEMENT:
-        return "no tag can be read here";
+        return "this is not a readable tag";
       case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
         return "an attribute is not name=\"value\"";
       case tinyxml2::XML_ERROR_PARSING_TEXT:
-        return "there is text outside of the elements, or one is not closed";
+        return "there is text outside of the elements, or an element is not closed";
       case tinyxml2::XML_ERROR_PARSING_COMMENT:
         return "a comment is not closed by -->";
       case tinyxml2::XML_ERROR_PARSING:
@@ -85,8 +85,8 @@ tinyxml2::XMLElement* parse_robot_xml(const std::string& text, const std::string
   }
   if (const auto* xacro = find_xacro(*root)) {
     return refuse(xacro->GetLineNum(),
-                  "the file is xacro: name it ....xacro, or expand it by hand (xacro IN > OUT) and "
-                  "name that");
+                  "the file is xacro: give it a name that ends in .xacro, or expand it "
+                  "(xacro IN > OUT) and use the result");
   }
   return root;
 }
@@ -186,7 +186,7 @@ const tinyxml2::XMLElement* XmlPlace::only_child(const tinyxml2::XMLElement& ele
       at(element).report("missing", std::string("<") + child + "> is missing");
   } else if (const auto* second = first->NextSiblingElement(child)) {
     at(*second).report("duplicate",
-                       std::string("more than one <") + child + ">, of which the first counts");
+                       std::string("more than one <") + child + ">; only the first is used");
   }
   return first;
 }
@@ -196,8 +196,7 @@ void XmlPlace::refuse_child(const tinyxml2::XMLElement& element, const char* chi
   const auto* misplaced = element.FirstChildElement(child);
   if (misplaced == nullptr) return;
   const std::string tag = std::string("<") + child + ">";
-  at(*misplaced)
-      .report("misplaced", tag + " would be left out here: it has to stand " + where, tag);
+  at(*misplaced).report("misplaced", tag + " would be left out here: it must be " + where, tag);
 }
 
 void XmlPlace::tell_unknown(const std::string& name, const std::string& before,

@@ -18,9 +18,9 @@ namespace armloom {
 
 enum class Presence { required, optional };
 
-// Reads XML into `document`. DOCTYPE and entity declarations are refused, and so is nesting deeper
-// than tinyxml2's bound (100), a second root element and unexpanded xacro. Returns the <robot>
-// element, or null after adding what is wrong to `diagnostics` (place: "panda.urdf:12", the line).
+// Parses XML into `document`. Refuses DOCTYPE and entity declarations, deep nesting (100), a second
+// root element and unexpanded xacro. Returns the <robot> element, or nullptr with the fault and its
+// line in `diagnostics`.
 [[nodiscard]] tinyxml2::XMLElement* parse_robot_xml(const std::string& text,
                                                     const std::string& file,
                                                     tinyxml2::XMLDocument& document,
@@ -28,22 +28,20 @@ enum class Presence { required, optional };
 
 [[nodiscard]] std::size_t count_children(const tinyxml2::XMLElement& element, const char* child);
 
-// Reads one element of a robot file and reports what is wrong with it, under the place that it was
-// made with: "panda.urdf:12: joint panda_joint3". Of an element below, and its attributes, the line
-// is that element's own. The sentence is place + ": " + what is wrong.
+// Reads one element of a robot file and reports faults at its place, "panda.urdf:12: joint
+// panda_joint3". Faults of child elements have the child's line.
 class XmlPlace {
  public:
-  // `line` 0: what is wrong stands in no line. `whose` may be empty.
+  // `line` 0: without line. `whose` may be empty.
   XmlPlace(std::string file, int line, std::string whose, Diagnostics& diagnostics)
       : file_(std::move(file)), line_(line), whose_(std::move(whose)), diagnostics_(&diagnostics) {}
 
-  // The same at the line of another element; of a part of it ("joint j1"); told to another list.
+  // Return this place with another element's line, for a part ("joint j1"), or for another list.
   [[nodiscard]] XmlPlace at(const tinyxml2::XMLElement& element) const;
   [[nodiscard]] XmlPlace of(const std::string& part) const;
   [[nodiscard]] XmlPlace telling(Diagnostics& diagnostics) const;
 
-  // The same place for what the cell does not use: all that is wrong there is only a warning, which
-  // ends with this consequence.
+  // Returns this place for unused parts: faults become warnings with this consequence.
   [[nodiscard]] XmlPlace only_warning(std::string consequence) const;
 
   [[nodiscard]] std::string text() const;
@@ -52,31 +50,29 @@ class XmlPlace {
   void warn(std::string slug, const std::string& sentence,
             decltype(Problem::value) value = {}) const;
 
-  // One finite number; nothing (and reported, unless absent and optional) otherwise.
+  // Returns one finite number, or nullopt with a report unless optional and missing.
   std::optional<double> number(const tinyxml2::XMLElement& element, const char* attribute,
                                Presence presence) const;
-  // Exactly `size` finite numbers.
+  // Returns exactly `size` finite numbers, like number().
   std::optional<std::vector<double>> numbers(const tinyxml2::XMLElement& element,
                                              const char* attribute, std::size_t size,
                                              Presence presence) const;
-  // A non-empty attribute; empty (and reported) otherwise.
+  // Returns a non-empty attribute, or "" with a report.
   std::string name(const tinyxml2::XMLElement& element, const char* attribute) const;
-  // The only child of that name. Libraries take the first of several and forget the others: a
-  // second one is reported.
+  // Reports a second child of that name, which libraries would ignore.
   const tinyxml2::XMLElement* only_child(const tinyxml2::XMLElement& element, const char* child,
                                          Presence presence) const;
-  // Reports a child that would count elsewhere only ("in a <link>"), and here be left out.
+  // Reports a child that is ignored here. `where` is its proper place ("in a <link>").
   void refuse_child(const tinyxml2::XMLElement& element, const char* child,
                     const char* where) const;
   // Names of elements or attributes.
   using Names = std::initializer_list<std::string_view>;
 
-  // Tells of children of other names. One that most likely is a misspelt name of `used`, which the
-  // model is made of, is reported: <colision> would leave its link without a shape. Others may
-  // stand there without a word (`unused`), or are warned of; those of another namespace
-  // (drake:..., mujoco:...) are extensions.
+  // Checks the names of the children. A probable misspelling of a name in `used` is a problem,
+  // because <colision> would leave its link without a shape. Names in `unused` are accepted, and so
+  // are other namespaces (drake:..., mujoco:...). Other names are warnings.
   void only_children(const tinyxml2::XMLElement& element, Names used, Names unused) const;
-  // The same of attributes: <origin xzy="..."> would be no shift.
+  // Checks the names of attributes likewise: <origin xzy="..."> would be ignored.
   void only_attributes(const tinyxml2::XMLElement& element, Names used) const;
 
  private:
@@ -87,7 +83,7 @@ class XmlPlace {
   int line_;
   std::string whose_;
   Diagnostics* diagnostics_;
-  std::optional<std::string> consequence_;  // given: of a place that only warns
+  std::optional<std::string> consequence_;  // set if faults are only warnings
 };
 
 }  // namespace armloom

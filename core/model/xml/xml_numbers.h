@@ -6,14 +6,14 @@
 
 namespace armloom {
 
-// Numbers in XML attributes, read strictly. The XML libraries underneath read "nan", "1e999",
-// "0x10" and "1.5 metres" as some number or other; a robot must not move by a guess.
+// Parse strictly. XML libraries accept "nan", "1e999", "0x10" and "1.5 metres", but a robot must
+// not move by a guess.
 
-// The whole token as a finite decimal number; a leading + is allowed. Empty, hexadecimal, nan, inf,
-// overflow and trailing text give nothing.
+// Returns a finite decimal number, with an optional leading +. Returns nullopt for empty,
+// hexadecimal, nan, inf, overflow or trailing text.
 [[nodiscard]] std::optional<double> parse_number(std::string_view token);
 
-// Finite numbers separated by white space; nothing when one of them is not a number.
+// Returns numbers separated by white space, or nullopt if any is invalid.
 [[nodiscard]] std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
 }  // namespace armloom

@@ -9,23 +9,23 @@
 
 namespace armloom {
 
-// Which of several options has a turn: each is given it for a while and asked about, as if there
-// were no other; the one with which the plan costs least keeps it. Another one than the first has
-// to be better by more than kWorthwhile. The cost: when the last arm has done its work, what waits
-// included, and OrderSearch::weight_of_sum times the sum of when each has; of a goal when it
-// arrives.
+// Chooses among options for a turn: each gets the turn temporarily and is checked as if there were
+// no other; the cheapest keeps it. An option other than the first must be better by more than
+// kWorthwhile. Cost: for a goal its arrival; otherwise the time when the last arm has done all its
+// work plus OrderSearch::weight_of_sum times the sum over all arms.
 class Choosing {
  public:
   inline static constexpr Duration kWorthwhile = std::chrono::milliseconds(50);
 
-  // Whether there is more than one; then job() has the turn, and is to be asked about.
+  // Returns false if there is only one option; otherwise job() must be checked.
   [[nodiscard]] bool begin(State& state, JobId turn);
   [[nodiscard]] JobId job() const { return options_[at_].job; }
-  // Else it is to be begun anew: one that could have had it has ended.
+  // False if a candidate no longer waits; then call begin() again.
   [[nodiscard]] bool stands(const State& state) const { return stand(state, options_); }
-  // The answer about that one. Whether another one is to be asked about: that has the turn now.
+  // Takes the verdict for job(). Returns true if job(), now another candidate, must be checked.
   [[nodiscard]] bool rate(State& state, Verdict verdict);
-  // All are rated: the best one has the turn. Its answer; nothing: it waits behind others.
+  // After all ratings: gives the turn to the best option and returns its verdict; nullopt if it
+  // waits behind other jobs.
   [[nodiscard]] std::optional<Verdict> decide(State& state);
 
  private:
@@ -36,12 +36,12 @@ class Choosing {
   void note_only_arm(State& state) const;
 
   struct Rating {
-    std::optional<double> cost;      // s; nothing: it cannot go
-    std::optional<Verdict> verdict;  // of one that goes now
+    std::optional<double> cost;      // s; nullopt if it cannot go
+    std::optional<Verdict> verdict;  // if it can go now
   };
   std::vector<Option> options_;
-  std::vector<Rating> rated_;  // the first ones
-  std::size_t at_ = 0;         // has the turn
+  std::vector<Rating> rated_;
+  std::size_t at_ = 0;
 };
 
 }  // namespace armloom

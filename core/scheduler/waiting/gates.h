@@ -10,22 +10,21 @@
 
 namespace armloom {
 
-// The reasons for which a job waits, in the order in which they are looked at. Selection, what
-// clients are told, aging and the waits-for graph read this one list (gates.cc): a new reason to
-// wait is one entry of it.
+// The blocking conditions, in the order of checks. Selection, published waits, aging and the
+// waits-for graph all read the list in gates.cc: a new condition is one entry of it.
 enum class GateKind {
-  behind,     // another job of its arm comes before it
-  open_arm,   // one that any of several arms may do could leave it where this begins
-  after,      // a job that it comes after has not ended
-  plan,       // its way, or that to its start, is not planned yet, or another one is looked for
-  lets_pass,  // an arm that is aside lets another one pass
-  stop,       // an arm of it is stopped
+  behind,     // another job of its arm precedes it
+  open_arm,   // a job with an undecided arm could bring this job's arm to its start
+  after,      // a job in `after` has not ended
+  plan,       // its path, its move-to-start or another path is being planned or checked
+  lets_pass,  // an arm that has retreated lets another job pass
+  stop,       // one of its arms is stopped
   place,      // the policy has no place for it
-  conflict,   // judged, and not let go, as things stand
-  aging,      // an older one comes first
+  conflict,   // checked and not admitted
+  aging,      // an aged job goes first
 };
 
-// What a job waits for: one thing, or what was found when it was judged, which stays where it is.
+// A wait of its own, or a view of the waits found by the last check.
 class FoundWaits {
  public:
   FoundWaits() = default;
@@ -41,22 +40,23 @@ class FoundWaits {
 
 struct ClosedGate {
   GateKind kind;
-  FoundWaits waits;  // never empty, but of a conflict that named nothing
+  FoundWaits waits;  // never empty, except for a conflict without evidence
 };
-// The first that is closed for this job; nothing: it may be judged.
+// Returns the first blocking condition of the job; nullopt if it may be checked.
 [[nodiscard]] std::optional<ClosedGate> closed_gate(const Turns& turns, const Record& record);
 
-// Who cannot move before whom, of all that stands.
+// Returns the waits-for graph of all jobs and arms at rest.
 [[nodiscard]] WaitsFor waits_for(const State& state);
-// The part of that graph which these jobs wait for, directly or through others. Costs what it
-// reaches, not what waits.
+// The same for these jobs and all that they wait for; costs only that part.
 [[nodiscard]] WaitsFor waits_for(const State& state, std::vector<JobId> jobs);
 
-// What was found when it was judged last, if that still counts; of what is admitted, what holds it.
+// Returns the waits of the last check, if it still applies; for an admitted job, what holds it
+// back.
 [[nodiscard]] FoundWaits found_in_the_way(const State& state, const Record& record);
 // Returns true if the job was found in conflict with what only `first` will move.
 [[nodiscard]] bool is_found_in_the_way(const State& state, const Record& record, JobId first);
-// The job that has to move before what is waited for changes; nothing: it moves, or never will.
+// Returns the job that must move before the wait can change; nullopt if it is moving, or never
+// will.
 [[nodiscard]] std::optional<JobId> has_to_move_first(const State& state, const Wait& wait);
 
 }  // namespace armloom

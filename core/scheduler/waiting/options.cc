@@ -165,7 +165,7 @@ bool take_arms_that_remain(State& state, const std::vector<JobId>& go) {
   for (JobId id : first_undecided(state)) {
     Record& record = state.jobs.at(id);
     if (!is_shut(state, record)) continue;
-    any |= takes_arm_that_remains(state, record, "others come to rest in its way");
+    any |= takes_arm_that_remains(state, record, "other arms come to rest in its path");
   }
   if (any) ++state.version;
   return any;
@@ -181,7 +181,7 @@ bool leaves_by_other_arm(State& state, const WaitCycle& ring) {
     Record& record = state.jobs.at(id);
     auto* queued = std::get_if<Queued>(&record.job.phase);
     if (queued == nullptr || record.job.alternatives.empty()) continue;
-    if (!takes_arm_that_remains(state, record, "it would wait there for ever")) continue;
+    if (!takes_arm_that_remains(state, record, "it would wait forever")) continue;
     queued->judgement = {};
     ++state.version;
     return true;

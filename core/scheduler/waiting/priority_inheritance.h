@@ -12,10 +12,9 @@ struct Urgency {
   int priority;
 };
 
-// Priorities without inversion: a job that others wait for, directly or through others, is as
-// urgent as the most urgent of them. Every job of `jobs` with the larger of its own priority and
-// that of any that waits for it in `graph`; jobs of the graph that are not in `jobs` only pass on.
-// n log n.
+// Returns effective priorities without inversion (priority inheritance): each job of `jobs` gets
+// the largest priority of itself and of all jobs that wait for it in `graph`, directly or through
+// others. Jobs of the graph that are not in `jobs` only pass priorities on. O(n log n).
 [[nodiscard]] std::map<JobId, int> effective_priorities(const WaitsFor& graph,
                                                         std::vector<Urgency> jobs);
 

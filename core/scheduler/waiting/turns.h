@@ -10,26 +10,25 @@
 
 namespace armloom {
 
-// Whose turn it is among the jobs that wait, as things stand: held jobs first, then the larger
-// priority, where a job that others wait for is as urgent as the most urgent of them, then the
-// earlier. A job that has waited for scheduling.aging since it was first in conflict, or first
-// without a place, holds back every other one but those that have to go before it, unless what it
-// waits for is an arm that no job moves, an object or a stop (README.md: how long can a job be
-// overtaken). Refers to the state.
+// Decides whose turn it is: paused jobs first, then the larger effective priority
+// (priority_inheritance.h), then the earlier job. An aged job, which has waited for
+// scheduling.aging since it was first in conflict or without a place, holds back all other jobs
+// except those that must precede it, unless it waits for an arm that no job moves, an object or a
+// stop (README.md, Aging). Refers to the state.
 class Turns {
  public:
   explicit Turns(const State& state);
 
   [[nodiscard]] const State& state() const { return state_; }
-  // The next that is to be judged: every gate is open for it.
+  // Returns the next job to be checked: no blocking condition applies to it.
   [[nodiscard]] std::optional<JobId> next() const;
-  // The aged job that comes first.
+  // Returns the first aged job that holds this job back, or nullopt.
   [[nodiscard]] std::optional<JobId> held_back_by(const Record& record) const;
-  // Nobody looks for its first closed gate again.
+  // Caches whether the job is blocked.
   void has_found(JobId job, bool is_closed) { found_.emplace_back(job, is_closed); }
 
  private:
-  // A job that has waited for longer than scheduling.aging, and all that have to go before it.
+  // An aged job, and all jobs that must precede it.
   struct Aged {
     JobId job;
     std::vector<JobId> goes_first;  // ascending
@@ -39,15 +38,15 @@ class Turns {
   [[nodiscard]] bool is_closed(const Record& record) const;
 
   const State& state_;
-  std::vector<Aged> aged_;  // that hold others back
+  std::vector<Aged> aged_;  // those that hold others back
   std::vector<std::pair<JobId, bool>> found_;
 };
 
-// Somebody at the head of an arm has waited for longer than scheduling.aging.
+// Returns true if the first job of an arm is aged.
 [[nodiscard]] bool any_is_aged(const State& state);
 
-// Tells each job what it waits for: the first gate that is closed for it. Answers the turns as they
-// are, which count until something changes.
+// Sets each job's waits to its first blocking condition. Returns the turns, valid until something
+// changes.
 Turns explain_waits(State& state);
 
 }  // namespace armloom

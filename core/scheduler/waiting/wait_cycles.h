@@ -10,39 +10,38 @@
 
 namespace armloom {
 
-// What becomes of a ring is a matter of a step of its own, so long after it was told.
+// Delay between the publication of a deadlock cycle and its resolution, which is a separate step.
 inline constexpr Duration kAfterRingWasTold(1);
 
-// Jobs that wait for each other in a ring can never move: each is told its ring in the step that
-// finds it. Then, in a later step, the first of these that is possible:
-//   - a job that is brought to its start goes before one with an open arm that waits for it
-//   - a job goes by another arm or another way, or an arm goes aside and comes back
-//   - the job that was submitted last fails, of those whose arms have lost none since they moved
-//   - nothing, if a job of the ring expires in time
-//   - the job that was submitted last fails
-// So a blockage costs each arm one job, and those behind it are kept (ways/approach.h).
+// Publishes and resolves deadlock cycles. Each job in a cycle reports it in the step that finds it.
+// In a later step, the first possible remedy is taken:
+// - a job that is moved to its start precedes a job with an undecided arm that it waits for
+// - a job takes another arm or another path, or an arm retreats and returns
+// - the job that was submitted last fails, among jobs whose arms have lost none since they moved
+// - none, if a job of the cycle expires in time
+// - the job that was submitted last fails
+// So a deadlock costs each arm at most one job, and the jobs behind it are kept (ways/approach.h).
 class WaitCycles {
  public:
-  // Every job of a ring is told of it now; what becomes of the ring is decided in a later step, so
-  // that it is seen by clients whatever that is.
+  // Publishes new cycles in their jobs. They are resolved in a later step so that clients see them.
   void name(State& state);
-  // Of those that were named before: what has become of them, or is to.
+  // Resolves the cycles published in earlier steps.
   void settle(State& state);
   [[nodiscard]] bool is_one_to_settle() const;
 
-  // The first way in which an arm of one of them could go aside.
+  // Returns the first possible retreat of an arm in one of the cycles.
   [[nodiscard]] std::optional<YieldTrial> next_yield(const State& state) const;
-  // An arm goes aside before this job of its own.
+  // An arm retreats before this job of its queue: drops the cycles that contain the job.
   void has_opened(State& state, JobId before);
 
  private:
   struct Named {
     WaitCycle ring;
-    Version epoch;               // State::scene_epoch when it was found
-    std::vector<JobId> in_turn;  // wait for the next one, though that was not found in their way
-    bool way_out = false;        // an arm of it may go aside, or one of it expires
+    Version epoch;               // State::scene_epoch when found
+    std::vector<JobId> in_turn;  // wait for the next job, but not because of a conflict
+    bool way_out = false;        // a retreat or replan is being tried, or a job expires
   };
-  // An arm whose job has failed for a ring, until it has moved or the scene is another one.
+  // An arm whose job failed for a cycle, until the arm has moved or the scene has changed.
   struct Lost {
     TrajectoryPtr came_by;
     Version epoch;
@@ -52,7 +51,7 @@ class WaitCycles {
   [[nodiscard]] std::optional<JobId> gives_way(const State& state, const WaitCycle& ring) const;
   bool resolve(State& state, const WaitCycle& ring);
 
-  std::vector<Named> named_;  // told in an earlier step
+  std::vector<Named> named_;  // published in an earlier step
   std::map<ArmId, Lost> lost_;
 };
 

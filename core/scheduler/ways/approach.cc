@@ -115,7 +115,7 @@ void fail_impossible_starts(State& state) {
     unchanged = 0;
     if (begins_on_other_arm(state, head) || goes_to_start(state, head)) continue;
     if (head.approaches.refusal) {
-      *mismatch += "; no way to where it begins: " + *head.approaches.refusal;
+      *mismatch += "; no path to its start: " + *head.approaches.refusal;
     }
     if (head.approaches.after_deadlock) keep_those_behind(state, head);
     end(state, head, JobState::failed, Reason::start_mismatch, std::move(*mismatch));

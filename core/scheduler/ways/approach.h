@@ -7,26 +7,25 @@
 
 namespace armloom {
 
-// Arms that stand elsewhere than where the next job of theirs begins, and that this job wants to be
-// brought there (MoveToStart::plan): by jobs of the scheduler's own that say where to go
-// (goals.h), slowly, each in front of that job. Where one comes to an end elsewhere (it was
-// stopped, has failed), another one follows, so many in all. Nothing moves for a job that would hit
-// itself on its way: whether it does is asked first (Admission).
+// Moves arms to the start of their next job, if its client wants that (MoveToStart::plan): by the
+// scheduler's own slow jobs with a goal (goals.h), each in front of that job. If one ends elsewhere
+// (stopped, failed), another one follows, up to kApproachesMax. Before anything moves, the job is
+// checked for self-collisions (Admission).
 inline constexpr int kApproachesMax = 3;
-// Share of the joints' speeds; the cell's where that is less.
+// Share of the joints' speeds; the cell's share if that is less.
 inline constexpr double kApproachSpeed = 0.25;
 
-// A job at the head of its arms that cannot begin where they stand, and where they are not brought,
-// will never be able to: ends those that wait there.
+// Ends waiting jobs at the front of their queues that cannot begin where their arms rest, unless
+// the arms are moved there.
 void fail_impossible_starts(State& state);
-// This job fails with Reason::deadlock, or for such a one: the next jobs of its arms do not fail
-// for that, but are brought to where they begin as with MoveToStart::plan.
+// The job fails with Reason::deadlock, or because of such a job: the next jobs of its arms are
+// moved to their start, as with MoveToStart::plan, instead of failing.
 void keep_those_behind(State& state, const Record& record);
-// The first of its arms of which that is to be asked.
+// Returns the first job at the front of its queues whose feasibility is to be checked, or nullopt.
 [[nodiscard]] std::optional<JobId> next_in_question(const State& state);
-// Those that have not ended.
+// Returns the job's moves-to-start that have not ended.
 [[nodiscard]] std::vector<JobId> approaches_of(const State& state, const Record& record);
-// Returns the job whose arms this one brings to their start; nullopt if it is no approach.
+// Returns the job that this move-to-start is for; nullopt if it is not a move-to-start.
 [[nodiscard]] std::optional<JobId> approached_job(const State& state, JobId approach);
 
 }  // namespace armloom

@@ -147,7 +147,7 @@ Answered answer_of(State& state, Record& record, GoalWay& way) {
   }
   way.is_planned = false;
   way.refusal = "planned " + std::to_string(kPlansMax) +
-                " times, and each time the arm or the scene was another one by then";
+                " times, and each plan was out of date: the arm had moved or the scene had changed";
   return Answered::refused;
 }
 

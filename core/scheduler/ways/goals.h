@@ -6,28 +6,27 @@
 
 namespace armloom {
 
-// Jobs that say where an arm is to go (Submit::goals). Each waits at a gate of its own until its
-// trajectory is planned from where the arm will be at the end of what is before it, beside all else
-// where the jobs before it leave that; then it is a job like any other. Until then its trajectory
-// is an estimate. One that leaves the arm open has its way planned for each; which of these it goes
-// is chosen at its turn (waiting/choosing.h): the one by which it arrives first. Until then the
-// jobs behind it are planned as if it went by another arm.
+// Jobs with goals (Submit::goals). Each has the blocking condition `plan` until its trajectory is
+// planned from where its arm will be after the jobs before it, with all other arms where those jobs
+// leave them; then it is a job like any other. Until then its trajectory is an estimate. If the arm
+// is undecided, a path is planned for each candidate; the one that arrives first is chosen at its
+// turn (waiting/choosing.h). Until then the jobs behind it are planned as if it took another arm.
 
-// One whose arm stands too close to an object has no plan until that has gone, and waits for it at
-// its turn as a trajectory does: in the backlog, until its timeout.
+// A job whose arm is too close to an object has no plan until the object is gone. At its turn it
+// waits for the object in the backlog, until its timeout.
 
-// Asks for what has no plan (PlanMotion), or one that no longer fits: the arm will be elsewhere, or
-// the scene is another one. A job is given kPlansMax tries in a row, then it fails. Whether one
-// did: then others may begin elsewhere.
+// Requests a plan (PlanMotion) for each goal job that has none, or whose plan is stale because its
+// start or the scene changed. A job fails after kPlansMax consecutive stale plans. Returns true if
+// a job failed, since that changes where later jobs start.
 [[nodiscard]] bool plan_goals(State& state);
 inline constexpr int kPlansMax = 5;
-// Of each arm's jobs the first ones are planned.
+// Number of jobs per arm that are considered.
 inline constexpr std::size_t kPlannedAhead = 16;
 
-// It is to be planned anew, though what was planned would do.
+// Discards a valid plan, so that the job is planned again.
 void forget_plan(State& state, Record& record);
 
-// An answer. One that no longer fits is left to plan_goals().
+// Takes a planner's answer. A stale plan is left to plan_goals().
 void take_plan(State& state, const PlanMade& answer);
 
 }  // namespace armloom

@@ -5,13 +5,13 @@
 
 namespace armloom {
 
-// Where none of the straight ways aside is free (yield_moves.cc) and the cell wants ways to be
-// planned (on_idle_blocker "replan"): one to wherever the arm stands clear of the blocked job's
-// motion. It is planned once from where the arm came to rest, and is then a trial like any other.
+// Planned retreats, if none of the straight ones is free (yield_moves.cc) and the cell wants
+// planned paths (on_idle_blocker "replan"): to any position that clears the blocked job's path.
+// Planned once from where the arm came to rest; then tried like any other retreat.
 
-// Asks for it (PlanMotion), unless that is open. Precondition: the trial has no way.
+// Requests the plan (PlanMotion) unless it is open. Precondition: the trial has no path.
 void ask_for_way_aside(State& state, const YieldTrial& move);
-// The answer to that, if it is one.
+// Takes the answer to a PlanMotion if it is for a retreat.
 void take_way_aside(State& state, const PlanMade& answer);
 
 }  // namespace armloom

@@ -88,18 +88,18 @@ void expire(State& state, Record& record, const std::string& why) {
   give_up(state, record,
           {AfterStop::Then::fail, Reason::backlog_timeout,
            "waited " + seconds_text(*record.job.terms.backlog_timeout) + where +
-               "; no other way: " + why});
+               "; no other path: " + why});
 }
 
 }  // namespace
 
 std::optional<std::string> why_not_replanned(const Job& job) {
-  if (job.trajectory->arms().size() > 1) return "it moves several arms as one";
+  if (job.trajectory->arms().size() > 1) return "it moves several arms together";
   if (job.goal) return std::nullopt;
-  if (!job.alternatives.empty()) return "it is one of several ways to do the same work";
+  if (!job.alternatives.empty()) return "it has several alternatives";
   const bool is_loop = job.trajectory->start().isApprox(job.trajectory->goal());
   if (!is_loop) return std::nullopt;
-  return "it ends where it begins: what it is to do lies on its way, which would be lost";
+  return "it ends where it begins, so a new path would drop all of its motion";
 }
 
 void ask_for_another_way(State& state, Record& record, AnotherWay::Cause cause) {
@@ -158,7 +158,7 @@ bool take_other_way(State& state, const PlanMade& answer) {
     return true;
   }
   other.refusal =
-      is_fit ? answer.why : "by the time there was one, the arm or the scene was another";
+      is_fit ? answer.why : "plan was out of date: the arm had moved or the scene had changed";
   if (other.cause == AnotherWay::Cause::timeout) expire(state, *record, *other.refusal);
   return false;
 }

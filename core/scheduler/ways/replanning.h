@@ -7,33 +7,32 @@
 
 namespace armloom {
 
-// Another way for a job that waits, or stands on its way: from where its arm stands to where its
-// own way ends, beside all other arms where they rest, or will when what is admitted has run. One
-// on its path is brought to rest first. Until the answer is there it stays where it is (gate
-// `plan`); where there is no other way it keeps its own, and nothing else has changed. With another
-// way it waits like one that has just come, under its id.
+// Replans a job that waits or rests on its path: from its arm's position to its present end, around
+// all other arms at their rests after all admitted motions. A moving job is first braked. Until the
+// plan arrives the job stays at rest (blocking condition `plan`). If there is no other path it
+// keeps its own, and nothing else changes. With another path it waits like a new job, under its id.
 
-// Such ways that are asked for without a client, for one job; each beside other surroundings.
+// Replans of one job without a client's request; each for different surroundings.
 inline constexpr int kReplansMax = 3;
 
-// Why a job can be given no other way, as one sentence; nothing: it can.
+// Returns one sentence why the job cannot be replanned; nullopt if it can.
 [[nodiscard]] std::optional<std::string> why_not_replanned(const Job& job);
 
-// Precondition: nothing of why_not_replanned(). No-op while one is asked for already, or the way to
-// its goal is being planned anyway.
+// Requests a replan. No effect if one is open or the path to its goal is being planned.
+// Precondition: why_not_replanned() returns nullopt.
 void ask_for_another_way(State& state, Record& record, AnotherWay::Cause cause);
-// Asks for those whose arms have come to rest meanwhile (PlanMotion).
+// Requests plans for jobs that have come to rest meanwhile (PlanMotion).
 void plan_other_ways(State& state);
-// The answer to that, if it is one. Whether the job has another way now.
+// Takes the answer to a PlanMotion if it is for a replan. Returns true if the job got another path.
 [[nodiscard]] bool take_other_way(State& state, const PlanMade& answer);
 
-// The cell wants it (on_idle_blocker "replan"), and where things stand it has not been tried.
+// Returns true if the cell wants replans (on_idle_blocker "replan") and the job was not yet
+// replanned in the present situation.
 [[nodiscard]] bool may_go_around(const State& state, const Record& record);
-// For the first job that waits for an arm which no job will move, and may go around it. Whether
-// there is one.
+// Replans the first job that waits for an arm that no job will move. Returns true if there is one.
 [[nodiscard]] bool goes_around_idle_arm(State& state);
-// Its time in the backlog, or on its path for what no job moves, is over: whether it tries another
-// way instead (OnTimeout::replan).
+// The job's backlog timeout is over, in the backlog or on its path. Returns true if it is replanned
+// instead of expiring (OnTimeout::replan).
 [[nodiscard]] bool goes_on_after_timeout(State& state, Record& record);
 
 }  // namespace armloom

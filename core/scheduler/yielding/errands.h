@@ -4,9 +4,9 @@
 
 namespace armloom {
 
-// Moves of the scheduler's own that still wait when the client's job that they were to help has
-// ended: they help the next one of their arm that counts on them, so that others make way for them
-// on its behalf; where that one does not, they end, so that nobody waits for them.
+// Handles waiting retreats, returns and moves-to-start whose client job has ended: each is passed
+// on to the next client job of its arm that relies on it, so that it keeps priority and retreats of
+// others; otherwise it ends, so that no job waits for it.
 void pass_errands_on(State& state);
 
 }  // namespace armloom

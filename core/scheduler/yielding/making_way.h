@@ -4,8 +4,8 @@
 
 namespace armloom {
 
-// Jobs of the scheduler's own take the arm out of the way, and, where it has a job that begins
-// where it stands, back before that; one that is a goal lets the other pass first.
+// Adds the retreat as a job, and a return if the arm has a job that begins at its present rest. A
+// job with a goal instead lets the blocked job pass first.
 void send_aside(State& state, const YieldTrial& move);
 
 }  // namespace armloom

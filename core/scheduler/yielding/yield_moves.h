@@ -8,36 +8,34 @@
 
 namespace armloom {
 
-// Arms that rest in the way go aside (scheduling.on_idle_blocker "park"): without a job, or in a
-// ring. Each way is asked about first: whether it is free, and whether the job would then pass.
+// Retreats of arms without a job, or in a deadlock cycle (scheduling.on_idle_blocker). Each
+// candidate is checked first: is its path free, and would the blocked job then pass?
 struct YieldTrial {
   JobId blocked_job;
   ArmId arm;
-  TrajectoryPtr way;                 // null: it has to be planned first (ways/planned_aside.h)
-  std::optional<JobId> before = {};  // YieldMove::before
-  bool is_free = false;              // the way; else that is the question
-  std::size_t index = 0;             // of the ways from where the arm rests
+  TrajectoryPtr way;                 // null if to be planned (planned_aside.h)
+  std::optional<JobId> before = {};  // the arm's job that it precedes
+  bool is_free = false;              // `way` is known to be free
+  std::size_t index = 0;             // into the candidates from the arm's present rest
 };
 
-// For the first job that waits for an arm which no job will move. Those before it for which nothing
-// is left to be tried are told so.
+// Returns the first untried retreat for a job that waits for an idle arm. Marks waits without
+// candidates.
 [[nodiscard]] std::optional<YieldTrial> next_yield(State& state);
-// Of an arm of the ring. Each job of a ring waits for the next one, mostly for the arm that only
-// that will move: could it move before its job? The one whose job would have to give way otherwise
-// is tried first. Not where a move aside is in the ring that can give way itself.
+// Returns a retreat of an arm in the cycle that could move before its job, or nullopt. Tries the
+// arm first whose job would otherwise fail. None if the cycle contains a dispensable retreat.
 [[nodiscard]] std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring);
 
-// First whether the way itself will be free, then whether the job would find the arm gone.
+// Asks whether the path is free or, if known, whether the job would pass.
 [[nodiscard]] Question question_about(const State& state, const YieldTrial& move);
-// The job still waits; the arm has got none meanwhile, nor lost the one that it is to go before.
+// Returns true if the job is active and the arm still has no job, or the same first job.
 [[nodiscard]] bool is_as_asked(const State& state, const YieldTrial& move);
-// Whether nothing that stays keeps the arm from its way, or, where that is free, the job from its
-// own: an object, the moving arm itself, an arm of the ring; or the arm that has gone aside.
+// Returns true if nothing that stays blocks the retreat (an object, the arm itself, an arm of the
+// cycle) or, if `is_free`, the job.
 [[nodiscard]] bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& move);
-// It has been asked about to the end; it goes, or not.
 void note_tried(State& state, const YieldTrial& move, bool goes);
 
-// A client's job behind this one of one's own does not begin where their arm stands without it.
+// Returns true if the arm's next client job begins where the own job leaves the arm.
 [[nodiscard]] bool is_counted_on(const State& state, const Record& own);
 
 }  // namespace armloom

@@ -34,8 +34,8 @@ Points corners_of(const Points& points) {
   return kept;
 }
 
-// The second derivatives of the natural cubic spline at its knots, a column each (de Boor, "A
-// Practical Guide to Splines", IV; the tridiagonal system by elimination).
+// Returns the second derivatives of the natural cubic spline at its knots, a column each (de Boor,
+// "A Practical Guide to Splines", IV).
 Eigen::MatrixXd second_derivatives(const Points& q, const std::vector<double>& h) {
   const std::size_t n = q.size();
   Eigen::MatrixXd m = Eigen::MatrixXd::Zero(q.front().size(), static_cast<Eigen::Index>(n));
@@ -88,7 +88,7 @@ JointPath JointPath::rounded(const Points& points, double within) {
   JointPath path(q.back());
   Piece piece = Piece::Zero(q.front().size(), 4);
   const auto chord = [&](std::size_t i) { return (q[i + 1] - q[i]).norm(); };
-  double cut = 0.0;  // what the corner before has taken of the chord
+  double cut = 0.0;  // of the chord by the previous corner
   for (std::size_t i = 0; i + 1 < q.size(); ++i) {
     const Eigen::VectorXd direction = (q[i + 1] - q[i]) / chord(i);
     double next_cut = 0.0;

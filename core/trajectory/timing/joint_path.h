@@ -7,25 +7,24 @@
 
 namespace armloom {
 
-// A way of several joints without times: q(s), 0 <= s <= length(), in pieces that are cubics of s
-// and join with one direction (q is continuously differentiable; the second derivative may jump
-// from piece to piece). rad, or m for prismatic joints; s in the same, roughly the length of the
-// way in joint space (Euclidean). Immutable.
+// A path of several joints without times: q(s), 0 <= s <= length(), in pieces that are cubics of s.
+// q is continuously differentiable; the second derivative may jump between pieces. rad, or m for
+// prismatic joints; s is in the same unit, roughly the Euclidean length in joint space. Immutable.
 class JointPath {
  public:
-  // The cubic spline through these points whose second derivative is continuous, and zero at both
-  // ends, over the lengths of the chords. Through every point, but not on the chords: what is known
-  // to be free of these need not be of it. Points that repeat the one before are left out.
+  // Returns the cubic spline through these points, over the chord lengths, with a continuous second
+  // derivative that is zero at both ends. Leaves the chords, so collision-free chords do not prove
+  // it collision-free. Drops repeated points.
   [[nodiscard]] static JointPath spline_through(const std::vector<Eigen::VectorXd>& points);
-  // Straight from point to point, each corner cut by a parabola that leaves the chords no more than
-  // within_m before and after the corner, and no more than half a chord, and passes the corner no
-  // farther away than `within` (Euclidean, in joint space). It lies in the triangle that the corner
-  // makes with its ends: Kunz and Stilman, "Time-Optimal Trajectory Generation for Path Following
-  // with Bounded Acceleration and Velocity", RSS 2012, cut by arcs instead.
+  // Returns straight lines from point to point, each corner cut by a parabola. A parabola takes at
+  // most half of each chord and passes the corner no farther away than `within` (Euclidean, in
+  // joint space), inside the triangle of the corner and its ends. After Kunz and Stilman,
+  // "Time-Optimal Trajectory Generation for Path Following with Bounded Acceleration and Velocity",
+  // RSS 2012, who use arcs.
   [[nodiscard]] static JointPath rounded(const std::vector<Eigen::VectorXd>& points, double within);
 
-  // Whether there are two points that are not one: else there is no path, and the makers above
-  // throw std::invalid_argument.
+  // Returns true if the points are not all equal. Otherwise the factories above throw
+  // std::invalid_argument.
   [[nodiscard]] static bool leads_somewhere(const std::vector<Eigen::VectorXd>& points);
 
   [[nodiscard]] std::size_t joints() const { return joints_; }
@@ -33,7 +32,7 @@ class JointPath {
 
   [[nodiscard]] const Eigen::VectorXd& goal() const { return goal_; }
 
-  // Pieces: piece k goes from begin(k) to end(k).
+  // Piece k goes from begin(k) to end(k).
   [[nodiscard]] std::size_t pieces() const { return ends_.size(); }
   [[nodiscard]] double begin(std::size_t piece) const {
     return piece == 0 ? 0.0 : ends_[piece - 1];
@@ -52,7 +51,7 @@ class JointPath {
   void add(double length, const Eigen::Matrix<double, Eigen::Dynamic, 4>& piece);
 
   std::size_t joints_;
-  Eigen::VectorXd goal_;  // exactly as it was given
+  Eigen::VectorXd goal_;  // exactly as given
   std::vector<double> ends_;
   std::vector<double> coefficients_;
 };

@@ -8,16 +8,15 @@
 
 namespace armloom {
 
-// How fast joints may go, a row for each: rad/s, rad/s^2, rad/s^3 (m for prismatic joints); > 0.
+// Maximum rates, a row for each joint: rad/s, rad/s^2, rad/s^3 (m for prismatic joints); > 0.
 struct JointRates {
   Eigen::VectorXd velocity;
   Eigen::VectorXd acceleration;
   Eigen::VectorXd jerk;
 };
 
-// Shares of the cell's limits (core/model/README.md says where these come from), each in (0, 1]; as
-// MoveIt's scaling factors. The jerk is never scaled: who asks for slow motions wants soft ones too
-// by the acceleration.
+// Shares of the cell's limits (core/model/README.md), each in (0, 1], like MoveIt's scaling
+// factors. Jerk is not scaled: lower accelerations already make motions softer.
 struct RateShares {
   double velocity = 1.0;
   double acceleration = 1.0;

@@ -2,12 +2,12 @@
 #include <cmath>
 
 #include "core/trajectory/polynomial.h"
-#include "core/trajectory/timing/time_parameterisation.h"
+#include "core/trajectory/timing/time_parameterization.h"
 
 namespace armloom {
 namespace {
 
-// The largest |p| at both ends of [0, h] and where it has a place inside of it.
+// Returns the largest |p| at both ends of [0, h] and at places inside.
 template <class Value>
 double largest(const Value& value, double h, std::initializer_list<double> places) {
   double most = std::max(std::abs(value(0.0)), std::abs(value(h)));
@@ -17,8 +17,8 @@ double largest(const Value& value, double h, std::initializer_list<double> place
   return most;
 }
 
-// What one joint uses on a piece of h seconds is added where it may be more than the shares so far.
-// The jerk is a quadratic, the acceleration a cubic: their extremes are found exactly.
+// Adds what one joint uses on a piece of h seconds, if it may exceed the shares so far. Extremes of
+// jerk (quadratic) and acceleration (cubic) are exact.
 void add(const Polynomial& c, double h, const JointRates& rates, Eigen::Index j,
          LimitShares& shares) {
   const double j0 = 6.0 * c[3], j1 = 24.0 * c[4], j2 = 60.0 * c[5];
@@ -28,13 +28,13 @@ void add(const Polynomial& c, double h, const JointRates& rates, Eigen::Index j,
     most_jerk = largest(jerk, h, {-j1 / (2.0 * j2)});
     shares.jerk = std::max(shares.jerk, most_jerk / rates.jerk[j]);
   }
-  // No larger than at the nearer end and what the jerk adds until there; the velocity likewise.
+  // Bounded by the nearer end plus what the jerk adds; the velocity likewise.
   const auto acceleration = [&](double t) {
     return 2.0 * c[2] + t * (j0 + t * (j1 / 2.0 + t * j2 / 3.0));
   };
   double most_acceleration = largest(acceleration, h, {}) + 0.5 * h * most_jerk;
   if (most_acceleration > shares.acceleration * rates.acceleration[j]) {
-    // Zeros of the jerk, in the form that keeps its digits.
+    // Zeros of the jerk, in the numerically stable form.
     const double root = std::sqrt(std::max(0.0, j1 * j1 - 4.0 * j2 * j0));
     const double sum = -0.5 * (j1 + std::copysign(root, j1));
     most_acceleration = largest(acceleration, h, {sum / j2, j0 / sum});
@@ -45,7 +45,7 @@ void add(const Polynomial& c, double h, const JointRates& rates, Eigen::Index j,
   if (ends + 0.5 * h * most_acceleration <= shares.velocity * rates.velocity[j]) return;
   const Bounds enclosed = bounds(v, 0.0, h);
   double most = std::max(-enclosed.lower, enclosed.upper);
-  if (most > rates.velocity[j]) {  // as far as these bounds tell
+  if (most > rates.velocity[j]) {  // according to the bounds
     const auto out = worst_outside(v, h, {-rates.velocity[j], rates.velocity[j]});
     most = out ? std::abs(out->value) : rates.velocity[j];
   }

@@ -10,24 +10,24 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// |on_u u + on_x x| <= limit, with x = s'^2 at the part's beginning and u = s'' all over it, solved
-// for u: it lies within `half` of -slope x. Rows that u has no part in bound x alone.
+// |on_u u + on_x x| <= limit, with x = s'^2 at the part's beginning and u = s'' in the part, solved
+// for u: within `half` of -slope x. Rows without u bound x alone.
 struct Row {
   double slope;
   double half;
 };
 
-// Between two stations: as many rows as joints times Bernstein coefficients.
+// Between two stations: one row for each joint and Bernstein coefficient.
 struct Part {
   double begin;
   double length;
   std::size_t piece;
   std::size_t rows_begin;
-  double x_max = kInfinity;    // at both ends, of the velocities
-  double x_begin = kInfinity;  // at the beginning, of rows without u
+  double x_max = kInfinity;    // at both ends, from velocities
+  double x_begin = kInfinity;  // at the beginning, from rows without u
 };
 
-// Which accelerations are allowed, and the slope over x of each bound.
+// Allowed accelerations, and the slope over x of each bound.
 struct Range {
   double lowest = -kInfinity;
   double highest = kInfinity;
@@ -75,7 +75,7 @@ void Reachability::add_part(const JointPath& path, const JointRates& rates, Part
   const double b = part.begin;
   for (std::size_t j = 0; j < path.joints(); ++j) {
     const double* p = of.data() + 4 * j;
-    // The cubic of the piece, of y from the part's beginning.
+    // The piece's cubic, of y from the part's beginning.
     const double c1 = h * (p[1] + b * (2.0 * p[2] + 3.0 * b * p[3]));
     const double c2 = h * h * (p[2] + 3.0 * b * p[3]);
     const double c3 = h * h * h * p[3];
@@ -121,9 +121,9 @@ Range Reachability::range_of_u(std::size_t part, double x) const {
   return range;
 }
 
-// The largest x from which some u keeps the part's rows and leads to at most x_next: lowest(x) is
-// convex and highest(x) concave, so that Newton's steps from above on their difference, which is
-// piecewise linear, come down to where they meet and never pass it.
+// Returns the largest x from which some u keeps the part's rows and leads to at most x_next.
+// lowest(x) is convex and highest(x) concave, so Newton's steps from above on their piecewise
+// linear difference reach the intersection and never pass it.
 double Reachability::largest_x(std::size_t part, double x_next) const {
   const double twice = 2.0 * parts_[part].length;
   double x = std::min(parts_[part].x_max, parts_[part].x_begin);
@@ -143,7 +143,7 @@ double Reachability::largest_x(std::size_t part, double x_next) const {
 
 std::vector<Station> Reachability::solve() {
   const std::size_t n = parts_.size();
-  std::vector<double> reach(n + 1, 0.0);  // the largest x that can still come to rest at the end
+  std::vector<double> reach(n + 1, 0.0);  // largest x from which it can stop at the end
   for (std::size_t i = n; i-- > 0;)
     reach[i] = std::min(largest_x(i, reach[i + 1]), i > 0 ? parts_[i - 1].x_max : kInfinity);
   std::vector<Station> stations;

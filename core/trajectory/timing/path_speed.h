@@ -7,23 +7,23 @@
 
 namespace armloom {
 
-// How to go along a path: between two neighbouring stations the acceleration s'' is constant.
+// Speed on a path; s'' is constant between neighboring stations.
 struct Station {
   double s;
   double speed;         // s'
-  double time_s;        // from the beginning
-  std::size_t piece;    // of the path, from here on; of the last station the last one
-  double acceleration;  // s'' from here on; of the last station 0
+  double time_s;        // since the beginning
+  std::size_t piece;    // from here on; the last piece at the end
+  double acceleration;  // s'' from here on; 0 at the end
 };
 
-// The fastest way along the path from rest to rest that keeps the velocity and acceleration of each
-// joint (jerk is not read) on each piece cut in `cuts` (at least) parts, by reachability: Pham and
-// Pham, "A New Approach to Time-Optimal Path Parameterization Based on Reachability Analysis", IEEE
-// T-RO 2018. From the end backwards, the largest x = s'^2 of each station from which the rest can
-// still be kept; from the beginning forwards, the largest x that leads there. Within a part
+// Returns the fastest speeds along the path from rest to rest within each joint's velocity and
+// acceleration (jerk is ignored). Cuts the path into at least `parts` parts. Method: Pham and Pham,
+// "A New Approach to Time-Optimal Path Parameterization Based on Reachability Analysis", IEEE T-RO
+// 2018. Backwards: the largest x = s'^2 of each station from which the rest can be kept; forwards:
+// the largest x that leads there. Within a part
 //   q'' = q_s s'' + q_ss x,   x linear in s:
-// a polynomial of s whose Bernstein coefficients are linear in (x, s''); these are held within the
-// limits, so that the limits are kept at every instant and not at stations only.
+// a polynomial of s whose Bernstein coefficients are linear in (x, s''). These are kept within the
+// limits, so the limits hold at every instant, not only at stations.
 [[nodiscard]] std::vector<Station> fastest_along(const JointPath& path, const JointRates& rates,
                                                  std::size_t parts);
 

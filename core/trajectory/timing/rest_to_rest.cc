@@ -6,8 +6,8 @@
 namespace armloom {
 namespace {
 
-// Of the profile's first half: how long the acceleration grows, how long it stays before it falls
-// for as long again, and how long the velocity then stays; s.
+// Phases of the first half: acceleration grows, is constant, falls for as long as it grew; then
+// velocity is constant; s.
 struct Phases {
   double grow;
   double hold;
@@ -16,7 +16,7 @@ struct Phases {
 
 // The distance is 1.
 Phases fastest(const ProfileRates& r) {
-  // With both: the velocity limit is reached, with or without the acceleration's.
+  // If the velocity limit is reached, with or without the acceleration limit:
   Phases p{};
   if (r.velocity * r.jerk >= r.acceleration * r.acceleration) {
     p.grow = r.acceleration / r.jerk;
@@ -26,8 +26,7 @@ Phases fastest(const ProfileRates& r) {
   }
   p.cruise = 1.0 / r.velocity - (2.0 * p.grow + p.hold);
   if (p.cruise >= 0.0) return p;
-  // The velocity limit is not reached: the peak velocity a (grow + hold) lasts as long as it takes
-  // to get there, a (grow + hold) (2 grow + hold) = 1.
+  // Otherwise, without cruise: a (grow + hold) (2 grow + hold) = 1.
   p = {r.acceleration / r.jerk, 0.0, 0.0};
   const double rising = 0.5 * p.grow + std::sqrt(0.25 * p.grow * p.grow + 1.0 / r.acceleration);
   p.hold = rising - 2.0 * p.grow;
@@ -46,7 +45,7 @@ std::vector<ProfileKnot> rest_to_rest(const ProfileRates& rates) {
   const Duration grow = std::max(up(least.grow), kJerkPhaseMin);
   const Duration hold = up(least.hold);
   const Duration cruise = up(least.cruise);
-  // No longer than asked, every time is: so these are no larger than the rates.
+  // All times are rounded up, so these do not exceed the rates.
   const double grow_s = to_seconds(grow);
   const double peak = 1.0 / to_seconds(2 * grow + hold + cruise);  // velocity
   const double top = peak / to_seconds(grow + hold);               // acceleration

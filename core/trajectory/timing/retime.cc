@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/trajectory/request_checks.h"
-#include "core/trajectory/timing/time_parameterisation.h"
+#include "core/trajectory/timing/time_parameterization.h"
 
 namespace armloom {
 namespace {
@@ -31,7 +31,7 @@ std::vector<Eigen::VectorXd> way_of(const TrajectoryRequest& request) {
   return way;
 }
 
-// Of the chord between two points.
+// Returns the distance to a chord.
 double distance_to_chord(const Eigen::VectorXd& point, const Eigen::VectorXd& from,
                          const Eigen::VectorXd& to) {
   const Eigen::VectorXd chord = to - from;
@@ -40,8 +40,7 @@ double distance_to_chord(const Eigen::VectorXd& point, const Eigen::VectorXd& fr
   return (point - from - std::clamp(share, 0.0, 1.0) * chord).norm();
 }
 
-// From each point that stays the farthest one to which the chord passes all between within
-// kThinWithin; so far it is looked, that the time goes with the number of points.
+// Bounds the span of a chord that replaces waypoints, so that the time is linear in their number.
 constexpr std::size_t kSpanMax = 64;
 
 std::vector<Eigen::VectorXd> thinned(const std::vector<Eigen::VectorXd>& way) {
@@ -58,17 +57,17 @@ std::vector<Eigen::VectorXd> thinned(const std::vector<Eigen::VectorXd>& way) {
     kept.push_back(way[to]);
     from = to;
   }
-  return JointPath::leads_somewhere(kept) ? kept : way;  // one that leads back at once
+  return JointPath::leads_somewhere(kept) ? kept : way;  // else it only goes there and back
 }
 
-// What could be done about it.
+// Returns a remedy for too many waypoints.
 std::string remedy(std::size_t given, double made) {
   const double share = static_cast<double>(kWaypointsMax) / made;
   const auto of_each = static_cast<std::size_t>(0.9 * share * static_cast<double>(given));
   return "the " + std::to_string(given) + " waypoints become " + to_text(made) +
-         " with the times that are made, and a motion has at most " +
-         std::to_string(kWaypointsMax) + ": give the way in several jobs of at most " +
-         std::to_string(of_each) + " waypoints each, or fewer waypoints";
+         " by time parameterization, but a motion has at most " + std::to_string(kWaypointsMax) +
+         ": split the path into several jobs of at most " + std::to_string(of_each) +
+         " waypoints each, or fewer waypoints";
 }
 
 }  // namespace
@@ -92,7 +91,7 @@ Result<TrajectoryPtr> retimed(const TrajectoryRequest& request, const Cell& cell
     problems.add({ProblemKind::invalid,
                   "no-way",
                   "/points",
-                  "all waypoints are one place: there is no way to give times to",
+                  "all waypoints are equal: there is no path to time",
                   {}});
   }
   if (!problems.empty()) return failure(std::move(problems).take());
@@ -107,7 +106,7 @@ Result<TrajectoryPtr> retimed(const TrajectoryRequest& request, const Cell& cell
     if (problem.kind == ProblemKind::too_large && made != nullptr) {
       problem.detail = remedy(request.points.size(), *made);
     } else {
-      problem.detail.insert(0, "with the times that were made: ");
+      problem.detail.insert(0, "after time parameterization: ");
     }
   }
   return failure(std::move(timed.error()));

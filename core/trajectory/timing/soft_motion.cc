@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kKnotsApart_s = 5e-4;
 
-// Gauss and Legendre's three places and weights on [-1, 1]: exact to degree five.
+// Gauss-Legendre places and weights on [-1, 1]: exact to degree five.
 constexpr std::array<double, 3> kPlaces{-0.7745966692414834, 0.0, 0.7745966692414834};
 constexpr std::array<double, 3> kWeights{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
 
-// Reads q and q' at times that never fall.
+// Evaluates q and q' at ascending times.
 class Reader {
  public:
   Reader(const JointPath& path, const std::vector<Station>& stations)
@@ -45,7 +45,7 @@ class Reader {
   std::vector<double> q, v;
 };
 
-// By which share of what it may have the acceleration of some joint jumps at a station at most.
+// Returns the largest jump of a joint's acceleration at a station, as a share of its limit.
 double jump_at(const JointPath& path, const JointRates& rates, const Station& before,
                const Station& at) {
   const double* c = path.coefficients(at.piece).data();
@@ -63,7 +63,7 @@ double jump_at(const JointPath& path, const JointRates& rates, const Station& be
   return most;
 }
 
-// Where waypoints are. From -T/2 on.
+// Returns the times of waypoints, from -T/2 on.
 std::vector<double> knots_of(const JointPath& path, const JointRates& rates,
                              const std::vector<Station>& stations, double half_s) {
   std::vector<double> times;
@@ -105,7 +105,7 @@ std::vector<WaypointRequest> softened(const JointPath& path, const JointRates& r
     WaypointRequest point{points.back().positions, still, still, knots[k] + half_s};
     const double half_step = 0.5 * (knots[k] - knots[k - 1]);
     const double middle = knots[k] - half_step;
-    for (std::size_t i = 0; i < kPlaces.size(); ++i) {  // the mean's velocity, integrated
+    for (std::size_t i = 0; i < kPlaces.size(); ++i) {  // integrates the mean's velocity
       const double t = middle + kPlaces[i] * half_step;
       before.read(t - half_s);
       after.read(t + half_s);

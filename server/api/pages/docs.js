@@ -1,12 +1,12 @@
 "use strict";
-// Text reaches the page as text: element(name, attributes, ...children), never as HTML.
+// Makes an element. Children are inserted as text, never as HTML.
 function element(name, attributes, ...children) {
   const made = document.createElement(name);
   for (const [key, value] of Object.entries(attributes || {})) made.setAttribute(key, value);
   made.append(...children.flat().filter((child) => child !== undefined && child !== null && child !== ""));
   return made;
 }
-// `code` in descriptions.
+// Turns `code` in a description into code elements.
 const prose = (text) => (text || "").split("`").map((part, i) => (i % 2 ? element("code", {}, part) : part));
 const short = (ref) => ref.split("/").pop();
 const schemaLink = (ref) => element("a", {href: "#schema-" + short(ref)}, short(ref));
@@ -14,7 +14,7 @@ const schemaLink = (ref) => element("a", {href: "#schema-" + short(ref)}, short(
 function join(parts, separator) {
   return parts.flatMap((part, i) => (i ? [separator, part] : [part])).flat();
 }
-// A schema in a few words: "Job[]", "number ≥ 0 | null".
+// Returns a short form of a schema: "Job[]", "number ≥ 0 | null".
 function typeOf(schema) {
   if (schema.$ref) return [schemaLink(schema.$ref)];
   if ("const" in schema) return [element("code", {}, JSON.stringify(schema.const))];
@@ -90,7 +90,7 @@ function operationView(document_, path, method, operation) {
         type === "application/json" || type === "application/problem+json" ? typeOf(c.schema) : [element("code", {}, type)]), ", ") : ""),
       element("td", {class: "soft"}, prose(response.description)));
   });
-  body.push(element("h3", {}, "Answers"), element("table", {}, element("tbody", {}, rows)));
+  body.push(element("h3", {}, "Responses"), element("table", {}, element("tbody", {}, rows)));
   return element("details", {id: operation.operationId}, element("summary", {},
     element("b", {class: method}, method.toUpperCase()), element("code", {}, path),
     element("span", {}, operation.summary || "")), element("div", {}, body));
@@ -112,7 +112,7 @@ function render(document_) {
       ...own.map(({path, method, operation}) => operationView(document_, path, method, operation)));
   }
   nav.append(element("h2", {}, "schemas"));
-  main.append(element("h2", {}, "Schemas"), element("p", {}, "A question mark stands behind what may be absent."));
+  main.append(element("h2", {}, "Schemas"), element("p", {}, "A question mark marks optional members."));
   for (const [name, schema] of Object.entries(document_.components.schemas)) {
     nav.append(element("a", {href: "#schema-" + name}, name));
     main.append(element("details", {id: "schema-" + name}, element("summary", {}, element("code", {}, name)),

@@ -1,4 +1,4 @@
-// Sends the token once; from then on the browser has it in a cookie that scripts cannot read.
+// Sends the token once; the server sets it as a cookie that scripts cannot read.
 'use strict';
 const form = document.querySelector('form');
 const said = document.querySelector('[role=alert]');
@@ -11,7 +11,7 @@ form.addEventListener('submit', async (event) => {
       headers: {'Content-Type': 'application/json'},
       body: JSON.stringify({token: document.getElementById('token').value.trim()}),
     });
-    if (answer.ok) return location.assign('/' + location.hash);  // the page that was asked for
+    if (answer.ok) return location.assign('/' + location.hash);  // the requested page
     said.textContent = (await answer.json()).detail;
   } catch {
     said.textContent = 'the server does not answer';

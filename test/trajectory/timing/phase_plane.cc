@@ -12,7 +12,7 @@ struct Slope {
   Eigen::VectorXd first, second;
 };
 
-// Largest (sign 1) or least (sign -1) acceleration of s at speed sqrt(x).
+// Returns the largest (sign 1) or smallest (sign -1) acceleration of s at speed sqrt(x).
 double acceleration(const Slope& q, const JointRates& rates, double x, double sign) {
   double most = std::numeric_limits<double>::infinity();
   for (Eigen::Index j = 0; j < q.first.size(); ++j) {
@@ -23,7 +23,7 @@ double acceleration(const Slope& q, const JointRates& rates, double x, double si
   return sign * most;
 }
 
-// Where the range of accelerations closes, or a velocity ends.
+// Returns the largest x with a non-empty range of accelerations within the velocity limits.
 double fastest(const Slope& q, const JointRates& rates) {
   double x = 1e6;
   for (Eigen::Index j = 0; j < q.first.size(); ++j) {

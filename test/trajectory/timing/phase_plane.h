@@ -5,12 +5,11 @@
 
 namespace armloom::testing {
 
-// The least time along a path within velocities and accelerations, from rest to rest, by the phase
-// plane (Bobrow, Dubowsky and Gibson 1985; Shin and McKay 1985) at `steps` even steps of s: no
-// faster than the maximum velocity curve, no faster than the largest acceleration from the
-// beginning on, no faster than the largest deceleration to the end. Derivatives of the path by
-// differences of positions; nothing is shared with what it judges. As steps grow it comes down to
-// the time, from below where the curve itself cannot be followed.
+// Returns the least time along a path from rest to rest within velocity and acceleration limits, at
+// `steps` even steps of s. Phase plane (Bobrow, Dubowsky and Gibson 1985; Shin and McKay 1985): the
+// speed is bounded by the maximum velocity curve, and by the largest acceleration and deceleration.
+// Shares no code with the code under test. With more steps the result decreases to the true time,
+// or rises to it if the curve itself cannot be followed.
 [[nodiscard]] double least_time_s(const JointPath& path, const JointRates& rates,
                                   std::size_t steps);
 

@@ -7,7 +7,6 @@
 #include "test/trajectory/random_spline.h"
 #include "test/trajectory/test_cell.h"
 
-// Ways of a Panda's joints for the tests and the bench of time parameterisation.
 namespace armloom::testing {
 
 using Points = std::vector<Eigen::VectorXd>;
@@ -24,7 +23,7 @@ inline Eigen::VectorXd random_posture(std::mt19937_64& random, const Cell& cell,
   return q;
 }
 
-// `count` points of smooth curves through a few random postures (a sum of sines of each joint).
+// Returns points of smooth curves: a sum of sines per joint.
 inline Points curve(std::mt19937_64& random, const Cell& cell, const std::vector<JointId>& joints,
                     std::size_t count) {
   const Eigen::VectorXd middle = random_posture(random, cell, joints, 0.2);
@@ -44,7 +43,7 @@ inline Points curve(std::mt19937_64& random, const Cell& cell, const std::vector
   return points;
 }
 
-// `count` points, each a step of random direction from the one before that bends by chance.
+// Returns points with steps that change direction at random.
 inline Points wander(std::mt19937_64& random, const Cell& cell, const std::vector<JointId>& joints,
                      std::size_t count) {
   Points points{random_posture(random, cell, joints, 0.1)};

@@ -1,4 +1,3 @@
-// "retime": true, from the waypoints of a client to a motion.
 #include "core/trajectory/timing/retime.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +15,6 @@ namespace {
 using ::testing::HasSubstr;
 using testing::random_posture;
 
-// A way of the left Panda of the test cell through this many random postures.
 struct Way {
   explicit Way(std::size_t points, std::uint64_t seed = 1) : cell(testing::test_cell()) {
     std::mt19937_64 random(seed);
@@ -35,7 +33,7 @@ struct Way {
   TrajectoryRequest request;
 };
 
-TEST(Retime, GoesFromTheFirstWaypointToTheLastAndRestsThereOnly) {
+TEST(Retime, RestsOnlyAtTheFirstAndLastWaypoint) {
   const Way way(5);
   const auto made = way.read();
   ASSERT_TRUE(made) << made.error().front().detail;
@@ -58,7 +56,7 @@ TEST(Retime, GoesFromTheFirstWaypointToTheLastAndRestsThereOnly) {
   EXPECT_EQ(at_rest, 0);
 }
 
-TEST(Retime, PassesEveryWaypointWithinWhatItSays) {
+TEST(Retime, PassesEveryWaypointWithinItsTolerance) {
   const Way way(6, 7);
   const auto made = way.read();
   ASSERT_TRUE(made);
@@ -70,11 +68,11 @@ TEST(Retime, PassesEveryWaypointWithinWhatItSays) {
       (*made)->sample(t, state);
       nearest = std::min(nearest, (state.position - at).norm());
     }
-    EXPECT_LT(nearest, kRetimeWithin + 3e-3);  // off the path, and between two milliseconds
+    EXPECT_LT(nearest, kRetimeWithin + 3e-3);  // path deviation and sampling
   }
 }
 
-TEST(Retime, TakesLongerWithASmallerShareAndReadsOverWhatTheWaypointsHave) {
+TEST(Retime, ScalesVelocityAndIgnoresVelocitiesAndTimesOfWaypoints) {
   Way way(3);
   const Duration fast = (*way.read())->duration();
   way.request.retime->velocity = 0.1;
@@ -88,7 +86,7 @@ TEST(Retime, TakesLongerWithASmallerShareAndReadsOverWhatTheWaypointsHave) {
   EXPECT_EQ((*way.read())->duration(), fast);
 }
 
-TEST(Retime, IsAsFastAsTheCellHasItUnlessTheRequestSaysAnotherSpeed) {
+TEST(Retime, UsesTheCellsVelocityFactorUnlessTheRequestOverridesIt) {
   Way way(3);
   const Duration fast = (*way.read())->duration();
   way.cell.execution.velocity_scaling_factor = 0.1;
@@ -97,8 +95,8 @@ TEST(Retime, IsAsFastAsTheCellHasItUnlessTheRequestSaysAnotherSpeed) {
   EXPECT_EQ((*way.read())->duration(), fast);
 }
 
-// As recorded every few milliseconds: more waypoints than corners.
-TEST(Retime, TakesAPathThatWasSampledClosely) {
+// Recorded every few milliseconds.
+TEST(Retime, AcceptsDenselySampledPaths) {
   Way way(2);
   Eigen::VectorXd middle(7);
   middle << 0.0, -0.4, 0.0, -1.8, 0.0, 1.8, 0.0;
@@ -129,8 +127,8 @@ TEST(Retime, TakesAPathThatWasSampledClosely) {
   EXPECT_LT(to_seconds((*made)->duration()), 30.0);
 }
 
-// Back and forth by less than what is left out elsewhere is a way all the same.
-TEST(Retime, TakesAWayThatIsShorterThanWhatIsLeftOut) {
+// Shorter than the thinning distance.
+TEST(Retime, KeepsPathsShorterThanTheThinningDistance) {
   Way way(3);
   way.request.points[1] = way.request.points[2] = way.request.points[0];
   way.request.points[1].positions[0] += 0.5 * kThinWithin;
@@ -138,7 +136,7 @@ TEST(Retime, TakesAWayThatIsShorterThanWhatIsLeftOut) {
   ASSERT_TRUE(made) << made.error().front().detail;
 }
 
-TEST(Retime, SaysInWhichPartsAWayOfTooManyCornersIsToBeGiven) {
+TEST(Retime, SuggestsAPartSizeForPathsWithTooManyCorners) {
   Way way(3000);
   const auto made = way.read();
   ASSERT_FALSE(made);
@@ -153,7 +151,7 @@ TEST(Retime, SaysInWhichPartsAWayOfTooManyCornersIsToBeGiven) {
   EXPECT_TRUE(part) << part.error().front().detail;
 }
 
-TEST(Retime, SaysWhatIsWrongWithTheWaypointsOfTheClient) {
+TEST(Retime, ReportsMistakesInTheClientsWaypoints) {
   const auto told = [](const Way& way) {
     const auto made = way.read();
     std::string text;
@@ -173,7 +171,7 @@ TEST(Retime, SaysWhatIsWrongWithTheWaypointsOfTheClient) {
   Way still(2);
   still.request.points[1] = still.request.points[0];
   EXPECT_THAT(told(still), HasSubstr("no-way /points"));
-  for (const double step : {1e-16, 1e-11, 1e-10}) {  // as measured twice
+  for (const double step : {1e-16, 1e-11, 1e-10}) {  // the same position, measured twice
     Way nearly(3);
     nearly.request.points[2] = nearly.request.points[1] = nearly.request.points[0];
     nearly.request.points[1].positions[0] += step;
@@ -186,7 +184,7 @@ TEST(Retime, SaysWhatIsWrongWithTheWaypointsOfTheClient) {
   EXPECT_THAT(told(unknown), HasSubstr("unknown-joint /joint_names/3"));
 }
 
-TEST(Retime, WithoutItTimesHaveToBeThere) {
+TEST(Retime, TimesAreRequiredWithoutRetime) {
   Way way(2);
   way.request.retime.reset();
   const auto made = way.read();

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "core/trajectory/timing/time_parameterisation.h"
+#include "core/trajectory/timing/time_parameterization.h"
 #include "test/trajectory/timing/phase_plane.h"
 #include "test/trajectory/timing/random_paths.h"
 
@@ -18,7 +18,6 @@ using testing::Points;
 using testing::random_posture;
 using testing::wander;
 
-// The left Panda of the test cell, with this jerk for each joint.
 struct Panda {
   explicit Panda(double jerk) : cell(testing::test_cell()), joints(cell.arms[0].joints) {
     for (Joint& joint : cell.joints) joint.jerk_max = jerk;
@@ -30,7 +29,7 @@ struct Panda {
   std::vector<JointId> joints;
 };
 
-// As a controller would see it: states every millisecond, the jerk between two of them.
+// Samples every millisecond, as a controller would; the jerk is the difference of two states.
 LimitShares sampled(const Trajectory& trajectory, const JointRates& rates) {
   LimitShares used;
   JointState state, next;
@@ -73,14 +72,14 @@ void expect_at_rest(const TimedMotion& timed, const Eigen::VectorXd& from,
   }
 }
 
-// Of the straight line, without jerk: triangle or trapezoid of the joint that is slowest in each.
+// Returns the duration of the straight line without jerk limit: triangle or trapezoid.
 double trapezoid_s(const JointRates& rates, const Eigen::VectorXd& way) {
   const double v = (rates.velocity.array() / way.array().abs()).minCoeff();
   const double a = (rates.acceleration.array() / way.array().abs()).minCoeff();
   return a >= v * v ? 1.0 / v + v / a : 2.0 / std::sqrt(a);
 }
 
-TEST(TimedLine, TakesNoMoreThanTheBoundWhereJerkDoesNotMatterAndKeepsEveryLimit) {
+TEST(TimedLine, IsNearlyOptimalWithoutJerkAndKeepsAllLimits) {
   const Panda panda(7500.0);
   std::mt19937_64 random(3);
   for (int i = 0; i < 300; ++i) {
@@ -97,7 +96,7 @@ TEST(TimedLine, TakesNoMoreThanTheBoundWhereJerkDoesNotMatterAndKeepsEveryLimit)
   }
 }
 
-TEST(TimedLine, KeepsJerksThatMatterForWaysOfAnyLength) {
+TEST(TimedLine, KeepsJerkLimitsForPathsOfAnyLength) {
   std::mt19937_64 random(4);
   int i = 0;
   for (const double jerk : {3.0, 40.0, 600.0}) {
@@ -114,7 +113,6 @@ TEST(TimedLine, KeepsJerksThatMatterForWaysOfAnyLength) {
   }
 }
 
-// All the line's states lie on it, whatever the time.
 TEST(TimedLine, IsStraight) {
   const Panda panda(200.0);
   std::mt19937_64 random(5);
@@ -130,7 +128,7 @@ TEST(TimedLine, IsStraight) {
   }
 }
 
-TEST(TimedLine, ThatGoesNowhereTakesAWhileAllTheSame) {
+TEST(TimedLine, OfZeroLengthHasTheMinimumDuration) {
   const Panda panda(7500.0);
   std::mt19937_64 random(12);
   const Eigen::VectorXd here = random_posture(random, panda.cell, panda.joints);
@@ -139,7 +137,7 @@ TEST(TimedLine, ThatGoesNowhereTakesAWhileAllTheSame) {
   EXPECT_EQ(timed->trajectory->duration(), 10ms);
 }
 
-TEST(TimedLine, SaysWhatLeavesThePositionLimits) {
+TEST(TimedLine, RejectsGoalsOutsidePositionLimits) {
   const Panda panda(7500.0);
   std::mt19937_64 random(6);
   const Eigen::VectorXd from = random_posture(random, panda.cell, panda.joints);
@@ -150,7 +148,7 @@ TEST(TimedLine, SaysWhatLeavesThePositionLimits) {
   EXPECT_EQ(timed.error().front().slug, "position-limit");
 }
 
-TEST(TimedPath, IsNearlyTheFastestWithoutJerkAndKeepsEveryLimit) {
+TEST(TimedPath, IsNearlyOptimalWithoutJerkAndKeepsAllLimits) {
   const Panda panda(7500.0);
   std::mt19937_64 random(7);
   for (int i = 0; i < 24; ++i) {
@@ -168,7 +166,7 @@ TEST(TimedPath, IsNearlyTheFastestWithoutJerkAndKeepsEveryLimit) {
   }
 }
 
-TEST(TimedPath, KeepsJerksThatMatterAndStaysNearThePath) {
+TEST(TimedPath, KeepsJerkLimitsAndStaysNearThePath) {
   std::mt19937_64 random(8);
   for (const double jerk : {20.0, 100.0, 1000.0}) {
     const Panda panda(jerk);
@@ -179,7 +177,6 @@ TEST(TimedPath, KeepsJerksThatMatterAndStaysNearThePath) {
       ASSERT_TRUE(timed) << timed.error().front().detail;
       expect_within(*timed, panda.rates());
       expect_at_rest(*timed, points.front(), points.back());
-      // Every point of the way is met closely at some time.
       JointState state;
       Points passed;
       for (Duration t{}; t <= timed->trajectory->duration(); t += 1ms) {
@@ -197,7 +194,7 @@ TEST(TimedPath, KeepsJerksThatMatterAndStaysNearThePath) {
   }
 }
 
-TEST(TimedPath, RoundsCornersNoFartherThanAllowed) {
+TEST(TimedPath, RoundsCornersWithinTheTolerance) {
   const Panda panda(7500.0);
   std::mt19937_64 random(9);
   for (int i = 0; i < 40; ++i) {
@@ -227,7 +224,7 @@ TEST(TimedPath, RoundsCornersNoFartherThanAllowed) {
   }
 }
 
-TEST(TimedPath, TurnsOnTheSpotWhereTheWayComesBack) {
+TEST(TimedPath, AcceptsPathsThatReverse) {
   const Panda panda(7500.0);
   std::mt19937_64 random(10);
   const Eigen::VectorXd from = random_posture(random, panda.cell, panda.joints, 0.3);
@@ -238,7 +235,7 @@ TEST(TimedPath, TurnsOnTheSpotWhereTheWayComesBack) {
   expect_within(*timed, panda.rates());
 }
 
-TEST(TimedMotion, IsSlowedByShares) {
+TEST(TimedMotion, IsSlowedByScalingFactors) {
   const Panda panda(7500.0);
   std::mt19937_64 random(11);
   const Points points = curve(random, panda.cell, panda.joints, 30);

@@ -1,4 +1,4 @@
-#include "core/trajectory/timing/time_parameterisation.h"
+#include "core/trajectory/timing/time_parameterization.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +16,9 @@ namespace {
 
 using Points = std::vector<Eigen::VectorXd>;
 
-// A path is cut in at least this many parts for its speeds.
+// Minimum number of parts of a path.
 constexpr std::size_t kParts = 160;
-// The quintics swing out beyond what they stand for by less than this share, but for rare cases:
-// these are slowed down.
+// Quintics usually exceed the motion by less than this share; rare cases are slowed down.
 constexpr double kHeadroom = 1.0 - 2e-3;
 
 TrajectoryRequest request_for(const Cell& cell, const std::vector<JointId>& joints) {
@@ -46,7 +45,7 @@ WaypointRequest on_line(const Eigen::VectorXd& from, const Eigen::VectorXd& way,
   return point;
 }
 
-// Appends the fastest straight motion; the first point only if it is the first at all.
+// Appends the fastest straight motion, with its first point only if there is none yet.
 void append_line(TrajectoryRequest& request, const JointRates& rates, const Eigen::VectorXd& from,
                  const Eigen::VectorXd& to) {
   const Eigen::VectorXd way = to - from;
@@ -68,8 +67,8 @@ void append_line(TrajectoryRequest& request, const JointRates& rates, const Eige
   request.points.back().positions.assign(to.begin(), to.end());
 }
 
-// The same motion `factor` times as slow: its velocities are divided by that, its accelerations by
-// the square. Waypoints have whole nanoseconds: each is where the motion is then.
+// Slows a motion: velocities are divided by `factor`, accelerations by its square. Waypoints move
+// to where the motion is at whole nanoseconds.
 void slow_down(std::vector<WaypointRequest>& points, double factor) {
   for (WaypointRequest& point : points) {
     const double exact_s = factor * point.time_from_start_s;
@@ -118,7 +117,7 @@ Result<TimedMotion> time_path(const Cell& cell, const std::vector<JointId>& join
   double window_s = 2.0 * (rates.acceleration.array() / rates.jerk.array()).maxCoeff();
   const double off = rates.acceleration.maxCoeff() * window_s * window_s / 24.0;
   if (window_s > kWindowMin_s && off > options.off_path) {
-    // The window goes with the accelerations, what leaves the path with their third power.
+    // The window scales with accelerations, the deviation with their third power.
     const double share = std::cbrt(options.off_path / off);
     rates.acceleration *= share;
     window_s *= share;
@@ -128,7 +127,7 @@ Result<TimedMotion> time_path(const Cell& cell, const std::vector<JointId>& join
   rates.acceleration *= kHeadroom;
   TrajectoryRequest request = request_for(cell, joints);
   request.points = softened(path, rates, fastest_along(path, rates, kParts), window_s);
-  if (request.points.size() <= kWaypointsMax) {  // else it is refused as it is
+  if (request.points.size() <= kWaypointsMax) {  // else it is refused
     const LimitShares used = limit_shares(request.points, limits);
     const double factor =
         std::max({used.velocity, std::sqrt(used.acceleration), std::cbrt(used.jerk)});
