@@ -1,11 +1,11 @@
 import type { Plugin } from 'vite';
 import { defineConfig } from 'vitest/config';
 
-// `npm run dev` shows the page from source beside a running server; the server itself serves dist/.
+// `npm run dev` serves the page from source and forwards API requests to a running server.
 const server = process.env['ARMLOOM_SERVER'] ?? 'http://127.0.0.1:8080';
 
-// What the page may load and run: its own files, and nothing else. `npm run dev` goes without, as it
-// puts styles into the page by itself.
+// The content security policy: only the page's own files. `npm run dev` omits it, because Vite
+// injects styles.
 const policy = [
   "default-src 'none'", "script-src 'self'", "style-src 'self'", "font-src 'self'", "img-src 'self'", "connect-src 'self'",
   "base-uri 'none'", "form-action 'none'",
@@ -28,6 +28,6 @@ export default defineConfig({
     host: '127.0.0.1',
     proxy: { '/api': { target: server, ws: true } },
   },
-  // Colours are tested as they stand in the sheets; a busy machine gets the time that it takes.
+  // Tests check the colors in the style sheets; the timeout allows for a busy machine.
   test: { include: ['test/**/*.test.ts'], environment: 'node', css: true, testTimeout: 60_000 },
 });

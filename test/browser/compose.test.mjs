@@ -1,7 +1,7 @@
-// Composing jobs, used as a person would: judged and previewed before they are sent, dropped as files, copied
-// for programs, planned to a goal by form and by hand in the cell; and cancelled.
+// Composing jobs as a user does: check and preview before sending, drop files, copy for programs,
+// plan goals by form and in the 3D view, cancel.
 //
-//   node --test test/browser/compose.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/compose.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -13,7 +13,7 @@ import { arm_now, ask, copied_by, drop_files, eventually, finished, go_to, job_t
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 const kLeastShown_px = 1500;
 const kLeastGhost_px = 800;
-// A name that a shell or a page might take for more than a name.
+// A name that a shell or a page could misinterpret.
 const kHostile = `<img src=x onerror="window.was_html=1"><b>&amp;'$(exit 3)`;
 
 const folder = mkdtempSync(join(tmpdir(), 'armloom-compose-'));
@@ -26,30 +26,30 @@ const send = (...job) => send_through(page, ...job);
 const ended = (id) => finished(page, id);
 const holds = (field, pattern) => eventually(async () => assert.match(await field.inputValue(), pattern));
 
-test('a job is judged before it is sent, a bag of jobs is taken whole', { timeout: 300_000 }, async () => {
+test('New job page checks a job before sending, and accepts a batch as a whole', { timeout: 300_000 }, async () => {
   await page.locator('[data-test=new-job]').click();
   const { names, q } = await arm_now(page, 'left');
   const text = page.locator('[data-test=job-text]');
   await text.fill(JSON.stringify(job_through('judged', names, [q, kMiddle, q], 4)));
-  await page.locator('[data-test=judge]').click();
-  await reads(page.locator('[data-test=judged]'), /free\s+It would start now/);
+  await page.locator('[data-test=check-job]').click();
+  await reads(page.locator('[data-test=check-results]'), /free\s+It would start now/);
   assert.equal((await ask(page, 'GET', '/jobs/judged')).status, 404);
 
-  // Previewed: a ghost of the arm where it would be, and where it would meet what stands in its way.
+  // The preview shows a ghost of the arm, also at the conflict.
   const without = await view_picture(page);
   await page.locator('[data-test=preview-time]').fill('4');
   await looks_different(page, without, kLeastShown_px);
   await ask(page, 'PUT', '/scene/objects/post', { box: [0.1, 0.1, 0.6], xyz: [-0.05, 0, 0.6], rpy: [0, 0, 0] });
-  await page.locator('[data-test=judge]').click();
+  await page.locator('[data-test=check-job]').click();
   await page.locator('[data-test=show-conflict]').first().click();
-  await reads(page.locator('[data-test=judged]'), /in conflict/);
+  await reads(page.locator('[data-test=check-results]'), /in conflict/);
   await page.waitForFunction(() => { const at = Number(document.querySelector('[data-test=preview-time]').value); return at > 0.1 && at < 3.9; });
   await page.evaluate(() => window.armloom.drawn());
   await page.screenshot(path_for('preview-dark'));
   await ask(page, 'DELETE', '/scene/objects/post');
   const bag = [1, 2].map((i) => ({ at: 0, job: job_through(`bag-${i}`, names, [q, q.map((v, k) => v + (k === 0 ? 0.1 * i : 0)), q], 1) }));
   await text.fill(JSON.stringify(bag));
-  await reads(page.locator('[data-test=bag]'), /2 jobs/);
+  await reads(page.locator('[data-test=batch]'), /2 jobs/);
   await page.screenshot(path_for('compose-dark'));
   await page.locator('[data-test=send]').click();
   await page.locator('[data-test=accepted]').getByText('bag-2').click();
@@ -57,25 +57,25 @@ test('a job is judged before it is sent, a bag of jobs is taken whole', { timeou
   await page.locator('[data-test=list-finished] [data-test="job-bag-2"]').waitFor();
 });
 
-test('a file that is dropped anywhere on the page is shown, and sent', { timeout: 300_000 }, async () => {
+test('A job file dropped anywhere on the page is shown and can be sent', { timeout: 300_000 }, async () => {
   await go('#/');
   const { names, q } = await arm_now(page, 'left');
   const way = [q, q.map((v, k) => v + (k === 0 ? -0.3 : 0))];
   const { trajectory } = job_through('', names, way, 1);
   const file = join(folder, 'trajectory.json');
-  writeFileSync(file, JSON.stringify(trajectory));  // as a ROS tool has it: no job around it
+  writeFileSync(file, JSON.stringify(trajectory));  // as from a ROS tool: without a job around it
   await drop_files(page, [file], '.view canvas');
   await page.locator('[data-test=page-new]').waitFor();
   await eventually(async () => assert.equal(await page.locator('[data-test=job-text]').inputValue(), JSON.stringify(trajectory)));
   await page.locator('[data-test=preview-time]').waitFor();
-  await page.locator('[data-test=judge]').click();
-  await page.locator('[data-test=judged]', { hasText: 'free' }).waitFor();
+  await page.locator('[data-test=check-job]').click();
+  await page.locator('[data-test=check-results]', { hasText: 'free' }).waitFor();
   await page.locator('[data-test=send]').click();
   const id = await page.locator('[data-test=accepted] a').innerText();
   await page.locator(`[data-test=list-finished] [data-test="job-${id}"][data-state=succeeded]`).waitFor();
 });
 
-test('a request and a job are copied as curl and as Python, and both work', { timeout: 400_000 }, async () => {
+test('Copied curl and Python snippets of requests and jobs work', { timeout: 400_000 }, async () => {
   const { names, q } = await arm_now(page, 'right');
   const copy = (what) => page.locator(`.pane [data-test=copy-${what}]`);
   for (const [what, program] of [['curl', ['bash', '-c']], ['Python', ['python3', '-c']]]) {
@@ -93,13 +93,13 @@ test('a request and a job are copied as curl and as Python, and both work', { ti
   }
 });
 
-test('a job is cancelled after a question only', { timeout: 300_000 }, async () => {
-  await ask(page, 'PUT', '/sim/speed', { speed: 0.1 });  // a busy machine is given the time to ask
+test('Cancel asks for confirmation', { timeout: 300_000 }, async () => {
+  await ask(page, 'PUT', '/sim/speed', { speed: 0.1 });  // gives a busy machine time
   await send('left', 'unwanted', [kMiddle, null], 5);
   const row = page.locator('[data-test="job-unwanted"]');
   await row.getByRole('button', { name: 'Cancel unwanted' }).click();
   await row.getByRole('button', { name: 'Keep' }).click();
-  // Who keeps it goes on where they were.
+  // Keeping the job returns the focus.
   const focused = () => page.evaluate(() => document.activeElement?.getAttribute('aria-label'));
   await eventually(async () => assert.equal(await focused(), 'Cancel unwanted'));
   await page.keyboard.press('Enter');
@@ -118,7 +118,7 @@ test('a job is cancelled after a question only', { timeout: 300_000 }, async () 
   await page.locator('[data-test=filter]').fill('');
 });
 
-test('a way to a goal is planned by form, looked at, and sent', { timeout: 400_000 }, async () => {
+test('Plan form plans, previews and sends a path to a goal', { timeout: 400_000 }, async () => {
   await page.locator('[data-test=new-job]').click();
   await page.locator('[data-test=plan-goal] summary').click();
   await page.locator('[data-test=plan-arm]').selectOption('left');
@@ -134,7 +134,7 @@ test('a way to a goal is planned by form, looked at, and sent', { timeout: 400_0
   await page.locator('[data-test=plan-named]').selectOption('ready');
   await page.locator('[data-test=plan]').click();
   await page.locator('[data-test=planned]').waitFor();
-  await reads(page.locator('[data-test=planned]'), /proven.*could start now/);
+  await reads(page.locator('[data-test=planned]'), /certified.*could start now/);
   await holds(page.locator('[data-test=job-text]'), /left to ready[^]*left_panda_joint1/);
   await looks_different(page, before, kLeastGhost_px, 'pixels of ghosts');
   await page.screenshot(path_for('plan-dark'));
@@ -143,12 +143,12 @@ test('a way to a goal is planned by form, looked at, and sent', { timeout: 400_0
   await ended(id);
 });
 
-test('a pasted goal is planned and shown before it is sent', { timeout: 400_000 }, async () => {
+test('A pasted goal is planned and previewed before sending', { timeout: 400_000 }, async () => {
   await page.locator('[data-test=new-job]').click();
   const ghost = () => page.evaluate(() => window.armloom.ghost());
   const text = page.locator('[data-test=job-text]');
   await text.fill(JSON.stringify({ id: 'by-goal', arm: 'right', move_to: { named: 'ready' } }));
-  await page.locator('[data-test=goal-way]', { hasText: 'as it would be planned now' }).waitFor();
+  await page.locator('[data-test=goal-path]', { hasText: 'as planned now' }).waitFor();
   const end = await eventually(async () => {
     const shown = await ghost();
     assert.ok(Object.keys(shown ?? {}).some((joint) => joint.startsWith('right_')), 'the arm stands at its goal, as a ghost');
@@ -157,15 +157,15 @@ test('a pasted goal is planned and shown before it is sent', { timeout: 400_000 
   await page.locator('[data-test=preview-time]').fill('0');
   await eventually(async () => assert.notDeepEqual(await ghost(), end));
   await page.screenshot(path_for('compose-goal'));
-  // What is half typed asks nothing; a place that is out of reach says so.
+  // An incomplete goal sends no request; an unreachable goal shows a problem.
   await text.fill(JSON.stringify({ arm: 'right', move_to: { named: 'rea' } }));
-  await page.locator('[data-test=goal-way]').waitFor({ state: 'detached' });
+  await page.locator('[data-test=goal-path]').waitFor({ state: 'detached' });
   await text.fill(JSON.stringify({ arm: 'right', move_to: { pose: { xyz: [3, 0, 0.5] } } }));
   await page.locator('[data-test=goal-problem]').waitFor();
   await text.fill('');
 });
 
-test('the goal of a tool is dragged in the cell: planned, judged and shown before it is sent', { timeout: 400_000 }, async () => {
+test('A tool goal dragged in the 3D view is planned and previewed before sending', { timeout: 400_000 }, async () => {
   await go('#/');
   await page.locator('[data-test=new-job]').click();
   await page.locator('[data-test=plan-goal] summary').click();
@@ -182,7 +182,7 @@ test('the goal of a tool is dragged in the cell: planned, judged and shown befor
   await page.mouse.move(view.x + tool.x + 20, view.y + tool.y - 20, { steps: 6 });
   await page.mouse.up();
   await page.locator('[data-test=planned]').waitFor();
-  await reads(page.locator('[data-test=planned]'), /proven.*could start now/);
+  await reads(page.locator('[data-test=planned]'), /certified.*could start now/);
   await holds(page.locator('[data-test=plan-xyz]'), /^-?[\d.]+, -?[\d.]+, -?[\d.]+$/);
   await holds(page.locator('[data-test=job-text]'), /right_panda_joint1/);
   await looks_different(page, before, kLeastGhost_px, 'pixels of ghosts');
@@ -196,6 +196,6 @@ test('the goal of a tool is dragged in the cell: planned, judged and shown befor
   await ended(await page.locator('[data-test=accepted] a').innerText());
 });
 
-test('nothing so far was an error in the console', () => {
+test('The console has no errors', () => {
   assert.deepEqual(chromium.errors.filter((text) => !/404 \(.*\/jobs\/judged$|422 \(.*\/plan$/.test(text)), []);
 });

@@ -1,7 +1,7 @@
-// The dashboard in a real browser beside a real server: both arms are drawn, a job that is pasted
-// into the page appears, moves its arm and finishes; a refusal, a stop and a lost server are shown.
+// The dashboard in a real browser with a real server: both arms are drawn; a pasted job appears,
+// moves its arm and finishes; refusal, stop and lost server are shown.
 //
-//   node --test test/browser/dashboard.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/dashboard.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
@@ -9,25 +9,25 @@ import { test } from 'node:test';
 import { arm_now as arm_of, ask as ask_server, eventually, job_through, path_for, reads, resume, with_dashboard } from './harness.mjs';
 import { difference, pixels_like } from './pictures.mjs';
 
-// A robot of the cell covers several thousand pixels of the view; labels and text far fewer.
+// A robot covers several thousand pixels of the view; labels and text far fewer.
 const kLeastRobot_px = 3000;
 const kLeastObject_px = 1500;
-// The diagram's colours of cells in conflict and of free ones (web/src/palette.ts).
+// The diagram's colors of conflicting and free cells (web/src/state/palette.ts).
 const kConflict = [0xe0, 0x45, 0x4e];
 const kFree = [0xc3, 0xcf, 0xdb];
 const kLeastArea_px = 2000;
-// Joints of a Panda that reaches into the middle; not for both arms at once.
+// Joints of a Panda that reaches into the middle; not possible for both arms at once.
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
 let browser;
 let page;
-// certified: two jobs that cross show a backlog; the default would schedule the second.
+// Under `certified` the second of two crossing jobs is backlogged; the default would schedule it.
 const { server, chromium } = with_dashboard('config/two_pandas.json', 'certified', { colorScheme: 'light' }, (opened) => {
   ({ page } = opened);
   browser = opened.chromium.context;
 });
 
-test('both arms are drawn, the left one left of the right one', { timeout: 300_000 }, async () => {
+test('3D view draws both arms, the left arm to the left', { timeout: 300_000 }, async () => {
   const whole = await picture('cell');
   const left = await pixels_of('left', whole);
   const right = await pixels_of('right', whole);
@@ -36,7 +36,7 @@ test('both arms are drawn, the left one left of the right one', { timeout: 300_0
   assert.ok(left.x < 0.5 && right.x > 0.5, `left at ${left.x}, right at ${right.x} of the view's width`);
 });
 
-test('a pasted job appears, moves the arm, and finishes', { timeout: 300_000 }, async () => {
+test('A pasted job appears, moves the arm, and finishes', { timeout: 300_000 }, async () => {
   const { names, q } = await left_arm();
   const still = await picture('before');
   await send(swing_job('browser-1', names, q, 0.9, 4));
@@ -52,13 +52,13 @@ test('a pasted job appears, moves the arm, and finishes', { timeout: 300_000 }, 
   const finished = page.locator('[data-test=list-finished] [data-test="job-browser-1"]');
   await finished.waitFor();
   assert.equal(await finished.getAttribute('data-state'), 'succeeded');
-  assert.match(await finished.textContent(), /succeeded/);  // it may be below what is drawn
+  assert.match(await finished.textContent(), /succeeded/);  // it may be scrolled out of view
   const end = (await left_arm()).q;
   assert.ok(Math.abs(end[0] - (q[0] + 0.9)) < 0.02, `joint 1 ended at ${end[0]}, not at ${q[0] + 0.9}`);
   await page.screenshot(path_for('page'));
 });
 
-test('the example moves an idle arm and brings it back', { timeout: 300_000 }, async () => {
+test('The example job moves an idle arm and returns it', { timeout: 300_000 }, async () => {
   await open_form();
   await page.locator('[data-test=example-right]').click();
   await page.locator('[data-test=send]').click();
@@ -68,8 +68,8 @@ test('the example moves an idle arm and brings it back', { timeout: 300_000 }, a
   assert.equal(await finished.getAttribute('data-state'), 'succeeded');
 });
 
-test('details of a running job show how far it is', { timeout: 300_000 }, async () => {
-  await ask_server(page, 'PUT', '/sim/speed', { speed: 0.25 });  // a busy machine is given the time to look
+test('The page of a running job shows its progress', { timeout: 300_000 }, async () => {
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 0.25 });  // gives a busy machine time
   await open_form();
   await page.locator('[data-test=example-right]').click();
   await page.locator('[data-test=send]').click();
@@ -86,13 +86,13 @@ test('details of a running job show how far it is', { timeout: 300_000 }, async 
   await page.getByRole('button', { name: 'Close', exact: true }).click();
 });
 
-// Both want the middle: one goes there, the other waits for it, and a click on the reason shows why.
-test('the diagram of two jobs that cross is red where they conflict', { timeout: 300_000 }, async () => {
+// Both jobs want the middle: one runs, the other waits. A click on the reason opens the diagram.
+test('The diagram of two crossing jobs is red where they conflict', { timeout: 300_000 }, async () => {
   const reach = async (id, arm, seconds) => {
     const { names, q } = await arm_now(arm);
     await post(job_through(id, names, [q, kMiddle, q], seconds));
   };
-  await ask_server(page, 'PUT', '/sim/speed', { speed: 0.25 });  // a busy machine is given the time to look
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 0.25 });  // gives a busy machine time
   await reach('cross-left', 'left', 10);
   await page.locator('[data-test=list-running] [data-test="job-cross-left"]').waitFor();
   await reach('cross-right', 'right', 10);
@@ -100,7 +100,7 @@ test('the diagram of two jobs that cross is red where they conflict', { timeout:
   const diagram = page.locator('[data-test=diagram]');
   await diagram.waitFor();
   await reads(page.locator('[data-test=evidence]'), /(right_panda|left_panda).* s into cross-left and .* s into cross-right/);
-  await reads(page.locator('[data-test=plan]'), /If cross-right started now, they would come to a conflict in .*is not allowed that far/);
+  await reads(page.locator('[data-test=plan]'), /If cross-right started now, they would reach a conflict in .*has no authority to go that far/);
   const first = await eventually(async () => {
     const shot = await diagram.screenshot();
     const red = await pixels_like(browser, shot, kConflict, 12);
@@ -116,7 +116,7 @@ test('the diagram of two jobs that cross is red where they conflict', { timeout:
   });
 
   await ask_server(page, 'PUT', '/sim/speed', { speed: 2 });
-  // The rest is free once the first has come home: the second starts by itself.
+  // The path is free once the first arm is home: the second starts by itself.
   await page.locator('[data-test=list-running] [data-test="job-cross-right"]').waitFor();
   await page.screenshot(path_for('diagram-later'));
   await ask_server(page, 'PUT', '/sim/speed', { speed: 1 });
@@ -125,9 +125,9 @@ test('the diagram of two jobs that cross is red where they conflict', { timeout:
   await page.getByRole('button', { name: 'Close', exact: true }).click();
 });
 
-test('an object of the scene appears, moves and vanishes', { timeout: 300_000 }, async () => {
+test('3D view follows scene objects as they appear, move and vanish', { timeout: 300_000 }, async () => {
   const crate = { box: [0.3, 0.3, 0.4], rpy: [0, 0, 0] };
-  const empty = await settled_picture('scene-empty');  // the camera may still glide from the page before
+  const empty = await settled_picture('scene-empty');  // the camera may still be moving
   const changed = async (name) => (await difference(browser, empty, await picture(name)));
   await ask('PUT', '/scene/objects/crate', { ...crate, xyz: [-0.3, 0.9, 0.4] }, 2);
   const first = await changed('scene-first');
@@ -140,11 +140,11 @@ test('an object of the scene appears, moves and vanishes', { timeout: 300_000 },
   assert.ok(last.count < kLeastObject_px / 10, `${last.count} pixels are left`);
 });
 
-test('nothing so far was an error in the console', () => {
+test('The console has no errors', () => {
   assert.deepEqual(chromium.errors, []);
 });
 
-test('a refused job shows the place of the fault in the form', { timeout: 180_000 }, async () => {
+test('A refused job shows the JSON pointer of its fault', { timeout: 180_000 }, async () => {
   const { names, q } = await left_arm();
   const job = swing_job('browser-2', ['left_panda_joint99', ...names.slice(1)], q, 0.1, 4);
   await send(job);
@@ -155,17 +155,18 @@ test('a refused job shows the place of the fault in the form', { timeout: 180_00
   await page.screenshot(path_for('refused'));
 });
 
-// Two programs that never rest take both cores, arms move and are drawn in software: the view gives way.
-test('stop answers within a second on a busy machine', { timeout: 400_000 }, async () => {
+// Two busy programs take both cores while moving arms are rendered in software: the view must
+// yield.
+test('Stop is confirmed within a second on a busy machine', { timeout: 400_000 }, async () => {
   const { names, q } = await left_arm();
   const others = [1, 2].map(() => spawn(process.execPath, ['-e', 'for (;;);']));
   try {
     await post({ ...swing_job('busy-there', names, q, 0.5, 30) });
     await page.locator('[data-test=list-running] [data-test="job-busy-there"]').waitFor();
-    // The view has seen some slow drawings.
+    // Waits until the view has had some slow frames.
     const seen = await page.evaluate(() => window.armloom.pictures());
     await page.waitForFunction((from) => window.armloom.pictures() >= from + 6, seen, { timeout: 240_000 });
-    // The machine may have something else to do for once: three tries.
+    // Three tries, because the machine may be busy otherwise.
     let took_ms = Infinity;
     for (let tries = 0; tries < 3 && took_ms >= 1000; tries++) {
       if (tries > 0) {
@@ -184,14 +185,14 @@ test('stop answers within a second on a busy machine', { timeout: 400_000 }, asy
   await page.locator('[data-test=list-finished] [data-test="job-busy-there"]').waitFor();
 });
 
-test('stop holds the cell and resume frees it', { timeout: 180_000 }, async () => {
+test('Stop stops all arms and Resume continues', { timeout: 180_000 }, async () => {
   await page.getByRole('button', { name: 'Stop all: controlled, drives stay powered' }).click();
   await page.locator('[data-test=stopped]').waitFor();
   await resume(page);
   await page.locator('[data-test=stopped]').waitFor({ state: 'detached' });
 });
 
-test('a banner says that the server is gone, and how old is what is seen', { timeout: 180_000 }, async () => {
+test('A banner reports a lost connection and the age of the data', { timeout: 180_000 }, async () => {
   await server.end();
   const lost = page.locator('[data-test=lost]');
   await lost.waitFor();
@@ -220,7 +221,7 @@ async function post(job) {
 
 const ask_status = async (method, path) => (await ask_server(page, method, path)).status;
 
-/** Asks the server for a change of the scene, and waits until the page knows so many objects. */
+/** Sends a change of the scene and waits until the page knows this many objects. */
 async function ask(method, path, body, count) {
   const { status } = await ask_server(page, method, path, body);
   assert.ok(status < 300, `${method} ${path}: ${status}`);
@@ -239,18 +240,18 @@ function swing_job(id, names, q, angle, seconds) {
   return job_through(id, names, [q, there], seconds, { name: 'swing' });
 }
 
-/** The view as a PNG, after what changed has been drawn. */
+/** Returns the view as a PNG after all changes are drawn. */
 async function picture(name) {
   await page.evaluate(() => window.armloom.drawn());
   const { path } = path_for(name);
   return page.locator('.view canvas').screenshot(path ? { path } : {});
 }
 
-/** How long the page takes to say that the cell is stopped, after the click. */
+/** Returns the time from the click to the page's stopped mark. */
 async function time_of_stop() {
   const button = await page.getByRole('button', { name: 'Stop all: controlled, drives stay powered' }).boundingBox();
-  // From the click as the browser got it to the mark on the page, in the browser's own time. It listens
-  // before it is clicked: on a busy machine what is sent later may arrive first.
+  // Measured in the browser's own time, from the click event to the mark. It listens before the
+  // click, because on a busy machine later requests may arrive first.
   await page.evaluate(() => { window.answered_ms = new Promise((done) => {
     let clicked_ms = 0;
     window.addEventListener('click', (event) => { clicked_ms = event.timeStamp; }, { capture: true, once: true });
@@ -264,7 +265,7 @@ async function time_of_stop() {
   return page.evaluate(() => window.answered_ms);
 }
 
-/** When the view does not change any more. */
+/** Returns a picture once the view no longer changes. */
 async function settled_picture(name) {
   let last = await picture(name);
   for (let i = 0; i < 60; i++) {
@@ -276,7 +277,7 @@ async function settled_picture(name) {
   throw new Error(`${name}: the view never comes to rest`);
 }
 
-/** Which pixels are a robot's: those that change when it is taken away. */
+/** Returns a robot's pixels: those that change when it is hidden. */
 async function pixels_of(robot, whole) {
   await page.evaluate((name) => window.armloom.set_robot_visible(name, false), robot);
   const without = await picture(`without-${robot}`);

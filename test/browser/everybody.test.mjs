@@ -1,6 +1,6 @@
-// The dashboard for everybody: by keys alone, by finger on a tablet, and for eyes that see no colours.
+// Accessibility of the dashboard: by keys alone, by touch on a tablet, and without colors.
 //
-//   node --test test/browser/everybody.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/everybody.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { after, test } from 'node:test';
@@ -14,8 +14,8 @@ const kTurned_px = 2000;
 const kMostEvents = 100;
 const kLeastEvent_px = 12;
 const kLeastScrub_px = 90;
-// What is undecided is hatched in this (web/src/state/palette.ts); as an eye without colours sees it.
-const kStripes_grey = [0x4e, 0x4e, 0x4e];
+// The hatching of undecided cells (web/src/state/palette.ts), as seen without colors.
+const kStripes_gray = [0x4e, 0x4e, 0x4e];
 const kLeastStripes_px = 40;
 
 let url;
@@ -27,7 +27,7 @@ after(() => tablet.close(), { timeout: 120_000 });
 
 const send = (...job) => send_through(page, ...job);
 
-/** Goes on by Tab until this has the focus. */
+/** Presses Tab until this element has the focus. */
 async function tab_to(selector, key = 'Tab') {
   for (let i = 0; i < kMostTabs; i++) {
     await page.keyboard.press(key);
@@ -38,7 +38,7 @@ async function tab_to(selector, key = 'Tab') {
 
 const focus_is_on = (what, words) => eventually(async () => assert.equal(await page.evaluate(() => document.activeElement.dataset.test ?? document.activeElement.className), what, words));
 
-test('the cell is turned by keys and by buttons, without dragging', { timeout: 400_000 }, async () => {
+test('Keys and buttons turn the 3D view without dragging', { timeout: 400_000 }, async () => {
   const first = await view_picture(page);
   await tab_to('[data-test=view]');
   for (const key of ['ArrowRight', 'ArrowRight', 'ArrowUp', '+']) await page.keyboard.press(key);
@@ -58,7 +58,7 @@ test('the cell is turned by keys and by buttons, without dragging', { timeout: 4
   });
 });
 
-test('a job is planned, sent, looked at and cancelled by keys alone', { timeout: 300_000 }, async () => {
+test('Keys alone suffice to plan, send, inspect and cancel a job', { timeout: 300_000 }, async () => {
   await tab_to('[data-test=new-job]', 'Shift+Tab');
   await page.keyboard.press('Enter');
   await page.locator('[data-test=page-new]').waitFor();
@@ -87,8 +87,8 @@ test('a job is planned, sent, looked at and cancelled by keys alone', { timeout:
   await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();
 });
 
-test('what has the focus is never under a bar that sticks', { timeout: 300_000 }, async () => {
-  // Slowly, so that what is reported is in sight for long: the next test looks at it.
+test('Sticky bars never cover the focused element', { timeout: 300_000 }, async () => {
+  // Slow, so that the reports stay visible for the next test.
   await ask(page, 'PUT', '/sim/speed', { speed: 0.1 });
   await ask(page, 'POST', '/stop');
   for (let i = 0; i < 12; i++) await send(i % 2 === 0 ? 'left' : 'right', `waits-${i}`, [null], 1);
@@ -111,7 +111,7 @@ test('what has the focus is never under a bar that sticks', { timeout: 300_000 }
   await page.setViewportSize({ width: 1440, height: 900 });
 });
 
-test('what is reported is marked on the timeline, and looked back at from its line', { timeout: 300_000 }, async () => {
+test('Timeline marks events; keys and clicks go to their times', { timeout: 300_000 }, async () => {
   await page.evaluate(() => window.armloom.drawn());
   await page.locator('[data-test=stopped]').waitFor();
   await eventually(async () => {
@@ -119,7 +119,7 @@ test('what is reported is marked on the timeline, and looked back at from its li
     const found = await Promise.all([[0xff, 0x70, 0x78], [0xf0, 0xb5, 0x41]].map((rgb) => pixels_like(desk.context, strip, rgb, 12)));
     assert.ok(Math.max(...found) > kLeastEvent_px, `${found} pixels of marks`);
   });
-  // Keys that come faster than the page is painted: it is told, put away, and told again.
+  // Keys that come faster than frames: shown, closed, and shown again.
   const told_after = await page.evaluate(async () => {
     const canvas = document.querySelector('[data-test=lanes]');
     canvas.focus();
@@ -132,13 +132,13 @@ test('what is reported is marked on the timeline, and looked back at from its li
     return told;
   });
   assert.deepEqual(told_after, [true, false, true]);
-  // By keys: told, put away, and looked back at.
+  // By keys: shown, closed, and opened as the shown time.
   const [tip, canvas] = [page.locator('.timeline .tip'), page.locator('[data-test=lanes]')];
   const kTold = /^Warning at 0:\d\d:\d\d\.\d, (\d+ min )?[\d.]+ s ago: stopped: left, right \(operator\)/m;
   const to_the_stop = async () => {
     await canvas.focus();
-    await page.keyboard.press('Escape');  // then it begins with the newest
-    // A server that a busy machine holds up reports that, too.
+    await page.keyboard.press('Escape');  // then it starts with the newest
+    // The server may also report delays of a busy machine.
     for (let i = 0; i < kMostEvents; i++) {
       await page.keyboard.press('PageUp');
       if (kTold.test(await tip.innerText())) return;
@@ -159,7 +159,7 @@ test('what is reported is marked on the timeline, and looked back at from its li
   const [told, lanes] = [await tip.boundingBox(), await canvas.boundingBox()];
   await page.keyboard.press('Escape');
   await tip.waitFor({ state: 'detached' });
-  // By pointer: what is under it is told, and a click looks back at it.
+  // By pointer: the tooltip shows the event, and a click goes to its time.
   const notch = { x: told.x + told.width / 2, y: lanes.y + lanes.height - 22 };
   await page.mouse.move(notch.x, notch.y - 30);
   await page.mouse.move(notch.x, notch.y);
@@ -177,7 +177,7 @@ test('what is reported is marked on the timeline, and looked back at from its li
   await ask(page, 'PUT', '/sim/speed', { speed: 10 });
 });
 
-test('on a tablet all is done by finger', { timeout: 500_000 }, async () => {
+test('Touch alone suffices on a tablet', { timeout: 500_000 }, async () => {
   finger = await tablet.open({ colorScheme: 'light', viewport: { width: 1024, height: 768 }, hasTouch: true, isMobile: true });
   await tablet.visit(url);
   const small = await finger.evaluate((least) => [...document.querySelectorAll('button, select, summary, input[type=search]')]
@@ -186,10 +186,10 @@ test('on a tablet all is done by finger', { timeout: 500_000 }, async () => {
     .map(({ element, box }) => `${element.outerHTML.slice(0, 90)} ${box.width.toFixed(0)} x ${box.height.toFixed(0)}`), kFinger_px - 0.5);
   assert.deepEqual(small, []);
   await finger.screenshot(path_for('tablet-light'));
-  // Nothing is shown by pointing only: who waits is made more urgent at once.
+  // Nothing requires hovering: the priority buttons are visible.
   await finger.locator('[data-test="job-waits-3"]').getByRole('button', { name: 'More urgent: waits-3' }).tap();
   await finger.locator('[data-test="job-waits-3"]').getByText('+1', { exact: true }).waitFor();
-  // A finger turns the cell, and touches an arm.
+  // A finger turns the view, and selects an arm.
   const touch = await tablet.context.newCDPSession(finger);
   const view = await finger.locator('.view canvas').boundingBox();
   const at = (dx) => ({ x: view.x + view.width * 0.7 + dx, y: view.y + view.height * 0.25 });
@@ -216,7 +216,7 @@ test('on a tablet all is done by finger', { timeout: 500_000 }, async () => {
   assert.deepEqual(tablet.errors, []);
 });
 
-test('a diagram is read without colours', { timeout: 300_000 }, async () => {
+test('Diagrams are readable without colors', { timeout: 300_000 }, async () => {
   await ask(page, 'PUT', '/sim/speed', { speed: 1 });
   await ask(page, 'POST', '/stop');
   await send('left', 'grey-left', [kMiddle, null], 6);
@@ -227,13 +227,13 @@ test('a diagram is read without colours', { timeout: 300_000 }, async () => {
   const diagram = page.locator('[data-test=diagram]');
   await diagram.locator('canvas').first().waitFor();
   await eventually(async () => {
-    const stripes = await pixels_like(desk.context, await diagram.screenshot(), kStripes_grey, 10);
+    const stripes = await pixels_like(desk.context, await diagram.screenshot(), kStripes_gray, 10);
     assert.ok(stripes > kLeastStripes_px, `${stripes} pixels of stripes`);
   });
   await page.screenshot(path_for('diagram-without-colours'));
   await eyes.send('Emulation.setEmulatedVisionDeficiency', { type: 'none' });
 });
 
-test('nothing so far was an error in the console', () => {
+test('The console has no errors', () => {
   assert.deepEqual(desk.errors, []);
 });

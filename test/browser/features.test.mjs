@@ -1,7 +1,7 @@
-// What the dashboard shows and lets people do beside its pages: ways ahead with their authority, ghosts and
-// distances, planned and measured joints, goals by form, recovery after a stop, alerts, objects by hand.
+// Features of the dashboard: tool paths with authority, ghosts, distances, planned and measured
+// joints, priorities, recovery after a stop, alerts, dragging objects, policies, replanning.
 //
-//   node --test test/browser/features.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/features.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
@@ -15,7 +15,7 @@ const kLeastWay_px = 60;
 const kLeastGhost_px = 800;
 const kFirstView_kB = 250;
 
-// certified: who is in conflict is blocked, and says until when.
+// Under `certified` a conflicting job is blocked.
 let page;
 const { chromium } = with_dashboard('config/two_pandas.json', 'certified', {}, (opened) => { ({ page } = opened); });
 
@@ -25,7 +25,7 @@ const ended = (id) => finished(page, id);
 
 const send = (...job) => send_through(page, ...job);
 
-/** A button of the cell puts more than so many pixels away. */
+/** A button hides more than `least_px` pixels of the view. */
 async function puts_away(test, least_px, what) {
   const shown = await view_picture(page);
   await page.locator(`[data-test=${test}]`).click();
@@ -33,15 +33,15 @@ async function puts_away(test, least_px, what) {
   await page.locator(`[data-test=${test}]`).click();
 }
 
-test('the cell shows the way ahead, where arms come to rest, and what is closest', { timeout: 400_000 }, async () => {
-  await speed(0.02);  // what is compared hardly moves meanwhile
+test('3D view shows tool paths, ghosts of end positions, and closest pairs', { timeout: 400_000 }, async () => {
+  await speed(0.02);  // keeps the compared pictures nearly still
   await send('left', 'ahead', [kMiddle, null], 6, { name: 'there and back' });
   await page.locator('[data-test=list-running] [data-test="job-ahead"]').waitFor();
   await page.waitForFunction(() => window.armloom.ahead() > 0);
   await page.locator('.distance-label:not([hidden])').first().waitFor();
   await reads(page.locator('.distance-label:not([hidden])').first(), /^[\d.]+ (mm|m)$/);
   await page.screenshot(path_for('ahead-dark'));
-  await puts_away('show-ways', kLeastWay_px, 'pixels of the way ahead');
+  await puts_away('show-paths', kLeastWay_px, 'pixels of the way ahead');
   await page.locator('[data-test=show-distances]').click();
   await counts(page.locator('.distance-label:not([hidden])'), 0);
   await page.locator('[data-test=show-distances]').click();
@@ -54,7 +54,7 @@ test('the cell shows the way ahead, where arms come to rest, and what is closest
   await puts_away('show-ghosts', kLeastGhost_px, 'pixels of the ghost at its goal');
 });
 
-test('who is blocked says by whom, which links, how close, since when and until when', { timeout: 300_000 }, async () => {
+test('A blocked job names its blocker, links, distance, waiting time and expiry', { timeout: 300_000 }, async () => {
   await send('right', 'blocked', [kMiddle, null], 4, { backlog_timeout_s: 300 });
   const row = page.locator('[data-test=list-backlog] [data-test="job-blocked"]');
   await row.waitFor();
@@ -62,7 +62,7 @@ test('who is blocked says by whom, which links, how close, since when and until 
   await row.locator('[data-test=reason]', { hasText: /right_panda_\w+ would (touch|come within).*left_panda_\w+, [\d.]+ s into its motion/ }).waitFor();
 });
 
-test('who waits is made more urgent, or less, in its row', { timeout: 300_000 }, async () => {
+test('Priority buttons change the priority of a waiting job', { timeout: 300_000 }, async () => {
   const row = page.locator('[data-test="job-blocked"]');
   const priority = async () => (await ask(page, 'GET', '/jobs/blocked')).value.priority;
   await row.hover();
@@ -80,7 +80,7 @@ test('who waits is made more urgent, or less, in its row', { timeout: 300_000 },
   assert.equal(await moving.locator('[data-test=urgency]').count(), 0, 'nobody goes before what moves');
 });
 
-test('a diagram shows authority, and both arms where it is pointed at', { timeout: 300_000 }, async () => {
+test('Pointing at a diagram shows both arms as ghosts', { timeout: 300_000 }, async () => {
   await page.locator('[data-test="job-blocked"] [data-test=why]').click();
   const diagram = page.locator('[data-test=diagram]');
   await diagram.locator('canvas').first().waitFor();
@@ -99,8 +99,8 @@ test('a diagram shows authority, and both arms where it is pointed at', { timeou
   await ended('away');
 });
 
-test('a job page has its joints as planned and as measured', { timeout: 300_000 }, async () => {
-  await ask(page, 'DELETE', '/jobs/blocked');  // it may have begun: then it brakes first
+test('Job page plots planned and measured joints', { timeout: 300_000 }, async () => {
+  await ask(page, 'DELETE', '/jobs/blocked');  // if it has started, it brakes first
   await ended('blocked');
   await speed(2);
   await send('right', 'measured', [kMiddle.map((angle, i) => (i === 0 ? 1 : angle)), null], 3);
@@ -108,27 +108,27 @@ test('a job page has its joints as planned and as measured', { timeout: 300_000 
   await page.locator('[data-test=page-job] h3', { hasText: /Planned/ }).waitFor();
   await ended('measured');
   await page.locator('[data-test=page-job] h3', { hasText: 'Planned and measured' }).waitFor();
-  // Time, and every joint twice.
+  // Time, and each joint twice.
   await page.waitForFunction(() => document.querySelectorAll('[data-test=page-job] .u-series').length === 15);
   await page.screenshot(path_for('planned-dark'));
 });
 
-test('after a stop the recovery page says why, and leads back', { timeout: 400_000 }, async () => {
+test('Recovery page states the cause of a stop and resumes the arms', { timeout: 400_000 }, async () => {
   await speed(1);
   await send('left', 'interrupted', [kMiddle.map((angle, i) => (i === 0 ? 0.5 : angle))], 20);
   await page.locator('[data-test=list-running] [data-test="job-interrupted"]').waitFor();
   await page.keyboard.press('F8');
-  // It is told as stopped, everywhere, and nobody knows when it ends.
+  // It is shown as stopped everywhere, without a predicted end.
   await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'stopped' }).waitFor();
   await label_of(page, 'left').filter({ hasText: 'stopped' }).waitFor();
   await page.locator('[data-test="job-interrupted"] [data-test=figure]', { hasText: 'stopped' }).waitFor();
-  await page.waitForFunction(() => /waits for resume: left is stopped \(operator\), until it is resumed/.test(document.querySelector('[data-test=told-left]').textContent));
+  await page.waitForFunction(() => /waits for resume: left is stopped \(operator\), until it is resumed/.test(document.querySelector('[data-test=lane-text-left]').textContent));
   await eventually(async () => assert.ok((await page.evaluate(() => window.armloom.lanes())).every(({ marks }) => marks.every(({ expected, to_s }) => !expected || to_s === null || to_s === Infinity))));
   await page.screenshot(path_for('stopped-told-dark'));
   await go('#/arm/left');
   await page.locator('[data-test=resume-arm]').click();
   await page.locator('[data-test=cause]', { hasText: /stopped: left, right \(operator\)/ }).waitFor();
-  await page.locator('[data-test=need-left]', { hasText: /goes on from \d+ %/ }).waitFor();
+  await page.locator('[data-test=need-left]', { hasText: /continues from \d+ %/ }).waitFor();
   const resume = page.locator('[data-test=resume-checked]');
   const alone = page.locator('[data-test=resume-left]');
   for (let i = 0; i < 4; i++) {
@@ -146,7 +146,7 @@ test('after a stop the recovery page says why, and leads back', { timeout: 400_0
   await speed(1);
 });
 
-test('alerts are counted until somebody acknowledges them, with a name', { timeout: 300_000 }, async () => {
+test('Alerts are counted until acknowledged with a name', { timeout: 300_000 }, async () => {
   await page.locator('[data-test=open-alerts]').click();
   await page.locator('[data-test=person]').fill('  ');
   await page.locator('[data-test=unnamed]').waitFor();
@@ -162,10 +162,10 @@ test('alerts are counted until somebody acknowledges them, with a name', { timeo
   await page.locator('[data-test=open-alerts]').waitFor({ state: 'detached' });
 });
 
-test('an object is moved by hand', { timeout: 300_000 }, async () => {
+test('A scene object can be dragged in the 3D view', { timeout: 300_000 }, async () => {
   await ask(page, 'PUT', '/scene/objects/crate', { box: [0.2, 0.2, 0.2], xyz: [0, 0.8, 0.3], rpy: [0, 0, 0] });
   await go('#/scene/crate');
-  await page.locator('[data-test=by-hand]').click();
+  await page.locator('[data-test=move-object]').click();
   const where = () => page.evaluate(() => window.armloom.where_is('crate'));
   const drag = async (dx, dy) => {
     await page.evaluate(() => window.armloom.drawn());
@@ -181,8 +181,8 @@ test('an object is moved by hand', { timeout: 300_000 }, async () => {
   const there = (await page.evaluate(() => window.armloom.objects())).find(({ name }) => name === 'crate');
   await address_like(page, /#\/scene\/crate/);
   await page.waitForFunction((x) => document.querySelector('[data-test=object-x]').value === x, String(there.xyz[0]));
-  await page.screenshot(path_for('by-hand-dark'));
-  // What is taken back in the middle of it stands again where it stood.
+  await page.screenshot(path_for('drag-object-dark'));
+  // A canceled drag returns the object to its position.
   const stood = await where();
   const off_px = async () => Math.hypot((await where()).x - stood.x, (await where()).y - stood.y);
   await drag(60, 0);
@@ -195,7 +195,7 @@ test('an object is moved by hand', { timeout: 300_000 }, async () => {
   await go('#/');
 });
 
-test('another policy decides from the settings on, while no job is admitted', { timeout: 300_000 }, async () => {
+test('Settings page changes the policy only while no job is admitted', { timeout: 300_000 }, async () => {
   const choose = (policy) => page.locator(`[data-test=policy-form] input[value=${policy}]`).check();
   await go('#/settings');
   await page.locator('[data-test=change-policy]:disabled').waitFor();
@@ -205,8 +205,8 @@ test('another policy decides from the settings on, while no job is admitted', { 
   await speed(1);
   await send('right', 'keeps-its-policy', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);
   await choose('certified');
-  await page.locator('[data-test=no-change]', { hasText: 'Only while no job is admitted: 1 is' }).waitFor();
-  await page.locator('[data-test=change-policy]:disabled').waitFor();  // what would be refused is not asked
+  await page.locator('[data-test=no-change]', { hasText: 'Only possible while no job is admitted; admitted now: 1' }).waitFor();
+  await page.locator('[data-test=change-policy]:disabled').waitFor();  // a change that would be refused is disabled
   await page.screenshot(path_for('policy-dark'));
   await speed(10);
   await go('#/');
@@ -215,13 +215,13 @@ test('another policy decides from the settings on, while no job is admitted', { 
   await page.locator('.fact', { hasText: 'certified' }).waitFor({ state: 'attached' });
 });
 
-test('a job is given another way from its page', { timeout: 300_000 }, async () => {
+test('Job page replans a running job', { timeout: 300_000 }, async () => {
   await speed(0.5);
   await send('right', 'another-way', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle))], 6);
   await go('#/job/another-way');
   await page.waitForFunction(async () => (await (await fetch('/api/v1/jobs/another-way')).json()).state === 'running');
   await page.locator('[data-test=replan]').click();
-  await page.getByRole('button', { name: 'Brake, and plan another way' }).click();
+  await page.getByRole('button', { name: 'Brake and replan' }).click();
   await page.waitForFunction(async () => {
     const { replan } = await (await fetch('/api/v1/jobs/another-way')).json();
     return replan?.done > 0;
@@ -231,14 +231,14 @@ test('a job is given another way from its page', { timeout: 300_000 }, async () 
   await ended('another-way');
 });
 
-test('no event is missed or comes twice when the connection breaks', { timeout: 300_000 }, async () => {
+test('No event is missed or doubled after a broken connection', { timeout: 300_000 }, async () => {
   const before = await page.evaluate(() => window.armloom.numbers());
   assert.deepEqual([before.missed, before.doubled], [0, 0]);
   await chromium.context.setOffline(true);
   await page.evaluate(() => window.armloom.break_connection());
   await page.locator('[data-test=lost]').waitFor();
   await chromium.context.setOffline(false);
-  await page.getByRole('button', { name: 'Try now' }).click().catch(() => {});  // it may be back already
+  await page.getByRole('button', { name: 'Reconnect now' }).click().catch(() => {});  // it may be connected already
   await page.locator('[data-test=link].open').waitFor();
   await speed(4);
   await send('right', 'after-the-break', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);
@@ -248,7 +248,7 @@ test('no event is missed or comes twice when the connection breaks', { timeout: 
   assert.ok(now.last > before.last);
 });
 
-test('the first view is light: all but the 3D part and what is loaded when it is asked for', () => {
+test('The first view is small without the parts loaded later', () => {
   const dist = process.env.ARMLOOM_WEB ?? join(kRoot, 'web/dist');
   const html = readFileSync(join(dist, 'index.html'), 'utf8');
   const named = [...html.matchAll(/(?:src|href)="\.\/(assets\/[^"]+)"/g)].map(([, file]) => file);
@@ -259,7 +259,7 @@ test('the first view is light: all but the 3D part and what is loaded when it is
   assert.ok(weight < kFirstView_kB * 1000, `${weight} bytes`);
 });
 
-test('nothing so far was an error in the console', () => {
-  // What is canceled may have ended just before.
+test('The console has no errors', () => {
+  // A canceled job may have ended just before.
   assert.deepEqual(chromium.errors.filter((text) => !/ERR_INTERNET_DISCONNECTED|ERR_NETWORK|409 \(Conflict\).*\/jobs\/blocked$/.test(text)), []);
 });

@@ -1,7 +1,7 @@
-// Eight arms and two hundred waiting jobs stay legible: in a hall of Pandas side by side, labels do not
-// cover each other, every arm has its lane and card, and the lists stay short.
+// Eight Pandas side by side with two hundred waiting jobs: labels do not overlap, every arm has a
+// lane and a card, and the lists stay short.
 //
-//   node --test test/browser/hall.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/hall.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
@@ -21,7 +21,7 @@ let page;
 const { chromium } = with_dashboard(join(folder, 'hall.json'), 'coordinated', { more: ['--speed', '0.25'] }, (opened) => { ({ page } = opened); });
 after(() => rmSync(folder, { recursive: true, force: true }));
 
-/** Neighbours 0.8 m apart: they reach into each other's room. */
+/** Neighbors 0.8 m apart, whose workspaces overlap. */
 function hall() {
   const robots = Array.from({ length: kArms }, (_, i) => ({
     name: `arm${i}`, urdf: join(kRoot, 'models/panda.urdf'), srdf: join(kRoot, 'models/panda.srdf'), prefix: `arm${i}_`,
@@ -34,7 +34,7 @@ function hall() {
   return { name: 'hall', robots, objects: [table], clearance_m: 0.02, scheduling };
 }
 
-/** There and back again and again, to the one side and to the other. */
+/** Back and forth repeatedly, alternating sides. */
 function jobs_of(arm) {
   const names = Array.from({ length: 7 }, (_, i) => `arm${arm}_panda_joint${i + 1}`);
   const there = (k) => [((k / 2 + arm) % 2 < 1 ? -1 : 1) * 1.2, 0.2, 0, -1.9, 0, 2.1, 0.785];
@@ -44,7 +44,7 @@ function jobs_of(arm) {
   });
 }
 
-test('eight arms and two hundred waiting jobs stay legible', { timeout: 400_000 }, async () => {
+test('Eight arms and two hundred waiting jobs stay legible', { timeout: 400_000 }, async () => {
   const lists = Array.from({ length: kArms }, (_, arm) => jobs_of(arm));
   const jobs = lists[0].flatMap((_, k) => lists.map((list) => list[k]));
   const { status, value } = await ask(page, 'POST', '/batches', { atomic: true, jobs });
@@ -66,7 +66,7 @@ test('eight arms and two hundred waiting jobs stay legible', { timeout: 400_000 
     const rows = await page.locator('.job').count();
     assert.ok(rows > 2 * kArms && rows < 140, `${rows} rows are drawn`);
   });
-  await counts(page.locator('[data-test^=told-arm]'), kArms);
+  await counts(page.locator('[data-test^=lane-text-arm]'), kArms);
 
   await page.screenshot(path_for('hall-dark'));
   await page.locator('[data-test=filter]').fill('arm3');

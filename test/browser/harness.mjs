@@ -1,9 +1,9 @@
-// The dashboard in a real browser beside a real server, for the tests here.
+// Runs the dashboard in a real browser with a real server.
 //
 //   ARMLOOM_BINARY          the server's binary, default build/armloom
-//   ARMLOOM_WEB             the dashboard's files, default: the server's own choice, web/dist
+//   ARMLOOM_WEB             the dashboard's files, default: the server's default, web/dist
 //   ARMLOOM_CHROMIUM        the browser, default /usr/bin/chromium
-//   ARMLOOM_SCREENSHOT_DIR  where pictures of the page go; none are kept without it
+//   ARMLOOM_SCREENSHOT_DIR  the folder for screenshots; none are kept without it
 
 import assert from 'node:assert/strict';
 import { execFile, spawn } from 'node:child_process';
@@ -23,17 +23,17 @@ const { chromium } = web_require('playwright-core');
 export const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kRoot, 'build/armloom'));
 const kChromium = process.env.ARMLOOM_CHROMIUM ?? '/usr/bin/chromium';
 const kPictures = process.env.ARMLOOM_SCREENSHOT_DIR;
-// As Chromium draws by itself on a machine without a graphics card: software for WebGL, and the page put
-// together without it. (`--use-angle=swiftshader` takes the page through it, too: 15 ms for each change.)
+// The defaults of Chromium without a graphics card: software WebGL, but no software GPU for the
+// page itself. (`--use-angle=swiftshader` uses it for both, at 15 ms per change.)
 const kFlags = [
   '--use-angle=swiftshader-webgl', '--enable-unsafe-swiftshader', '--no-sandbox', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
 ];
-// A busy machine may take ten times as long as an idle one; who fails waits for it in vain, nobody else.
+// A busy machine may take ten times as long as an idle one; only failures wait this long.
 export const kPatience_ms = 60_000;
 const kAgain_ms = 50;
 
-/** A server of one cell; it can be ended, and begun anew at the same address. */
+/** A server of one cell; it can be stopped and restarted at the same address. */
 export class Server {
   constructor(cell, policy, more = []) {
     this.arguments_ = ['serve', '--cell', cell, '--policy', policy, ...more];
@@ -41,7 +41,7 @@ export class Server {
     this.listen_ = '127.0.0.1:0';
   }
 
-  /** Answers its address, as it says it itself. */
+  /** Starts the server and returns the address that it prints. */
   start() {
     this.output_ = '';
     this.process_ = spawn(kBinary, [...this.arguments_, '--listen', this.listen_], { cwd: kRoot });
@@ -62,7 +62,7 @@ export class Server {
     });
   }
 
-  /** It keeps its connections and says nothing, as one that hangs; until it is thawed. */
+  /** Freezes the server like a hang: it keeps its connections and stays silent. */
   freeze() { this.process_.kill('SIGSTOP'); }
   thaw() { this.process_.kill('SIGCONT'); }
 
@@ -77,7 +77,7 @@ export class Server {
   }
 }
 
-/** A browser with a profile of its own; `errors` gets what its console calls one. */
+/** A browser with its own profile; `errors` collects console errors. */
 export class Browser {
   errors = [];
 
@@ -93,7 +93,7 @@ export class Browser {
     return this.page;
   }
 
-  /** The dashboard, connected and drawn. */
+  /** Opens the dashboard and waits until it is connected and drawn. */
   async visit(url) {
     await this.page.goto(url);
     await this.page.locator('[data-test=link].open').waitFor();
@@ -107,9 +107,9 @@ export class Browser {
 }
 
 /**
- * A server and a browser that looks at it, from before a suite's tests until after them; `page` and `url` are there
- * by then, and given to `opened`. `more`: what the server is told; `visits`: no, where the page cannot be had yet;
- * the rest is the browser's.
+ * Starts a server and a browser before a suite's tests and stops them after; passes `page` and
+ * `url` to `opened`. `more` are server arguments; `visits` is false if the page requires a login;
+ * other options go to the browser.
  */
 export function with_dashboard(cell, policy, { more = [], visits = true, ...options } = {}, opened = () => undefined) {
   const dashboard = { server: new Server(cell, policy, more), chromium: new Browser(), page: null, url: null };
@@ -131,8 +131,8 @@ export function with_dashboard(cell, policy, { more = [], visits = true, ...opti
 }
 
 /**
- * Asks again and again until nothing is to be said against it, and answers what that answers: what the page shows
- * follows what it was told, on a busy machine seconds later. Only what `assert` throws is put up with meanwhile.
+ * Retries until `claim` throws no assertion error, and returns its result: on a busy machine the
+ * page follows the server seconds later. Other errors are thrown at once.
  */
 export async function eventually(claim, patience_ms = kPatience_ms) {
   for (const until_ms = Date.now() + patience_ms; ;) {
@@ -145,22 +145,22 @@ export async function eventually(claim, patience_ms = kPatience_ms) {
   }
 }
 
-/** Kept once what is to be read of it is like this. */
+/** Waits until the visible text matches. */
 export function reads(locator, pattern) {
   return eventually(async () => assert.match(await locator.innerText(), pattern));
 }
 
-/** The label of an arm in the view. (Its words can hold the name of another arm.) */
+/** Returns the label of an arm in the view. (Its words can contain another arm's name.) */
 export function label_of(page, arm) {
   return page.locator('.arm-label').filter({ has: page.locator('b').getByText(arm, { exact: true }) });
 }
 
-/** Kept once there are so many. */
+/** Waits until there are this many. */
 export function counts(locator, count, words) {
   return eventually(async () => assert.equal(await locator.count(), count, words));
 }
 
-/** Answers the page's address once it is like this. (What playwright takes for it comes later.) */
+/** Waits until the page's address matches, and returns it. (Playwright's own address is later.) */
 export function address_like(page, pattern) {
   return eventually(async () => {
     const address = await page.evaluate(() => location.href).catch(() => 'none: it is being left');
@@ -169,13 +169,13 @@ export function address_like(page, pattern) {
   });
 }
 
-/** The cell as a PNG, with nothing left out, once all that changed has been drawn. */
+/** Returns the view as a PNG in full quality after all changes are drawn. */
 export async function view_picture(page) {
   for (let i = 0; i < 2; i++) await page.evaluate(() => window.armloom.drawn());
   return page.locator('.view canvas').screenshot();
 }
 
-/** Kept once the cell looks clearly different from a picture of it, by more than so many pixels. */
+/** Waits until the view differs from a picture by more than `least_px` pixels. */
 export function looks_different(page, before, least_px, what = 'pixels changed') {
   return eventually(async () => {
     const { count } = await difference(page.context(), before, await view_picture(page));
@@ -183,7 +183,7 @@ export function looks_different(page, before, least_px, what = 'pixels changed')
   });
 }
 
-/** The page's address, without a reload; kept once the page has heard of it, and shows that place. */
+/** Changes the page's address without a reload, and waits until the page shows it. */
 export function go_to(page, hash) {
   return page.evaluate((hash) => new Promise((done) => {
     const before = location.hash;
@@ -193,19 +193,19 @@ export function go_to(page, hash) {
   }), hash);
 }
 
-/** Kept once a job stands among those that have ended. */
+/** Waits until a job is among the finished jobs. */
 export function finished(page, id) {
   return page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();
 }
 
-/** Where a picture of this name goes, as playwright wants it. */
+/** Returns playwright's path option for a screenshot. */
 export function path_for(name) {
   if (!kPictures) return {};
   mkdirSync(kPictures, { recursive: true });
   return { path: join(kPictures, `${name}.png`) };
 }
 
-/** Sends a request from the page; answers its status and JSON. */
+/** Sends a request from the page; returns its status and JSON. */
 export function ask(page, method, path, body) {
   return page.evaluate(async ([method, path, body]) => {
     const init = { method, headers: { 'content-type': 'application/json' } };
@@ -216,18 +216,18 @@ export function ask(page, method, path, body) {
   }, [method, path, body]);
 }
 
-/** Lets all arms go on, as a person does: what is to be looked at is ticked first. Leads back to where the page was. */
+/** Confirms the checklist and resumes all arms, as a user does; then returns to the page before. */
 export async function resume(page, press = (locator) => locator.click()) {
   const hash = await page.evaluate(() => location.hash);
   await press(page.locator('[data-test=to-resume]'));
   await page.locator('[data-test=resume-checked]').waitFor();
   for (let i = 0; i < 4; i++) await press(page.locator(`[data-test=check-${i}]`));
   await press(page.locator('[data-test=resume-checked]'));
-  await page.locator('[data-test=checks-left]', { hasText: 'Nothing is stopped' }).waitFor();
+  await page.locator('[data-test=checks-left]', { hasText: 'No arm is stopped' }).waitFor();
   await go_to(page, hash);
 }
 
-/** Files from a desktop, dropped on the middle of what a selector names. */
+/** Drops files on the center of an element. */
 export async function drop_files(page, files, selector) {
   const { x, y, width, height } = await page.locator(selector).boundingBox();
   const session = await page.context().newCDPSession(page);
@@ -236,7 +236,7 @@ export async function drop_files(page, files, selector) {
   await session.detach();
 }
 
-/** What a button puts on the clipboard. */
+/** Returns what a button copies to the clipboard. */
 export async function copied_by(page, button) {
   await page.context().grantPermissions(['clipboard-read', 'clipboard-write']);
   await button.click();
@@ -244,13 +244,13 @@ export async function copied_by(page, button) {
   return page.evaluate(() => navigator.clipboard.readText());
 }
 
-/** What a command answers, in this environment and no other one. */
+/** Runs a command with exactly this environment and returns its output. */
 export async function run(program, words, env = {}) {
   const { stdout } = await promisify(execFile)(program, words, { env: { PATH: process.env.PATH, ...env } });
   return stdout;
 }
 
-/** A job through these configurations, `seconds` from each to the next, at rest at each. */
+/** Returns a job through these configurations, `seconds` apart, at rest at each. */
 export function job_through(id, joint_names, configurations, seconds, over = {}) {
   const rest = joint_names.map(() => 0);
   const points = configurations.map((positions, i) => ({
@@ -259,14 +259,16 @@ export function job_through(id, joint_names, configurations, seconds, over = {})
   return { id, trajectory: { joint_names, points }, ...over };
 }
 
-/** An arm's joints and where they are, as the server has it: what the page has may be older. */
+/** Returns an arm's joints and positions from the server; the page's data may be older. */
 export async function arm_now(page, arm) {
   const { status, value } = await ask(page, 'GET', `/arms/${arm}`);
   assert.equal(status, 200, JSON.stringify(value));
   return { names: value.joints, q: value.q };
 }
 
-/** Sends a job of an arm from where it is, through places of its joints; null: where it is. */
+/**
+ * Sends a job from the arm's position through joint configurations; null means the start position.
+ */
 export async function send_through(page, arm, id, way, seconds, over = {}) {
   const { names, q } = await arm_now(page, arm);
   const { status, value } = await ask(page, 'POST', '/jobs', job_through(id, names, [q, ...way.map((to) => to ?? q)], seconds, over));

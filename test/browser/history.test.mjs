@@ -1,6 +1,6 @@
-// What outlives the server and is seen again on the dashboard: jobs of its former runs.
+// Jobs of previous server sessions on the dashboard.
 //
-//   node --test test/browser/history.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/history.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { mkdtempSync, rmSync } from 'node:fs';
@@ -19,7 +19,7 @@ after(() => rmSync(data, { recursive: true, force: true }));
 const go = (hash) => go_to(page, hash);
 const ended = (id) => finished(page, id);
 
-test('jobs of a former run stand in the history, and have their pages', { timeout: 400_000 }, async () => {
+test('Jobs of a previous session are in the history and have pages', { timeout: 400_000 }, async () => {
   await send_through(page, 'left', 'long-ago', [kMiddle, null], 2, { name: 'picked long ago' });
   await ended('long-ago');
   const since = await page.evaluate(() => window.armloom.numbers().last);
@@ -32,17 +32,17 @@ test('jobs of a former run stand in the history, and have their pages', { timeou
   assert.equal(await server.start(), url);
   await page.locator('[data-test=link].open').waitFor();
   await page.getByText('The server was restarted').first().waitFor();
-  // Without a reload, and after one.
+  // Without and with a reload.
   for (const reload of [false, true]) {
     if (reload) await page.reload();
     await page.locator('[data-test=link].open').waitFor();
     await history.getByRole('link', { name: 'picked long ago' }).waitFor();
-    await page.locator('[data-test=earlier-said]', { hasText: 'all that the server has' }).waitFor();
+    await page.locator('[data-test=earlier-status]', { hasText: 'All jobs of the server are loaded' }).waitFor();
     await counts(page.locator('[data-test=list-finished] .job'), 0, 'they are none of this run');
-    await reads(page.locator('[data-test=list-finished] .none'), /No job has ended in this run of the server/);
+    await reads(page.locator('[data-test=list-finished] .none'), /No job has ended in this server session/);
     await counts(page.locator('[data-test=loaded]'), 0, 'the number is of all');
   }
-  // Its times are those of the wall clock: the cell's clock began anew.
+  // Wall-clock times, because the cell's clock has restarted.
   await reads(history.locator('tbody tr').first(), /^\s*(\d{4}-\d\d-\d\d )?\d\d:\d\d:\d\d\s/);
   await page.screenshot(path_for('history-former-dark'));
   await history.getByRole('link', { name: 'picked long ago' }).click();
@@ -50,13 +50,13 @@ test('jobs of a former run stand in the history, and have their pages', { timeou
   await reads(page.locator('[data-test=job-state]'), /^succeeded$/);
   await reads(page.locator('[data-test=states]'), /\d\d:\d\d:\d\d/);
   await page.screenshot(path_for('job-former-dark'));
-  // By its address alone, too.
+  // Also opened by its address.
   await page.reload();
   await page.locator('[data-test=page-job] h2', { hasText: 'picked long ago' }).waitFor();
   assert.ok(since > 0);
 });
 
-test('what the page is told of by itself is not asked for', { timeout: 400_000 }, async () => {
+test('Jobs received as events are not requested again', { timeout: 400_000 }, async () => {
   const asked = [];
   page.on('request', (request) => { if (/\/jobs(\?|\/)/.test(request.url())) asked.push(request.url()); });
   await go('#/');
@@ -68,6 +68,6 @@ test('what the page is told of by itself is not asked for', { timeout: 400_000 }
   assert.deepEqual(asked.filter((address) => /limit=/.test(address)), []);
 });
 
-test('nothing so far was an error in the console', () => {
+test('The console has no errors', () => {
   assert.deepEqual(chromium.errors.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED/.test(text)), []);
 });

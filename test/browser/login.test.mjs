@@ -1,6 +1,6 @@
-// A server that asks for tokens: logging in and out, and a token that is revoked while the page is open.
+// A server that requires tokens: login, logout, and revoking a token while the page is open.
 //
-//   node --test test/browser/login.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/login.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -27,7 +27,7 @@ async function log_in(with_token) {
 }
 const connected = () => page.locator('[data-test=link]', { hasText: 'connected' }).waitFor();
 
-test('who shows no token is asked for one, and a wrong one is refused', { timeout: 300_000 }, async () => {
+test('Login page asks for a token and refuses a wrong one', { timeout: 300_000 }, async () => {
   await page.goto(url);
   await address_like(page, /\/login$/);
   await log_in('armloom_' + '0'.repeat(64));
@@ -36,14 +36,14 @@ test('who shows no token is asked for one, and a wrong one is refused', { timeou
   await connected();
 });
 
-test('who acknowledges is known by the token', { timeout: 300_000 }, async () => {
+test('Acknowledgements have the name of the token', { timeout: 300_000 }, async () => {
   await page.locator('button', { hasText: 'Stop' }).first().click();
   await page.locator('[data-test=open-alerts]').click();
   await page.locator('[data-test=acknowledge-all]').click();
   await page.locator('[data-test=alerts]', { hasText: 'Acknowledged by ada' }).waitFor();
 });
 
-test('copies take the token from the environment, and none without it', { timeout: 300_000 }, async () => {
+test('Copied snippets take the token from the environment', { timeout: 300_000 }, async () => {
   const { names, q } = await arm_now(page, 'left');
   await go_to(page, '#/new');
   await page.locator('[data-test=job-text]').fill(JSON.stringify(job_through('copied', names, [q, q], 1)));
@@ -56,7 +56,7 @@ test('copies take the token from the environment, and none without it', { timeou
   assert.match(await run('python3', ['-c', python], { ARMLOOM_TOKEN: token }), /^(queued|backlogged|scheduled|running|succeeded) /);
 });
 
-test('logging out leads to the login page, and back only with a token', { timeout: 300_000 }, async () => {
+test('Logging out returns to the login page', { timeout: 300_000 }, async () => {
   await page.locator('[data-test=more-pages]').click();
   await page.locator('[data-test=go-settings]').click();
   await page.locator('[data-test=session]', { hasText: 'ada, operator' }).waitFor();
@@ -67,25 +67,25 @@ test('logging out leads to the login page, and back only with a token', { timeou
   await address_like(page, /\/login#\/arm\/right$/);
   await log_in(token);
   await connected();
-  await address_like(page, /\/#\/arm\/right$/);  // the page that was asked for
+  await address_like(page, /\/#\/arm\/right$/);  // the requested page
 });
 
-test('a page whose token is revoked goes to the login page', { timeout: 300_000 }, async () => {
+test('Revoking a token sends its page to the login page', { timeout: 300_000 }, async () => {
   token_command('revoke', '--name', 'ada');
   await address_like(page, /\/login#\/arm\/right$/);
   await log_in(token);
   await page.locator('[role=alert]', { hasText: 'revoked' }).waitFor();
 });
 
-test('who may only look is told so before, not by a refusal', { timeout: 300_000 }, async () => {
+test('Commands are disabled for a viewer, with the reason', { timeout: 300_000 }, async () => {
   await log_in(viewer);
   await connected();
-  await page.locator('[data-test=only-looks]', { hasText: 'vic: may only look' }).waitFor();
-  await page.locator('[data-test=stop]', { hasText: 'not with your token' }).waitFor();
+  await page.locator('[data-test=view-only]', { hasText: 'vic: view only' }).waitFor();
+  await page.locator('[data-test=stop]', { hasText: 'your role does not allow this' }).waitFor();
   const off = async (name) => {
     const command = page.locator(`[data-test=${name}]`);
     await command.and(page.locator(':disabled')).waitFor();
-    assert.match(await command.getAttribute('title'), /takes the role operator/, name);
+    assert.match(await command.getAttribute('title'), /needs the operator role/, name);
   };
   await off('take-control');
   await go_to(page, '#/scene');
@@ -95,7 +95,7 @@ test('who may only look is told so before, not by a refusal', { timeout: 300_000
   await go_to(page, '#/new');
   await page.locator('[data-test=job-text]').fill('{"arm": "left", "move_to": {"named": "home"}}');
   await off('send');
-  await page.locator('[data-test=judge]').click();  // which changes nothing
-  await page.locator('[data-test=judged]').waitFor();
+  await page.locator('[data-test=check-job]').click();  // which changes nothing
+  await page.locator('[data-test=check-results]').waitFor();
   await page.screenshot(path_for('viewer-dark'));
 });

@@ -1,6 +1,6 @@
-// While an earlier instant is looked at every page is of that instant, or says what of it is of now.
+// While a past time is shown, every page shows that time, or says which parts show the present.
 //
-//   node --test test/browser/look_back.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/look_back.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -9,14 +9,14 @@ import { ask, counts, eventually, finished, go_to, path_for, reads, resume, send
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
 const dashboard = with_dashboard('config/two_pandas.json', 'coordinated');
-/** Cell times: before anything, while the first of two jobs ran, while all was stopped. */
+/** Cell times: before all jobs, while the first of two jobs ran, while all was stopped. */
 const at = {};
 
 const now_s = async () => {
   const [hours, minutes, seconds] = (await dashboard.page.locator('[data-test=clock]').innerText()).split(':').map(Number);
   return 3600 * hours + 60 * minutes + seconds;
 };
-/** Answers the clock once it is beyond that: what is to be looked back at lasts for a while. */
+/** Waits until the clock is later than this, and returns it. */
 const clock_beyond = (t_s) => eventually(async () => {
   const s = await now_s();
   assert.ok(s > t_s, `${s} s, not yet beyond ${t_s} s`);
@@ -24,7 +24,7 @@ const clock_beyond = (t_s) => eventually(async () => {
 }, 60_000);
 const says_of_then = (pattern) => reads(dashboard.page.locator('[data-test=as-of]'), pattern);
 
-test('something happens, and is over', { timeout: 500_000 }, async () => {
+test('Setup: jobs run, are stopped, and end', { timeout: 500_000 }, async () => {
   const { page } = dashboard;
   at.first = await clock_beyond(await now_s() + 1.5);
   await clock_beyond(at.first + 0.3);
@@ -49,11 +49,11 @@ test('something happens, and is over', { timeout: 500_000 }, async () => {
   await ask(page, 'PUT', '/sim/speed', { speed: 1 });
 });
 
-test('the scene has the objects of that instant, and cannot be changed there', { timeout: 300_000 }, async () => {
+test('Scene page shows past objects and cannot change them', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/scene/crate?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=objects]', { hasText: 'crate' }).waitFor();
-  await says_of_then(/As it was at 0:0/);
+  await says_of_then(/State at 0:0/);
   for (const change of ['object-save', 'object-remove']) await page.locator(`[data-test=${change}]:disabled`).waitFor();
   await page.screenshot(path_for('look-back-scene-dark'));
   await go_to(page, `#/scene/crate?t=${at.first.toFixed(2)}`);
@@ -61,52 +61,52 @@ test('the scene has the objects of that instant, and cannot be changed there', {
   await page.getByText('There was no object called crate.').waitFor();
 });
 
-test('recovery tells what each arm needed then, and resumes nothing', { timeout: 300_000 }, async () => {
+test('Recovery page shows past needs and cannot resume', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/recovery?t=${at.stopped.toFixed(2)}`);
-  await page.getByText('2 of 2 arms stood until they would be resumed.').waitFor();
+  await page.getByText('2 of 2 arms were waiting for resume.').waitFor();
   await reads(page.locator('[data-test=cause]'), /stopped: left, right/);
   await counts(page.locator('[data-test=resume-checked]'), 0);
   await page.locator('[data-test=resume-left]:disabled').waitFor();
   await page.screenshot(path_for('look-back-recovery-dark'));
   await go_to(page, `#/recovery?t=${at.running.toFixed(2)}`);
-  await page.getByText('No arm waited to be resumed.').waitFor();
+  await page.getByText('No arm was waiting for resume.').waitFor();
 });
 
-test('alerts are those that had been told', { timeout: 300_000 }, async () => {
+test('Alerts page shows the alerts up to the shown time', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/alerts?t=${at.stopped.toFixed(2)}`);
   await page.locator('[data-test=alerts]', { hasText: 'stopped: left, right' }).waitFor();
   await go_to(page, `#/alerts?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=alerts]', { hasText: 'stopped: left, right' }).waitFor({ state: 'detached' });
-  await says_of_then(/as it is now/);
+  await says_of_then(/as they are now/);
 });
 
-test('the policy is the one that was in force', { timeout: 300_000 }, async () => {
+test('Policies page shows the past policy', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/policies?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=policy-form] input[value=coordinated]:checked').waitFor();
   await page.locator('[data-test=change-policy]:disabled').waitFor();
-  await says_of_then(/comparison beside it is of now/);
+  await says_of_then(/comparison uses the jobs of the live server/);
   await page.screenshot(path_for('look-back-policies-dark'));
 });
 
-test('a diagram shows where both were, without what nobody knows of then', { timeout: 300_000 }, async () => {
+test('Diagram shows past progress without authority and prediction', { timeout: 300_000 }, async () => {
   const { page } = dashboard;
   await go_to(page, `#/pair/there/back?t=${at.running.toFixed(2)}`);
   await page.locator('[data-test=diagram] canvas').first().waitFor();
   await says_of_then(/not kept/);
   await page.locator('[data-test=measured]').waitFor();
   await counts(page.locator('[data-test=plan]'), 0);
-  await counts(page.getByText('if both go on'), 0);
+  await counts(page.getByText('if neither waits'), 0);
   await counts(page.getByText('authority', { exact: true }), 0);
   await page.evaluate(() => window.armloom.drawn());
   await page.screenshot(path_for('look-back-diagram-dark'));
   await page.locator('[data-test=as-of] button').click();
   await page.locator('[data-test=as-of]').waitFor({ state: 'detached' });
-  await page.getByText('if both go on').waitFor();
+  await page.getByText('if neither waits').waitFor();
 });
 
-test('nothing so far was an error in the console', () => {
+test('The console has no errors', () => {
   assert.deepEqual(dashboard.chromium.errors, []);
 });

@@ -1,13 +1,12 @@
-// How quick the dashboard is: pictures a second of the 3D view, tasks of the page that took long, how long
-// clicks take and how the timeline follows the hand, and whether its memory grows, with two arms under the
-// demo load. For an idle machine; a test it is not.
+// Measures the dashboard's performance with two arms under the demo load: frames per second, long
+// tasks, response of clicks and of the timeline, memory growth. Needs an idle machine; not a test.
 //
 //   node test/browser/measure.mjs [--seconds N] [--jobs N] [--busy N] [--minutes N]
 //
-//   --seconds N   how long pictures are counted, default 30; 0: neither these nor clicks nor the timeline
-//   --jobs N      so many jobs have been done before, default 0
-//   --busy N      so many programs that never rest run beside, default 0
-//   --minutes N   then so long its memory is watched, in a small window, default 0
+//   --seconds N   how long frames are counted, default 30; 0 also skips clicks and timeline
+//   --jobs N      number of finished jobs before, default 0
+//   --busy N      number of busy programs running alongside, default 0
+//   --minutes N   then how long memory is watched, in a small window, default 0
 
 import { spawn } from 'node:child_process';
 import { parseArgs } from 'node:util';
@@ -15,7 +14,7 @@ import { arm_now, Browser, job_through, kRoot, Server } from './harness.mjs';
 
 const kLooks = 6;
 const kClicks = 12;
-const kBatch = 200;  // a multiple of four: each arm ends where it began
+const kBatch = 200;  // a multiple of four: each arm ends at its start
 const kHaste = 20;
 const kSwing_rad = 0.2;
 const kDragged_px = 400;
@@ -55,7 +54,7 @@ try {
   await server.end();
 }
 
-/** Short ones of both arms, there and back, done in haste. */
+/** Runs short jobs of both arms, back and forth. */
 async function fill_history(page, url, count) {
   const arms = await Promise.all(['left', 'right'].map((arm) => arm_now(page, arm)));
   const call = async (method, path, body) => {
@@ -70,7 +69,7 @@ async function fill_history(page, url, count) {
       return job_through(`past-${from + i}`, names, (i >> 1) % 2 === 0 ? [q, away] : [away, q], 1);
     });
     await call('POST', '/batches', { atomic: true, jobs: batch });
-    // One that falls behind is told anew how things stand, with the last jobs only.
+    // A page that falls behind gets a new snapshot, with the last jobs only.
     await page.waitForFunction((count) => window.armloom.jobs().filter(({ result }) => result !== null).length >= count, from + batch.length, { timeout: 600_000, polling: 200 });
   }
   await call('PUT', '/sim/speed', { speed: 1 });
@@ -84,7 +83,7 @@ async function watch_tasks(page) {
   });
 }
 
-/** Scripts that took long, by what called them, and frames of which scripts are but a part. */
+/** Prints slow scripts by their callers, and slow frames. */
 async function tell_tasks(page, when) {
   const found = await page.evaluate((long_ms) => window.long_frames.splice(0).filter(({ duration }) => duration > long_ms).map((frame) => {
     const scripts = frame.scripts.map(({ invoker, sourceURL, sourceFunctionName, duration }) => `${invoker} ${sourceURL.replace(/.*\//, '')} ${sourceFunctionName} ${duration.toFixed(0)} ms`);
@@ -104,7 +103,7 @@ async function count_pictures(page) {
   }
 }
 
-/** From the click until what it led to is on the page. */
+/** Measures from each click until its page is shown. */
 async function click_about(page) {
   const places = ['#/history', '#/settings', '#/recordings', '#/'];
   const took = [];
@@ -127,8 +126,8 @@ async function click_about(page) {
 }
 
 /**
- * Dragged to and fro and zoomed, at its usual length and with all that was in view: from each event until
- * what it led to has been drawn.
+ * Drags and zooms the timeline at its default length and at full length; measures from each event
+ * until it is drawn.
  */
 async function use_timeline(page) {
   for (const what of ['a minute', 'all that was']) {
@@ -144,7 +143,7 @@ async function use_timeline(page) {
         await drawn();
         took.push(performance.now() - from_ms);
       };
-      canvas.setPointerCapture = () => {};  // these pointers are none of the browser's
+      canvas.setPointerCapture = () => {};  // synthetic pointers cannot be captured
       const at = (dx) => ({ bubbles: true, cancelable: true, pointerId: 1, clientX: left + width / 2 + dx, clientY: top + 20 });
       for (const way of [1, -1]) {
         await send(new PointerEvent('pointerdown', at(0)));
@@ -159,7 +158,10 @@ async function use_timeline(page) {
   }
 }
 
-/** What is in use after a collection, each minute; the slope is that of the last two thirds, when its books are full. */
+/**
+ * Prints the memory in use after a garbage collection, each minute. The slope is of the last two
+ * thirds, when the page's buffers are full.
+ */
 async function watch_memory(page) {
   await page.setViewportSize(kSmall);
   const session = await page.context().newCDPSession(page);

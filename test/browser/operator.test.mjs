@@ -1,7 +1,6 @@
-// What the dashboard lets an operator do beside jobs: move an arm by hand, ask what other policies would have
-// done, and see that what is shown is old.
+// Features for operators: jogging, comparing policies, and recognizing old data.
 //
-//   node --test test/browser/operator.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/operator.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -9,7 +8,7 @@ import { arm_now, ask, counts, eventually, finished, go_to, job_through, path_fo
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
-// A busy machine gets the time to say that a button is still held.
+// A long lease, for a busy machine.
 let page;
 const { server, chromium } = with_dashboard('config/two_pandas.json', 'certified', { more: ['--jog-lease', '3'] }, (opened) => { ({ page } = opened); });
 
@@ -17,8 +16,8 @@ const go = (hash) => go_to(page, hash);
 const speed = (value) => ask(page, 'PUT', '/sim/speed', { speed: value });
 const ended = (id) => finished(page, id);
 
-test('an arm is moved by hand as long as a button is held: by mouse, key and finger', { timeout: 400_000 }, async () => {
-  await speed(0.2);  // so that a busy machine lets go before the arm is there
+test('Jogging lasts while a button is held: by mouse, key and finger', { timeout: 400_000 }, async () => {
+  await speed(0.2);  // lets a busy machine release before the goal
   await go('#/arm/left');
   await page.locator('[data-test=control-person]').fill('Ada');
   await page.locator('[data-test=take-control]').click();
@@ -37,7 +36,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   await page.mouse.down();
   await page.locator('[data-test=jog-state]', { hasText: /running/ }).waitFor();
   await is_held(true);
-  await page.screenshot(path_for('by-hand-dark'));
+  await page.screenshot(path_for('jog-dark'));
   await page.mouse.up();
   const first = await canceled(1);
   assert.ok(first.state === 'canceled' && first.progress < 1, `let go on its way: ${JSON.stringify(first.result)}`);
@@ -56,7 +55,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   const finger = (type, dx = 0) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: type === 'touchEnd' ? [] : [{ x: x + width / 2 + dx, y: y + height / 2 }] });
   await finger('touchStart');
   await page.locator('[data-test=jog-state]', { hasText: /running/ }).waitFor();
-  await finger('touchMove', 15);  // a finger never lies still
+  await finger('touchMove', 15);  // fingers never lie still
   await is_held(true);
   assert.equal((await jogs()).filter((job) => job.result === null).length, 1);
   await finger('touchEnd');
@@ -65,7 +64,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   await touch.send('Emulation.setTouchEmulationEnabled', { enabled: false });
   await touch.detach();
 
-  // Somebody else takes control: what is held is let go, and the page says by whom.
+  // Another user takes control: the motion ends, and the page names the user.
   await button.hover();
   await page.mouse.down();
   await page.locator('[data-test=jog-state]', { hasText: /running/ }).waitFor();
@@ -82,7 +81,7 @@ test('an arm is moved by hand as long as a button is held: by mouse, key and fin
   await ended('back-home');
 });
 
-test('what the other policies would have done is asked from the page, and one of them put in force', { timeout: 500_000 }, async () => {
+test('Policies page compares the policies and activates another one', { timeout: 500_000 }, async () => {
   await speed(10);
   const arms = ['left', 'right'];
   for (const arm of arms) await page.locator(`[data-test=arm-${arm}] [data-test=arm-state]`, { hasText: 'idle' }).waitFor();
@@ -101,16 +100,16 @@ test('what the other policies would have done is asked from the page, and one of
   const rows = page.locator('[data-test=compared] tbody tr');
   await counts(rows, 7);
   await reads(page.locator('[data-test=compared-sequential]'), /\d+ of \d+.*100 %/s);
-  await counts(page.locator('[data-test=compared-certified]').getByText('in force'), 1);
+  await counts(page.locator('[data-test=compared-certified]').getByText('active', { exact: true }), 1);
   await page.screenshot(path_for('policies-dark'));
   await page.locator('[data-test=use-coordinated]').click();
-  await page.locator('[data-test=compared-coordinated]').getByText('in force').waitFor();
+  await page.locator('[data-test=compared-coordinated]').getByText('active', { exact: true }).waitFor();
   await page.locator('[data-test=use-certified]').click();
-  await page.locator('[data-test=compared-certified]').getByText('in force').waitFor();
+  await page.locator('[data-test=compared-certified]').getByText('active', { exact: true }).waitFor();
 });
 
-// The connection stays open, and nothing comes.
-test('what is old is shown as old, with its age, and as fresh once more is heard', { timeout: 300_000 }, async () => {
+// The connection stays open, but no data arrives.
+test('Old data is marked with its age until new data arrives', { timeout: 300_000 }, async () => {
   const age_s = async (locator) => Number((await locator.textContent()).match(/([\d.]+) s/)[1]);
   const saturation = () => page.evaluate(() => getComputedStyle(document.querySelector('.view')).filter);
   await eventually(async () => assert.equal(await saturation(), 'none'));
@@ -120,7 +119,7 @@ test('what is old is shown as old, with its age, and as fresh once more is heard
   const first_s = await age_s(stale);
   assert.ok(first_s >= 2, `${first_s} s`);
   await eventually(async () => assert.match(await saturation(), /grayscale/));
-  await reads(page.locator('[data-test=link]'), /silent for/);
+  await reads(page.locator('[data-test=link]'), /no data for/);
   await page.locator('.stale-time').waitFor();
   await page.screenshot(path_for('stale-dark'));
   await page.waitForFunction((first_s) => Number(document.querySelector('[data-test=stale]').textContent.match(/([\d.]+) s/)[1]) > first_s, first_s);
@@ -130,7 +129,7 @@ test('what is old is shown as old, with its age, and as fresh once more is heard
   await eventually(async () => assert.equal(await saturation(), 'none'));
 });
 
-test('nothing so far was an error in the console', () => {
-  // Somebody else took control of an arm that was held here: it could be heard too late.
+test('The console has no errors', () => {
+  // After another user took control, a renewal may have been late.
   assert.deepEqual(chromium.errors.filter((text) => !/409 \(Conflict\).*\/jog$/.test(text)), []);
 });

@@ -1,7 +1,7 @@
-// The dashboard's pages, used as a person would: addresses, the timeline's future, keys, look-back, both
-// themes, what axe-core finds, names that try to be HTML, and a server that is started anew.
+// The dashboard's pages as a user sees them: addresses, predicted timeline, keys, past times,
+// themes, axe-core, names that try to be HTML, server restart.
 //
-//   node --test test/browser/pages.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/pages.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -11,7 +11,7 @@ import { address_like, arm_now, ask, counts, eventually, go_to, job_through, lab
 const kStop = 'Stop all: controlled, drives stay powered';
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 const kAxe = readFileSync(web_require.resolve('axe-core/axe.min.js'), 'utf8');
-// A name that would do something, were it taken for HTML.
+// A name that would run a script if used as HTML.
 const kHostile = '<img src=x onerror="window.was_html=1"><b>&amp;';
 
 let page;
@@ -22,19 +22,20 @@ const send = (...job) => send_through(page, ...job);
 
 const go = (hash) => go_to(page, hash);
 
-// Both want the middle: the right one is admitted behind the left one, and stands or waits for it.
-test('the timeline shows what comes: motions, waits, and for whom', { timeout: 300_000 }, async () => {
-  await ask(page, 'PUT', '/sim/speed', { speed: 0.05 });  // a busy machine is given the time to look
+// Both jobs want the middle: the right job is admitted behind the left one, and pauses or waits for
+// it.
+test('Timeline shows predicted motions and waits with their blockers', { timeout: 300_000 }, async () => {
+  await ask(page, 'PUT', '/sim/speed', { speed: 0.05 });  // gives a busy machine time
   await send('left', 'first', [kMiddle, null], 6, { name: 'to the middle' });
   await send('right', 'second', [kMiddle, null], 6, { name: 'behind it' });
   await page.waitForFunction(() => window.armloom.lanes().find((lane) => lane.arm === 'right')
     ?.marks.some((mark) => mark.expected && mark.kind !== 'motion' && mark.waits_on?.arm === 'left'));
-  for (const words of [/behind it waits for job first of left/, /behind it: (expected|runs on)/]) await page.locator('[data-test=told-right]', { hasText: words }).waitFor({ state: 'attached' });
+  for (const words of [/behind it waits for job first of left/, /behind it: (expected|running)/]) await page.locator('[data-test=lane-text-right]', { hasText: words }).waitFor({ state: 'attached' });
   const row = page.locator('[data-test="job-second"]');
   await reads(row.locator('[data-test=when]'), /starts in about|ends in about|about to start/);
   await page.screenshot(path_for('timeline-dark'));
 
-  // The bar of what is expected of the right arm leads to its job.
+  // A predicted bar of the right arm opens its job.
   const canvas = page.locator('.timeline canvas');
   const { width, height } = await canvas.boundingBox();
   const lane = Math.min(54, (height - 18) / 2);
@@ -48,7 +49,7 @@ test('the timeline shows what comes: motions, waits, and for whom', { timeout: 3
   await ask(page, 'PUT', '/sim/speed', { speed: 1 });
 });
 
-test('the timeline is dragged and zoomed, and follows now again', { timeout: 180_000 }, async () => {
+test('Timeline can be dragged and zoomed, and follows now again', { timeout: 180_000 }, async () => {
   const canvas = page.locator('.timeline canvas');
   const shown = async () => [Number(await canvas.getAttribute('data-from')), Number(await canvas.getAttribute('data-length'))];
   const { x, y, width } = await canvas.boundingBox();
@@ -72,9 +73,9 @@ test('the timeline is dragged and zoomed, and follows now again', { timeout: 180
   await page.waitForFunction(() => document.querySelector('.timeline canvas').dataset.from === 'now');
 });
 
-test('an address shows the same to whoever opens it: job, instant and camera', { timeout: 300_000 }, async () => {
+test('An address reproduces job, time and camera in another tab', { timeout: 300_000 }, async () => {
   await go('#/job/second');
-  // The user turns the cell, and holds an instant that is past.
+  // The user turns the view and selects a past time.
   const view = await page.locator('.view canvas').boundingBox();
   await page.mouse.move(view.x + view.width * 0.8, view.y + view.height * 0.3);
   await page.mouse.down();
@@ -85,7 +86,7 @@ test('an address shows the same to whoever opens it: job, instant and camera', {
   await scrub.focus();
   for (let i = 0; i < 12; i++) await page.keyboard.press('ArrowLeft');
   await page.locator('[data-test=instant]').waitFor();
-  // One at which the job was there.
+  // A time at which the job existed.
   const { submitted_s } = (await ask(page, 'GET', '/jobs/second')).value;
   const instant_s = async () => Number(/[?&]t=([\d.]+)/.exec(await address_like(page, /[?&]t=\d/))[1]);
   for (let i = 0; i < 12 && await instant_s() < submitted_s + 0.1; i++) await page.keyboard.press('ArrowRight');
@@ -93,22 +94,23 @@ test('an address shows the same to whoever opens it: job, instant and camera', {
 
   const other = await chromium.context.newPage();
   await other.goto(address);
-  // The job's name is known when the server has told of it.
+  // The job's name is known after the server's snapshot.
   await other.locator('[data-test=page-job] h2', { hasText: 'behind it' }).waitFor();
   assert.equal(await other.evaluate(() => location.href), address);
-  // It listens since then: of before it has what the server kept.
+  // The new page has the earlier data from the server.
   await other.locator('[data-test=instant]').waitFor();
   const middle_s = () => other.locator('[data-test=lanes]').evaluate(({ dataset }) => Number(dataset.from) + Number(dataset.length) / 2);
   const held_s = Number(/[?&]t=([\d.]+)/.exec(address)[1]);
   assert.ok(Math.abs(await middle_s() - held_s) < 0.01, 'its timeline stands around that instant');
-  // The page is loaded before it knows how late it is: a time of hours ago is not taken for one that is far ahead.
+  // The address is parsed before the page knows the current time: an early time must not be taken
+  // for the future.
   await go_to(other, '#/?t=7200');
   await other.reload();
   await other.locator('[data-test=lanes]').waitFor();
   assert.equal(await middle_s(), 7200);
-  // What nobody heard it does not show, nor another instant in its place.
+  // Without data it shows no pose, nor that of another time.
   await go_to(other, '#/?t=3&run=00000000');
-  await other.locator('[data-test=unheard]', { hasText: 'another run' }).waitFor();
+  await other.locator('[data-test=unheard]', { hasText: 'another server session' }).waitFor();
   await other.locator('[data-test=instant]').waitFor({ state: 'detached' });
   await other.waitForFunction(() => window.armloom?.is_drawn());
   await other.evaluate(() => window.armloom.drawn());
@@ -123,10 +125,10 @@ test('an address shows the same to whoever opens it: job, instant and camera', {
   await address_like(page, /^(?!.*[?&]t=)/);
 });
 
-test('a click on an arm or an object leads to it, and lights it up in every view', { timeout: 300_000 }, async () => {
+test('A click on an arm or object opens its page and highlights it in all views', { timeout: 300_000 }, async () => {
   await go('#/');
   await page.evaluate(() => window.armloom.drawn());
-  // Above the middle of its label an arm has its foot.
+  // An arm's base is above the center of its label.
   const label = await label_of(page, 'left').boundingBox();
   await page.mouse.click(label.x + label.width / 2, label.y - 34);
   await page.locator('[data-test=page-arm]').waitFor();
@@ -139,7 +141,7 @@ test('a click on an arm or an object leads to it, and lights it up in every view
   await page.locator('[data-test=page-scene]').getByText('Change table').waitFor();
 });
 
-test('keys lead to pages and back, and F8 stops, in a text field, too', { timeout: 300_000 }, async () => {
+test('Keys open pages, and F8 stops also from a text field', { timeout: 300_000 }, async () => {
   await page.locator('.logo').click();
   await page.keyboard.press('h');
   await page.locator('[data-test=page-history]').waitFor();
@@ -160,15 +162,15 @@ test('keys lead to pages and back, and F8 stops, in a text field, too', { timeou
   await text.fill('');
 });
 
-test('objects are added, moved and taken away by form', { timeout: 300_000 }, async () => {
+test('Scene page adds, moves and removes objects', { timeout: 300_000 }, async () => {
   await page.locator('[data-test=go-scene]').click();
   const fill = async (values) => { for (const [key, value] of Object.entries(values)) await page.locator(`[data-test=object-${key}]`).fill(value); };
   await fill({ name: 'can' });
-  // A comma is not dropped unseen: 0,15 m would become 15.
+  // A comma is not dropped silently: 0,15 m would become 15.
   await page.locator('[data-test=object-size_x]').fill('');
   await page.locator('[data-test=object-size_x]').pressSequentially('0,15');
   await page.locator('[data-test=object-save]').click();
-  await reads(page.locator('[data-test=problem]'), /size x: "0,15" is no number: the decimal sign is a point/);
+  await reads(page.locator('[data-test=problem]'), /size x: "0,15" is not a number: use a decimal point/);
   await fill({ size_x: '0.15' });
   await page.locator('[data-test=object-size_x]').press('ArrowUp');
   assert.equal(await page.locator('[data-test=object-size_x]').inputValue(), '0.16');
@@ -181,7 +183,7 @@ test('objects are added, moved and taken away by form', { timeout: 300_000 }, as
   await fill({ x: '0.3' });
   await page.locator('[data-test=object-save]').click();
   await page.waitForFunction(() => window.armloom.objects().some((object) => object.name === 'can' && object.xyz[0] === 0.3));
-  // What is typed while the object changes elsewhere stays; the other fields follow it.
+  // Typed input stays while the object changes; other fields follow it.
   await fill({ length: '-1' });
   await ask(page, 'PUT', '/scene/objects/can', { cylinder: [0.08, 0.3], xyz: [0.35, 0.9, 0.4], rpy: [Math.PI / 2, 0, 0] });
   await page.waitForFunction(() => document.querySelector('[data-test=object-x]').value === '0.35');
@@ -194,7 +196,7 @@ test('objects are added, moved and taken away by form', { timeout: 300_000 }, as
   await page.waitForFunction(() => !window.armloom.objects().some((object) => object.name === 'can'));
 });
 
-test('names never become HTML', { timeout: 300_000 }, async () => {
+test('Names never become HTML', { timeout: 300_000 }, async () => {
   await page.locator('[data-test=list-finished] [data-test="job-second"]').waitFor();  // its arm is at rest
   await page.evaluate(() => { window.was_html = 0; });
   const { names, q } = await arm_now(page, 'right');
@@ -210,13 +212,13 @@ test('names never become HTML', { timeout: 300_000 }, async () => {
   }
   await page.locator('[data-test=list-finished] [data-test="job-hostile"]').waitFor();
   assert.equal(await page.evaluate(() => window.was_html), 0);
-  // Nor do they pass for other ones, or break a line: blank, written backwards, without end, in marks piled up.
+  // Names cannot pass for others or break a line: blank, reversed, very long, stacked marks.
   const strange = { blank: '   ', turned: '\u202edeeccus', long: 'W'.repeat(256), piled: `a${'\u0301'.repeat(200)}`, hebrew: '\u05e9\u05dc\u05d5\u05dd 7' };
   for (const [id, name] of Object.entries(strange)) {
     const { names, q } = await arm_now(page, 'right');
     assert.equal((await ask(page, 'POST', '/jobs', job_through(`name-${id}`, names, [q, q], 1, { name }))).status, 202);
   }
-  // Rows move from list to list until their jobs have ended.
+  // Rows move between lists until their jobs have ended.
   const row = (id) => page.locator(`[data-test=list-finished] [data-test="job-name-${id}"]`);
   for (const id of Object.keys(strange)) await row(id).waitFor();
   await row('blank').getByText('(blank)').first().waitFor({ state: 'attached' });
@@ -231,14 +233,14 @@ test('names never become HTML', { timeout: 300_000 }, async () => {
       await eventually(async () => assert.deepEqual(await wide(), [], `${hash} at ${width} px`));
       assert.doesNotMatch(await page.title(), /\u202e/);
     }
-    // Ids stay where names are long. (What is out of sight is not laid out.)
+    // Ids stay visible next to long names. (Elements out of view have no layout.)
     await row('long').scrollIntoViewIfNeeded();
     await eventually(async () => assert.ok(await row('long').locator('.id').evaluate((id) => id.checkVisibility() && id.clientWidth > 30), `${width} px`));
     await page.screenshot(path_for(`names-${width}`));
   }
   await page.setViewportSize(before);
   await go('#/');
-  // And were it HTML after all, the page's policy of content would let it do nothing.
+  // Even as HTML, the content security policy would block the script.
   const stopped = await page.evaluate((html) => new Promise((done) => {
     document.addEventListener('securitypolicyviolation', (event) => done(event.violatedDirective), { once: true });
     const place = document.createElement('div');
@@ -254,11 +256,11 @@ test('names never become HTML', { timeout: 300_000 }, async () => {
 const kPages = ['#/', '#/new', '#/scene', '#/scene/table', '#/history', '#/settings', '#/alerts', '#/recovery', '#/recordings', '#/policies', '#/job/first', '#/arm/left', '#/pair/first/second', '#/nowhere'];
 
 for (const theme of ['Dark', 'Light']) {
-  test(`axe-core finds nothing on any page, ${theme.toLowerCase()}`, { timeout: 400_000 }, async () => {
+  test(`axe-core finds no violation on any page, ${theme.toLowerCase()}`, { timeout: 400_000 }, async () => {
     await go('#/settings');
     await page.getByLabel(theme, { exact: true }).check();
     await page.waitForFunction((theme) => document.documentElement.dataset.theme === theme, theme.toLowerCase());
-    // axe is put in by the debugger, so that it works under any policy of content.
+    // axe is injected by the debugger, which works under any content security policy.
     await page.evaluate(kAxe);
     const all = [];
     for (const hash of kPages) {
@@ -266,7 +268,7 @@ for (const theme of ['Dark', 'Light']) {
       await page.locator(hash === '#/' ? 'main' : '.pane h2').first().waitFor();
       if (/arm|job/.test(hash)) await page.locator('.uplot').waitFor();
       if (/pair/.test(hash)) await page.locator('[data-test=diagram] canvas').first().waitFor();
-      await page.waitForFunction(() => document.getAnimations().every(({ playState }) => playState !== 'running'));  // colours on their way
+      await page.waitForFunction(() => document.getAnimations().every(({ playState }) => playState !== 'running'));  // colors in transition
       const found = await page.evaluate(() => window.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] })
         .then(({ violations }) => violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 4).map((node) => `${node.html.slice(0, 120)} ${node.any[0]?.message ?? ''}`).join(' | ')}`)));
       await page.screenshot(path_for(`page-${theme.toLowerCase()}-${hash.replaceAll(/[^a-z]+/g, '-').replaceAll(/^-|-$/g, '') || 'cell'}`));
@@ -276,11 +278,11 @@ for (const theme of ['Dark', 'Light']) {
   });
 }
 
-test('targets measure 24 px, and the focus is seen', { timeout: 180_000 }, async () => {
+test('Targets measure 24 px and the focus is visible', { timeout: 180_000 }, async () => {
   await go('#/job/first');
   const small = await page.evaluate(() => [...document.querySelectorAll('button, a, input, select, canvas[tabindex]')]
     .map((element) => ({ element, box: element.getBoundingClientRect() }))
-    // A link within a sentence may be as small as its words; a box that is ticked has its label.
+    // Links within sentences may be small; checkboxes have their labels.
     .filter(({ element, box }) => box.width > 1 && !element.matches('.link, input[type=radio], input[type=checkbox]') && (box.height < 23.5 || box.width < 23.5))
     .map(({ element, box }) => `${element.outerHTML.slice(0, 90)} ${box.width.toFixed(0)} x ${box.height.toFixed(0)}`));
   assert.deepEqual(small, []);
@@ -288,7 +290,7 @@ test('targets measure 24 px, and the focus is seen', { timeout: 180_000 }, async
   await eventually(async () => assert.equal(await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle), 'solid'));
 });
 
-test('the header holds all there is in one line, at the wall and on a tablet', { timeout: 300_000 }, async () => {
+test('Header fits into one line at all widths', { timeout: 300_000 }, async () => {
   await go('#/');
   await ask(page, 'POST', '/stop');
   const { value: { key } } = await ask(page, 'POST', '/control', { who: 'Maximiliane von Hohenstein-Wartburg, second shift' });
@@ -317,7 +319,7 @@ test('the header holds all there is in one line, at the wall and on a tablet', {
   await ask(page, 'POST', '/resume');
 });
 
-test('every page is reached from the navigation, by mouse and by keys', { timeout: 300_000 }, async () => {
+test('Navigation reaches every page by mouse and by keys', { timeout: 300_000 }, async () => {
   for (const [button, shown] of [['go-alerts', 'page-alerts'], ['go-recovery', 'page-recovery'], ['go-compare', 'page-policies'], ['go-recordings', 'page-recordings'], ['go-settings', 'page-settings']]) {
     await page.locator('[data-test=more-pages]').click();
     await page.locator(`[data-test=${button}]`).click();
@@ -325,7 +327,7 @@ test('every page is reached from the navigation, by mouse and by keys', { timeou
     await counts(page.locator('.more-pages[open]'), 0, 'it closes');
   }
   await reads(page.locator('[data-test=more-pages]'), /^\s*Settings▾\s*$/);
-  // By keys alone: opened, gone through, put away without leaving the page.
+  // By keys alone: open, step through, close without leaving the page.
   await page.locator('[data-test=more-pages]').focus();
   await page.keyboard.press('Enter');
   await page.keyboard.press('Tab');
@@ -339,8 +341,8 @@ test('every page is reached from the navigation, by mouse and by keys', { timeou
   await address_like(page, /#\/pair\/left\/right/);
 });
 
-// The last jobs of both arms have ended: what both did is drawn as it was measured.
-test('a diagram of two arms follows what they do, and has the way that was measured', { timeout: 300_000 }, async () => {
+// The last jobs of both arms have ended: the measured path is drawn.
+test('Diagram of two arms follows their jobs and shows the measured path', { timeout: 300_000 }, async () => {
   await go('#/pair/left/right');
   await page.locator('[data-test=diagram] canvas').first().waitFor();
   await send('left', 'pair-left', [kMiddle, null], 3);
@@ -357,11 +359,11 @@ test('a diagram of two arms follows what they do, and has the way that was measu
   await go('#/');
 });
 
-test('nothing so far was an error in the console', () => {
+test('The console has no errors', () => {
   assert.deepEqual(chromium.errors.filter((text) => !/404 \(Not Found\).*\/(x$|jobs\/%3Cimg)|422 \(.*\/scene\/objects\/can|inline event handler violates/.test(text)), []);
 });
 
-test('a server that is started anew is found again without a reload', { timeout: 300_000 }, async () => {
+test('Page reconnects to a restarted server without a reload', { timeout: 300_000 }, async () => {
   await page.evaluate(() => { window.never_reloaded = true; });
   await go('#/');
   await server.end();

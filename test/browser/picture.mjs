@@ -1,4 +1,5 @@
-// The README's pictures of the dashboard: two Pandas under the demo load, one waiting for the other.
+// Makes the README's pictures of the dashboard: two Pandas under the demo load, one waiting for the
+// other.
 //
 //   node test/browser/picture.mjs [FOLDER]      default web/; writes dashboard.png and dashboard-job.png
 

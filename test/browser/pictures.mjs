@@ -1,9 +1,9 @@
-// Compares two PNGs of the same size, in a page of the browser that decodes them.
+// Compares two PNGs of the same size in a browser page that decodes them.
 
-// Anti-aliasing and shadows' soft rims stay below this; a robot before the background far above.
+// Antialiasing and soft shadows stay below this; a robot against the background far above.
 const kLeastDifference = 40;
 
-/** How many pixels of a PNG have this colour, each channel within `off`. */
+/** Returns the number of pixels of this color, each channel within `off`. */
 export async function pixels_like(browser, png, rgb, off) {
   const page = await browser.newPage();
   try {
@@ -26,7 +26,9 @@ async function count_like([base64, rgb, off]) {
   return count;
 }
 
-/** How many pixels differ clearly, and where their middle is, as shares of width and height. */
+/**
+ * Returns the number of clearly different pixels, and their center as shares of width and height.
+ */
 export async function difference(browser, a, b) {
   const page = await browser.newPage();
   try {

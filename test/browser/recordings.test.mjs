@@ -1,8 +1,7 @@
-// Recordings in the dashboard: one is opened from the server's list, or from its files, and scrubbed through;
-// what the page has heard, and what the server heard before it, is looked back at, and taken away as MCAP, which
-// its own reader reads.
+// Recordings in the dashboard: opened from the server or from files and scrubbed; past times with
+// data from before the page was loaded; MCAP export, read back by the MCAP reader and by the page.
 //
-//   node --test test/browser/recordings.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/recordings.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -23,7 +22,7 @@ let page;
 const { server, chromium } = with_dashboard('config/two_pandas.json', 'coordinated', { acceptDownloads: true, more: ['--data', data, '--record'] }, (opened) => { ({ page } = opened); });
 after(() => rmSync(folder, { recursive: true, force: true }));
 
-// What a test that failed left open would be looked at by all that follow.
+// Closes what a failed test left open.
 beforeEach(async () => {
   if (await page.locator('[data-test=link].recording').count() === 0) return;
   await go_to(page, '#/recordings');
@@ -31,7 +30,7 @@ beforeEach(async () => {
   await page.locator('[data-test=link].open').waitFor();
 }, { timeout: 60_000 });
 
-/** The same jobs, recorded. */
+/** Simulates and records these jobs. */
 function record() {
   const q = [0, -1.2, 0, -2.6, 0, 1.6, 0.785];
   const names = ['left', 'right'].map((arm) => Array.from({ length: 7 }, (_, i) => `${arm}_panda_joint${i + 1}`));
@@ -40,7 +39,7 @@ function record() {
   execFileSync(kBinary, ['simulate', '--cell', 'config/two_pandas.json', '--jobs', join(folder, 'jobs.json'), '--out', join(folder, 'run')], { cwd: kRoot });
 }
 
-test('a recording is opened from its files and scrubbed through, and the present comes back', { timeout: 400_000 }, async () => {
+test('A recording opens from files, can be scrubbed, and closes', { timeout: 400_000 }, async () => {
   record();
   await page.locator('[data-test=more-pages]').click();
   await page.locator('[data-test=go-recordings]').click();
@@ -53,20 +52,20 @@ test('a recording is opened from its files and scrubbed through, and the present
   await files.setInputFiles(['states.csv', 'events.jsonl'].map((name) => join(folder, 'run', name)));
   await page.locator('[data-test=opened]').waitFor();
   await page.locator('[data-test=recording]').waitFor();
-  // At its beginning nothing has ended yet, whatever the recording goes on to tell.
+  // At its beginning no job has ended.
   await page.locator('[data-test=count-finished]', { hasText: /^0$/ }).waitFor();
   await reads(page.locator('[data-test=arm-right] [data-test=arm-state]'), /^○\s+idle$/);
-  await page.locator('[data-test=told-left]', { hasText: 'nothing is planned' }).waitFor({ state: 'attached' });
+  await page.locator('[data-test=lane-text-left]', { hasText: 'nothing is planned' }).waitFor({ state: 'attached' });
   const before = await view_picture(page);
   const scrub = page.locator('[data-test=scrub]');
   await scrub.fill('2');
   await page.locator('[data-test=instant]', { hasText: '0:00:02' }).waitFor();
   await looks_different(page, before, kLeastMoved_px);
-  // All views show that instant: the card, the label, and the lists.
+  // All views show this time: card, label and lists.
   await page.locator('[data-test=list-running] [data-test="job-recorded-1"]').waitFor();
   await page.locator('[data-test=arm-right] [data-test=arm-state]', { hasText: 'moving' }).waitFor();
   await reads(label_of(page, 'right'), /moving/);
-  await reads(page.locator('[data-test=looked-at]'), /0:00:02/);
+  await reads(page.locator('[data-test=state-at]'), /0:00:02/);
   await page.screenshot(path_for('recording-dark'));
   await page.locator('[data-test=play]').click();
   await page.locator('[data-test=instant]', { hasText: '0:00:03' }).waitFor();
@@ -77,7 +76,7 @@ test('a recording is opened from its files and scrubbed through, and the present
   await page.locator('[data-test=recording]').waitFor({ state: 'detached' });
 });
 
-test('after a reload an instant of before it has its states, its events and its poses', { timeout: 400_000 }, async () => {
+test('After a reload, past times have states, events and poses', { timeout: 400_000 }, async () => {
   const { names, q } = await arm_now(page, 'left');
   const job = job_through('before', names, [q, q.map((angle, i) => (i === 0 ? angle + 0.3 : angle)), q], 3);
   assert.equal((await ask(page, 'POST', '/jobs', job)).status, 202);
@@ -95,7 +94,7 @@ test('after a reload an instant of before it has its states, its events and its 
   const then = await view_picture(page);
   await page.screenshot(path_for('reload-looks-back'));
   await eventually(async () => assert.ok(Number(await page.locator('[data-test=scrub]').getAttribute('min')) < started_s, 'what is looked back at begins with what the server kept'));
-  // What nobody heard has no pose.
+  // A time without data has no pose.
   await go_to(page, `#/arm/left?t=${(ended_s + 3600).toFixed(2)}`);
   await page.locator('[data-test=unheard]').waitFor();
   await no_arm_is_labelled();
@@ -106,16 +105,16 @@ test('after a reload an instant of before it has its states, its events and its 
 
 const no_arm_is_labelled = () => counts(page.locator('.arm-label:visible'), 0, 'a label of an arm that is not drawn');
 
-/** As by hand: to where the bar's steps come next to it. */
+/** Sets the scrub bar to its nearest step. */
 const scrub_to = (t_s) => page.locator('[data-test=scrub]').evaluate((bar, t_s) => {
   bar.value = String(t_s);
   bar.dispatchEvent(new Event('input', { bubbles: true }));
 }, t_s);
 
-/** One of the server's, by the name of its folder; or the one that is being written. */
+/** Returns a recording by its folder name, or the one being written. */
 const kept = (name) => page.locator(name === 'running' ? '[data-test^=recording-]:has-text("Being written")' : `[data-test="recording-${name}"]`);
 
-test('the recordings of the server are opened from its list: of a former run, and of this one', { timeout: 500_000 }, async () => {
+test('Recordings of previous and present sessions open from the server list', { timeout: 500_000 }, async () => {
   await go_to(page, '#/');
   await send_through(page, 'left', 'kept-long-ago', [kSwing, null], 2);
   await finished(page, 'kept-long-ago');
@@ -150,17 +149,17 @@ test('the recordings of the server are opened from its list: of a former run, an
   await page.locator('[data-test=link].open').waitFor();
 });
 
-test('the files of one are saved as they are', { timeout: 300_000 }, async () => {
+test('Files of a recording are downloaded unchanged', { timeout: 300_000 }, async () => {
   await kept('data').locator('summary').click();
   const [download] = await Promise.all([page.waitForEvent('download'), kept('data').getByRole('link', { name: 'events.jsonl' }).click()]);
   assert.equal(download.suggestedFilename(), 'data-events.jsonl');
   assert.ok(readFileSync(await download.path()).equals(readFileSync(join(data, 'events.jsonl'))));
 });
 
-test('one without positions is led through by its events', { timeout: 300_000 }, async () => {
+test('A recording without positions can be scrubbed by its events', { timeout: 300_000 }, async () => {
   rmSync(join(data, 'states.csv'));
   await page.locator('[data-test=recordings-again]').click();
-  await kept('data').getByText('events alone').waitFor();
+  await kept('data').getByText('events only').waitFor();
   await kept('data').locator('[data-test=open-recording]').click();
   await page.locator('[data-test=opened]').waitFor();
   await page.locator('[data-test=without-positions]').waitFor();
@@ -174,7 +173,7 @@ test('one without positions is led through by its events', { timeout: 300_000 },
   await page.locator('[data-test=without-positions]').waitFor({ state: 'detached' });
 });
 
-test('a large one says how much has come, and is given up', { timeout: 300_000 }, async () => {
+test('Reading a large recording shows progress and can be canceled', { timeout: 300_000 }, async () => {
   cpSync(join(folder, 'run'), join(data, '2026-01-02T03-04-05Z'), { recursive: true });
   const [head, ...rows] = readFileSync(join(folder, 'run/states.csv'), 'utf8').trimEnd().split('\n');
   const times = Array.from({ length: 20 }, (_, turn) => rows.map((row) => row.replace(/^[^,]*/, (t_s) => (Number(t_s) + 100 * turn).toFixed(3))));
@@ -198,11 +197,11 @@ test('a large one says how much has come, and is given up', { timeout: 300_000 }
   await page.locator('[data-test=link].open').waitFor();
 });
 
-test('a camera in an address shows the same in another tab, beside a pane, too', { timeout: 400_000 }, async () => {
+test('A camera in an address shows the same in another tab, also next to a pane', { timeout: 400_000 }, async () => {
   await page.setViewportSize({ width: 1024, height: 768 });
   await go_to(page, '#/arm/right');
   await page.locator('[data-test=page-arm]').waitFor();
-  // The timeline has no room for its legend then: a button shows it.
+  // The legend is behind a button at this width.
   const legend = page.locator('.timeline .legend');
   await legend.locator('summary').click();
   await legend.getByText('stopped').waitFor();
@@ -229,7 +228,7 @@ test('a camera in an address shows the same in another tab, beside a pane, too',
   await page.setViewportSize({ width: 1280, height: 720 });
 });
 
-test('what was heard is taken away as MCAP, which its own reader reads, and the page', { timeout: 500_000 }, async () => {
+test('The MCAP export is readable by the MCAP reader and by the page', { timeout: 500_000 }, async () => {
   await go_to(page, '#/recordings');
   const { names, q } = await arm_now(page, 'left');
   const job = job_through('exported', names, [q, q.map((angle, i) => (i === 0 ? angle + 0.6 : angle)), q], 4);
@@ -268,7 +267,7 @@ test('what was heard is taken away as MCAP, which its own reader reads, and the 
   assert.ok(Math.max(...hand.map(({ y }) => y)) - Math.min(...hand.map(({ y }) => y)) > 0.1, 'and its hand with it');
   assert.equal(messages.get('/scene')[0].entities[0].id, 'table');
   assert.ok(messages.get('/jobs').some(({ id, state }) => id === 'exported' && state === 'succeeded'));
-  // The page opens it again, as it does its own recordings.
+  // The page opens the file as a recording.
   const file = join(folder, 'taken.mcap');
   await download.saveAs(file);
   await drop_files(page, [file], 'nav');
@@ -283,6 +282,6 @@ test('what was heard is taken away as MCAP, which its own reader reads, and the 
   await page.locator('[data-test=link].open').waitFor();
 });
 
-test('nothing so far was an error in the console', () => {
+test('The console has no errors', () => {
   assert.deepEqual(chromium.errors.filter((text) => !/WebSocket|ERR_CONNECTION_REFUSED/.test(text)), []);
 });

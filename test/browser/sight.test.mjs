@@ -1,7 +1,7 @@
-// What is there is seen, and seen whole: each page when it is opened by its address, Stop beside whatever the
-// header has to say, buttons pointed at, what a form answers, and names, ids and figures in narrow windows.
+// Visibility: each page opened by its address, Stop next to any header content, buttons in all
+// states, answers of forms, names and numbers in narrow windows.
 //
-//   node --test test/browser/sight.test.mjs      (after the server and web/dist were built; see harness.mjs)
+//   node --test test/browser/sight.test.mjs      (after building the server and web/dist; see harness.mjs)
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -15,7 +15,7 @@ const { server, chromium } = with_dashboard('config/two_pandas.json', 'coordinat
 
 const go = (hash) => go_to(page, hash);
 
-/** What the header and the pane say, lead to and let one do; figures change meanwhile. */
+/** Returns texts, links and controls of header and pane, without changing numbers. */
 const told = () => {
   const of = (root) => [root.innerText, ...[...root.querySelectorAll('a, button, input, select, option')].map((one) => `${one.tagName} ${one.textContent} ${one.getAttribute('href')} ${one.disabled} ${one.title}`)].join('\n');
   return [...document.querySelectorAll('header, .pane')].map(of).join('\n').replace(/\d+/g, '0');
@@ -23,18 +23,18 @@ const told = () => {
 
 const kPages = ['#/', '#/new', '#/scene', '#/scene/table', '#/history', '#/settings', '#/alerts', '#/recovery', '#/recordings', '#/policies', '#/job/done', '#/arm/left', '#/pair/left/right', '#/pair/done/other'];
 
-test('a page that is opened by its address shows what it does when one comes back to it', { timeout: 600_000 }, async () => {
+test('A page opened by its address shows the same as when returned to', { timeout: 600_000 }, async () => {
   await send_through(page, 'left', 'done', [kMiddle, null], 3);
   await send_through(page, 'right', 'other', [kMiddle, null], 3);
   for (const id of ['done', 'other']) await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();
   for (const hash of kPages) {
     const other = await chromium.context.newPage();
-    await other.setViewportSize({ width: 800, height: 450 });  // fourteen pictures of the cell are drawn for it
+    await other.setViewportSize({ width: 800, height: 450 });  // small, because the view is drawn fourteen times
     await other.goto(`${url}${hash}`);
     await other.locator('[data-test=link].open').waitFor();
     await other.waitForFunction(() => window.armloom?.is_drawn());
     if (hash !== '#/') await other.locator('.pane h2').first().waitFor();
-    // Once it stays as it is.
+    // Waits until the page no longer changes.
     const settled = async () => {
       for (let before = null, same = 0; ;) {
         const now = await other.evaluate(told);
@@ -46,7 +46,7 @@ test('a page that is opened by its address shows what it does when one comes bac
     };
     const opened = await settled();
     await go_to(other, '#/nowhere');
-    await other.getByText('No such page').waitFor();
+    await other.getByText('Page not found').waitFor();
     await go_to(other, hash);
     if (hash !== '#/') await other.locator('.pane h2').first().waitFor();
     assert.equal(opened, await settled(), hash);
@@ -54,7 +54,7 @@ test('a page that is opened by its address shows what it does when one comes bac
   }
 });
 
-test('a page that was just opened leads to the diagram of its arms, and has policies compared', { timeout: 300_000 }, async () => {
+test('A fresh page links to the arms diagram and can compare policies', { timeout: 300_000 }, async () => {
   const other = await chromium.context.newPage();
   await other.goto(url);
   await other.locator('[data-test=go-diagram][href="#/pair/left/right"]').waitFor();
@@ -66,7 +66,7 @@ test('a page that was just opened leads to the diagram of its arms, and has poli
   await other.close();
 });
 
-test('Stop stands whole in the same place, whatever the header has to say', { timeout: 300_000 }, async () => {
+test('Stop stays completely visible in the same place for any header content', { timeout: 300_000 }, async () => {
   await go('#/');
   const before = page.viewportSize();
   const places = {};
@@ -99,7 +99,7 @@ test('Stop stands whole in the same place, whatever the header has to say', { ti
     }
   };
   await look('alert and control', ['link', 'open-alerts', 'in-control', 'go-policies']);
-  // What does not fit is still reached by keys, and then seen.
+  // Hidden parts are reached by keys, and then visible.
   await page.setViewportSize({ width: 920, height: 720 });
   await page.locator('[data-test=open-alerts]').focus();
   await page.keyboard.press('Tab');
@@ -129,7 +129,10 @@ test('Stop stands whole in the same place, whatever the header has to say', { ti
   await page.setViewportSize(before);
 });
 
-/** How a button's words stand out from its ground, as WCAG counts it; grounds that are seen through are laid over each other. */
+/**
+ * Returns the contrast of a button's text to its background (WCAG), with translucent backgrounds
+ * blended.
+ */
 const contrast = (button) => {
   const parts = (text) => { const [r, g, b, a = 1] = (text.match(/[\d.]+/g) ?? [0, 0, 0, 0]).map(Number); return [r, g, b, a]; };
   const grounds = [];
@@ -140,7 +143,7 @@ const contrast = (button) => {
   return (bright + 0.05) / (dark + 0.05);
 };
 
-test('what a button says is read in every state of it, in both themes', { timeout: 300_000 }, async () => {
+test('Buttons have sufficient contrast in all states and both themes', { timeout: 300_000 }, async () => {
   let looked = 0;
   const read = async (button, state) => {
     await page.waitForFunction(() => document.getAnimations().every(({ playState }) => playState !== 'running'));
@@ -152,7 +155,7 @@ test('what a button says is read in every state of it, in both themes', { timeou
     await go('#/settings');
     await page.getByLabel(theme, { exact: true }).check();
     await page.waitForFunction((theme) => document.documentElement.dataset.theme === theme, theme.toLowerCase());
-    for (const [hash, ...tests] of [['#/new', 'send', 'judge'], ['#/scene/table', 'object-save', 'object-remove', 'by-hand'], ['#/recovery', 'resume-checked'], ['#/policies', 'compare']]) {
+    for (const [hash, ...tests] of [['#/new', 'send', 'check-job'], ['#/scene/table', 'object-save', 'object-remove', 'move-object'], ['#/recovery', 'resume-checked'], ['#/policies', 'compare']]) {
       await go(hash);
       for (const name of ['stop', 'to-resume', ...tests]) {
         const button = page.locator(`[data-test=${name}]`);
@@ -163,7 +166,7 @@ test('what a button says is read in every state of it, in both themes', { timeou
         await read(button, `pointed at, ${theme}`);
         await page.mouse.down();
         await read(button, `pressed, ${theme}`);
-        await page.mouse.move(2, 2);  // let go elsewhere: nothing is asked
+        await page.mouse.move(2, 2);  // released elsewhere: no action
         await page.mouse.up();
         await button.focus();
         await read(button, `with the focus, ${theme}`);
@@ -179,7 +182,7 @@ test('what a button says is read in every state of it, in both themes', { timeou
   assert.ok(looked > 40, `${looked} were looked at`);
 });
 
-/** Whether all of it, or as much as there is room for, is within the pane. */
+/** Returns true if the element is in the pane, completely or as far as it fits. */
 const in_pane = (element) => {
   const box = element.getBoundingClientRect();
   const pane = document.querySelector('.pane-body').getBoundingClientRect();
@@ -188,7 +191,7 @@ const in_pane = (element) => {
 
 const is_in_pane = (locator, what) => eventually(async () => assert.ok(await locator.evaluate(in_pane), what));
 
-test('what a form answers is seen', { timeout: 300_000 }, async () => {
+test('Answers of forms are scrolled into view', { timeout: 300_000 }, async () => {
   const before = page.viewportSize();
   await page.setViewportSize({ width: 1280, height: 640 });
   await page.keyboard.press('Escape');
@@ -203,9 +206,9 @@ test('what a form answers is seen', { timeout: 300_000 }, async () => {
   await go('#/new');
   const { names, q } = await arm_now(page, 'left');
   await page.locator('[data-test=job-text]').fill(JSON.stringify(job_through('far', names, [q, q.map(() => 9)], 3), null, 2));
-  await page.locator('[data-test=judge]').click();
-  await page.locator('[data-test=judged]').waitFor();
-  await is_in_pane(page.locator('[data-test=judged]'), 'the judgement');
+  await page.locator('[data-test=check-job]').click();
+  await page.locator('[data-test=check-results]').waitFor();
+  await is_in_pane(page.locator('[data-test=check-results]'), 'the check results');
   await page.locator('[data-test=send]').click();
   await page.locator('.in-sight > [data-test=problem]').waitFor();
   await is_in_pane(page.locator('.in-sight > [data-test=problem]'), 'why it was not sent');
@@ -213,7 +216,7 @@ test('what a form answers is seen', { timeout: 300_000 }, async () => {
   await page.setViewportSize(before);
 });
 
-test('a job that was sent is not sent again by a second press', { timeout: 300_000 }, async () => {
+test('A second press does not send a job again', { timeout: 300_000 }, async () => {
   await go('#/new');
   const { names, q } = await arm_now(page, 'left');
   const { trajectory } = job_through('', names, [q, q], 1);
@@ -231,10 +234,10 @@ test('a job that was sent is not sent again by a second press', { timeout: 300_0
   await reads(page.locator('[data-test=send]'), /^Send$/);
 });
 
-test('a name that no object may have is told at its field', { timeout: 180_000 }, async () => {
+test('An invalid object name is reported at its field', { timeout: 180_000 }, async () => {
   await go('#/scene');
   await page.locator('[data-test=object-name]').fill('a/b');
-  await page.locator('[data-test=object-name-fault]', { hasText: 'this one holds /' }).waitFor();
+  await page.locator('[data-test=object-name-fault]', { hasText: 'found /' }).waitFor();
   await page.locator('[data-test=object-save]:disabled').waitFor();
   await page.screenshot(path_for('object-name'));
   await page.locator('[data-test=object-name]').fill('a b');
@@ -242,7 +245,7 @@ test('a name that no object may have is told at its field', { timeout: 180_000 }
   await reads(page.locator('[data-test=object-name-fault]'), /^$/);
 });
 
-test('in narrow windows joints have their figures, and jobs their names and ids', { timeout: 300_000 }, async () => {
+test('Narrow windows show joint values, job names and ids', { timeout: 300_000 }, async () => {
   await ask(page, 'POST', '/stop');
   const { names, q } = await arm_now(page, 'right');
   const long = 'right: tiled deposit of the second layer, then home';
@@ -280,12 +283,12 @@ test('in narrow windows joints have their figures, and jobs their names and ids'
   await page.setViewportSize(before);
 });
 
-test('links that stand alone measure 24 px', { timeout: 180_000 }, async () => {
+test('Standalone links measure 24 px', { timeout: 180_000 }, async () => {
   await go('#/policies');
   const { height } = await page.locator('[data-test=go-policies]').boundingBox();
   assert.ok(height >= 24, `${height} px`);
 });
 
-test('nothing so far was an error in the console', () => {
+test('The console has no errors', () => {
   assert.deepEqual(chromium.errors.filter((text) => !/ 422 |409 |ERR_CONNECTION_REFUSED|WebSocket/.test(text)), []);
 });

@@ -87,9 +87,9 @@ FAULTS = {'server_store_test': [
     ('a known event is processed again', 'web/src/server/connection.ts', 'message.seq <= this.since_;', 'message.seq <= (FAULT ? -1 : this.since_);'),
     ('a lost connection is opened from the start', 'web/src/server/connection.ts', "const resume = this.stream_ === null ?", "const resume = FAULT || this.stream_ === null ?"),
     ('ticks outlive another stop', 'web/src/recovery/checklist.ts', 'if (this.ticked_.peek().size > 0) this', 'if (this.ticked_.peek().size > 0 && !FAULT) this'),
-    ('a released button keeps the arm moving', 'web/src/control/hand.ts', 'if (!is_held) return void', 'if (!is_held && !FAULT) return void'),
-    ('a jog lease is not renewed', 'web/src/control/hand.ts', '      this.beat(asked, lease_s);\n    }, every_ms);', '      if (!FAULT) this.beat(asked, lease_s);\n    }, every_ms);'),
-    ('control that was lost is shown as kept', 'web/src/control/hand.ts', "    this.key.value = null;\n    this.held.value = null;\n    ++this.asked_;", "    if (!FAULT) this.key.value = null;\n    this.held.value = null;\n    ++this.asked_;"),
+    ('a released button keeps the arm moving', 'web/src/control/jog_control.ts', 'if (!is_pressed) return void', 'if (!is_pressed && !FAULT) return void'),
+    ('a jog lease is not renewed', 'web/src/control/jog_control.ts', '      this.beat(asked, lease_s);\n    }, every_ms);', '      if (!FAULT) this.beat(asked, lease_s);\n    }, every_ms);'),
+    ('control that was lost is shown as kept', 'web/src/control/jog_control.ts', "    this.key.value = null;\n    this.pressed.value = null;\n    ++this.asked_;", "    if (!FAULT) this.key.value = null;\n    this.pressed.value = null;\n    ++this.asked_;"),
     ('a number with a comma is read', 'web/src/frame/number_text.ts', "NaN : Number(text);", "NaN : Number(FAULT ? text.replace(',', '') : text);"),
     ('acknowledged alerts stay open', 'web/src/alerts/alert_list.ts', 'acknowledged === null);', 'FAULT || acknowledged === null);'),
     ('a recording of another cell is shown', 'web/src/recordings/player.ts', "    if (strange !== null) return", "    if (strange !== null && !FAULT) return"),
@@ -97,7 +97,7 @@ FAULTS = {'server_store_test': [
     ('another session continues the log', 'web/src/state/log.ts', 'if (this.entries_.length > 0 && this', 'if (!FAULT && this.entries_.length > 0 && this'),
     ('a search finds jobs with any of its words', 'web/src/jobs/filter.ts', 'wanted.every((word)', '(FAULT ? wanted.some.bind(wanted) : wanted.every.bind(wanted))((word)'),
     ('an arm at fault is not listed for recovery', 'web/src/recovery/needs.ts', "filter((arm) => arm.state === 'fault' ||", "filter((arm) => (arm.state === 'fault' && !FAULT) ||"),
-    ('the row under the pointer moves', 'web/src/jobs/held.ts', '  if (held === null || at < 0) return now;', '  if (FAULT || held === null || at < 0) return now;'),
+    ('the row under the pointer moves', 'web/src/jobs/frozen_lists.ts', '  if (pointed_at === null || at < 0) return now;', '  if (FAULT || pointed_at === null || at < 0) return now;'),
 ]}
 PROGRAMS = [name for name in FAULTS if name != 'dashboard'] + ['server_command_test', 'server_replay_test', 'audit_test', 'scenarios_test']
 

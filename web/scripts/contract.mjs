@@ -1,9 +1,9 @@
-// npm run contract: writes src/contract/ from what the server says of itself,
-// `armloom schema --openapi`: types.ts for the compiler, schemas.json for the page's own check of
-// what it hears. Both are kept in the repository; a test compares them with the program.
+// npm run contract: writes src/contract/ from the output of `armloom schema --openapi`: types.ts
+// for the compiler, schemas.json for the validation of messages at run time. Both files are in the
+// repository; a test checks that they are up to date.
 //
 //   ARMLOOM_BINARY    the program, default ../build/armloom
-//   --check           writes nothing; exit 1 when a file is not what it would write
+//   --check           writes nothing; exits with 1 if a file is out of date
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
@@ -13,11 +13,12 @@ import openapi_types, { astToString } from 'openapi-typescript';
 const kWeb = resolve(dirname(fileURLToPath(import.meta.url)), '..');
 const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kWeb, '../build/armloom'));
 const kHead = '// Written by `npm run contract`: change the descriptions in server/messages, not this file.\n';
-// What the page reads, with all that these refer to.
+// The schemas that the page reads; referenced schemas are added.
 const kRead = ['Message', 'Cell', 'Job', 'Diagram', 'Timeline', 'Problem', 'Verdict', 'JobMotion', 'Plan', 'AlertList', 'Session', 'Comparison', 'Control', 'ControlTaken', 'Jog', 'JobPage', 'MeasuredStates', 'RecordingList'];
-// What a schema says beyond the shape. A newer server may say more than this page knows.
+// Keywords that are not checked, so that a newer server may send more than this page knows.
 const kDropped = new Set(['description', 'additionalProperties', 'minimum', 'maximum', 'exclusiveMinimum', 'exclusiveMaximum', 'pattern', 'format', 'dependentRequired']);
-// Long, and read number by number where it is used (src/motion, src/state/trace): to check it here, too, would hold the page up.
+// Large arrays, validated where they are used (src/motion, src/state/trace): a second check here
+// would delay the page.
 const kReadWhereUsed = { JobMotion: 'trajectory', MeasuredStates: 'q' };
 
 const document = JSON.parse(execFileSync(kBinary, ['schema', '--openapi'], { encoding: 'utf8', maxBuffer: 1 << 26 }));
@@ -41,7 +42,7 @@ function shape_of(schema, names, in_properties = false) {
   return out;
 }
 
-const names = new Set(kRead);  // and, from schemas_text() on, what they refer to
+const names = new Set(kRead);  // schemas_text() adds the referenced names
 
 function schemas_text() {
   const shapes = {};
@@ -54,7 +55,8 @@ function schemas_text() {
   return `{\n${lines.join(',\n')}\n}\n`;
 }
 
-// A list of so many to so many elements: the generator knows only lists of a fixed length.
+// Removes minItems and maxItems of variable length: the generator supports only arrays of fixed
+// length.
 function without_ranges(schema) {
   if (typeof schema !== 'object' || schema === null) return schema;
   if (Array.isArray(schema)) return schema.map(without_ranges);

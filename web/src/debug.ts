@@ -1,21 +1,20 @@
-// `window.armloom`: for the browser test, and for looking at a running page from the console.
+// `window.armloom`: for browser tests, and for debugging in the console.
 //
 //   armloom.q()                           joint name -> measured position
-//   armloom.jobs()                        every job that the page knows, as the server wrote it
+//   armloom.jobs()                        all jobs that the page knows, as the server sent them
 //   armloom.objects()                     the objects of the scene
-//   armloom.numbers()                     of events: the last one, and how many were missed or came twice
-//   armloom.lanes()                       what the timeline shows of each arm
-//   armloom.is_drawn()                    whether every robot of the cell stands in the view
-//   armloom.drawn()                       a promise, kept once all that changed has been drawn
-//   armloom.where_is(object)              its middle, px from the view's top left
-//   armloom.where_is_tool()               the same of the tool that is in hand
-//   armloom.ahead()                       how many ways ahead are drawn
-//   armloom.ghost()                       joints that stand as a ghost: a preview, or what a diagram points at
-//   armloom.break_connection()            as if the network had: it is opened again
-//   armloom.pictures()                    how many have been drawn
-//   armloom.level()                       how finely: what the view leaves out on a busy machine
-//   armloom.set_robot_visible(name, yes)  draws the cell with or without one robot, so that a
-//                                         picture of each tells which pixels are that robot's
+//   armloom.numbers()                     the last event number; counts of missed and doubled events
+//   armloom.lanes()                       the timeline of each arm
+//   armloom.is_drawn()                    true if every robot of the cell is in the view
+//   armloom.drawn()                       a promise that resolves when all changes are drawn
+//   armloom.where_is(object)              the object's center, px from the view's top left
+//   armloom.where_is_tool()               the same for the dragged tool goal
+//   armloom.ahead()                       number of drawn tool paths
+//   armloom.ghost()                       joints of the ghost: a preview, or a point of a diagram
+//   armloom.break_connection()            breaks the connection; the page reconnects
+//   armloom.pictures()                    number of drawn frames
+//   armloom.level()                       what the view leaves out on a busy machine
+//   armloom.set_robot_visible(name, yes)  shows or hides a robot, to find its pixels
 
 import type { App } from './state/app';
 import { known_lanes } from './timeline/known';

@@ -1,10 +1,10 @@
-// Puts the page together: store, server, socket, address, and what is shown of them.
+// Assembles the page: store, API, socket, router, views.
 
 import { signal } from '@preact/signals';
 import { render } from 'preact';
 import { Arms } from './arms/arms';
 import { install_debug_hook, show_debug_view } from './debug';
-import { Hand } from './control/hand';
+import { JogControl } from './control/jog_control';
 import { Banner } from './frame/banner';
 import { Header } from './frame/header';
 import { listen_to_drops } from './frame/drops';
@@ -42,6 +42,7 @@ import './style/touch.css';
 import { Timeline } from './timeline/timeline';
 import { CellPanel } from './view/cell_panel';
 import { shown_name } from './names';
+import { kText } from './strings';
 
 const store = new Store();
 const api = new Api(kApi, (url, init) => fetch(url, init));
@@ -51,7 +52,7 @@ const timers: Timers = {
   clear: (id) => window.clearTimeout(id),
 };
 const alerts = new AlertList(api, timers);
-const hand = new Hand(api, timers, (id) => store.book.has_ended(id));
+const jogging = new JogControl(api, timers, (id) => store.book.has_ended(id));
 const session = signal<Session | null>(null);
 const connection = new Connection({
   url: `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}${kApi}/ws`,
@@ -63,8 +64,8 @@ const connection = new Connection({
     store.take(message);
     if (is_new_run) void look_before(message.stream, message.seq);
     if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
-    if (message.type === 'snapshot' || message.type === 'alert') void hand.look();  // a change of control is told
-    // It has less than what the page was told before.
+    if (message.type === 'snapshot' || message.type === 'alert') void jogging.look();  // control changes are published as alerts
+    // A snapshot has fewer ended jobs than the page knew.
     if (message.type === 'snapshot') archive.reopen();
     if (other_run) {
       motions.clear();
@@ -87,7 +88,7 @@ const checklist = new Checklist(store);
 store.on_change(() => checklist.follow());
 const app: App = {
   get store() { return seen(store); },
-  archive, checklist, api, motions, alerts, session, hand, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), by_hand: signal(null), tool: signal(null),
+  archive, checklist, api, motions, alerts, session, jogging, comparing: new Comparing(api, timers), covered_px: signal(0), draft: signal(''), ghost: signal(null), dragged_object: signal(null), tool: signal(null),
   actions: new Actions(api, store, timers, () => connection.retry_now()),
   router, seen: new Seen(store, router), player: new Player(store, connection, router), kept: new KeptList(api),
   settings: new Settings(shelf(), window.matchMedia('(prefers-color-scheme: light)'), (theme) => { document.documentElement.dataset['theme'] = theme; }),
@@ -97,11 +98,11 @@ function shelf(): Storage | null {
   try {
     return window.localStorage;
   } catch {
-    return null;  // some browsers forbid it
+    return null;  // some browsers forbid access
   }
 }
 
-/** Whose token was revoked, or who has logged out in another window, may nothing any more but log in. */
+/** Goes to the login page if the token was revoked or the user logged out in another window. */
 async function know_who(): Promise<void> {
   const answer = await api.session();
   if (!answer.ok) return;
@@ -109,12 +110,12 @@ async function know_who(): Promise<void> {
   if (answer.value.role === null) location.assign(`/login${location.hash}`);
 }
 
-/** What the server told before this page listened. */
+/** Loads events from before the page was connected. */
 async function look_before(stream: string, seq: number): Promise<void> {
   store.take_earlier(await earlier_events(kApi, (url, init) => fetch(url, init), stream, seq));
 }
 
-/** Where the arms were before this page listened, or while it could not. */
+/** Loads positions from before the page was connected, or while it was not. */
 async function look_at_states(): Promise<void> {
   const answer = await api.states();
   if (answer.ok) store.take_earlier_states(answer.value);
@@ -134,7 +135,7 @@ function Page() {
   const { store } = app;
   const stale = use_stale(store);
   const then = seen_app(app);
-  document.title = `${place_in_words(app.router.address.value.place)} · ${shown_name(store.cell?.name ?? 'Armloom')}`;
+  document.title = `${place_in_words(app.router.address.value.place)} · ${shown_name(store.cell?.name ?? kText.frame.app)}`;
   return (
     <>
       <Header app={app} />
@@ -148,7 +149,7 @@ function Page() {
           <Timeline app={app} />
           <Notices app={app} />
         </div>
-        <aside class="side" aria-label="Arms and jobs">
+        <aside class="side" aria-label={kText.frame.arms_and_jobs}>
           <Arms app={then} />
           <Jobs app={then} />
         </aside>

@@ -1,5 +1,5 @@
-// Times of the wall clock, as nobody can misread them: year first, 24 hours, of this browser's place, with
-// how far that is from UTC. Pure.
+// Wall-clock times without ambiguity: year first, 24 hours, local time with its offset from UTC.
+// Pure.
 
 /** 2026-11-26 14:03:07 +01:00 */
 export function wall_time(at: string | number): string {
@@ -7,7 +7,7 @@ export function wall_time(at: string | number): string {
   return Number.isNaN(date.getTime()) ? String(at) : `${day(date)} ${time(date)} ${offset(date)}`;
 }
 
-/** As short as it may be: without the day where that is today, without the offset, which the title has. */
+/** Short form for tables: without today's date and without the offset, which the title has. */
 export function short_wall_time(at: string | number, now_ms: number): string {
   const date = new Date(at);
   if (Number.isNaN(date.getTime())) return String(at);

@@ -10,13 +10,13 @@ function asked(answer: Answer<unknown>): Actions {
 
 const problem = { type: 'about:blank', title: 'Conflict', status: 409, detail: 'somebody else holds control' };
 
-describe('what was asked for', () => {
-  it('is said to be refused when the server refused it', async () => {
+describe('Actions', () => {
+  it('shows a refusal of the server', async () => {
     const actions = asked({ ok: false, problem });
     await actions.stop();
     expect(actions.refusal.value).toBe('Stop all was refused: somebody else holds control');
   });
-  it('is not said to be refused when nobody answered: arms may still move', async () => {
+  it('warns that arms may still move if the server does not answer', async () => {
     const actions = asked({ ok: false, problem: { ...problem, title: 'The server does not answer', status: 0, detail: 'TypeError: Failed to fetch' } });
     await actions.stop();
     expect(actions.refusal.value).toMatch(/^Stop all was not answered at \d\d:\d\d:\d\d: .*arms may still move/);

@@ -7,20 +7,20 @@ const kPlaces: Place[] = [
   { page: 'arm', name: 'links é' }, { page: 'pair', a: 'x/y', b: '<b>z</b>' }, { page: 'scene', name: null }, { page: 'scene', name: 'crate 1' },
 ];
 
-describe('addresses', () => {
-  it('come back as they were, whatever stands in a name', () => {
+describe('Address', () => {
+  it('parses back to the same places for any name', () => {
     for (const place of kPlaces) {
       const address: Address = { place, t_s: 12.5, run: '7997886f', camera: [1, -2.5, 3, 0, 0, 0.4] };
       expect(parse_address(address_text(address))).toEqual(address);
     }
   });
 
-  it('are short when nothing is held', () => {
+  it('is short without time and camera', () => {
     expect(address_text({ place: { page: 'cell' }, t_s: null, run: null, camera: null })).toBe('#/');
     expect(parse_address('')).toEqual({ place: { page: 'cell' }, t_s: null, run: null, camera: null });
   });
 
-  it('leave out what makes no sense, and name a page that is none', () => {
+  it('ignores invalid parts and maps unknown paths to the unknown page', () => {
     expect(parse_address('#/job/a?t=-1&camera=1,2,x,0,0,0').t_s).toBeNull();
     expect(parse_address('#/job/a?t=-1&camera=1,2,x,0,0,0').camera).toBeNull();
     expect(parse_address('#/?camera=1,2,3,4,5,6,7').camera).toBeNull();
@@ -33,7 +33,7 @@ describe('addresses', () => {
   });
 });
 
-describe('the router', () => {
+describe('Router', () => {
   const bar = (hash: string) => {
     const changes: string[] = [];
     let listener = () => {};
@@ -46,25 +46,25 @@ describe('the router', () => {
     return { fake, changes, back_to: (next: string) => { hash = next; listener(); } };
   };
 
-  it('keeps instant and camera from place to place; only places are steps to go back by', () => {
+  it('keeps time and camera between pages; only pages enter the browser history', () => {
     const { fake, changes } = bar('#/arm/left');
     const router = new Router(fake);
     expect(router.place).toEqual({ page: 'arm', name: 'left' });
-    router.hold_at(7.25);
-    router.hold_at(7.25);
+    router.show_time(7.25);
+    router.show_time(7.25);
     router.go({ page: 'job', id: 'a' });
-    router.hold_at(null);
+    router.show_time(null);
     expect(changes).toEqual(['replace #/arm/left?t=7.25', 'push #/job/a?t=7.25', 'replace #/job/a']);
   });
 
-  it('says which run of the server a time is of: another one begins at zero again', () => {
+  it('names the server session of a time', () => {
     const { fake, changes } = bar('#/');
     let stream: string | null = '7997886f-351f-4aa0-babd-42ad4e6d6ef7';
     const router = new Router(fake, () => stream);
-    router.hold_at(7.25);
+    router.show_time(7.25);
     stream = null;
     router.go({ page: 'history' });
-    router.hold_at(3);
+    router.show_time(3);
     expect(changes).toEqual(['replace #/?t=7.25&run=7997886f', 'push #/history?t=7.25&run=7997886f', 'replace #/history?t=3']);
   });
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { AlertList } from '../src/alerts/alert_list';
-import { id_of, told_until } from '../src/alerts/alerts';
+import { id_of, reported_until } from '../src/alerts/alerts';
 import type { Notice } from '../src/state/notices';
 import type { KeptAlert } from '../src/server/messages';
 
@@ -22,17 +22,17 @@ function server_of(alerts: KeptAlert[]) {
   return { api, timers, list };
 }
 
-describe('alerts', () => {
-  it('are shown as far as they had been told at the instant that is looked at; older ones than any notice always', () => {
+describe('Alerts', () => {
+  it('are listed up to the shown time; alerts older than all notices are always listed', () => {
     const notice = (seq: number, t_s: number) => ({ stream: 's', seq, t_s }) as Notice;
     const known = { stream: 's', notices: [notice(9, 30), notice(4, 12)] };
     const all = [alert('s:9'), alert('s:4'), alert('former:7')];
-    expect(told_until(all, null, known)).toEqual(all);
-    expect(told_until(all, 20, known).map(({ id }) => id)).toEqual(['s:4', 'former:7']);
-    expect(told_until(all, 5, known).map(({ id }) => id)).toEqual(['former:7']);
+    expect(reported_until(all, null, known)).toEqual(all);
+    expect(reported_until(all, 20, known).map(({ id }) => id)).toEqual(['s:4', 'former:7']);
+    expect(reported_until(all, 5, known).map(({ id }) => id)).toEqual(['former:7']);
   });
 
-  it('are open until the server says that somebody has seen to them', async () => {
+  it('are open until the server reports an acknowledgement', async () => {
     const { list } = server_of([alert('s:2'), alert('s:1', 'Bob')]);
     await list.refresh();
     expect(list.open.map(({ id }) => id)).toEqual(['s:2']);
@@ -42,7 +42,7 @@ describe('alerts', () => {
     expect(list.of('s:1')?.acknowledged?.who).toBe('Bob');
   });
 
-  it('that are told together are asked for once', async () => {
+  it('are requested once for alerts that arrive together', async () => {
     const { api, timers, list } = server_of([alert('s:1')]);
     list.refresh_soon();
     list.refresh_soon();
@@ -54,7 +54,7 @@ describe('alerts', () => {
     expect(timers).toHaveLength(2);
   });
 
-  it('have the name that the server gives to their event', () => {
+  it('use the id that the server derives from their event', () => {
     expect(id_of({ stream: 's', seq: 7 })).toBe('s:7');
   });
 });

@@ -11,15 +11,15 @@ function api_that_answers(status: number, body: string) {
   return { api, asked };
 }
 
-describe('the HTTP calls', () => {
-  it('post the text as it stands', async () => {
+describe('Api', () => {
+  it('posts the text unchanged', async () => {
     const { api, asked } = api_that_answers(202, '{"id":"j-1"}');
     expect(await api.post_job('{not json')).toEqual({ ok: true, value: { id: 'j-1' } });
     expect(asked[0]?.url).toBe('/api/v1/jobs');
     expect(asked[0]?.init).toMatchObject({ method: 'POST', body: '{not json', headers: { 'content-type': 'application/json' } });
   });
 
-  it('fetch what the server recorded, and say where its files are', async () => {
+  it('fetches recordings and returns the addresses of their files', async () => {
     const list = { kept: true, recordings: [{ name: 'data', begun_at: null, written_at: '', running: true, has_states: false, files: [{ name: 'events.jsonl', bytes: 3 }] }] };
     const { api, asked } = api_that_answers(200, JSON.stringify(list));
     expect(await api.recordings()).toEqual({ ok: true, value: list });
@@ -29,19 +29,19 @@ describe('the HTTP calls', () => {
     expect(wrong.ok ? '' : wrong.problem.title).toBe('The list of recordings cannot be read');
   });
 
-  it('cancel by id, whatever characters it holds', async () => {
+  it('cancels by id with any characters', async () => {
     const { api, asked } = api_that_answers(202, '');
     expect((await api.cancel_job('a/b?c')).ok).toBe(true);
     expect(asked[0]?.url).toBe('/api/v1/jobs/a%2Fb%3Fc');
   });
 
-  it('change what is named of a job', async () => {
+  it('changes the given members of a job', async () => {
     const { api, asked } = api_that_answers(200, '{"id":"a"}');
     expect((await api.amend_job('a/b', { priority: 3 })).ok).toBe(true);
     expect(asked[0]).toMatchObject({ url: '/api/v1/jobs/a%2Fb', init: { method: 'PATCH', body: '{"priority":3}' } });
   });
 
-  it('ask for another way, for how a job moves, and for a way to a goal', async () => {
+  it('requests replans, trajectories and plans', async () => {
     const { api, asked } = api_that_answers(200, JSON.stringify({ id: 'a', duration_s: 2, trajectory: { joint_names: ['x'], points: [{ positions: [0] }] } }));
     expect((await api.replan_job('a/b')).ok).toBe(true);
     expect(asked[0]).toMatchObject({ url: '/api/v1/jobs/a%2Fb/replan', init: { method: 'POST' } });
@@ -52,7 +52,7 @@ describe('the HTTP calls', () => {
     expect(unread.ok ? '' : unread.problem.title).toBe('The plan cannot be read');
   });
 
-  it('fetch one job, checked', async () => {
+  it('validates a fetched job', async () => {
     const { api, asked } = api_that_answers(200, JSON.stringify(job_json('a/1', { state: 'running', progress: 0.4 })));
     const answer = await api.job('a/1');
     expect(asked[0]?.url).toBe('/api/v1/jobs/a%2F1');
@@ -61,24 +61,24 @@ describe('the HTTP calls', () => {
     expect(!wrong.ok && wrong.problem.detail).toMatch(/^\/state: .*"running"/);
   });
 
-  it('answer a problem document with its place and value', async () => {
+  it('returns a problem document with its place and value', async () => {
     const problem = { type: 'urn:armloom:problem:limits', title: 'Limits', status: 422, detail: 'too fast', pointer: '/trajectory/points/3', value: 3.41 };
     const answer = await api_that_answers(422, JSON.stringify(problem)).api.post_job('{}');
     expect(!answer.ok && answer.problem).toMatchObject(problem);
   });
 
-  it('show what is not a problem document as it is', async () => {
+  it('shows an answer that is not a problem document unchanged', async () => {
     const answer = await api_that_answers(502, 'bad gateway').api.stop();
     expect(!answer.ok && answer.problem).toMatchObject({ title: 'said', status: 502, detail: 'bad gateway' });
   });
 
-  it('answer a problem when nobody answers', async () => {
+  it('returns a problem if the server does not answer', async () => {
     const api = new Api('', () => Promise.reject(new Error('refused')));
     const answer = await api.resume();
     expect(!answer.ok && answer.problem.detail).toContain('refused');
   });
 
-  it('say where a cell cannot be read', async () => {
+  it('says where a cell is invalid', async () => {
     const answer = await api_that_answers(200, '{"name":"c","policy":"p","robots":{}}').api.cell();
     expect(!answer.ok && answer.problem.detail).toMatch(/^\/robots: .*Expected "array"/);
   });

@@ -10,7 +10,7 @@ const ended = (number: number) => job_json(`j${number}`, {
   state: 'succeeded', ended_s: number, ended_at: new Date(1.8e12 + 1000 * number).toISOString(), result: { reason: 'completed', detail: '' },
 }) as Job;
 
-/** A server that has so many jobs, the newest with the highest number. */
+/** A server with this many jobs, the newest with the highest number. */
 function server(count: number) {
   const asked: string[] = [];
   const api = {
@@ -30,8 +30,8 @@ function server(count: number) {
   return { api, asked };
 }
 
-describe('jobs that the page was never told of', () => {
-  it('come a page at a time, newest first, past those that are known', async () => {
+describe('Archive', () => {
+  it('loads pages newest first and skips known jobs', async () => {
     const { api, asked } = server(10_000);
     const archive = new Archive(api, (id) => Number(id.slice(1)) >= 9_500);
     await archive.more();
@@ -43,7 +43,7 @@ describe('jobs that the page was never told of', () => {
     expect(archive.state).toBe('more');
   });
 
-  it('are gone on for past pages of which all is known', async () => {
+  it('skips pages that contain only known jobs', async () => {
     const { api, asked } = server(10_000);
     const archive = new Archive(api, (id) => Number(id.slice(1)) >= 7_500);
     await archive.more();
@@ -51,7 +51,7 @@ describe('jobs that the page was never told of', () => {
     expect(archive.jobs).toHaveLength(500);
   });
 
-  it('end with the last, and are asked for one at a time', async () => {
+  it('ends with the last page and sends one request at a time', async () => {
     const { api, asked } = server(150);
     const archive = new Archive(api, () => false);
     await Promise.all([archive.more(), archive.more()]);
@@ -60,7 +60,7 @@ describe('jobs that the page was never told of', () => {
     expect(asked).toHaveLength(1);
   });
 
-  it('are found by their ids, once', async () => {
+  it('finds jobs by id, requesting each once', async () => {
     const { api, asked } = server(10);
     const archive = new Archive(api, () => false);
     await Promise.all([archive.find('j3'), archive.find('j3'), archive.find('j99')]);
@@ -70,7 +70,7 @@ describe('jobs that the page was never told of', () => {
     expect(asked).toEqual(['j3', 'j99']);
   });
 
-  it('are asked for anew of another run of the server; a late answer of the one before is dropped', async () => {
+  it('starts again in a new session and drops late answers of the old one', async () => {
     const { api } = server(10);
     const archive = new Archive(api, () => false);
     const late = archive.more();
@@ -79,7 +79,7 @@ describe('jobs that the page was never told of', () => {
     expect([archive.jobs.length, archive.state]).toEqual([0, 'more']);
   });
 
-  it('are asked for again when the page has less than it was told before, and none of them is lost', async () => {
+  it('loads again what a snapshot dropped, without losing jobs', async () => {
     const { api } = server(150);
     let told = 100;
     const archive = new Archive(api, (id) => Number(id.slice(1)) >= 150 - told);
@@ -92,7 +92,7 @@ describe('jobs that the page was never told of', () => {
     expect([archive.state, archive.jobs.length]).toEqual(['all', 130]);
   });
 
-  it('say why they are not told', async () => {
+  it('says why jobs cannot be loaded', async () => {
     const problem = { type: 'about:blank', title: 'Busy', status: 503 } as Problem;
     const archive = new Archive({ jobs: async () => ({ ok: false, problem }), job: async () => ({ ok: false, problem }) }, () => false);
     await archive.more();
@@ -100,17 +100,17 @@ describe('jobs that the page was never told of', () => {
   });
 });
 
-describe('how far back the jobs reach that are loaded', () => {
-  it('is said until there are no more: no number is taken for all that there were', () => {
-    expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 0, is_all: false })).toMatch(/^Those that ended since 0:09:12.0 are loaded\. Earlier ones are not/);
-    expect(loaded_in_words({ told: 1137, ended_from_s: null, fetched: 0, is_all: false })).toMatch(/^All of this run .* former runs are not loaded, and the filter/);
-    expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 800, is_all: false })).toMatch(/^The last 1008 are loaded/);
-    expect(loaded_in_words({ told: 208, ended_from_s: 552, fetched: 932, is_all: true })).toBeNull();
+describe('Description of the loaded jobs', () => {
+  it('states the limit until all jobs are loaded', () => {
+    expect(loaded_in_words({ received: 208, ended_from_s: 552, fetched: 0, is_all: false })).toMatch(/^Jobs that ended since 0:09:12.0 are loaded\. Earlier jobs are neither/);
+    expect(loaded_in_words({ received: 1137, ended_from_s: null, fetched: 0, is_all: false })).toMatch(/^All jobs of this server session .* previous sessions are neither loaded nor filtered/);
+    expect(loaded_in_words({ received: 208, ended_from_s: 552, fetched: 800, is_all: false })).toMatch(/^The last 1008 jobs are loaded/);
+    expect(loaded_in_words({ received: 208, ended_from_s: 552, fetched: 932, is_all: true })).toBeNull();
   });
 });
 
-describe('times of the wall clock', () => {
-  it('cannot be misread: year first, 24 hours, with the offset', () => {
+describe('Wall-clock time', () => {
+  it('is unambiguous: year first, 24 hours, with UTC offset', () => {
     const at = new Date(2026, 10, 6, 15, 4, 5);
     expect(wall_time(at.toISOString())).toMatch(/^2026-11-06 15:04:05 (UTC|[+−]\d\d:\d\d)$/);
     expect(short_wall_time(at.toISOString(), at.getTime() + 60_000)).toBe('15:04:05');

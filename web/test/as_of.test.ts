@@ -38,14 +38,14 @@ const kStory = [
 
 beforeEach(() => { store = new Store(() => 0); });
 
-describe('what is shown of an instant that is looked at', () => {
+describe('Past state', () => {
   beforeEach(() => take(snapshot(5), ...kStory));
 
-  it('is what arms did then, not what they do now', () => {
+  it('shows what arms did then, not what they do now', () => {
     expect([7, 12, 30].map((t_s) => arm_at(Math.min(t_s, store.t_s)))).toEqual([['idle', null], ['moving', 'a'], ['idle', null]]);
   });
 
-  it('has each job in the list where it was', () => {
+  it('has each job in its list at that time', () => {
     expect(at(8).all_jobs()).toEqual([]);
     expect(at(9.5).jobs('queued')).toHaveLength(1);
     expect(at(15).jobs('running').map(({ id }) => id)).toEqual(['a']);
@@ -53,27 +53,27 @@ describe('what is shown of an instant that is looked at', () => {
     expect(finished_at(20)).toEqual(['a']);
   });
 
-  it('tells how far a job was', () => {
+  it('has the progress of a job at that time', () => {
     const then = at(11);
     then.look_at(12);
     const job = then.job('a');
     expect(job && then.progress(job)).toBeCloseTo(0.5);
   });
 
-  it('knows whether the cell was stopped, and marks events that came later', () => {
+  it('knows whether the cell was stopped, and marks later events', () => {
     expect([at(25).stopped, at(26).stopped]).toEqual([false, true]);
     const [event] = store.events;
     expect(event && [24, 25, null].map((t_s) => is_later(event, t_s, store.stream))).toEqual([true, false, false]);
   });
 
-  it('is said not to be known before anything was heard, in the future, and in another run', () => {
+  it('is unknown before the first data, in the future, and in another session', () => {
     for (const then of [at(3), at(99), state_after(events_until(12, 'ffffffff', store), store)]) {
       expect([...then.arms.values()].map((arm) => then.arm_state(arm))).toEqual(['not known', 'not known']);
       expect([then.all_jobs(), then.stream]).toEqual([[], null]);
     }
   });
 
-  it('is not known while events were lost', () => {
+  it('is unknown where events were lost', () => {
     take(frame(26, {}));
     store.trace.break_off();
     take(snapshot(40, { gap: true }), frame(40.1, {}));
@@ -81,59 +81,59 @@ describe('what is shown of an instant that is looked at', () => {
     expect(events_until(40, null, store)).toBeGreaterThan(0);
   });
 
-  it('changes nothing of the present', () => {
+  it('leaves the present unchanged', () => {
     at(12);
     expect([store.jobs('finished').length, store.stopped, store.log.entries.length]).toEqual([1, true, 8]);
   });
 
-  it('follows the address, and is the present again without a time', () => {
+  it('follows the address, and is the present without a time', () => {
     let hash = '#/';
     const router = new Router({ read: () => hash, push: (to) => { hash = to; }, replace: (to) => { hash = to; }, on_change: () => undefined }, () => store.stream);
     const seen = new Seen(store, router);
     expect(seen.store.value).toBe(store);
-    router.hold_at(12);
+    router.show_time(12);
     const then = seen.store.value;
     expect(then.jobs('running')).toHaveLength(1);
-    router.hold_at(13);  // no event lies between
+    router.show_time(13);  // no event lies between
     expect(seen.store.value).toBe(then);
     expect(then.t_s).toBe(13);
-    router.hold_at(22);
+    router.show_time(22);
     expect(seen.store.value.jobs('running')).toHaveLength(0);
-    router.hold_at(null);
+    router.show_time(null);
     expect(seen.store.value).toBe(store);
   });
 });
 
-describe('events of before the page was loaded', () => {
+describe('Events from before the page was loaded', () => {
   beforeEach(() => {
     take(snapshot(30, { jobs: [job_json('a', { submitted_s: 9, state: 'succeeded', started_s: 10, ended_s: 20 }), job_json('old', { submitted_s: 1, state: 'succeeded', started_s: 1, ended_s: 2 })] }));
     earlier(...kStory);
   });
 
-  it('stand among the events, once', () => {
+  it('appear in the event list once', () => {
     earlier(...kStory.slice(0, 0));
     expect(store.events.map(({ text }) => text)).toEqual(['Somebody stands there']);
   });
 
-  it('tell what was, and what they do not tell of was as it is', () => {
+  it('determine past states; the rest is taken from the snapshot', () => {
     expect(arm_at(12)).toEqual(['moving', 'a']);
     expect(arm_at(12, 'right')).toEqual(['idle', null]);
     expect(finished_at(12)).toEqual(['old']);
     expect([...at(12).arms.keys()]).toEqual(['left', 'right']);
   });
 
-  it('leave unknown what an arm did before the first of them that names it', () => {  // they are not from the very beginning
+  it('leave arms unknown before the first event that names them', () => {  // they do not begin with the session
     expect(arm_at(9)?.[0]).toBe('not known');
   });
 
-  it('of another run, or of what was heard already, are not taken', () => {
+  it('are ignored if they are of another session or already known', () => {
     const before = store.log.entries.length;
     earlier(envelope('alert', 2, { level: 'info', text: 'x' }, { stream: 'other' }), envelope('alert', 31, { level: 'info', text: 'y' }));
     expect(store.log.entries).toHaveLength(before);
   });
 });
 
-it('the log is bounded, and what is folded away still counts', () => {
+it('stay in effect when the bounded log folds them', () => {
   take(snapshot(1));
   const moves = [0, 1].map((i) => read(envelope('arm', 2, arm_json('left', { state: i === 0 ? 'moving' : 'idle' }))) as SequencedMessage);
   for (let i = 0; i < 25_000; i++) store.take({ ...moves[i % 2], seq: 2 + i, t_s: 2 + i * 0.001 } as SequencedMessage);
@@ -143,29 +143,29 @@ it('the log is bounded, and what is folded away still counts', () => {
   expect(arm_at(2000)?.[0]).toBe('idle');
 });
 
-describe('since when all that ended are known', () => {
+describe('Time from which ended jobs are complete', () => {
   const ended = (count: number, last_s = 500) => Array.from({ length: count }, (_, i) => job_json(`e${i}`, { state: 'succeeded', started_s: 1, ended_s: last_s - i }));
 
-  it('is the beginning of the run where a snapshot has fewer than it may', () => {
+  it('is the begin of the session if the snapshot is not full', () => {
     take(snapshot(30, { jobs: ended(199) }));
     expect(store.book.ended_from_s).toBeNull();
   });
 
-  it('is the oldest that it has where there may be more', () => {
+  it('is the oldest ended job if the snapshot is full', () => {
     take(snapshot(30, { jobs: ended(200) }));
     expect(store.book.ended_from_s).toBe(301);
     take(envelope('job', 31, job_json('next', { state: 'succeeded', started_s: 1, ended_s: 501 }), { t_s: 501 }));
     expect([store.book.ended_from_s, store.jobs('finished').length]).toEqual([301, 201]);
   });
 
-  it('is the same, or earlier, at an instant that is looked back at', () => {
+  it('is the same or earlier in past states', () => {
     const [first_s, last_s] = [400, 500];
     take(snapshot(130, { jobs: ended(200) }, { t_s: last_s }));
     earlier(...Array.from({ length: 101 }, (_, i) => envelope('job', 30 + i, ended(101, last_s)[100 - i], { t_s: first_s + i })));
     expect([at(450).jobs('finished').length, at(450).book.ended_from_s]).toEqual([150, 301]);
   });
 
-  it('is later once the oldest are forgotten', () => {
+  it('moves forward when the oldest jobs are dropped', () => {
     const book = new JobBook(10);
     for (let i = 1; i <= 11; i++) book.take(job_json(`e${i}`, { state: 'succeeded', ended_s: i }) as unknown as Job, i);
     expect([book.list('finished').length, book.ended_from_s]).toEqual([10, 2]);

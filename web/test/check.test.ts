@@ -7,27 +7,27 @@ const fault_of = (name: 'Arm' | 'Job', value: unknown) => {
   return checked.ok ? null : checked.fault;
 };
 
-describe('the check of what the server says', () => {
-  it('takes what is as described, with more than this page knows', () => {
+describe('Validation', () => {
+  it('accepts described messages, also with unknown members', () => {
     expect(fault_of('Arm', arm_json('left'))).toBeNull();
     expect(fault_of('Job', job_json('j', { of_a_newer_server: 7 }))).toBeNull();
   });
 
-  it('names the place, however deep, and what was found there', () => {
+  it('names the place and the value found, however deep', () => {
     expect(fault_of('Arm', arm_json('left', { q: [0.1, 'far'] }))).toMatch(/^\/q\/1: .*Found "far"$/);
     expect(fault_of('Job', job_json('j', { waits_on: [wait_json(), wait_json({ clearance_m: 'wide' })] }))).toMatch(/^\/waits_on\/1\/clearance_m: .*Found "wide"$/);
   });
 
-  it('says which part is missing', () => {
+  it('names a missing member', () => {
     const { joints: _, ...without } = arm_json('left');
     expect(fault_of('Arm', without)).toMatch(/joints/);
   });
 
-  it('cuts short what is long', () => {
+  it('cuts long values', () => {
     expect(fault_of('Arm', arm_json('left', { progress: 'x'.repeat(1_000_000) }))?.length).toBeLessThan(300);
   });
 
-  it('stands what is no object at all', () => {
+  it('refuses values that are not objects', () => {
     for (const value of [null, undefined, 7, 'arm', []]) expect(fault_of('Arm', value)).not.toBeNull();
   });
 });

@@ -4,7 +4,7 @@ import { parse_message } from '../src/server/messages';
 import { Store } from '../src/state/store';
 import { arm_json, envelope, snapshot } from './samples';
 
-describe('what is looked at before arms move again', () => {
+describe('Recovery checklist', () => {
   const store = new Store(() => 0);
   const checklist = new Checklist(store);
   store.on_change(() => checklist.follow());
@@ -18,7 +18,7 @@ describe('what is looked at before arms move again', () => {
   };
   const tick_all = () => kChecks.forEach((_, i) => checklist.tick(i, true));
 
-  it('is all of it, and anew after another stop', () => {
+  it('must be confirmed completely, and again after another stop', () => {
     take(snapshot(1));
     stop(2, 'left');
     expect(checklist.left).toBe(4);
@@ -31,13 +31,13 @@ describe('what is looked at before arms move again', () => {
     expect(checklist.left).toBe(4);
   });
 
-  it('stays while one arm after the other is resumed, and goes with the last', () => {
+  it('keeps its ticks while arms are resumed one by one, and clears them with the last', () => {
     tick_all();
     take(envelope('arm', 6, arm_json('left', { state: 'idle' })));
     expect(checklist.left).toBe(0);
     take(envelope('arm', 7, arm_json('right', { state: 'idle' })));
     expect(checklist.left).toBe(4);
-    // What was ticked while nothing was stopped is no answer to a stop.
+    // Ticks made while no arm is stopped do not count for a later stop.
     tick_all();
     stop(8, 'left');
     expect(checklist.left).toBe(4);

@@ -10,7 +10,7 @@ const apart = (a: Surface, b: Surface) => {
   return points ? points[0].distanceTo(points[1]) : null;
 };
 
-describe('the closest points of two surfaces', () => {
+describe('Closest points of two surfaces', () => {
   it('are as far apart as the shapes', () => {
     const box = new THREE.BoxGeometry(1, 1, 1);
     expect(apart(surface(box, 0, 0, 0), surface(box, 3, 0.2, 0))).toBeCloseTo(2, 4);
@@ -21,7 +21,7 @@ describe('the closest points of two surfaces', () => {
     expect(apart(surface(ball, 0.4, 0.3, 1), surface(table, 0, 0, 0))).toBeCloseTo(0.45, 2);
   });
 
-  it('of random balls and boxes are never closer than a search over all corners finds', () => {
+  it('are at most as far apart as the corners, for random spheres and boxes', () => {
     let seed = 1;
     const random = () => { seed = (seed * 16807) % 2147483647; return seed / 2147483647; };
     for (let i = 0; i < 40; i++) {
@@ -37,7 +37,7 @@ describe('the closest points of two surfaces', () => {
     }
   });
 
-  it('are none where there is nothing', () => {
+  it('are null for empty surfaces', () => {
     expect(apart(surface(new THREE.BufferGeometry().setFromPoints([]), 0, 0, 0), surface(new THREE.BoxGeometry(), 0, 0, 0))).toBeNull();
   });
 });

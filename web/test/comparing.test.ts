@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { Comparing } from '../src/policies/comparing';
-import { ends_in_words, share_in_words } from '../src/policies/told';
+import { ends_in_words, share_in_words } from '../src/policies/run_words';
 import type { Answer } from '../src/server/api';
 import type { Comparison, PolicyRun } from '../src/server/messages';
 
@@ -13,8 +13,8 @@ const comparison = (state: Comparison['state'], runs: PolicyRun[]): Comparison =
   state, jobs: 2, first_s: 1, last_s: 2, in_force: 'certified', policies: ['sequential', 'certified'], runs, detail: '',
 });
 
-describe('comparing policies', () => {
-  it('is asked again while it runs, and not after', async () => {
+describe('Policy comparison', () => {
+  it('is polled while it runs, and not afterwards', async () => {
     const timers: (() => void)[] = [];
     const answers = [comparison('running', [run()]), comparison('done', [run(), run({ policy: 'certified' })])];
     const next = (): Promise<Answer<Comparison>> => Promise.resolve({ ok: true, value: answers.shift() ?? comparison('done', []) });
@@ -35,9 +35,9 @@ describe('comparing policies', () => {
     expect(comparing.refusal.value).toBe('no job was submitted');
   });
 
-  it('has words for what did not succeed', () => {
+  it('describes jobs that did not succeed', () => {
     expect(ends_in_words(run())).toBe('');
-    expect(ends_in_words(run({ expired: 1, unfinished: 2, given_up: true }))).toBe('1 expired, 2 unfinished, given up: too much to decide');
+    expect(ends_in_words(run({ expired: 1, unfinished: 2, given_up: true }))).toBe('1 expired, 2 unfinished, aborted: too many evaluations');
     expect([share_in_words(0.554), share_in_words(null)]).toEqual(['55 %', '–']);
   });
 });

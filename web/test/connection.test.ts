@@ -56,15 +56,15 @@ beforeEach(() => {
   connection.start();
 });
 
-describe('the connection', () => {
-  it('is open once the server has spoken', () => {
+describe('Connection', () => {
+  it('is open after the first message', () => {
     expect(links.map((link) => link.status)).toEqual(['connecting']);
     socket().say(snapshot(1));
     expect(links.map((link) => link.status)).toEqual(['connecting', 'open']);
     expect(socket().url).toBe('ws://cell/ws');
   });
 
-  it('resumes behind the last event that it took', () => {
+  it('resumes after the last event received', () => {
     socket().say(snapshot(40));
     socket().say(envelope('alert', 41, { level: 'info', text: 'x' }));
     socket().say(frame(42, {}));
@@ -73,7 +73,7 @@ describe('the connection', () => {
     expect(socket().url).toBe(`ws://cell/ws?stream=${kStream}&since=41`);
   });
 
-  it('waits longer each time, five seconds at most, and starts over after a message', () => {
+  it('doubles the retry delay up to five seconds and resets it after a message', () => {
     const delays = Array.from({ length: 7 }, () => {
       socket().drop();
       return fire_timer();
@@ -85,7 +85,7 @@ describe('the connection', () => {
     expect(backoff_ms(1000)).toBe(5000);
   });
 
-  it('is open again on the first message after a loss, be it a resumed event or a frame', () => {
+  it('is open again after a resumed event or a frame', () => {
     socket().say(snapshot(1));
     socket().drop();
     expect(links.at(-1)).toEqual({ status: 'lost', attempt: 1, retry_in_ms: 250 });
@@ -95,7 +95,7 @@ describe('the connection', () => {
     expect(links.at(-1)?.status).toBe('open');
   });
 
-  it('takes no event twice', () => {
+  it('delivers no event twice', () => {
     socket().say(snapshot(5));
     socket().say(envelope('alert', 5, { level: 'info', text: 'old' }));
     socket().say(envelope('alert', 6, { level: 'info', text: 'new' }));
@@ -103,7 +103,7 @@ describe('the connection', () => {
     expect(messages.map((message) => message.type)).toEqual(['snapshot', 'alert']);
   });
 
-  it('takes a snapshot of another run, whose numbers begin anew', () => {
+  it('accepts a snapshot of another session with new numbers', () => {
     socket().say(snapshot(500));
     socket().drop();
     fire_timer();
@@ -115,7 +115,7 @@ describe('the connection', () => {
     expect(socket().url).toContain('stream=other&since=3');
   });
 
-  it('reports what it cannot take and goes on', () => {
+  it('reports unknown and malformed messages and continues', () => {
     socket().say(snapshot(1));
     socket().say('{');
     socket().say(envelope('weather', 2, {}));
@@ -124,7 +124,7 @@ describe('the connection', () => {
     expect(messages).toHaveLength(2);
   });
 
-  it('tries at once when asked to, and not twice', () => {
+  it('retries at once on request, but not twice', () => {
     socket().drop();
     connection.retry_now();
     expect(sockets).toHaveLength(2);
@@ -133,7 +133,7 @@ describe('the connection', () => {
     expect(sockets).toHaveLength(2);
   });
 
-  it('listens to no socket that it has given up', () => {
+  it('ignores sockets that it has dropped', () => {
     const first = socket();
     first.say(snapshot(1));
     first.drop();
@@ -145,7 +145,7 @@ describe('the connection', () => {
     expect(first.closed).toBe(true);
   });
 
-  it('is silent after it was stopped', () => {
+  it('is silent after stop()', () => {
     const last = socket();
     connection.stop();
     last.drop();

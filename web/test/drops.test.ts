@@ -6,7 +6,7 @@ import type { App } from '../src/state/app';
 
 const go_on = () => new Promise((done) => setTimeout(done));
 
-/** A page with what it did, and how something is dropped on it. */
+/** Returns a page that records what it did, and a function that drops something on it. */
 function page() {
   const opened: [names: string[], folder: string | null][] = [];
   const places: Place['page'][] = [];
@@ -17,7 +17,7 @@ function page() {
   } as unknown as App;
   const window = new EventTarget();
   listen_to_drops(app, window as unknown as Window);
-  /** As a browser tells of it: a folder is a file that cannot be read, and an entry that can. */
+  /** As browsers present a folder: an unreadable file, and a readable entry. */
   const drop = async (entries: readonly object[], files: readonly object[]) => {
     const event = Object.assign(new Event('drop', { cancelable: true }), { dataTransfer: { files, items: entries.map((entry) => ({ webkitGetAsEntry: () => entry })) } });
     window.dispatchEvent(event);
@@ -29,7 +29,7 @@ function page() {
 
 const entry_of = (file: File) => ({ isFile: true, isDirectory: false, name: file.name, file: (done: (file: File) => void) => done(file) });
 const unreadable = { name: 'run', size: 4096, text: () => Promise.reject(new Error('NotFoundError')) };
-/** Tells of two at a time. */
+/** Returns two entries at a time. */
 function folder_of(entries: readonly object[]) {
   return {
     isFile: false, isDirectory: true, name: 'run',
@@ -40,23 +40,23 @@ function folder_of(entries: readonly object[]) {
   };
 }
 
-describe('what is dropped on the page', () => {
+describe('Dropped files', () => {
   beforeEach(() => { drop_fault.value = null; });
 
-  it('is a recording when it is a folder, all of whose files are found', async () => {
+  it('are a recording if they are a folder; all its files are found', async () => {
     const { drop, opened, places } = page();
     const files = ['summary.json', 'states.csv', 'jobs.json', 'notes.txt', 'events.jsonl'].map((name) => new File(['x'], name));
     expect(await drop([folder_of([folder_of([]), ...files.map(entry_of)])], [unreadable])).toBe(true);
     expect([opened, places, drop_fault.value]).toEqual([[[['states.csv', 'events.jsonl'], 'run']], ['recordings'], null]);
   });
 
-  it('is looked for in a folder that holds none, so that the page says so', async () => {
+  it('are reported if a folder has no recording', async () => {
     const { drop, opened, places } = page();
     await drop([folder_of([entry_of(new File(['{}'], 'jobs.json'))])], [unreadable]);
     expect([opened, places]).toEqual([[[[], 'run']], ['recordings']]);
   });
 
-  it('is a job when it is one file of another kind', async () => {
+  it('are a job if they are one file of another kind', async () => {
     const { drop, draft, opened, places } = page();
     const file = new File(['{"id": "x"}'], 'job.json');
     files_over.value = true;
@@ -64,16 +64,16 @@ describe('what is dropped on the page', () => {
     expect([draft.value, opened, places, files_over.value, drop_fault.value]).toEqual(['{"id": "x"}', [], ['new'], false, null]);
   });
 
-  it('is not left out without a word', async () => {
+  it('are reported if they are not used', async () => {
     const { drop, draft } = page();
     const [first, second] = ['a.json', 'b.json'].map((name) => new File(['{}'], name));
     await drop([first, second].map((file) => entry_of(file!)), [first!, second!]);
-    expect([draft.value, drop_fault.value]).toEqual(['{}', expect.stringContaining('Only a.json was taken')]);
+    expect([draft.value, drop_fault.value]).toEqual(['{}', expect.stringContaining('Only a.json was read')]);
     await drop([{ isFile: true, isDirectory: false }], [unreadable]);
     expect(drop_fault.value).toMatch(/cannot be read: .*NotFoundError/);
   });
 
-  it('is the browser\'s matter when it is no file', async () => {
+  it('are left to the browser if there is no file', async () => {
     const { drop, opened, places } = page();
     expect([await drop([], []), opened, places]).toEqual([false, [], []]);
   });

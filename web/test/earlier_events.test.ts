@@ -4,7 +4,7 @@ import { envelope, kStream, snapshot } from './samples';
 
 const alert = (seq: number) => envelope('alert', seq, { level: 'info', text: `${seq}` });
 
-/** A server that sends these, cut anywhere, and then says nothing more. */
+/** A server that sends these events, split anywhere, and then stays silent. */
 function sending(texts: string[], asked: string[] = []) {
   return (url: string) => {
     asked.push(url);
@@ -18,8 +18,8 @@ function sending(texts: string[], asked: string[] = []) {
 
 const seqs = async (texts: string[], until: number) => (await earlier_events('', sending(texts), kStream, until)).map(({ seq }) => seq);
 
-describe('events of before the page was loaded', () => {
-  it('are read until where its own begin, though the stream goes on', async () => {
+describe('Earlier events', () => {
+  it('are read until the page\'s own events begin, though the stream continues', async () => {
     expect(await seqs([alert(1), alert(2), alert(3), alert(4)], 3)).toEqual([1, 2, 3]);
   });
 
@@ -29,12 +29,12 @@ describe('events of before the page was loaded', () => {
     expect(asked).toEqual([`/api/events?stream=${kStream}&since=4000`]);
   });
 
-  it('are none where the server has forgotten them, or there were none', async () => {
+  it('are none if the server has forgotten them or there were none', async () => {
     expect(await seqs([snapshot(9, { gap: true })], 9)).toEqual([]);
     expect(await seqs([], 0)).toEqual([]);
   });
 
-  it('are none where nobody answers', async () => {
+  it('are none if the server does not answer', async () => {
     expect(await earlier_events('', () => Promise.reject(new Error('lost')), kStream, 3)).toEqual([]);
   });
 });

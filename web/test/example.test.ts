@@ -15,7 +15,7 @@ function joint(name: string, over: Partial<CellJoint> = {}): CellJoint {
 
 const joints = [joint('left_panda_joint1'), joint('left_panda_joint2', { lower: -1.3 })];
 
-/** Largest velocity and acceleration of the quintic over d in T, by sampling it. */
+/** Samples the largest velocity and acceleration of the quintic over d in T. */
 function peaks(d: number, T: number): { velocity: number; acceleration: number } {
   let velocity = 0;
   let acceleration = 0;
@@ -27,8 +27,8 @@ function peaks(d: number, T: number): { velocity: number; acceleration: number }
   return { velocity, acceleration };
 }
 
-describe('the example job', () => {
-  it('starts and ends where the arm is, at rest', () => {
+describe('Example job', () => {
+  it('starts and ends at the arm\'s position, at rest', () => {
     const { trajectory } = example_job(arm(), [0.1, -1.2], joints);
     const [first, there, last] = trajectory.points;
     expect(first?.positions).toEqual([0.1, -1.2]);
@@ -41,7 +41,7 @@ describe('the example job', () => {
     expect(trajectory.joint_names).toEqual(['left_panda_joint1', 'left_panda_joint2']);
   });
 
-  it('stays below half of each limit on the way', () => {
+  it('stays below half of each limit', () => {
     for (const limits of [joint('j'), joint('j', { velocity_max: 0.1 }), joint('j', { acceleration_max: 0.2 })]) {
       const T = quintic_duration_s(0.35, limits);
       expect(peaks(0.35, T).velocity).toBeLessThanOrEqual(0.5 * limits.velocity_max * 1.0001);
@@ -49,7 +49,7 @@ describe('the example job', () => {
     }
   });
 
-  it('keeps within the position limits, turning away from the near one', () => {
+  it('stays within position limits, moving away from the near limit', () => {
     const near_upper = example_job(arm(), [2.85, -1.2], joints).trajectory.points[1]!.positions[0]!;
     expect(near_upper).toBeLessThan(2.85);
     const narrow = [joint('left_panda_joint1', { lower: 0, upper: 0.2 }), joints[1]!];
@@ -58,7 +58,7 @@ describe('the example job', () => {
     expect(to).toBeLessThanOrEqual(0.2);
   });
 
-  it('writes increasing times with whole nanoseconds', () => {
+  it('has increasing times with whole nanoseconds', () => {
     const times = example_job(arm(), [0.1, -1.2], joints).trajectory.points.map((p) => p.time_from_start);
     for (const t of times) {
       expect(Number.isInteger(t.sec) && Number.isInteger(t.nanosec) && t.nanosec < 1e9).toBe(true);
@@ -67,7 +67,7 @@ describe('the example job', () => {
     expect(back).toBeCloseTo(2 * there!);
   });
 
-  it('is written with one line per list of numbers, and is the same JSON', () => {
+  it('is formatted with one line per list, as equal JSON', () => {
     const job = example_job(arm(), [0.1, -1.2], joints);
     expect(pretty(job)).toContain('"positions": [0.1, -1.2]');
     expect(JSON.parse(pretty(job))).toEqual(job);

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Fence } from '../src/view/fence';
 
-/** Of a graphics card: what it is asked for is done when the test says so. */
+/** A graphics card whose commands complete when the test says so. */
 function card() {
   const state = { done: false, open: 0 };
   const gl = {
@@ -13,7 +13,7 @@ function card() {
   return { state, fence: new Fence(gl as unknown as WebGL2RenderingContext) };
 }
 
-describe('the fence behind a drawing', () => {
+describe('Fence', () => {
   beforeEach(() => {
     vi.useFakeTimers();
     vi.stubGlobal('window', globalThis);
@@ -23,7 +23,7 @@ describe('the fence behind a drawing', () => {
     vi.unstubAllGlobals();
   });
 
-  it('tells once how long it took since it was begun, and not before it is done', () => {
+  it('reports the drawing time once, after drawing', () => {
     const { state, fence } = card();
     const told: number[] = [];
     fence.put(performance.now() - 5, (took_ms) => told.push(took_ms));
@@ -37,7 +37,7 @@ describe('the fence behind a drawing', () => {
     expect([fence.is_up, state.open]).toEqual([false, 0]);
   });
 
-  it('is not waited for without end, by who draws next', () => {
+  it('is not awaited without limit', () => {
     const { state, fence } = card();
     const told: number[] = [];
     fence.put(performance.now(), (took_ms) => told.push(took_ms));
@@ -47,7 +47,7 @@ describe('the fence behind a drawing', () => {
     expect([fence.is_up, told.length, state.open]).toEqual([false, 1, 0]);
   });
 
-  it('tells nobody once the view is closed', () => {
+  it('reports nothing after the view is closed', () => {
     const { state, fence } = card();
     const told: number[] = [];
     fence.put(performance.now(), (took_ms) => told.push(took_ms));

@@ -6,11 +6,11 @@ import { inside_box, inside_cylinder, inside_sphere, without_hidden } from '../s
 const kIdentity = new THREE.Matrix4();
 const triangles = (geometry: THREE.BufferGeometry) => (geometry.index?.count ?? 0) / 3;
 
-describe('a surface in two finishes', () => {
+describe('Surface in two qualities', () => {
   const material = new THREE.MeshStandardMaterial({ color: 0x336699 });
   const fine = { geometry: new THREE.SphereGeometry(1, 20, 12), material };
   const quick = { geometry: new THREE.SphereGeometry(1, 12, 8), material: quick_material(material) };
-  it('shows one or the other, and only where it is seen', () => {
+  it('shows one of them, and only if visible', () => {
     const root = new THREE.Group();
     const [seen, hidden] = [new FinishedMesh(fine, quick), new FinishedMesh(fine, quick)];
     hidden.visible = false;
@@ -21,7 +21,7 @@ describe('a surface in two finishes', () => {
     show_finish(root, true);
     expect([seen.geometry, seen.material]).toEqual([fine.geometry, fine.material]);
   });
-  it('has one colour in both, also when that changes', () => {
+  it('has the same color in both, also after a change', () => {
     material.color.set(0xff0000);
     material.emissive.set(0x400000);
     expect(quick.material.uniforms['diffuse']?.value).toBe(material.color);
@@ -29,9 +29,9 @@ describe('a surface in two finishes', () => {
   });
 });
 
-describe('triangles that nobody can see', () => {
-  it('are left out where a sphere lies in a cylinder, and nowhere else', () => {
-    // The end of a capsule: one half of the sphere stands out.
+describe('Hidden triangles', () => {
+  it('are removed where a sphere lies in a cylinder', () => {
+    // The end of a capsule: half of the sphere is outside.
     const X_SL = new THREE.Matrix4().makeTranslation(0, 0.5, 0);  // the cylinder reaches from y = -1 to 0
     const sphere = without_hidden(new THREE.SphereGeometry(1, 20, 12), [{ X_SL, inside: inside_cylinder(0.99) }]);
     const all = triangles(new THREE.SphereGeometry(1, 20, 12));
@@ -39,19 +39,19 @@ describe('triangles that nobody can see', () => {
     expect(triangles(sphere)).toBeLessThan(0.9 * all);
     const places = sphere.getAttribute('position');
     const drawn = new Set(Array.from(sphere.index?.array ?? []));
-    // The cylinder's flat end is at y = -1: below it, at the pole, nothing is hidden.
+    // The cylinder's flat end is at y = -1: nothing below it is hidden.
     expect([...drawn].some((i) => places.getY(i) > 0.99)).toBe(true);
   });
-  it('stay where they only touch, or stand out at one corner', () => {
+  it('stay where shapes only touch, or one corner is outside', () => {
     const box = new THREE.BoxGeometry(1, 1, 1);
     expect(triangles(without_hidden(box.clone(), [{ X_SL: kIdentity, inside: inside_box }]))).toBe(12);
     expect(triangles(without_hidden(box.clone(), [{ X_SL: new THREE.Matrix4().makeTranslation(0.2, 0, 0), inside: inside_box }]))).toBe(12);
   });
-  it('go wholly when a body lies within another', () => {
+  it('are removed completely if a body lies within another', () => {
     const small = new THREE.BoxGeometry(0.2, 0.2, 0.2);
     expect(triangles(without_hidden(small, [{ X_SL: kIdentity, inside: inside_sphere(0.98) }]))).toBe(0);
   });
-  it('are not looked for in meshes without an index', () => {
+  it('are not searched in meshes without an index', () => {
     const mesh = new THREE.BoxGeometry(0.2, 0.2, 0.2).toNonIndexed();
     expect(without_hidden(mesh, [{ X_SL: kIdentity, inside: inside_sphere(1) }]).getAttribute('position').count).toBe(36);
   });

@@ -51,8 +51,8 @@ beforeEach(() => {
   take(snapshot(1, { jobs: [job_json('a', { state: 'running' })] }));
 });
 
-describe('the details of a job', () => {
-  it('are fetched on opening and every second', async () => {
+describe('follow_job', () => {
+  it('polls at once and every second', async () => {
     follow_job('a', api, store, timers);
     await settled();
     expect(store.job('a')?.progress).toBe(0.2);
@@ -62,7 +62,7 @@ describe('the details of a job', () => {
     expect(store.job('a')).toMatchObject({ progress: 0.5 });
   });
 
-  it('are not fetched once the job has ended', async () => {
+  it('ends with the job', async () => {
     follow_job('a', api, store, timers);
     await settled();
     take(envelope('job', 2, job_json('a', { state: 'succeeded', progress: 1 })));
@@ -72,7 +72,7 @@ describe('the details of a job', () => {
     expect(store.job('a')?.progress).toBe(1);
   });
 
-  it('are not fetched once they are closed, and a late answer is dropped', async () => {
+  it('ends on request and drops a late answer', async () => {
     const close = follow_job('a', api, store, timers);
     close();
     await settled();
@@ -80,7 +80,7 @@ describe('the details of a job', () => {
     expect(pending).toHaveLength(0);
   });
 
-  it('wait while the connection is lost, and go on after a refusal', async () => {
+  it('waits while the connection is lost, and continues after a refusal', async () => {
     store.set_link({ status: 'lost', attempt: 1, retry_in_ms: 250 });
     follow_job('a', api, store, timers);
     await settled();

@@ -21,8 +21,8 @@ function page() {
   return { told, store, state, off, wait: async () => { state.next?.(); await settled(); } };
 }
 
-describe('what arms are expected to do', () => {
-  it('is asked for again and again, one question after the other', async () => {
+describe('follow_timeline', () => {
+  it('polls repeatedly, one request after the other', async () => {
     const { told, state, wait } = page();
     expect(state.next).toBeNull();  // not before the answer
     await settled();
@@ -30,7 +30,7 @@ describe('what arms are expected to do', () => {
     expect([state.asked, told]).toEqual([2, [kForecast, kForecast]]);
   });
 
-  it('is not asked for while nobody looks', async () => {
+  it('does not poll while the page is hidden', async () => {
     const { state, wait } = page();
     await settled();
     state.visible = false;
@@ -41,7 +41,7 @@ describe('what arms are expected to do', () => {
     expect(state.asked).toBe(2);
   });
 
-  it('is not known without a connection, or an answer', async () => {
+  it('clears the forecast without a connection or an answer', async () => {
     const { told, store, state, wait } = page();
     await settled();
     store.link.status = 'lost';
@@ -53,7 +53,7 @@ describe('what arms are expected to do', () => {
     expect([state.asked, told.at(-1)]).toEqual([2, null]);
   });
 
-  it('is told to nobody who has gone, whenever the answer comes', async () => {
+  it('drops late answers after it has ended', async () => {
     const { told, state, off } = page();
     off();
     await settled();

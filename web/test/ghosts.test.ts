@@ -15,13 +15,13 @@ describe('Ghosts', () => {
   const show = (q: Record<string, number> | null) => ghosts.show({ q, now: {} }, cell, new Map(), () => '#fff');
   const visible = () => ghosts.group.children.filter((child) => child.visible).length;
 
-  it('are built one at a time, and only those that are asked for', () => {
+  it('are built one at a time, and only when needed', () => {
     const of_two = { a1: 0, c1: 0 };
     expect([show(of_two), built]).toEqual([false, ['a']]);
     expect([show(of_two), built]).toEqual([true, ['a', 'c']]);
     expect(visible()).toBe(2);
   });
-  it('stand only where a pose is told', () => {
+  it('are visible only with a pose', () => {
     expect([show({ c1: 1 }), visible()]).toEqual([true, 1]);
     expect([show(null), visible()]).toEqual([true, 0]);
     expect(built).toEqual(['a', 'c']);

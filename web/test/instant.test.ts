@@ -5,7 +5,7 @@ import { instant_of, pose_at, why_unheard } from '../src/state/instant';
 import { Store } from '../src/state/store';
 import { envelope, frame, kStream, snapshot } from './samples';
 
-describe('the instant that an address names', () => {
+describe('Shown time', () => {
   let now_ms = 0;
   const store = new Store(() => now_ms);
   const take = (text: string) => {
@@ -23,7 +23,7 @@ describe('the instant that an address names', () => {
     return [instant.kind === 'unheard' ? instant.why : instant.kind, pose_at(instant, store)?.['left_panda_joint1'] ?? null];
   };
 
-  it('has the pose that was heard then, and no other one', () => {
+  it('has the recorded pose and no other', () => {
     expect(at('#/?t=3')).toEqual(['nothing', null]);
     take(snapshot(1));
     hear(10, 20);
@@ -34,7 +34,7 @@ describe('the instant that an address names', () => {
     expect(why_unheard('before', store)).toMatch(/begins at 0:00:10.0/);
   });
 
-  it('has none while the connection was lost, or frames were', () => {
+  it('has no pose while the connection or frames were lost', () => {
     store.set_link({ status: 'lost', attempt: 1, retry_in_ms: 250 });
     take(envelope('queue', 2, { stopped: false, queued: [], backlog: [], scheduled: [], running: [] }));
     hear(24, 26);
@@ -43,12 +43,12 @@ describe('the instant that an address names', () => {
     now_ms += 4000;
     hear(30, 31);
     expect(at('#/?t=28')).toEqual(['gap', null]);
-    now_ms += 4000;  // the page was busy: it hears all, late
+    now_ms += 4000;  // the page was busy: it receives all, late
     take(frame(31.1, { left_panda_joint1: 31.1 }));
     expect(at('#/?t=31.05')).toEqual(['kept', 31]);
   });
 
-  it('has none where it is a time of another run of the server', () => {
+  it('has no pose in another session', () => {
     expect(at(`#/?t=24&run=${kStream.slice(0, 8)}`)).toEqual(['kept', 24]);
     expect(at('#/?t=24&run=7997886f')).toEqual(['other-run', null]);
     take(snapshot(1, {}, { stream: '7997886f-351f-4aa0-babd-42ad4e6d6ef7' }));

@@ -26,8 +26,8 @@ function messages_in(text: string) {
   return reader.end().messages;
 }
 
-describe('an MCAP file that was exported', () => {
-  it('is read back: positions at their cell times, and every event as it was told', async () => {
+describe('Exported MCAP file', () => {
+  it('is read back with positions at cell times and all events', async () => {
     const store = heard();
     const read = await read_mcap(new Blob([await write_mcap(store, () => undefined)]));
     if (!read.ok) throw new Error(read.fault);
@@ -43,8 +43,8 @@ describe('an MCAP file that was exported', () => {
     expect([again.trace.first_s, again.trace.last_s]).toEqual([expect.closeTo(6), expect.closeTo(12.5)]);
   });
 
-  it('that is something else says so', async () => {
-    expect(await read_mcap(new Blob(['hello']))).toEqual({ ok: false, fault: expect.stringMatching(/joint_states|no MCAP/) });
-    expect(await read_mcap(new Blob(['x'.repeat(100)]))).toEqual({ ok: false, fault: expect.stringMatching(/no MCAP/) });
+  it('is refused if it is something else', async () => {
+    expect(await read_mcap(new Blob(['hello']))).toEqual({ ok: false, fault: expect.stringMatching(/joint_states|not MCAP/) });
+    expect(await read_mcap(new Blob(['x'.repeat(100)]))).toEqual({ ok: false, fault: expect.stringMatching(/not MCAP/) });
   });
 });

@@ -8,8 +8,8 @@ function good(text: string): Message {
   return parsed.message;
 }
 
-describe('a message of the server', () => {
-  it('is read whole when it is a snapshot', () => {
+describe('Message', () => {
+  it('is read completely if it is a snapshot', () => {
     const message = good(snapshot(7, { jobs: [job_json('a')], gap: true }));
     if (message.type !== 'snapshot') throw new Error(message.type);
     expect(message.seq).toBe(7);
@@ -19,7 +19,7 @@ describe('a message of the server', () => {
     expect(message.data.jobs[0]).toEqual(job_json('a'));
   });
 
-  it('may be of every type of the contract', () => {
+  it('may be of every type in the contract', () => {
     const ids = { queued: ['a'], backlog: [], scheduled: [], running: [] };
     const texts = [
       envelope('job', 1, job_json('a', { state: 'backlogged', waits_on: [wait_json()] })),
@@ -33,7 +33,7 @@ describe('a message of the server', () => {
     expect(texts.map((text) => good(text).type)).toEqual(['job', 'arm', 'queue', 'monitor', 'alert', 'scene', 'state']);
   });
 
-  it('may leave links and names empty, and measure an arm against the scene', () => {
+  it('may have empty links and names, and clearances to the scene', () => {
     const job = good(envelope('job', 1, job_json('a', { name: '', waits_on: [wait_json({ kind: 'capacity', links: [] })] })));
     expect(job.type === 'job' && [job.data.name, pair_of(job.data.waits_on[0]?.links ?? ['x', 'y'])]).toEqual(['', null]);
     const near = { arms: ['left'], m: 0.05, links: ['left_panda_hand', 'table'] };
@@ -41,11 +41,11 @@ describe('a message of the server', () => {
     expect(state.type === 'state' && state.clearance).toEqual([near]);
   });
 
-  it('may say more than this page knows', () => {
+  it('may have members unknown to this page', () => {
     expect(good(envelope('alert', 1, { level: 'info', text: 'x', since: 7 }, { to: 'all' })).type).toBe('alert');
   });
 
-  it('is named, with its place in the stream, when its type is not known', () => {
+  it('of unknown type is returned with its stream and number', () => {
     expect(parse_message(envelope('weather', 9, {}))).toMatchObject({ kind: 'unknown', type: 'weather', seq: 9 });
   });
 
@@ -66,12 +66,12 @@ describe('a message of the server', () => {
     expect(parsed.kind === 'malformed' && parsed.fault).toMatch(fault);
   });
 
-  it('reads no property that every object inherits', () => {
+  it('reads no inherited property', () => {
     expect(parse_message('{"type":"toString"}')).toMatchObject({ kind: 'unknown' });
   });
 });
 
-describe('the cell', () => {
+describe('Cell', () => {
   const cell = {
     name: 'two_pandas', policy: 'sequential', speed: 1, simulated: true, self_clearance_m: 0.005,
     checking: { time_step_s: 0.05, tracking_error_rad: 0.001, delay_s: 0.1, limit_tolerance: 0.05 },
@@ -94,7 +94,7 @@ describe('the cell', () => {
     expect(turning.ok && turning.value.joints.map(range_of)).toEqual([[-Infinity, Infinity]]);
   });
 
-  it('says where the meshes of robots and objects are served', () => {
+  it('has the addresses of the meshes of robots and objects', () => {
     const meshes = { 'package://p/a.stl': '/api/v1/cell/meshes/1.stl' };
     const objects = [{ name: 'part', mesh: '/api/v1/cell/meshes/2.obj', scale: [1, 1, -2], xyz: [1, 0, 0], rpy: [0, 0, 0] }];
     const read = parse_cell({ ...cell, objects, robots: [{ ...cell.robots[0], meshes }] });
@@ -112,8 +112,8 @@ describe('the cell', () => {
   });
 });
 
-describe('a problem document', () => {
-  it('carries every fault with pointer and value', () => {
+describe('Problem document', () => {
+  it('has every fault with pointer and value', () => {
     const fault = { pointer: '/trajectory/points/3/velocities/2', detail: '3.41 rad/s exceeds 2.175', value: 3.41 };
     const read = parse_problem({ type: 'urn:x', title: 'Limits', status: 422, ...fault, errors: [fault, { ...fault, value: 4 }] });
     expect(read.ok && read.value.errors?.map((e) => e.value)).toEqual([3.41, 4]);

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { bodies_of, read_bag } from '../src/compose/bag';
+import { bodies_of, read_batch } from '../src/compose/batch';
 import { motion_of } from '../src/motion/pasted';
 import { motion_of_piece, read_trajectory } from '../src/motion/motion';
 import { MotionBook } from '../src/motion/motion_book';
@@ -13,21 +13,21 @@ const body = (id: string, joints: string[], stations: number[][], velocities = t
     })),
   },
 });
-const motion = (value: unknown) => motion_of(read_bag(JSON.stringify(value)));
+const motion = (value: unknown) => motion_of(read_batch(JSON.stringify(value)));
 
-describe('what was pasted', () => {
-  it('is one job, or a bag in any of its shapes', () => {
+describe('Pasted text', () => {
+  it('is one job, or a batch in any of its formats', () => {
     const a = body('a', ['x'], [[0], [1]]);
-    expect(read_bag(JSON.stringify(a)).kind).toBe('one');
-    expect(read_bag('{ not json').kind).toBe('one');
-    expect(read_bag('[]').kind).toBe('one');
-    for (const bag of [[a, a], { jobs: [a, a] }, [{ at: 0, job: a }, { at: 1, job: a }]]) {
-      expect(read_bag(JSON.stringify(bag))).toEqual({ kind: 'bag', jobs: [a, a] });
+    expect(read_batch(JSON.stringify(a)).kind).toBe('one');
+    expect(read_batch('{ not json').kind).toBe('one');
+    expect(read_batch('[]').kind).toBe('one');
+    for (const batch of [[a, a], { jobs: [a, a] }, [{ at: 0, job: a }, { at: 1, job: a }]]) {
+      expect(read_batch(JSON.stringify(batch))).toEqual({ kind: 'batch', jobs: [a, a] });
     }
-    expect(bodies_of(read_bag(JSON.stringify([a, { trajectory: {} }]))).map(({ title }) => title)).toEqual(['a', 'job 2']);
+    expect(bodies_of(read_batch(JSON.stringify([a, { trajectory: {} }]))).map(({ title }) => title)).toEqual(['a', 'job 2']);
   });
 
-  it('moves as it says: rest to rest halfway at half time, and at its ends beyond', () => {
+  it('moves from rest to rest, halfway at half time, and stays at its ends', () => {
     const shown = motion(body('a', ['x', 'y'], [[0, 1], [2, 1]]));
     expect(shown?.duration_s).toBe(2);
     expect(shown?.q_at(1)).toEqual({ x: 1, y: 1 });
@@ -36,14 +36,14 @@ describe('what was pasted', () => {
     expect(motion(body('a', ['x'], [[0], [2]], false))?.q_at(0.5)['x']).toBeCloseTo(0.5);
   });
 
-  it('moves one after the other on one arm, and together on two', () => {
+  it('moves one arm sequentially and two arms together', () => {
     const shown = motion([body('a', ['x'], [[0], [1]]), body('b', ['x'], [[1], [5]]), body('c', ['z'], [[3], [4]])]);
     expect(shown?.duration_s).toBe(4);
     expect(shown?.q_at(1)).toEqual({ x: 0.5, z: 3.5 });
     expect(shown?.q_at(3)).toEqual({ x: 3, z: 4 });
   });
 
-  it('takes the times of ROS 1, plain seconds, and MoveIt\'s nesting; shows nothing of what makes no sense', () => {
+  it('accepts times of ROS 1, plain seconds and MoveIt\'s nesting; ignores invalid input', () => {
     const points = [{ positions: [0], time_from_start: 0 }, { positions: [1], time_from_start: { secs: 1, nsecs: 5e8 } }];
     expect(motion({ trajectory: { joint_trajectory: { joint_names: ['x'], points } } })?.duration_s).toBe(1.5);
     for (const wrong of [null, 7, {}, { trajectory: { joint_names: ['x'], points: [] } }, { trajectory: { joint_names: ['x', 'y'], points } }]) {
@@ -52,7 +52,7 @@ describe('what was pasted', () => {
   });
 });
 
-describe('a trajectory', () => {
+describe('Trajectory', () => {
   const piece = (accelerations: boolean) => read_trajectory({
     joint_names: ['a'],
     points: [0, 2].map((t_s, i) => ({ time_from_start: t_s, positions: [i], velocities: [0], ...(accelerations ? { accelerations: [0] } : {}) })),
@@ -70,7 +70,7 @@ describe('a trajectory', () => {
     expect(at(true, 9)).toBe(1);
   });
 
-  it('is fetched once, again when the job is planned anew, and a few at a time', async () => {
+  it('is fetched once, again after a replan, and a few at a time', async () => {
     const asked: string[] = [];
     const answers: (() => void)[] = [];
     const book = new MotionBook((id) => new Promise((done) => {
@@ -87,18 +87,18 @@ describe('a trajectory', () => {
     expect(asked).toHaveLength(6);
     expect(book.changes.value).toBe(before + 4);
     expect(book.of(job('j0'))?.q_at(1)).toEqual({ a: 0.5 });
-    expect(book.of(job('j0', 3))?.duration_s).toBe(2);  // the old one, until the new one is there
+    expect(book.of(job('j0', 3))?.duration_s).toBe(2);  // the old motion, until the new one arrives
     for (const answer of answers.splice(0)) answer();
     await new Promise((done) => setTimeout(done));
     expect(asked.at(-1)).toBe('j0');
   });
 });
 
-describe('The longest trajectory that a server takes', () => {
-  // Tasks above 0.1 s are felt; beside reading the JSON as such, which nobody is spared.
+describe('Longest trajectory that the server accepts', () => {
+  // Tasks above 0.1 s are noticed; this is besides parsing the JSON.
   const kMostTimesJson = 6;
 
-  it('is read in about the time that its JSON takes', () => {
+  it('is read in about the time that parsing its JSON takes', () => {
     const rest = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7];
     const points = Array.from({ length: 10_000 }, (_, i) => ({ positions: rest, velocities: rest, accelerations: rest, time_from_start: { sec: i, nanosec: 0 } }));
     const text = JSON.stringify({ id: 'long', duration_s: 9999, trajectory: { joint_names: ['a', 'b', 'c', 'd', 'e', 'f', 'g'], points } });

@@ -16,16 +16,16 @@ async function all_of(source: Source, stop = new AbortController().signal) {
   return { text: texts.join(''), told, longest: Math.max(...texts.map(({ length }) => length)) };
 }
 
-describe('what a recording is read from', () => {
-  it('comes in pieces, whatever it is cut into, none of them long', async () => {
-    const text = 'é'.repeat(100_001);  // two bytes each: pieces end within some
+describe('Recording source', () => {
+  it('is read in small pieces, split anywhere', async () => {
+    const text = 'é'.repeat(100_001);  // two bytes each: pieces end within characters
     const { text: read, told, longest } = await all_of(of_blob(new Blob([text])));
     expect(read).toBe(text);
     expect(told.reduce((a, b) => a + b)).toBe(200_002);
     expect(longest).toBeLessThanOrEqual(1 << 16);
   });
 
-  it('of the server breaks off where that refuses it, or somebody stops it', async () => {
+  it('fails if the server refuses it or reading is canceled', async () => {
     const refused = of_server('/x', 1, () => Promise.resolve(new Response('gone', { status: 404, statusText: 'Not Found' })));
     await expect(all_of(refused)).rejects.toThrow(/404 Not Found/);
     const stop = new AbortController();
@@ -46,8 +46,8 @@ function player() {
 }
 const text = (text: string) => of_blob(new Blob([text]));
 
-describe('the player', () => {
-  it('opens a recording of events alone, and goes back to the present', async () => {
+describe('Player', () => {
+  it('opens a recording of events only, and returns to the live cell', async () => {
     const { store, player: one, did, router } = player();
     await one.open_sources('run', { states: null, events: text([3, 8].map((seq) => envelope('arm', seq, arm_json('left'), { stream: 'x' })).join('\n')) });
     expect(one.opened.value).toMatchObject({ name: 'run', frames: 0, events: 2, first_s: 3, last_s: 8 });
@@ -56,23 +56,23 @@ describe('the player', () => {
     expect([did, one.opened.value]).toEqual([['stop', 'anew'], null]);
   });
 
-  it('says why one cannot be opened, and leaves the present as it is', async () => {
+  it('says why a recording cannot be opened, and keeps the live cell', async () => {
     const { store, player: one, did } = player();
     const fault = async (states: string | null, events: string | null) => {
       await one.open_sources('run', { states: states === null ? null : text(states), events: events === null ? null : text(events) });
       return one.fault.value;
     };
     expect(await fault(null, null)).toMatch(/neither a states.csv nor an events.jsonl/);
-    expect(await fault(null, '')).toMatch(/nothing in it/);
+    expect(await fault(null, '')).toMatch(/is empty/);
     expect(await fault('time_s,elbow\n0,1\n', '')).toMatch(/no joint elbow/);
     expect(await fault(null, envelope('arm', 1, arm_json('third')))).toMatch(/no arm third/);
     expect(await fault('hello\n', null)).toMatch(/hello/);
     await one.open_sources('run', { states: { bytes: 1, open: () => Promise.reject(new Error('cut')) }, events: null });
-    expect(one.fault.value).toMatch(/not be read to its end.*cut/);
+    expect(one.fault.value).toMatch(/cannot be read completely.*cut/);
     expect([did, store.link.status]).toEqual([[], 'connecting']);
   });
 
-  it('tells how much has come, and gives it up when it is told to', async () => {
+  it('reports progress and cancels on request', async () => {
     const { player: one } = player();
     let more: (text: string | null) => void = () => undefined;
     const stream = new ReadableStream<Uint8Array>({ start: (to) => { more = (text) => (text === null ? to.close() : to.enqueue(new TextEncoder().encode(text))); } });
@@ -88,11 +88,11 @@ describe('the player', () => {
   });
 });
 
-describe('the recordings of the server', () => {
+describe('Recordings of the server', () => {
   const recording: KeptRecording = { name: 'data', begun_at: '2026-11-21T09:33:00.000Z', written_at: '2026-11-21T09:34:30.000Z', running: false, has_states: false, files: [{ name: 'events.jsonl', bytes: 7 }] };
   const kept = new KeptList({ recordings: () => Promise.resolve({ ok: true, value: { kept: true, recordings: [recording] } }), recording_address: (name, file) => `/at/${name}/${file}` });
 
-  it('are known once somebody looks, each with what is fetched to open it', async () => {
+  it('are listed on request, with their sources', async () => {
     expect(kept.list.value).toBeNull();
     await kept.look();
     expect(kept.list.value?.recordings).toEqual([recording]);
@@ -100,7 +100,7 @@ describe('the recordings of the server', () => {
     expect(kept.address_of(recording, 'cell.json')).toBe('/at/data/cell.json');
   });
 
-  it('have a length and a title where their beginning is known', () => {
+  it('have a length and a title if their begin is known', () => {
     expect(length_s_of(recording)).toBe(90);
     expect(length_s_of({ ...recording, begun_at: null })).toBeNull();
     expect(title_of_recording({ ...recording, begun_at: null })).toBe('data');

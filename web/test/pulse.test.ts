@@ -9,13 +9,13 @@ function watched() {
   return { pulse, told, off, at: (ms: number) => { now_ms = ms; } };
 }
 
-describe('the pulse', () => {
-  it('tells a listener of what comes, not of what was', () => {
+describe('Pulse', () => {
+  it('calls a listener for later changes only', () => {
     const { told } = watched();
     expect(told).toEqual({ changes: 0, frames: 0, beats: 0 });
   });
 
-  it('beats a few times a second, however often poses come', () => {
+  it('beats a few times per second, however often poses arrive', () => {
     const { pulse, told, at } = watched();
     for (let ms = 0; ms <= 1600; ms += 16) {
       at(ms);
@@ -25,7 +25,7 @@ describe('the pulse', () => {
     expect(told.beats).toBe(11);
   });
 
-  it('tells many changes that nobody looks at each of as one, with a pose', () => {
+  it('reports many changes as one, with a pose', () => {
     const { pulse, told } = watched();
     pulse.at_once(() => {
       for (let i = 0; i < 100; i++) pulse.change();
@@ -36,7 +36,7 @@ describe('the pulse', () => {
     expect(told).toEqual({ changes: 1, frames: 1, beats: 1 });
   });
 
-  it('is not heard any more by who has gone', () => {
+  it('does not call removed listeners', () => {
     const { pulse, told, off } = watched();
     off.forEach((end) => end());
     pulse.change();

@@ -18,7 +18,7 @@ function events_in(...parts: string[]) {
 }
 
 describe('states.csv', () => {
-  it('is read in parts that are cut anywhere, thirty rows a second', () => {
+  it('is read in parts split anywhere, at thirty rows per second', () => {
     const rows = Array.from({ length: 1001 }, (_, i) => `${(i / 1000).toFixed(3)},${i},-1`);
     const text = ['time_s,a,b', ...rows].join('\n');
     const read_back = read(text.slice(0, 17), text.slice(17, 100), text.slice(100));
@@ -28,19 +28,19 @@ describe('states.csv', () => {
     expect(frames.q.every(([a], i) => a === Math.round((frames.t_s[i] ?? 0) * 1000))).toBe(true);
   });
 
-  it('that is something else says where, and what stands there', () => {
+  it('is refused with the place and content of a fault', () => {
     expect(read('hello\n')).toEqual({ ok: false, fault: expect.stringMatching(/line 1.*hello/) });
     expect(read('time_s,a\n0,1\n1,two\n')).toEqual({ ok: false, fault: expect.stringMatching(/line 3.*1,two/) });
     expect(read('time_s,a\n', '7'.repeat(1 << 20), '7')).toEqual({ ok: false, fault: expect.stringMatching(/line 2 has no end/) });
     expect(read('time_s,a\n')).toEqual({ ok: false, fault: expect.stringMatching(/no row/) });
   });
 
-  it('of a run that was cut off in a row is read without that row', () => {
+  it('is read without an incomplete last row', () => {
     const back = read('time_s,a\n0,1\n1,2\n2,2.7', '182');
     expect(back.ok && back.frames.t_s).toEqual([0, 1]);
   });
 
-  it('of many hours is thinned further', () => {
+  it('is thinned further if it is long', () => {
     const reader = new StatesReader();
     reader.take('time_s,a\n');
     for (let i = 0; i < 100_000; i++) reader.take(`${i},0\n`);
@@ -51,7 +51,7 @@ describe('states.csv', () => {
 });
 
 describe('events.jsonl', () => {
-  it('is read with wall times and without, and counts what cannot be read', () => {
+  it('is read with and without wall times; unreadable lines are counted', () => {
     const bare = JSON.parse(envelope('job', 2, job_json('a'))) as { at?: string; data: Record<string, unknown> };
     delete bare.at;
     for (const key of ['submitted_at', 'scheduled_at', 'started_at', 'ended_at']) delete bare.data[key];
@@ -62,8 +62,8 @@ describe('events.jsonl', () => {
   });
 });
 
-describe('a store that shows a recording', () => {
-  it('has its jobs, its positions and its end, and forgets them for the present', () => {
+describe('Store with a recording', () => {
+  it('has its jobs, positions and end, and forgets them afterwards', () => {
     const store = new Store(() => 0);
     const first = events_in(snapshot(1)).messages;
     for (const message of first) store.take(message);
@@ -82,7 +82,7 @@ describe('a store that shows a recording', () => {
     expect(store.notices).toEqual([]);
   });
 
-  it('without positions is led through by its events, and the present\'s positions are not shown for its own', () => {
+  it('without positions follows events, and shows no live positions', () => {
     const store = new Store(() => 0);
     for (const message of events_in(snapshot(1)).messages) store.take(message);
     expect(store.span).toBeNull();

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { Redraw } from '../src/state/redraw';
 
-/** A page whose drawings take so long, at which something changes every millisecond. */
+/** A page with this drawing time and a change every millisecond. */
 function drawn_in(second_ms: number, took_ms: number): { drawings: number; busy_ms: number } {
   let now_ms = 0;
   let drawings = 0;
@@ -19,13 +19,13 @@ function drawn_in(second_ms: number, took_ms: number): { drawings: number; busy_
   return { drawings, busy_ms: drawings * took_ms };
 }
 
-describe('the page is drawn anew', () => {
-  it('once for a burst of changes', () => {
+describe('Redraw', () => {
+  it('happens once for a burst of changes', () => {
     expect(drawn_in(1000, 0).drawings).toBeLessThanOrEqual(33);
     expect(drawn_in(1000, 0).drawings).toBeGreaterThan(25);
   });
 
-  it('for half of the time at most, however long it takes and however much changes', () => {
+  it('takes at most half of the time, whatever its duration', () => {
     for (const took_ms of [20, 60, 200]) {
       const { drawings, busy_ms } = drawn_in(10_000, took_ms);
       expect(busy_ms).toBeLessThan(5_500);
@@ -33,7 +33,7 @@ describe('the page is drawn anew', () => {
     }
   });
 
-  it('never rests for long', () => {
+  it('never pauses for long', () => {
     expect(drawn_in(60_000, 3000).drawings).toBeGreaterThan(15);
   });
 });

@@ -14,8 +14,8 @@ function link(): THREE.Group {
 
 const mesh_of = (link: THREE.Group) => link.children[0] as FinishedMesh;
 
-describe('robots that look the same', () => {
-  it('have the same shapes in both finishes, where they are in the pattern', () => {
+describe('Equal robots', () => {
+  it('share their shapes in both qualities', () => {
     const pattern = link();
     const copy = pattern.clone();
     expect(mesh_of(copy)).toBeInstanceOf(FinishedMesh);
@@ -23,7 +23,7 @@ describe('robots that look the same', () => {
     expect(mesh_of(copy).quick.geometry).toBe(mesh_of(pattern).quick.geometry);
     expect(mesh_of(copy).position.x).toBe(0.3);
   });
-  it('have each a skin of their own', () => {
+  it('have their own materials', () => {
     const pattern = link();
     const [one, other] = [pattern.clone(), pattern.clone()];
     const skin = give_skin(one as never);

@@ -3,14 +3,14 @@ import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { seen } from '../src/state/seen';
 import { Store } from '../src/state/store';
 
-describe('The store as it is seen', () => {
+describe('Seen store', () => {
   beforeEach(() => { vi.useFakeTimers(); });
   afterEach(() => { vi.useRealTimers(); });
 
-  it('draws whoever has read it again when it changes, once for a burst, and nobody else', () => {
+  it('redraws its readers after a change, once per burst, and nothing else', () => {
     const store = new Store();
     const drawn: string[] = [];
-    // A component is drawn as an effect is run.
+    // Components are drawn like effects are run.
     const end = effect(() => { drawn.push(seen(store).link.status); });
     let aside = 0;
     const end_aside = effect(() => { aside += 1; });

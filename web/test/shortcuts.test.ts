@@ -6,16 +6,16 @@ import type { App } from '../src/state/app';
 describe('Escape', () => {
   afterEach(() => vi.unstubAllGlobals());
 
-  it('lets go of what is moved by hand first, and closes the page the next time', () => {
+  it('ends dragging first, and closes the page the next time', () => {
     vi.stubGlobal('document', { querySelector: () => null });
     const places: string[] = [];
-    const by_hand = signal<string | null>('crate');
+    const dragged_object = signal<string | null>('crate');
     const router = { place: { page: 'scene' }, go: ({ page }: { page: string }) => places.push(page) };
     const window = new EventTarget();
-    listen_to_keys({ by_hand, router, settings: { letter_keys: signal(true) } } as unknown as App, window as unknown as Window);
+    listen_to_keys({ dragged_object, router, settings: { letter_keys: signal(true) } } as unknown as App, window as unknown as Window);
     const press = () => window.dispatchEvent(Object.assign(new Event('keydown'), { key: 'Escape' }));
     press();
-    expect([by_hand.value, places]).toEqual([null, []]);
+    expect([dragged_object.value, places]).toEqual([null, []]);
     press();
     expect(places).toEqual(['cell']);
   });

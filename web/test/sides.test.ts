@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { measured_way } from '../src/diagram/reading';
+import { measured_path } from '../src/diagram/reading';
 import { job_of_side, why_no_pair } from '../src/diagram/sides';
 import type { Job } from '../src/server/messages';
 import { JobBook, type JobList } from '../src/state/job_book';
@@ -13,8 +13,8 @@ const known = (...jobs: Job[]) => {
 };
 const job = (id: string, arms: string[], state: string, over: object = {}) => job_json(id, { arms, state, ...over }) as Job;
 
-describe('a side of a diagram', () => {
-  it('is a job, or what an arm does, does next, or did last', () => {
+describe('Side of a diagram', () => {
+  it('is a job, or the current, next or last job of an arm', () => {
     const store = known(
       job('old', ['left'], 'succeeded', { ended_s: 3 }), job('older', ['left'], 'succeeded', { ended_s: 2 }),
       job('waits', ['right'], 'backlogged'), job('runs', ['right'], 'running'));
@@ -26,45 +26,45 @@ describe('a side of a diagram', () => {
     expect(why_no_pair('left', 'front', store)).toMatch(/front has had no job yet/);
     expect(why_no_pair('old', 'older', store)).toMatch(/same arm/);
     expect(why_no_pair('left', 'left', store)).toMatch(/choose another/);
-    // One that the page does not know may be known to the server.
+    // The server may know a job that the page does not know.
     expect(why_no_pair('left', 'forgotten', store)).toBeNull();
   });
 
-  it('is the job where an arm is called the same, and no side where one job moves both', () => {
+  it('is the job if an arm has the same name, and none if one job moves both', () => {
     const store = known(job('left', ['right'], 'running'), job('both', ['left', 'front'], 'running'));
     expect(job_of_side('left', store)?.arms).toEqual(['right']);
     expect(why_no_pair('front', 'both', store)).toMatch(/One job moves both/);
   });
 });
 
-describe('the way of two jobs that was measured', () => {
-  it('is where both were together, standing included, from when both were heard', () => {
+describe('Measured path of two jobs', () => {
+  it('is the progress of both, rests included, since both were observed', () => {
     const book = new ProgressBook();
-    // A goes for 4 s; B waits until 2 s, goes, stands from 3 to 5 s at 1 s, and goes on.
+    // A runs for 4 s. B waits until 2 s, runs, pauses from 3 to 5 s at 1 s, and continues.
     for (let i = 0; i <= 240; i++) {
       const t_s = i / 30;
       const b = t_s < 2 ? 0 : t_s < 3 ? t_s - 2 : t_s < 5 ? 1 : t_s - 4;
       book.take(t_s, [...(t_s <= 4 ? [{ job: 'a', progress_s: t_s }] : []), ...(t_s >= 2 ? [{ job: 'b', progress_s: b }] : [])]);
     }
-    const way = measured_way(book.of('a'), book.of('b'));
+    const way = measured_path(book.of('a'), book.of('b'));
     expect(way[0]).toEqual({ a_s: 0, b_s: 0 });
     const near = (a_s: number, b_s: number) => way.some((point) => Math.hypot(point.a_s - a_s, point.b_s - b_s) < 0.11);
     for (const [a_s, b_s] of [[1, 0], [2, 0], [3, 1], [4, 1], [4, 2.5], [4, 4]] as const) expect(near(a_s, b_s), `${a_s} ${b_s}`).toBe(true);
-    // Never across the corner that they went around.
+    // The path never cuts the corner.
     expect(way.every(({ a_s, b_s }) => b_s < 0.05 || a_s > 1.9)).toBe(true);
     expect(way.every((point, i) => i === 0 || (point.a_s >= (way[i - 1]?.a_s ?? 0) && point.b_s >= (way[i - 1]?.b_s ?? 0)))).toBe(true);
-    expect(measured_way(book.of('a'), book.of('c'))).toEqual([]);
-    // Of an instant that is looked at nothing later is shown.
-    expect(measured_way(book.of('a'), book.of('b'), 2.5).every(({ a_s, b_s }) => a_s <= 2.5 && b_s <= 2.5)).toBe(true);
+    expect(measured_path(book.of('a'), book.of('c'))).toEqual([]);
+    // A past time shows nothing later.
+    expect(measured_path(book.of('a'), book.of('b'), 2.5).every(({ a_s, b_s }) => a_s <= 2.5 && b_s <= 2.5)).toBe(true);
   });
 
-  it('leaves out what one of them did before it was heard', () => {
+  it('omits what one job did before it was observed', () => {
     const book = new ProgressBook();
     for (let i = 0; i <= 30; i++) book.take(10 + i / 10, [{ job: 'a', progress_s: 5 + i / 10 }]);
     expect(progress_at(book.of('a') ?? { t_s: [], progress_s: [] }, 9)).toBeNull();
   });
 
-  it('is remembered of the last jobs only, each in so many points', () => {
+  it('is kept for the last jobs, each with a bounded number of points', () => {
     const book = new ProgressBook();
     for (let i = 0; i < 40_000; i++) book.take(i, [{ job: 'long', progress_s: i }]);
     expect(book.of('long')?.t_s.length).toBeLessThanOrEqual(1200);

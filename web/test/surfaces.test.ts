@@ -24,7 +24,7 @@ function size(geometry: THREE.BufferGeometry): number[] {
     .getSize(new THREE.Vector3()).toArray();
 }
 
-describe('a surface', () => {
+describe('Surface', () => {
   it('is read from STL and OBJ as triangles with normals', () => {
     const triangle = parse_surface('/m/a.STL', stl());
     expect(triangle.getAttribute('position').count).toBe(3);
@@ -35,12 +35,12 @@ describe('a surface', () => {
     expect(size(square)).toEqual([1, 2, 3]);
   });
 
-  it('is refused when it is empty or of another kind', () => {
+  it('is refused if empty or of another kind', () => {
     expect(() => parse_surface('/m/a.obj', bytes('v 0 0 0\n'))).toThrow();
     expect(() => parse_surface('/m/a.ply', bytes('ply'))).toThrow(/neither STL nor OBJ nor COLLADA/);
   });
 
-  it('is fetched once, and again after it has failed', async () => {
+  it('is fetched once, and again after a failure', async () => {
     const warn = vi.spyOn(console, 'warn').mockImplementation(() => {});
     const asked: string[] = [];
     const shelf = new SurfaceShelf((address) => {
@@ -68,31 +68,31 @@ describe('a surface', () => {
   });
 });
 
-describe('an object with a mesh', () => {
+describe('Object with a mesh', () => {
   const object = {
     name: 'part', xyz: [1, 0, 0] as [number, number, number], rpy: [0, 0, 0] as [number, number, number],
     mesh: '/api/a.obj', scale: [2, 1, -1] as [number, number, number],
   };
 
-  it('is drawn scaled, and faces outward when it is mirrored', () => {
+  it('is drawn scaled, and faces outward when mirrored', () => {
     const surface = parse_surface('/m/a.stl', stl());
     const mesh = object_mesh(object, surface) as THREE.Mesh;
     expect(size(mesh.geometry)).toEqual([2, 2, 0]);
     const p = mesh.geometry.getAttribute('position');
     const at = (i: number) => new THREE.Vector3().fromBufferAttribute(p as THREE.BufferAttribute, i);
     const normal = at(1).sub(at(0)).cross(at(2).sub(at(0)));
-    expect(normal.z).toBeLessThan(0);  // it faced up before it was mirrored along z
-    expect(size(surface)).toEqual([1, 2, 0]);  // the shelf's own is as it was
+    expect(normal.z).toBeLessThan(0);  // it faced up before mirroring along z
+    expect(size(surface)).toEqual([1, 2, 0]);  // the cached surface is unchanged
   });
 
-  it('is a mark where it stands when its mesh cannot be read', () => {
+  it('is drawn as a marker if its mesh cannot be read', () => {
     const mark = object_mesh(object, null) as THREE.Mesh;
     expect(mark.position.x).toBe(1);
     expect(size(mark.geometry).every((length) => length > 0 && length < 0.2)).toBe(true);
   });
 });
 
-describe('a link', () => {
+describe('Link', () => {
   const yellow = new THREE.MeshPhongMaterial({ color: 0xffcc00 });
 
   /** Meshes that were read or are missing, below visuals and colliders. */
@@ -118,24 +118,24 @@ describe('a link', () => {
     });
   }
 
-  it('is drawn by its visuals where they were read', () => {
+  it('is drawn by its visuals if they were read', () => {
     const [meshes] = drawn(link([true, false], [true]));
     expect(meshes).toHaveLength(1);
     expect(meshes?.[0]?.material).toBe(yellow);
   });
 
-  it('is drawn by its collision shapes in the colour of visuals that are missing', () => {
+  it('is drawn by its collision shapes in the color of missing visuals', () => {
     const [missing, read] = drawn(link([false], [true, true]), link([true], [true]));
     expect(missing?.map((mesh) => mesh.material)).toEqual([yellow, yellow]);
     expect(read).toHaveLength(1);
   });
 
-  it('is drawn by its collision shapes when the robot has no visuals, and not at all beside some', () => {
+  it('is drawn by its collision shapes if the robot has no visuals, else not at all', () => {
     expect(drawn(link([], [true]))[0]).toHaveLength(1);
     expect(drawn(link([], [true]), link([true], []))[0]).toHaveLength(0);
   });
 
-  it('is a mark when nothing of it was read, and nothing when it has no shape', () => {
+  it('is a marker if nothing was read, and nothing if it has no shape', () => {
     const [lost, bare] = drawn(link([false], [false]), link([], []));
     expect(lost?.map((mesh) => mesh.geometry.type)).toEqual(['OctahedronGeometry']);
     expect(bare).toHaveLength(0);

@@ -3,7 +3,7 @@ import type { Forecast, Job } from '../src/server/messages';
 import { drawn_of, lanes_of, mark_at, pasts_of, type Lane } from '../src/timeline/lanes';
 import { sheet_of, widest_free } from '../src/timeline/sheet';
 import { around, begin_of, kFollowing, kNowAt, moved, tick_of, zoomed } from '../src/timeline/span';
-import { lane_in_words } from '../src/timeline/told';
+import { lane_in_words } from '../src/timeline/mark_words';
 import { job_json, wait_json } from './samples';
 
 const job = (id: string, over: object) => job_json(id, over) as unknown as Job;
@@ -27,11 +27,11 @@ const kForecast = {
 const known = (jobs: Job[], forecast: Forecast | null, now_s = 10): Lane =>
   lanes_of({
     arms: ['left'], jobs: jobs.filter((one) => one.ended_s === null), pasts: pasts_of(['left'], jobs.filter((one) => one.ended_s !== null), () => []),
-    stands: () => [], has_ended: (id) => jobs.some((one) => one.id === id && one.ended_s !== null), forecast, now_s,
+    pauses: () => [], has_ended: (id) => jobs.some((one) => one.id === id && one.ended_s !== null), forecast, now_s,
   })[0] as Lane;
 
-describe('the lanes of the timeline', () => {
-  it('shows what was: motions, and waits only where the arm could have gone', () => {
+describe('Timeline lanes', () => {
+  it('show past motions, and waits only while the arm could have moved', () => {
     const lane = known([
       job('a', { state: 'succeeded', submitted_s: 1, started_s: 1, ended_s: 4 }),
       job('b', { state: 'succeeded', submitted_s: 1, started_s: 6, ended_s: 7 }),
@@ -43,7 +43,7 @@ describe('the lanes of the timeline', () => {
     ]);
   });
 
-  it('shows what is expected from now on, with pauses, waits and for whom', () => {
+  it('show predicted motions, pauses and waits with their blockers', () => {
     const lane = known([job('now', { state: 'running', submitted_s: 8, started_s: 8 })], kForecast);
     const expected = lane.marks.filter((mark) => mark.expected);
     expect(expected.map(({ kind, job, from_s, to_s }) => [kind, job, from_s, to_s])).toEqual([
@@ -55,93 +55,93 @@ describe('the lanes of the timeline', () => {
     expect(mark_at(lane, 12.5)?.kind).toBe('wait');
   });
 
-  it('leaves out what an event has ended since the answer', () => {
+  it('omit what an event has ended since the prediction', () => {
     const lane = known([job('now', { state: 'succeeded', submitted_s: 8, started_s: 8, ended_s: 9.9 })], kForecast);
     expect(lane.marks.some((mark) => mark.expected && mark.job === 'now')).toBe(false);
   });
 
-  it('is told in words, soonest first, those without a time last', () => {
+  it('are described soonest first, jobs without times last', () => {
     const words = lane_in_words(known([], kForecast), 10);
-    expect(words[0]).toMatch(/^now: runs on, 0:00:10.0 to 0:00:12.0/);
+    expect(words[0]).toMatch(/^now: running, 0:00:10.0 to 0:00:12.0/);
     expect(words[1]).toMatch(/^place waits for job place-6 of right: .* until 0:00:13.0 \(1.0 s\)/);
-    expect(words.at(-1)).toBe('2 more wait without a time yet');
+    expect(words.at(-1)).toBe('2 more jobs not scheduled yet');
     expect(lane_in_words(known([], null), 10)).toEqual(['nothing is planned']);
   });
 });
 
-describe('the span of the timeline', () => {
-  it('follows now until it is held', () => {
+describe('Timeline span', () => {
+  it('follows now until it is fixed', () => {
     expect(begin_of(kFollowing, 100)).toBeCloseTo(100 - kNowAt * kFollowing.length_s);
     const held = moved(kFollowing, -5, 100);
     expect(begin_of(held, 100)).toBeCloseTo(begin_of(kFollowing, 100) - 5);
     expect(begin_of(held, 107)).toBe(begin_of(held, 100));
   });
 
-  it('zooms about the instant that is pointed at, within bounds', () => {
-    const held = around({ length_s: 40, held_from_s: null }, 60);
-    expect(held.held_from_s).toBe(40);
+  it('zooms about the pointed time, within limits', () => {
+    const held = around({ length_s: 40, fixed_from_s: null }, 60);
+    expect(held.fixed_from_s).toBe(40);
     const near = zoomed(held, 0.5, 100, 0.25);
-    expect(near).toEqual({ length_s: 20, held_from_s: 45 });
+    expect(near).toEqual({ length_s: 20, fixed_from_s: 45 });
     expect(zoomed(held, 1e9, 100).length_s).toBe(3600);
-    expect(zoomed(kFollowing, 1e-9, 100)).toEqual({ length_s: 4, held_from_s: null });
+    expect(zoomed(kFollowing, 1e-9, 100)).toEqual({ length_s: 4, fixed_from_s: null });
   });
 
-  it('shows an instant that is looked at wherever it lies, also while it is not known yet what time it is', () => {
+  it('shows any time, also while the current time is unknown', () => {
     const opened = around(kFollowing, 873.92);
     const sheet = sheet_of(1000, 100, opened, 0);
-    expect((sheet.x(873.92) - sheet.x(opened.held_from_s ?? 0)) / (sheet.x(923.92) - sheet.x(873.92))).toBeCloseTo(0.5);
-    expect(around(kFollowing, 0).held_from_s).toBe(-25);
+    expect((sheet.x(873.92) - sheet.x(opened.fixed_from_s ?? 0)) / (sheet.x(923.92) - sheet.x(873.92))).toBeCloseTo(0.5);
+    expect(around(kFollowing, 0).fixed_from_s).toBe(-25);
   });
 
-  it('never goes farther than what may be known', () => {
-    expect(moved(kFollowing, 1e6, 100).held_from_s).toBeLessThan(800);
-    expect(moved(kFollowing, -1e6, 100).held_from_s).toBeGreaterThan(-60);
+  it('never goes beyond what can be known', () => {
+    expect(moved(kFollowing, 1e6, 100).fixed_from_s).toBeLessThan(800);
+    expect(moved(kFollowing, -1e6, 100).fixed_from_s).toBeGreaterThan(-60);
   });
 
-  it('has ticks that people count in', () => {
+  it('has round ticks', () => {
     expect(tick_of(60, 8)).toBe(10);
     expect(tick_of(600, 8)).toBe(120);
     expect(tick_of(4, 8)).toBe(0.5);
   });
 });
 
-describe('what is drawn of a lane', () => {
+describe('Drawn marks of a lane', () => {
   const many = Array.from({ length: 10_000 }, (_, i) =>
     job(`j${i}`, { state: i % 1000 === 500 ? 'failed' : 'succeeded', submitted_s: 0.3 * i, started_s: 0.3 * i, ended_s: 0.3 * i + 0.2 }));
   const { marks } = known(many, null, 3000);
-  it('is no more than there are pixels, and whatever failed', () => {
+  it('are at most one per pixel, but include all failures', () => {
     expect(marks.length).toBeGreaterThanOrEqual(10_000);
     const drawn = drawn_of(marks, 0, 3000, 3);
     expect(drawn.length).toBeLessThan(1100);
     expect(drawn.filter(({ state }) => state === 'failed')).toHaveLength(10);
-    // Every pixel that something is at has something.
+    // Every pixel with a mark shows one.
     for (let s = 0; s < 2990; s += 3) expect(drawn.some(({ from_s }) => from_s >= s - 3 && from_s < s + 3)).toBe(true);
   });
-  it('is all of it where there is room, and nothing beside it', () => {
+  it('are all if there is room, and none outside of the range', () => {
     const drawn = drawn_of(marks, 300, 330, 0.05);
     expect(drawn.length).toBe(marks.filter(({ from_s, to_s }) => to_s >= 300 && from_s <= 330).length);
   });
 });
 
-describe('the part of a bar that has room for its name', () => {
+describe('Visible part of a bar', () => {
   const bar = { from: 100, to: 200 };
 
-  it('is all of it where nothing covers it, or what does lies beside it', () => {
+  it('is the whole bar if nothing covers it', () => {
     expect(widest_free(bar, [])).toEqual(bar);
     expect(widest_free(bar, [{ from: 0, to: 100 }, { from: 200, to: 300 }])).toEqual(bar);
   });
 
-  it('is behind a stop that covers its beginning, and before one that covers its end', () => {
+  it('is after a stop at its begin, or before a stop at its end', () => {
     expect(widest_free(bar, [{ from: 90, to: 130 }])).toEqual({ from: 130, to: 200 });
     expect(widest_free(bar, [{ from: 160, to: Infinity }])).toEqual({ from: 100, to: 160 });
   });
 
-  it('is the widest one between several, in whatever order they come and however they overlap', () => {
+  it('is the widest between several, in any order and overlap', () => {
     const covers = [{ from: 180, to: 190 }, { from: 110, to: 120 }, { from: 105, to: 140 }, { from: 112, to: 115 }];
     expect(widest_free(bar, covers)).toEqual({ from: 140, to: 180 });
   });
 
-  it('is none where all is covered', () => {
+  it('is null if all is covered', () => {
     expect(widest_free(bar, [{ from: 50, to: 150 }, { from: 140, to: 250 }])).toBeNull();
     expect(widest_free({ from: 100, to: 100 }, [])).toBeNull();
   });

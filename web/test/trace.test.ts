@@ -1,14 +1,14 @@
 import { describe, expect, it } from 'vitest';
 import { Trace } from '../src/state/trace';
 
-describe('the trace of measured joints', () => {
+describe('Trace', () => {
   const filled = (frames: number, capacity = 100) => {
     const trace = new Trace(capacity);
     for (let i = 0; i < frames; i++) trace.push(i, { a: i, b: -i });
     return trace;
   };
 
-  it('answers where every joint was, by the last frame until then', () => {
+  it('returns all joints at the last frame up to a time', () => {
     const trace = filled(10);
     expect(trace.at(4.7)).toEqual({ a: 4, b: -4 });
     expect(trace.at(9)).toEqual({ a: 9, b: -9 });
@@ -16,7 +16,7 @@ describe('the trace of measured joints', () => {
     expect(trace.at(-0.005)).toEqual({ a: 0, b: -0 });
   });
 
-  it('answers nothing for what was not heard, and says where that lies', () => {
+  it('returns null without data, and says where the time lies', () => {
     expect(new Trace().heard(3)).toBe('nothing');
     const trace = filled(10);
     expect([trace.heard(-1), trace.at(-1)]).toEqual(['before', null]);
@@ -30,14 +30,14 @@ describe('the trace of measured joints', () => {
     expect(trace.at(19.995)).toEqual({ a: 20, b: -20 });
   });
 
-  it('keeps so many frames and no more', () => {
+  it('keeps a fixed number of frames', () => {
     const trace = filled(250);
     expect([trace.first_s, trace.last_s]).toEqual([150, 249]);
     expect(trace.at(149)).toBeNull();
     expect(trace.at(200)).toEqual({ a: 200, b: -200 });
   });
 
-  it('gives curves of a stretch, thinned to what a plot can show', () => {
+  it('returns curves of a stretch, thinned for a plot', () => {
     const { t_s, q } = filled(100).between(['b'], 10, 20);
     expect(t_s).toEqual([10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]);
     expect(q[0]?.at(-1)).toBe(-20);
@@ -45,7 +45,7 @@ describe('the trace of measured joints', () => {
     expect(new Trace().between(['a'], 0, 9).t_s).toEqual([]);
   });
 
-  it('begins anew when time goes back or the joints are others', () => {
+  it('restarts when time goes back or the joints change', () => {
     const trace = filled(10);
     trace.push(2, { a: 5, b: 5 });
     expect([trace.first_s, trace.last_s]).toEqual([2, 2]);
@@ -53,11 +53,11 @@ describe('the trace of measured joints', () => {
     expect(trace.at(3)).toEqual({ c: 1 });
   });
 
-  describe('that is filled with what others heard', () => {
+  describe('Trace filled with earlier data', () => {
     const steps = (from: number, to: number) => Array.from({ length: to - from + 1 }, (_, i) => from + i);
     const fill = (trace: Trace, t_s: number[], names = ['b', 'a']) => trace.fill(names, t_s, t_s.map((at) => names.map((name) => (name === 'a' ? 100 + at : -100 - at))));
 
-    it('begins with it, and keeps what it heard itself', () => {
+    it('begins with the earlier data and keeps its own', () => {
       const trace = new Trace(100);
       for (const t of [50, 50.5, 51]) trace.push(t, { a: t, b: -t });
       fill(trace, steps(40, 60));
@@ -68,13 +68,13 @@ describe('the trace of measured joints', () => {
       expect(trace.at(52)).toEqual({ a: 52, b: -52 });
     });
 
-    it('has it alone where it had heard nothing yet', () => {
+    it('has only the earlier data if it had none', () => {
       const trace = new Trace(100);
       fill(trace, steps(1, 5));
       expect([trace.names, trace.first_s, trace.last_s, trace.at(3)]).toEqual([['b', 'a'], 1, 5, { a: 103, b: -103 }]);
     });
 
-    it('closes the gaps that it knows of, and leaves those that nobody heard', () => {
+    it('fills its gaps, and leaves gaps without data', () => {
       const trace = new Trace(100);
       for (const t of [10, 11]) trace.push(t, { a: t, b: -t });
       trace.break_off();
@@ -88,7 +88,7 @@ describe('the trace of measured joints', () => {
       expect([22.5, 24, 26, 39, 40].map((t) => trace.heard(t))).toEqual(['kept', 'kept', 'gap', 'gap', 'kept']);
     });
 
-    it('takes nothing of other joints, and no more than it holds', () => {
+    it('ignores data of other joints, and stays within its capacity', () => {
       const trace = new Trace(10);
       for (const t of [50, 51]) trace.push(t, { a: t, b: -t });
       fill(trace, steps(40, 49), ['a']);

@@ -1,10 +1,10 @@
 import { describe, expect, it } from 'vitest';
-import { leg_of, when_in_words } from '../src/jobs/when';
+import { step_of, when_in_words } from '../src/jobs/when';
 import { partner_of } from '../src/diagram/partner';
-import { stood_in_words } from '../src/jobs/states';
+import { pause_in_words } from '../src/jobs/states';
 import { selection_of } from '../src/route/selection';
 import { parse_message, type Forecast, type Job } from '../src/server/messages';
-import { kStateColours } from '../src/state/palette';
+import { kStateColors } from '../src/state/palette';
 import { Store } from '../src/state/store';
 import { known_lanes } from '../src/timeline/known';
 import { now_in_words } from '../src/timeline/paint';
@@ -28,26 +28,26 @@ const told = (store: Store, name: string) => {
   return arm ? [store.arm_state(arm), arm_in_words(arm, store)] : [];
 };
 
-describe('an arm whose next job waits', () => {
+describe('Arm whose next job waits', () => {
   const blocked = job_json('b', { state: 'backlogged', backlogged_s: 2, waits_on: [crate] });
 
-  it('is said to wait, and for what', () => {
+  it('is shown as waiting, with the blocker', () => {
     const store = store_of([blocked]);
     expect(told(store, 'left')).toEqual(['waiting', 'waits for crate']);
     expect(told(store, 'right')).toEqual(['idle', 'idle']);
-    expect(kStateColours.waiting).toBe('var(--paused)');
+    expect(kStateColors.waiting).toBe('var(--paused)');
     expect(when_in_words(store.waiting_of('left') as Job, store)).toMatch(/^blocked for/);
   });
-  it('does what it does while it moves or is stopped', () => {
+  it('shows its own state while it moves or is stopped', () => {
     expect(told(store_of([blocked], [arm_json('left', { state: 'stopped' }), arm_json('right')]), 'left')).toEqual(['stopped', 'stopped']);
   });
-  it('is idle while its next job goes at once', () => {
+  it('is idle if its next job starts at once', () => {
     expect(told(store_of([job_json('q', { state: 'scheduled', scheduled_s: 2 }), blocked]), 'left')).toEqual(['idle', 'idle']);
   });
 });
 
-describe('an object that a job waits for', () => {
-  it('is lit up with the job, beside which no other is drawn', () => {
+describe('Object that a job waits for', () => {
+  it('is highlighted with the job, which then has no diagram partner', () => {
     const store = store_of([job_json('b', { state: 'backlogged', waits_on: [crate] }), job_json('other', { arms: ['right'] })]);
     expect(selection_of({ page: 'job', id: 'b' }, store)).toEqual({ jobs: ['b'], arms: ['left'], object: 'crate' });
     expect(partner_of(store.job('b') as Job, store)).toBeNull();
@@ -55,27 +55,27 @@ describe('an object that a job waits for', () => {
   });
 });
 
-describe('the figure of a job that moves', () => {
+describe('Figure of a running job', () => {
   const job = store_of([job_json('r', { state: 'running', started_s: 1, duration_s: 4 })]).job('r') as Job;
 
-  it('is until when the server expects it to end, pauses with it, where that is known', () => {
+  it('is the time to the predicted end, including pauses, if known', () => {
     const forecast = { arms: [{ name: 'left', waiting: 0, steps: [{ id: 'r', ends_s: 30 }] }] } as unknown as Forecast;
-    expect(figure_in_words(job, 3.4, 0.5, leg_of(job, forecast)?.ends_s ?? null).text).toBe('26.6 s left');
-    expect(figure_in_words(job, 3.4, 0.5, leg_of({ ...job, id: 'other' }, forecast)?.ends_s ?? null).text).toBe('2.0 s left');
+    expect(figure_in_words(job, 3.4, 0.5, step_of(job, forecast)?.ends_s ?? null).text).toBe('26.6 s left');
+    expect(figure_in_words(job, 3.4, 0.5, step_of({ ...job, id: 'other' }, forecast)?.ends_s ?? null).text).toBe('2.0 s left');
   });
-  it('is told as past when nothing is heard any more', () => {
+  it('is rephrased as past when the data is old', () => {
     expect(['17.4 s left', 'waited 2.0 s', 'paused', ''].map(as_last_heard)).toEqual(['had 17.4 s left', 'had waited 2.0 s', 'was paused', '']);
-    expect([true, false].map(now_in_words)).toEqual(['last heard', 'now']);
+    expect([true, false].map(now_in_words)).toEqual(['last data', 'now']);
   });
 });
 
-describe('why a job stood on its path', () => {
-  it('is remembered when it has gone on', () => {
+describe('Reason of a pause', () => {
+  it('is remembered after the job has continued', () => {
     const at = (state: string, waits_on: object[]) => job_json('h', { state, started_s: 1, waits_on });
     const store = store_of([at('running', []), at('paused', []), at('paused', [crate]), at('running', [])]);
-    const [stand] = store.book.stands('h');
+    const [stand] = store.book.pauses('h');
     expect(stand).toMatchObject({ from_s: 3, to_s: 5, why: { kind: 'object', id: 'crate' } });
-    expect(stand && stood_in_words(stand)).toMatch(/^waited for crate to be clear.*, 2\.0 s long$/);
+    expect(stand && pause_in_words(stand)).toMatch(/^waited until crate is out of the way.* \(2\.0 s\)$/);
     const [mark] = known_lanes({ store }, 0).flatMap(({ marks }) => marks.filter(({ kind }) => kind === 'pause'));
     expect(mark?.waits_on?.id).toBe('crate');
   });

@@ -1,8 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { parse_message, type Job, type MonitorData, type WaitsOn } from '../src/server/messages';
 import {
-  bytes_in_words, clearance_in_words, clock, conflict_in_words, figure_in_words, found_in_words, millimetres, monitor_in_words, reason_in_words,
-  result_in_words, seconds, short_id, ways_in_words, why_mute,
+  bytes_in_words, clearance_in_words, clock, conflict_in_words, figure_in_words, found_in_words, millimeters, monitor_in_words, reason_in_words,
+  result_in_words, seconds, short_id, path_in_words, why_not_connected,
 } from '../src/wording';
 import { envelope, job_json, wait_json } from './samples';
 
@@ -18,25 +18,25 @@ function reason(...waits: (object & Partial<WaitsOn>)[]): string {
 
 const kBare: Partial<WaitsOn> = { links: [], own_time_s: null, clearance_m: null };
 
-describe('the reason why a job waits', () => {
-  it('names the other job, the links, how close and when', () => {
+describe('Reason to wait', () => {
+  it('names the other job, the links, distance and time', () => {
     expect(reason({})).toBe(
       'waits for job place-6 of right: left_panda_hand would come within 12 mm of right_panda_link6, 1.24 s into its motion');
   });
-  it('says touch when nothing is left between the links', () => {
+  it('says touch without a clearance', () => {
     expect(reason({ clearance_m: -0.004 })).toContain('left_panda_hand would touch right_panda_link6, 1.24 s into its motion');
   });
-  it('does without what the server does not know', () => {
+  it('omits what the server does not state', () => {
     expect(reason(kBare)).toBe('waits for job place-6 of right to end');
     expect(reason({ ...kBare, id: 'job-6' })).toBe('waits for job-6 of right to end');
   });
-  it('tells an arm at rest, an object, the order, the capacity and a stop apart', () => {
+  it('distinguishes a resting arm, an object, a predecessor, capacity and a stop', () => {
     expect(reason({ kind: 'arm', id: null })).toMatch(/^waits for arm right to move away: left_panda_hand would/);
-    expect(reason({ kind: 'object', id: 'crate', arm: null, ...kBare })).toBe('waits for crate to be clear');
-    expect(reason({ kind: 'predecessor', id: 'pick-6', arm: 'left', ...kBare })).toBe('waits its turn: pick-6 of left comes first');
-    expect(reason({ kind: 'capacity', ...kBare })).toBe('waits until job place-6 of right has ended: one at a time');
+    expect(reason({ kind: 'object', id: 'crate', arm: null, ...kBare })).toBe('waits until crate is out of the way');
+    expect(reason({ kind: 'predecessor', id: 'pick-6', arm: 'left', ...kBare })).toBe('waits its turn: pick-6 of left goes first');
+    expect(reason({ kind: 'capacity', ...kBare })).toBe('waits until job place-6 of right has ended (one at a time)');
     expect(reason({ kind: 'object', id: null, arm: null, links: ['left_panda_hand', 'table'] })).toMatch(
-      /^waits for table to be clear: left_panda_hand would come within 12 mm of table/);
+      /^waits until table is out of the way: left_panda_hand would come within 12 mm of table/);
     expect(reason({ kind: 'stop', id: null, arm: 'left', ...kBare, detail: 'fault: overrun' })).toBe(
       'waits for resume: left is stopped (fault: overrun)');
     expect(reason({ kind: 'stop', id: null, arm: null, ...kBare })).toBe('waits for resume: the cell is stopped');
@@ -44,35 +44,35 @@ describe('the reason why a job waits', () => {
   it('counts further reasons', () => {
     expect(reason(kBare, {}, {})).toBe('waits for job place-6 of right to end (and 2 more)');
   });
-  it('is the ring where jobs wait for each other', () => {
+  it('is the deadlock cycle, if there is one', () => {
     expect(reason_in_words(job({ state: 'backlogged', waits_on: [wait_json()], cycle: ['a', 'b', 'c'] }))).toBe(
       'deadlock: a -> b -> c -> a');
   });
-  it('is empty for a job that waits on nothing', () => {
+  it('is empty for a job that waits for nothing', () => {
     expect(reason_in_words(job({ state: 'running' }))).toBe('');
   });
 });
 
-describe('how a job ended', () => {
-  it('is not said twice', () => {
+describe('Result of a job', () => {
+  it('does not repeat the state', () => {
     expect(result_in_words(job({ state: 'succeeded', result: { reason: 'completed', detail: '' } }))).toBe('');
     expect(result_in_words(job({ state: 'canceled', result: { reason: 'canceled_by_client', detail: 'braked at 61 %' } }))).toBe('braked at 61 %');
   });
-  it('gives reason and detail', () => {
+  it('has reason and detail', () => {
     const result = { reason: 'backlog_timeout', detail: 'waited 60 s for place-6' };
     expect(result_in_words(job({ state: 'expired', result }))).toBe('backlog timeout: waited 60 s for place-6');
   });
 });
 
-describe('the figure of a job', () => {
+describe('Figure of a job', () => {
   const figure = (over: object, progress = 0) => figure_in_words(job({ submitted_s: 1, ...over }), 2.4, progress).text;
 
-  it('says what its seconds are', () => {
+  it('states the meaning of its seconds', () => {
     expect(figure({ state: 'running', started_s: 1, duration_s: 4 }, 0.85)).toBe('0.6 s left');
     expect(['queued', 'backlogged', 'scheduled'].map((state) => figure({ state }))).toEqual(Array(3).fill('waited 1.4 s'));
     expect(figure({ state: 'succeeded', started_s: 1, ended_s: 2.3 })).toBe('ran 1.3 s');
   });
-  it('is how long a job waited that ended without a start', () => {
+  it('is the waiting time of a job that ended without a start', () => {
     expect(figure({ state: 'expired', ended_s: 2 })).toBe('waited 1.0 s');
   });
   it('is a word while no time is known', () => {
@@ -81,8 +81,8 @@ describe('the figure of a job', () => {
   });
 });
 
-describe('what was found at the place of a fault', () => {
-  it('is said as JSON, and not at all when the server does not say', () => {
+describe('Value found at a fault', () => {
+  it('is shown as JSON, and empty if the server gives none', () => {
     expect([3.41, 'x', [0]].map(found_in_words)).toEqual(['found 3.41', 'found "x"', 'found [0]']);
     expect([-0.01700000021609758, [0.30000001192, 2], { x: 1e-7 }].map(found_in_words)).toEqual(['found -0.017', 'found [0.3,2]', 'found {"x":1e-7}']);
     expect(found_in_words('😀'.repeat(300))).toBe(`found "${'😀'.repeat(198)}…`);
@@ -90,62 +90,62 @@ describe('what was found at the place of a fault', () => {
   });
 });
 
-describe('a clearance', () => {
-  it('names what it was measured between', () => {
+describe('Clearance', () => {
+  it('names the kinds of bodies', () => {
     const named = (arms: [string] | [string, string]) => clearance_in_words({ arms, m: 0.1, links: ['a', 'b'] });
     expect([named(['left', 'right']), named(['left'])]).toEqual(['arm to arm', 'arm to object']);
   });
 });
 
-describe('the buttons', () => {
-  it('are mute unless the connection is open, and say why', () => {
-    expect(why_mute({ status: 'open' })).toBeNull();
-    expect(why_mute({ status: 'connecting' })).toMatch(/not connected/i);
-    expect(why_mute({ status: 'lost', attempt: 1, retry_in_ms: 250 })).toMatch(/lost/);
+describe('Buttons', () => {
+  it('are disabled without a connection, with the reason', () => {
+    expect(why_not_connected({ status: 'open' })).toBeNull();
+    expect(why_not_connected({ status: 'connecting' })).toMatch(/not connected/i);
+    expect(why_not_connected({ status: 'lost', attempt: 1, retry_in_ms: 250 })).toMatch(/lost/);
   });
 });
 
-describe('a monitor event', () => {
-  it('says which links, how close, and who was stopped', () => {
+describe('Monitor event', () => {
+  it('names links, distance and stopped arms', () => {
     const event: MonitorData = { kind: 'clearance', arms: ['left', 'right'], links: ['a', 'b'], clearance_m: 0.0091, limit_m: 0.01, stopped: ['left', 'right'] };
     expect(monitor_in_words(event)).toBe('a and b 9.1 mm apart (limit 10 mm); stopped left and right');
   });
 });
 
-describe('figures', () => {
+describe('Formatted numbers', () => {
   it('have units and sensible digits', () => {
-    expect([0.0004, 0.0123, 1.5].map(millimetres)).toEqual(['0.4 mm', '12 mm', '1.50 m']);
+    expect([0.0004, 0.0123, 1.5].map(millimeters)).toEqual(['0.4 mm', '12 mm', '1.50 m']);
     expect([0, 999, 1000, 9949, 9960, 123_456, 999_600, 1.2e9, 23e9].map(bytes_in_words)).toEqual(['0 B', '999 B', '1.0 kB', '9.9 kB', '10 kB', '123 kB', '1.0 MB', '1.2 GB', '23 GB']);
     expect([1.234, 12.34, 59.97, 75, 3599.4, 3599.6, 33_100].map(seconds)).toEqual(['1.2 s', '12.3 s', '1 min 0 s', '1 min 15 s', '59 min 59 s', '1 h 0 min', '9 h 11 min']);
     expect([0, 3661.29].map(clock)).toEqual(['0:00:00.0', '1:01:01.2']);
   });
-  it('cut machine-made ids and keep chosen ones', () => {
+  it('cut generated ids and keep chosen ids', () => {
     expect(short_id('0b9f1c3a-1111-4222-8333-444455556666')).toBe('0b9f1c3a');
     expect(short_id('😀'.repeat(30))).toBe(`${'😀'.repeat(23)}…`);
     expect(short_id('pick-7')).toBe('pick-7');
   });
 });
 
-describe('a conflict that was only asked about', () => {
-  it('names whom, how close and when', () => {
+describe('Conflict of a checked job', () => {
+  it('names the blocker, distance and time', () => {
     expect(conflict_in_words(wait_json({ kind: 'object', id: 'post' }) as never)).toBe(
-      'beside post, left_panda_hand would come within 12 mm of right_panda_link6, 1.24 s into its motion');
-    expect(conflict_in_words(wait_json({ kind: 'arm', id: null, arm: 'left', links: [] }) as never)).toBe('beside arm left');
+      'against post: left_panda_hand would come within 12 mm of right_panda_link6, 1.24 s into its motion');
+    expect(conflict_in_words(wait_json({ kind: 'arm', id: null, arm: 'left', links: [] }) as never)).toBe('against arm left');
   });
 });
 
-describe('how a job came by its way', () => {
-  it('says who was taken, what goes around, and who was given another way', () => {
-    expect(ways_in_words(job({}))).toEqual([]);
-    expect(ways_in_words(job({ choice: { candidates: ['left', 'right'], selected: 'right', time_saved_s: 1.2, detail: 'it arrives 1.20 s sooner than left' } })))
-      .toEqual(['right was taken of left, right: it arrives 1.20 s sooner than left']);
-    expect(ways_in_words(job({ detour: { candidates_evaluated: 2, selected: true, time_saved_s: 3.04 } })))
-      .toEqual(['goes around: 2 ways around what others hold were weighed, by this one it arrives 3.0 s sooner']);
-    expect(ways_in_words(job({ detour: { candidates_evaluated: 1, selected: false, time_saved_s: null } })))
-      .toEqual(['one way around what others hold was weighed; the shortest one is as good']);
-    expect(ways_in_words(job({ replan: { done: 2, planning: false, cause: 'timeout', refused: 'no way was found' } }))).toEqual([
-      'was given another way 2 times, the last time when its time in the backlog was over',
-      'another way was looked for when its time in the backlog was over, in vain: no way was found',
+describe('Path choices of a job', () => {
+  it('describe selection, detour and replans', () => {
+    expect(path_in_words(job({}))).toEqual([]);
+    expect(path_in_words(job({ choice: { candidates: ['left', 'right'], selected: 'right', time_saved_s: 1.2, detail: 'it arrives 1.20 s sooner than left' } })))
+      .toEqual(['right was selected from left, right: it arrives 1.20 s sooner than left']);
+    expect(path_in_words(job({ detour: { candidates_evaluated: 2, selected: true, time_saved_s: 3.04 } })))
+      .toEqual(['takes a detour: 2 paths around the space of other jobs were evaluated; this path arrives 3.0 s sooner']);
+    expect(path_in_words(job({ detour: { candidates_evaluated: 1, selected: false, time_saved_s: null } })))
+      .toEqual(['1 path around the space of other jobs was evaluated; the shortest path is as good']);
+    expect(path_in_words(job({ replan: { done: 2, planning: false, cause: 'timeout', refused: 'no way was found' } }))).toEqual([
+      'replanned 2 times (last cause: backlog timeout)',
+      'replanning failed (backlog timeout): no way was found',
     ]);
   });
 });

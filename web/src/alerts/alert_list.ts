@@ -1,11 +1,11 @@
-// The alerts that the server keeps, each with who has seen to it: the same in every browser.
+// The alerts that the server keeps, with their acknowledgements: the same in every browser.
 
 import { signal } from '@preact/signals';
 import type { Answer, Api } from '../server/api';
 import type { Timers } from '../server/connection';
 import type { KeptAlert } from '../server/messages';
 
-const kTogether_ms = 150;  // what is told together is asked for once
+const kTogether_ms = 150;  // alerts published together need one request
 
 export class AlertList {
   private readonly known_ = signal<readonly KeptAlert[]>([]);
@@ -26,7 +26,7 @@ export class AlertList {
     return this.all.find((alert) => alert.id === id) ?? null;
   }
 
-  /** Something has been told that may be one, or that one was acknowledged. */
+  /** Requests the list soon. Call it when an alert may have been raised or acknowledged. */
   refresh_soon(): void {
     this.timer_ ??= this.timers_.set(() => {
       this.timer_ = null;

@@ -1,4 +1,4 @@
-// What the monitor saw and what the server wants known, newest first.
+// The event list, newest first: findings of the monitor and alerts of the server.
 
 import { Link } from '../route/link';
 import type { App } from '../state/app';
@@ -8,17 +8,20 @@ import { clock } from '../wording';
 import { id_of, is_later } from './alerts';
 import { shown_text } from '../names';
 import { wall_time } from '../wall_time';
+import { kText } from '../strings';
+
+const kWords = kText.events;
 
 export function Notices({ app }: { app: App }) {
   const { t_s } = app.router.address.value;
-  const told = app.store.notices.filter((notice) => !is_later(notice, t_s, app.store.stream));
+  const shown = app.store.notices.filter((notice) => !is_later(notice, t_s, app.store.stream));
   const open = app.alerts.open.length;
   return (
-    <section class="notices" aria-label="Events">
+    <section class="notices" aria-label={kWords.title}>
       <div class="line head">
-        <h2>Events<span class="count">{told.length}</span></h2>
+        <h2>{kWords.title}<span class="count">{shown.length}</span></h2>
         <span class="grow" />
-        {open > 0 && <Link app={app} to={{ page: 'alerts' }} test="see-alerts">{open} to acknowledge</Link>}
+        {open > 0 && <Link app={app} to={{ page: 'alerts' }} test="see-alerts">{kText.common.to_acknowledge(open)}</Link>}
       </div>
       <NoticeList app={app} />
     </section>
@@ -30,25 +33,28 @@ const kGlyphs = { info: 'i', warning: '!', error: '✕' } as const;
 export function NoticeList({ app }: { app: App }) {
   const { notices } = app.store;
   return (
-    <div class="scroll" role="log" tabIndex={0} aria-label="Events, newest first">
+    <div class="scroll" role="log" tabIndex={0} aria-label={kWords.newest_first}>
       {notices.length === 0 && <p class="none">{nothing_in_words(app)}</p>}
       {notices.map((notice) => <Line key={notice.key} notice={notice} app={app} />)}
     </div>
   );
 }
 
-/** What was reported before the page listened, or in a former run, stands among the alerts alone. */
+/**
+ * Reports from before the page was connected, or from a previous session, are only on the Alerts
+ * page.
+ */
 function nothing_in_words({ store, alerts }: App): string {
   const [first] = store.log.entries;
-  if (alerts.all.length === 0 || !first || store.link.status === 'recording') return 'Nothing to report yet.';
-  return `Nothing since ${clock(first.t_s)}. What was reported before stands among the alerts.`;
+  if (alerts.all.length === 0 || !first || store.link.status === 'recording') return kWords.none;
+  return kWords.none_since(clock(first.t_s));
 }
 
 function Line({ notice, app }: { notice: Notice; app: App }) {
   const seen = app.alerts.of(id_of(notice))?.acknowledged;
   const later = is_later(notice, app.router.address.value.t_s, app.store.stream);
   return (
-    <div class={`notice ${notice.level}${seen ? ' seen' : ''}${later ? ' later' : ''}`} title={later ? 'Later than what is shown' : undefined}>
+    <div class={`notice ${notice.level}${seen ? ' seen' : ''}${later ? ' later' : ''}`} title={later ? kWords.later : undefined}>
       <Then notice={notice} app={app} />
       <span class="glyph" aria-label={notice.level} role="img">{kGlyphs[notice.level]}</span>
       <span>{shown_text(notice.text)}</span>
@@ -56,17 +62,17 @@ function Line({ notice, app }: { notice: Notice; app: App }) {
   );
 }
 
-/** When it was, by the cell's clock, which every view can be brought back to. */
+/** The cell time of an event; a click shows this time in all views. */
 export function Then({ notice, app }: { notice: Notice; app: App }) {
   const at = notice.at === null ? '' : wall_time(notice.at);
   if (!is_kept(notice, app)) return <span class="mono" title={at}>{clock(notice.t_s)}</span>;
   return (
-    <button class="then mono" title={`${at === '' ? '' : `${at}. `}Look back at it, in every view`} data-test={`then-${notice.seq ?? notice.key}`}
-      onClick={() => app.router.hold_at(notice.t_s)}>{clock(notice.t_s)}</button>
+    <button class="then mono" title={`${at === '' ? '' : `${at}. `}${kWords.show_time}`} data-test={`then-${notice.seq ?? notice.key}`}
+      onClick={() => app.router.show_time(notice.t_s)}>{clock(notice.t_s)}</button>
   );
 }
 
-/** Whether it can be looked back at. */
+/** Returns true if the state at the event's time can be shown. */
 function is_kept({ stream, t_s }: Notice, { store }: App): boolean {
   return (stream === null || stream === store.stream) && (store.trace.heard(t_s) === 'kept' || events_until(t_s, null, store) > 0);
 }

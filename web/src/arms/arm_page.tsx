@@ -1,9 +1,9 @@
-// One arm: what it does and what comes, its joints against their limits, how far it is off its path,
-// and how its joints moved lately.
+// The page of one arm: current and next jobs, joints with limits and deviation, and a plot of the
+// last seconds.
 
 import { useState } from 'preact/hooks';
 import { arm_of, states_of } from '../compose/goal';
-import { ByHand } from '../control/by_hand';
+import { JogPanel } from '../control/jog';
 import { AsOf } from '../frame/as_of';
 import { when_in_words } from '../jobs/when';
 import { Link } from '../route/link';
@@ -11,15 +11,18 @@ import { Plot, units_of } from '../plot/plot';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
 import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
-import { arm_colour } from '../state/palette';
+import { arm_color } from '../state/palette';
 import { instant_of, pose_at } from '../state/instant';
 import { seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
 import { known_lanes } from '../timeline/known';
-import { lane_in_words } from '../timeline/told';
+import { lane_in_words } from '../timeline/mark_words';
 import { short_names, shown_name } from '../names';
 import { reason_in_words, title_of } from '../wording';
+import { kText } from '../strings';
 import { StatePill } from './arms';
+
+const kWords = kText.arm;
 
 const kPlotted_s = 20;
 const kSlowly = 0.3;
@@ -27,15 +30,15 @@ const kSlowly = 0.3;
 export function ArmPage({ name, app }: { name: string; app: App }) {
   const { store } = app;
   const arm = store.arms.get(name);
-  if (!arm) return <><h2>{shown_name(name)}</h2><p class="hint">{store.stream === null ? 'Not connected yet.' : 'The cell has no arm of this name.'}</p></>;
+  if (!arm) return <><h2>{shown_name(name)}</h2><p class="hint">{store.stream === null ? kText.common.not_connected : kWords.unknown}</p></>;
   const then = seen_app(app);
   const arm_then = then.store.arms.get(name) ?? arm;
   const job = arm_then.job === null ? null : then.store.job(arm_then.job);
   const waiting = then.store.arm_state(arm_then) === 'waiting' ? then.store.waiting_of(name) : null;
-  const nothing = then.store.arm_state(arm_then) === 'not known' ? 'What it did then is not known here.' : then === app ? 'No job is under way.' : 'No job was under way.';
-  const colour = arm_colour([...store.arms.keys()], name);
+  const nothing = then.store.arm_state(arm_then) === 'not known' ? kWords.past_unknown : then === app ? kWords.no_active_job : kWords.no_job_was_active;
+  const color = arm_color([...store.arms.keys()], name);
   return (
-    <div class="page" style={{ '--arm': colour }}>
+    <div class="page" style={{ '--arm': color }}>
       <div class="line">
         <h2 class="ellipsis"><span class="swatch" aria-hidden="true" /> {shown_name(name)}</h2>
         <StatePill arm={arm_then} app={then} />
@@ -43,43 +46,43 @@ export function ArmPage({ name, app }: { name: string; app: App }) {
         <StopOfArm arm={arm} app={app} />
       </div>
       <p class="hint">
-        {job ? <>{then === app ? 'Executes' : 'Executed'} <Link app={app} to={{ page: 'job', id: job.id }}>{title_of(job)}</Link></> : waiting ? <>Next is <Link app={app} to={{ page: 'job', id: waiting.id }}>{title_of(waiting)}</Link>: {reason_in_words(waiting)}{when_in_words(waiting, then.store) !== '' && `; ${when_in_words(waiting, then.store)}`}</> : nothing}
+        {job ? <>{then === app ? kWords.executes : kWords.executed} <Link app={app} to={{ page: 'job', id: job.id }}>{title_of(job)}</Link></> : waiting ? <>{kWords.next} <Link app={app} to={{ page: 'job', id: waiting.id }}>{title_of(waiting)}</Link>: {reason_in_words(waiting)}{when_in_words(waiting, then.store) !== '' && `; ${when_in_words(waiting, then.store)}`}</> : nothing}
       </p>
-      <AsOf app={app}>Stop, Send and By hand act now.</AsOf>
+      <AsOf app={app}>{kWords.acts_now}</AsOf>
       <SendTo arm={arm} app={app} />
-      <ByHand arm={arm} app={app} />
-      <h3>Joints</h3>
+      <JogPanel arm={arm} app={app} />
+      <h3>{kWords.joints}</h3>
       <Joints arm={arm} app={app} />
-      <h3>Measured, {units_of(arm.joints, app)}, the last {kPlotted_s} s</h3>
-      <Plot app={app} joints={arm.joints} last_s={kPlotted_s} label={`Measured joints of ${name}`} />
-      <h3>What comes</h3>
+      <h3>{kWords.measured(units_of(arm.joints, app), kPlotted_s)}</h3>
+      <Plot app={app} joints={arm.joints} last_s={kPlotted_s} label={kWords.measured_label(name)} />
+      <h3>{kWords.schedule}</h3>
       <Coming name={name} app={app} />
     </div>
   );
 }
 
 function StopOfArm({ arm, app }: { arm: Arm; app: App }) {
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   const state = app.store.arm_state(arm);
   return state === 'stopped' || state === 'fault'
-    ? <button class="small" data-test="resume-arm" title="Leads to what is to be looked at first" onClick={() => app.router.go({ page: 'recovery' })}>Resume…</button>
-    : <button class="small" disabled={mute !== null} data-test="stop-arm" title="Brakes on its path; drives stay powered" onClick={() => void app.actions.stop_arm(arm.name)}>Stop this arm</button>;
+    ? <button class="small" data-test="resume-arm" title={kText.common.open_recovery} onClick={() => app.router.go({ page: 'recovery' })}>{kText.common.resume}</button>
+    : <button class="small" disabled={why_disabled !== null} data-test="stop-arm" title={kWords.stop_title} onClick={() => void app.actions.stop_arm(arm.name)}>{kWords.stop}</button>;
 }
 
-/** Along a way that the server plans; the job waits its turn as any other. */
+/** Sends the arm to a named state. The server plans the path; the job is queued like any other. */
 function SendTo({ arm, app }: { arm: Arm; app: App }) {
   const { cell } = app.store;
   const states = cell ? states_of(arm_of(cell, arm.name)) : [];
   const [state, set_state] = useState('home');
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   return (
     <div class="line wrap">
-      <label class="line">Send to <select value={state} data-test="send-state" onChange={(event) => set_state(event.currentTarget.value)}>
+      <label class="line">{kWords.send_to} <select value={state} data-test="send-state" onChange={(event) => set_state(event.currentTarget.value)}>
         {states.map((name) => <option key={name} value={name}>{name}</option>)}
       </select></label>
-      <button class="small" data-test="send-there" disabled={mute !== null} title={mute ?? 'The server plans the way; the job waits its turn as any other'}
-        onClick={() => void app.actions.send_to(arm.name, state, kSlowly)}>Send at 30 % speed</button>
-      <Link app={app} to={{ page: 'new' }}>Other goals</Link>
+      <button class="small" data-test="send-there" disabled={why_disabled !== null} title={why_disabled ?? kWords.send_title}
+        onClick={() => void app.actions.send_to(arm.name, state, kSlowly)}>{kWords.send(100 * kSlowly)}</button>
+      <Link app={app} to={{ page: 'new' }}>{kWords.other_goals}</Link>
     </div>
   );
 }
@@ -92,15 +95,15 @@ function Coming({ name, app }: { name: string; app: App }) {
 function Joints({ arm, app }: { arm: Arm; app: App }) {
   use_beats(app.store);
   const at = pose_at(instant_of(app.router.address.value, app.store), app.store);
-  if (at === null) return <p class="hint" data-test={`joints-${arm.name}`}>Where they were then is not known here.</p>;
+  if (at === null) return <p class="hint" data-test={`joints-${arm.name}`}>{kWords.joints_unknown}</p>;
   const q = arm.joints.map((joint, i) => at[joint] ?? arm.q[i] ?? 0);
   const limits = new Map(app.store.cell?.joints.map((joint) => [joint.name, joint]));
   const titles = short_names(arm.joints);
   return (
     <table class="joints" data-test={`joints-${arm.name}`}>
-      <thead><tr><th scope="col">joint</th><th scope="col">lower</th><th scope="col">where it is</th><th scope="col">upper</th><th scope="col">measured</th></tr></thead>
+      <thead><tr>{[kWords.joint, kWords.lower, kWords.position, kWords.upper, kWords.measured_column].map((title) => <th key={title} scope="col">{title}</th>)}</tr></thead>
       <tbody>{arm.joints.map((name, i) => <Joint key={name} name={name} title={titles[i] ?? name} value={q[i] ?? 0} joint={limits.get(name)} />)}</tbody>
-      {app.router.address.value.t_s === null && <tfoot><tr><th scope="row" colSpan={4}>largest deviation of a joint from its path</th><td class="mono">{arm.deviation_rad.toFixed(4)} rad</td></tr></tfoot>}
+      {app.router.address.value.t_s === null && <tfoot><tr><th scope="row" colSpan={4}>{kWords.largest_deviation}</th><td class="mono">{arm.deviation_rad.toFixed(4)} rad</td></tr></tfoot>}
     </table>
   );
 }
@@ -113,14 +116,14 @@ function Joint({ name, title, value, joint }: { name: string; title: string; val
   const [from, to] = bounded ? [lower, upper] : [-Math.PI, Math.PI];
   const share = Math.min(1, Math.max(0, (value - from) / (to - from)));
   const near = bounded && (share < kNear || share > 1 - kNear);
-  const figure = (limit: number) => (Number.isFinite(limit) ? limit.toFixed(2) : 'none');
+  const figure = (limit: number) => (Number.isFinite(limit) ? limit.toFixed(2) : kWords.no_limit);
   return (
     <tr class={near ? 'near' : ''}>
       <th scope="row" title={name}>{title}</th>
       <td class="mono dim">{figure(lower)}</td>
       <td><span class="gauge"><span style={{ left: `${100 * share}%` }} /></span></td>
       <td class="mono dim">{figure(upper)}</td>
-      <td class="mono"><span class="whole">{value.toFixed(3)} {joint?.unit ?? ''}</span>{near ? ' near its limit' : ''}</td>
+      <td class="mono"><span class="whole">{value.toFixed(3)} {joint?.unit ?? ''}</span>{near ? kWords.near_limit : ''}</td>
     </tr>
   );
 }

@@ -1,20 +1,21 @@
-// One card per arm: state, what it does, how far it is. It leads to the arm's page.
+// One card per arm with state, job and progress; it links to the arm's page.
 
 import { Link } from '../route/link';
 import { selection_of } from '../route/selection';
 import { when_in_words } from '../jobs/when';
 import type { Arm, Job } from '../server/messages';
 import type { App } from '../state/app';
-import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
+import { arm_color, kStateColors, kStateGlyphs } from '../state/palette';
 import { use_beats } from '../state/seen';
 import { shown_name } from '../names';
 import { reason_in_words, short_id, title_of, waited_for } from '../wording';
+import { kText } from '../strings';
 import { Bar } from './bar';
 
 export function Arms({ app }: { app: App }) {
   const arms = [...app.store.arms.values()];
   return (
-    <section class={`arms${arms.length > 4 ? ' many' : ''}`} aria-label="Arms">
+    <section class={`arms${arms.length > 4 ? ' many' : ''}`} aria-label={kText.arm.arms}>
       <div class="cards">
         {arms.map((arm) => <ArmCard key={arm.name} arm={arm} app={app} />)}
       </div>
@@ -31,15 +32,15 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
   const lit = selection_of(app.router.address.value.place, store).arms.includes(arm.name);
   return (
     <div class={`card${lit ? ' lit' : ''}`} data-test={`arm-${arm.name}`}
-      style={{ '--arm': arm_colour([...store.arms.keys()], arm.name), '--state': kStateColours[store.arm_state(arm)] }}>
-      <Link app={app} to={{ page: 'arm', name: arm.name }} class="card-link" title={`All about the arm ${shown_name(arm.name)}`}>
+      style={{ '--arm': arm_color([...store.arms.keys()], arm.name), '--state': kStateColors[store.arm_state(arm)] }}>
+      <Link app={app} to={{ page: 'arm', name: arm.name }} class="card-link" title={kText.arm.details_of(shown_name(arm.name))}>
         <span class="line">
           <span class="swatch" aria-hidden="true" />
           <b class="grow ellipsis">{shown_name(arm.name)}</b>
           <StatePill arm={arm} app={app} />
         </span>
         <span class="line dim job-of-arm">
-          {waiting ? <Waiting job={waiting} app={app} /> : <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : store.arm_state(arm) === 'not known' ? 'not known then' : 'no job'}</span>}
+          {waiting ? <Waiting job={waiting} app={app} /> : <span class="grow ellipsis">{job ? title_of(job) : arm.job ? short_id(arm.job) : store.arm_state(arm) === 'not known' ? kText.arm.unknown_then : kText.arm.no_job}</span>}
           <span class="mono">{job ? `${Math.round(100 * progress)} %` : ''}</span>
         </span>
         <Bar share={progress} />
@@ -48,7 +49,7 @@ function ArmCard({ arm, app }: { arm: Arm; app: App }) {
   );
 }
 
-/** For whom or what its next job waits, and since when. */
+/** Shows what the arm's next job waits for, and since when. */
 function Waiting({ job, app }: { job: Job; app: App }) {
   const short = [waited_for(job), when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
   return <span class="grow ellipsis waiting" data-test="arm-waits" title={`${title_of(job)}: ${reason_in_words(job)}`}>{short}</span>;
@@ -56,5 +57,5 @@ function Waiting({ job, app }: { job: Job; app: App }) {
 
 export function StatePill({ arm, app }: { arm: Arm; app: App }) {
   const state = app.store.arm_state(arm);
-  return <span class="pill" data-test="arm-state" style={{ '--state': kStateColours[state] }}><span aria-hidden="true">{kStateGlyphs[state]}</span> {state}</span>;
+  return <span class="pill" data-test="arm-state" style={{ '--state': kStateColors[state] }}><span aria-hidden="true">{kStateGlyphs[state]}</span> {state}</span>;
 }

@@ -1,40 +1,42 @@
-// What was pasted or read from a file, ready to be judged and sent. Pure. Of a long text it is made beside the
-// page (long_text.ts), so what is sent is held in blobs, which are handed over at once however long they are.
+// Prepares pasted text, or the text of a file, for checking and sending. Pure. Long texts are read
+// in a worker (long_text.ts). Request bodies are blobs, because blobs are passed to the page at
+// once, whatever their length.
 
 import { cut_text } from '../names';
 import { parts_of, thinned, type Part } from '../motion/pasted';
-import { bodies_of, read_bag, type Body } from './bag';
+import { kText } from '../strings';
+import { bodies_of, read_batch, type Body } from './batch';
 
 export interface Composed {
-  kind: 'one' | 'bag';
+  kind: 'one' | 'batch';
   bodies: Body[];
-  /** What is sent, and where. */
+  /** The request that submits the jobs. */
   request: { path: '/batches' | '/jobs'; body: Blob };
-  /** The motions in it, as they are shown. */
+  /** The motions to preview. */
   parts: Part[];
-  /** Why it is no job; null: as far as is seen here it is one. */
+  /** Why the text is not a job, or null if no fault was found here. */
   fault: string | null;
 }
 
-/** More points would take the page long to be handed, and nobody sees a ghost of them. */
+/** More points take long to pass to the page, and a preview does not need them. */
 const kMostShown = 10_000;
 
 export function composed(text: string): Composed {
-  const bag = read_bag(text);
+  const batch = read_batch(text);
   return {
-    kind: bag.kind, bodies: bodies_of(bag), parts: thinned(parts_of(bag), kMostShown), fault: fault_in(text),
-    request: bag.kind === 'bag' ? { path: '/batches', body: new Blob([JSON.stringify({ atomic: true, jobs: bag.jobs })]) } : { path: '/jobs', body: new Blob([bag.text]) },
+    kind: batch.kind, bodies: bodies_of(batch), parts: thinned(parts_of(batch), kMostShown), fault: fault_in(text),
+    request: batch.kind === 'batch' ? { path: '/batches', body: new Blob([JSON.stringify({ atomic: true, jobs: batch.jobs })]) } : { path: '/jobs', body: new Blob([batch.text]) },
   };
 }
 
-/** Why a text is no JSON of a job; it stands behind the name of its file. */
+/** Returns why a text is not the JSON of a job, or null. The result follows the file name. */
 function fault_in(text: string): string | null {
-  if (text.trim() === '') return 'is empty';
-  if (!/^\s*[[{]/.test(text)) return `is no JSON, which jobs are written in: it begins with "${cut_text(text.trim().split('\n', 1)[0] ?? '', 40)}"`;
+  if (text.trim() === '') return kText.compose.empty;
+  if (!/^\s*[[{]/.test(text)) return kText.compose.not_json(cut_text(text.trim().split('\n', 1)[0] ?? '', 40));
   try {
     JSON.parse(text);
     return null;
   } catch (error) {
-    return `is JSON with a mistake: ${error instanceof Error ? cut_text(error.message, 160) : String(error)}`;
+    return kText.compose.bad_json(error instanceof Error ? cut_text(error.message, 160) : String(error));
   }
 }

@@ -1,9 +1,10 @@
-// A valid job for an arm that stands still: a small move there and back, from where it is.
+// A valid job for an arm at rest: a small motion from its current position and back.
 //
-// Rest-to-rest quintic s(u) = 10u³ - 15u⁴ + 6u⁵ over a distance d in time T peaks at
-// velocity 1.875 d/T, acceleration 5.7735 d/T² (10/√3) and jerk 60 d/T³; T is chosen so that each
-// stays below half of its limit.
+// A rest-to-rest quintic s(u) = 10u³ - 15u⁴ + 6u⁵ over a distance d in time T has maximum velocity
+// 1.875 d/T, acceleration 5.7735 d/T² (10/√3) and jerk 60 d/T³. T keeps each below half of its
+// limit.
 
+import { kText } from '../strings';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
 
 const kSwing_rad = 0.35;
@@ -22,7 +23,10 @@ export interface ExampleJob {
   trajectory: { joint_names: string[]; points: ExamplePoint[] };
 }
 
-/** The time in which a quintic covers d from rest to rest within half of the joint's limits. */
+/**
+ * Returns the duration of a rest-to-rest quintic over d that stays within half of the joint's
+ * limits.
+ */
 export function quintic_duration_s(d: number, joint: CellJoint): number {
   const share = kShareOfLimit;
   const by_velocity = (1.875 * d) / (share * joint.velocity_max);
@@ -31,7 +35,7 @@ export function quintic_duration_s(d: number, joint: CellJoint): number {
   return Math.max(by_velocity, by_acceleration, by_jerk);
 }
 
-/** Turns the first joint and the last but one; away from a limit that is near. */
+/** Moves the first joint and the last but one, away from a near limit. */
 export function example_job(arm: Arm, q: readonly number[], joints: readonly CellJoint[]): ExampleJob {
   const start = q.map((angle) => Number(angle.toFixed(6)));
   const there = [...start];
@@ -50,7 +54,7 @@ export function example_job(arm: Arm, q: readonly number[], joints: readonly Cel
     positions, velocities: rest, accelerations: rest, time_from_start: split(t_s),
   });
   return {
-    name: `${arm.name} waves`,
+    name: kText.compose.example_name(arm.name),
     trajectory: {
       joint_names: arm.joints,
       points: [point(start, 0), point(there, duration_s), point(start, 2 * duration_s)],
@@ -71,7 +75,7 @@ function split(t_s: number): { sec: number; nanosec: number } {
   return { sec, nanosec: Math.max(0, Math.round((t_s - sec) * 1e9)) };
 }
 
-/** JSON as a person would write it: one line per list of numbers. */
+/** Formats JSON with each list of numbers on one line. */
 export function pretty(value: unknown): string {
   return JSON.stringify(value, null, 2).replace(
     /\[\n\s*(-?[\d.e+-]+(?:,\n\s*-?[\d.e+-]+)*)\n\s*\]/g,

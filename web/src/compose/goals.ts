@@ -1,66 +1,69 @@
-// Pasted jobs that say where to go instead of how: their ways as the server would plan them now, so that
-// they can be looked at before they are sent. Nothing is stored, and the server plans again at their turn.
+// Plans the goals of pasted jobs for a preview. Nothing is stored, and the server plans again when
+// a job's turn comes.
 
 import { child, read_trajectory } from '../motion/motion';
 import type { Api } from '../server/api';
 import type { Arm, Cell, Problem } from '../server/messages';
-import { read_bag, type Bag } from './bag';
+import { read_batch, type Batch } from './batch';
 import { arm_of, states_of } from './goal';
 
-const kMost = 12;  // each takes the server some time
+const kMost = 12;  // planning takes the server time
 
-export interface Ways {
-  /** The same jobs, each goal with its way. */
-  bag: Bag;
+export interface GoalPaths {
+  /** The same jobs, each goal with its planned trajectory. */
+  batch: Batch;
   planned: number;
-  /** Goals beyond those that are planned here. */
+  /** The number of goals beyond the limit of this page. */
   left_out: number;
-  /** Of the first that has no way. */
+  /** The problem of the first goal without a path. */
   problem: Problem | null;
 }
 
 type Known = { arms: ReadonlyMap<string, Pick<Arm, 'joints'>>; cell: Cell | null };
 type Body = Record<string, unknown>;
 
-/** Whether there is a goal that the server can be asked about: what is half typed is left alone. */
-export function has_goal(bag: Bag, known: Known): boolean {
-  return bodies(bag).some((body) => goal_in(body, known) !== null);
+/** Returns true if the server can be asked to plan a goal. Incomplete goals are skipped. */
+export function has_goal(batch: Batch, known: Known): boolean {
+  return bodies(batch).some((body) => goal_in(body, known) !== null);
 }
 
-/** One after the other: each begins where the one before has led its arm. */
-export async function ways_to_goals(bag: Bag, known: Known, api: Pick<Api, 'plan'>): Promise<Ways> {
-  const ends = new Map<string, number>();  // where joints are at the end of what comes before
-  const ways: Ways = { bag, planned: 0, left_out: 0, problem: null };
+/** Plans one goal after the other; each starts where the previous job leaves its arm. */
+export async function paths_to_goals(batch: Batch, known: Known, api: Pick<Api, 'plan'>): Promise<GoalPaths> {
+  const ends = new Map<string, number>();  // joint positions at the end of the previous jobs
+  const paths: GoalPaths = { batch, planned: 0, left_out: 0, problem: null };
   const done: unknown[] = [];
-  for (const body of bodies(bag)) {
+  for (const body of bodies(batch)) {
     const goal = goal_in(body, known);
     let trajectory: unknown = child(body, 'trajectory');
-    if (goal && (ways.planned >= kMost || ways.problem)) ways.left_out += 1;
+    if (goal && (paths.planned >= kMost || paths.problem)) paths.left_out += 1;
     else if (goal) {
       const answer = await api.plan(JSON.stringify({ ...goal, ...start_of(goal, ends, known) }));
       if (answer.ok) {
         trajectory = answer.value.trajectory;
-        ways.planned += 1;
-      } else ways.problem = answer.problem;
+        paths.planned += 1;
+      } else paths.problem = answer.problem;
     }
     const piece = read_trajectory(trajectory);
     piece?.names.forEach((joint, i) => ends.set(joint, piece.points.at(-1)?.q[i] ?? 0));
     done.push(trajectory === undefined ? body : { ...(body as Body), trajectory });
   }
-  ways.bag = bag.kind === 'bag' ? { kind: 'bag', jobs: done } : read_bag(JSON.stringify(done[0]));
-  return ways;
+  paths.batch = batch.kind === 'batch' ? { kind: 'batch', jobs: done } : read_batch(JSON.stringify(done[0]));
+  return paths;
 }
 
-function bodies(bag: Bag): readonly unknown[] {
-  if (bag.kind === 'bag') return bag.jobs;
+function bodies(batch: Batch): readonly unknown[] {
+  if (batch.kind === 'batch') return batch.jobs;
   try {
-    return [JSON.parse(bag.text)];
+    return [JSON.parse(batch.text)];
   } catch {
     return [];
   }
 }
 
-/** As POST /plan asks for it; null: none, or one that it would refuse for what is written there. */
+/**
+ * Returns the goal as POST /plan expects it, or null if there is none or the server would refuse
+ * it.
+ */
 function goal_in(body: unknown, { arms, cell }: Known): Body | null {
   const [to, arm, choice] = [child(body, 'move_to'), child(body, 'arm'), child(body, 'arms')];
   const names = typeof arm === 'string' ? [arm] : Array.isArray(choice) ? (choice as unknown[]) : [];
@@ -81,7 +84,7 @@ function is_place(xyz: unknown): boolean {
   return Array.isArray(xyz) && xyz.length === 3 && xyz.every((m) => typeof m === 'number');
 }
 
-/** Absent: where the arm will be when all that the server has accepted has run. */
+/** Returns the start state, or nothing if the arm starts where its accepted jobs end. */
 function start_of(goal: Body, ends: ReadonlyMap<string, number>, { arms }: Known): { start?: { joints: number[] } } {
   const joints = typeof goal['arm'] === 'string' ? arms.get(goal['arm'])?.joints ?? [] : [];
   const at = joints.flatMap((joint) => ends.get(joint) ?? []);

@@ -1,35 +1,37 @@
-// A long text is read beside the page, which goes on to answer clicks and Stop meanwhile.
+// Reads a long text in a web worker, so that the page keeps answering clicks and Stop.
 
 import { composed, type Composed } from './composed';
 
-/** A longer one is not put into the text field either: a browser lays it out for seconds. */
+/**
+ * Texts longer than this are not shown in the text field: browsers take seconds for their layout.
+ */
 export const kLong = 200_000;
 
 /** The part of a Worker that is used. */
-export interface Beside {
+export interface WorkerLike {
   postMessage(text: string): void;
   terminate(): void;
   onmessage: ((event: MessageEvent<Composed>) => void) | null;
   onerror: ((event: ErrorEvent) => void) | null;
 }
 
-const kMake = (): Beside => new Worker(new URL('./composing.ts', import.meta.url), { type: 'module' });
+const kMake = (): WorkerLike => new Worker(new URL('./compose_worker.ts', import.meta.url), { type: 'module' });
 
-/** A file is looked at before its text is taken: what it came to is not made twice. */
+/** The last result. A file is read before its text is shown, so its text would be read twice. */
 let last: { of: string; made: Composed } | null = null;
 
 /**
- * The same as composed(); `stop` gives it up, which rejects. Where nothing can run beside the page, as when the
- * server was updated under it and has other files now, the page reads it itself.
+ * Does the same as composed() in a worker; rejects if `stop` aborts it. If the worker cannot load,
+ * for example after an update of the server's files, the page reads the text itself.
  */
-export async function composed_beside(text: string, stop: AbortSignal, make: () => Beside = kMake): Promise<Composed> {
+export async function composed_in_worker(text: string, stop: AbortSignal, make: () => WorkerLike = kMake): Promise<Composed> {
   if (last?.of === text) return last.made;
-  const made = await read_beside(text, stop, make);
+  const made = await read_in_worker(text, stop, make);
   last = { of: text, made };
   return made;
 }
 
-function read_beside(text: string, stop: AbortSignal, make: () => Beside): Promise<Composed> {
+function read_in_worker(text: string, stop: AbortSignal, make: () => WorkerLike): Promise<Composed> {
   return new Promise((done, fail) => {
     const worker = make();
     const end = () => {
@@ -38,7 +40,7 @@ function read_beside(text: string, stop: AbortSignal, make: () => Beside): Promi
     };
     const give_up = () => {
       end();
-      fail(new Error('it was given up'));
+      fail(new Error('reading was canceled'));
     };
     worker.onmessage = ({ data }) => {
       end();

@@ -1,5 +1,5 @@
-// Compose: paste, drop or begin from an example; see it judged as things are; send it. One job, or a bag
-// of jobs, which is taken whole or not at all.
+// The New job page: paste, drop or plan a job or a batch; check it; send it. A batch is accepted as
+// a whole or not at all.
 
 import { useEffect, useMemo, useState } from 'preact/hooks';
 import { InSight } from '../frame/in_sight';
@@ -10,143 +10,145 @@ import { kApi } from '../server/api';
 import type { Problem } from '../server/messages';
 import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
-import { why_mute } from '../wording';
-import { read_bag, type Bag } from './bag';
+import { why_not_connected } from '../wording';
+import { read_batch, type Batch } from './batch';
 import { composed, type Composed } from './composed';
 import { example_job, pretty } from './example';
-import { has_goal, ways_to_goals, type Ways } from './goals';
-import { Judged, judge_all, type Judgement } from './judged';
+import { has_goal, paths_to_goals, type GoalPaths } from './goals';
+import { CheckResults, check_all, type CheckResult } from './check_results';
 import { motion_of, motion_of_parts } from '../motion/pasted';
-import { composed_beside, kLong } from './long_text';
+import { composed_in_worker, kLong } from './long_text';
 import { PlanForm } from './plan_form';
 import { Preview, type Chosen } from './preview';
 import { Refused } from './refused';
 import { TextField } from './text_field';
+import { kText } from '../strings';
+
+const kWords = kText.compose;
 
 type Outcome =
   | { kind: 'none' } | { kind: 'busy'; what: string } | { kind: 'accepted'; ids: string[] }
-  | { kind: 'refused'; problem: Problem } | { kind: 'judged'; judgements: Judgement[] };
+  | { kind: 'refused'; problem: Problem } | { kind: 'checked'; results: CheckResult[] };
 
-/** What was found out, and which instant is previewed; of another text it says nothing. */
-interface Said { of: string; outcome: Outcome; chosen: Chosen | null }
+/** Results for one text: the outcome and the previewed time. They do not apply to another text. */
+interface Found { of: string; outcome: Outcome; chosen: Chosen | null }
 
 const kTyped_ms = 500;
-const kNothingSaid: Omit<Said, 'of'> = { outcome: { kind: 'none' }, chosen: null };
+const kNothingFound: Omit<Found, 'of'> = { outcome: { kind: 'none' }, chosen: null };
 
 export function NewJob({ app }: { app: App }) {
   const text = app.draft.value;
-  const [said, set_said] = useState<Said>({ of: text, ...kNothingSaid });
-  const { outcome, chosen } = said.of === text ? said : kNothingSaid;
-  const set_outcome = (next: Outcome) => set_said({ of: text, outcome: next, chosen });
-  const set_chosen = (next: Chosen) => set_said({ of: text, outcome, chosen: next });
-  const change = (next: string) => { app.draft.value = next.replace(/^\uFEFF/, ''); };  // some editors begin files by it
-  const show_end = (next: string) => set_said({ of: next, outcome: { kind: 'none' }, chosen: { t_s: motion_of(read_bag(next))?.duration_s ?? 0 } });
+  const [found, set_found] = useState<Found>({ of: text, ...kNothingFound });
+  const { outcome, chosen } = found.of === text ? found : kNothingFound;
+  const set_outcome = (next: Outcome) => set_found({ of: text, outcome: next, chosen });
+  const set_chosen = (next: Chosen) => set_found({ of: text, outcome, chosen: next });
+  const change = (next: string) => { app.draft.value = next.replace(/^\uFEFF/, ''); };  // some editors write a byte order mark
+  const show_end = (next: string) => set_found({ of: next, outcome: { kind: 'none' }, chosen: { t_s: motion_of(read_batch(next))?.duration_s ?? 0 } });
   const made = use_composed(text);
-  const bag = useMemo(() => read_bag(text.length > kLong ? '' : text), [text]);  // ways to goals are shown of short ones
-  const ways = use_ways(bag, app);
-  const motion = useMemo(() => (ways.kind === 'planned' ? motion_of(ways.ways.bag) : motion_of_parts(made?.parts ?? [])), [made, ways]);
-  // Where a goal leads is shown as soon as there is a way.
-  useEffect(() => { if (ways.kind === 'planned' && ways.ways.planned > 0 && motion) set_chosen({ t_s: motion.duration_s }); }, [ways]);
-  const unheard = why_mute(app.store.link);
-  const mute = why_no_command(app);
+  const batch = useMemo(() => read_batch(text.length > kLong ? '' : text), [text]);  // only goals of short texts are previewed
+  const paths = use_goal_paths(batch, app);
+  const motion = useMemo(() => (paths.kind === 'planned' ? motion_of(paths.paths.batch) : motion_of_parts(made?.parts ?? [])), [made, paths]);
+  // Shows the end of the path once a goal is planned.
+  useEffect(() => { if (paths.kind === 'planned' && paths.paths.planned > 0 && motion) set_chosen({ t_s: motion.duration_s }); }, [paths]);
+  const unheard = why_not_connected(app.store.link);
+  const why_disabled = why_no_command(app);
   const busy = made === null || text.trim() === '' || outcome.kind === 'busy';
   const idle = busy || unheard !== null;
-  // The same once more is another job: it has to be asked for by the button that says so.
+  // Sending the same text again submits another job, so only the button "Send again" does it.
   const is_sent = outcome.kind === 'accepted';
   const send = async () => {
-    if (busy || mute !== null) return;
-    set_outcome({ kind: 'busy', what: 'Sending…' });
+    if (busy || why_disabled !== null) return;
+    set_outcome({ kind: 'busy', what: kWords.sending });
     set_outcome(await sent(made, app));
   };
-  const judge = async () => {
+  const check = async () => {
     if (idle) return;
-    set_outcome({ kind: 'busy', what: 'Judging…' });
-    set_outcome({ kind: 'judged', judgements: await judge_all(made.bodies, app.api) });
+    set_outcome({ kind: 'busy', what: kWords.checking });
+    set_outcome({ kind: 'checked', results: await check_all(made.bodies, app.api) });
   };
   return (
     <div class="page compose">
-      <h2>New job</h2>
+      <h2>{kText.page.new}</h2>
       <p class="hint">
-        Paste or drop a job as JSON, as <code>POST {kApi}/jobs</code> takes it, its trajectory in the form
-        of <code>trajectory_msgs/JointTrajectory</code>; or a batch, a list of jobs as in a jobs file.
+        {kWords.hint_format}<code>POST {kApi}/jobs</code>{kWords.hint_trajectory}<code>trajectory_msgs/JointTrajectory</code>{kWords.hint_batch}
       </p>
       <details class="plan-goal" data-test="plan-goal">
-        <summary>Plan the way to a goal</summary>
+        <summary>{kWords.plan_goal}</summary>
         <PlanForm app={app} change={(next) => { change(next); show_end(next); }} />
       </details>
       <Examples app={app} change={change} />
       <TextField text={text} change={change} send={() => { if (!is_sent) void send(); }} />
-      {is_yaml(text) && <p class="hint" data-test="yaml">This looks like YAML, as ROS's tools print it. The server reads JSON: <code>python3 -c 'import json, sys, yaml; json.dump(yaml.safe_load(sys.stdin), sys.stdout)' &lt; job.yaml</code></p>}
+      {is_yaml(text) && <p class="hint" data-test="yaml">{kWords.yaml}<code>python3 -c 'import json, sys, yaml; json.dump(yaml.safe_load(sys.stdin), sys.stdout)' &lt; job.yaml</code></p>}
       {motion && <Preview motion={motion} app={app} chosen={chosen} />}
-      {ways.kind !== 'none' && <WaysSaid ways={ways} />}
+      {paths.kind !== 'none' && <GoalPathsHint paths={paths} />}
       <div class="line">
-        <span class="grow dim small" data-test="bag">{made === null ? 'Reading…' : kind_in_words(made)}</span>
-        <button data-test="judge" title="As things are now; nothing is stored" disabled={idle} onClick={() => void judge()}>Judge</button>
-        <button class={is_sent ? '' : 'primary'} data-test="send" title={mute ?? (is_sent ? 'It was sent; this makes another one of it' : '')} disabled={busy || mute !== null}
-          onClick={(event) => { if (event.detail < 2) void send(); /* not by the second click of a double one */ }}>
-          {outcome.kind === 'busy' ? outcome.what : `${made?.kind === 'bag' ? 'Send all' : 'Send'}${is_sent ? ' again' : ''}`}
+        <span class="grow dim small" data-test="batch">{made === null ? kWords.reading : kind_in_words(made)}</span>
+        <button data-test="check-job" title={kWords.check_title} disabled={idle} onClick={() => void check()}>{kWords.check}</button>
+        <button class={is_sent ? '' : 'primary'} data-test="send" title={why_disabled ?? (is_sent ? kWords.send_again_title : '')} disabled={busy || why_disabled !== null}
+          onClick={(event) => { if (event.detail < 2) void send(); /* ignores the second click of a double click */ }}>
+          {outcome.kind === 'busy' ? outcome.what : `${made?.kind === 'batch' ? kWords.send_all : kWords.send}${is_sent ? kWords.send_again : ''}`}
         </button>
       </div>
       {made && text.trim() !== '' && <Copies made={made} app={app} />}
       <InSight answer={outcome.kind === 'none' || outcome.kind === 'busy' ? null : outcome}>
         {outcome.kind === 'accepted' && <Accepted ids={outcome.ids} app={app} />}
-        {outcome.kind === 'judged' && <Judged judgements={outcome.judgements} show={motion && made?.kind === 'one' ? (t_s) => set_chosen({ t_s }) : null} />}
+        {outcome.kind === 'checked' && <CheckResults results={outcome.results} show={motion && made?.kind === 'one' ? (t_s) => set_chosen({ t_s }) : null} />}
         {outcome.kind === 'refused' && <Refused problem={outcome.problem} />}
       </InSight>
     </div>
   );
 }
 
-/** What the text comes to; null: a long one is being read. */
+/** Returns the composed text, or null while a long text is read. */
 function use_composed(text: string): Composed | null {
   const [read, set_read] = useState<{ of: string; made: Composed } | null>(null);
   const is_long = text.length > kLong;
   useEffect(() => {
     if (!is_long) return;
     const stop = new AbortController();
-    composed_beside(text, stop.signal).then((made) => set_read({ of: text, made }), () => undefined /* given up */);
+    composed_in_worker(text, stop.signal).then((made) => set_read({ of: text, made }), () => undefined /* given up */);
     return () => stop.abort();
   }, [text, is_long]);
   return useMemo(() => (!is_long ? composed(text) : read?.of === text ? read.made : null), [text, is_long, read]);
 }
 
-/** It begins with a key, or with the line that begins a document. */
+/** Returns true if the text begins with a YAML key or document marker. */
 export function is_yaml(text: string): boolean {
   return /^\s*(---|[A-Za-z_]\w*:)(\s|$)/.test(text.slice(0, 200));
 }
 
 function kind_in_words({ kind, bodies }: Composed): string {
-  return kind === 'bag' ? `A batch of ${bodies.length} ${bodies.length === 1 ? 'job' : 'jobs: all are accepted or none'}` : 'Ctrl + Enter sends';
+  return kind === 'batch' ? kWords.batch(bodies.length) : kWords.send_key;
 }
 
-type WaysState = { kind: 'none' } | { kind: 'planning' } | { kind: 'planned'; ways: Ways };
+type GoalPathsState = { kind: 'none' } | { kind: 'planning' } | { kind: 'planned'; paths: GoalPaths };
 
-/** The ways to the goals that are pasted, asked for once nobody types any more. */
-function use_ways(bag: Bag, app: App): WaysState {
+/** Plans the pasted goals once typing has stopped. */
+function use_goal_paths(batch: Batch, app: App): GoalPathsState {
   const { store, api } = app;
-  const [state, set_state] = useState<{ of: Bag; ways: Ways } | null>(null);
-  const asks = store.link.status === 'open' && has_goal(bag, store);
+  const [state, set_state] = useState<{ of: Batch; paths: GoalPaths } | null>(null);
+  const asks = store.link.status === 'open' && has_goal(batch, store);
   useEffect(() => {
     if (!asks) return;
     let closed = false;
     const timer = setTimeout(() => {
-      void ways_to_goals(bag, store, api).then((ways) => { if (!closed) set_state({ of: bag, ways }); });
+      void paths_to_goals(batch, store, api).then((paths) => { if (!closed) set_state({ of: batch, paths }); });
     }, kTyped_ms);
     return () => {
       closed = true;
       clearTimeout(timer);
     };
-  }, [bag, asks, store, api]);
-  return useMemo(() => (state?.of === bag ? { kind: 'planned', ways: state.ways } : { kind: asks ? 'planning' : 'none' }), [state, bag, asks]);
+  }, [batch, asks, store, api]);
+  return useMemo(() => (state?.of === batch ? { kind: 'planned', paths: state.paths } : { kind: asks ? 'planning' : 'none' }), [state, batch, asks]);
 }
 
-function WaysSaid({ ways }: { ways: Exclude<WaysState, { kind: 'none' }> }) {
-  if (ways.kind === 'planning') return <p class="hint" role="status" data-test="goal-way">Planning the way to the goal…</p>;
-  const { planned, left_out, problem } = ways.ways;
+function GoalPathsHint({ paths }: { paths: Exclude<GoalPathsState, { kind: 'none' }> }) {
+  if (paths.kind === 'planning') return <p class="hint" role="status" data-test="goal-path">{kWords.planning_goal}</p>;
+  const { planned, left_out, problem } = paths.paths;
   return (
     <>
-      {planned > 0 && <p class="hint" role="status" data-test="goal-way">The {planned === 1 ? 'way is shown' : `${planned} ways are shown`} as it would be planned now; the server plans it again at its turn.{left_out > 0 && ` ${left_out} more ${left_out === 1 ? 'goal is' : 'goals are'} not shown.`}</p>}
-      {problem && <div data-test="goal-problem"><p class="small">There is no way to the goal as things are:</p><Refused problem={problem} /></div>}
+      {planned > 0 && <p class="hint" role="status" data-test="goal-path">{kWords.path_shown(planned)}{left_out > 0 && kWords.goals_left_out(left_out)}</p>}
+      {problem && <div data-test="goal-problem"><p class="small">{kWords.no_path}</p><Refused problem={problem} /></div>}
     </>
   );
 }
@@ -156,7 +158,7 @@ function Examples({ app, change }: { app: App; change(text: string): void }) {
   const idle = [...store.arms.values()].filter((arm) => arm.state === 'idle' && arm.job === null);
   return (
     <div class="line wrap">
-      <span class="dim">{idle.length === 0 ? 'Examples are for an idle arm: none is idle now.' : 'Example for'}</span>
+      <span class="dim">{idle.length === 0 ? kWords.no_idle_arm : kWords.example_for}</span>
       {idle.map((arm) => (
         <button key={arm.name} class="small" data-test={`example-${arm.name}`}
           onClick={() => change(pretty(example_job(arm, store.q_of(arm), store.cell?.joints ?? [])))}>{arm.name}</button>
@@ -165,12 +167,12 @@ function Examples({ app, change }: { app: App; change(text: string): void }) {
   );
 }
 
-/** The same request for a terminal or a program. */
+/** The same request as a command or program. */
 function Copies({ made: { request: { path, body } }, app }: { made: Composed; app: App }) {
   const with_it = (make: typeof curl_to_post) => async () => make(path, await body.text(), asked_of(app));
   return (
     <div class="line">
-      <span class="grow dim small">The same for programs</span>
+      <span class="grow dim small">{kWords.same_for_programs}</span>
       <Copy what="curl" text={with_it(curl_to_post)} />
       <Copy what="Python" text={with_it(python_to_post)} />
     </div>
@@ -180,7 +182,7 @@ function Copies({ made: { request: { path, body } }, app }: { made: Composed; ap
 function Accepted({ ids, app }: { ids: string[]; app: App }) {
   return (
     <p class="accepted" role="status" data-test="accepted">
-      Accepted{ids.length === 0 ? '.' : ' as '}
+      {ids.length === 0 ? `${kWords.accepted}.` : kWords.accepted_as}
       {ids.map((id, i) => <span key={id}>{i === 0 ? '' : ', '}<Link app={app} to={{ page: 'job', id }}>{id}</Link></span>)}
     </p>
   );
@@ -191,7 +193,7 @@ async function sent({ request: { path, body } }: Composed, app: App): Promise<Ou
   return answer.ok ? { kind: 'accepted', ids: ids_of(answer.value) } : { kind: 'refused', problem: answer.problem };
 }
 
-/** The job, or each of the bag's. */
+/** Returns the ids of the accepted job or jobs. */
 function ids_of(answer: unknown): string[] {
   const { id, jobs } = (answer ?? {}) as { id?: unknown; jobs?: unknown };
   if (typeof id === 'string') return [id];

@@ -1,27 +1,29 @@
-// Say where to go instead of how: the server plans the way, which is then looked at, judged and sent as
-// any job is.
+// The plan form: the server plans a path to a goal, to be previewed, checked and sent as a job.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Plan, Problem } from '../server/messages';
 import type { App } from '../state/app';
-import { millimetres, seconds, why_mute } from '../wording';
+import { millimeters, seconds, why_not_connected } from '../wording';
 import { InSight } from '../frame/in_sight';
 import { NumberField } from '../frame/number_field';
 import { pretty } from './example';
-import type { Grip } from '../view/by_hand';
-import type { ToolPose } from '../view/tool_in_hand';
+import type { Grip } from '../view/drag_handles';
+import type { ToolPose } from '../view/tool_goal';
 import { arm_of, form_of_pose, plan_request, pose_of_form, states_of, type GoalForm, type GoalKind } from './goal';
+import { kText } from '../strings';
 import { Refused } from './refused';
+
+const kWords = kText.plan;
 
 type Outcome = { kind: 'none' } | { kind: 'busy' } | { kind: 'planned'; plan: Plan } | { kind: 'refused'; problem: Problem } | { kind: 'fault'; text: string };
 
 const kAlready_s = 0.05;
-const kKinds: readonly [GoalKind, string][] = [['named', 'A named state'], ['joints', 'Joints'], ['pose', 'A pose of the tool']];
+const kKinds: readonly [GoalKind, string][] = [['named', kWords.named], ['joints', kWords.joints], ['pose', kWords.pose]];
 
-// What was asked last outlives the page's pane.
+// The last input outlives the form.
 let last: GoalForm | null = null;
 
-/** `change`: the way as a job's text, and the time to show first. */
+/** `change` receives the planned job as text. */
 export function PlanForm({ app, change }: { app: App; change(text: string): void }) {
   const { cell } = app.store;
   const [form, set_form] = useState<GoalForm | null>(last);
@@ -31,7 +33,7 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
   const first = cell.robots.flatMap((robot) => robot.arms)[0]?.name ?? '';
   const shown = form ?? { arm: first, kind: 'named', named: 'home', joints: '', xyz: '', rpy: '180, 0, 0', link: '', speed: '50' };
   const set = (part: Partial<GoalForm>) => {
-    last = { ...(last ?? shown), ...part };  // also for who was told of the form some time ago
+    last = { ...(last ?? shown), ...part };  // drag callbacks hold an older form
     set_form(last);
     set_outcome({ kind: 'none' });
   };
@@ -42,7 +44,7 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
     app.ghost.value = null;
     const turn = ++turn_.current;
     const answer = await app.api.plan(asked.text);
-    if (turn !== turn_.current) return;  // it was dragged on meanwhile
+    if (turn !== turn_.current) return;  // the goal has changed meanwhile
     if (!answer.ok) {
       show_nearest(answer.problem, form.arm, app);
       return set_outcome({ kind: 'refused', problem: answer.problem });
@@ -54,27 +56,27 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
     set(part);
     if (last) void plan(last);
   };
-  const mute = why_mute(app.store.link);
+  const why_disabled = why_not_connected(app.store.link);
   const { arm } = shown;
   return (
     <form class="plan-form" data-test="plan-form" onSubmit={(event) => { event.preventDefault(); void plan(shown); }}>
       <div class="line wrap">
-        <label>Arm <select value={arm} data-test="plan-arm" onChange={(event) => set({ arm: event.currentTarget.value, named: 'home' })}>
+        <label>{kWords.arm} <select value={arm} data-test="plan-arm" onChange={(event) => set({ arm: event.currentTarget.value, named: 'home' })}>
           {[...app.store.arms.keys()].map((name) => <option key={name} value={name}>{name}</option>)}
         </select></label>
-        <label>Goal <select value={shown.kind} data-test="plan-kind" onChange={(event) => set({ kind: event.currentTarget.value as GoalKind })}>
+        <label>{kWords.goal} <select value={shown.kind} data-test="plan-kind" onChange={(event) => set({ kind: event.currentTarget.value as GoalKind })}>
           {kKinds.map(([kind, title]) => <option key={kind} value={kind}>{title}</option>)}
         </select></label>
         {shown.kind === 'named' && <Named form={shown} app={app} set={set} />}
-        <label>Speed <NumberField narrow value={shown.speed} step={1} test="plan-speed" change={(speed) => set({ speed })} /> %</label>
+        <label>{kWords.speed} <NumberField narrow value={shown.speed} step={1} test="plan-speed" change={(speed) => set({ speed })} /> {kWords.percent}</label>
       </div>
       {shown.kind !== 'named' && <Goal form={shown} app={app} set={set} />}
       {shown.kind === 'pose' && <Drag form={shown} app={app} drag={drag} />}
       <div class="line">
-        <button type="submit" data-test="plan" disabled={outcome.kind === 'busy' || mute !== null} title={mute ?? 'Nothing moves: the way is shown first'}>
-          {outcome.kind === 'busy' ? 'Planning…' : 'Plan the way'}
+        <button type="submit" data-test="plan" disabled={outcome.kind === 'busy' || why_disabled !== null} title={why_disabled ?? kWords.submit_title}>
+          {outcome.kind === 'busy' ? kWords.planning : kWords.submit}
         </button>
-        <span class="dim small grow">From where the arm will be when its jobs have run.</span>
+        <span class="dim small grow">{kWords.start}</span>
       </div>
       <InSight answer={outcome.kind === 'none' || outcome.kind === 'busy' ? null : outcome}>
         {outcome.kind === 'planned' && <Planned plan={outcome.plan} />}
@@ -88,7 +90,7 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
 function Named({ form, app: { store: { cell } }, set }: { form: GoalForm; app: App; set(part: Partial<GoalForm>): void }) {
   const states = cell ? states_of(arm_of(cell, form.arm)) : [];
   return (
-    <label>State <select value={form.named} data-test="plan-named" onChange={(event) => set({ named: event.currentTarget.value })}>
+    <label>{kWords.state} <select value={form.named} data-test="plan-named" onChange={(event) => set({ named: event.currentTarget.value })}>
       {states.map((name) => <option key={name} value={name}>{name}</option>)}
     </select></label>
   );
@@ -103,21 +105,21 @@ function Goal({ form, app, set }: { form: GoalForm; app: App; set(part: Partial<
     const here = arm ? app.store.q_of(arm).map((angle) => angle.toFixed(3)).join(', ') : '';
     return (
       <div class="line goal">
-        {text('joints', 'Joints, rad or m', here)}
-        <button type="button" class="small" data-test="plan-here" onClick={() => set({ joints: here })}>As it stands</button>
+        {text('joints', kWords.joints_label, here)}
+        <button type="button" class="small" data-test="plan-here" onClick={() => set({ joints: here })}>{kWords.current}</button>
       </div>
     );
   }
-  return <div class="line wrap goal">{text('xyz', 'Position in the world, m', '0, 0.2, 0.5')}{text('rpy', 'Turn, degrees', '180, 0, 0')}{text('link', 'Of the link', 'that of the last joint')}</div>;
+  return <div class="line wrap goal">{text('xyz', kWords.position_label, kWords.position_hint)}{text('rpy', kWords.rotation_label, kWords.rotation_hint)}{text('link', kWords.link_label, kWords.link_hint)}</div>;
 }
 
-/** The goal in the cell: planned each time it is let go, by the same form that can be filled in. */
+/** Sets the goal in the 3D view; plans on each release with the same form. */
 function Drag({ form, app, drag }: { form: GoalForm; app: App; drag(part: Partial<GoalForm>): void }) {
   const [grip, set_grip] = useState<Grip | null>(null);
   const { arm, link, xyz, rpy } = form;
   useEffect(() => {
-    const let_go = (pose: ToolPose) => drag(form_of_pose(pose));
-    app.tool.value = grip && { arm, link: link.trim(), grip, at: pose_of_form({ xyz, rpy }), let_go };
+    const on_release = (pose: ToolPose) => drag(form_of_pose(pose));
+    app.tool.value = grip && { arm, link: link.trim(), grip, at: pose_of_form({ xyz, rpy }), on_release };
   }, [app, grip, arm, link, xyz, rpy]);
   useEffect(() => () => { app.tool.value = null; }, [app]);
   const button = (its: Grip, title: string) => (
@@ -125,21 +127,21 @@ function Drag({ form, app, drag }: { form: GoalForm; app: App; drag(part: Partia
   );
   return (
     <div class="line wrap">
-      {button('move', 'Drag the tool')}{button('turn', 'Turn the tool')}
-      <span class="dim small">{grip ? 'By its arrows or rings in the cell; planned when it is let go. Nothing moves.' : 'In the cell, or by the form above.'}</span>
+      {button('move', kWords.drag)}{button('turn', kWords.turn)}
+      <span class="dim small">{grip ? kWords.drag_hint : kWords.drag_or_form}</span>
     </div>
   );
 }
 
 function Planned({ plan }: { plan: Plan }) {
   const { verdict, not_checked_reason } = plan;
-  const words = verdict === undefined ? `As a job it would be refused now: ${not_checked_reason?.detail ?? ''}`
-    : verdict.verdict === 'free' && !verdict.earliest_start_s ? '✓ As a job it could start now.'
-    : verdict.earliest_start_s === null ? 'As a job it would wait, as things are.' : `As a job it ${verdict.verdict === 'free' ? 'would' : 'could'} start in ${seconds(verdict.earliest_start_s)}.`;
-  if (plan.duration_s < kAlready_s) return <p class="planned-words" role="status" data-test="planned">The arm will be there already.</p>;
+  const words = verdict === undefined ? kWords.refused(not_checked_reason?.detail ?? '')
+    : verdict.verdict === 'free' && !verdict.earliest_start_s ? kWords.start_now
+    : verdict.earliest_start_s === null ? kWords.waits : kWords.start_in(verdict.verdict === 'free' ? kText.compose.would : kText.compose.could, seconds(verdict.earliest_start_s));
+  if (plan.duration_s < kAlready_s) return <p class="planned-words" role="status" data-test="planned">{kWords.already_there}</p>;
   return (
     <p class="planned-words" role="status" data-test="planned">
-      <b>{seconds(plan.duration_s)}</b>, proven beside all that stands still{plan.straight_line_length > 0 && `, ${Math.max(0, Math.round(100 * (plan.length / plan.straight_line_length - 1)))} % longer than the straight way`}. {words}
+      <b>{seconds(plan.duration_s)}</b>{kWords.certified}{plan.straight_line_length > 0 && kWords.longer(Math.max(0, Math.round(100 * (plan.length / plan.straight_line_length - 1))))}. {words}
     </p>
   );
 }
@@ -149,13 +151,13 @@ function Unplanned({ problem }: { problem: Problem }) {
   return (
     <>
       <Refused problem={problem} />
-      {links?.length === 2 && clearance_m !== undefined && <p class="small">{links[0]} and {links[1]}: {clearance_m <= 0 ? 'in contact' : `${millimetres(clearance_m)} apart`}.</p>}
-      {nearest && <p class="small">The ghost stands at the nearest place that was found.</p>}
+      {links?.length === 2 && clearance_m !== undefined && <p class="small">{clearance_m <= 0 ? kWords.in_contact(links[0] ?? '', links[1] ?? '') : kWords.apart(links[0] ?? '', links[1] ?? '', millimeters(clearance_m))}</p>}
+      {nearest && <p class="small">{kWords.nearest}</p>}
     </>
   );
 }
 
-/** Where the arm comes nearest is shown as a ghost. */
+/** Shows the nearest configuration as a ghost. */
 function show_nearest(problem: Problem, arm: string, app: App): void {
   const joints = app.store.arms.get(arm)?.joints ?? [];
   if (problem.nearest?.length !== joints.length) return;
@@ -163,6 +165,6 @@ function show_nearest(problem: Problem, arm: string, app: App): void {
 }
 
 function name_of(form: GoalForm): string {
-  if (form.kind === 'named') return `${form.arm} to ${form.named}`;
-  return form.kind === 'pose' ? `${form.arm} to ${form.xyz}` : `${form.arm} to joints`;
+  if (form.kind === 'named') return kWords.job_name(form.arm, form.named);
+  return form.kind === 'pose' ? kWords.job_name(form.arm, form.xyz) : kWords.job_name(form.arm, kWords.joints_goal);
 }

@@ -1,12 +1,13 @@
-// Shows in the cell what a pasted motion would do: a ghost of its arms, at a time that is played or chosen.
+// Previews a motion as a ghost in the 3D view, played or at a chosen time.
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
 import type { Motion } from '../motion/motion';
+import { kText } from '../strings';
 
 const kStep_ms = 66;
 
-/** A time that is chosen elsewhere, as where it is in conflict; another object each time. */
+/** A time chosen elsewhere, such as a conflict; a new object for each choice. */
 export interface Chosen { t_s: number }
 
 export function Preview({ motion, app, chosen }: { motion: Motion; app: App; chosen: Chosen | null }) {
@@ -36,9 +37,9 @@ export function Preview({ motion, app, chosen }: { motion: Motion; app: App; cho
   return (
     <div class="line preview">
       <button class="small" data-test="preview" aria-pressed={plays} onClick={() => { if (!plays && t_s >= end_s) show(0); set_plays(!plays); }}>
-        {plays ? 'Pause' : 'Preview'}
+        {plays ? kText.common.pause : kText.compose.preview}
       </button>
-      <input class="grow" type="range" min={0} max={end_s} step={0.02} value={t_s} aria-label="Instant of the preview" aria-valuetext={`${t_s.toFixed(2)} s`}
+      <input class="grow" type="range" min={0} max={end_s} step={0.02} value={t_s} aria-label={kText.compose.preview_time} aria-valuetext={`${t_s.toFixed(2)} s`}
         data-test="preview-time" onInput={(event) => { set_plays(false); show(Number(event.currentTarget.value)); }} />
       <span class="mono small">{t_s.toFixed(2)} / {end_s.toFixed(2)} s</span>
     </div>

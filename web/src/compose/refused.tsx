@@ -1,4 +1,4 @@
-// What the server found wrong: each fault with its place and the value there.
+// A problem of the server: each fault with its JSON pointer and value.
 
 import type { Problem } from '../server/messages';
 import { found_in_words } from '../wording';

@@ -1,10 +1,13 @@
-// Where a job's text is written, pasted or opened from a file. A long one is shown by its beginning alone: it is
-// judged and sent as it is.
+// The field for a job's text: typed, pasted or from a file. Of a long text only the beginning is
+// shown; it is checked and sent unchanged.
 
 import { useState } from 'preact/hooks';
 import { bytes_in_words } from '../wording';
 import { read_job_file, too_large } from './job_file';
+import { kText } from '../strings';
 import { kLong } from './long_text';
+
+const kWords = kText.compose;
 
 const kBeginning = 2_000;
 
@@ -15,21 +18,21 @@ export function TextField({ text, change, send }: Props) {
   const paste = (event: ClipboardEvent) => {
     const pasted = event.clipboardData?.getData('text') ?? '';
     if (pasted.length <= kLong) return;
-    event.preventDefault();  // the field would be laid out for seconds
-    const large = too_large('What was pasted', pasted.length);
+    event.preventDefault();  // layout of the field would take seconds
+    const large = too_large(kWords.pasted_text, pasted.length);
     set_fault(large);
     if (large === null) change(pasted);
   };
   return (
     <>
       {text.length > kLong ? <LongText text={text} clear={() => change('')} /> : (
-        <textarea class="mono" spellcheck={false} aria-label="Job as JSON" data-test="job-text" value={text}
+        <textarea class="mono" spellcheck={false} aria-label={kWords.text_label} data-test="job-text" value={text}
           placeholder={'{\n  "trajectory": {\n    "joint_names": […],\n    "points": […]\n  }\n}'}
           onPaste={paste} onInput={(event) => { set_fault(null); change(event.currentTarget.value); }}
           onKeyDown={(event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) send(); }} />
       )}
       <div class="line">
-        <FileButton change={change} told={set_fault} />
+        <FileButton change={change} report={set_fault} />
       </div>
       {fault !== null && <p class="refused" role="alert" data-test="file-fault">{fault}</p>}
     </>
@@ -40,28 +43,28 @@ function LongText({ text, clear }: { text: string; clear(): void }) {
   return (
     <>
       <div class="line" data-test="long-text">
-        <span class="grow small">{bytes_in_words(text.length)}: too long to be edited here. It is judged and sent as it is.</span>
-        <button class="small" onClick={clear}>Clear</button>
+        <span class="grow small">{kWords.long_text(bytes_in_words(text.length))}</span>
+        <button class="small" onClick={clear}>{kWords.clear}</button>
       </div>
-      <pre class="mono" tabIndex={0} aria-label="The beginning of the job">{text.slice(0, kBeginning)}…</pre>
+      <pre class="mono" tabIndex={0} aria-label={kWords.long_text_label}>{text.slice(0, kBeginning)}…</pre>
     </>
   );
 }
 
-function FileButton({ change, told }: { change(text: string): void; told(fault: string | null): void }) {
+function FileButton({ change, report }: { change(text: string): void; report(fault: string | null): void }) {
   const open = async (input: HTMLInputElement) => {
     const file = input.files?.[0];
     if (!file) return;
-    told(null);
+    report(null);
     const read = await read_job_file(file);
-    input.value = '';  // the same one may be chosen again, mended
+    input.value = '';  // allows choosing the same, corrected file again
     if (read.ok) change(read.text);
-    else told(read.fault);
+    else report(read.fault);
   };
   return (
     <label class="file small">
       <input type="file" accept=".json,application/json" data-test="file" class="sr-only" onChange={(event) => void open(event.currentTarget)} />
-      Open a file
+      {kWords.open_file}
     </label>
   );
 }

@@ -1,15 +1,15 @@
-// The coordination diagram of two jobs: which pairs of progress are free, which are in conflict, where
-// both are now, and where they would go from here.
+// The coordination diagram of two jobs: free and conflicting pairs of progress, the current
+// progress, and the prediction.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import {
-  evidence_in_words, evidence_of, drawn_in_words, kept_in_words, measured_way, plan_from, plan_in_words, shares, type Point,
+  evidence_in_words, evidence_of, drawn_in_words, kept_in_words, measured_path, plan_from, plan_in_words, shares, type Point,
 } from './reading';
 import { ahead_of, type Ahead } from './ahead';
 import { use_fetched, use_latest } from './fetched';
 import { Legend } from './legend';
 import type { ArmAuthority, Diagram, Job } from '../server/messages';
-import { arm_colour, ink } from '../state/palette';
+import { arm_color, ink } from '../state/palette';
 import { progress_at } from '../state/progress_book';
 import type { Store } from '../state/store';
 import { short_id } from '../wording';
@@ -20,40 +20,43 @@ import { is_arm, job_of_side, why_no_pair } from './sides';
 import { seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
 import { AsOf } from '../frame/as_of';
+import { kText } from '../strings';
+
+const kWords = kText.diagram;
 
 const kShownFinished = 12;
 const kShownOpen = 100;
 
 interface Props { a: string; b: string; app: App }
 
-/** Of two jobs, or of arms: then of what these do, or did at the instant that is looked at, from job to job. */
+/** The diagram of two jobs or arms; an arm stands for its job at the shown time. */
 export function DiagramPanel({ a, b, app }: Props) {
   const { store } = seen_app(app);
   return (
     <>
-      <h2>Diagram</h2>
+      <h2>{kText.page.diagram}</h2>
       <AsOf app={app}>{app.store.link.status === 'recording'
-        ? 'The diagram itself is the server\'s, which knows its own jobs alone.'
-        : 'What is free is for the scene as it is now; how far both were allowed to go, and what lay ahead, is not kept.'}</AsOf>
+        ? kWords.of_live_server
+        : kWords.of_current_scene}</AsOf>
       <div class="pair">
-        <Pick what="Across" side={a} store={store} on_pick={(side) => app.router.go({ page: 'pair', a: side, b })} />
-        <Pick what="Up" side={b} store={store} on_pick={(side) => app.router.go({ page: 'pair', a, b: side })} />
+        <Pick what={kWords.across} side={a} store={store} on_pick={(side) => app.router.go({ page: 'pair', a: side, b })} />
+        <Pick what={kWords.up} side={b} store={store} on_pick={(side) => app.router.go({ page: 'pair', a, b: side })} />
       </div>
       <Sides key={`${a} ${b}`} a={a} b={b} app={app} />
     </>
   );
 }
 
-/** Who is drawn as often as poses come in is told as often which jobs these are. */
+/** Looks up the jobs of both sides with every beat. */
 function Sides({ a, b, app }: Props) {
   const { store } = seen_app(app);
   use_beats(store);
   const why_not = why_no_pair(a, b, store);
-  if (why_not !== null) return <p class="hint" data-test="no-pair">{store.stream === null ? 'Not connected yet.' : why_not}</p>;
+  if (why_not !== null) return <p class="hint" data-test="no-pair">{store.stream === null ? kText.common.not_connected : why_not}</p>;
   return <Pair a={job_of_side(a, store)?.id ?? a} b={job_of_side(b, store)?.id ?? b} app={app} />;
 }
 
-/** Of two jobs. */
+/** The diagram of two jobs. */
 function Pair({ a, b, app }: Props) {
   const { actions, api } = app;
   const then = seen_app(app);
@@ -80,7 +83,7 @@ function Pair({ a, b, app }: Props) {
         </div>
       )}
       {diagram && <Drawn key={`${diagram.a.id} ${diagram.b.id} ${layer}`} diagram={diagram} layer={layer} jobs={jobs} is_kept={is_kept} app={then} />}
-      {!is_refused && !diagram && <p class="hint">{connected ? 'Drawing…' : 'Not connected.'}</p>}
+      {!is_refused && !diagram && <p class="hint">{connected ? kWords.drawing : kWords.not_connected}</p>}
     </>
   );
 }
@@ -90,7 +93,7 @@ function is_followed(id: string, store: Store): boolean {
   return job !== null && !store.is_terminal(job);
 }
 
-/** An arm, which stands for what it does, or one job. */
+/** Selects an arm (its current job) or a job. */
 function Pick({ what, side, store, on_pick }: { what: string; side: string; store: Store; on_pick(side: string): void }) {
   const jobs = (['running', 'scheduled', 'backlog', 'queued'] as const).flatMap((list) => store.jobs(list)).slice(0, kShownOpen).concat(store.jobs('finished').slice(0, kShownFinished));
   const chosen = job_of_side(side, store);
@@ -98,15 +101,15 @@ function Pick({ what, side, store, on_pick }: { what: string; side: string; stor
   if (chosen && !of_arm && !jobs.some((job) => job.id === side)) jobs.push(chosen);
   const names = [...store.arms.keys()];
   return (
-    <label class="pick" style={{ '--arm': arm_colour(names, (of_arm ? side : chosen?.arms[0]) ?? '') }}>
+    <label class="pick" style={{ '--arm': arm_color(names, (of_arm ? side : chosen?.arms[0]) ?? '') }}>
       <span class="small dim">{what}</span>
       <span class="swatch" />
-      <select value={side} aria-label={`${what}: an arm or a job`} onChange={(event) => on_pick(event.currentTarget.value)}>
+      <select value={side} aria-label={kWords.side_label(what)} onChange={(event) => on_pick(event.currentTarget.value)}>
         {!chosen && !of_arm && <option value={side}>{side}</option>}
-        <optgroup label="Arms: what each does">
+        <optgroup label={kWords.arms}>
           {names.filter((name) => is_arm(name, store)).map((name) => <option key={name} value={name}>{name}</option>)}
         </optgroup>
-        <optgroup label="Jobs">
+        <optgroup label={kWords.jobs}>
           {jobs.map((job) => <option key={job.id} value={job.id}>{`${short_id(job.id)} (${job.arms.join(' + ')}, ${job.state})`}</option>)}
         </optgroup>
       </select>
@@ -116,13 +119,13 @@ function Pick({ what, side, store, on_pick }: { what: string; side: string; stor
 
 interface DrawnProps {
   diagram: Diagram; layer: number; jobs: { a: Job | null; b: Job | null }; app: App;
-  /** The arms do other jobs by now. */
+  /** True if the arms meanwhile execute other jobs. */
   is_kept: boolean;
 }
 
 function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
   const { store } = app;
-  const held_s = app.router.address.value.t_s;
+  const shown_s = app.router.address.value.t_s;
   const layer = diagram.layers[index] ?? diagram.layers[0];
   const host = useRef<HTMLDivElement>(null);
   const scene = useRef<() => Scene | null>(() => null);
@@ -134,11 +137,11 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
     picture_shown.current?.draw();
   };
   useEffect(() => () => { app.ghost.value = null; }, [app]);
-  const measured = () => measured_way(store.courses.of(diagram.a.id), store.courses.of(diagram.b.id), held_s ?? Infinity);
-  const now_point = () => ({ a_s: progress_of(diagram.a, store, held_s), b_s: progress_of(diagram.b, store, held_s) });
-  // What lay ahead then nobody kept.
-  const plans = is_open(jobs, store) && held_s === null && !is_kept;
-  const authority = () => (held_s === null && !is_kept ? authority_of(store, diagram) : null);
+  const measured = () => measured_path(store.courses.of(diagram.a.id), store.courses.of(diagram.b.id), shown_s ?? Infinity);
+  const now_point = () => ({ a_s: progress_of(diagram.a, store, shown_s), b_s: progress_of(diagram.b, store, shown_s) });
+  // Past predictions are not kept.
+  const plans = is_open(jobs, store) && shown_s === null && !is_kept;
+  const authority = () => (shown_s === null && !is_kept ? authority_of(store, diagram) : null);
   const latest = use_latest(diagram, plans, app.api);
   const ahead = (at: Point) => (plans ? ahead_of(latest.layers[index]?.first_contact ?? null, at, authority(), diagram) : null);
   const evidence = evidence_of(jobs.a, jobs.b);
@@ -147,11 +150,11 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
     if (!layer) return null;
     const at = now_point();
     const lies = ahead(at);
-    const way = measured();
+    const path = measured();
     return {
       authority: authority(), pointed: pointed.current,
-      diagram, layer, now: at, way: plans ? plan_from(at, diagram) : [], trail: way.length === 0 ? [] : [...way, at] /* not to end at a stride of the clock */, met: lies && 'met' in lies ? lies.met : null, evidence,
-      colours: { a: ink(arm_colour(names, layer.arms[0])), b: ink(arm_colour(names, layer.arms[1])) },
+      diagram, layer, now: at, prediction: plans ? plan_from(at, diagram) : [], trail: path.length === 0 ? [] : [...path, at] /* ends at the current progress, not at the last sample */, contact: lies && 'contact' in lies ? lies.contact : null, evidence,
+      colors: { a: ink(arm_color(names, layer.arms[0])), b: ink(arm_color(names, layer.arms[1])) },
     };
   };
   useEffect(() => {
@@ -176,30 +179,29 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
           point_at(picture_shown.current?.at(event.clientX - left, event.clientY - top) ?? null);
         }}
         onPointerLeave={() => point_at(null)}
-        aria-label={`Where ${diagram.a.id} (across) and ${diagram.b.id} (up) are in conflict`} />
-      <Legend layer={layer} of_now={held_s === null} is_measured={is_measured} />
-      {unheard && <p class="hint" data-test="unmeasured">They moved before this page listened: the way that was measured is not known here.</p>}
+        aria-label={kWords.label(diagram.a.id, diagram.b.id)} />
+      <Legend layer={layer} of_now={shown_s === null} is_measured={is_measured} />
+      {unheard && <p class="hint" data-test="unmeasured">{kWords.unmeasured}</p>}
       <Instant diagram={diagram} jobs={jobs} app={app} show={point_at} />
-      {shares(layer).free === 1 && <p class="hint" data-test="all-free">All of it is free: at no pace is one in the way of the other.</p>}
+      {shares(layer).free === 1 && <p class="hint" data-test="all-free">{kWords.all_free}</p>}
       {evidence && <p class="words" data-test="evidence">{evidence_in_words(evidence, diagram)}</p>}
       {lies && <PlanWords ahead={lies} jobs={[jobs.a, jobs.b]} store={store} />}
       <p class="hint explains">
-        Each cell holds for every instant in it, at any pace: {layer.cells?.length === 1 ? '1 cell' : `${layer.cells?.length ?? 0} cells`} between
-        the {layer.arms[0]} and the {layer.arms[1]} arm, {diagram.evaluations} states looked at.
+        {kWords.explanation(layer.cells?.length ?? 0, layer.arms[0], layer.arms[1], diagram.evaluations)}
       </p>
     </>
   );
 }
 
-/** As the last poses have it, which tell of authority, too; else by the last event, carried on with the clock. */
-function progress_of(side: Diagram['a'], store: Store, held_s: number | null): number {
-  const measured_s = held_s === null ? motion_of(store, side)?.progress_s : measured_at(store, side, held_s);
+/** Returns the progress from the last frame, else from the last event, extrapolated to now. */
+function progress_of(side: Diagram['a'], store: Store, shown_s: number | null): number {
+  const measured_s = shown_s === null ? motion_of(store, side)?.progress_s : measured_at(store, side, shown_s);
   if (measured_s != null) return Math.min(measured_s, side.duration_s);
   const job = store.job(side.id);
-  return job ? store.progress(job) * side.duration_s : held_s === null ? side.progress_s : 0;
+  return job ? store.progress(job) * side.duration_s : shown_s === null ? side.progress_s : 0;
 }
 
-/** Whether something lies ahead of them: one is under way or to begin, and none was given up. */
+/** Returns true if a prediction exists: a job is unfinished, and none ended without success. */
 function is_open({ a, b }: DrawnProps['jobs'], store: Store): boolean {
   const both = [a, b];
   return both.every((job) => job !== null && (!store.is_terminal(job) || job.state === 'succeeded')) && both.some((job) => job !== null && !store.is_terminal(job));
@@ -212,7 +214,7 @@ function PlanWords({ ahead, jobs, store }: { ahead: Ahead; jobs: readonly (Job |
   return <p class={`plan-words ${tone}`} data-test="plan">{words}</p>;
 }
 
-/** Both arms as they would stand there, as ghosts in the cell. */
+/** Shows both arms as ghosts at the pointed times. */
 function show_both(place: Point | null, { a, b }: DrawnProps['jobs'], { motions, ghost }: App): void {
   if (!place || !a || !b) {
     ghost.value = null;
@@ -221,12 +223,12 @@ function show_both(place: Point | null, { a, b }: DrawnProps['jobs'], { motions,
   ghost.value = { ...motions.of(a)?.q_at(place.a_s), ...motions.of(b)?.q_at(place.b_s) };
 }
 
-/** The same for who points with no mouse: an instant of each. */
+/** The same without a mouse: a slider for each job. */
 function Instant({ diagram, jobs, app, show }: { diagram: Diagram; jobs: DrawnProps['jobs']; app: App; show(place: Point): void }) {
   const [place, set_place] = useState<Point>({ a_s: 0, b_s: 0 });
   app.motions.changes.value;
   const known = [jobs.a, jobs.b].every((job) => job !== null && app.motions.of(job) !== null);
-  if (!known) return <p class="hint">Their trajectories are not known any more: they cannot be shown in the cell.</p>;
+  if (!known) return <p class="hint">{kWords.no_trajectories}</p>;
   const bar = (key: 'a_s' | 'b_s', { id, duration_s }: Diagram['a']) => (
     <label class="line small"><span class="ellipsis">{short_id(id)}</span>
       <input class="grow" type="range" min={0} max={duration_s} step={0.01} value={place[key]} data-test={`instant-${key}`} aria-valuetext={`${place[key].toFixed(2)} s`}
@@ -239,7 +241,7 @@ function Instant({ diagram, jobs, app, show }: { diagram: Diagram; jobs: DrawnPr
     </label>
   );
   return (
-    <fieldset class="pair instants" aria-label="Show both arms as ghosts in the cell, at an instant of each"><span class="small dim" title="Show both arms as ghosts in the cell, at an instant of each">Ghosts at</span>{bar('a_s', diagram.a)}{bar('b_s', diagram.b)}</fieldset>
+    <fieldset class="pair instants" aria-label={kWords.ghosts_label}><span class="small dim" title={kWords.ghosts_label}>{kWords.ghosts_at}</span>{bar('a_s', diagram.a)}{bar('b_s', diagram.b)}</fieldset>
   );
 }
 

@@ -1,4 +1,4 @@
-// Diagrams as they are asked of the server: whole ones as the jobs change, and what lies ahead by now.
+// Fetches diagrams: complete when the jobs or the scene change, then predictions only.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Answer, Api } from '../server/api';
@@ -7,10 +7,15 @@ import { OneAtATime } from './one_at_a_time';
 
 const kAheadEvery_ms = 500;
 
-/** `diagram`: the last that came, which may be of others than are asked for; `refused`: what was asked last. */
+/**
+ * `diagram` is the last one received, perhaps of other jobs than requested. `refused` is the
+ * problem of the last request.
+ */
 export interface Fetched { diagram: Diagram | null; refused: { a: string; b: string; problem: Problem } | null }
 
-/** Jobs of some seconds change faster than they are drawn: the last drawing stays until the next is there. */
+/**
+ * Short jobs change faster than diagrams arrive: the last diagram stays until the next one is here.
+ */
 export function use_fetched(api: Pick<Api, 'diagram'>, a: string, b: string, scene: unknown, connected: boolean): Fetched {
   const [fetched, set_fetched] = useState<Fetched>({ diagram: null, refused: null });
   const drawings = useRef<OneAtATime<{ a: string; b: string }, Answer<Diagram>> | null>(null);
@@ -21,12 +26,12 @@ export function use_fetched(api: Pick<Api, 'diagram'>, a: string, b: string, sce
     drawings.current = asked;
     return () => asked.close();
   }, [api]);
-  // Another scene makes another diagram.
+  // A change of the scene requires a new diagram.
   useEffect(() => { if (connected) drawings.current?.want({ a, b }); }, [api, a, b, scene, connected]);
   return fetched;
 }
 
-/** The diagram as the server answers it again and again, without its cells: what lies ahead by now. */
+/** Fetches the diagram without its cells repeatedly, for its prediction. */
 export function use_latest(diagram: Diagram, is_open: boolean, api: Api): Diagram {
   const [latest, set_latest] = useState(diagram);
   useEffect(() => {

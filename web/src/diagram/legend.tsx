@@ -1,22 +1,25 @@
-// What the colours and strokes of a diagram mean.
+// The legend of a diagram.
 
 import type { DiagramLayer } from '../server/messages';
-import { kCellColours, kUndecidedStripes } from '../state/palette';
+import { kCellColors, kUndecidedStripes } from '../state/palette';
+import { kText } from '../strings';
 import { shares } from './reading';
 
-/** `of_now`: it shows what lies ahead, too; `is_measured`: a way that was measured is drawn. */
+const kWords = kText.diagram;
+
+/** `of_now` adds the entries of the prediction; `is_measured` the measured path. */
 export function Legend({ layer, of_now, is_measured }: { layer: DiagramLayer; of_now: boolean; is_measured: boolean }) {
   const share = shares(layer);
   return (
     <div class="keys">
       <div class="line">{(['free', 'conflict', 'undecided'] as const).map((state) => (
-        <span key={state} class="key"><i class={state} style={{ '--cell': kCellColours[state], '--stripes': kUndecidedStripes }} /> {state} <b class="mono">{percent(share[state])}</b></span>
+        <span key={state} class="key"><i class={state} style={{ '--cell': kCellColors[state], '--stripes': kUndecidedStripes }} /> {state} <b class="mono">{percent(share[state])}</b></span>
       ))}</div>
       <div class="line">
-        {of_now && <><span class="key" title="How far each may go, whatever the other one does"><i class="authority" /> authority</span>
-        <span class="key" title="As it is not going to be where one of them waits"><i class="plan" /> if both go on</span>
-        <span class="key" title="Where that would first be in conflict, or where it is not proven free"><i class="met">×</i> not free there</span></>}
-        {is_measured && <span class="key" data-test="measured"><i class="measured" /> measured</span>}
+        {of_now && <><span class="key" title={kWords.authority_title}><i class="authority" /> {kWords.authority}</span>
+        <span class="key" title={kWords.prediction_title}><i class="plan" /> {kWords.prediction}</span>
+        <span class="key" title={kWords.contact_title}><i class="met">{kWords.contact_sign}</i> {kWords.contact}</span></>}
+        {is_measured && <span class="key" data-test="measured"><i class="measured" /> {kWords.measured}</span>}
       </div>
     </div>
   );

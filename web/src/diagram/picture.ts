@@ -1,25 +1,26 @@
-// Draws a coordination diagram on two canvases, one above the other: the cells, which stay, and what
-// moves over them. A runs across, B up, in seconds of each one's own trajectory.
+// Draws a diagram on two stacked canvases: static cells below, moving parts above. A runs across, B
+// up, in seconds of each trajectory.
 
 import type { Evidence, Point } from './reading';
 import type { Diagram, DiagramLayer, DiagramContact } from '../server/messages';
-import { ink, kCellColours, kUndecidedStripes } from '../state/palette';
-import { millimetres, short_id } from '../wording';
+import { ink, kCellColors, kUndecidedStripes } from '../state/palette';
+import { millimeters, short_id } from '../wording';
+import { kText } from '../strings';
 
 export interface Scene {
   diagram: Diagram;
   layer: DiagramLayer;
   now: Point;
-  /** Empty: no plan. */
-  way: Point[];
+  /** Empty without a prediction. */
+  prediction: Point[];
   trail: Point[];
-  met: DiagramContact | null;
+  contact: DiagramContact | null;
   evidence: Evidence | null;
-  /** How far each may go, whatever the other does; null: neither has been told to move. */
+  /** How far each job may go, whatever the other does; null if neither has been told to move. */
   authority: Point | null;
-  /** What is pointed at. */
+  /** The point under the pointer. */
   pointed: Point | null;
-  colours: { a: string; b: string };
+  colors: { a: string; b: string };
 }
 
 const kLeft_px = 40;
@@ -27,11 +28,11 @@ const kBottom_px = 36;
 const kTop_px = 10;
 const kRight_px = 12;
 const kTick_px = 56;
-const kNarrowest = 3;  // a rectangle longer than this times its height is not drawn to one scale
+const kNarrowest = 3;  // longer rectangles use two scales
 const kStripes_px = 6;
 const kInk = '#0c1118';
 const kPlan = '#10161f';
-// Strokes, px: as far as all is free, and beyond.
+// Dash patterns, px: up to the first contact, and beyond.
 const kGoesOn = [7, 6];
 const kBeyond = [1, 12];
 
@@ -55,7 +56,10 @@ export class DiagramPicture {
     this.host_.replaceChildren();
   }
 
-  /** What lies at a place of the picture, px from its top left; null beside the rectangle. */
+  /**
+   * Returns the times at a point of the picture (px from its top left), or null outside of the
+   * diagram.
+   */
   at(x_px: number, y_px: number): Point | null {
     const scene = this.scene_();
     if (!scene) return null;
@@ -85,7 +89,10 @@ export class DiagramPicture {
   }
 }
 
-/** One scale for both, so that going on second by second is a line of 45 degrees; unless one is much longer. */
+/**
+ * Uses one scale for both axes, so that equal progress is a line of 45 degrees, unless one job is
+ * much longer.
+ */
 function sheet_of({ a, b }: Diagram, width: number, height: number): Sheet {
   const room = { x: width - kLeft_px - kRight_px, y: height - kTop_px - kBottom_px };
   let per_s = { x: room.x / a.duration_s, y: room.y / b.duration_s };
@@ -120,8 +127,8 @@ function draw_cells(g: CanvasRenderingContext2D, sheet: Sheet, { layer }: Scene)
     const top = sheet.y(b_s[1]);
     const width = sheet.x(a_s[1]) - left;
     const height = sheet.y(b_s[0]) - top;
-    g.fillStyle = kCellColours[state];
-    // A hair wider, so that the ground does not shine through between neighbours.
+    g.fillStyle = kCellColors[state];
+    // Overlaps slightly, so that no gaps show between cells.
     g.fillRect(left, top, width + 0.4, height + 0.4);
     if (state === 'undecided') undecided.rect(left, top, width + 0.4, height + 0.4);
     if (width > 3 && height > 3) edges.rect(left, top, width, height);
@@ -146,7 +153,7 @@ function stripe(g: CanvasRenderingContext2D, { width, height }: Sheet, where: Pa
   g.restore();
 }
 
-function draw_axes(g: CanvasRenderingContext2D, sheet: Sheet, { diagram, colours }: Scene): void {
+function draw_axes(g: CanvasRenderingContext2D, sheet: Sheet, { diagram, colors }: Scene): void {
   const { a, b } = diagram;
   const [left, right, bottom, top] = [sheet.x(0), sheet.x(a.duration_s), sheet.y(0), sheet.y(b.duration_s)];
   g.strokeStyle = ink('--line-strong');
@@ -163,13 +170,13 @@ function draw_axes(g: CanvasRenderingContext2D, sheet: Sheet, { diagram, colours
   g.font = '600 11.5px "Inter Variable", system-ui, sans-serif';
   g.textAlign = 'center';
   g.textBaseline = 'alphabetic';
-  g.fillStyle = colours.a;
-  g.fillText(`time on ${short_id(a.id)}, s`, (left + right) / 2, sheet.height - 4);
+  g.fillStyle = colors.a;
+  g.fillText(kText.diagram.axis(short_id(a.id)), (left + right) / 2, sheet.height - 4);
   g.save();
   g.translate(left - 28, (top + bottom) / 2);
   g.rotate(-Math.PI / 2);
-  g.fillStyle = colours.b;
-  g.fillText(`time on ${short_id(b.id)}, s`, 0, 0);
+  g.fillStyle = colors.b;
+  g.fillText(kText.diagram.axis(short_id(b.id)), 0, 0);
   g.restore();
 }
 
@@ -185,27 +192,27 @@ function figure(t_s: number): string {
 }
 
 function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): void {
-  const { now, way, trail, met, evidence, colours } = scene;
+  const { now, prediction, trail, contact, evidence, colors } = scene;
   g.lineJoin = 'round';
   g.lineCap = 'round';
   g.setLineDash([]);
   const [x, y] = [sheet.x(now.a_s), sheet.y(now.b_s)];
-  // Down and across to both axes: each one's time.
-  guide(g, [x, y], [x, sheet.y(0)], colours.a);
-  guide(g, [x, y], [sheet.x(0), y], colours.b);
+  // Guides to both axes.
+  guide(g, [x, y], [x, sheet.y(0)], colors.a);
+  guide(g, [x, y], [sheet.x(0), y], colors.b);
   draw_authority(g, sheet, scene);
   polyline(g, sheet, trail, kInk, 2.5);
-  if (way.length > 0) {
-    // Never as what was measured: it may not come to that.
+  if (prediction.length > 0) {
+    // Dashed, because the prediction may not happen.
     g.setLineDash(kBeyond);
-    polyline(g, sheet, way, kPlan, 1.8);
+    polyline(g, sheet, prediction, kPlan, 1.8);
     g.setLineDash(kGoesOn);
-    polyline(g, sheet, met ? up_to(way, met) : way, kPlan, 1.8);
+    polyline(g, sheet, contact ? up_to(prediction, contact) : prediction, kPlan, 1.8);
     g.setLineDash([]);
   }
   if (evidence) mark(g, sheet, evidence);
   if (scene.pointed) ring(g, sheet.x(scene.pointed.a_s), sheet.y(scene.pointed.b_s));
-  if (met) cross(g, sheet.x(met.a_s), sheet.y(met.b_s));
+  if (contact) cross(g, sheet.x(contact.a_s), sheet.y(contact.b_s));
   g.beginPath();
   g.arc(x, y, 5.5, 0, 2 * Math.PI);
   g.fillStyle = '#ffffff';
@@ -215,7 +222,7 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   g.stroke();
 }
 
-/** From where both are to where both may go: nothing in it is in conflict. */
+/** The rectangle of both authorities: it contains no conflict. */
 function draw_authority(g: CanvasRenderingContext2D, sheet: Sheet, { now, authority }: Scene): void {
   if (!authority) return;
   const [left, bottom] = [sheet.x(now.a_s), sheet.y(now.b_s)];
@@ -235,19 +242,19 @@ function ring(g: CanvasRenderingContext2D, x: number, y: number): void {
   g.stroke();
 }
 
-function up_to(way: Point[], met: DiagramContact): Point[] {
-  return [...way.filter((point) => point.a_s <= met.a_s && point.b_s <= met.b_s), met];
+function up_to(prediction: Point[], contact: DiagramContact): Point[] {
+  return [...prediction.filter((point) => point.a_s <= contact.a_s && point.b_s <= contact.b_s), contact];
 }
 
-function polyline(g: CanvasRenderingContext2D, sheet: Sheet, points: Point[], colour: string, width: number): void {
+function polyline(g: CanvasRenderingContext2D, sheet: Sheet, points: Point[], color: string, width: number): void {
   g.beginPath();
   points.forEach((point, i) => (i === 0 ? g.moveTo : g.lineTo).call(g, sheet.x(point.a_s), sheet.y(point.b_s)));
-  g.strokeStyle = colour;
+  g.strokeStyle = color;
   g.lineWidth = width;
   g.stroke();
 }
 
-/** The state that the server named as the reason, with the distance there. */
+/** Marks the conflict that the server named, with its clearance. */
 function mark(g: CanvasRenderingContext2D, sheet: Sheet, evidence: Evidence): void {
   const [x, y] = [sheet.x(evidence.a_s), sheet.y(evidence.b_s)];
   g.beginPath();
@@ -257,7 +264,7 @@ function mark(g: CanvasRenderingContext2D, sheet: Sheet, evidence: Evidence): vo
   g.stroke();
   const { clearance_m } = evidence.wait;
   if (clearance_m === null) return;
-  const text = clearance_m <= 0 ? 'touch' : millimetres(clearance_m);
+  const text = clearance_m <= 0 ? kText.diagram.touch : millimeters(clearance_m);
   g.font = '600 11.5px "Inter Variable", system-ui, sans-serif';
   const width = g.measureText(text).width + 12;
   const left = Math.max(sheet.x(0) + 4, x - width - 12);
@@ -283,11 +290,11 @@ function cross(g: CanvasRenderingContext2D, x: number, y: number): void {
   g.stroke();
 }
 
-function guide(g: CanvasRenderingContext2D, from: [number, number], to: [number, number], colour: string): void {
+function guide(g: CanvasRenderingContext2D, from: [number, number], to: [number, number], color: string): void {
   g.beginPath();
   g.moveTo(...from);
   g.lineTo(...to);
-  g.strokeStyle = colour;
+  g.strokeStyle = color;
   g.lineWidth = 2;
   g.stroke();
 }

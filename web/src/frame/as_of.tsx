@@ -1,9 +1,10 @@
-// Above a page's figures while an earlier instant is looked at: which one they are of, and what of the page is
-// of now all the same.
+// States the shown past time above a page, and which parts of the page show the present all the
+// same.
 
 import type { ComponentChildren } from 'preact';
 import type { App } from '../state/app';
 import { is_known } from '../state/as_of';
+import { kText } from '../strings';
 import { clock } from '../wording';
 
 export function AsOf({ app, children }: { app: App; children?: ComponentChildren }) {
@@ -12,8 +13,8 @@ export function AsOf({ app, children }: { app: App; children?: ComponentChildren
   const known = is_known(app.seen.store.value);
   return (
     <p class="hint looked-at as-of" role="status" data-test="as-of">
-      <b>{known ? 'As it was at' : 'It is not known here what was at'} <span class="mono">{clock(t_s)}</span>.</b> {children}{' '}
-      <button class="small" onClick={() => app.router.hold_at(null)}>{app.store.link.status === 'recording' ? 'Look at its end' : 'Look at now'}</button>
+      <b>{known ? kText.past.state_at : kText.past.state_unknown_at} <span class="mono">{clock(t_s)}</span>.</b> {children}{' '}
+      <button class="small" onClick={() => app.router.show_time(null)}>{app.store.link.status === 'recording' ? kText.past.go_to_end : kText.past.go_to_now}</button>
     </p>
   );
 }

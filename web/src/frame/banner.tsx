@@ -1,11 +1,14 @@
-// The line under the header: connection lost, cell unreadable, or a refused request.
+// Banners under the header: lost connection, old data, unreadable cell, refused request.
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
 import { short_wall_time } from '../wall_time';
 import { restart_in_words, seconds } from '../wording';
 import { drop_fault, files_over } from './drops';
+import { kText } from '../strings';
 import { is_silent, use_staleness } from './staleness';
+
+const kWords = kText.frame;
 
 export function Banner({ app }: { app: App }) {
   const { store, actions } = app;
@@ -14,34 +17,34 @@ export function Banner({ app }: { app: App }) {
   return (
     <div class="banners">
       {files_over.value && (
-        <div class="banner" role="status" data-test="files-over"><span>Let go: a job, a batch of jobs or a trajectory is shown before it is sent; a recording, as files or as their folder, is opened.</span></div>
+        <div class="banner" role="status" data-test="files-over"><span>{kWords.drop_here}</span></div>
       )}
       {store.link.status === 'lost' && <Lost app={app} />}
       {store.link.status === 'open' && stale_s !== null && (
         <div class="banner lost" role="alert" data-test="stale">
-          <span><b>Old data.</b> {is_silent(store) ? `Nothing was heard from the server for ${seconds(stale_s)}` : `What is heard from the server comes ${seconds(stale_s)} late`}; arms may still be moving.</span>
+          <span><b>{kWords.old_data}</b> {is_silent(store) ? kWords.no_data_for(seconds(stale_s)) : kWords.data_late_by(seconds(stale_s))}{kWords.arms_may_move}</span>
         </div>
       )}
       {store.link.status === 'recording' && (
         <div class="banner lost" role="status" data-test="recording">
-          <span><b>Recording {store.link.name}.</b> What you see is past; the arms may be moving. Stop still stops them.</span>
-          <button onClick={() => app.player.close()}>Back to the present</button>
+          <span><b>{kWords.recording(store.link.name)}</b> {kWords.recording_warning}</span>
+          <button onClick={() => app.player.close()}>{kText.common.back_to_live}</button>
         </div>
       )}
       {store.restart !== null && store.link.status === 'open' && (
-        <div class="banner" role="status" data-test="restarted"><span>{restart_in_words(store.restart, short_wall_time(store.restart.at, Date.now()))}</span><button onClick={() => store.put_restart_away()}>Dismiss</button></div>
+        <div class="banner" role="status" data-test="restarted"><span>{restart_in_words(store.restart, short_wall_time(store.restart.at, Date.now()))}</span><button onClick={() => store.dismiss_restart()}>{kText.common.dismiss}</button></div>
       )}
       {refusal !== null && <Fault words={refusal} test="refusal" dismiss={() => { actions.refusal.value = null; }} />}
       {drop_fault.value !== null && <Fault words={drop_fault.value} test="drop-fault" dismiss={() => { drop_fault.value = null; }} />}
       {store.cell_fault !== null && !store.cell && (
-        <div class="banner error" role="alert"><span>The cell cannot be shown: {store.cell_fault}</span></div>
+        <div class="banner error" role="alert"><span>{kWords.cell_fault(store.cell_fault)}</span></div>
       )}
     </div>
   );
 }
 
 function Fault({ words, test, dismiss }: { words: string; test: string; dismiss(): void }) {
-  return <div class="banner error" role="alert" data-test={test}><span>{words}</span><button onClick={dismiss}>Dismiss</button></div>;
+  return <div class="banner error" role="alert" data-test={test}><span>{words}</span><button onClick={dismiss}>{kText.common.dismiss}</button></div>;
 }
 
 function Lost({ app }: { app: App }) {
@@ -59,10 +62,10 @@ function Lost({ app }: { app: App }) {
   return (
     <div class="banner lost" role="alert" data-test="lost">
       <span>
-        <b>Connection lost.</b> What you see is the last known state{stale_s !== null && <span aria-live="off">, <span data-test="age">{seconds(stale_s)}</span> old</span>}; arms may still be moving.
-        <span aria-live="off">{left_s > 0 ? ` Trying again in ${left_s} s.` : ' Trying again…'}</span>
+        <b>{kWords.connection_lost}</b> {kWords.last_known_state}{stale_s !== null && <span aria-live="off">, <span data-test="age">{seconds(stale_s)}</span> {kWords.old}</span>}{kWords.arms_may_move}
+        <span aria-live="off">{left_s > 0 ? kWords.retry_in(left_s) : kWords.retrying}</span>
       </span>
-      <button onClick={app.actions.retry_connection}>Try now</button>
+      <button onClick={app.actions.retry_connection}>{kWords.retry_now}</button>
     </div>
   );
 }

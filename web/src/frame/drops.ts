@@ -1,23 +1,24 @@
-// What is dropped anywhere on the page, which a browser would leave it for: a job, a batch of jobs or a
-// trajectory goes to where jobs are composed, a recording is opened, be it its files or the folder that they are in.
+// Handles files dropped anywhere on the page, for which a browser would leave it. Jobs open the New
+// job page; a recording (files or folder) is opened.
 
 import { signal } from '@preact/signals';
 import { read_job_file } from '../compose/job_file';
 import type { App } from '../state/app';
+import { kText } from '../strings';
 
-/** Whether files are held over the page. */
+/** True while files are dragged over the page. */
 export const files_over = signal(false);
-/** Why what was dropped was not taken, until that is put away. */
+/** Why the dropped files were not accepted, until dismissed. */
 export const drop_fault = signal<string | null>(null);
 
-/** `folder`: where the files were found, when one was dropped. */
+/** `folder` is the name of a dropped folder. */
 interface Dropped { files: readonly File[]; folder: string | null }
 
 const kRecorded = /\.(csv|jsonl|mcap)$/;
 
 export function listen_to_drops(app: App, window: Pick<Window, 'addEventListener'>): void {
   window.addEventListener('dragover', (event) => {
-    if (!event.dataTransfer?.types.includes('Files')) return;  // text goes where it is dropped
+    if (!event.dataTransfer?.types.includes('Files')) return;  // text is dropped into its field
     event.preventDefault();
     files_over.value = true;
   });
@@ -28,8 +29,8 @@ export function listen_to_drops(app: App, window: Pick<Window, 'addEventListener
     if (!dataTransfer || dataTransfer.files.length === 0) return;
     event.preventDefault();
     drop_fault.value = null;
-    // What was dropped is known no longer than this event lasts.
-    void what_of(dataTransfer).then((dropped) => take(dropped, app)).catch((error: unknown) => { drop_fault.value = `What was dropped cannot be read: ${String(error)}`; });
+    // The browser forgets the files after this event.
+    void what_of(dataTransfer).then((dropped) => take(dropped, app)).catch((error: unknown) => { drop_fault.value = kText.frame.drop_unreadable(String(error)); });
   });
 }
 
@@ -47,10 +48,10 @@ async function take({ files, folder }: Dropped, app: App): Promise<void> {
   }
   app.draft.value = read.text;
   app.router.go({ page: 'new' });
-  if (files.length > 1) drop_fault.value = `Only ${first.name} was taken: jobs come from one file at a time. A batch is a list of jobs in one file.`;
+  if (files.length > 1) drop_fault.value = kText.frame.only_one_file(first.name);
 }
 
-/** The files; of a folder what is recorded in it, not in folders within. */
+/** Returns the dropped files; of a folder its recording files, without subfolders. */
 function what_of({ items, files }: DataTransfer): Promise<Dropped> {
   const folder = [...items].map((item) => item.webkitGetAsEntry()).find((entry) => entry?.isDirectory);
   return folder ? in_folder(folder as FileSystemDirectoryEntry) : Promise.resolve({ files: [...files], folder: null });
@@ -59,7 +60,7 @@ function what_of({ items, files }: DataTransfer): Promise<Dropped> {
 async function in_folder(folder: FileSystemDirectoryEntry): Promise<Dropped> {
   const reader = folder.createReader();
   const files: File[] = [];
-  // It tells of some at a time, of none at its end.
+  // The reader returns some entries at a time, and none at the end.
   for (let some = await next_of(reader); some.length > 0; some = await next_of(reader)) {
     for (const entry of some) if (entry.isFile && kRecorded.test(entry.name)) files.push(await file_of(entry as FileSystemFileEntry));
   }

@@ -1,4 +1,4 @@
-// The top line: which cell, where we are, whether we hear it, and Stop, always at the right end.
+// The header: cell, navigation, connection state, and Stop always at the right end.
 
 import { Link } from '../route/link';
 import type { App } from '../state/app';
@@ -11,53 +11,56 @@ import { Navigation } from './navigation';
 import { is_silent, use_staleness } from './staleness';
 import { StopButton } from './stop_button';
 import { shown_name } from '../names';
+import { kText } from '../strings';
+
+const kWords = kText.frame;
 
 export function Header({ app }: { app: App }) {
   const { store } = app;
   return (
     <header class="header">
       <Logo />
-      <h1>Armloom</h1>
-      <span class="fact gives-way" title={shown_name(store.cell?.name ?? '')}><b data-test="cell">{shown_name(store.cell?.name ?? '–')}</b></span>
-      {store.cell?.simulated && <span class="badge" title="The arms of this server are simulated; no drive moves" data-test="simulated">SIMULATED</span>}
+      <h1>{kWords.app}</h1>
+      <span class="fact gives-way" title={shown_name(store.cell?.name ?? '')}><b data-test="cell">{shown_name(store.cell?.name ?? kWords.no_name)}</b></span>
+      {store.cell?.simulated && <span class="badge" title={kWords.simulated_title} data-test="simulated">{kWords.simulated}</span>}
       <Navigation app={app} />
       <div class="facts">
         <ConnectionState app={app} />
-        <OnlyLooks app={app} />
+        <ViewOnly app={app} />
         <OpenAlerts app={app} />
         <InControl app={app} />
-        {store.speed !== 1 && <span class="fact"><i>speed</i> ×{store.speed}</span>}
-        <span class="fact policy"><i>policy</i> <Link app={app} to={{ page: 'policies' }} test="go-policies" title="Policies, and what the others would have done">{store.policy || '–'}</Link></span>
-        {store.policy === 'timed_discrete' && <span class="fact" data-test="no-certificate" title="This policy compares motions at time steps and certifies nothing between them. The authority guard is off.">no certificate</span>}
+        {store.speed !== 1 && <span class="fact"><i>{kWords.speed}</i> ×{store.speed}</span>}
+        <span class="fact policy"><i>{kWords.policy}</i> <Link app={app} to={{ page: 'policies' }} test="go-policies" title={kWords.policies_title}>{store.policy || kWords.no_name}</Link></span>
+        {store.policy === 'timed_discrete' && <span class="fact" data-test="no-certificate" title={kWords.no_certificate_title}>{kWords.no_certificate}</span>}
         <CellTime app={app} />
       </div>
-      <button class="resume" disabled={!store.stopped && waiting_arms(store).length === 0} title="Leads to what is to be looked at before the arms move again" data-test="to-resume"
-        onClick={() => app.router.go({ page: 'recovery' })}>Resume…</button>
+      <button class="resume" disabled={!store.stopped && waiting_arms(store).length === 0} title={kText.common.open_recovery} data-test="to-resume"
+        onClick={() => app.router.go({ page: 'recovery' })}>{kText.common.resume}</button>
       <StopButton app={app} />
     </header>
   );
 }
 
-/** Said before a command is refused. */
-function OnlyLooks({ app }: { app: App }) {
+/** States that the user is a viewer, before a command is refused. */
+function ViewOnly({ app }: { app: App }) {
   const session = app.session.value;
   if (!is_viewer(session)) return null;
   return (
-    <span class="fact gives-way" data-test="only-looks" title={`${shown_name(session?.name ?? '')} is a viewer: commands take the role operator`}>
-      <Link app={app} to={{ page: 'settings' }}>{shown_name(session?.name ?? '')}: may only look</Link>
+    <span class="fact gives-way" data-test="view-only" title={kWords.viewer_title(shown_name(session?.name ?? ''))}>
+      <Link app={app} to={{ page: 'settings' }}>{kWords.viewer(shown_name(session?.name ?? ''))}</Link>
     </span>
   );
 }
 
-/** Who moves arms by hand. */
+/** Shows who has control for jogging. */
 function InControl({ app }: { app: App }) {
-  const holder = app.hand.holder.value;
+  const holder = app.jogging.holder.value;
   if (!holder) return null;
   const name = shown_name(holder.who);
-  const who = app.hand.key.value === null ? name : `you (${name})`;
+  const who = app.jogging.key.value === null ? name : kWords.you(name);
   return (
-    <span class="fact gives-way" data-test="in-control" title={`${who} has control since ${wall_time(holder.since_at)}`}>
-      control: {holder.arm === null ? who : <Link app={app} to={{ page: 'arm', name: holder.arm }}>{who}</Link>}
+    <span class="fact gives-way" data-test="in-control" title={kWords.control_since(who, wall_time(holder.since_at))}>
+      {kWords.control}{holder.arm === null ? who : <Link app={app} to={{ page: 'arm', name: holder.arm }}>{who}</Link>}
     </span>
   );
 }
@@ -66,8 +69,8 @@ function OpenAlerts({ app }: { app: App }) {
   const { open } = app.alerts;
   if (open.length === 0) return null;
   return (
-    <Link app={app} to={{ page: 'alerts' }} class={`alert-count ${open.some(({ level }) => level === 'error') ? 'error' : ''}`} test="open-alerts" title="Alerts that nobody has acknowledged">
-      {open.length} {open.length === 1 ? 'alert' : 'alerts'}
+    <Link app={app} to={{ page: 'alerts' }} class={`alert-count ${open.some(({ level }) => level === 'error') ? 'error' : ''}`} test="open-alerts" title={kWords.alerts_title}>
+      {kWords.alerts(open.length)}
     </Link>
   );
 }
@@ -76,8 +79,8 @@ function CellTime({ app }: { app: App }) {
   use_beats(app.store);
   const stale_s = use_staleness(app.store);
   return (
-    <span class={`fact cell-time${stale_s === null ? '' : ' stale-time'}`} title="Cell time of the last thing heard">
-      <i>cell time</i> <span class="mono" data-test="clock">{clock(app.store.t_s)}</span>
+    <span class={`fact cell-time${stale_s === null ? '' : ' stale-time'}`} title={kWords.cell_time_title}>
+      <i>{kWords.cell_time}</i> <span class="mono" data-test="clock">{clock(app.store.t_s)}</span>
     </span>
   );
 }
@@ -86,14 +89,14 @@ function ConnectionState({ app }: { app: App }) {
   const { store } = app;
   const stale_s = use_staleness(store);
   const old = store.link.status === 'open' && stale_s !== null;
-  const words = old ? `${is_silent(store) ? 'silent for' : 'late by'} ${stale_s} s` : { connecting: 'connecting', open: 'connected', lost: 'disconnected', recording: 'recording', past: 'past' }[store.link.status];
+  const words = old ? (is_silent(store) ? kWords.silent_for(stale_s) : kWords.late_by(stale_s)) : kWords.link[store.link.status];
   const { unknown, malformed } = store.rejected;
   const rejected = unknown + malformed;
   return (
     <span class={`fact link-state ${old ? 'connecting' : store.link.status}`} data-test="link" title={words}>
       <span class="dot" aria-hidden="true" /> <span class="link-words">{words}</span>
       {rejected > 0 && (
-        <span class="rejected" title={`${unknown} of unknown type, ${malformed} malformed`}> · {rejected} unread</span>
+        <span class="rejected" title={kWords.ignored_title(unknown, malformed)}>{kWords.ignored(rejected)}</span>
       )}
     </span>
   );

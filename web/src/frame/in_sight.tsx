@@ -1,10 +1,10 @@
-// What a form answers stands below it, and often below what is seen of its page: it is brought into sight, as
-// far as it has to be, each time that there is another answer.
+// Scrolls the answer of a form into view whenever it changes, because it often appears below the
+// visible part.
 
 import type { ComponentChildren } from 'preact';
 import { useLayoutEffect, useRef } from 'preact/hooks';
 
-/** `answer`: null, as long as there is none. */
+/** `answer` is null while there is none. */
 export function InSight({ answer, children }: { answer: unknown; children: ComponentChildren }) {
   const place = useRef<HTMLDivElement>(null);
   useLayoutEffect(() => { if (answer !== null) place.current?.scrollIntoView({ block: 'nearest' }); }, [answer]);

@@ -1,13 +1,14 @@
-// Where the pages are: the first ones in the header, the others behind one button beside them.
+// Links to the pages: the main ones in the header, the others in a menu.
 
 import { useEffect, useRef } from 'preact/hooks';
 import { Link } from '../route/link';
 import type { App } from '../state/app';
+import { kText } from '../strings';
 import { kPages, type Page } from './pages';
 
 export function Navigation({ app }: { app: App }) {
   return (
-    <nav aria-label="Pages">
+    <nav aria-label={kText.frame.pages}>
       {kPages.filter(({ more }) => !more).map((page) => <Tab key={page.title} page={page} app={app} />)}
       <More app={app} />
     </nav>
@@ -18,11 +19,11 @@ function Tab({ page: { place, title, key, test }, app }: { page: Page; app: App 
   const to = place(app);
   return (
     <Link app={app} to={to} class="tab" test={test} current={to.page === app.router.address.value.place.page}
-      title={app.settings.letter_keys.value ? `${title} (key ${key})` : title}>{title}</Link>
+      title={app.settings.letter_keys.value ? kText.frame.page_and_key(title, key) : title}>{title}</Link>
   );
 }
 
-/** Opens below itself; a page that is chosen, Escape, or whatever is done elsewhere closes it. */
+/** The menu closes on a choice, on Escape, and on any action outside. */
 function More({ app }: { app: App }) {
   const menu = useRef<HTMLDetailsElement>(null);
   const pages = kPages.filter(({ more }) => more);
@@ -43,7 +44,7 @@ function More({ app }: { app: App }) {
       close();
       menu.current?.querySelector('summary')?.focus();
     }}>
-      <summary class={`tab${current ? ' current' : ''}`} data-test="more-pages" title="Other pages">{current?.title ?? 'More'}<span class="opens" aria-hidden="true">▾</span></summary>
+      <summary class={`tab${current ? ' current' : ''}`} data-test="more-pages" title={kText.frame.more_pages_title}>{current?.title ?? kText.frame.more_pages}<span class="opens" aria-hidden="true">▾</span></summary>
       <div class="more-list" onClick={close}>
         {pages.map((page) => <Tab key={page.title} page={page} app={app} />)}
       </div>

@@ -1,5 +1,5 @@
-// A field for one number. It is text, so that nothing of what was typed is dropped unseen: Chromium makes 015 of
-// 0,15 in a field of the type number. Arrow keys step as there.
+// A text field for one number, since in number fields Chromium silently turns 0,15 into 015. Arrow
+// keys step the value.
 
 import { number_in, stepped } from './number_text';
 

@@ -1,13 +1,14 @@
-// The pages that the navigation leads to, each with its key; those that are needed less stand under More.
+// The pages of the navigation with their keys; less used pages are in the menu More.
 
 import type { Place } from '../route/address';
 import type { App } from '../state/app';
+import { kText } from '../strings';
 
 export interface Page { place(app: App): Place; title: string; key: string; test: string; more: boolean }
 
 const plain = (page: 'cell' | 'new' | 'history' | 'recordings' | 'policies' | 'alerts' | 'recovery' | 'settings') => (): Place => ({ page });
 
-/** What two arms do to each other: the one that stands open, or the first two. */
+/** Links to the open diagram, or to that of the first two arms. */
 function diagram({ router, store }: App): Place {
   const here = router.place;
   if (here.page === 'pair') return here;
@@ -16,16 +17,16 @@ function diagram({ router, store }: App): Place {
 }
 
 export const kPages: readonly Page[] = [
-  { place: plain('cell'), title: 'Cell', key: 'c', test: 'go-cell', more: false },
-  { place: plain('new'), title: 'New job', key: 'n', test: 'new-job', more: false },
-  { place: () => ({ page: 'scene', name: null }), title: 'Scene', key: 'o', test: 'go-scene', more: false },
-  { place: diagram, title: 'Diagram', key: 'd', test: 'go-diagram', more: false },
-  { place: plain('history'), title: 'History', key: 'h', test: 'go-history', more: false },
-  { place: plain('recordings'), title: 'Recordings', key: 'r', test: 'go-recordings', more: true },
-  { place: plain('policies'), title: 'Policies', key: 'p', test: 'go-compare', more: true },
-  { place: plain('alerts'), title: 'Alerts', key: 'a', test: 'go-alerts', more: true },
-  { place: plain('recovery'), title: 'Recovery', key: 'v', test: 'go-recovery', more: true },
-  { place: plain('settings'), title: 'Settings', key: ',', test: 'go-settings', more: true },
+  { place: plain('cell'), title: kText.page.cell, key: 'c', test: 'go-cell', more: false },
+  { place: plain('new'), title: kText.page.new, key: 'n', test: 'new-job', more: false },
+  { place: () => ({ page: 'scene', name: null }), title: kText.page.scene, key: 'o', test: 'go-scene', more: false },
+  { place: diagram, title: kText.page.diagram, key: 'd', test: 'go-diagram', more: false },
+  { place: plain('history'), title: kText.page.history, key: 'h', test: 'go-history', more: false },
+  { place: plain('recordings'), title: kText.page.recordings, key: 'r', test: 'go-recordings', more: true },
+  { place: plain('policies'), title: kText.page.policies, key: 'p', test: 'go-compare', more: true },
+  { place: plain('alerts'), title: kText.page.alerts, key: 'a', test: 'go-alerts', more: true },
+  { place: plain('recovery'), title: kText.page.recovery, key: 'v', test: 'go-recovery', more: true },
+  { place: plain('settings'), title: kText.page.settings, key: ',', test: 'go-settings', more: true },
 ];
 
 export const kPageOfKey: ReadonlyMap<string, Page> = new Map(kPages.map((page) => [page.key, page]));

@@ -1,4 +1,4 @@
-// What the address names, beside the cell or over it.
+// The page that the address names, next to the cell or over it.
 
 import type { ComponentChildren, RefObject } from 'preact';
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
@@ -19,6 +19,7 @@ import { SettingsPage } from './settings_page';
 import { shown_text } from '../names';
 import { ScenePage } from '../scene/scene_page';
 import { JobPage } from '../jobs/job_page';
+import { kText } from '../strings';
 
 const kWidths: Partial<Record<Place['page'], string>> = { pair: ' wide', job: ' wide', history: ' full', settings: ' full', policies: ' full' };
 
@@ -37,13 +38,13 @@ export function Pane({ app }: { app: App }) {
   if (place.page === 'cell') return null;
   return (
     <section ref={pane} tabIndex={-1} class={`pane${width}`} aria-label={place_in_words(place)} data-test={`page-${place.page}`}>
-      <button class="close" aria-label="Close" title="Back to the cell (Escape)" onClick={() => app.router.go({ page: 'cell' })}>×</button>
+      <button class="close" aria-label={kText.frame.close} title={kText.frame.close_title} onClick={() => app.router.go({ page: 'cell' })}>×</button>
       <div class="pane-body" key={JSON.stringify(place)}>{content_of(place, app)}</div>
     </section>
   );
 }
 
-/** A page that is opened gets the focus, and whoever had it gets it back, at once: keys go on where one looks. */
+/** Focuses an opened page, and returns the focus when it closes. */
 function use_focus(pane: RefObject<HTMLElement>, page: Place['page']): void {
   const before = useRef<Element | null>(null);
   const last = useRef(page);
@@ -73,8 +74,8 @@ function content_of(place: Place, app: App): ComponentChildren {
     case 'settings': return <SettingsPage app={app} />;
     case 'unknown': return (
       <>
-        <h2>No such page</h2>
-        <p class="hint">There is nothing at {shown_text(place.path)}. The pages are:</p>
+        <h2>{kText.frame.no_page}</h2>
+        <p class="hint">{kText.frame.no_page_at(shown_text(place.path))}</p>
         <ul class="plain places">{kPages.map((page) => <li key={page.title}><Link app={app} to={page.place(app)}>{page.title}</Link></li>)}</ul>
       </>
     );

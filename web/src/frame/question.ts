@@ -1,11 +1,11 @@
-// A question that takes the place of the button that asks it.
+// A confirmation that replaces the button that asks for it.
 
 import { useRef, useState } from 'preact/hooks';
 
 export interface Question {
   asked: boolean;
   ask(): void;
-  /** Whoever takes it back has the button under the focus again. */
+  /** Closes the question and returns the focus to the button. */
   take_back(): void;
   /** It is answered. */
   end(): void;

@@ -1,5 +1,5 @@
-// Keys: F8 stops, wherever the focus is; Escape lets go of what is moved by hand, or leads back to the cell; single letters lead to pages,
-// unless somebody types, or has turned them off.
+// Keys: F8 stops all arms from anywhere; Escape ends dragging or returns to the cell; single
+// letters open pages unless the user types or has turned them off.
 
 import type { App } from '../state/app';
 import { kPageOfKey } from './pages';
@@ -14,8 +14,8 @@ export function listen_to_keys(app: App, window: Pick<Window, 'addEventListener'
     }
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     if (document.querySelector('dialog[open], .more-pages[open]')) return;
-    if (event.key === 'Escape' && app.by_hand.value !== null) {
-      app.by_hand.value = null;
+    if (event.key === 'Escape' && app.dragged_object.value !== null) {
+      app.dragged_object.value = null;
       return;
     }
     if (event.key === 'Escape' && app.router.place.page !== 'cell') return app.router.go({ page: 'cell' });

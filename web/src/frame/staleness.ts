@@ -1,5 +1,4 @@
-// Whether what the page shows is old: nothing was heard for a while, be the connection open or not, or what is
-// heard comes late.
+// Detects old data: the server has been silent for a while, or its data arrives late.
 
 import { signal, type ReadonlySignal } from '@preact/signals';
 import type { Store } from '../state/store';
@@ -9,7 +8,7 @@ const kLook_ms = 500;
 
 const known = new WeakMap<Store, ReadonlySignal<number | null>>();
 
-/** How many seconds old what is known is; null while that is not long. */
+/** Returns the age of the data in seconds, or null if it is fresh. */
 export function use_staleness(store: Store): number | null {
   let stale_s = known.get(store);
   if (!stale_s) {
@@ -19,12 +18,12 @@ export function use_staleness(store: Store): number | null {
   return stale_s.value;
 }
 
-/** Whether nothing was heard, rather than late. */
+/** Returns true if the server is silent, false if its data is late. */
 export function is_silent(store: Store): boolean {
   return (store.silence_ms() ?? 0) >= kFresh_ms;
 }
 
-/** Whether what is shown is of some time ago, and nobody knows what is now. */
+/** Returns true if the data is old or the connection lost, so that the present state is unknown. */
 export function use_stale(store: Store): boolean {
   return use_staleness(store) !== null || store.link.status === 'lost';
 }

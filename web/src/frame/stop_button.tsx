@@ -1,20 +1,23 @@
-// Stop: one place, one key. It is never disabled: a page that hears nothing can still ask.
+// The Stop button. It is never disabled: a page that receives nothing can still send.
 
 import type { App } from '../state/app';
 import { is_viewer } from '../state/permission';
+import { kText } from '../strings';
 
-/** What it does, as IEC 60204-1 has it: category 2; this is no emergency stop. */
-export const kStopName = 'Stop all: controlled, drives stay powered';
+const kWords = kText.frame;
+
+/** A controlled stop of category 2 (IEC 60204-1), not an emergency stop. */
+export const kStopName = `${kWords.stop_all}: ${kWords.stop_how}`;
 export const kStopKey = 'F8';
 
 export function StopButton({ app }: { app: App }) {
   const asked = app.actions.stopping.value;
-  const in_vain = is_viewer(app.session.value);
+  const not_allowed = is_viewer(app.session.value);
   return (
     <button class="stop" aria-label={kStopName} aria-keyshortcuts={kStopKey} data-test="stop"
-      title={in_vain ? 'Your token may only look: the server will refuse it. Use the cell\'s own stop.' : `Brakes all arms on their paths. Key ${kStopKey}. Not an emergency stop.`}
+      title={not_allowed ? kWords.stop_not_allowed_title : kWords.stop_title(kStopKey)}
       onClick={() => void app.actions.stop()}>
-      <span class="stop-what"><b>{asked ? 'Stopping…' : 'Stop all'}</b><span class="stop-how">{in_vain ? 'not with your token' : 'controlled, drives stay powered'}</span></span>
+      <span class="stop-what"><b>{asked ? kWords.stopping : kWords.stop_all}</b><span class="stop-how">{not_allowed ? kWords.stop_not_allowed : kWords.stop_how}</span></span>
       <kbd>{kStopKey}</kbd>
     </button>
   );

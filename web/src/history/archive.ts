@@ -1,26 +1,26 @@
-// Jobs that the server has and the page was never told of: of its former runs, and those that it told of
-// long ago. They are fetched a page at a time, when somebody asks for more, newest first. Their cell times
-// are of the run that they ended in; only the wall clock is common to all.
+// Ended jobs that the page did not receive as events: those of previous sessions and old jobs of
+// this one. They are loaded page by page on request, newest first. Their cell times belong to their
+// own session, so only wall-clock times can be compared.
 
 import { signal } from '@preact/signals';
 import type { Answer, Api } from '../server/api';
 import type { Job, Problem } from '../server/messages';
 
-const kPage = 1000;  // the server's most: somebody waits for what is asked for
+const kPage = 1000;  // the server's maximum, since a user waits for the page
 
 export class Archive {
   private readonly jobs_ = signal<ReadonlyMap<string, Job>>(new Map());
   private readonly state_ = signal<'more' | 'asking' | 'all'>('more');
   private readonly fault_ = signal<Problem | null>(null);
   private cursor_: string | null = null;
-  /** What was asked of another run of the server is no answer any more. */
+  /** Counts the sessions: answers of a previous session are dropped. */
   private turn_ = 0;
   private readonly asked_ = new Map<string, Promise<Answer<Job>>>();
 
-  /** `knows`: those that the page is told of. */
+  /** `knows` returns true for jobs that the page received as events. */
   constructor(private readonly api_: Pick<Api, 'jobs' | 'job'>, private readonly knows_: (id: string) => boolean) {}
 
-  /** Whether there may be more of them. */
+  /** Says whether the server may have more jobs. */
   get state(): 'more' | 'asking' | 'all' { return this.state_.value; }
   get fault(): Problem | null { return this.fault_.value; }
 
@@ -33,7 +33,7 @@ export class Archive {
     return this.jobs_.value.get(id) ?? null;
   }
 
-  /** Goes on until there is at least one that is new, or no more. */
+  /** Loads pages until at least one job is new, or none is left. */
   async more(): Promise<void> {
     if (this.state_.peek() !== 'more') return;
     const turn = this.turn_;
@@ -49,7 +49,7 @@ export class Archive {
       }
       const { jobs, next_cursor } = answer.value;
       found = this.keep(jobs.filter((job) => job.result !== null && !this.knows_(job.id)));
-      // A page that leads nowhere else is the last one.
+      // A page whose cursor does not advance is the last.
       if (next_cursor === null || next_cursor === this.cursor_) {
         this.state_.value = 'all';
         return;
@@ -59,7 +59,7 @@ export class Archive {
     this.state_.value = 'more';
   }
 
-  /** One of them, by its id: asked for once. */
+  /** Loads one job by its id, at most once. */
   async find(id: string): Promise<void> {
     if (this.get(id) !== null || this.asked_.has(id)) return;
     const turn = this.turn_;
@@ -69,7 +69,7 @@ export class Archive {
     if (turn === this.turn_ && answer.ok) this.keep([answer.value]);
   }
 
-  /** The page is not told any more of all that it was: what it has not is asked for again. */
+  /** Starts again from the newest job, because a snapshot dropped jobs that the page knew. */
   reopen(): void {
     this.turn_ += 1;
     this.cursor_ = null;
@@ -77,7 +77,7 @@ export class Archive {
     this.fault_.value = null;
   }
 
-  /** Another run of the server: what it has is asked for anew. */
+  /** Forgets everything: another server session has begun. */
   forget(): void {
     this.reopen();
     this.asked_.clear();

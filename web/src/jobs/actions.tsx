@@ -1,22 +1,25 @@
-// What can be asked for a job that has not ended, in its row and on its page alike.
+// Commands for an unfinished job, in its row and on its page.
 
 import { use_question } from '../frame/question';
 import { kCanReplan, type Job } from '../server/messages';
 import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
 import { is_terminal } from '../state/job_book';
+import { kText } from '../strings';
 import { title_of } from '../wording';
+
+const kWords = kText.job;
 
 interface Props { job: Job; app: App }
 
-/** All of it, on the job's page. */
+/** All commands, for the job's page. */
 export function JobActions({ job, app }: Props) {
   if (is_terminal(job)) return null;
   return (
     <div class="job-actions" data-test="job-actions">
       {waits(job) && <Urgency job={job} app={app} />}
-      {kCanReplan && job.arms.length === 1 && <AnotherWay job={job} app={app} />}
-      <Cancel job={job} app={app} words="Cancel the job" />
+      {kCanReplan && job.arms.length === 1 && <Replan job={job} app={app} />}
+      <Cancel job={job} app={app} words={kWords.cancel_this} />
     </div>
   );
 }
@@ -25,40 +28,43 @@ export function waits(job: Pick<Job, 'state'>): boolean {
   return job.state === 'queued' || job.state === 'backlogged';
 }
 
-/** Who of those that wait goes first. */
+/** Buttons that raise or lower the priority of a waiting job. */
 export function Urgency({ job, app }: Props) {
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   const step = (by: number, sign: string, what: string) => (
-    <button class="small" disabled={mute !== null} title={mute ?? `${what}: priority ${job.priority + by}`} aria-label={`${what}: ${job.id}`}
+    <button class="small" disabled={why_disabled !== null} title={why_disabled ?? kWords.new_priority(what, job.priority + by)} aria-label={kWords.of_job(what, job.id)}
       onClick={() => { void app.actions.set_priority(job.id, job.priority + by); }}>{sign}</button>
   );
-  return <div class="urgency" data-test="urgency">{step(1, '▲', 'More urgent')}{step(-1, '▼', 'Less urgent')}</div>;
+  return <div class="urgency" data-test="urgency">{step(1, '▲', kWords.more_urgent)}{step(-1, '▼', kWords.less_urgent)}</div>;
 }
 
-/** The first click asks, the second does it; the question goes away by itself. */
+/** Asks for confirmation before it cancels. */
 export function Cancel({ job, app, words }: Props & { words?: string }) {
   const question = use_question();
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   if (!question.asked) {
     return (
-      <button ref={question.button} class={words === undefined ? 'cancel' : 'small'} data-test={words === undefined ? undefined : 'cancel-job'} disabled={job.stopping || mute !== null} title={mute ?? `Cancel ${job.id}`}
-        aria-label={`Cancel ${job.id}`} onClick={question.ask}>{words ?? '×'}</button>
+      <button ref={question.button} class={words === undefined ? 'cancel' : 'small'} data-test={words === undefined ? undefined : 'cancel-job'} disabled={job.stopping || why_disabled !== null} title={why_disabled ?? kWords.cancel(job.id)}
+        aria-label={kWords.cancel(job.id)} onClick={question.ask}>{words ?? kWords.cancel_short}</button>
     );
   }
   const moves = job.state === 'running' || job.state === 'paused';
   return (
-    <div class="confirm" role="alertdialog" aria-label={`Cancel ${job.id}?`} onKeyDown={(event) => { if (event.key === 'Escape') { event.stopPropagation(); question.take_back(); } }}>
-      <span>{moves ? `${title_of(job)} brakes on its path.` : `Cancel ${title_of(job)}?`}</span>
-      <button class="small danger" data-test="confirm-cancel" ref={(button) => button?.focus()} onClick={() => { question.end(); void app.actions.cancel(job.id); }}>Cancel it</button>
-      <button class="small" onClick={question.take_back}>Keep</button>
+    <div class="confirm" role="alertdialog" aria-label={kWords.cancel_question(job.id)} onKeyDown={(event) => { if (event.key === 'Escape') { event.stopPropagation(); question.take_back(); } }}>
+      <span>{moves ? kWords.brakes(title_of(job)) : kWords.cancel_question(title_of(job))}</span>
+      <button class="small danger" data-test="confirm-cancel" ref={(button) => button?.focus()} onClick={() => { question.end(); void app.actions.cancel(job.id); }}>{kWords.confirm_cancel}</button>
+      <button class="small" onClick={question.take_back}>{kText.common.keep}</button>
     </div>
   );
 }
 
-/** Of one that moves this is asked first: what its trajectory was to do on the way is lost. */
-function AnotherWay({ job, app }: Props) {
+/**
+ * Replans the job. A moving job needs confirmation, because the rest of its trajectory is
+ * discarded.
+ */
+function Replan({ job, app }: Props) {
   const { asked, ...question } = use_question();
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   const moves = job.state === 'running' || job.state === 'paused';
   const ask = () => {
     if (moves && !asked) return question.ask();
@@ -67,10 +73,10 @@ function AnotherWay({ job, app }: Props) {
   };
   return (
     <div class="line">
-      <button ref={question.button} class="small" data-test="replan" disabled={mute !== null || job.stopping} title={mute ?? 'From where its arm stands to where the job ends, past what rests there'} onClick={ask}>
-        {asked ? 'Brake, and plan another way' : 'Plan another way'}
+      <button ref={question.button} class="small" data-test="replan" disabled={why_disabled !== null || job.stopping} title={why_disabled ?? kWords.replan_title} onClick={ask}>
+        {asked ? kWords.confirm_replan : kWords.replan}
       </button>
-      {asked && <><span class="small">What its trajectory was to do on the way is lost.</span><button class="small" onClick={question.take_back}>Keep its way</button></>}
+      {asked && <><span class="small">{kWords.replan_loss}</span><button class="small" onClick={question.take_back}>{kWords.keep_path}</button></>}
     </div>
   );
 }

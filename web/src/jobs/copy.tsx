@@ -1,30 +1,31 @@
-// A button that puts text on the clipboard, and says whether that worked.
+// A button that copies text to the clipboard and reports the result.
 
 import { useState } from 'preact/hooks';
 import type { App } from '../state/app';
+import { kText } from '../strings';
 import type { Asked } from './snippets';
 
-const kTold_ms = 1500;
+const kStatus_ms = 1500;
 
 export function Copy({ what, text }: { what: string; text(): string | Promise<string> }) {
-  const [told, set_told] = useState('');
+  const [status, set_status] = useState('');
   const copy = async () => {
-    set_told(await copied(await text()) ? 'copied' : 'not allowed here');
-    setTimeout(() => set_told(''), kTold_ms);
+    set_status(await copied(await text()) ? kText.job.copied : kText.job.not_copied);
+    setTimeout(() => set_status(''), kStatus_ms);
   };
   return (
     <button class="small" data-test={`copy-${what}`} onClick={() => void copy()}>
-      Copy {what === 'JSON' ? what : `as ${what}`}<span role="status">{told === '' ? '' : `: ${told}`}</span>
+      {what === 'JSON' ? kText.job.copy_json(what) : kText.job.copy_as(what)}<span role="status">{status === '' ? '' : `: ${status}`}</span>
     </button>
   );
 }
 
-/** As programs would ask the server of this page. */
+/** Returns how a program reaches the server of this page. */
 export function asked_of(app: App): Asked {
   return { origin: location.origin, with_token: app.session.value?.auth_required ?? false };
 }
 
-/** Browsers give the clipboard to pages of a secure origin only; a cell's panel is often none. */
+/** Browsers allow the clipboard API only in secure contexts; a panel at the cell often has none. */
 async function copied(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);

@@ -1,10 +1,10 @@
-// Which jobs are asked for. Pure.
+// The filter of the job lists. Pure.
 
 import type { Job } from '../server/messages';
 
 const kFailed: ReadonlySet<Job['state']> = new Set(['failed', 'expired', 'interrupted', 'canceled'] as const);
 
-/** Every word stands in the job's id, name, arms, state, reason, or in what it waits for. */
+/** Returns true if each word occurs in the job's id, name, arms, state, result reason or waits. */
 export function matches(job: Job, words: string, only_failed: boolean): boolean {
   if (only_failed && !kFailed.has(job.state)) return false;
   const wanted = words.toLowerCase().split(/\s+/).filter((word) => word !== '');

@@ -1,4 +1,4 @@
-// One job in a list: arms, name, the number that matters now, and why it waits.
+// One job in a list: arms, name, the most relevant number, and why it waits.
 
 import { Bar } from '../arms/bar';
 import { use_stale } from '../frame/staleness';
@@ -8,13 +8,16 @@ import { Link } from '../route/link';
 import type { Job } from '../server/messages';
 import type { App } from '../state/app';
 import { is_terminal } from '../state/job_book';
-import { arm_colour } from '../state/palette';
-import { told_state } from '../state/standing';
+import { arm_color } from '../state/palette';
+import { shown_state } from '../state/shown_state';
 import { use_beats } from '../state/seen';
 import { as_last_heard, figure_in_words, object_of, reason_in_words, result_in_words, short_id, title_of } from '../wording';
 import { Cancel, Urgency, waits } from './actions';
-import { leg_of, when_in_words } from './when';
+import { step_of, when_in_words } from './when';
 import { shown_name } from '../names';
+import { kText } from '../strings';
+
+const kWords = kText.jobs;
 
 interface Props { job: Job; app: App }
 
@@ -29,14 +32,14 @@ export function Row({ job, app }: Props) {
   const ended = is_terminal(job);
   return (
     <article
-      class={`job ${told_state(job)}${selected ? ' selected' : ''}${of_arm ? ' of-arm' : ''}`} data-test={`job-${job.id}`} data-state={job.state}
-      style={{ '--arm': arm_colour(arms, job.arms[0] ?? '') }}
+      class={`job ${shown_state(job)}${selected ? ' selected' : ''}${of_arm ? ' of-arm' : ''}`} data-test={`job-${job.id}`} data-state={job.state}
+      style={{ '--arm': arm_color(arms, job.arms[0] ?? '') }}
     >
-      <Link app={app} to={selected && place.page === 'job' ? { page: 'cell' } : { page: 'job', id: job.id }} class="open" title={`Details of ${job.id}`}>
+      <Link app={app} to={selected && place.page === 'job' ? { page: 'cell' } : { page: 'job', id: job.id }} class="open" title={kWords.details(job.id)}>
         <span class="line">
-          <span class="tags">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_colour(arms, arm) }}>{shown_name(arm)}</span>)}</span>
+          <span class="tags">{job.arms.map((arm) => <span key={arm} class="tag" title={shown_name(arm)} style={{ '--arm': arm_color(arms, arm) }}>{shown_name(arm)}</span>)}</span>
           <span class="ellipsis title" title={shown_name(job.name) || job.id}>{title_of(job)}</span>
-          {job.priority !== 0 && <span class="priority" title="Priority: larger goes first">{job.priority > 0 ? `+${job.priority}` : job.priority}</span>}
+          {job.priority !== 0 && <span class="priority" title={kWords.priority}>{job.priority > 0 ? `+${job.priority}` : job.priority}</span>}
           <span class="grow" />
           {ended && <span class="verdict">{job.state}</span>}
           <Figure job={job} app={app} />
@@ -46,7 +49,7 @@ export function Row({ job, app }: Props) {
         <Progress job={job} app={app} />
       </Link>
       {why !== null && (
-        <Link app={app} to={why} class="why" test="why" title={why.page === 'pair' ? `Show where ${job.id} and ${why.a} conflict` : `Show ${shown_name(why.name ?? '')}`}>
+        <Link app={app} to={why} class="why" test="why" title={why.page === 'pair' ? kWords.show_conflict(job.id, why.a) : kWords.show(shown_name(why.name ?? ''))}>
           <Reason job={job} />
         </Link>
       )}
@@ -57,7 +60,10 @@ export function Row({ job, app }: Props) {
   );
 }
 
-/** What its reason leads to: where two jobs conflict, or the object that is in its way. */
+/**
+ * Returns the page that shows the reason: the diagram with the blocking job, or the blocking
+ * object.
+ */
 function reason_place(job: Job): Extract<Place, { page: 'pair' | 'scene' }> | null {
   const blocker = job.waits_on.find((wait) => wait.kind === 'job' && wait.id !== null)?.id ?? null;
   if (blocker !== null) return { page: 'pair', a: blocker, b: job.id };
@@ -73,11 +79,11 @@ function Progress({ job, app }: Props) {
 function Figure({ job, app }: Props) {
   if (!is_terminal(job)) use_beats(app.store);
   const stale = use_stale(app.store) && !is_terminal(job);
-  const { text, title } = figure_in_words(job, app.store.t_s, app.store.progress(job), leg_of(job, app.store.forecast)?.ends_s ?? null);
+  const { text, title } = figure_in_words(job, app.store.t_s, app.store.progress(job), step_of(job, app.store.forecast)?.ends_s ?? null);
   return <span class="figure" title={title} data-test="figure">{stale ? as_last_heard(text) : text}</span>;
 }
 
-/** That others of its arm come first is said with its times, in one line. */
+/** The reason "waits its turn" is shown together with the times, in one line. */
 function only_waits_its_turn(job: Job): boolean {
   return job.waits_on[0]?.kind === 'predecessor' && job.cycle.length === 0 && !job.result;
 }
@@ -88,11 +94,11 @@ function Reason({ job }: { job: Job }) {
   return words === '' ? null : <span class="words" data-test="reason">{words}</span>;
 }
 
-/** Since when, when it is expected to start, when it expires. */
+/** Shows how long the job is blocked, when it starts and when it expires. */
 function When({ job, app }: Props) {
   use_beats(app.store);
   const first = only_waits_its_turn(job) ? job.waits_on[0]?.id ?? null : null;
-  const words = [first === null ? '' : `after ${short_id(first)}`, when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
+  const words = [first === null ? '' : kWords.after(short_id(first)), when_in_words(job, app.store)].filter((part) => part !== '').join(' · ');
   const stale = use_stale(app.store);
-  return words === '' ? null : <span class="when" data-test="when">{stale ? `when last heard: ${words}` : words}</span>;
+  return words === '' ? null : <span class="when" data-test="when">{stale ? kWords.last_known(words) : words}</span>;
 }

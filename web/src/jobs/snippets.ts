@@ -1,11 +1,11 @@
-// A job, or the request that submits one, as a command line or a program would ask for it. Pure. What users
-// named is quoted, never pasted raw: a command that is copied must not do more than it says. Where the server
-// asks for tokens, the program's is taken from the environment and never shown.
+// A job, or its submission, as curl command and Python program. Pure. Texts from users are always
+// quoted, so that a copied command does nothing else. Tokens are read from the environment and
+// never shown.
 
 import { kApi } from '../server/api';
 import type { Job } from '../server/messages';
 
-/** Where it is asked, and whether that wants a token. */
+/** The origin of the server, and whether it requires a token. */
 export interface Asked { origin: string; with_token: boolean }
 
 const kVariable = 'ARMLOOM_TOKEN';
@@ -24,7 +24,7 @@ export function python_of(job: Pick<Job, 'id'>, asked: Asked): string {
   ].join('\n');
 }
 
-/** Submits it, however long it is: as an argument it could be too long. */
+/** Submits the body on stdin, because a long body does not fit into an argument. */
 export function curl_to_post(path: string, body: string, asked: Asked): string {
   let end = 'END';
   while (body.includes(end)) end += '_';
@@ -59,12 +59,12 @@ function imports({ with_token }: Asked): string[] {
   return ['import json', ...with_token ? ['import os'] : [], 'import urllib.request', ''];
 }
 
-/** Its lines stay lines. */
+/** Quotes a text as a Python literal, keeping its lines. */
 function python_text(text: string): string {
   return `'''${text.replaceAll('\\', '\\\\').replaceAll("'", "\\'")}'''`;
 }
 
-/** Single quotes keep everything but themselves. */
+/** Single quotes protect all characters except themselves. */
 export function quoted_for_shell(text: string): string {
   return `'${text.replaceAll("'", "'\\''")}'`;
 }

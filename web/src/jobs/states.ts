@@ -1,27 +1,28 @@
-// The states of a job with their times: all that were heard, or what the job itself says. Pure.
+// The states of a job with their times, from events or else from the job itself. Pure.
 
 import type { Job } from '../server/messages';
-import { is_terminal, type Change, type Stand } from '../state/job_book';
+import { is_terminal, type Change, type Pause } from '../state/job_book';
+import { kText } from '../strings';
 import { seconds, wait_in_words } from '../wording';
 
-// A state that is left at once is a step on the way.
+// Shorter states are transitions and are left out.
 const kLeast_s = 0.005;
 
-/** Cell time; null: not yet. */
+/** Cell time, or null if not reached yet. */
 export type StateAt = readonly [name: string, t_s: number | null];
 
 export function states_of(job: Job, heard: readonly Change[]): StateAt[] {
-  const end: StateAt = [is_terminal(job) ? job.state : 'ended', job.ended_s];
+  const end: StateAt = [is_terminal(job) ? job.state : kText.job.ended, job.ended_s];
   const lasting = heard.filter(({ t_s }, i) => (heard[i + 1]?.t_s ?? Infinity) - t_s > kLeast_s);
   const on_the_way = lasting.filter(({ state }) => state === 'stopped' || !is_terminal({ state }));
   const started = job.started_s === null || !on_the_way.some(({ state }) => state === 'running');
   const steps: StateAt[] = on_the_way.map(({ state, t_s }) => [state, t_s]);
-  if (started) steps.push(['started', job.started_s]);
+  if (started) steps.push([kText.job.started, job.started_s]);
   const by_time = steps.sort(([, a], [, b]) => (a ?? Infinity) - (b ?? Infinity));
-  return [['submitted', job.submitted_s], ...by_time, end];
+  return [[kText.job.submitted, job.submitted_s], ...by_time, end];
 }
 
-/** Why a job stood on its path, and how long; empty where that was not told, or goes on: it stands beside then. */
-export function stood_in_words({ from_s, to_s, why }: Stand): string {
-  return why === null || to_s === null ? '' : `${wait_in_words(why)}, ${seconds(to_s - from_s)} long`.replace(/^waits/, 'waited');
+/** Returns why and for how long a job was paused; empty if unknown or still paused. */
+export function pause_in_words({ from_s, to_s, why }: Pause): string {
+  return why === null || to_s === null ? '' : kText.wait.past(wait_in_words(why).replace(/^waits/, kText.wait.was_waiting), seconds(to_s - from_s));
 }

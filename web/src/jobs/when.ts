@@ -1,30 +1,33 @@
-// When a job that has not ended came into its state, is expected to start and end, and expires, in words.
+// Describes since when a job is in its state, and when it is predicted to start, end and expire.
 // Pure. Times are cell time.
 
-import type { Forecast, ForecastLeg, Job } from '../server/messages';
-import { is_stopped } from '../state/standing';
+import type { Forecast, ForecastStep, Job } from '../server/messages';
+import { is_stopped } from '../state/shown_state';
 import type { Store } from '../state/store';
+import { kText } from '../strings';
 import { seconds } from '../wording';
 
-/** What the server expects of a job; null: nothing is known. */
-export function leg_of({ id }: Pick<Job, 'id'>, forecast: Forecast | null): ForecastLeg | null {
+const kWords = kText.figure;
+
+/** Returns the predicted step of a job, or null if there is none. */
+export function step_of({ id }: Pick<Job, 'id'>, forecast: Forecast | null): ForecastStep | null {
   return forecast?.arms.flatMap((lane) => lane.steps).find((known) => known.id === id) ?? null;
 }
 
 export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'forecast'>): string {
   const now_s = store.t_s;
-  const leg = leg_of(job, store.forecast);
+  const step = step_of(job, store.forecast);
   const parts: string[] = [];
   const since_s = store.book.since(job.id);
-  if (job.state === 'backlogged') parts.push(`blocked for ${seconds(Math.max(0, now_s - (job.backlogged_s ?? since_s ?? now_s)))}`);
-  if (job.state === 'paused' && since_s !== null) parts.push(`paused for ${seconds(Math.max(0, now_s - since_s))}`);
-  const starts_s = leg ? leg.starts_s : job.scheduled_s;
-  const stopped = is_stopped(job);  // its reason says so, and until when
+  if (job.state === 'backlogged') parts.push(kWords.blocked_for(seconds(Math.max(0, now_s - (job.backlogged_s ?? since_s ?? now_s)))));
+  if (job.state === 'paused' && since_s !== null) parts.push(kWords.paused_for(seconds(Math.max(0, now_s - since_s))));
+  const starts_s = step ? step.starts_s : job.scheduled_s;
+  const stopped = is_stopped(job);  // its reason says this already
   if (!stopped && job.started_s === null && starts_s !== null) {
-    parts.push(starts_s > now_s + 0.05 ? `starts in about ${seconds(starts_s - now_s)}` : 'about to start');
+    parts.push(starts_s > now_s + 0.05 ? kWords.starts_in(seconds(starts_s - now_s)) : kWords.about_to_start);
   }
-  if (!stopped && leg && leg.starts_s === null) parts.push('no start as things are');
-  if (!stopped && leg && job.state === 'paused') parts.push(leg.ends_s === null ? 'no end as things are' : `ends in about ${seconds(Math.max(0, leg.ends_s - now_s))}`);
-  if (job.expires_s !== undefined) parts.push(`expires in ${seconds(Math.max(0, job.expires_s - now_s))}`);
+  if (!stopped && step && step.starts_s === null) parts.push(kWords.not_scheduled);
+  if (!stopped && step && job.state === 'paused') parts.push(step.ends_s === null ? kWords.end_unknown : kWords.ends_in(seconds(Math.max(0, step.ends_s - now_s))));
+  if (job.expires_s !== undefined) parts.push(kWords.expires_in(seconds(Math.max(0, job.expires_s - now_s))));
   return parts.join(' · ');
 }

@@ -1,17 +1,20 @@
-// A timed motion of some joints, as waypoints that splines go through. Pure. Only what is needed to show
-// it is read; what is wrong with it the server tells.
+// A timed motion of joints as waypoints joined by splines. Pure. Reads only what a preview needs;
+// the server validates the trajectory.
 
 export interface Motion {
   duration_s: number;
   names: readonly string[];
-  /** Every joint of it at a time, in rad or m; joints whose motion has not begun stand at its start. */
+  /** Returns all joints at a time, in rad or m. Joints that move later are at their start. */
   q_at(t_s: number): Record<string, number>;
 }
 
 export interface Waypoint { t_s: number; q: number[]; v: number[] | null; a: number[] | null }
 export interface Piece { names: string[]; points: Waypoint[] }
 
-/** A trajectory as ROS prints it, or MoveIt, one level deeper; null: there is none that could be shown. */
+/**
+ * Reads a JointTrajectory as ROS prints it, or nested as in MoveIt. Returns null if it cannot be
+ * shown.
+ */
 export function read_trajectory(value: unknown): Piece | null {
   const trajectory = child(value, 'joint_trajectory') ?? value;
   const names = child(trajectory, 'joint_names');
@@ -37,7 +40,7 @@ export function motion_of_piece(piece: Piece): Motion {
   };
 }
 
-/** As the server goes: cubic between points that have velocities, quintic with accelerations, else straight. */
+/** Interpolates like the server: quintic with accelerations, cubic with velocities, else linear. */
 export function position(points: readonly Waypoint[], t_s: number): number[] {
   const next = after(points, t_s);
   const to = points[Math.min(next, points.length - 1)];
@@ -55,7 +58,7 @@ export function position(points: readonly Waypoint[], t_s: number): number[] {
   });
 }
 
-/** The first point later than this. */
+/** Returns the index of the first point later than t_s. */
 function after(points: readonly Waypoint[], t_s: number): number {
   let [low, high] = [0, points.length];
   while (low < high) {
@@ -72,7 +75,7 @@ function cubic(u: number, h_s: number, [q0, v0]: readonly [number, number], [q1,
 
 type State = readonly [q: number, v: number, a: number];
 
-/** In Bernstein's form: the six control values follow from both ends. */
+/** Evaluates the quintic in Bernstein form; the six control values follow from both ends. */
 function quintic(u: number, h_s: number, [q0, v0, a0]: State, [q1, v1, a1]: State): number {
   const control = [
     q0, q0 + (h_s * v0) / 5, q0 + (2 * h_s * v0) / 5 + (h_s ** 2 * a0) / 20,

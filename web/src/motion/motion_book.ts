@@ -1,5 +1,5 @@
-// How jobs move: their trajectories, fetched when a view first asks for one, and kept while they are
-// looked at. A job that is planned anew moves otherwise, and is fetched again.
+// Fetches the trajectories of jobs on first use and caches the last ones used. A replanned job is
+// fetched again.
 
 import { signal, untracked, type ReadonlySignal } from '@preact/signals';
 import type { Answer } from '../server/api';
@@ -19,22 +19,22 @@ export class MotionBook {
 
   constructor(private readonly fetch_: (id: string) => Promise<Answer<JobMotion>>) {}
 
-  /** Changes whenever a trajectory has come. */
+  /** Changes when a trajectory arrives. */
   get changes(): ReadonlySignal<number> { return this.changes_; }
 
-  /** null: not known yet, or the server has forgotten it. */
+  /** Returns the motion, or null if it is not loaded yet or the server has forgotten it. */
   of(job: Pick<Job, 'id' | 'duration_s' | 'planned' | 'arms'>): Motion | null {
     const key = `${job.duration_s} ${job.planned ?? ''} ${job.arms.join(' ')}`;
     const known = this.known_.get(job.id);
     if (known?.key !== key) this.ask(job.id, key, known?.motion ?? null);
-    else {  // it was looked at last
+    else {  // moves it to the end: last used
       this.known_.delete(job.id);
       this.known_.set(job.id, known);
     }
     return this.known_.get(job.id)?.motion ?? null;
   }
 
-  /** Another run of the server: the same ids are other jobs. */
+  /** Clears the cache, because ids of another session are other jobs. */
   clear(): void {
     this.known_.clear();
     this.waiting_.length = 0;

@@ -1,15 +1,14 @@
-// The motion that a pasted body, or a bag of them, describes, so that it can be shown before it is sent.
-// Pure.
+// The motion of a pasted job or batch, for the preview. Pure.
 
-import type { Bag } from '../compose/bag';
+import type { Batch } from '../compose/batch';
 import { child, motion_of_piece, read_trajectory, type Motion, type Piece } from './motion';
 
-/** One that begins so long after the first. */
+/** A trajectory that starts this long after the first. */
 export interface Part { piece: Piece; begins_s: number }
 
-/** Jobs of one arm follow each other. */
-export function parts_of(bag: Bag): Part[] {
-  const bodies = bag.kind === 'bag' ? bag.jobs : [json_of(bag.text)];
+/** Chains the jobs of each arm one after the other. */
+export function parts_of(batch: Batch): Part[] {
+  const bodies = batch.kind === 'batch' ? batch.jobs : [json_of(batch.text)];
   const ends_s = new Map<string, number>();
   const parts: Part[] = [];
   for (const body of bodies) {
@@ -22,7 +21,7 @@ export function parts_of(bag: Bag): Part[] {
   return parts;
 }
 
-/** Of so many points in all, or a few more: every so-manieth of each part, its first and its last. */
+/** Thins the parts to about `most` points in total: every n-th point and the last of each part. */
 export function thinned(parts: readonly Part[], most: number): Part[] {
   const points = parts.reduce((sum, { piece }) => sum + piece.points.length, 0);
   const every = Math.ceil(points / most);
@@ -31,7 +30,7 @@ export function thinned(parts: readonly Part[], most: number): Part[] {
   }));
 }
 
-/** Null where there is nothing that could be shown. */
+/** Returns the motion, or null if there are no parts. */
 export function motion_of_parts(parts: readonly Part[]): Motion | null {
   if (parts.length === 0) return null;
   const motions = parts.map(({ piece, begins_s }) => ({ motion: motion_of_piece(piece), begins_s }));
@@ -40,8 +39,8 @@ export function motion_of_parts(parts: readonly Part[]): Motion | null {
   return { duration_s, names: [...names], q_at: (t_s) => q_of(motions, t_s) };
 }
 
-export function motion_of(bag: Bag): Motion | null {
-  return motion_of_parts(parts_of(bag));
+export function motion_of(batch: Batch): Motion | null {
+  return motion_of_parts(parts_of(batch));
 }
 
 function q_of(motions: readonly { motion: Motion; begins_s: number }[], t_s: number): Record<string, number> {

@@ -1,5 +1,5 @@
-// A chart of uPlot's in the page's colours, as wide as its place. Each joint has a colour and, as colours
-// repeat or are not told apart by everybody, a dash of its own.
+// A uPlot chart in the page's colors. Joints differ in color and in dash pattern, for readers who
+// do not see colors.
 
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
@@ -9,18 +9,18 @@ import type { Curves } from '../state/trace';
 import { clock } from '../wording';
 
 const kHeight_px = 170;
-const kColours = 8;
+const kColors = 8;
 const kDashes: readonly number[][] = [[], [8, 3], [2, 3], [10, 3, 2, 3]];
 const kBorders = ['solid', 'dashed', 'dotted', 'double'];
 
-/** What was meant to be; null where a joint has no part in it. */
+/** The planned positions; null outside of the plan. */
 export interface Planned { t_s: number[]; q: (number | null)[][] }
 
 export class Chart {
   private readonly plot_: uPlot;
   private readonly observer_: ResizeObserver;
 
-  /** `with_plan`: under what is measured lies, broad and pale, what was planned. */
+  /** `with_plan` draws the plan as a broad, pale band under the measured line. */
   constructor(host: HTMLElement, joints: readonly string[], with_plan: boolean) {
     const series = with_plan ? 2 * joints.length : joints.length;
     this.plot_ = new uPlot(options_of(joints, host.clientWidth, with_plan), [[], ...Array.from({ length: series }, () => [])], host);
@@ -61,15 +61,15 @@ function options_of(joints: readonly string[], width: number, with_plan: boolean
     series: [
       { label: 'at', value: (_, t_s) => (t_s === null ? '' : clock(t_s)) },
       ...(with_plan ? joints.map((joint, i) => ({
-        label: `${joint} planned`, class: 'planned', width: 6, points: { show: false }, spanGaps: true, stroke: `${ink(`--arm-${i % kColours}`)}44`,
+        label: `${joint} planned`, class: 'planned', width: 6, points: { show: false }, spanGaps: true, stroke: `${ink(`--arm-${i % kColors}`)}44`,
       })) : []),
       ...joints.map((joint, i) => ({
         spanGaps: with_plan, label: labels[i] ?? joint, width: 1.5, points: { show: false },
-        stroke: ink(`--arm-${i % kColours}`), dash: kDashes[i % kDashes.length] ?? [],
+        stroke: ink(`--arm-${i % kColors}`), dash: kDashes[i % kDashes.length] ?? [],
         value: (_: uPlot, q: number | null) => (q === null ? '' : q.toFixed(3)),
       })),
     ],
-    // Series are counted from one: the first is time.
+    // uPlot counts series from one; series 0 is time.
     legend: { show: true, live: true, markers: { width: 2, dash: (_, i) => kBorders[(i - 1 - (with_plan ? joints.length : 0)) % kBorders.length] ?? 'solid' } },
     cursor: { drag: { setScale: false, x: false, y: false } },
   };

@@ -1,5 +1,5 @@
-// Joints over time, drawn by uPlot, which is loaded when the first plot is shown. Measured values come
-// from what the page has heard; a stretch of cell time, or the last so many seconds.
+// A plot of joints over time. uPlot is loaded on first use. Measured values come from the page's
+// trace.
 
 import { useEffect, useRef } from 'preact/hooks';
 import type { App } from '../state/app';
@@ -12,11 +12,11 @@ interface Props {
   app: App;
   joints: readonly string[];
   label: string;
-  /** The last so many seconds; or `stretch`. */
+  /** The number of last seconds to show, instead of `stretch`. */
   last_s?: number;
-  /** From, to; to is null while it goes on. Cell time. */
+  /** Begin and end in cell time; the end is null while it continues. */
   stretch?: readonly [from_s: number, to_s: number | null];
-  /** What was meant to be, from the stretch's beginning on. */
+  /** The planned motion, from the beginning of `stretch`. */
   planned?: Motion | null;
 }
 
@@ -28,7 +28,7 @@ function planned_of(motion: Motion, joints: readonly string[], from_s: number): 
   return { t_s: t_s.map((at_s) => from_s + at_s), q: joints.map((joint) => states.map((q) => q[joint] ?? null)) };
 }
 
-/** What the axis counts. */
+/** Returns the unit of the axis. */
 export function units_of(joints: readonly string[], { store }: App): string {
   const units = store.cell?.joints.flatMap(({ name, unit }) => (joints.includes(name) ? [unit] : [])) ?? [];
   return [...new Set(units)].join(' and ') || 'rad';

@@ -1,5 +1,4 @@
-// What today's jobs would have come to under the other policies: asked of the server, and looked at again
-// while it runs.
+// The comparison of policies: started on the server and polled while it runs.
 
 import { signal } from '@preact/signals';
 import type { Api } from '../server/api';
@@ -9,9 +8,9 @@ import type { Comparison } from '../server/messages';
 const kAgain_ms = 400;
 
 export class Comparing {
-  /** The one under way, or the last one; null: none that is known of. */
+  /** The running or last comparison, or null if none is known. */
   readonly latest = signal<Comparison | null>(null);
-  /** The server was asked for the last one, and has none. */
+  /** True if the server has no comparison. */
   readonly none_made = signal(false);
   readonly refusal = signal<string | null>(null);
   private timer_: number | null = null;
@@ -21,7 +20,7 @@ export class Comparing {
     private readonly timers_: Timers,
   ) {}
 
-  /** Of a comparison that another page has begun, too. */
+  /** Fetches the comparison, also one that another page started. */
   async look(): Promise<void> {
     const answer = await this.api_.comparison();
     if (answer.ok) this.take(answer.value);

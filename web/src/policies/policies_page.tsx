@@ -1,4 +1,4 @@
-// Policies: which one decides, and what the jobs at hand would have come to under the others.
+// The Policies page: the active policy, and the comparison of all policies on recent jobs.
 
 import { useEffect } from 'preact/hooks';
 import { AsOf } from '../frame/as_of';
@@ -8,22 +8,25 @@ import { why_no_change } from './change';
 import type { Comparison, PolicyRun } from '../server/messages';
 import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
-import { clock, millimetres, seconds , why_mute } from '../wording';
-import { ends_in_words, share_in_words } from './told';
+import { kText } from '../strings';
+import { clock, millimeters, seconds, why_not_connected } from '../wording';
+import { ends_in_words, share_in_words } from './run_words';
+
+const kWords = kText.policies;
 
 export function PoliciesPage({ app }: { app: App }) {
   const { comparing } = app;
-  // One that is known of is looked at again; whether there is one is only asked by who wants to know.
+  // Polls a known comparison only; finding one takes a click.
   useEffect(() => { if (comparing.latest.peek() !== null) void comparing.look(); }, [comparing]);
   return (
     <div class="columns policies">
       <section>
-        <h2>The policy</h2>
-        <AsOf app={app}>The comparison beside it is of now.</AsOf>
+        <h2>{kWords.title}</h2>
+        <AsOf app={app}>{kWords.compared_now}</AsOf>
         <PolicyForm app={app} />
       </section>
       <section>
-        <h2>What would the others have done?</h2>
+        <h2>{kWords.comparison}</h2>
         <Asking app={app} />
         {comparing.latest.value && <Table comparison={comparing.latest.value} app={app} />}
       </section>
@@ -33,23 +36,21 @@ export function PoliciesPage({ app }: { app: App }) {
 
 function Asking({ app }: { app: App }) {
   const { comparing, store } = app;
-  const unheard = why_mute(store.link);
-  const mute = why_no_command(app);
+  const unheard = why_not_connected(store.link);
+  const why_disabled = why_no_command(app);
   const latest = comparing.latest.value;
   const is_running = latest?.state === 'running';
   return (
     <>
       <p class="hint">
-        The jobs that came since the server was started, the last 500 at most, each at its time, run under every policy: simulated
-        beside the cell, without stops, faults and what people canceled. Nothing in the cell changes or waits for it. Of former
-        runs of the server it knows no job: <code>armloom compare</code> takes those of a recording.
+        {kWords.hint}<code>armloom compare</code>.
       </p>
       <div class="line wrap">
         {is_running
-          ? <button class="small" data-test="cancel-comparison" onClick={() => void comparing.cancel()}>Give up</button>
-          : <button class="small" data-test="compare" disabled={mute !== null} title={mute ?? 'Runs in the background'} onClick={() => void comparing.start(null)}>Compare</button>}
-        {latest === null && <button class="small" data-test="look-comparison" disabled={unheard !== null} title={unheard ?? 'That another page has asked for'} onClick={() => void comparing.look()}>Show the last one</button>}
-        <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? 'No comparison was made so far.' : ''}</span>
+          ? <button class="small" data-test="cancel-comparison" onClick={() => void comparing.cancel()}>{kWords.cancel}</button>
+          : <button class="small" data-test="compare" disabled={why_disabled !== null} title={why_disabled ?? kWords.compare_title} onClick={() => void comparing.start(null)}>{kWords.compare}</button>}
+        {latest === null && <button class="small" data-test="look-comparison" disabled={unheard !== null} title={unheard ?? kWords.show_last_title} onClick={() => void comparing.look()}>{kWords.show_last}</button>}
+        <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? kWords.none : ''}</span>
       </div>
       <InSight answer={comparing.refusal.value}>{comparing.refusal.value !== null && <p class="refused" role="alert" data-test="comparison-refused">{comparing.refusal.value}</p>}</InSight>
     </>
@@ -57,12 +58,12 @@ function Asking({ app }: { app: App }) {
 }
 
 function state_in_words({ state, jobs, first_s, last_s, policies, runs, detail }: Comparison): string {
-  const what = `${jobs} ${jobs === 1 ? 'job' : 'jobs'} of ${clock(first_s)} to ${clock(last_s)}`;
+  const what = kWords.jobs_between(jobs, clock(first_s), clock(last_s));
   switch (state) {
-    case 'running': return `${what}: ${runs.length} of ${policies.length} policies done, ${policies[runs.length] ?? ''} under way`;
-    case 'done': return `${what}: done`;
-    case 'canceled': return `${what}: given up`;
-    case 'failed': return `${what}: ${detail}`;
+    case 'running': return kWords.running(what, runs.length, policies.length, policies[runs.length] ?? '');
+    case 'done': return kWords.done(what);
+    case 'canceled': return kWords.canceled(what);
+    case 'failed': return kWords.failed(what, detail);
   }
 }
 
@@ -70,11 +71,10 @@ function Table({ comparison, app }: { comparison: Comparison; app: App }) {
   const longest_s = Math.max(...comparison.runs.map(({ makespan_s }) => makespan_s ?? 0), 1e-9);
   if (comparison.runs.length === 0) return null;
   return (
-    <div class="scrolling" tabIndex={0} role="region" aria-label="Policies compared">
+    <div class="scrolling" tabIndex={0} role="region" aria-label={kWords.table}>
       <table class="compared" data-test="compared">
         <thead><tr>
-          <th scope="col">policy</th><th scope="col">succeeded</th><th scope="col">backlogged</th><th scope="col">makespan</th>
-          <th scope="col">of sequential</th><th scope="col">mean wait</th><th scope="col">smallest clearance</th><th scope="col">change</th>
+          {kWords.columns.map((title) => <th key={title} scope="col">{title}</th>)}
         </tr></thead>
         <tbody>{comparison.runs.map((run) => <Run key={run.policy} run={run} jobs={comparison.jobs} longest_s={longest_s} app={app} />)}</tbody>
       </table>
@@ -84,25 +84,25 @@ function Table({ comparison, app }: { comparison: Comparison; app: App }) {
 
 function Run({ run, jobs, longest_s, app }: { run: PolicyRun; jobs: number; longest_s: number; app: App }) {
   const { store, actions } = app;
-  const mute = why_no_command(app) ?? why_no_change(store);
+  const why_disabled = why_no_command(app) ?? why_no_change(store);
   const is_in_force = run.policy === store.policy;
   const ends = ends_in_words(run);
   return (
     <tr class={is_in_force ? 'in-force' : ''} data-test={`compared-${run.policy}`}>
       <th scope="row">{run.policy}</th>
-      <td class="mono">{run.succeeded} of {jobs}{ends !== '' && <span class="dim"> ({ends})</span>}</td>
+      <td class="mono">{kWords.of(run.succeeded, jobs)}{ends !== '' && <span class="dim"> ({ends})</span>}</td>
       <td class="mono">{run.backlogged}</td>
       <td class="mono">
-        {run.makespan_s === null ? 'did not end' : seconds(run.makespan_s)}
+        {run.makespan_s === null ? kWords.not_finished : seconds(run.makespan_s)}
         <span class="share" aria-hidden="true"><span style={{ width: `${(100 * (run.makespan_s ?? 0)) / longest_s}%` }} /></span>
       </td>
       <td class="mono">{share_in_words(run.makespan_ratio)}</td>
       <td class="mono">{seconds(run.wait_mean_s)}</td>
-      <td class="mono">{run.min_clearance_m === null ? 'never near' : millimetres(run.min_clearance_m)}</td>
+      <td class="mono">{run.min_clearance_m === null ? kWords.never_near : millimeters(run.min_clearance_m)}</td>
       <td>{is_in_force
-        ? <span class="dim">in force</span>
-        : <button class="small" data-test={`use-${run.policy}`} disabled={mute !== null} aria-label={`Change to ${run.policy}`}
-          title={mute ?? ''} onClick={() => void actions.change_policy(run.policy)}>Use it</button>}</td>
+        ? <span class="dim">{kWords.in_force}</span>
+        : <button class="small" data-test={`use-${run.policy}`} disabled={why_disabled !== null} aria-label={kWords.change_to(run.policy)}
+          title={why_disabled ?? ''} onClick={() => void actions.change_policy(run.policy)}>{kWords.use}</button>}</td>
     </tr>
   );
 }

@@ -1,5 +1,5 @@
-// The JSON schemas of what an MCAP file of this page holds. Foxglove goes by their names; members as in
-// its documentation.
+// JSON schemas of an exported MCAP file. Foxglove recognizes them by name; members as in its
+// documentation.
 
 const time = { type: 'object', title: 'time', properties: { sec: { type: 'integer', minimum: 0 }, nsec: { type: 'integer', minimum: 0, maximum: 999_999_999 } } };
 const duration = { type: 'object', title: 'duration', properties: { sec: { type: 'integer' }, nsec: { type: 'integer', minimum: 0, maximum: 999_999_999 } } };
@@ -11,7 +11,7 @@ const list = (items: object) => ({ type: 'array', items });
 const vector = object({ x: figure, y: figure, z: figure });
 const quaternion = object({ x: figure, y: figure, z: figure, w: figure });
 const pose = object({ position: vector, orientation: quaternion });
-const colour = object({ r: figure, g: figure, b: figure, a: figure });
+const color = object({ r: figure, g: figure, b: figure, a: figure });
 
 export const kSchemas = {
   'foxglove.JointStates': object({ timestamp: time, joints: list(object({ name: text, position: figure })) }),
@@ -23,9 +23,9 @@ export const kSchemas = {
     entities: list(object({
       timestamp: time, frame_id: text, id: text, lifetime: duration, frame_locked: flag,
       metadata: list(object({ key: text, value: text })), arrows: list(object({})), lines: list(object({})), triangles: list(object({})), models: list(object({})),
-      cubes: list(object({ pose, size: vector, color: colour })), spheres: list(object({ pose, size: vector, color: colour })),
-      cylinders: list(object({ pose, size: vector, bottom_scale: figure, top_scale: figure, color: colour })),
-      texts: list(object({ pose, billboard: flag, font_size: figure, scale_invariant: flag, color: colour, text })),
+      cubes: list(object({ pose, size: vector, color: color })), spheres: list(object({ pose, size: vector, color: color })),
+      cylinders: list(object({ pose, size: vector, bottom_scale: figure, top_scale: figure, color: color })),
+      texts: list(object({ pose, billboard: flag, font_size: figure, scale_invariant: flag, color: color, text })),
     })),
   }),
   'foxglove.Log': object({ timestamp: time, level: { type: 'integer' }, message: text, name: text, file: text, line: { type: 'integer' } }),

@@ -1,4 +1,4 @@
-// What the server has recorded, as it was when somebody looked.
+// The list of the server's recordings, as last fetched.
 
 import { signal } from '@preact/signals';
 import type { Api } from '../server/api';
@@ -8,9 +8,9 @@ import { of_server, type Source } from './sources';
 import type { Sources } from './player';
 
 export class KeptList {
-  /** null: not known yet. */
+  /** The list, or null if not fetched yet. */
   readonly list = signal<RecordingList | null>(null);
-  /** Why it is not known now. */
+  /** Why the last fetch failed, or null. */
   readonly fault = signal<string | null>(null);
 
   constructor(private readonly api_: Pick<Api, 'recordings' | 'recording_address'>) {}
@@ -25,7 +25,7 @@ export class KeptList {
     return this.api_.recording_address(name, file);
   }
 
-  /** What is fetched to look at one. */
+  /** Returns the sources for opening a recording. */
   sources_of(recording: KeptRecording): Sources {
     const source = (name: string): Source | null => {
       const file = recording.files.find((known) => known.name === name);
@@ -35,12 +35,12 @@ export class KeptList {
   }
 }
 
-/** As people tell them apart: by when it was begun. */
+/** Returns the title: the time at which the recording began. */
 export function title_of_recording({ name, begun_at }: Pick<KeptRecording, 'name' | 'begun_at'>): string {
   return begun_at === null ? name : wall_time(begun_at);
 }
 
-/** How long it was written to; null: not known. */
+/** Returns how long the recording is, or null if unknown. */
 export function length_s_of({ begun_at, written_at }: Pick<KeptRecording, 'begun_at' | 'written_at'>): number | null {
   const length_s = begun_at === null ? NaN : (Date.parse(written_at) - Date.parse(begun_at)) / 1000;
   return Number.isFinite(length_s) && length_s >= 0 ? length_s : null;

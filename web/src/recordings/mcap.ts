@@ -1,6 +1,6 @@
-// What the page has heard, as an MCAP file with Foxglove's schemas in JSON: joint states, transforms of
-// all links, the scene, jobs and events; and each event as the server told it, from which the page shows all
-// of that again. Loaded when it is first asked for.
+// Exports the page's data as an MCAP file with Foxglove schemas in JSON: joint states, link
+// transforms, scene, jobs, events; plus the raw server events, from which the page can replay
+// everything. Loaded on first use.
 
 import { McapWriter, type IWritable } from '@mcap/core';
 import * as THREE from 'three';
@@ -12,7 +12,7 @@ import { kSchemas } from './foxglove_schemas';
 import { kMetadata, kTopics, kWallAtZero, wall_ns } from './mcap_layout';
 
 const kMostFrames = 9_000;
-// The page goes on to answer clicks meanwhile.
+// Lets the page answer clicks in between.
 const kAtOnce = 60;
 
 class Bytes implements IWritable {
@@ -37,7 +37,7 @@ class Bytes implements IWritable {
   }
 }
 
-export async function write_mcap(store: Store, tell: (share: number) => void): Promise<Uint8Array<ArrayBuffer>> {
+export async function write_mcap(store: Store, on_progress: (share: number) => void): Promise<Uint8Array<ArrayBuffer>> {
   const bytes = new Bytes();
   const writer = new McapWriter({ writable: bytes });
   await writer.start({ profile: '', library: 'armloom' });
@@ -47,7 +47,7 @@ export async function write_mcap(store: Store, tell: (share: number) => void): P
   const first_s = store.trace.first_s ?? 0;
   await log('scene', first_s, (stamp) => scene_update(store.objects, stamp));
   await write_events(store, first_s, log);
-  await write_frames(store, log, tell);
+  await write_frames(store, log, on_progress);
   await writer.end();
   return bytes.all();
 }
@@ -55,7 +55,7 @@ export async function write_mcap(store: Store, tell: (share: number) => void): P
 interface Stamp { sec: number; nsec: number }
 type Log = (topic: keyof typeof kTopics, t_s: number, message: (stamp: Stamp) => unknown) => Promise<void>;
 
-/** Registers all topics; `offset_s`: wall time at cell time zero. */
+/** Registers all topics. `offset_s` is the wall time at cell time zero. */
 async function begin(writer: McapWriter, offset_s: number): Promise<Log> {
   const encoder = new TextEncoder();
   const channels = new Map<string, { id: number; sequence: number }>();
@@ -75,7 +75,7 @@ async function begin(writer: McapWriter, offset_s: number): Promise<Log> {
 }
 
 async function write_events(store: Store, first_s: number, log: Log): Promise<void> {
-  for (const event of store.log.entries) await log('told', event.t_s, () => event);
+  for (const event of store.log.entries) await log('raw', event.t_s, () => event);
   const level = { info: 2, warning: 3, error: 4 } as const;
   for (const notice of [...store.notices].reverse()) {
     if (notice.t_s < first_s) continue;
@@ -88,7 +88,7 @@ async function write_events(store: Store, first_s: number, log: Log): Promise<vo
   }
 }
 
-async function write_frames(store: Store, log: Log, tell: (share: number) => void): Promise<void> {
+async function write_frames(store: Store, log: Log, on_progress: (share: number) => void): Promise<void> {
   const names = store.trace.names;
   const { t_s, q } = store.trace.between(names, store.trace.first_s ?? 0, store.trace.last_s ?? 0, kMostFrames);
   const robots = kinematics_of(store.cell);
@@ -98,7 +98,7 @@ async function write_frames(store: Store, log: Log, tell: (share: number) => voi
     await log('joints', at_s, (timestamp) => ({ timestamp, joints: names.map((name) => ({ name, position: now[name] })) }));
     await log('transforms', at_s, (timestamp) => ({ transforms: transforms_of(robots, now, timestamp) }));
     if (i % kAtOnce !== 0) continue;
-    tell(i / t_s.length);
+    on_progress(i / t_s.length);
     await new Promise((done) => setTimeout(done));
   }
 }
@@ -107,7 +107,7 @@ function kinematics_of(cell: Cell | null): Kinematics[] {
   return (cell?.robots ?? []).map((robot) => new Kinematics(robot));
 }
 
-/** Every link in the world. */
+/** Returns the transform of every link in the world frame. */
 function transforms_of(robots: readonly Kinematics[], q: Readonly<Record<string, number>>, timestamp: Stamp): unknown[] {
   const [place, turn, scale] = [new THREE.Vector3(), new THREE.Quaternion(), new THREE.Vector3()];
   return robots.flatMap((robot) => {

@@ -1,4 +1,4 @@
-// What an MCAP file of this page holds, for who writes it and who reads it. Pure.
+// The topics of an exported MCAP file, shared by writer and reader. Pure.
 
 import type { kSchemas } from './foxglove_schemas';
 
@@ -7,10 +7,10 @@ interface Topic { topic: string; schema: keyof typeof kSchemas }
 export const kTopics = {
   joints: { topic: '/joint_states', schema: 'foxglove.JointStates' }, transforms: { topic: '/tf', schema: 'foxglove.FrameTransforms' },
   scene: { topic: '/scene', schema: 'foxglove.SceneUpdate' }, events: { topic: '/events', schema: 'foxglove.Log' },
-  jobs: { topic: '/jobs', schema: 'armloom.Job' }, told: { topic: '/armloom', schema: 'armloom.Event' },
+  jobs: { topic: '/jobs', schema: 'armloom.Job' }, raw: { topic: '/armloom', schema: 'armloom.Event' },
 } as const satisfies Record<string, Topic>;
 
-/** Metadata of the file: from these cell time is told from wall time. */
+/** File metadata that relates wall time to cell time. */
 export const kMetadata = 'armloom';
 export const kWallAtZero = 'wall_time_at_zero_s';
 

@@ -1,4 +1,4 @@
-// The events of a recording's events.jsonl, as they were told. Pure.
+// Reads the events of a recording's events.jsonl. Pure.
 
 import { parse_message, type SequencedMessage } from '../server/messages';
 
@@ -8,14 +8,16 @@ export class EventsReader {
   private rest_ = '';
   private readonly events_: Events = { messages: [], unread: 0 };
 
-  /** The next part of the file, cut anywhere. */
+  /** Takes the next part of the file, split anywhere. */
   take(text: string): void {
     const lines = (this.rest_ + text).split('\n');
     this.rest_ = lines.pop() ?? '';
     for (const line of lines) this.line(line);
   }
 
-  /** Those that cannot be read, of another version of the server or cut off at the end, are counted. */
+  /**
+   * Returns the events. Unreadable lines (another server version, or cut at the end) are counted.
+   */
   end(): Events {
     this.line(this.rest_);
     this.rest_ = '';
@@ -30,7 +32,7 @@ export class EventsReader {
   }
 }
 
-/** Simulated runs have no wall time: so that their log repeats. */
+/** Simulated runs have no wall times, so that their logs are reproducible; fills in empty ones. */
 function with_wall_times(line: string): string {
   if (line.includes('"at":')) return line;
   try {

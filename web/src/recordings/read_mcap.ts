@@ -1,15 +1,16 @@
-// An MCAP file, as this page exports it, read back: positions of joints, and the events as they were told. Of
-// files that others wrote the joint states alone. Loaded when the first one is opened.
+// Reads an MCAP file that this page exported: joint positions and raw events. Of other files it
+// reads JSON joint states only. Loaded on first use.
 
 import { McapStreamReader, type McapTypes } from '@mcap/core';
 import { kMetadata, kTopics, kWallAtZero, wall_ns } from './mcap_layout';
+import { kText } from '../strings';
 import type { Frames } from './read_states';
 
-export interface Mcap { frames: Frames; /** A line each, as events.jsonl has them. */ events: string }
+export interface Mcap { frames: Frames; /** One line per event, as in events.jsonl. */ events: string }
 
-// The page goes on to answer clicks meanwhile.
+// Lets the page answer clicks in between.
 const kBreath_ms = 20;
-// Every MCAP file begins so.
+// The magic bytes of an MCAP file.
 const kMagic = [0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a];
 
 export async function read_mcap(file: Blob): Promise<{ ok: true; mcap: Mcap } | { ok: false; fault: string }> {
@@ -21,7 +22,7 @@ export async function read_mcap(file: Blob): Promise<{ ok: true; mcap: Mcap } | 
   let zero_ns: bigint | null = null;
   const take = ({ channelId, logTime, data }: McapTypes.TypedMcapRecords['Message']) => {
     const topic = topics.get(channelId);
-    if (topic === kTopics.told.topic) events.push(decoder.decode(data));
+    if (topic === kTopics.raw.topic) events.push(decoder.decode(data));
     if (topic !== kTopics.joints.topic) return;
     const places = new Map((JSON.parse(decoder.decode(data)) as JointStates).joints.map(({ name, position }) => [name, position]));
     if (names.length === 0) names.push(...places.keys());
@@ -29,9 +30,9 @@ export async function read_mcap(file: Blob): Promise<{ ok: true; mcap: Mcap } | 
     frames.t_s.push(Number(logTime - zero_ns) / 1e9);
     frames.q.push(names.map((name, i) => places.get(name) ?? frames.q.at(-1)?.[i] ?? 0));
   };
-  if (file.size === 0) return { ok: false, fault: 'It is empty.' };
+  if (file.size === 0) return { ok: false, fault: kText.recordings.empty_file };
   const begin = new Uint8Array(await file.slice(0, kMagic.length).arrayBuffer());
-  if (kMagic.some((byte, i) => begin[i] !== byte)) return { ok: false, fault: 'It is no MCAP file: it does not begin as one.' };
+  if (kMagic.some((byte, i) => begin[i] !== byte)) return { ok: false, fault: kText.recordings.not_mcap };
   try {
     const reader = new McapStreamReader();
     reader.append(new Uint8Array(await file.arrayBuffer()));
@@ -46,9 +47,9 @@ export async function read_mcap(file: Blob): Promise<{ ok: true; mcap: Mcap } | 
       }
     }
   } catch (error) {
-    return { ok: false, fault: `It is no MCAP file that can be read here: ${String(error)}` };
+    return { ok: false, fault: kText.recordings.bad_mcap(String(error)) };
   }
-  if (frames.t_s.length === 0) return { ok: false, fault: `It has no ${kTopics.joints.topic} in JSON: these are the arms' positions.` };
+  if (frames.t_s.length === 0) return { ok: false, fault: kText.recordings.no_topic(kTopics.joints.topic) };
   return { ok: true, mcap: { frames, events: events.join('\n') } };
 }
 

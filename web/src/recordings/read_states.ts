@@ -1,12 +1,15 @@
-// Joint positions from a recording's states.csv, thinned while they are read: the file has a row for each
-// control tick, a picture needs thirty a second. Pure.
+// Reads joint positions from a recording's states.csv and thins them: the file has one row per
+// control tick, the view needs 30 per second. Pure.
 
 import { cut_text } from '../names';
+import { kText } from '../strings';
+
+const kWords = kText.recordings;
 
 export interface Frames { names: string[]; t_s: number[]; q: number[][] }
 
 const kStep_s = 1 / 30;
-// Of longer recordings fewer a second are kept.
+// Longer recordings are thinned further.
 const kMost = 60_000;
 const kLongestLine = 1 << 20;
 
@@ -19,24 +22,26 @@ export class StatesReader {
   private q_: number[][] = [];
   private fault_: string | null = null;
 
-  /** The next part of the file, cut anywhere. */
+  /** Takes the next part of the file, split anywhere. */
   take(text: string): void {
     if (this.fault_ !== null) return;
     const lines = (this.rest_ + text).split('\n');
     this.rest_ = lines.pop() ?? '';
     for (const line of lines) this.line(line);
-    if (this.rest_.length > kLongestLine) this.fault_ = `states.csv: line ${this.row_} has no end`;
+    if (this.rest_.length > kLongestLine) this.fault_ = kWords.long_line(this.row_);
   }
 
-  /** Nothing that comes can make it right. */
+  /** Returns true if the file cannot become valid any more. */
   get is_faulty(): boolean {
     return this.fault_ !== null;
   }
 
-  /** A last row without an end of line is left out: the run was cut off in it. */
+  /**
+   * Returns the frames. A last row without a newline is dropped: the recording was cut off there.
+   */
   end(): { ok: true; frames: Frames } | { ok: false; fault: string } {
     if (this.fault_ !== null) return { ok: false, fault: this.fault_ };
-    if (!this.names_ || this.t_s_.length === 0) return { ok: false, fault: 'states.csv: no row of positions' };
+    if (!this.names_ || this.t_s_.length === 0) return { ok: false, fault: kWords.no_positions };
     return { ok: true, frames: { names: this.names_, t_s: this.t_s_, q: this.q_ } };
   }
 
@@ -46,7 +51,7 @@ export class StatesReader {
     if (!this.names_) {
       const [time, ...names] = line.trim().split(',');
       if (time === 'time_s' && names.length > 0) this.names_ = names;
-      else this.fault_ = `states.csv: line 1 begins with "${cut_text(line, 30)}", not with time_s and names of joints`;
+      else this.fault_ = kWords.bad_header(cut_text(line, 30));
       return;
     }
     const comma = line.indexOf(',');
@@ -55,7 +60,7 @@ export class StatesReader {
     if (last_s !== undefined && t_s - last_s < this.step_s_ - 1e-9) return;
     const q = line.slice(comma + 1).split(',').map(Number);
     if (comma < 0 || !Number.isFinite(t_s) || q.length !== this.names_.length || !q.every(Number.isFinite)) {
-      this.fault_ = `states.csv: line ${row} is no time and ${this.names_.length} positions: "${cut_text(line, 40)}"`;
+      this.fault_ = kWords.bad_row(row, this.names_.length, cut_text(line, 40));
       return;
     }
     this.t_s_.push(t_s);

@@ -1,10 +1,11 @@
-// What a recording is read from: files that were chosen, or those of the server's data folder, which come
-// while they are read. However large they are, no more than a piece is held.
+// Sources of a recording: chosen files or files of the server. They are streamed piece by piece, so
+// large files need little memory.
 
 import type { Fetch } from '../server/api';
+import { kText } from '../strings';
 
 export interface Source {
-  /** So many are expected. */
+  /** The expected size. */
   bytes: number;
   open(stop: AbortSignal): Promise<ReadableStream<Uint8Array>>;
 }
@@ -18,18 +19,21 @@ export function of_server(address: string, bytes: number, fetch: Fetch): Source 
     bytes,
     open: async (stop) => {
       const response = await fetch(address, { signal: stop });
-      if (!response.ok || !response.body) throw new Error(`the server answers ${response.status} ${response.statusText}`);
+      if (!response.ok || !response.body) throw new Error(kText.recordings.server_answers(response.status, response.statusText));
       return response.body;
     },
   };
 }
 
 const kPiece = 1 << 16;
-// The page goes on to answer clicks meanwhile.
+// Lets the page answer clicks in between.
 const kBreath_ms = 20;
 
-/** Its text, cut anywhere. `told` hears of so many bytes more; throws when it is stopped, or breaks off. */
-export async function* texts_of(source: Source, stop: AbortSignal, told: (bytes: number) => void): AsyncGenerator<string> {
+/**
+ * Yields the text, split anywhere. `on_bytes` receives the number of bytes read. Throws if reading is
+ * stopped or breaks off.
+ */
+export async function* texts_of(source: Source, stop: AbortSignal, on_bytes: (bytes: number) => void): AsyncGenerator<string> {
   const reader = (await source.open(stop)).getReader();
   const decoder = new TextDecoder();
   let breath_ms = performance.now();
@@ -38,7 +42,7 @@ export async function* texts_of(source: Source, stop: AbortSignal, told: (bytes:
       for (let from = 0; from < part.value.length; from += kPiece) {
         const piece = part.value.subarray(from, from + kPiece);
         yield decoder.decode(piece, { stream: true });
-        told(piece.length);
+        on_bytes(piece.length);
         if (performance.now() - breath_ms > kBreath_ms) {
           await new Promise((done) => setTimeout(done));
           breath_ms = performance.now();
@@ -48,6 +52,6 @@ export async function* texts_of(source: Source, stop: AbortSignal, told: (bytes:
     }
     yield decoder.decode();
   } finally {
-    await reader.cancel().catch(() => undefined);  // it has broken off already
+    await reader.cancel().catch(() => undefined);  // already closed
   }
 }

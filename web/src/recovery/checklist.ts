@@ -1,23 +1,25 @@
-// What somebody has to have looked at before arms that were stopped move again: ticked anew after each
-// stop, and there is no way past it on this page.
+// The checklist that must be confirmed before stopped arms move again. Each stop clears it; the
+// page has no way around it.
 
 import { computed, signal } from '@preact/signals';
 import type { Store } from '../state/store';
+import { kText } from '../strings';
 import { cause_of, waiting_arms } from './needs';
 
-export const kChecks: readonly string[] = [
-  'I know why the arms stopped.', 'Nobody is within reach of an arm.', 'Every object stands where the scene has it.', 'Nothing is damaged, and grippers hold what they should.',
-];
+export const kChecks: readonly string[] = kText.recovery.checks;
 
 export class Checklist {
   private readonly ticked_ = signal<ReadonlySet<number>>(new Set());
-  /** The stop that was looked at; null: none. */
+  /** The stop that the ticks are for, or null. */
   private of_: string | null = null;
   private readonly left_ = computed(() => kChecks.length - this.ticked_.value.size);
 
   constructor(private readonly store_: Pick<Store, 'arms' | 'job' | 'events' | 'stream'>) {}
 
-  /** After a change of the store: another stop, or that nothing stands stopped any more, takes the ticks away. */
+  /**
+   * Clears the ticks after another stop, or when no arm is stopped any more. Called after each
+   * change of the store.
+   */
   follow(): void {
     const stop = waiting_arms(this.store_).length === 0 ? null : `${this.store_.stream} ${cause_of(this.store_.events)?.key ?? ''}`;
     if (stop === this.of_) return;
@@ -36,7 +38,7 @@ export class Checklist {
     return this.ticked_.value.has(check);
   }
 
-  /** How many are still to be looked at. */
+  /** The number of items still to be confirmed. */
   get left(): number {
     return this.left_.value;
   }

@@ -1,17 +1,20 @@
-// What stopped the arms, and what each of them needs to go on. Pure.
+// Finds what stopped the arms, and what each arm needs to continue. Pure.
 
 import type { Arm, Job } from '../server/messages';
-import { is_stopped } from '../state/standing';
+import { is_stopped } from '../state/shown_state';
 import type { Notice } from '../state/notices';
 import type { Store } from '../state/store';
+import { kText } from '../strings';
 import { title_of } from '../wording';
 
-/** The last thing that stopped arms; null: nothing that this page has heard. */
+const kWords = kText.recovery;
+
+/** Returns the last event that stopped arms, or null if the page knows none. */
 export function cause_of(notices: readonly Notice[]): Notice | null {
   return notices.find(({ text, source, level }) => /^stopped: /.test(text) || (source === 'monitor' && level === 'error') || /fault/.test(text)) ?? null;
 }
 
-/** Those that stand, or brake and will stand, until they are resumed. */
+/** Returns the arms that are stopped, or are braking to a stop, until they are resumed. */
 export function waiting_arms(store: Pick<Store, 'arms' | 'job'>): Arm[] {
   return [...store.arms.values()].filter((arm) => arm.state === 'fault' || arm.state === 'stopped' || is_stopped(arm.job === null ? null : store.job(arm.job), arm.name));
 }
@@ -20,23 +23,26 @@ export interface Need { words: string; resume: boolean; home: boolean }
 
 const kAtHome_rad = 0.02;
 
-/** `job`: that it is in the middle of; `pose`: every joint, null: nobody knows where it stands; `next`: that it begins afterwards. */
+/**
+ * Describes what an arm needs. `job` is its unfinished job, `pose` the joints (null if unknown),
+ * `next` the job that follows.
+ */
 export function need_of(arm: Arm, job: Job | null, pose: Readonly<Record<string, number>> | null, next: Job | null = null): Need {
   const name = job ? title_of(job) : '';
   switch (arm.state) {
     case 'fault':
-      return { words: `Its controller is at fault: what it did has failed. Clear the fault there, then resume it${next ? `: then ${title_of(next)} begins as soon as that is free` : ''}.`, resume: true, home: false };
+      return { words: kWords.fault(next ? kWords.fault_next(title_of(next)) : ''), resume: true, home: false };
     case 'stopped':
       return job
-        ? { words: `Resume: ${name} goes on from ${Math.round(100 * job.progress)} % of its path as soon as that is free. Cancel it first if it should not.`, resume: true, home: false }
-        : { words: next ? `Resume: ${title_of(next)} begins as soon as that is free. Cancel it first if it should not.` : 'Resume: then it takes jobs again; none waits for it.', resume: true, home: false };
+        ? { words: kWords.resume_job(name, Math.round(100 * job.progress)), resume: true, home: false }
+        : { words: next ? kWords.resume_next(title_of(next)) : kWords.resume_idle, resume: true, home: false };
     case 'paused':
-      return { words: `Stands on its path until the way of ${name || 'its job'} is free. Nothing to do.`, resume: false, home: false };
+      return { words: kWords.paused(name || kWords.its_job_words), resume: false, home: false };
     case 'moving':
-      return { words: is_stopped(job, arm.name) ? 'Brakes on its path.' : `Moves: ${name || 'its job'}.`, resume: false, home: false };
+      return { words: is_stopped(job, arm.name) ? kWords.brakes : kWords.moves(name || kWords.its_job_words), resume: false, home: false };
     case 'idle':
-      if (!pose) return { words: 'Ready; where it stands is not known.', resume: false, home: false };
-      return is_away(arm, pose) ? { words: 'Ready, away from home. Send it home, or leave it to its jobs.', resume: false, home: true } : { words: 'Ready, at home.', resume: false, home: false };
+      if (!pose) return { words: kWords.ready_unknown, resume: false, home: false };
+      return is_away(arm, pose) ? { words: kWords.ready_away, resume: false, home: true } : { words: kWords.ready, resume: false, home: false };
   }
 }
 

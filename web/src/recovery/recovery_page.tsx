@@ -1,5 +1,4 @@
-// After a stop: why the arms stopped, what each of them needs, what to look at before they move again,
-// and the way back.
+// The Recovery page after a stop: the cause, the checklist, what each arm needs, and Resume.
 
 import { StatePill } from '../arms/arms';
 import { AsOf } from '../frame/as_of';
@@ -8,13 +7,16 @@ import { Link } from '../route/link';
 import type { Arm } from '../server/messages';
 import type { App } from '../state/app';
 import { why_no_command } from '../state/permission';
-import { arm_colour } from '../state/palette';
+import { arm_color } from '../state/palette';
 import { instant_of, pose_at } from '../state/instant';
 import { use_beats } from '../state/seen';
 import { clock, title_of } from '../wording';
 import { kChecks } from './checklist';
 import { cause_of, need_of, waiting_arms } from './needs';
 import { shown_name, shown_text } from '../names';
+import { kText } from '../strings';
+
+const kWords = kText.recovery;
 
 const kHomeSpeed = 0.3;
 
@@ -26,45 +28,45 @@ export function RecoveryPage({ app }: { app: App }) {
   const looks_back = app.router.address.value.t_s !== null;
   return (
     <div class="page" data-test="recovery">
-      <h2>Recovery</h2>
-      <AsOf app={app}>Arms are resumed from the present alone.</AsOf>
-      <p class={cause || waiting.length > 0 ? 'words' : 'hint'} data-test="cause">{cause ? <><span class="mono">{clock(cause.t_s)}</span> {shown_text(cause.text)}</> : waiting.length > 0 ? 'The arms were stopped before this page listened.' : looks_back ? 'As far as this page knows no arm had been stopped by then.' : 'As far as this page knows no arm has been stopped.'}</p>
+      <h2>{kText.page.recovery}</h2>
+      <AsOf app={app}>{kWords.live_only}</AsOf>
+      <p class={cause || waiting.length > 0 ? 'words' : 'hint'} data-test="cause">{cause ? <><span class="mono">{clock(cause.t_s)}</span> {shown_text(cause.text)}</> : waiting.length > 0 ? kWords.stopped_before : looks_back ? kWords.no_stop_then : kWords.no_stop}</p>
       <p class="hint">{waiting_in_words(waiting.length, arms.length, looks_back)}{' '}
-        <Link app={app} to={{ page: 'alerts' }}>Alerts</Link></p>
-      {!looks_back && <><h3>1. Look</h3><Checks app={app} needed={waiting.length > 0} /></>}
-      <h3>{looks_back ? 'What each arm needed' : '2. What each arm needs'}</h3>
+        <Link app={app} to={{ page: 'alerts' }}>{kText.page.alerts}</Link></p>
+      {!looks_back && <><h3>{kWords.check_first}</h3><Checks app={app} needed={waiting.length > 0} /></>}
+      <h3>{looks_back ? kWords.needs_then : kWords.needs}</h3>
       <ul class="needs">{arms.map((arm) => <Needs key={arm.name} arm={arm} app={app} guarded={waiting.length > 0 && app.checklist.left > 0} />)}</ul>
     </div>
   );
 }
 
 function waiting_in_words(waiting: number, arms: number, looks_back: boolean): string {
-  if (looks_back) return waiting === 0 ? 'No arm waited to be resumed.' : `${waiting} of ${arms} arms stood until they would be resumed.`;
-  return waiting === 0 ? 'No arm waits to be resumed.' : `${waiting} of ${arms} arms stand until they are resumed.`;
+  if (looks_back) return waiting === 0 ? kWords.none_waited : kWords.waited(waiting, arms);
+  return waiting === 0 ? kWords.none_waits : kWords.waiting(waiting, arms);
 }
 
 function Checks({ app, needed }: { app: App; needed: boolean }) {
   const { checklist } = app;
   const { left } = checklist;
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   return (
     <fieldset class="checks">
-      <legend class="sr-only">Before the arms move again</legend>
+      <legend class="sr-only">{kWords.legend}</legend>
       {kChecks.map((text, i) => (
         <label key={i} class="check">
           <input type="checkbox" data-test={`check-${i}`} disabled={!needed} checked={checklist.is_ticked(i)} onChange={(event) => checklist.tick(i, event.currentTarget.checked)} /> {text}
         </label>
       ))}
       <div class="line">
-        <button class="primary" data-test="resume-checked" disabled={!needed || left > 0 || mute !== null} title={mute ?? ''}
-          onClick={(event) => { if (event.detail < 2) void app.actions.resume(); /* not by the second click of a double one */ }}>Resume all arms</button>
-        <span class="dim small" role="status" data-test="checks-left">{!needed ? 'Nothing is stopped.' : left > 0 ? `${left} still to confirm.` : 'They go on with their jobs as soon as their ways are free.'}</span>
+        <button class="primary" data-test="resume-checked" disabled={!needed || left > 0 || why_disabled !== null} title={why_disabled ?? ''}
+          onClick={(event) => { if (event.detail < 2) void app.actions.resume(); /* ignores the second click of a double click */ }}>{kWords.resume_all}</button>
+        <span class="dim small" role="status" data-test="checks-left">{!needed ? kWords.nothing_stopped : left > 0 ? kWords.still_to_confirm(left) : kWords.after_resume}</span>
       </div>
     </fieldset>
   );
 }
 
-/** `guarded`: no arm moves before all has been looked at. */
+/** `guarded` disables all motion until the checklist is confirmed. */
 function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) {
   use_beats(app.store);
   const { store } = app;
@@ -72,16 +74,16 @@ function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) 
   const next = store.next_of(arm.name);
   const its = job ?? next;
   const need = need_of(arm, job, pose_at(instant_of(app.router.address.value, store), store), next);
-  const mute = why_no_command(app) ?? (guarded ? 'First confirm the list above' : null);
+  const why_disabled = why_no_command(app) ?? (guarded ? kWords.confirm_first : null);
   return (
-    <li data-test={`need-${arm.name}`} style={{ '--arm': arm_colour([...store.arms.keys()], arm.name) }}>
+    <li data-test={`need-${arm.name}`} style={{ '--arm': arm_color([...store.arms.keys()], arm.name) }}>
       <div class="line"><span class="swatch" aria-hidden="true" /><Link app={app} to={{ page: 'arm', name: arm.name }}>{shown_name(arm.name)}</Link><StatePill arm={arm} app={app} /></div>
       <p>{need.words}</p>
       <div class="line">
-        {need.resume && <button class="small" data-test={`resume-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.resume_arm(arm.name)}>Resume {shown_name(arm.name)} alone</button>}
-        {need.resume && its && <Link app={app} to={{ page: 'job', id: its.id }}>{job ? 'Its job' : 'Its next job'}</Link>}
-        {need.resume && its && <Cancel job={its} app={app} words={`Cancel ${title_of(its)}`} />}
-        {need.home && <button class="small" data-test={`home-${arm.name}`} disabled={mute !== null} title={mute ?? ''} onClick={() => void app.actions.send_to(arm.name, 'home', kHomeSpeed)}>Send {shown_name(arm.name)} home, slowly</button>}
+        {need.resume && <button class="small" data-test={`resume-${arm.name}`} disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={() => void app.actions.resume_arm(arm.name)}>{kWords.resume_one(shown_name(arm.name))}</button>}
+        {need.resume && its && <Link app={app} to={{ page: 'job', id: its.id }}>{job ? kWords.its_job : kWords.its_next_job}</Link>}
+        {need.resume && its && <Cancel job={its} app={app} words={kText.job.cancel(title_of(its))} />}
+        {need.home && <button class="small" data-test={`home-${arm.name}`} disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={() => void app.actions.send_to(arm.name, 'home', kHomeSpeed)}>{kWords.send_home(shown_name(arm.name))}</button>}
       </div>
     </li>
   );

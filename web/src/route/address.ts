@@ -1,17 +1,20 @@
-// Addresses of the page: what stands behind the # names a place, an instant and a camera, so that an
-// address that is sent to somebody shows the same. Pure.
+// The page's addresses: the part behind # names a page, a time and a camera, so that a shared link
+// shows the same. Pure.
 //
 //   #/                      the cell
 //   #/job/ID  #/arm/NAME    one job, one arm
-//   #/pair/A/B              the coordination diagram of two jobs or arms, A across and B up
-//   #/scene  #/scene/NAME   the objects, one of them chosen
-//   #/new                   compose a job
+//   #/pair/A/B              the diagram of two jobs or arms, A across and B up
+//   #/scene  #/scene/NAME   the objects, one of them selected
+//   #/new                   the New job page
 //   #/history  #/settings  #/alerts  #/recovery  #/recordings  #/policies
-//   ?t=12.5                 all views held at this cell time, in seconds
-//   &run=7997886f           the run of the server that it is a time of, by the beginning of its stream's id
-//   ?camera=x,y,z,x,y,z     where the camera stands and what it looks at, in metres
+//   ?t=12.5                 the cell time that all views show, in seconds
+//   &run=7997886f           the server session of this time, by the beginning of its stream id
+//   ?camera=x,y,z,x,y,z     the camera's position and target, in meters
 
 import { shown_name } from '../names';
+import { kText } from '../strings';
+
+const kTitles = kText.page;
 
 export type Place =
   | { page: 'cell' } | { page: 'new' } | { page: 'history' } | { page: 'settings' }
@@ -26,7 +29,7 @@ const kPlain = ['new', 'history', 'settings', 'alerts', 'recovery', 'recordings'
 /** Position, then target. */
 export type Camera = readonly [number, number, number, number, number, number];
 
-/** `run`: of `t_s`; null: not said, so that the present one is meant. */
+/** `run` is the session of `t_s`, or null for the present session. */
 export interface Address { place: Place; t_s: number | null; run: string | null; camera: Camera | null }
 
 export const kHome: Address = { place: { page: 'cell' }, t_s: null, run: null, camera: null };
@@ -74,7 +77,7 @@ function parse_camera(text: string | null): Camera | null {
   const [a, b, c, d, e, f, ...more] = (text ?? '').split(',').map((part) => (part === '' ? NaN : Number(part)));
   if (a === undefined || b === undefined || c === undefined || d === undefined || e === undefined || f === undefined) return null;
   const camera: Camera = [a, b, c, d, e, f];
-  if (Math.hypot(a - d, b - e, c - f) < kLeast_m) return null;  // it would look nowhere
+  if (Math.hypot(a - d, b - e, c - f) < kLeast_m) return null;  // position and target coincide
   return more.length === 0 && camera.every((value) => Number.isFinite(value) && Math.abs(value) < 1000) ? camera : null;
 }
 
@@ -100,21 +103,21 @@ function place_text(place: Place): string {
   }
 }
 
-/** For the window's title. */
+/** Returns the title of the window. */
 export function place_in_words(place: Place): string {
   switch (place.page) {
-    case 'cell': return 'Cell';
-    case 'job': return `Job ${shown_name(place.id)}`;
-    case 'arm': return `Arm ${shown_name(place.name)}`;
-    case 'pair': return `${shown_name(place.a)} and ${shown_name(place.b)}`;
-    case 'scene': return place.name === null ? 'Scene' : `Object ${shown_name(place.name)}`;
-    case 'new': return 'New job';
-    case 'history': return 'History';
-    case 'settings': return 'Settings';
-    case 'alerts': return 'Alerts';
-    case 'recovery': return 'Recovery';
-    case 'recordings': return 'Recordings';
-    case 'policies': return 'Policies';
-    case 'unknown': return 'No such page';
+    case 'cell': return kTitles.cell;
+    case 'job': return kTitles.job(shown_name(place.id));
+    case 'arm': return kTitles.arm(shown_name(place.name));
+    case 'pair': return kTitles.pair(shown_name(place.a), shown_name(place.b));
+    case 'scene': return place.name === null ? kTitles.scene : kTitles.object(shown_name(place.name));
+    case 'new': return kTitles.new;
+    case 'history': return kTitles.history;
+    case 'settings': return kTitles.settings;
+    case 'alerts': return kTitles.alerts;
+    case 'recovery': return kTitles.recovery;
+    case 'recordings': return kTitles.recordings;
+    case 'policies': return kTitles.policies;
+    case 'unknown': return kText.frame.no_page;
   }
 }

@@ -1,4 +1,4 @@
-// A link to a place of the page: a real one, so that it can be opened in another window, or copied.
+// A link to a page; a real one, so that it can be copied or opened in another window.
 
 import type { ComponentChildren } from 'preact';
 import type { App } from '../state/app';

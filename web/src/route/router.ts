@@ -1,4 +1,4 @@
-// Where the page is, as a signal that follows the browser's address bar and leads it.
+// The current address as a signal, in sync with the browser's address bar.
 
 import { signal, type ReadonlySignal } from '@preact/signals';
 import { address_text, parse_address, type Address, type Camera, type Place } from './address';
@@ -14,7 +14,7 @@ export interface AddressBar {
 export class Router {
   private readonly address_;
 
-  /** `run`: the run of the server that is listened to; null: none yet. */
+  /** `run` returns the current session, or null before the first message. */
   constructor(private readonly bar_: AddressBar, private readonly run_: () => string | null = () => null) {
     this.address_ = signal<Address>(parse_address(bar_.read()));
     bar_.on_change(() => { this.address_.value = parse_address(bar_.read()); });
@@ -28,7 +28,7 @@ export class Router {
     return this.address_.value.place;
   }
 
-  /** The address of a place, seen as now: same instant, same camera. */
+  /** Returns the address of a page with the same time and camera. */
   href(place: Place): string {
     return address_text({ ...this.address_.value, place });
   }
@@ -38,8 +38,8 @@ export class Router {
     this.address_.value = { ...this.address_.value, place };
   }
 
-  /** These do not make a step to go back by. */
-  hold_at(t_s: number | null): void {
+  /** Changes the time or camera without a new history entry. */
+  show_time(t_s: number | null): void {
     this.see({ t_s, run: t_s === null ? null : this.run_()?.slice(0, 8) ?? null });
   }
   look_from(camera: Camera | null): void {

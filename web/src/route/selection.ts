@@ -1,4 +1,4 @@
-// What the address points at: it is lit up in every view.
+// The selection of the address; all views highlight it.
 
 import { job_of_side } from '../diagram/sides';
 import type { Store } from '../state/store';

@@ -1,40 +1,43 @@
-// An object of the scene as a form has it: texts, lengths in metres, turns in degrees. Pure.
+// A scene object as a form: texts, lengths in meters, angles in degrees. Pure.
 
 import { no_number, number_in } from '../frame/number_text';
 import { shape_of, type SceneObject } from '../server/messages';
+import { kText } from '../strings';
+
+const kWords = kText.scene;
 
 export type Kind = 'box' | 'cylinder' | 'sphere';
 export const kKinds: readonly Kind[] = ['box', 'cylinder', 'sphere'];
 
-/** What the server takes for an object's name (`ObjectRequest` in /openapi.json). */
+/** The server's limits for an object's name (`ObjectRequest` in /openapi.json). */
 export const kLongestName = 128;
 const kNotInNames = /[\u0000-\u001f\u007f/\\]/u;
 
-/** Null: it is one. */
+/** Returns what is wrong with a name, or null. */
 export function fault_of_name(text: string): string | null {
   const name = text.trim();
-  if (name === '') return 'it has no name';
+  if (name === '') return kWords.name_missing;
   const found = kNotInNames.exec(name)?.[0];
-  if (found !== undefined) return `a name may hold all but /, \\ and control characters: this one holds ${found < ' ' || found === '\u007f' ? 'a control character' : found}`;
-  if (name === '.' || name === '..') return `${name} alone is no name`;
-  return [...name].length > kLongestName ? `a name may have ${kLongestName} characters` : null;
+  if (found !== undefined) return kWords.name_character(found < ' ' || found === '\u007f' ? kWords.control_character : found);
+  if (name === '.' || name === '..') return kWords.name_dots(name);
+  return [...name].length > kLongestName ? kWords.name_long(kLongestName) : null;
 }
 
 export interface Form { name: string; kind: Kind; values: Record<string, string> }
-/** What was typed and is not saved yet; the rest of a form follows the object. */
+/** Unsaved input; the other fields of the form follow the object. */
 export type Edits = Partial<Form>;
 
 type Field = readonly [key: string, label: string, step: number];
 interface Fields { legend: string; keys: readonly Field[] }
 
 const kSizes: Record<Kind, Fields> = {
-  box: { legend: 'Size, m', keys: [['size_x', 'x', 0.01], ['size_y', 'y', 0.01], ['size_z', 'z', 0.01]] },
-  cylinder: { legend: 'Size, m (along z)', keys: [['radius', 'radius', 0.01], ['length', 'length', 0.01]] },
-  sphere: { legend: 'Size, m', keys: [['radius', 'radius', 0.01]] },
+  box: { legend: kWords.size, keys: [['size_x', 'x', 0.01], ['size_y', 'y', 0.01], ['size_z', 'z', 0.01]] },
+  cylinder: { legend: kWords.size_along_z, keys: [['radius', 'radius', 0.01], ['length', 'length', 0.01]] },
+  sphere: { legend: kWords.size, keys: [['radius', 'radius', 0.01]] },
 };
 const kPose: readonly Fields[] = [
-  { legend: 'Position, m', keys: [['x', 'x', 0.05], ['y', 'y', 0.05], ['z', 'z', 0.05]] },
-  { legend: 'Turn about fixed axes, degrees', keys: [['roll', 'roll', 5], ['pitch', 'pitch', 5], ['yaw', 'yaw', 5]] },
+  { legend: kWords.position, keys: [['x', 'x', 0.05], ['y', 'y', 0.05], ['z', 'z', 0.05]] },
+  { legend: kWords.rotation, keys: [['roll', 'roll', 5], ['pitch', 'pitch', 5], ['yaw', 'yaw', 5]] },
 ];
 
 export function fields_of(kind: Kind): readonly Fields[] {
@@ -62,7 +65,7 @@ export function with_edits(form: Form, edits: Edits): Form {
   return { ...form, ...edits, values: { ...form.values, ...edits.values } };
 }
 
-/** Of the edits those that came after `sent`, which is saved now. */
+/** Returns the edits made after `sent`, which is saved now. */
 export function edits_since(sent: Form, edits: Edits): Edits {
   const later: Edits = { values: {} };
   if (edits.name !== undefined && edits.name.trim() !== sent.name.trim()) later.name = edits.name;
@@ -75,13 +78,13 @@ function text_of(value: number): string {
   return String(Number(value.toFixed(6)));
 }
 
-/** Or what is wrong with it; what a size may be is the server's matter. */
+/** Returns the object, or the faults of the form. The server checks the sizes. */
 export function object_of(form: Form): SceneObject | { fault: string } {
   const faults: string[] = [];
   const number_of = (key: string): number => {
     const text = form.values[key] ?? '';
     const value = number_in(text);
-    if (value === null) faults.push(`${key.replace('_', ' ')}: ${no_number(text)}`);
+    if (value === null) faults.push(kWords.field_fault(key.replace('_', ' '), no_number(text)));
     return value ?? NaN;
   };
   const name_fault = fault_of_name(form.name);

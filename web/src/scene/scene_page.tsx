@@ -1,4 +1,4 @@
-// The scene: what stands in it, and a form to add, move and take away boxes, cylinders and spheres.
+// The Scene page: the list of objects, and a form to add, change and remove them.
 
 import { useEffect, useState } from 'preact/hooks';
 import { Refused } from '../compose/refused';
@@ -13,16 +13,19 @@ import { why_no_command } from '../state/permission';
 import { number_in_words } from '../wording';
 import { blank_form, edits_since, fault_of_name, fields_of, form_of, kKinds, kLongestName, object_of, with_edits, type Edits, type Kind } from './object_form';
 import { shown_name } from '../names';
+import { kText } from '../strings';
+
+const kWords = kText.scene;
 
 export function ScenePage({ name, app }: { name: string | null; app: App }) {
   const { objects } = app.store;
   const chosen = objects.find((object) => object.name === name) ?? null;
   return (
     <div class="page">
-      <h2>Scene<span class="count">{objects.length}</span></h2>
+      <h2>{kText.page.scene}<span class="count">{objects.length}</span></h2>
       {app.router.address.value.t_s === null
-        ? <p class="hint">A change counts at once: a motion that an object is in the way of holds before it.</p>
-        : <AsOf app={app}>Nothing can be changed there.</AsOf>}
+        ? <p class="hint">{kWords.hint}</p>
+        : <AsOf app={app}>{kWords.past}</AsOf>}
       <ul class="objects" data-test="objects">
         {objects.map((object) => (
           <li key={object.name} class={object.name === name ? 'selected' : ''}>
@@ -32,23 +35,23 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
           </li>
         ))}
       </ul>
-      {name !== null && !chosen && <p class="hint">{app.router.address.value.t_s === null ? 'There is' : 'There was'} no object called {shown_name(name)}.</p>}
-      {chosen && app.router.address.value.t_s === null && <HandButton name={chosen.name} app={app} />}
+      {name !== null && !chosen && <p class="hint">{app.router.address.value.t_s === null ? kWords.none_called(shown_name(name)) : kWords.none_called_then(shown_name(name))}</p>}
+      {chosen && app.router.address.value.t_s === null && <DragButton name={chosen.name} app={app} />}
       {chosen?.mesh !== undefined
-        ? <p class="hint">A mesh: change it through the API.</p>
+        ? <p class="hint">{kWords.mesh}</p>
         : <ObjectForm key={chosen?.name ?? 'new'} chosen={chosen} app={app} />}
     </div>
   );
 }
 
-/** In the cell, too; not without being asked for, as what is moved holds motions. */
-function HandButton({ name, app }: { name: string; app: App }) {
-  const in_hand = app.by_hand.value === name;
-  useEffect(() => () => { app.by_hand.value = null; }, [app, name]);
+/** Dragging must be enabled first, because a moved object can pause motions. */
+function DragButton({ name, app }: { name: string; app: App }) {
+  const is_dragged = app.dragged_object.value === name;
+  useEffect(() => () => { app.dragged_object.value = null; }, [app, name]);
   return (
     <div class="line">
-      <button class="small" aria-pressed={in_hand} data-test="by-hand" onClick={() => { app.by_hand.value = in_hand ? null : name; }}>Move by hand</button>
-      <span class="dim small">{in_hand ? 'Drag it in the cell by its arrows or its middle; Escape ends it.' : 'Or by the form below.'}</span>
+      <button class="small" aria-pressed={is_dragged} data-test="move-object" onClick={() => { app.dragged_object.value = is_dragged ? null : name; }}>{kWords.drag}</button>
+      <span class="dim small">{is_dragged ? kWords.drag_hint : kWords.or_form}</span>
     </div>
   );
 }
@@ -56,10 +59,10 @@ function HandButton({ name, app }: { name: string; app: App }) {
 function size_in_words(object: SceneObject): string {
   const shape = shape_of(object);
   switch (shape?.kind) {
-    case 'box': return `box ${shape.size.map(number_in_words).join(' × ')} m`;
-    case 'cylinder': return `cylinder, radius ${number_in_words(shape.radius)} m, ${number_in_words(shape.length)} m long`;
-    case 'sphere': return `sphere, radius ${number_in_words(shape.radius)} m`;
-    case 'mesh': return 'mesh';
+    case 'box': return kWords.box(shape.size.map(number_in_words).join(' × '));
+    case 'cylinder': return kWords.cylinder(number_in_words(shape.radius), number_in_words(shape.length));
+    case 'sphere': return kWords.sphere(number_in_words(shape.radius));
+    case 'mesh': return kWords.mesh_size;
     default: return '';
   }
 }
@@ -69,12 +72,12 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
   const edit = (more: Edits) => set_edits((now) => ({ ...now, ...more, values: { ...now.values, ...more.values } }));
   const form = with_edits(chosen ? form_of(chosen) : blank_form(), edits);
   const [problem, set_problem] = useState<Problem | null>(null);
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   const name_fault = form.name === '' ? null : fault_of_name(form.name);
   const submit = async (event: Event) => {
     event.preventDefault();
     const object = object_of(form);
-    if ('fault' in object) return set_problem({ type: 'about:blank', title: 'Not complete', status: 0, detail: object.fault });
+    if ('fault' in object) return set_problem({ type: 'about:blank', title: kWords.incomplete, status: 0, detail: object.fault });
     const answer = await app.api.put_object(object);
     set_problem(answer.ok ? null : answer.problem);
     if (!answer.ok) return;
@@ -83,11 +86,11 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
   };
   return (
     <form class="object-form" data-test="object-form" onSubmit={(event) => void submit(event)}>
-      <h3>{chosen ? `Change ${shown_name(chosen.name)}` : 'Add an object'}</h3>
+      <h3>{chosen ? kWords.change_object(shown_name(chosen.name)) : kWords.add_object}</h3>
       <div class="line wrap">
-        <label class="name">Name <input type="text" required maxLength={kLongestName} value={form.name} readOnly={chosen !== null} data-test="object-name" aria-invalid={name_fault !== null} aria-describedby="object-name-fault"
+        <label class="name">{kWords.name} <input type="text" required maxLength={kLongestName} value={form.name} readOnly={chosen !== null} data-test="object-name" aria-invalid={name_fault !== null} aria-describedby="object-name-fault"
           onInput={(event) => edit({ name: event.currentTarget.value })} /></label>
-        <label>Shape <select value={form.kind} data-test="object-kind" onChange={(event) => edit({ kind: event.currentTarget.value as Kind })}>
+        <label>{kWords.shape} <select value={form.kind} data-test="object-kind" onChange={(event) => edit({ kind: event.currentTarget.value as Kind })}>
           {kKinds.map((kind) => <option key={kind} value={kind}>{kind}</option>)}
         </select></label>
         <span id="object-name-fault" class="field-fault" role="status" data-test="object-name-fault">{name_fault}</span>
@@ -101,9 +104,9 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
         </fieldset>
       ))}
       <div class="line">
-        <button class="primary" type="submit" data-test="object-save" disabled={mute !== null || name_fault !== null} title={mute ?? name_fault ?? ''}>{chosen ? 'Change' : 'Add'}</button>
+        <button class="primary" type="submit" data-test="object-save" disabled={why_disabled !== null || name_fault !== null} title={why_disabled ?? name_fault ?? ''}>{chosen ? kWords.change : kWords.add}</button>
         {chosen && <Remove object={chosen} app={app} />}
-        {chosen && <Link app={app} to={{ page: 'scene', name: null }}>Add another</Link>}
+        {chosen && <Link app={app} to={{ page: 'scene', name: null }}>{kWords.add_another}</Link>}
       </div>
       <InSight answer={problem}>{problem && <Refused problem={problem} />}</InSight>
     </form>
@@ -112,11 +115,11 @@ function ObjectForm({ chosen, app }: { chosen: SceneObject | null; app: App }) {
 
 function Remove({ object, app }: { object: SceneObject; app: App }) {
   const question = use_question();
-  const mute = why_no_command(app);
+  const why_disabled = why_no_command(app);
   const remove = async () => {
-    if (await app.actions.ask(`Remove ${object.name}`, app.api.remove_object(object.name))) app.router.go({ page: 'scene', name: null });
+    if (await app.actions.ask(kText.command.remove(object.name), app.api.remove_object(object.name))) app.router.go({ page: 'scene', name: null });
   };
   return question.asked
-    ? <><button type="button" class="danger" data-test="object-removal" disabled={mute !== null} title={mute ?? ''} onClick={() => void remove()}>Remove {shown_name(object.name)}</button><button type="button" onClick={question.take_back}>Keep</button></>
-    : <button ref={question.button} type="button" data-test="object-remove" disabled={mute !== null} title={mute ?? ''} onClick={question.ask}>Remove…</button>;
+    ? <><button type="button" class="danger" data-test="object-removal" disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={() => void remove()}>{kWords.remove_object(shown_name(object.name))}</button><button type="button" onClick={question.take_back}>{kText.common.keep}</button></>
+    : <button ref={question.button} type="button" data-test="object-remove" disabled={why_disabled !== null} title={why_disabled ?? ''} onClick={question.ask}>{kWords.remove}</button>;
 }

@@ -1,66 +1,72 @@
-// The HTTP calls that the page makes. Every answer is a value: what was asked for, or a Problem.
+// The HTTP requests of the page. Each answer is a value or a Problem.
 
 import { cut_text } from '../names';
+import { kText } from '../strings';
 import {
   parse_alerts, parse_cell, parse_comparison, parse_control, parse_control_taken, parse_diagram, parse_jog, parse_forecast, parse_job, parse_job_motion, parse_job_page, parse_measured_states, parse_plan, parse_problem, parse_recording_list, parse_session, parse_verdict,
   type AlertList, type Cell, type Comparison, type Control, type ControlTaken, type Diagram, type Forecast, type Jog, type Job, type JobAmendment, type JobMotion, type JobPage, type MeasuredStates, type Parsed, type Plan, type Problem, type RecordingList, type SceneObject, type Session, type Verdict,
 } from './messages';
 
+const kAnswers = kText.server.answers;
+
 export type Answer<T> = { ok: true; value: T } | { ok: false; problem: Problem };
 export type Fetch = (url: string, init?: RequestInit) => Promise<Response>;
 
-/** What every path of the API begins with. */
+/** The prefix of all API paths. */
 export const kApi = '/api/v1';
 
 export class Api {
   constructor(private readonly base_: string, private readonly fetch_: Fetch) {}
 
   async cell(): Promise<Answer<Cell>> {
-    return checked('cell', await this.ask('GET', '/cell'), parse_cell);
+    return checked(kAnswers.cell, await this.ask('GET', '/cell'), parse_cell);
   }
 
   async job(id: string): Promise<Answer<Job>> {
-    return checked('job', await this.ask('GET', `/jobs/${encodeURIComponent(id)}`), parse_job);
+    return checked(kAnswers.job, await this.ask('GET', `/jobs/${encodeURIComponent(id)}`), parse_job);
   }
 
-  /** A page of all that it has, former runs included; null: the newest. */
+  /**
+   * Returns a page of the job list, including previous sessions. A null cursor gives the newest
+   * page.
+   */
   async jobs(limit: number, cursor: string | null): Promise<Answer<JobPage>> {
     const from = cursor === null ? '' : `&cursor=${encodeURIComponent(cursor)}`;
-    return checked('list of jobs', await this.ask('GET', `/jobs?limit=${limit}${from}`), parse_job_page);
+    return checked(kAnswers.jobs, await this.ask('GET', `/jobs?limit=${limit}${from}`), parse_job_page);
   }
 
   async job_motion(id: string): Promise<Answer<JobMotion>> {
-    return checked('trajectory', await this.ask('GET', `/jobs/${encodeURIComponent(id)}/trajectory`), parse_job_motion);
+    return checked(kAnswers.trajectory, await this.ask('GET', `/jobs/${encodeURIComponent(id)}/trajectory`), parse_job_motion);
   }
 
   async timeline(): Promise<Answer<Forecast>> {
-    return checked('timeline', await this.ask('GET', '/timeline'), parse_forecast);
+    return checked(kAnswers.timeline, await this.ask('GET', '/timeline'), parse_forecast);
   }
 
-  /** Without its cells, for who has them: what lies ahead by now. */
+  /** With `cells` false only the prediction is fetched. */
   async diagram(a: string, b: string, cells = true): Promise<Answer<Diagram>> {
     const path = `/jobs/${encodeURIComponent(a)}/diagram?with=${encodeURIComponent(b)}${cells ? '' : '&cells=0'}`;
-    return checked('diagram', await this.ask('GET', path), parse_diagram);
+    return checked(kAnswers.diagram, await this.ask('GET', path), parse_diagram);
   }
 
-  /** Posts the body as it stands: the server is the judge of it, JSON errors included. */
+  /** Posts the body unchanged; the server validates it, including its JSON. */
   post_job(body: Blob | string): Promise<Answer<unknown>> {
     return this.ask('POST', '/jobs', body);
   }
 
-  /** All of them or none. */
+  /** Submits a batch: either all jobs are accepted or none. */
   post_batch(body: Blob | string): Promise<Answer<unknown>> {
     return this.ask('POST', '/batches', body);
   }
 
-  /** What if this job came now? Nothing is stored. */
+  /** Checks a job as if it were submitted now; nothing is stored. */
   async check(body: Blob | string): Promise<Answer<Verdict>> {
-    return checked('verdict', await this.ask('POST', '/check', body), parse_verdict);
+    return checked(kAnswers.verdict, await this.ask('POST', '/check', body), parse_verdict);
   }
 
-  /** A way to a goal; nothing is stored and nothing moves. */
+  /** Plans a path to a goal; nothing is stored and nothing moves. */
   async plan(text: string): Promise<Answer<Plan>> {
-    return checked('plan', await this.ask('POST', '/plan', text), parse_plan);
+    return checked(kAnswers.plan, await this.ask('POST', '/plan', text), parse_plan);
   }
 
   put_object(object: SceneObject): Promise<Answer<unknown>> {
@@ -72,7 +78,7 @@ export class Api {
     return this.ask('DELETE', `/scene/objects/${encodeURIComponent(name)}`);
   }
 
-  /** What is named of the job is changed. */
+  /** Changes the given members of a job. */
   amend_job(id: string, changes: JobAmendment): Promise<Answer<unknown>> {
     return this.ask('PATCH', `/jobs/${encodeURIComponent(id)}`, JSON.stringify(changes));
   }
@@ -81,51 +87,51 @@ export class Api {
     return this.ask('DELETE', `/jobs/${encodeURIComponent(id)}`);
   }
 
-  /** Another way to where the job ends. */
+  /** Plans a new path to the job's goal. */
   replan_job(id: string): Promise<Answer<unknown>> {
     return this.ask('POST', `/jobs/${encodeURIComponent(id)}/replan`);
   }
 
-  /** While no job is admitted. */
+  /** Allowed only while no job is admitted. */
   change_policy(policy: string): Promise<Answer<unknown>> {
     return this.ask('PUT', '/policy', JSON.stringify({ policy }));
   }
 
-  /** The jobs at hand under every policy; it has only begun. */
+  /** Starts the comparison of all policies on recent jobs. */
   async compare(what: { since_s?: number }): Promise<Answer<Comparison>> {
-    return checked('comparison', await this.ask('POST', '/comparison', JSON.stringify(what)), parse_comparison);
+    return checked(kAnswers.comparison, await this.ask('POST', '/comparison', JSON.stringify(what)), parse_comparison);
   }
 
   async comparison(): Promise<Answer<Comparison>> {
-    return checked('comparison', await this.ask('GET', '/comparison'), parse_comparison);
+    return checked(kAnswers.comparison, await this.ask('GET', '/comparison'), parse_comparison);
   }
 
   async cancel_comparison(): Promise<Answer<Comparison>> {
-    return checked('comparison', await this.ask('DELETE', '/comparison'), parse_comparison);
+    return checked(kAnswers.comparison, await this.ask('DELETE', '/comparison'), parse_comparison);
   }
 
   async control(): Promise<Answer<Control>> {
-    return checked('control', await this.ask('GET', '/control'), parse_control);
+    return checked(kAnswers.control, await this.ask('GET', '/control'), parse_control);
   }
 
-  /** Without a name: the server says where it came from. */
+  /** Without a name the server uses the client's address. */
   async take_control(who: string): Promise<Answer<ControlTaken>> {
     const asked = who === '' ? { take: true } : { who, take: true };
-    return checked('control', await this.ask('POST', '/control', JSON.stringify(asked)), parse_control_taken);
+    return checked(kAnswers.control, await this.ask('POST', '/control', JSON.stringify(asked)), parse_control_taken);
   }
 
   async release_control(key: string): Promise<Answer<Control>> {
-    return checked('control', await this.ask('POST', '/control/release', JSON.stringify({ control: key })), parse_control);
+    return checked(kAnswers.control, await this.ask('POST', '/control/release', JSON.stringify({ control: key })), parse_control);
   }
 
-  /** Goes on only as long as it is renewed. */
+  /** The motion lasts only while the lease is renewed. */
   async jog(arm: string, state: string, key: string): Promise<Answer<Jog>> {
     const asked = { control: key, to: { named: state } };
-    return checked('move', await this.ask('POST', `/arms/${encodeURIComponent(arm)}/jog`, JSON.stringify(asked)), parse_jog);
+    return checked(kAnswers.jog_motion, await this.ask('POST', `/arms/${encodeURIComponent(arm)}/jog`, JSON.stringify(asked)), parse_jog);
   }
 
   async renew_jog(arm: string, key: string): Promise<Answer<Jog>> {
-    return checked('move', await this.ask('PUT', `/arms/${encodeURIComponent(arm)}/jog`, JSON.stringify({ control: key })), parse_jog);
+    return checked(kAnswers.jog_motion, await this.ask('PUT', `/arms/${encodeURIComponent(arm)}/jog`, JSON.stringify({ control: key })), parse_jog);
   }
 
   stop(): Promise<Answer<unknown>> {
@@ -145,31 +151,31 @@ export class Api {
   }
 
   async alerts(): Promise<Answer<AlertList>> {
-    return checked('list of alerts', await this.ask('GET', '/alerts'), parse_alerts);
+    return checked(kAnswers.alerts, await this.ask('GET', '/alerts'), parse_alerts);
   }
 
-  /** Without a name: the server says where it came from. */
+  /** Without a name the server uses the client's address. */
   acknowledge(ids: readonly string[], who: string): Promise<Answer<unknown>> {
     return this.ask('POST', '/alerts/acknowledge', JSON.stringify(who === '' ? { ids } : { ids, who }));
   }
 
-  /** Where the arms were over the last minutes. */
+  /** Returns the measured positions of the last minutes. */
   async states(): Promise<Answer<MeasuredStates>> {
-    return checked('list of positions', await this.ask('GET', '/states'), parse_measured_states);
+    return checked(kAnswers.positions, await this.ask('GET', '/states'), parse_measured_states);
   }
 
   /** Newest first. */
   async recordings(): Promise<Answer<RecordingList>> {
-    return checked('list of recordings', await this.ask('GET', '/recordings'), parse_recording_list);
+    return checked(kAnswers.recordings, await this.ask('GET', '/recordings'), parse_recording_list);
   }
 
-  /** Where a file of one is had from. */
+  /** Returns the address of a recording's file. */
   recording_address(recording: string, file: string): string {
     return `${this.base_}/recordings/${encodeURIComponent(recording)}/${encodeURIComponent(file)}`;
   }
 
   async session(): Promise<Answer<Session>> {
-    return checked('session', await this.ask('GET', '/session'), parse_session);
+    return checked(kAnswers.session, await this.ask('GET', '/session'), parse_session);
   }
 
   log_out(): Promise<Answer<unknown>> {
@@ -188,7 +194,7 @@ export class Api {
       if (response.ok) return { ok: true, value: text === '' ? null : (JSON.parse(text) as unknown) };
       return { ok: false, problem: read_problem(text, response) };
     } catch (error) {
-      return { ok: false, problem: own_problem('The server does not answer', String(error)) };
+      return { ok: false, problem: own_problem(kText.server.no_answer, String(error)) };
     }
   }
 }
@@ -198,7 +204,7 @@ function checked<T>(what: string, answer: Answer<unknown>, parse: (value: unknow
   const parsed = parse(answer.value);
   return parsed.ok
     ? { ok: true, value: parsed.value }
-    : { ok: false, problem: own_problem(`The ${what} cannot be read`, parsed.fault) };
+    : { ok: false, problem: own_problem(kText.server.unreadable(what), parsed.fault) };
 }
 
 function read_problem(text: string, response: Response): Problem {
@@ -206,9 +212,9 @@ function read_problem(text: string, response: Response): Problem {
     const problem = parse_problem(JSON.parse(text));
     if (problem.ok) return problem.value;
   } catch {
-    // Not JSON: an answer from something between us and the server. Shown as it is.
+    // Not JSON, for example from a proxy. Shown unchanged.
   }
-  return { ...own_problem(response.statusText || 'Refused', cut_text(text, 300)), status: response.status };
+  return { ...own_problem(response.statusText || kText.server.refused, cut_text(text, 300)), status: response.status };
 }
 
 function own_problem(title: string, detail: string): Problem {

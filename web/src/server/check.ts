@@ -1,5 +1,5 @@
-// Whether JSON is what the server says it sends: by the shapes of src/contract, which are made from
-// the server's own description. A fault names the place and what was found there.
+// Validates the server's JSON against the schemas in src/contract. A fault names the place and the
+// value found.
 
 import { Validator } from '@cfworker/json-schema';
 import { cut_text } from '../names';
@@ -14,10 +14,10 @@ export type Parsed<T> = { ok: true; value: T } | { ok: false; fault: string };
 const validators = new Map<Checked, Validator>();
 
 export function check<Name extends Checked>(name: Name, value: unknown): Parsed<Schemas[Name]> {
-  if (value === undefined) return { ok: false, fault: '/: There is nothing.' };  // which is no JSON
+  if (value === undefined) return { ok: false, fault: '/: no value' };  // undefined is not JSON
   const { valid, errors } = validator_of(name).validate(value);
   if (valid) return { ok: true, value: value as Schemas[Name] };
-  // The innermost one says most; around it they only say that there is one.
+  // The innermost error says most; the outer errors only repeat that there is one.
   const depth = (place: string) => place.split('/').length;
   const fault = errors.reduce((a, b) => (depth(b.instanceLocation) >= depth(a.instanceLocation) ? b : a));
   const pointer = fault.instanceLocation.slice(1);

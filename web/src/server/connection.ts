@@ -1,9 +1,8 @@
-// The one WebSocket to the server: opens it, opens it again when it is lost, and resumes the event
-// stream where it broke off.
+// The WebSocket connection: reconnects when it is lost, and resumes the event stream.
 //
-// The socket and the timers are injected, so that tests drive them by hand. Delays double from
-// 250 ms to 5 s and start over once a message has come in. `stream` and `since` name the last event
-// that was taken; the server answers with what came after it, or with a fresh snapshot.
+// Socket and timers are injected for tests. Retry delays double from 250 ms to 5 s and are reset by
+// a message. `stream` and `since` name the last event received; the server continues after it, or
+// sends a new snapshot.
 
 import { parse_message, type Message } from './messages';
 
@@ -22,8 +21,8 @@ export interface Timers {
 export type Link =
   | { status: 'connecting' }
   | { status: 'open' }
-  | { status: 'recording'; name: string }  // nothing is listened to: a recording is looked at
-  | { status: 'past' }  // of what looks back: nothing is asked from there
+  | { status: 'recording'; name: string }  // not connected: a recording is shown
+  | { status: 'past' }  // link of a past state: no requests
   | { status: 'lost'; attempt: number; retry_in_ms: number };
 
 export interface ConnectionOptions {
@@ -32,7 +31,7 @@ export interface ConnectionOptions {
   timers: Timers;
   on_message(message: Message): void;
   on_link(link: Link): void;
-  /** Called for what the page cannot take: a type it does not know, or a message that is malformed. */
+  /** Called for messages of unknown type and malformed messages. */
   on_reject(rejected: { kind: 'unknown' | 'malformed'; what: string }): void;
 }
 
@@ -63,7 +62,7 @@ export class Connection {
     this.release();
   }
 
-  /** With a snapshot, as if nothing had been heard. */
+  /** Reconnects from scratch, with a snapshot. */
   begin_anew(): void {
     this.stop();
     this.stream_ = null;
@@ -72,7 +71,7 @@ export class Connection {
     this.start();
   }
 
-  /** Try at once instead of waiting for the timer (the banner's button, or the machine came back). */
+  /** Retries at once (the banner's button, or the network came back). */
   retry_now(): void {
     if (this.timer_ === null) return;
     this.options_.timers.clear(this.timer_);
@@ -80,7 +79,7 @@ export class Connection {
     this.open();
   }
 
-  /** As if the network had broken it: it is opened again in a while. */
+  /** Breaks the connection as a network failure would; it is retried later. */
   break(): void {
     if (this.socket_) this.lost();
   }

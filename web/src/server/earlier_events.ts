@@ -1,5 +1,4 @@
-// The last events from before the page was loaded, as the server still has them: read from its stream of
-// events until where the page's own begins.
+// Reads the events from before the page was connected, as far as the server still has them.
 
 import { parse_message, type SequencedMessage } from './messages';
 import type { Fetch } from './api';
@@ -7,7 +6,10 @@ import type { Fetch } from './api';
 const kMost = 1000;
 const kPatience_ms = 15_000;
 
-/** Those until this number, in order; none where the server has forgotten them or does not answer. */
+/**
+ * Returns the events up to number `until`, or none if the server has forgotten them or does not
+ * answer.
+ */
 export async function earlier_events(base: string, fetch: Fetch, stream: string, until: number): Promise<SequencedMessage[]> {
   if (until <= 0) return [];
   const since = Math.max(0, until - kMost);
@@ -18,14 +20,14 @@ export async function earlier_events(base: string, fetch: Fetch, stream: string,
     const response = await fetch(`${base}/events?stream=${encodeURIComponent(stream)}&since=${since}`, { headers: { accept: 'text/event-stream' }, signal: stop.signal });
     if (!response.ok || !response.body) return [];
     for await (const message of messages_of(response.body.getReader())) {
-      // It cannot go on from there: what it sends instead is no past.
+      // A snapshot means that the server cannot resume there.
       if (message.type === 'snapshot') return [];
       if (message.stream !== stream) return [];
       if (message.seq <= until) events.push(message);
       if (message.seq >= until) break;
     }
   } catch {
-    // What has come so far has a gap at its end.
+    // An incomplete list would have a gap at its end.
     return [];
   } finally {
     clearTimeout(timer);

@@ -1,5 +1,4 @@
-// Fetches one job again and again while its details are shown: events come when its state changes,
-// its progress is only known to who asks.
+// Polls one job while its details are shown: events do not report progress.
 
 import type { Api } from './api';
 import type { Timers } from './connection';
@@ -7,7 +6,7 @@ import type { Store } from '../state/store';
 
 const kPeriod_ms = 1000;
 
-/** Asks at once, then a second after each answer, until the job has ended or the answer is called. */
+/** Polls every second until the job has ended or the returned function is called. */
 export function follow_job(id: string, api: Pick<Api, 'job'>, store: Store, timers: Timers): () => void {
   let closed = false;
   let timer: number | null = null;
@@ -18,7 +17,7 @@ export function follow_job(id: string, api: Pick<Api, 'job'>, store: Store, time
     if (store.link.status !== 'lost') {
       const answer = await api.job(id);
       if (closed) return;
-      // A refusal needs no words here: what events say about the job is shown all the same.
+      // A refusal is ignored: the page still has the job from events.
       if (answer.ok) store.refresh_job(answer.value);
     }
     timer = timers.set(() => void ask(), kPeriod_ms);

@@ -1,4 +1,4 @@
-// Fetches what the arms are expected to do, again and again while the page is looked at.
+// Polls the predicted timeline while the page is visible.
 
 import type { Api } from './api';
 import type { Timers } from './connection';
@@ -6,7 +6,9 @@ import type { Store } from '../state/store';
 
 const kPeriod_ms = 700;
 
-/** Tells the store every answer, null where there is none, until the answer is called. */
+/**
+ * Passes each answer to the store (null if there is none) until the returned function is called.
+ */
 export function follow_timeline(
   api: Pick<Api, 'timeline'>, store: Store, timers: Timers, is_visible: () => boolean,
 ): () => void {

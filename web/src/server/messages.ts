@@ -1,10 +1,9 @@
-// What the server says, as types, and the only place where its JSON is read. The types are made from
-// the server's own description (src/contract, `npm run contract`); so are the shapes that JSON is
-// checked by.
+// The types of the server's messages, and the only place that parses them. Types and schemas are
+// generated from the server's OpenAPI description (src/contract, `npm run contract`).
 //
-// Messages on the WebSocket form one union discriminated by `type`. `parse_message` never throws:
-// it answers the message, or that the type is unknown (a newer server), or what is malformed and
-// where. Times are seconds of cell time, angles rad, lengths m, as in the server's contract.
+// WebSocket messages are a union discriminated by `type`. `parse_message` never throws: it returns
+// the message, or an unknown type (a newer server), or where the message is malformed. Times are
+// cell time in seconds, angles rad, lengths m.
 
 import { check, type Parsed, type Schemas } from './check';
 import shapes from '../contract/schemas.json';
@@ -13,7 +12,7 @@ export type { Parsed };
 export type ArmState = Schemas['ArmState'];
 export type JobState = Schemas['JobState'];
 export type Arm = Schemas['Arm'];
-/** One thing that a job waits on; times count from the start of each one's own trajectory. */
+/** A reason to wait; times count from the start of each job's own trajectory. */
 export type WaitsOn = Schemas['Wait'];
 export type Job = Schemas['Job'];
 export type SceneObject = Schemas['Object'];
@@ -23,75 +22,75 @@ export type CellRobot = Schemas['CellRobot'];
 export type CellJoint = Schemas['CellJoint'];
 /** The coordination diagram of two jobs. */
 export type Diagram = Schemas['Diagram'];
-/** What one arm of A and one arm of B do to each other, wherever each is on its way. */
+/** The conflicts between one arm of A and one arm of B. */
 export type DiagramLayer = Diagram['layers'][number];
-/** What the two meet if both go on from where they are. */
+/** The first contact of the prediction. */
 export type DiagramContact = Schemas['DiagramContact'];
 export type CellState = Schemas['DiagramCell']['state'];
-/** When each arm is expected to move. */
+/** The predicted motions of each arm. */
 export type Forecast = Schemas['Timeline'];
-export type ForecastLeg = Schemas['TimelineStep'];
-/** What the admission code says of a job that was only asked about. */
+export type ForecastStep = Schemas['TimelineStep'];
+/** The result of a check. */
 export type Verdict = Schemas['Verdict'];
-/** What of a job can be changed. */
+/** The members of a job that can be changed. */
 export type JobAmendment = Partial<Pick<Job, 'name' | 'priority' | 'backlog_timeout_s' | 'on_timeout'>>;
-/** How a job moves. */
+/** The trajectory of a job. */
 export type JobMotion = Schemas['JobMotion'];
-/** A motion to a goal, which is not executed. */
+/** A planned path to a goal; it is not executed. */
 export type Plan = Schemas['Plan'];
-/** What somebody has to see to, until somebody has. */
+/** An alert, until it is acknowledged. */
 export type KeptAlert = Schemas['KeptAlert'];
 export type AlertList = Schemas['AlertList'];
-/** Who asks, and what they may. */
+/** The user and role of this browser. */
 export type Session = Schemas['Session'];
-/** The same jobs under several policies, simulated. */
+/** The same jobs simulated under several policies. */
 export type Comparison = Schemas['Comparison'];
 export type PolicyRun = Schemas['PolicyRun'];
-/** Who may jog arms. */
+/** The holder of control for jogging. */
 export type Control = Schemas['Control'];
 export type ControlTaken = Schemas['ControlTaken'];
 export type ControlHolder = Schemas['ControlHolder'];
 /** A jog motion. */
 export type Jog = Schemas['Jog'];
-/** Of all jobs that the server has, newest first. */
+/** A page of the job list, newest first. */
 export type JobPage = Schemas['JobPage'];
-/** Where every joint was measured over the last minutes. */
+/** The measured joint positions of the last minutes. */
 export type MeasuredStates = Schemas['MeasuredStates'];
-/** What runs of the server have written down. */
+/** The recordings on the server. */
 export type RecordingList = Schemas['RecordingList'];
 export type KeptRecording = Schemas['Recording'];
 export type QueueData = Schemas['QueueIds'];
 export type MonitorData = Schemas['MonitorFinding'];
-/** RFC 9457, with the place of the fault and the value found. */
+/** RFC 9457, with a JSON pointer to the fault and the value found. */
 export type Problem = Schemas['Problem'];
 export type Message = Schemas['Message'];
-/** A frame of poses: carries no sequence number and may be dropped on the way. */
+/** A frame of poses; it has no sequence number and may be dropped. */
 export type StateMessage = Schemas['StateFrame'];
 export type SequencedMessage = Exclude<Message, StateMessage>;
-/** The smallest distance of a pair: two arms, or one arm and an object of the scene. */
+/** The clearance of a pair: two arms, or an arm and an object. */
 export type Clearance = StateMessage['clearance'][number];
-/** What an arm may do of a motion: how far it is, how far it may go; trajectory time. */
+/** The progress and authority of an arm in a motion; trajectory time. */
 export type ArmAuthority = Schemas['ArmAuthority'];
 
 export type Shape =
   | { kind: 'box'; size: [number, number, number] }
   | { kind: 'cylinder'; radius: number; length: number }
   | { kind: 'sphere'; radius: number }
-  /** Served at `address` by the same server; in metres once scaled. */
+  /** Served at `address` by the same server; `scale` converts to meters. */
   | { kind: 'mesh'; address: string; scale: [number, number, number] };
 
-/** Two links; null where there are none. */
+/** Returns two links, or null if there are none. */
 export function pair_of(links: readonly string[]): [string, string] | null {
   const [a, b] = links;
   return a !== undefined && b !== undefined ? [a, b] : null;
 }
 
-/** Where a joint may be; infinite where it has no limit, which JSON calls null. */
+/** Returns the range of a joint; infinite without limits, which JSON states as null. */
 export function range_of(joint: CellJoint): [lower: number, upper: number] {
   return [joint.lower ?? -Infinity, joint.upper ?? Infinity];
 }
 
-/** null for a shape that this page does not know. */
+/** Returns the shape, or null if the page does not know it. */
 export function shape_of(object: SceneObject): Shape | null {
   const { box, cylinder, sphere, mesh, scale } = object;
   if (box) return { kind: 'box', size: box };
@@ -106,10 +105,10 @@ export type ParsedMessage =
   | { kind: 'unknown'; type: string; stream: string | null; seq: number | null }
   | { kind: 'malformed'; fault: string };
 
-/** Whether this server can look for another way for a job: its jobs then tell of it. */
+/** True if the server supports replanning. */
 export const kCanReplan = 'replan' in shapes.Job.properties;
 
-// Which schema each type of message has.
+// The schema of each message type.
 const kSchemaOfType = new Map<string, string>(Object.entries(shapes.Message.discriminator.mapping));
 
 export function parse_message(text: string): ParsedMessage {

@@ -1,7 +1,7 @@
-// What every part of the page is given: what is known, what can be asked, where we are, how it looks.
+// The object that every part of the page receives: state, commands, address, settings.
 
 import type { Signal } from '@preact/signals';
-import type { Hand } from '../control/hand';
+import type { JogControl } from '../control/jog_control';
 import type { Archive } from '../history/archive';
 import type { AlertList } from '../alerts/alert_list';
 import type { Api } from '../server/api';
@@ -16,38 +16,38 @@ import type { Actions } from './actions';
 import type { Seen } from './as_of';
 import type { Settings } from './settings';
 import type { Store } from './store';
-import type { Tool } from '../view/tool_in_hand';
+import type { Tool } from '../view/tool_goal';
 
 export interface App {
-  /** Whoever reads it while it is drawn is drawn again when it changes. */
+  /** Components that read it are drawn again when it changes. */
   readonly store: Store;
   api: Api;
   motions: MotionBook;
   actions: Actions;
   router: Router;
-  /** The state at the instant that is looked at. */
+  /** The state at the shown time. */
   seen: Seen;
   player: Player;
-  /** The recordings in the server's data folder. */
+  /** The recordings on the server. */
   kept: KeptList;
   settings: Settings;
   alerts: AlertList;
   comparing: Comparing;
-  /** Jobs that the page was never told of. */
+  /** Ended jobs that the page did not receive as events. */
   archive: Archive;
-  hand: Hand;
-  /** What is looked at before arms that were stopped move again. */
+  jogging: JogControl;
+  /** The checklist before stopped arms move again. */
   checklist: Checklist;
-  /** Who uses this browser, where the server asks for tokens; null: not known yet. */
+  /** The user of this browser if the server requires tokens; null until known. */
   session: Signal<Session | null>;
-  /** The job, or the bag of jobs, that is being composed; it outlives the page's pane. */
+  /** The text of the job or batch being composed; it outlives the page's pane. */
   draft: Signal<string>;
-  /** Joints as they would stand, shown in the cell; null: nothing is previewed. */
+  /** Joints of the ghost in the 3D view, or null. */
   ghost: Signal<Readonly<Record<string, number>> | null>;
-  /** The object that may be moved by hand in the cell. */
-  by_hand: Signal<string | null>;
-  /** The tool whose goal is dragged in the cell. */
+  /** The object that can be dragged in the 3D view. */
+  dragged_object: Signal<string | null>;
+  /** The tool goal that is dragged in the 3D view. */
   tool: Signal<Tool | null>;
-  /** So much of the cell's left is covered by a pane. */
+  /** The width of the pane that covers the left of the 3D view. */
   covered_px: Signal<number>;
 }

@@ -1,5 +1,5 @@
-// What the views show: the present, or, while an earlier instant is looked at, the state at that instant as
-// far as what the server told tells it. What is not known then is said to be so; the present never stands in.
+// The state that the views show: the present, or a past state derived from the log of events.
+// Unknown parts of a past state are reported as unknown; the present never replaces them.
 
 import { signal, type ReadonlySignal } from '@preact/signals';
 import type { Router } from '../route/router';
@@ -7,7 +7,7 @@ import { instant_of, is_of_this_run } from './instant';
 import type { App } from './app';
 import { Store } from './store';
 
-/** The state once so many events of the log had come; with none of them nothing is known. Pure. */
+/** Returns the state after `count` events of the log; with none, nothing is known. Pure. */
 export function state_after(count: number, now: Store): Store {
   const then = new Store(() => 0, now);
   then.begin_past(now);
@@ -15,7 +15,7 @@ export function state_after(count: number, now: Store): Store {
   return then;
 }
 
-/** How many events lead to the state at a time; 0: it is not known. Pure. */
+/** Returns the number of events up to a time, or 0 if the state is unknown. Pure. */
 export function events_until(t_s: number, run: string | null, now: Store): number {
   if (!is_of_this_run(run, now) || t_s > now.t_s + kRounding_s) return 0;
   const count = now.log.count_until(t_s + kRounding_s);
@@ -35,7 +35,7 @@ export class Seen {
     now_.on_change(() => this.look());
   }
 
-  /** Another one whenever another event is the last that had come. */
+  /** The shown store; a new one when the number of applied events changes. */
   get store(): ReadonlySignal<Store> {
     return this.store_;
   }
@@ -60,7 +60,7 @@ export class Seen {
 
 const apps = new WeakMap<Store, App>();
 
-/** The page as of what is looked at. */
+/** Returns the app with the store at the shown time. */
 export function seen_app(app: App): App {
   const store = app.seen.store.value;
   if (store === app.store) return app;
@@ -72,7 +72,7 @@ export function seen_app(app: App): App {
   return then;
 }
 
-/** Whether anything is known of the state that is shown. */
+/** Returns true if anything is known about the shown state. */
 export function is_known({ stream, link }: Pick<Store, 'stream' | 'link'>): boolean {
   return stream !== null || link.status === 'connecting' || link.status === 'open' || link.status === 'lost';
 }

@@ -1,18 +1,22 @@
-// What the events of a run come to, whether they are heard now or gone through again: arms, jobs, objects,
-// what was reported. Of poses it has what snapshots tell.
+// The state that events lead to, live or replayed: arms, jobs, objects, reports. Poses come from
+// snapshots only.
 
 import type { Arm, Job, SceneObject, SequencedMessage } from '../server/messages';
+import { kText } from '../strings';
 import { HaltBook, type Halts } from './halts';
 import { is_terminal, JobBook, type JobList } from './job_book';
 import { Notices, type Notice } from './notices';
 import type { Snapshot } from './snapshots';
 import { counted, kNoNumbers, type Numbers } from './numbers';
-import type { ToldState } from './standing';
+import type { ShownState } from './shown_state';
 
-/** `at`: wall time of the first that was heard of its next run; `lost`: jobs that had not ended, of which that one does not tell. */
+/**
+ * `at` is the wall time of the new session's first message. `lost` are unfinished jobs that the new
+ * session does not contain.
+ */
 export interface Restart { at: string; lost: readonly Job[] }
 
-const kStands: ReadonlySet<Arm['state']> = new Set(['paused', 'stopped', 'fault'] as const);
+const kAtRest: ReadonlySet<Arm['state']> = new Set(['paused', 'stopped', 'fault'] as const);
 
 export class Facts {
   stream: string | null = null;
@@ -20,15 +24,15 @@ export class Facts {
   speed = 1;
   stopped = false;
   t_s = 0;
-  /** Changes with every scene, so that the view draws objects again. */
+  /** A new array for each scene, so that the view redraws objects. */
   objects: SceneObject[] = [];
   arms = new Map<string, Arm>();
   q: Record<string, number> = {};
-  /** The last one while the page was there, until it is put away. */
+  /** The last restart since the page was opened, until dismissed. */
   restart: Restart | null = null;
   numbers: Numbers = kNoNumbers;
   readonly book = new JobBook();
-  /** Of these nothing was told until the time that is shown: only what looks back has any. */
+  /** Arms whose state at the shown time is unknown; only for past states. */
   protected readonly unknown_arms_ = new Set<string>();
   protected readonly notices_ = new Notices();
   protected readonly halts_ = new HaltBook();
@@ -49,8 +53,8 @@ export class Facts {
           this.restart = { at: message.at, lost };
         }
         this.take_snapshot(message, same_run);
-        if (restarted) this.notices_.note(this.stream, message.t_s, 'warning', 'The server was restarted. Jobs of its former run are in the history, if it keeps them.');
-        else if (message.data.gap) this.notices_.note(this.stream, message.t_s, 'info', 'Some events were missed while the connection was lost.');
+        if (restarted) this.notices_.note(this.stream, message.t_s, 'warning', kText.events.restarted);
+        else if (message.data.gap) this.notices_.note(this.stream, message.t_s, 'info', kText.events.missed);
         break;
       case 'job':
         this.book.take(message.data, message.t_s);
@@ -70,10 +74,10 @@ export class Facts {
     }
   }
 
-  /** What was reported, newest first. */
+  /** Reports, newest first. */
   get notices(): readonly Notice[] { return this.notices_.all; }
 
-  /** The same of this run. */
+  /** Reports of this session. */
   get events(): readonly Notice[] { return this.notices_.of_run(this.stream); }
 
   get halts(): Halts { return this.halts_.all; }
@@ -94,22 +98,22 @@ export class Facts {
     return is_terminal(job);
   }
 
-  /** Share of its trajectory that a job has done by now: the last report, carried on while it runs. */
+  /** Returns the progress of a job: the last report, extrapolated while it runs. */
   progress(job: Job): number {
     const heard_s = this.book.heard_at(job.id);
-    const moves = job.state === 'running' && job.arms.every((arm) => !kStands.has(this.arms.get(arm)?.state ?? 'moving'));
+    const moves = job.state === 'running' && job.arms.every((arm) => !kAtRest.has(this.arms.get(arm)?.state ?? 'moving'));
     if (heard_s === null || !moves || job.stopping || !job.duration_s) return job.progress;
     const since_report = Math.max(0, this.t_s - Math.max(heard_s, job.started_s ?? heard_s));
     return Math.min(1, job.progress + since_report / job.duration_s);
   }
 
-  /** What an arm does, as people are told of it. */
-  arm_state(arm: Arm): ToldState {
+  /** Returns the arm's state as shown to people. */
+  arm_state(arm: Arm): ShownState {
     if (this.unknown_arms_.has(arm.name)) return 'not known';
     return arm.state === 'idle' && this.waiting_of(arm.name) ? 'waiting' : arm.state;
   }
 
-  /** The job that an arm would go on with, of those that have not begun; null: there is none. */
+  /** Returns the arm's next job that has not started, or null. */
   next_of(arm: string): Job | null {
     for (const list of ['scheduled', 'backlog', 'queued'] as const) {
       const next = this.jobs(list).find((job) => job.arms.includes(arm));
@@ -118,13 +122,13 @@ export class Facts {
     return null;
   }
 
-  /** The same, where that waits. */
+  /** Returns the arm's next job if it waits, or null. */
   waiting_of(arm: string): Job | null {
     const next = this.next_of(arm);
     return next && (next.state === 'backlogged' || next.waits_on.length > 0) ? next : null;
   }
 
-  /** The arm's configuration as last measured, in the order of its joints. */
+  /** Returns the measured configuration, in the order of the arm's joints. */
   q_of(arm: Arm): number[] {
     return arm.joints.map((joint, i) => this.q[joint] ?? arm.q[i] ?? 0);
   }
@@ -134,7 +138,7 @@ export class Facts {
     this.speed = data.speed;
     this.stopped = data.stopped;
     this.objects = data.objects;
-    // Those of which it does not tell stay, where they are not known.
+    // Arms not in the snapshot stay, as unknown arms.
     this.arms = new Map([...(this.unknown_arms_.size > 0 ? this.arms : []), ...data.arms.map((arm) => [arm.name, arm] as const)]);
     for (const arm of data.arms) {
       this.unknown_arms_.delete(arm.name);

@@ -1,14 +1,14 @@
-// When each arm was stopped, or at fault, whether it had a job or none.
+// The periods in which each arm was stopped or had a fault, with or without a job.
 
 import type { Arm, SequencedMessage } from '../server/messages';
-import { remember, type Stand as JobStand } from './job_book';
+import { remember, type Pause as JobPause } from './job_book';
 
-type Stand = Omit<JobStand, 'why'>;
+type Halt = Omit<JobPause, 'why'>;
 
-export type Halts = ReadonlyMap<string, readonly Stand[]>;
+export type Halts = ReadonlyMap<string, readonly Halt[]>;
 
 export class HaltBook {
-  private readonly halts_ = new Map<string, Stand[]>();
+  private readonly halts_ = new Map<string, Halt[]>();
 
   get all(): Halts { return this.halts_; }
 

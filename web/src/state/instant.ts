@@ -1,8 +1,9 @@
-// The instant that the address names, as far as the page knows it. Pure. What was not heard has no pose:
-// another one is never shown in its place.
+// Resolves the address's time. Pure. A time without data has no pose; another pose never replaces
+// it.
 
 import type { Address } from '../route/address';
 import { clock } from '../wording';
+import { kText } from '../strings';
 import type { Store } from './store';
 import type { Heard } from './trace';
 
@@ -18,15 +19,15 @@ export function instant_of({ t_s, run }: Pick<Address, 't_s' | 'run'>, store: Kn
   return heard === 'kept' ? { kind: 'kept', t_s } : { kind: 'unheard', t_s, why: heard };
 }
 
-/** Cell time begins anew with each run of the server. */
+/** Cell time restarts with each server session. */
 export function is_of_this_run(run: string | null, { stream }: Pick<Store, 'stream'>): boolean {
   return run === null || stream === null || stream.startsWith(run);
 }
 
-/** Every joint then; null where that was not heard. */
+/** Returns all joints at the time, or null if unknown. */
 export function pose_at(instant: Instant, { q, trace }: Pick<Store, 'q' | 'trace'>): Readonly<Record<string, number>> | null {
   switch (instant.kind) {
-    case 'now': return Object.keys(q).length === 0 ? null : q;  // nothing was heard yet
+    case 'now': return Object.keys(q).length === 0 ? null : q;  // no data yet
     case 'kept': return trace.at(instant.t_s);
     case 'unheard': return null;
   }
@@ -34,11 +35,12 @@ export function pose_at(instant: Instant, { q, trace }: Pick<Store, 'q' | 'trace
 
 export function why_unheard(why: Unheard, { trace, t_s }: Pick<Store, 'trace' | 't_s'>): string {
   const [first_s, last_s] = [trace.first_s ?? t_s, trace.last_s ?? t_s];
+  const words = kText.server.positions;
   switch (why) {
-    case 'nothing': return 'This page has heard nothing yet.';
-    case 'before': return `What this page has heard, and keeps, begins at ${clock(first_s)}.`;
-    case 'after': return `It has not come yet: the last that was heard is ${clock(last_s)}.`;
-    case 'gap': return 'No positions came from the server then.';
-    case 'other-run': return 'It is a time of another run of the server, whose clock began anew.';
+    case 'nothing': return words.nothing;
+    case 'before': return words.before(clock(first_s));
+    case 'after': return words.after(clock(last_s));
+    case 'gap': return words.gap;
+    case 'other-run': return words['other-run'];
   }
 }

@@ -1,9 +1,8 @@
-// The jobs that the page knows: each as last heard, the server's order of those that have not ended,
-// since when each is in its state, and when it stood on its path. Those that have ended are kept in the
-// order in which they did, so that ten thousand of them cost nothing when one more is heard of.
+// The jobs that the page knows: last message, server order, time of the current state, pauses.
+// Ended jobs are kept sorted by their end, so that an update stays cheap with ten thousand of them.
 
 import type { Job, JobState, QueueData, WaitsOn } from '../server/messages';
-import { is_stopped, told_state } from './standing';
+import { is_stopped, shown_state } from './shown_state';
 
 export type JobList = 'running' | 'scheduled' | 'queued' | 'backlog' | 'finished';
 
@@ -12,39 +11,42 @@ const kListOfState: Record<JobState, JobList> = {
   succeeded: 'finished', canceled: 'finished', expired: 'finished', failed: 'finished', interrupted: 'finished',
 };
 const kMaxFinished = 10_000;
-// A snapshot of the server has the last that ended, so many at most (see its schema).
+// A snapshot has at most this many ended jobs (see its schema).
 const kTold = 200;
-// Forgotten some at a time.
+// Ended jobs are dropped in blocks.
 const kSlack = 0.05;
-// Of one job that stands and goes on for hours the last ones.
+// The number of pauses and changes kept for one job.
 const kMostRemembered = 400;
 
 export function is_terminal(job: Pick<Job, 'state'>): boolean {
   return kListOfState[job.state] === 'finished';
 }
 
-/** Cell time; to_s is null while it lasts. `stopped`: until somebody resumes its arm. `why`: as last told while it stood. */
-export interface Stand { from_s: number; to_s: number | null; stopped: boolean; why: WaitsOn | null }
+/**
+ * Cell time; to_s is null while it lasts. `stopped` means until the arm is resumed. `why` is the
+ * last known reason.
+ */
+export interface Pause { from_s: number; to_s: number | null; stopped: boolean; why: WaitsOn | null }
 
-/** `stopped`: it stands until its arm is resumed. */
+/** `stopped` means at rest until the arm is resumed. */
 export interface Change { state: JobState | 'stopped'; t_s: number }
 
 interface Heard {
   job: Job;
-  /** When it was heard, in cell time. */
+  /** Cell time of the last message. */
   t_s: number;
-  /** When it came into its state; null: before this page listened. */
+  /** Since when the job is in its state; null if before the page was connected. */
   since_s: number | null;
-  stands: Stand[];
-  /** Each state that it came into while this page listened. */
+  pauses: Pause[];
+  /** The state changes since the page was connected. */
   changes: Change[];
 }
 
 export class JobBook {
   private heard_ = new Map<string, Heard>();
-  /** Of these, the ones that have not ended. */
+  /** The ids of unfinished jobs. */
   private open_ = new Set<string>();
-  /** The others, oldest first. */
+  /** Ended jobs, oldest first. */
   private ended_: Job[] = [];
   private order_ = new Map<string, number>();
   private lists_: Map<JobList, Job[]> | null = null;
@@ -53,17 +55,20 @@ export class JobBook {
 
   constructor(private readonly most_finished_ = kMaxFinished) {}
 
-  /** All anew, from a snapshot; what is remembered of a job in the same run stays. `ended_from_s`: where that is known. */
+  /**
+   * Replaces all jobs by a snapshot; the history of jobs in the same session stays. `ended_from_s`
+   * is given if known.
+   */
   reset(jobs: readonly Job[], t_s: number, same_run: boolean, ended_from_s?: number | null): void {
     const before = same_run ? this.heard_ : new Map<string, Heard>();
     this.heard_ = new Map(jobs.map((job) => {
       const known = before.get(job.id);
       const same_state = known?.job.state === job.state;
-      return [job.id, { job, t_s, since_s: same_state ? known.since_s : null, stands: known?.stands ?? [], changes: known?.changes ?? [] }];
+      return [job.id, { job, t_s, since_s: same_state ? known.since_s : null, pauses: known?.pauses ?? [], changes: known?.changes ?? [] }];
     }));
     this.open_ = new Set(jobs.filter((job) => !is_terminal(job)).map((job) => job.id));
     this.ended_ = jobs.filter(is_terminal).sort((a, b) => ended(a) - ended(b));
-    this.ended_from_s_ = ended_from_s === undefined ? told_from(jobs) : ended_from_s;
+    this.ended_from_s_ = ended_from_s === undefined ? ended_from(jobs) : ended_from_s;
     this.endings_ += 1;
     this.lists_ = null;
   }
@@ -71,12 +76,12 @@ export class JobBook {
   take(job: Job, t_s: number): void {
     const known = this.heard_.get(job.id);
     const same_state = known?.job.state === job.state;
-    const stands = known?.stands ?? [];
+    const pauses = known?.pauses ?? [];
     const changes = known?.changes ?? [];
-    const told = told_state(job);
-    if (changes.at(-1)?.state !== told && (!same_state || told_state(known.job) !== told)) remember(changes, { state: told, t_s });
-    stand(stands, job, t_s);
-    this.heard_.set(job.id, { job, t_s, since_s: same_state ? known.since_s : t_s, stands, changes });
+    const shown = shown_state(job);
+    if (changes.at(-1)?.state !== shown && (!same_state || shown_state(known.job) !== shown)) remember(changes, { state: shown, t_s });
+    note_pause(pauses, job, t_s);
+    this.heard_.set(job.id, { job, t_s, since_s: same_state ? known.since_s : t_s, pauses, changes });
     if (known && is_terminal(known.job)) {
       this.ended_ = this.ended_.filter((one) => one.id !== job.id);
       this.endings_ += 1;
@@ -86,7 +91,9 @@ export class JobBook {
     this.lists_ = null;
   }
 
-  /** What was fetched brings what events do not repeat; one of another state than the known is dropped. */
+  /**
+   * Takes a polled job, which has its progress. Drops it if its state differs from the known state.
+   */
   refresh(job: Job, t_s: number): boolean {
     const known = this.heard_.get(job.id);
     if (!known || known.job.state !== job.state || is_terminal(known.job)) return false;
@@ -101,7 +108,7 @@ export class JobBook {
     this.lists_ = null;
   }
 
-  /** The server's lists as they stand. */
+  /** The server's lists of unfinished jobs, in order. */
   get order(): QueueData {
     const ids = (list: JobList) => this.list(list).map(({ id }) => id);
     return { stopped: false, running: ids('running'), scheduled: ids('scheduled'), queued: ids('queued'), backlog: ids('backlog') };
@@ -123,15 +130,15 @@ export class JobBook {
     return this.heard_.get(id)?.changes ?? [];
   }
 
-  stands(id: string): readonly Stand[] {
-    return this.heard_.get(id)?.stands ?? [];
+  pauses(id: string): readonly Pause[] {
+    return this.heard_.get(id)?.pauses ?? [];
   }
 
   all(): Job[] {
     return [...this.heard_.values()].map((heard) => heard.job);
   }
 
-  /** Those that have not ended. */
+  /** The unfinished jobs. */
   get open(): Job[] {
     return [...this.open_].flatMap((id) => this.get(id) ?? []);
   }
@@ -140,17 +147,17 @@ export class JobBook {
     return this.heard_.has(id) && !this.open_.has(id);
   }
 
-  /** Another number whenever those that have ended are other ones. */
+  /** Changes whenever the ended jobs change. */
   get endings(): number {
     return this.endings_;
   }
 
-  /** Those of the run that ended at this time or later are all known; null: all of the run. */
+  /** All jobs of the session that ended at this time or later are known; null means all. */
   get ended_from_s(): number | null {
     return this.ended_from_s_;
   }
 
-  /** Those that ended at a time or later, newest first. */
+  /** Returns the jobs that ended at a time or later, newest first. */
   ended_since(t_s: number): Job[] {
     const jobs: Job[] = [];
     for (let i = this.ended_.length - 1; i >= 0; i--) {
@@ -161,7 +168,7 @@ export class JobBook {
     return jobs;
   }
 
-  /** A list's jobs in the server's order; finished ones newest first. Not to be changed. */
+  /** Returns a list in the server's order, ended jobs newest first. Must not be modified. */
   list(list: JobList): readonly Job[] {
     this.lists_ ??= this.sorted();
     return this.lists_.get(list) ?? [];
@@ -184,7 +191,7 @@ export class JobBook {
     return lists;
   }
 
-  /** Most end in the order in which they are heard of. */
+  /** Jobs usually arrive in the order of their ends. */
   private end(job: Job): void {
     this.open_.delete(job.id);
     this.endings_ += 1;
@@ -197,15 +204,15 @@ export class JobBook {
   }
 }
 
-/** The same of a server's snapshot, by the jobs that it has. */
-export function told_from(jobs: readonly Job[]): number | null {
+/** Returns since when the ended jobs of a server snapshot are complete; null means all. */
+export function ended_from(jobs: readonly Job[]): number | null {
   const ended_s = jobs.filter(is_terminal).map(ended);
   return ended_s.length < kTold ? null : Math.min(...ended_s);
 }
 
-/** It stands, goes on, or stands for another reason than before. */
-function stand(stands: Stand[], job: Job, t_s: number): void {
-  const last = stands.at(-1);
+/** Records that a job pauses, continues, or pauses for another reason. */
+function note_pause(pauses: Pause[], job: Job, t_s: number): void {
+  const last = pauses.at(-1);
   const open = last && last.to_s === null ? last : null;
   const stopped = is_stopped(job);
   const why = job.waits_on[0] ?? null;
@@ -214,7 +221,7 @@ function stand(stands: Stand[], job: Job, t_s: number): void {
     return;
   }
   if (open) open.to_s = t_s;
-  if (job.state === 'paused') remember(stands, { from_s: t_s, to_s: null, stopped, why });
+  if (job.state === 'paused') remember(pauses, { from_s: t_s, to_s: null, stopped, why });
 }
 
 export function remember<T>(list: T[], one: T): void {

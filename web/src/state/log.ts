@@ -1,9 +1,9 @@
-// What the server told, in its order: what the state at an earlier time is derived from. It reaches back some
-// minutes; what is older is folded into one snapshot, so that its size is bounded.
+// The log of the server's events, from which past states are derived. Entries older than some
+// minutes are folded into one snapshot, which bounds its size.
 
 import type { SequencedMessage } from '../server/messages';
 
-/** Cell time that is kept at least. */
+/** The cell time that is kept at least. */
 const kKept_s = 300;
 const kMost = 20_000;
 
@@ -11,21 +11,23 @@ export class Log {
   private entries_: SequencedMessage[] = [];
   private turn_ = 0;
 
-  /** `fold`: all these as one. `most`: of so many events about half is folded, however new they are. */
+  /**
+   * `fold` combines entries into a snapshot. Above `most` entries about half of them are folded.
+   */
   constructor(private readonly fold_: (entries: readonly SequencedMessage[]) => SequencedMessage | null, private readonly most_ = kMost) {}
 
   get entries(): readonly SequencedMessage[] { return this.entries_; }
 
-  /** Another number whenever entries were put in, or taken out, before others. */
+  /** Changes when entries are inserted before, or removed from, others. */
   get turn(): number { return this.turn_; }
 
-  /** Another run of the server begins anew. */
+  /** Appends an event; another session clears the log. */
   push(message: SequencedMessage): void {
     if (this.entries_.length > 0 && this.entries_[0]?.stream !== message.stream) this.clear();
     this.entries_.push(message);
   }
 
-  /** What was before its first. */
+  /** Inserts earlier events. */
   put_before(messages: readonly SequencedMessage[]): void {
     this.entries_ = [...messages, ...this.entries_];
     this.turn_ += 1;
@@ -36,7 +38,7 @@ export class Log {
     this.turn_ += 1;
   }
 
-  /** So many were told by then. */
+  /** Returns the number of events up to a time. */
   count_until(t_s: number): number {
     let [low, high] = [0, this.entries_.length];
     while (low < high) {
@@ -47,13 +49,13 @@ export class Log {
     return low;
   }
 
-  /** Whether some between this many and the next one were never heard. */
+  /** Returns true if events are missing after the first `count` entries. */
   is_torn_after(count: number): boolean {
     const next = this.entries_[count];
     return count > 0 && next?.type === 'snapshot' && next.data.gap === true;
   }
 
-  /** What is too old, or too much, is folded: seldom, as it costs. */
+  /** Folds old or excess entries. Rarely, because folding is expensive. */
   trim(): void {
     const { length } = this.entries_;
     const [first, last] = [this.entries_[0], this.entries_[length - 1]];

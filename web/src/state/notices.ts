@@ -1,20 +1,20 @@
-// What the monitor saw, what the server wants known, and what this page has to say: the last hundred, newest first.
+// The last hundred reports, newest first: of the monitor, the server and this page.
 
 import type { SequencedMessage } from '../server/messages';
 import { monitor_in_words } from '../wording';
 
 export interface Notice {
   key: number;
-  /** Of the run of the server; null: said by this page. */
+  /** The server session, or null for reports of this page. */
   stream: string | null;
   seq: number | null;
   t_s: number;
-  /** Wall time, where the server told it. */
+  /** Wall time, if the server sent it. */
   at: string | null;
   level: 'info' | 'warning' | 'error';
   source: 'monitor' | 'alert';
   text: string;
-  /** Those that it is about, where the server names them. */
+  /** The affected arms, if the server names them. */
   arms: readonly string[];
 }
 
@@ -26,7 +26,7 @@ export class Notices {
 
   get all(): readonly Notice[] { return this.all_; }
 
-  /** Those of a run: times of another one are no times of it. */
+  /** Returns the reports of a session; times of other sessions are not comparable. */
   of_run(stream: string | null): readonly Notice[] {
     return this.all_.filter((notice) => notice.stream === null || notice.stream === stream);
   }
@@ -36,12 +36,12 @@ export class Notices {
     if (notice) this.keep(notice);
   }
 
-  /** Said by this page. */
+  /** Adds a report of this page. */
   note(stream: string | null, t_s: number, level: Notice['level'], text: string): void {
     this.keep({ key: this.next_key_++, stream, seq: null, t_s, at: null, level, source: 'alert', text, arms: [] });
   }
 
-  /** What was told earlier than what is known, in its order. */
+  /** Adds reports from before the known ones. */
   take_earlier(messages: readonly SequencedMessage[]): void {
     const earlier = messages.flatMap((message) => this.of(message) ?? []).reverse();
     this.all_ = [...this.all_, ...earlier].sort((a, b) => (a.stream === b.stream ? b.t_s - a.t_s : 0)).slice(0, kMost);

@@ -1,4 +1,4 @@
-// The numbers of the events of a run: the last one, and how many were left out or came twice.
+// Counts event numbers: the last number, missed and doubled events.
 
 import type { SequencedMessage } from '../server/messages';
 
@@ -6,7 +6,7 @@ export interface Numbers { readonly last: number; readonly missed: number; reado
 
 export const kNoNumbers: Numbers = { last: 0, missed: 0, doubled: 0 };
 
-/** A snapshot holds all until its number. */
+/** A snapshot covers all events up to its number. */
 export function counted({ last, missed, doubled }: Numbers, { type, seq }: Pick<SequencedMessage, 'type' | 'seq'>): Numbers {
   if (type === 'snapshot') return { last: seq, missed: 0, doubled: 0 };
   if (seq > last) return { last: seq, missed: missed + seq - last - 1, doubled };

@@ -1,13 +1,12 @@
-// Colours that mean something. They are defined once, as custom properties in style/tokens.css, for
-// both themes: elements use them as `var(--…)`, canvases and the 3D view ask `ink` for what stands there
-// now.
+// Colors with a meaning, defined as custom properties in style/tokens.css for both themes. Elements
+// use `var(--…)`; canvases and the 3D view read them with `ink`.
 
 import type { CellState } from '../server/messages';
-import type { ToldState } from './standing';
+import type { ShownState } from './shown_state';
 
-const kArmColours = 8;
+const kArmColors = 8;
 
-export const kStateColours: Record<ToldState, string> = {
+export const kStateColors: Record<ShownState, string> = {
   idle: 'var(--idle)',
   moving: 'var(--moving)',
   paused: 'var(--paused)',
@@ -17,31 +16,31 @@ export const kStateColours: Record<ToldState, string> = {
   'not known': 'var(--dim)',
 };
 
-/** A state is never told by colour alone. */
-export const kStateGlyphs: Record<ToldState, string> = {
+/** Glyphs, because color alone must not carry a state. */
+export const kStateGlyphs: Record<ShownState, string> = {
   idle: '○', moving: '▶', paused: '❚❚', waiting: '◔', stopped: '■', fault: '✕', 'not known': '?',
 };
 
-/** An arm's own colour, by its place in the cell. */
-export function arm_colour(arms: readonly string[], arm: string): string {
-  return `var(--arm-${Math.max(0, arms.indexOf(arm)) % kArmColours})`;
+/** Returns the arm's color, by its position in the cell. */
+export function arm_color(arms: readonly string[], arm: string): string {
+  return `var(--arm-${Math.max(0, arms.indexOf(arm)) % kArmColors})`;
 }
 
-/** Of a coordination diagram's cells, in both themes. */
-export const kCellColours: Record<CellState, string> = {
+/** The cells of a diagram, in both themes. */
+export const kCellColors: Record<CellState, string> = {
   free: '#c3cfdb',
   conflict: '#e0454e',
   undecided: '#f0b541',
 };
-/** What is undecided is hatched, too: it is told from what is free where colours are not. */
+/** Undecided cells are hatched, to be recognized without colors. */
 export const kUndecidedStripes = '#6e4c00';
 
 const known = new Map<string, string>();
 
-/** `var(--name)` or `--name` as the theme has it now; any other colour as it is. */
-export function ink(colour: string): string {
-  const name = /--[\w-]+/.exec(colour)?.[0];
-  if (name === undefined) return colour;
+/** Returns the theme's value of `var(--name)` or `--name`; other colors unchanged. */
+export function ink(color: string): string {
+  const name = /--[\w-]+/.exec(color)?.[0];
+  if (name === undefined) return color;
   let found = known.get(name);
   if (found === undefined) {
     found = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -50,7 +49,7 @@ export function ink(colour: string): string {
   return found;
 }
 
-/** Another theme: what was read before no longer holds. */
+/** Clears the cache after a change of theme. */
 export function forget_inks(): void {
   known.clear();
 }

@@ -1,21 +1,21 @@
-// How far jobs were on their ways, and when, as measured: what a diagram draws of two of them. Of each job
-// one point a tenth of a second; of the last so many jobs, each no longer than so many points.
+// The measured progress of jobs over time, for diagrams: ten points per second for the last jobs,
+// limited per job.
 
 import type { ArmAuthority } from '../server/messages';
 
 const kStep_s = 0.1;
 const kMostJobs = 200;
 const kMostPoints = 1200;
-// It was heard from its beginning.
+// Progress up to this counts as recorded from the beginning.
 const kBeginning_s = 0.3;
 
-/** Cell time, and trajectory time then: both only grow. */
+/** Cell time and trajectory time; both only grow. */
 export interface Course { t_s: number[]; progress_s: number[] }
 
 export class ProgressBook {
   private readonly courses_ = new Map<string, Course>();
 
-  /** A job of several arms is as far as the first of them that is told. */
+  /** For a job of several arms the first listed arm counts. */
   take(t_s: number, motions: readonly Pick<ArmAuthority, 'job' | 'progress_s'>[]): void {
     const seen = new Set<string>();
     for (const { job, progress_s } of motions) {
@@ -46,7 +46,7 @@ export class ProgressBook {
   }
 }
 
-/** One that stands has a point where it came to stand, and one where it was seen there last. */
+/** Adds a point; a rest keeps only its first and last point. */
 function push({ t_s, progress_s }: Course, at_s: number, progress: number): void {
   const n = t_s.length;
   const [last, before] = [progress_s[n - 1], progress_s[n - 2]];
@@ -63,7 +63,10 @@ function push({ t_s, progress_s }: Course, at_s: number, progress: number): void
   for (const list of [t_s, progress_s]) list.splice(0, list.length, ...list.filter((_, i) => i % 2 === 0 || i === list.length - 1));
 }
 
-/** How far it was at a time; null before its first point, unless that is its beginning. */
+/**
+ * Returns the progress at a time; null before the first point, unless recording began with the
+ * motion.
+ */
 export function progress_at({ t_s, progress_s }: Course, at_s: number): number | null {
   let [low, high] = [0, t_s.length];
   while (low < high) {

@@ -1,5 +1,6 @@
-// When to look again: `changes`, once per change; `frames`, with each pose (30 a second); `beats`, some
-// times a second while poses come in. A signal tells its value at once, too, which a listener here has seen.
+// Signals for redrawing: `changes` once per change, `frames` with each pose (30 per second),
+// `beats` a few times per second while poses arrive. Signals call a new listener at once; the
+// listeners here skip that call.
 
 import { signal, untracked, type ReadonlySignal } from '@preact/signals';
 
@@ -36,7 +37,7 @@ export class Pulse {
     this.beats_.value += 1;
   }
 
-  /** Nobody looks at each of these changes: they are told as one, with a pose. */
+  /** Applies many changes as one change with one pose. */
   at_once(changes: () => void): void {
     this.quiet_ = true;
     changes();
@@ -47,7 +48,7 @@ export class Pulse {
   }
 }
 
-/** For what draws itself. The answer ends it. */
+/** Calls the listener on later changes. Returns a function that ends it. */
 export function from_now(changes: ReadonlySignal<number>, listener: () => void): () => void {
   let first = true;
   return changes.subscribe(() => {

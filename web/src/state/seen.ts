@@ -1,6 +1,6 @@
-// The store as components see it: whichever reads it while it is drawn is drawn again when it changes. Nobody
-// has to ask for that, as who forgets would not be noticed: a component that reads some other signal, and
-// is given the same as before, is not drawn again with its parent.
+// The store as components see it: a component that reads it is drawn again when it changes. This is
+// automatic, because a forgotten subscription would go unnoticed: a component that reads another
+// signal, and has unchanged properties, is not drawn with its parent.
 
 import { signal, type Signal } from '@preact/signals';
 import { Redraw } from './redraw';
@@ -14,7 +14,10 @@ export function seen(store: Store): Store {
   return store;
 }
 
-/** Draws the component some times a second, too, while poses come in: for clocks and progress bars. */
+/**
+ * Also redraws the component a few times per second while poses arrive, for clocks and progress
+ * bars.
+ */
 export function use_beats(store: Store): void {
   void store.beats.value;
 }

@@ -1,4 +1,4 @@
-// What this browser remembers of how the page is to look and to be used.
+// The settings that this browser stores.
 
 import { signal } from '@preact/signals';
 import { forget_inks } from './palette';
@@ -6,27 +6,27 @@ import { forget_inks } from './palette';
 export type Theme = 'system' | 'dark' | 'light';
 export type ShownTheme = 'dark' | 'light';
 
-/** Ways ahead with their authority; ghosts of where arms come to rest; the closest pairs. */
-export interface Shows { ways: boolean; ghosts: boolean; distances: boolean }
+/** The optional parts of the 3D view: tool paths with authority, ghosts of end positions, closest pairs. */
+export interface Shows { paths: boolean; ghosts: boolean; distances: boolean }
 
-const kShowsAll: Shows = { ways: true, ghosts: true, distances: true };
+const kShowsAll: Shows = { paths: true, ghosts: true, distances: true };
 const kPersonKey = 'armloom.person';
 const kShowsKey = 'armloom.shows';
 const kThemes: readonly Theme[] = ['system', 'dark', 'light'];
 const kThemeKey = 'armloom.theme';
 const kKeysKey = 'armloom.letter-keys';
 
-/** Where it is kept; a browser may refuse it, then it lasts as long as the page. */
+/** The storage; if the browser refuses it, settings last as long as the page. */
 export interface Shelf { getItem(key: string): string | null; setItem(key: string, value: string): void }
 
 export class Settings {
   readonly theme = signal<Theme>('system');
   readonly shown_theme = signal<ShownTheme>('dark');
-  /** Whether single letters lead to pages; F8 stops in any case. */
+  /** Enables single letters as page keys; F8 always stops. */
   readonly letter_keys = signal(true);
-  /** Who uses this browser, for what is acknowledged. */
+  /** The name of the user, for acknowledgements. */
   readonly person = signal('');
-  /** What the cell shows beside the arms. */
+  /** The optional parts of the 3D view. */
   readonly shows = signal<Shows>(kShowsAll);
 
   constructor(
@@ -38,7 +38,7 @@ export class Settings {
     this.letter_keys.value = this.read(kKeysKey) !== 'off';
     this.person.value = this.read(kPersonKey) ?? '';
     const hidden = (this.read(kShowsKey) ?? '').split(' ');
-    this.shows.value = { ways: !hidden.includes('ways'), ghosts: !hidden.includes('ghosts'), distances: !hidden.includes('distances') };
+    this.shows.value = { paths: !hidden.includes('paths'), ghosts: !hidden.includes('ghosts'), distances: !hidden.includes('distances') };
     prefers_light_?.addEventListener('change', () => this.apply());
     this.apply();
   }
@@ -84,7 +84,7 @@ export class Settings {
     try {
       this.shelf_?.setItem(key, value);
     } catch {
-      // A browser that keeps nothing: it lasts as long as the page.
+      // Without storage the setting lasts as long as the page.
     }
   }
 }

@@ -1,14 +1,17 @@
-// What a run came to until some time, as the server would have told it then. Pure.
+// Builds snapshots of a session at a time, in the server's format. Pure.
 
 import type { Arm, SequencedMessage } from '../server/messages';
 import { Facts } from './facts';
-import { told_from } from './job_book';
+import { ended_from } from './job_book';
 
 type ToldSnapshot = Extract<SequencedMessage, { type: 'snapshot' }>;
-/** `ended_from_s`: of one that the page made itself, as JobBook has it. The server's have none. */
+/** `ended_from_s` is only in the page's own snapshots (see JobBook). */
 export type Snapshot = ToldSnapshot & { data: { ended_from_s?: number | null } };
 
-/** What all these come to; null: the first is no snapshot, so that it would be a guess. */
+/**
+ * Combines entries into one snapshot. Returns null if the first is not a snapshot, because the
+ * state is then unknown.
+ */
 export function folded(entries: readonly SequencedMessage[]): Snapshot | null {
   const [first, last] = [entries[0], entries.at(-1)];
   if (first?.type !== 'snapshot' || !last) return null;
@@ -24,15 +27,18 @@ export function folded(entries: readonly SequencedMessage[]): Snapshot | null {
   };
 }
 
-/** What held before these, which led to the snapshot: whatever they do not tell of is as it was then. */
+/**
+ * Returns the state before the events `led`, which led to a snapshot: everything they do not
+ * mention was as in the snapshot.
+ */
 export function before_all({ data, ...first }: ToldSnapshot, led: readonly SequencedMessage[]): Snapshot {
   const arms = new Set(led.flatMap((message) => (message.type === 'arm' ? [message.data.name] : [])));
   const jobs = new Set(led.flatMap((message) => (message.type === 'job' ? [message.data.id] : [])));
   const [next] = led;
-  // From the very beginning, when every arm stood idle.
+  // The events begin with the session, when every arm was idle.
   const is_whole = next?.seq === 1;
-  // These tell of each that ended while they came, the snapshot of those before.
-  const from_s = told_from(data.jobs);
+  // The events contain all jobs that ended meanwhile; the snapshot the jobs before.
+  const from_s = ended_from(data.jobs);
   const idle = data.arms.map((arm) => (arms.has(arm.name) ? at_rest(arm) : arm));
   return {
     ...first, type: 'snapshot', seq: (next?.seq ?? 1) - 1, t_s: is_whole ? 0 : next?.t_s ?? first.t_s, at: next?.at ?? first.at,
@@ -44,13 +50,13 @@ export function before_all({ data, ...first }: ToldSnapshot, led: readonly Seque
   };
 }
 
-/** A run's beginning, in a cell of which the rest is known. */
+/** Returns the first state of a session. */
 export function beginning_of({ stream, at }: Pick<SequencedMessage, 'stream' | 'at'>, t_s: number, cell: Pick<Snapshot['data'], 'cell' | 'policy' | 'speed' | 'arms' | 'objects'>): Snapshot {
   const queue = { stopped: false, queued: [], backlog: [], scheduled: [], running: [] };
   return { stream, at, seq: 0, type: 'snapshot', t_s, data: { ...cell, stopped: false, jobs: [], queue } };
 }
 
-/** Before it was told to move. */
+/** Returns an arm before its first motion. */
 export function at_rest(arm: Arm): Arm {
   return { ...arm, state: 'idle', job: null, progress: 0 };
 }

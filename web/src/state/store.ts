@@ -1,6 +1,5 @@
-// All that the page knows, in one place: what events come to (Facts), what came with poses, what is kept of
-// both to look back at, and the link that it comes through. Messages and replies go in through the methods;
-// views read the fields, and the pulse tells when to look again.
+// All that the page knows: the state from events (Facts), poses, the history of both, and the
+// connection. Messages enter through methods; views read fields and redraw on the pulse.
 
 import type { Link } from '../server/connection';
 import type { ArmAuthority, Cell, Clearance, Forecast, Job, MeasuredStates, Message, SequencedMessage, StateMessage } from '../server/messages';
@@ -11,10 +10,10 @@ import { from_now, Pulse } from './pulse';
 import { at_rest, before_all, beginning_of, folded } from './snapshots';
 import { Trace } from './trace';
 
-/** Positions of joints, as a recording has them. */
+/** The joint positions of a recording. */
 export interface Frames { names: readonly string[]; t_s: readonly number[]; q: readonly (readonly number[])[] }
 
-// A page that has much to do is seconds late for a moment.
+// A busy page may be a few seconds late.
 const kLate_ms = 5_000;
 const kSilent_ms = 1000;
 const kMissed_s = 0.5;
@@ -24,14 +23,14 @@ export class Store extends Facts {
   cell_fault: string | null = null;
   link: Link = { status: 'connecting' };
   clearance: Clearance[] = [];
-  /** Of every arm that has been told to move. */
+  /** The progress and authority of every arm that has been told to move. */
   motions: ArmAuthority[] = [];
   rejected = { unknown: 0, malformed: 0 };
-  /** What the server expects the arms to do; null: not known. */
+  /** The predicted timeline, or null if unknown. */
   forecast: Forecast | null = null;
   readonly trace: Trace;
   readonly courses: ProgressBook;
-  /** What earlier states are derived from. */
+  /** The source of past states. */
   readonly log = new Log(folded);
 
   private readonly pulse_: Pulse;
@@ -39,7 +38,7 @@ export class Store extends Facts {
   private heard_at_ms_: number | null = null;
   private earlier_states_: MeasuredStates | null = null;
 
-  /** `measured`: of another one, which it looks back into. */
+  /** `measured` shares the trace of another store, for past states. */
   constructor(private readonly now_ms_: () => number = () => performance.now(), measured: { trace: Trace; courses: ProgressBook } | null = null) {
     super();
     this.pulse_ = new Pulse(now_ms_);
@@ -51,7 +50,7 @@ export class Store extends Facts {
   get frames() { return this.pulse_.frames; }
   get beats() { return this.pulse_.beats; }
 
-  /** For what draws itself. The answer ends it. */
+  /** Call the listener on later changes. The returned function ends it. */
   on_change(listener: () => void): () => void {
     return from_now(this.changes, listener);
   }
@@ -74,7 +73,7 @@ export class Store extends Facts {
     this.apply(message);
   }
 
-  /** One that is not to be remembered: of the log, gone through again. */
+  /** Applies an event without logging it, for replays. */
   override apply(message: SequencedMessage): void {
     const before = this.stream;
     super.apply(message);
@@ -82,7 +81,10 @@ export class Store extends Facts {
     this.pulse_.change();
   }
 
-  /** Instead of the server's present; `forget_all` ends it. Without frames it has no positions. */
+  /**
+   * Shows a recording instead of the live cell, until `forget_all`. Without frames it has no
+   * positions.
+   */
   show_recording(name: string, messages: readonly SequencedMessage[], frames: Frames | null): void {
     const arms = [...this.arms.values()].map(at_rest);
     const { names, t_s, q } = frames ?? { names: [], t_s: [], q: [] };
@@ -91,17 +93,20 @@ export class Store extends Facts {
     this.arms = new Map(arms.map((arm) => [arm.name, arm]));
     this.pulse_.at_once(() => {
       const [begin] = messages;
-      // It has all events of its run, which began with every arm idle.
+      // The recording has all events of its session, which began with every arm idle.
       if (begin?.seq === 1) this.log.push(beginning_of(begin, Math.min(begin.t_s, t_s[0] ?? 0), { cell: this.cell?.name ?? '', policy: this.policy, speed: this.speed, arms, objects: this.cell?.objects ?? this.objects }));
       for (const message of messages) this.take(message);
       this.trace.load(names, t_s, q);
       this.t_s = Math.max(this.t_s, t_s.at(-1) ?? 0);
       this.q = Object.fromEntries(names.map((joint, i) => [joint, q.at(-1)?.[i] ?? 0]));
-      this.heard_at_ms_ = null;  // it is not old
+      this.heard_at_ms_ = null;  // recordings never count as old data
     });
   }
 
-  /** What can be looked back at: as far as positions are there, or, in a recording without them, events. */
+  /**
+   * The range of times that can be shown: that of the positions, or of the events of a recording
+   * without positions.
+   */
   get span(): { first_s: number; last_s: number } | null {
     const { first_s, last_s } = this.trace;
     if (first_s !== null && last_s !== null) return { first_s, last_s };
@@ -109,7 +114,7 @@ export class Store extends Facts {
     return this.link.status === 'recording' && first && last ? { first_s: first.t_s, last_s: last.t_s } : null;
   }
 
-  /** As before anything was heard; the cell stays. */
+  /** Forgets everything but the cell. */
   forget_all(): void {
     this.link = { status: 'connecting' };
     this.stream = null;
@@ -131,7 +136,7 @@ export class Store extends Facts {
     this.pulse_.change();
   }
 
-  /** Events of this run from before the first snapshot, which the page did not hear itself: in order, until it. */
+  /** Inserts events of this session from before the first snapshot, in order. */
   take_earlier(messages: readonly SequencedMessage[]): void {
     const [first] = this.log.entries;
     const fresh = messages.filter(({ stream, seq, type }) => type !== 'snapshot' && stream === this.stream && first?.stream === stream && seq <= first.seq);
@@ -144,14 +149,14 @@ export class Store extends Facts {
   }
 
   /**
-   * Positions that the page did not hear itself: from before it listened, and from while it heard nothing. They are
-   * put in before the next frame that it hears, which tells where its own go on.
+   * Takes positions from before the page was connected, or while it was not. They are inserted
+   * before the next frame, which marks where the page's own data continues.
    */
   take_earlier_states(states: MeasuredStates): void {
     this.earlier_states_ = states;
   }
 
-  /** This one looks back at what another has: until its log's events say more nothing is known of any arm. */
+  /** Makes this a past state of another store: no arm is known until events say more. */
   begin_past(now: Store): void {
     this.cell = now.cell;
     this.link = now.link.status === 'recording' ? now.link : { status: 'past' };
@@ -162,7 +167,7 @@ export class Store extends Facts {
     for (const name of this.arms.keys()) this.unknown_arms_.add(name);
   }
 
-  /** A time that no event lies between and the ones that it was made of. */
+  /** Sets the shown time; no event lies between it and the applied events. */
   look_at(t_s: number): void {
     this.t_s = t_s;
     this.pulse_.beat();
@@ -191,8 +196,8 @@ export class Store extends Facts {
   }
 
   /**
-   * A job as it was fetched: it brings what events do not repeat while a job runs, its progress.
-   * An event may have overtaken the answer, so one of another state than the known one is dropped.
+   * Takes a polled job, which has its progress. An event may have arrived before the answer, so a
+   * job in another state than known is dropped.
    */
   refresh_job(job: Job): void {
     if (this.book.refresh(job, this.t_s)) this.pulse_.change();
@@ -200,12 +205,12 @@ export class Store extends Facts {
 
   set_forecast(forecast: Forecast | null): void {
     this.forecast = forecast;
-    // It has come past all that is on its way to the page still.
+    // The forecast overtakes messages that are still on their way to the page.
     this.late_ms_ = forecast === null ? 0 : Math.max(0, (1000 * (forecast.now_s - this.t_s)) / this.speed);
     this.pulse_.change();
   }
 
-  put_restart_away(): void {
+  dismiss_restart(): void {
     this.restart = null;
     this.pulse_.change();
   }
@@ -215,20 +220,23 @@ export class Store extends Facts {
     this.pulse_.change();
   }
 
-  /** Counts it; answers whether it is the first of its kind, which is worth a line in the console. */
+  /**
+   * Counts a rejected message. Returns true for the first of its kind, which is worth a warning in
+   * the console.
+   */
   reject(kind: 'unknown' | 'malformed'): boolean {
     this.rejected = { ...this.rejected, [kind]: this.rejected[kind] + 1 };
     this.pulse_.change();
     return this.rejected[kind] === 1;
   }
 
-  /** How old what is known is: nothing was heard, or what is heard comes late; null before anything was. */
+  /** Returns the age of the data (silence or delay), or null before the first message. */
   age_ms(): number | null {
     const silent_ms = this.silence_ms();
     return silent_ms === null ? null : Math.max(silent_ms, this.late_ms_ > kLate_ms ? this.late_ms_ : 0);
   }
 
-  /** For how long nothing was heard; null before anything was. */
+  /** Returns the time since the last message, or null before the first. */
   silence_ms(): number | null {
     return this.heard_at_ms_ === null ? null : this.now_ms_() - this.heard_at_ms_;
   }
@@ -241,7 +249,7 @@ export class Store extends Facts {
   }
 
   private take_frame(frame: StateMessage, silent_ms: number): void {
-    // Frames may be lost on the way. A page that was busy itself hears all of them, late.
+    // Frames may be lost on the way. A page that was busy itself receives all of them, late.
     if (silent_ms > kSilent_ms && frame.t_s - (this.trace.last_s ?? frame.t_s) > kMissed_s) this.trace.break_off();
     this.t_s = frame.t_s;
     Object.assign(this.q, frame.q);

@@ -1,26 +1,26 @@
-// Where every joint was over the last minutes, as measured: what look-back and plots are drawn from.
-// A ring of so many frames; its size never grows.
+// The measured joint positions of the last minutes, for past poses and plots. A ring buffer of
+// fixed size.
 
 const kFrames = 9_000;  // five minutes at 30 Hz
 
-// What is asked for has been rounded: addresses hold hundredths of a second.
+// Addresses hold hundredths of a second.
 const kRounding_s = 0.01;
 
-// So many steps without a frame are a hole in what was heard at a steady pace.
+// This many steps without a frame are a gap in data of steady rate.
 const kHole = 5;
 
 interface Frame { t_s: number; row: readonly number[]; broken: boolean; fresh: boolean }
 
 export interface Curves { t_s: number[]; q: number[][] }
 
-/** Whether an instant was heard; if not, where it lies. */
+/** Says if there is data for a time; if not, where the time lies. */
 export type Heard = 'kept' | 'before' | 'after' | 'gap' | 'nothing';
 
 export class Trace {
   private names_: string[] = [];
   private t_s_ = new Float64Array(0);
   private q_ = new Float32Array(0);
-  /** 1: nothing was heard between this frame and the one before. */
+  /** 1 if there is a gap between this frame and the one before. */
   private breaks_ = new Uint8Array(0);
   private broken_ = false;
   private count_ = 0;
@@ -34,12 +34,12 @@ export class Trace {
     this.broken_ = false;
   }
 
-  /** What comes next does not follow what was heard last. */
+  /** The next frame follows a gap. */
   break_off(): void {
     this.broken_ = this.count_ > 0;
   }
 
-  /** All anew, however many there are. */
+  /** Replaces all frames. */
   load(names: readonly string[], t_s: readonly number[], q: readonly (readonly number[])[]): void {
     this.capacity_ = Math.max(kFrames, t_s.length);
     this.begin([...names]);
@@ -50,8 +50,8 @@ export class Trace {
   }
 
   /**
-   * What others heard, in order, at a steady pace: of it those frames are taken that are from before the first
-   * of these, or from a time in which nothing was heard.
+   * Merges frames of steady rate from elsewhere, in order: those before the first own frame, and
+   * those in gaps.
    */
   fill(names: readonly string[], t_s: readonly number[], q: readonly (readonly number[])[]): void {
     if (this.count_ === 0) this.begin([...names]);
@@ -101,14 +101,14 @@ export class Trace {
     return typeof frame === 'number' ? 'kept' : frame;
   }
 
-  /** Every joint at the last frame until then; null when that instant was not heard. */
+  /** Returns all joints at the last frame up to a time, or null if there is no data. */
   at(t_s: number): Record<string, number> | null {
     const frame = this.frame_at(t_s);
     if (typeof frame !== 'number') return null;
     return Object.fromEntries(this.names_.map((name, joint) => [name, this.value(frame, joint)]));
   }
 
-  /** Some joints over a stretch of time, thinned to so many frames. */
+  /** Returns some joints over a stretch of time, thinned to at most `most` frames. */
   between(names: readonly string[], from_s: number, to_s: number, most = 600): Curves {
     const columns = names.map((name) => this.names_.indexOf(name));
     const begin = Math.max(0, this.last_until(from_s));
@@ -139,7 +139,7 @@ export class Trace {
     this.clear();
   }
 
-  /** The frame that stands for an instant; or where it lies, if none does. */
+  /** Returns the frame for a time; or, without data, where the time lies. */
   private frame_at(t_s: number): number | Exclude<Heard, 'kept'> {
     const { first_s, last_s } = this;
     if (first_s === null || last_s === null) return 'nothing';

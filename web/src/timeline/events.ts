@@ -1,28 +1,30 @@
-// What was reported, as notches over the timeline's axis: drawn, found under the pointer, gone through by
-// keys, and told in words. Pure but for the drawing.
+// Events as marks on the timeline's axis: drawing, pointing, keys, text. Pure except for drawing.
 
 import { ink } from '../state/palette';
 import type { Notice } from '../state/notices';
 import { clock, seconds } from '../wording';
 import { kAxis_px, kLeft_px, kRight_px, type Sheet } from './sheet';
 import { shown_name, shown_text } from '../names';
+import { kText } from '../strings';
+
+const kWords = kText.timeline;
 
 export type EventMark = Pick<Notice, 'key' | 't_s' | 'level' | 'text' | 'arms'>;
 
-const kColours: Record<EventMark['level'], string> = { info: '--dim', warning: '--amber', error: '--red' };
-const kNames: Record<EventMark['level'], string> = { info: 'Note', warning: 'Warning', error: 'Error' };
+const kColors: Record<EventMark['level'], string> = { info: '--dim', warning: '--amber', error: '--red' };
+const kNames: Record<EventMark['level'], string> = { info: kWords.note, warning: kWords.warning, error: kWords.error };
 const kHeight_px = 9;
-// A notch is narrower than what a hand can point at.
+// Marks are narrower than a pointer's precision.
 const kReach_px = 7;
 const kMostTold = 3;
 
-/** Bars and triangles by how bad it is; the one that is looked at is outlined. The newest come first, and lie on top. */
+/** Draws bars or triangles by level, the newest on top; outlines the pointed events. */
 export function draw_events(g: CanvasRenderingContext2D, sheet: Sheet, events: readonly EventMark[], looked_at: readonly EventMark[]): void {
   const foot = sheet.height - kAxis_px;
   for (const event of [...events].reverse()) {
     const at = Math.round(sheet.x(event.t_s));
     if (at < kLeft_px || at > sheet.width) continue;
-    g.fillStyle = ink(kColours[event.level]);
+    g.fillStyle = ink(kColors[event.level]);
     g.beginPath();
     if (event.level === 'info') g.rect(at - 1, foot - 6, 2, 6);
     else for (const [x, y] of [[at, foot - 8], [at + 5, foot], [at - 5, foot]] as const) g.lineTo(x, y);
@@ -35,13 +37,13 @@ export function draw_events(g: CanvasRenderingContext2D, sheet: Sheet, events: r
   }
 }
 
-/** Those at a place of the sheet, newest first; none where it is not on the notches' strip. */
+/** Returns the events at a point of the sheet, newest first; none outside of the marks' strip. */
 export function events_at(events: readonly EventMark[], sheet: Sheet, x: number, y: number): EventMark[] {
   const foot = sheet.height - kAxis_px;
   if (y < foot - kHeight_px - 3 || y > sheet.height) return [];
   const found = events.filter((event) => Math.abs(sheet.x(event.t_s) - x) <= kReach_px && is_in(sheet, event));
   const nearest = found.reduce<EventMark | null>((best, event) => (best && Math.abs(sheet.x(best.t_s) - x) <= Math.abs(sheet.x(event.t_s) - x) ? best : event), null);
-  // Those that share its pixels are told with it.
+  // Events on the same pixels are listed together.
   return nearest ? found.filter((event) => Math.abs(sheet.x(event.t_s) - sheet.x(nearest.t_s)) <= 2) : [];
 }
 
@@ -50,7 +52,7 @@ function is_in(sheet: Sheet, { t_s }: EventMark): boolean {
   return x >= kLeft_px && x <= sheet.width - kRight_px;
 }
 
-/** The next one later (by 1) or earlier (by -1) than another; without one, the newest there is. */
+/** Returns the next later (1) or earlier (-1) event; without `from` the newest. */
 export function event_beside(events: readonly EventMark[], from: EventMark | null, by: 1 | -1): EventMark | null {
   if (events.length === 0) return null;
   const at = from ? events.findIndex(({ key }) => key === from.key) : -1;
@@ -58,20 +60,22 @@ export function event_beside(events: readonly EventMark[], from: EventMark | nul
   return events[Math.min(events.length - 1, Math.max(0, at - by))] ?? null;
 }
 
-/** How bad, when, what, and which arms, a line each. */
+/** Returns a line for each event: level, time, text, arms. */
 export function events_in_words(events: readonly EventMark[], now_s: number): string {
   const lines = events.slice(0, kMostTold).map((event) => event_in_words(event, now_s));
-  if (events.length > kMostTold) lines.push(`and ${events.length - kMostTold} more`);
+  if (events.length > kMostTold) lines.push(kWords.and_more(events.length - kMostTold));
   return lines.join('\n');
 }
 
 function event_in_words({ level, t_s, text, arms }: EventMark, now_s: number): string {
   const unnamed = arms.filter((arm) => !names(text, arm));
-  const of = unnamed.length === 0 ? '' : ` (${unnamed.map(shown_name).join(' and ')})`;
-  return `${kNames[level]} at ${clock(t_s)}, ${seconds(Math.max(0, now_s - t_s))} ago: ${shown_text(text)}${of}`;
+  const of = unnamed.length === 0 ? '' : ` (${unnamed.map(shown_name).join(kText.server.and)})`;
+  return kWords.event(kNames[level], clock(t_s), seconds(Math.max(0, now_s - t_s)), shown_text(text), of);
 }
 
-/** Whether an arm stands in a text as a word of its own, not as the beginning of a link's name. */
+/**
+ * Returns true if the text contains the arm's name as a whole word, not as part of a link's name.
+ */
 function names(text: string, arm: string): boolean {
   return text.split(/[^\p{L}\p{N}_-]+/u).includes(arm);
 }

@@ -1,79 +1,79 @@
-// What the timeline shows of each arm, as plain data: what it did, by the jobs' own times, and what the
-// server expects it to do. Pure. Times are cell time.
+// The timeline of each arm as plain data: past motions by the jobs' own times, future motions by
+// the server's prediction. Pure. Times are cell time.
 //
-// An arm waits while it could go: from when its next job was there and the one before had ended, until
-// it starts. Jobs behind that one wait their turn, which is no news.
+// An arm waits from when its next job was submitted and the previous job had ended, until the next
+// job starts. Later jobs only wait their turn and are not shown.
 
-import type { Forecast, ForecastLeg, Job, WaitsOn } from '../server/messages';
-import type { Stand } from '../state/job_book';
+import type { Forecast, ForecastStep, Job, WaitsOn } from '../server/messages';
+import type { Pause } from '../state/job_book';
 
-/** Who is waited for. */
+/** The blocker of a wait. */
 export interface WaitedFor { job: string | null; arm: string | null }
 
 export interface Mark {
-  /** A motion that was, is, or is expected; a stand on its way; a wait before its start. */
+  /** A motion; a pause on the path; a wait before the start. */
   kind: 'motion' | 'pause' | 'wait';
   expected: boolean;
   job: string;
   label: string;
   state: Job['state'];
   from_s: number;
-  /** Infinity: for ever, as things are. */
+  /** Infinity if no end is predicted. */
   to_s: number;
   waits_on: WaitsOn | null;
-  /** It stands, or stood, until its arm is resumed. */
+  /** At rest until the arm is resumed. */
   stopped: boolean;
 }
 
 export interface Lane {
   arm: string;
   marks: Mark[];
-  /** Jobs that have no times yet. */
+  /** The number of jobs without predicted times. */
   waiting: number;
 }
 
 export interface Known {
   arms: readonly string[];
-  /** Of those that have not ended. */
+  /** The unfinished jobs. */
   jobs: readonly Job[];
   pasts: ReadonlyMap<string, Past>;
-  stands(job: string): readonly Stand[];
+  pauses(job: string): readonly Pause[];
   has_ended(job: string): boolean;
   forecast: Forecast | null;
   now_s: number;
 }
 
-/** What an arm's jobs that have ended left, which does not change any more, and since when it is free of them. */
+/** The marks of an arm's ended jobs, which do not change, and the end of the last one. */
 export interface Past { marks: readonly Mark[]; free_from_s: number }
 
 const kNoPast: Past = { marks: [], free_from_s: 0 };
 const kLeastWait_s = 0.15;
 
-export function pasts_of(arms: readonly string[], ended: readonly Job[], stands: Known['stands']): Map<string, Past> {
-  return new Map([...by_arm(arms, ended)].map(([arm, jobs]) => [arm, done_of(jobs, kNoPast, Infinity, stands)]));
+export function pasts_of(arms: readonly string[], ended: readonly Job[], pauses: Known['pauses']): Map<string, Past> {
+  return new Map([...by_arm(arms, ended)].map(([arm, jobs]) => [arm, done_of(jobs, kNoPast, Infinity, pauses)]));
 }
 
 export function lanes_of(known: Known): Lane[] {
-  const { now_s, pasts, stands } = known;
+  const { now_s, pasts, pauses } = known;
   const of_arm = by_arm(known.arms, known.jobs);
   return known.arms.map((arm) => {
     const expected = known.forecast?.arms.find((lane) => lane.name === arm);
     const jobs = of_arm.get(arm) ?? [];
-    const done = done_of(jobs, pasts.get(arm) ?? kNoPast, now_s, stands);
-    const legs = (expected?.steps ?? []).filter((leg) => !known.has_ended(leg.id));
-    const timed = until_endless(legs);
+    const done = done_of(jobs, pasts.get(arm) ?? kNoPast, now_s, pauses);
+    const steps = (expected?.steps ?? []).filter((step) => !known.has_ended(step.id));
+    const timed = until_endless(steps);
     return {
       arm,
-      marks: [...done.marks, ...next_of(jobs, done.free_from_s, now_s), ...timed.flatMap((leg) => future_of(leg, now_s))],
-      waiting: (expected?.waiting ?? 0) + legs.length - timed.length,
+      marks: [...done.marks, ...next_of(jobs, done.free_from_s, now_s), ...timed.flatMap((step) => future_of(step, now_s))],
+      waiting: (expected?.waiting ?? 0) + steps.length - timed.length,
     };
   });
 }
 
-/** What comes behind one that has no end has no time. */
-function until_endless(legs: readonly ForecastLeg[]): readonly ForecastLeg[] {
-  const endless = legs.findIndex(({ ends_s }) => ends_s === null);
-  return endless < 0 ? legs : legs.slice(0, endless + 1);
+/** Cuts the list after the first step without a predicted end: later steps have no times. */
+function until_endless(steps: readonly ForecastStep[]): readonly ForecastStep[] {
+  const endless = steps.findIndex(({ ends_s }) => ends_s === null);
+  return endless < 0 ? steps : steps.slice(0, endless + 1);
 }
 
 function by_arm(arms: readonly string[], jobs: readonly Job[]): Map<string, Job[]> {
@@ -82,8 +82,8 @@ function by_arm(arms: readonly string[], jobs: readonly Job[]): Map<string, Job[
   return of_arm;
 }
 
-/** What has begun, each with the wait before it, after what was. */
-function done_of(jobs: readonly Job[], past: Past, now_s: number, stands: Known['stands']): Past {
+/** Returns the marks of started jobs, each with the wait before it, appended to `past`. */
+function done_of(jobs: readonly Job[], past: Past, now_s: number, pauses: Known['pauses']): Past {
   const marks: Mark[] = [...past.marks];
   const begun = jobs.filter((job) => job.started_s !== null).sort((a, b) => (a.started_s ?? 0) - (b.started_s ?? 0));
   let { free_from_s } = past;
@@ -93,7 +93,7 @@ function done_of(jobs: readonly Job[], past: Past, now_s: number, stands: Known[
     if (start_s - could_s > kLeastWait_s) marks.push(mark('wait', job, could_s, start_s, null));
     const end_s = job.ended_s ?? now_s;
     marks.push(mark('motion', job, start_s, end_s, null));
-    for (const { from_s, to_s, stopped, why } of stands(job.id)) {
+    for (const { from_s, to_s, stopped, why } of pauses(job.id)) {
       marks.push({ ...mark('pause', job, from_s, to_s ?? end_s, to_s === null ? job.waits_on[0] ?? null : why), stopped });
     }
     free_from_s = Math.max(free_from_s, end_s);
@@ -101,7 +101,7 @@ function done_of(jobs: readonly Job[], past: Past, now_s: number, stands: Known[
   return { marks, free_from_s };
 }
 
-/** That the first of those that have not begun waits. */
+/** Returns the wait of the first job that has not started. */
 function next_of(jobs: readonly Job[], free_from_s: number, now_s: number): Mark[] {
   const next = jobs.filter((job) => job.started_s === null).sort((a, b) => a.submitted_s - b.submitted_s)[0];
   if (!next) return [];
@@ -113,26 +113,26 @@ function mark(kind: Mark['kind'], job: Job, from_s: number, to_s: number, waits_
   return { kind, expected: false, job: job.id, label: job.name, state: job.state, from_s, to_s, waits_on, stopped: waits_on?.kind === 'stop' };
 }
 
-/** What is to come of it. A time of the server that is past by now ends at now. */
-function future_of(leg: ForecastLeg, now_s: number): Mark[] {
-  const common = { expected: true, job: leg.id, label: leg.name, state: leg.state };
+/** Returns the predicted marks of a step. Predicted times in the past are moved to now. */
+function future_of(step: ForecastStep, now_s: number): Mark[] {
+  const common = { expected: true, job: step.id, label: step.name, state: step.state };
   const marks: Mark[] = [];
   const add = (kind: Mark['kind'], from_s: number, to_s: number, waits_on: WaitsOn | null) => {
     if (to_s > now_s) marks.push({ ...common, kind, from_s: Math.max(now_s, from_s), to_s, waits_on, stopped: waits_on?.kind === 'stop' });
   };
-  const [next] = leg.pauses;
-  // Of one that was stopped nothing is to come but that it stands.
+  const [next] = step.pauses;
+  // The future of a stopped job is only its stop.
   const stopped = next?.waits_on?.kind === 'stop' && next.to_s === null && next.from_s <= now_s;
-  if (leg.starts_s !== null && !stopped) add('motion', leg.starts_s, leg.ends_s ?? Infinity, null);
-  for (const pause of leg.pauses) {
+  if (step.starts_s !== null && !stopped) add('motion', step.starts_s, step.ends_s ?? Infinity, null);
+  for (const pause of step.pauses) {
     add(pause.at_s > 0 ? 'pause' : 'wait', pause.from_s, pause.to_s ?? Infinity, pause.waits_on);
   }
   return marks;
 }
 
 /**
- * What is to be drawn of a lane between two times, where `least_s` is what a pixel shows: of motions that
- * follow each other within one pixel the first stands for all. What failed, and what is to come, is never left out.
+ * Returns the marks to draw between two times. `least_s` is the duration of a pixel: of motions
+ * within one pixel only the first is drawn. Failed, running and predicted motions are always drawn.
  */
 export function drawn_of(marks: readonly Mark[], from_s: number, to_s: number, least_s: number): Mark[] {
   const filled_to_s = new Map<Mark['kind'], number>();
@@ -146,7 +146,7 @@ export function drawn_of(marks: readonly Mark[], from_s: number, to_s: number, l
 }
 const kAlways: ReadonlySet<Mark['state']> = new Set(['failed', 'interrupted', 'expired', 'running', 'paused']);
 
-/** The mark on top at a time. */
+/** Returns the topmost mark at a time. */
 export function mark_at(lane: Lane, t_s: number): Mark | null {
   const there = lane.marks.filter((mark) => mark.from_s <= t_s && t_s <= mark.to_s);
   return there.find((mark) => mark.kind !== 'motion') ?? there[0] ?? null;

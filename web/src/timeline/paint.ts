@@ -1,35 +1,36 @@
-// Draws the timeline on a canvas: axis, lanes, marks, and threads from who waits to who is waited for.
+// Draws the timeline on a canvas: axis, lanes, marks, and lines from waits to their blockers.
 
-import type { Stand } from '../state/job_book';
-import { arm_colour, ink } from '../state/palette';
+import type { Pause } from '../state/job_book';
+import { arm_color, ink } from '../state/palette';
 import { short_id } from '../wording';
 import { draw_events, type EventMark } from './events';
 import { drawn_of, type Lane, type Mark } from './lanes';
 import { kAxis_px, kLeft_px, kRight_px, lane_height, widest_free, type Sheet, type Stretch } from './sheet';
 import { tick_of } from './span';
 import { characters_of, shown_name } from '../names';
+import { kText } from '../strings';
 
-/** What is looked at: the rest is dimmed. And the instant that is held, if one is. */
+/** The selection (everything else is dimmed) and the shown time, if it is in the past. */
 export interface Lit {
   jobs: readonly string[];
   arms: readonly string[];
-  held_s: number | null;
-  /** Nothing has been heard for a while: where now was. */
+  shown_s: number | null;
+  /** The data is old: the line marks the last data instead of now. */
   stale: boolean;
   events: readonly EventMark[];
-  /** When each arm was stopped. */
-  halts: ReadonlyMap<string, readonly Pick<Stand, 'from_s' | 'to_s'>[]>;
+  /** The periods in which arms were stopped. */
+  halts: ReadonlyMap<string, readonly Pick<Pause, 'from_s' | 'to_s'>[]>;
 }
-/** What is pointed at, or gone to by keys. */
+/** The marks under the pointer, or chosen by keys. */
 export interface Pointed { mark: Mark | null; events: readonly EventMark[] }
 
 const kFont = '"Inter Variable", system-ui, sans-serif';
 const kHatch_px = 5;
-// A bar is no narrower.
+// The least width of a bar.
 const kLeast_px = 2;
 
-/** `covers`: where its bars are not seen: under stands on the way and stops, and beside the sheet. */
-interface Row { top: number; height: number; colour: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number; covers: readonly Stretch[] }
+/** `covers`: where bars are hidden, under pauses and stops and outside of the sheet. */
+interface Row { top: number; height: number; color: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number; covers: readonly Stretch[] }
 
 export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly Lane[], lit: Lit, pointed: Pointed): void {
   const { mark: hover } = pointed;
@@ -51,12 +52,12 @@ export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly
   lanes.forEach((lane, i) => draw_threads(g, sheet, lane, i, rows, arms, hover));
   draw_events(g, sheet, lit.events, pointed.events);
   draw_now(g, sheet, now_in_words(lit.stale));
-  if (lit.held_s !== null) draw_held(g, sheet, lit.held_s);
+  if (lit.shown_s !== null) draw_shown_time(g, sheet, lit.shown_s);
   g.restore();
   rows.forEach((row, i) => draw_name(g, row, lanes[i]?.arm ?? ''));
 }
 
-function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number, stands: readonly Pick<Stand, 'from_s' | 'to_s'>[]): Row {
+function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number, pauses: readonly Pick<Pause, 'from_s' | 'to_s'>[]): Row {
   const height = lane_height(sheet, arms.length);
   const roomy = height >= 30;
   const top = i * height;
@@ -66,9 +67,9 @@ function row_of(sheet: Sheet, arms: readonly string[], arm: string, i: number, s
   const bar_top = top + gap;
   const covers = [
     { from: -Infinity, to: kLeft_px }, { from: sheet.width - kRight_px, to: Infinity },
-    ...stands.map(({ from_s, to_s }) => ({ from: sheet.x(from_s), to: sheet.x(to_s ?? sheet.now_s) })),
+    ...pauses.map(({ from_s, to_s }) => ({ from: sheet.x(from_s), to: sheet.x(to_s ?? sheet.now_s) })),
   ];
-  return { top, height, colour: ink(arm_colour(arms, arm)), bar_top, bar_height, wait_top: bar_top + bar_height + gap, wait_height, covers };
+  return { top, height, color: ink(arm_color(arms, arm)), bar_top, bar_height, wait_top: bar_top + bar_height + gap, wait_height, covers };
 }
 
 function is_dim(mark: Mark, arm: string, lit: Lit): boolean {
@@ -76,7 +77,7 @@ function is_dim(mark: Mark, arm: string, lit: Lit): boolean {
   return lit.arms.length > 0 && !lit.arms.includes(arm);
 }
 
-// More have no room on any sheet, whatever its times are.
+// A limit for any sheet and times.
 const kTicksMax = 1000;
 
 function draw_axis(g: CanvasRenderingContext2D, sheet: Sheet): void {
@@ -103,12 +104,12 @@ function tick_label(t_s: number, step_s: number): string {
   return step_s < 1 ? `${clock}.${Math.round((t_s - whole) * 10)}` : clock;
 }
 
-/** What stands at the line where the page's knowledge ends. */
+/** Returns the label of the line that ends the known data. */
 export function now_in_words(stale: boolean): string {
-  return stale ? 'last heard' : 'now';
+  return stale ? kText.timeline.mark_last_data : kText.timeline.mark_now;
 }
 
-/** The line that is now. */
+/** Draws the line at now. */
 function draw_now(g: CanvasRenderingContext2D, sheet: Sheet, words: string): void {
   const at = Math.round(sheet.x(sheet.now_s)) + 0.5;
   if (at < kLeft_px || at > sheet.width - kRight_px) return;
@@ -122,22 +123,22 @@ function draw_now(g: CanvasRenderingContext2D, sheet: Sheet, words: string): voi
   g.fillText(words, Math.min(at, sheet.width - kRight_px - g.measureText(words).width / 2), sheet.height - 5);
 }
 
-function draw_held(g: CanvasRenderingContext2D, sheet: Sheet, held_s: number): void {
-  const at = Math.round(sheet.x(held_s)) + 0.5;
+function draw_shown_time(g: CanvasRenderingContext2D, sheet: Sheet, shown_s: number): void {
+  const at = Math.round(sheet.x(shown_s)) + 0.5;
   g.strokeStyle = ink('--blue');
   g.lineWidth = 2;
   line(g, at, 0, at, sheet.height - kAxis_px + 3);
 }
 
 function draw_name(g: CanvasRenderingContext2D, row: Row, name: string): void {
-  g.fillStyle = row.colour;
+  g.fillStyle = row.color;
   g.font = `600 ${row.height < 18 ? 10.5 : 12}px ${kFont}`;
   g.textAlign = 'left';
   g.textBaseline = 'middle';
   g.fillText(cut(g, shown_name(name), kLeft_px - 20), 14, row.bar_top + row.bar_height / 2);
 }
 
-/** As much of a name as has room. */
+/** Cuts a name to the available width. */
 function cut(g: CanvasRenderingContext2D, text: string, room_px: number): string {
   if (g.measureText(text).width <= room_px) return text;
   const letters = characters_of(text);
@@ -155,15 +156,15 @@ function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Ma
   if (right < kLeft_px || left > sheet.width) return;
   const width = right - left;
   g.globalAlpha = dim ? 0.28 : 1;
-  if (mark.kind === 'wait') hatch(g, { left, top: row.wait_top, width, height: row.wait_height }, mark.stopped ? ink('--alarm') : row.colour, hover);
+  if (mark.kind === 'wait') hatch(g, { left, top: row.wait_top, width, height: row.wait_height }, mark.stopped ? ink('--alarm') : row.color, hover);
   else if (mark.kind === 'pause') draw_pause(g, row, left, width, mark.stopped, hover);
   else if (mark.expected) draw_expected(g, row, mark, left, width, dim, hover);
   else draw_motion(g, row, mark, left, width, dim, hover);
   g.globalAlpha = 1;
 }
 
-/** An arm stands stopped, with a job or none: until now, and nobody knows how long. */
-function draw_halt(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, { from_s, to_s }: Pick<Stand, 'from_s' | 'to_s'>, dim: boolean): void {
+/** Draws a stopped arm, with or without a job. While the stop lasts, its end is open. */
+function draw_halt(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, { from_s, to_s }: Pick<Pause, 'from_s' | 'to_s'>, dim: boolean): void {
   const left = sheet.x(from_s);
   const right = sheet.x(to_s ?? sheet.now_s);
   if (right < kLeft_px || left > sheet.width) return;
@@ -173,7 +174,7 @@ function draw_halt(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, { from_s
   g.globalAlpha = 1;
 }
 
-/** A stop fades out: it has no end that is known. */
+/** A stop fades out, because its end is unknown. */
 function draw_open_end(g: CanvasRenderingContext2D, row: Row, left: number): void {
   kFading.forEach((alpha, i) => {
     g.globalAlpha = alpha;
@@ -189,7 +190,7 @@ function draw_motion(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: nu
   const live = mark.state === 'running' || mark.state === 'paused';
   const strength = live || hover ? 1 : mark.state === 'canceled' ? 0.22 : 0.4;
   g.globalAlpha = (dim ? 0.3 : 1) * strength;
-  g.fillStyle = failed ? ink('--alarm') : row.colour;
+  g.fillStyle = failed ? ink('--alarm') : row.color;
   bar(g, left, row.bar_top, width - 1, row.bar_height);
   g.fill();
   g.globalAlpha = dim ? 0.4 : 1;
@@ -197,18 +198,18 @@ function draw_motion(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: nu
 }
 
 function draw_expected(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, dim: boolean, hover: boolean): void {
-  g.fillStyle = row.colour;
+  g.fillStyle = row.color;
   g.globalAlpha = (dim ? 0.3 : 1) * (hover ? 0.35 : 0.13);
   bar(g, left + 0.5, row.bar_top + 0.5, width - 2, row.bar_height - 1);
   g.fill();
   g.globalAlpha = dim ? 0.3 : 0.9;
-  g.strokeStyle = row.colour;
+  g.strokeStyle = row.color;
   g.lineWidth = 1;
   g.stroke();
   label(g, row, mark, left, width, ink('--text'));
 }
 
-/** It stands on its way, or is stopped there: the bar is open. */
+/** Draws a pause or stop as an open bar. */
 function draw_pause(g: CanvasRenderingContext2D, row: Row, left: number, width: number, stopped: boolean, hover: boolean): void {
   g.fillStyle = ink('--panel');
   g.fillRect(left, row.bar_top, width, row.bar_height);
@@ -221,8 +222,8 @@ function bar(g: CanvasRenderingContext2D, left: number, top: number, width: numb
   g.roundRect(left, top, wide, height, Math.min(3, wide / 2));
 }
 
-/** The longest name that fits whole where its bar is seen; a cut one says nothing. */
-function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, colour: string): void {
+/** Draws the longest form of the name that fits the visible part of the bar; none is cut. */
+function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, color: string): void {
   if (row.bar_height < 11 || width < 16) return;
   g.font = `500 10.5px ${kFont}`;
   g.textAlign = 'left';
@@ -233,11 +234,11 @@ function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, 
   const name = shown_name(mark.label);
   const text = [name, name.replace(/^[^:]*: /, ''), short_id(mark.job)].find((name) => name !== '' && g.measureText(name).width < room);
   if (!text) return;
-  g.fillStyle = colour;
+  g.fillStyle = color;
   g.fillText(text, seen.from + 5, row.bar_top + row.bar_height / 2 + 0.5);
 }
 
-/** From the end of each wait to come, down to whoever is waited for, at the instant when it makes way. */
+/** Draws a line from the end of each predicted wait to its blocker's lane. */
 function draw_threads(g: CanvasRenderingContext2D, sheet: Sheet, lane: Lane, i: number, rows: readonly Row[], arms: readonly string[], hover: Mark | null): void {
   const from = rows[i];
   if (!from) return;
@@ -249,8 +250,8 @@ function draw_threads(g: CanvasRenderingContext2D, sheet: Sheet, lane: Lane, i: 
     const y0 = mark.kind === 'wait' ? from.wait_top + (down ? from.wait_height : 0) : from.bar_top + (down ? from.bar_height : 0);
     const y1 = to.bar_top + (down ? 0 : to.bar_height);
     g.globalAlpha = mark === hover ? 1 : 0.75;
-    g.strokeStyle = to.colour;
-    g.fillStyle = to.colour;
+    g.strokeStyle = to.color;
+    g.fillStyle = to.color;
     g.lineWidth = mark === hover ? 2 : 1.2;
     line(g, at, y0, at, y1);
     g.beginPath();
@@ -260,18 +261,18 @@ function draw_threads(g: CanvasRenderingContext2D, sheet: Sheet, lane: Lane, i: 
   }
 }
 
-/** Rising stripes wait, falling ones stand on their way: told apart where colours are not. */
+/** Rising stripes for waits, falling stripes for pauses, to be told apart without colors. */
 interface Stripes { left: number; top: number; width: number; height: number; falls?: boolean }
 
-function hatch(g: CanvasRenderingContext2D, { left, top, width, height, falls = false }: Stripes, colour: string, strong: boolean): void {
+function hatch(g: CanvasRenderingContext2D, { left, top, width, height, falls = false }: Stripes, color: string, strong: boolean): void {
   g.save();
   g.beginPath();
   g.rect(left, top, width, height);
   g.clip();
   g.globalAlpha *= strong ? 1 : 0.7;
-  g.strokeStyle = colour;
+  g.strokeStyle = color;
   g.lineWidth = strong ? 1.8 : 1.2;
-  // Stripes are anchored to the bar's start, so that they travel with it.
+  // Anchored to the bar's start, so that stripes move with it.
   const shown = Math.max(left, 0);
   const first = shown - ((shown - left) % kHatch_px) - height - kHatch_px;
   const last = Math.min(left + width, g.canvas.width);

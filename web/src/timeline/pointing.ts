@@ -1,5 +1,4 @@
-// What the pointer does on the timeline: tells what is under it, moves the sheet, zooms, leads to a job or
-// back to an event.
+// Pointer actions on the timeline: tooltip, drag, zoom, opening a job, going to an event.
 
 import type { App } from '../state/app';
 import { events_at, events_in_words, type EventMark } from './events';
@@ -7,12 +6,12 @@ import { mark_at, type Lane } from './lanes';
 import type { Pointed } from './paint';
 import { kAxis_px, lane_at, type Sheet } from './sheet';
 import { moved, zoomed, type Span } from './span';
-import { mark_in_words } from './told';
+import { mark_in_words } from './mark_words';
 
-/** What is drawn and what is pointed at; changes many times a second, so no component's state. */
+/** The drawn state, which changes too often for component state. */
 export interface Drawing { span: Span; lanes: Lane[]; sheet: Sheet | null; pointed: Pointed; drag: Drag | null }
 
-/** From where the pointer went down; it outlives that the page is drawn anew meanwhile. */
+/** The start of a drag; it survives redraws. */
 interface Drag { x: number; span: Span; travelled_px: number }
 
 export interface Tip { x: number; up: number; words: string }
@@ -31,7 +30,7 @@ function beside_rims(x: number, sheet: Sheet): number {
   return Math.min(Math.max(x, kTipHalf_px), sheet.width - kTipHalf_px);
 }
 
-export function pointing(drawing: Drawing, app: App, change: (span: Span) => void, tell: (tip: Tip | null) => void, draw: () => void) {
+export function pointing(drawing: Drawing, app: App, change: (span: Span) => void, show_tip: (tip: Tip | null) => void, draw: () => void) {
   const found = (event: MouseEvent): Pointed => {
     const { sheet, lanes } = drawing;
     if (!sheet) return kNothing;
@@ -40,7 +39,7 @@ export function pointing(drawing: Drawing, app: App, change: (span: Span) => voi
     const lane = lanes[lane_at(sheet, lanes.length, event.offsetY)];
     return { mark: lane ? mark_at(lane, sheet.t_s(event.offsetX)) : null, events };
   };
-  const told = ({ mark, events }: Pointed, sheet: Sheet, event: MouseEvent): Tip | null => {
+  const tip_at = ({ mark, events }: Pointed, sheet: Sheet, event: MouseEvent): Tip | null => {
     const now_s = app.store.t_s;
     if (events.length > 0) return tip_of(events, sheet, now_s);
     return mark && { x: beside_rims(event.offsetX, sheet), up: sheet.height - event.offsetY + 12, words: mark_in_words(mark, now_s) };
@@ -55,7 +54,7 @@ export function pointing(drawing: Drawing, app: App, change: (span: Span) => voi
       if (drag && sheet) {
         drag.travelled_px = Math.max(drag.travelled_px, Math.abs(event.offsetX - drag.x));
         if (drag.travelled_px > kClick_px) {
-          tell(null);
+          show_tip(null);
           return change(moved(drag.span, sheet.t_s(drag.x) - sheet.t_s(event.offsetX), app.store.t_s));
         }
       }
@@ -63,18 +62,18 @@ export function pointing(drawing: Drawing, app: App, change: (span: Span) => voi
       drawing.pointed = pointed;
       (event.currentTarget as HTMLCanvasElement).classList.toggle('leads', pointed.mark !== null || pointed.events.length > 0);
       draw();
-      tell(sheet && told(pointed, sheet, event));
+      show_tip(sheet && tip_at(pointed, sheet, event));
     },
     onPointerUp: (event: PointerEvent) => {
       const { mark, events: [first] } = drawing.drag && drawing.drag.travelled_px <= kClick_px ? found(event) : kNothing;
       drawing.drag = null;
       if (mark) app.router.go({ page: 'job', id: mark.job });
-      else if (first) app.router.hold_at(first.t_s);
+      else if (first) app.router.show_time(first.t_s);
     },
     onPointerCancel: () => { drawing.drag = null; },
     onPointerLeave: () => {
       drawing.pointed = kNothing;
-      tell(null);
+      show_tip(null);
       draw();
     },
     onWheel: (event: WheelEvent) => {

@@ -1,4 +1,4 @@
-// The timeline's measures: where a time stands across, and a lane down.
+// The timeline's geometry: times across, lanes down.
 
 import { begin_of, type Span } from './span';
 
@@ -30,7 +30,7 @@ export function sheet_of(width: number, height: number, span: Span, now_s: numbe
 /** Across, px. */
 export interface Stretch { from: number; to: number }
 
-/** The widest part of it that nothing covers; null where all is covered. */
+/** Returns the widest part that nothing covers, or null. */
 export function widest_free(whole: Stretch, covers: readonly Stretch[]): Stretch | null {
   const free: Stretch[] = [];
   let from = whole.from;
@@ -51,7 +51,7 @@ export function lane_at(sheet: Sheet, lanes: number, y: number): number {
   return Math.floor(y / lane_height(sheet, lanes));
 }
 
-/** Fits the canvas's pixels to its place on the page; null while it has none. */
+/** Fits the canvas to its element. Returns null if the element has no size. */
 export function fit(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
   const { clientWidth: width, clientHeight: height } = canvas;
   const g = canvas.getContext('2d');

@@ -1,49 +1,52 @@
-// Which stretch of cell time the timeline shows: following now, or held where somebody looks. Pure.
+// The range of cell time that the timeline shows: following now, or fixed. Pure.
 
 export interface Span {
   /** Length in seconds of cell time. */
   length_s: number;
-  /** Where it begins; null: it follows now, which stands at kNowAt of it. */
-  held_from_s: number | null;
+  /** The fixed beginning; null if the range follows now, which is then at kNowAt. */
+  fixed_from_s: number | null;
 }
 
-// What was is mostly known, what comes seldom for long.
+// The past is mostly known, the future rarely for long.
 export const kNowAt = 0.75;
-export const kFollowing: Span = { length_s: 50, held_from_s: null };
+export const kFollowing: Span = { length_s: 50, fixed_from_s: null };
 
 const kShortest_s = 4;
 const kLongest_s = 3600;
 const kAhead_s = 600;
 
 export function begin_of(span: Span, now_s: number): number {
-  return span.held_from_s ?? now_s - kNowAt * span.length_s;
+  return span.fixed_from_s ?? now_s - kNowAt * span.length_s;
 }
 
-/** Longer (factor above one) or shorter; the instant at `share` of it stays where it is. */
+/** Scales the length (above 1: longer); a fixed range keeps the time at `share` in place. */
 export function zoomed(span: Span, factor: number, now_s: number, share = kNowAt): Span {
   const length_s = Math.min(kLongest_s, Math.max(kShortest_s, span.length_s * factor));
-  if (span.held_from_s === null) return { length_s, held_from_s: null };
-  const fixed_s = span.held_from_s + share * span.length_s;
-  return within({ length_s, held_from_s: fixed_s - share * length_s }, now_s);
+  if (span.fixed_from_s === null) return { length_s, fixed_from_s: null };
+  const fixed_s = span.fixed_from_s + share * span.length_s;
+  return within({ length_s, fixed_from_s: fixed_s - share * length_s }, now_s);
 }
 
-/** Held, and moved by a time. */
+/** Fixes the range and moves it by a time. */
 export function moved(span: Span, by_s: number, now_s: number): Span {
-  return within({ length_s: span.length_s, held_from_s: begin_of(span, now_s) + by_s }, now_s);
+  return within({ length_s: span.length_s, fixed_from_s: begin_of(span, now_s) + by_s }, now_s);
 }
 
-/** Held so that an instant stands in its middle: any, as an address is opened before it is known what time it is now. */
+/**
+ * Fixes the range around any time, because an address may be opened before the current time is
+ * known.
+ */
 export function around(span: Span, t_s: number): Span {
-  return { length_s: span.length_s, held_from_s: t_s - span.length_s / 2 };
+  return { length_s: span.length_s, fixed_from_s: t_s - span.length_s / 2 };
 }
 
 function within(span: Span, now_s: number): Span {
-  if (span.held_from_s === null) return span;
-  const from_s = Math.min(now_s + kAhead_s - span.length_s, Math.max(-0.5 * span.length_s, span.held_from_s));
-  return { ...span, held_from_s: from_s };
+  if (span.fixed_from_s === null) return span;
+  const from_s = Math.min(now_s + kAhead_s - span.length_s, Math.max(-0.5 * span.length_s, span.fixed_from_s));
+  return { ...span, fixed_from_s: from_s };
 }
 
-/** A step of 1, 2 or 5 with so many labels at most. */
+/** Returns the smallest step of the list with at most `most` labels. */
 export function tick_of(length_s: number, most: number): number {
   const wanted_s = length_s / Math.max(1, most);
   const steps = [0.5, 1, 2, 5, 10, 20, 30, 60, 120, 300, 600, 1200];

@@ -1,5 +1,5 @@
-// The timeline: a lane for each arm, what it did left of now and what is expected right of it. It
-// follows now, or is held where the address, the scrub bar, a drag or the keys have put it.
+// The timeline: one lane per arm, the past left of now, the prediction right of it. It follows now,
+// or is fixed by the address, the scrub bar, a drag or keys.
 
 import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { use_stale } from '../frame/staleness';
@@ -13,7 +13,10 @@ import { kNothing, pointing, tip_of, type Drawing, type Tip } from './pointing';
 import { fit, sheet_of } from './sheet';
 import { around, begin_of, kFollowing, moved, zoomed, type Span } from './span';
 import { ScrubBar } from './scrub_bar';
-import { Told } from './told_list';
+import { TextList } from './text_list';
+import { kText } from '../strings';
+
+const kWords = kText.timeline;
 
 const kRedraw_ms = 100;
 export function Timeline({ app }: { app: App }) {
@@ -23,16 +26,16 @@ export function Timeline({ app }: { app: App }) {
   const [span, set_span] = useState<Span>(kFollowing);
   const [tip, set_tip] = useState<Tip | null>(null);
   const [chosen, set_chosen] = useState('');
-  const held_s = router.address.value.t_s;
+  const shown_s = router.address.value.t_s;
   const change = (next: Span) => {
     drawing.current.span = next;
     set_span(next);
   };
-  // Before anybody can press another key: what that one asks for is not undone.
+  // A layout effect, so that it runs before the next key press.
   useLayoutEffect(() => {
     const { span: now } = drawing.current;
-    change(held_s === null ? { ...now, held_from_s: null } : is_shown(now, held_s, store.t_s) ? now : around(now, held_s));
-  }, [held_s]);
+    change(shown_s === null ? { ...now, fixed_from_s: null } : is_shown(now, shown_s, store.t_s) ? now : around(now, shown_s));
+  }, [shown_s]);
   const stale = use_stale(store);
   const is_stale = useRef(stale);
   is_stale.current = stale;
@@ -41,30 +44,30 @@ export function Timeline({ app }: { app: App }) {
     draw.current = () => { if (canvas.current) draw_now(canvas.current, drawing.current, app, is_stale.current); };
     return drive(canvas, store, () => draw.current());
   }, [app]);
-  const look_away = () => {
+  const clear_pointed = () => {
     if (drawing.current.pointed === kNothing) return;
     drawing.current.pointed = kNothing;
     set_tip(null);
     draw.current();
   };
-  // Whatever has the focus: what pointing shows is put away by a key, from when it is shown.
+  // Escape closes the tooltip, whatever has the focus.
   useLayoutEffect(() => {
     if (!tip) return;
-    const put_away = (event: KeyboardEvent) => { if (event.key === 'Escape') look_away(); };
-    window.addEventListener('keydown', put_away);
-    return () => window.removeEventListener('keydown', put_away);
+    const on_escape = (event: KeyboardEvent) => { if (event.key === 'Escape') clear_pointed(); };
+    window.addEventListener('keydown', on_escape);
+    return () => window.removeEventListener('keydown', on_escape);
   }, [tip !== null]);
-  /** By key: shown where it stands, and said. */
+  /** Shows an event chosen by keys, and announces it. */
   const choose = (event: EventMark) => {
     const { span: now } = drawing.current;
-    change(is_shown({ ...now, held_from_s: begin_of(now, store.t_s) }, event.t_s, store.t_s) ? moved(now, 0, store.t_s) : around(now, event.t_s));
+    change(is_shown({ ...now, fixed_from_s: begin_of(now, store.t_s) }, event.t_s, store.t_s) ? moved(now, 0, store.t_s) : around(now, event.t_s));
     drawing.current.pointed = { mark: null, events: [event] };
     draw.current();
     const { sheet } = drawing.current;
     if (sheet) set_tip(tip_of([event], sheet, store.t_s));
     set_chosen(events_in_words([event], store.t_s));
   };
-  /** Whether it was one of the timeline's keys. */
+  /** Returns true if the key is one of the timeline. */
   const by_key = (key: string): boolean => {
     const [at = null] = drawing.current.pointed.events;
     if (key === 'PageUp' || key === 'PageDown') {
@@ -73,12 +76,12 @@ export function Timeline({ app }: { app: App }) {
       return true;
     }
     if (key === 'Enter' && at) {
-      router.hold_at(at.t_s);
+      router.show_time(at.t_s);
       return true;
     }
     const next = span_by_key(key, drawing.current.span, store.t_s);
     if (!next) return false;
-    if (key === '0') router.hold_at(null);
+    if (key === '0') router.show_time(null);
     change(next);
     return true;
   };
@@ -86,47 +89,47 @@ export function Timeline({ app }: { app: App }) {
   const address = router.address.value;
   useEffect(() => draw.current(), [span, theme, address, stale]);
   return (
-    <section class="timeline" aria-label="Timeline">
-      <div class={`line head${held_s === null ? '' : ' looks-back'}`}>
-        <h2>Timeline</h2>
+    <section class="timeline" aria-label={kWords.title}>
+      <div class={`line head${shown_s === null ? '' : ' looks-back'}`}>
+        <h2>{kWords.title}</h2>
         <Keys />
-        <details class="legend"><summary class="small">Legend</summary><div class="legend-keys"><Keys /></div></details>
+        <details class="legend"><summary class="small">{kWords.legend}</summary><div class="legend-keys"><Keys /></div></details>
         <span class="grow" />
         <ScrubBar app={app} />
-        <button class="small" aria-label="Zoom out" title="Zoom out (−)" onClick={() => change(zoomed(span, 1.5, store.t_s))}>−</button>
-        <button class="small" aria-label="Zoom in" title="Zoom in (+)" onClick={() => change(zoomed(span, 1 / 1.5, store.t_s))}>+</button>
-        <button class="small" data-test="follow-now" aria-pressed={span.held_from_s === null && held_s === null} title="Follow now (0)"
-          onClick={() => { router.hold_at(null); change({ ...span, held_from_s: null }); }}>Now</button>
+        <button class="small" aria-label={kWords.zoom_out} title={kWords.zoom_out_title} onClick={() => change(zoomed(span, 1.5, store.t_s))}>−</button>
+        <button class="small" aria-label={kWords.zoom_in} title={kWords.zoom_in_title} onClick={() => change(zoomed(span, 1 / 1.5, store.t_s))}>+</button>
+        <button class="small" data-test="follow-now" aria-pressed={span.fixed_from_s === null && shown_s === null} title={kWords.now_title}
+          onClick={() => { router.show_time(null); change({ ...span, fixed_from_s: null }); }}>{kWords.now}</button>
       </div>
       <div class="sheet">
-        <canvas ref={canvas} tabIndex={0} role="img" data-test="lanes" data-from={span.held_from_s ?? 'now'} data-length={span.length_s}
-          aria-label="A lane for each arm: what it did, and what it is expected to do. Told below in words. Page up and page down go through the events, Enter looks back at one."
+        <canvas ref={canvas} tabIndex={0} role="img" data-test="lanes" data-from={span.fixed_from_s ?? 'now'} data-length={span.length_s}
+          aria-label={kWords.label}
           {...pointing(drawing.current, app, change, set_tip, () => draw.current())}
-          onBlur={() => look_away()} onKeyDown={(event) => { if (by_key(event.key)) event.preventDefault(); }} />
+          onBlur={() => clear_pointed()} onKeyDown={(event) => { if (by_key(event.key)) event.preventDefault(); }} />
         <span class="sr-only" role="status">{chosen}</span>
         {tip && <div class="tip" role="tooltip" style={{ left: `${tip.x}px`, bottom: `${tip.up}px` }}>{tip.words}</div>}
       </div>
-      <Told app={app} />
+      <TextList app={app} />
     </section>
   );
 }
 
-/** What its marks mean: in its line where there is room, else behind a button. */
+/** The legend: in the heading if there is room, else behind a button. */
 function Keys() {
   return (
     <>
-      <span class="key"><i class="solid" /> moves</span><span class="key"><i class="outlined" /> expected</span>
-      <span class="key"><i class="hatched" /> waits</span><span class="key"><i class="hatched pausing" /> pauses</span><span class="key"><i class="hatched stopping" /> stopped</span><span class="key"><i class="event" /> event</span>
+      <span class="key"><i class="solid" /> {kWords.keys.moves}</span><span class="key"><i class="outlined" /> {kWords.keys.expected}</span>
+      <span class="key"><i class="hatched" /> {kWords.keys.waits}</span><span class="key"><i class="hatched pausing" /> {kWords.keys.paused}</span><span class="key"><i class="hatched stopping" /> {kWords.keys.stopped}</span><span class="key"><i class="event" /> {kWords.keys.event}</span>
     </>
   );
 }
 
 function is_shown(span: Span, t_s: number, now_s: number): boolean {
   const sheet = sheet_of(100, 100, span, now_s);
-  return span.held_from_s !== null && t_s >= sheet.from_s && t_s <= sheet.from_s + sheet.length_s;
+  return span.fixed_from_s !== null && t_s >= sheet.from_s && t_s <= sheet.from_s + sheet.length_s;
 }
 
-/** Draws as the store changes, ten times a second at most, and as the canvas changes its size. */
+/** Redraws at most ten times per second, and when the canvas is resized. */
 function drive(canvas: { current: HTMLCanvasElement | null }, store: App['store'], draw: () => void): () => void {
   let last_ms = -Infinity;
   const tick = () => {
@@ -151,8 +154,8 @@ function draw_now(canvas: HTMLCanvasElement, drawing: Drawing, app: App, stale: 
   drawing.lanes = known_lanes(app, drawing.sheet.from_s);
   const { jobs, arms } = selection_of(app.router.place, app.store);
   const at = app.router.address.peek();
-  const held_s = is_of_this_run(at.run, app.store) ? at.t_s : null;
-  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, held_s, stale, events: app.store.events, halts: app.store.halts }, drawing.pointed);
+  const shown_s = is_of_this_run(at.run, app.store) ? at.t_s : null;
+  paint(g, drawing.sheet, drawing.lanes, { jobs, arms, shown_s, stale, events: app.store.events, halts: app.store.halts }, drawing.pointed);
 }
 
 function span_by_key(key: string, span: Span, now_s: number): Span | null {
@@ -161,7 +164,7 @@ function span_by_key(key: string, span: Span, now_s: number): Span | null {
     case 'ArrowRight': return moved(span, span.length_s / 10, now_s);
     case '+': case '=': return zoomed(span, 1 / 1.5, now_s);
     case '-': return zoomed(span, 1.5, now_s);
-    case '0': return { ...span, held_from_s: null };
+    case '0': return { ...span, fixed_from_s: null };
     default: return null;
   }
 }

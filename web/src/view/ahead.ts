@@ -1,28 +1,28 @@
-// What the arms have before them: the way of each tool through the motions that are admitted, how far
-// along it the arm may go, and a ghost of where each arm comes to rest next.
+// The future of the arms in the 3D view: tool paths of admitted motions with their authority, and a
+// ghost of each arm's next end position.
 
 import * as THREE from 'three';
 import type { Motion } from '../motion/motion';
 import type { Cell, Job } from '../server/messages';
 import type { App } from '../state/app';
-import { arm_colour, ink } from '../state/palette';
+import { arm_color, ink } from '../state/palette';
 import { Ghosts } from './ghosts';
 import { Kinematics } from './kinematics';
 import type { Surfaces } from './surfaces';
-import { beads_of, Way } from './way';
+import { beads_of, Path } from './path';
 
-const kLegs = 2;
+const kSteps = 2;
 const kGhostOpacity = 0.17;
 
-interface Shown { way: Way; arm: string; job: string; motion: Motion }
+interface Shown { path: Path; arm: string; job: string; motion: Motion }
 
 export class Ahead {
   readonly group = new THREE.Group();
   private readonly ghosts_ = new Ghosts(kGhostOpacity);
   private kinematics_: Kinematics[] = [];
-  private readonly ways_ = new Map<string, Shown>();
+  private readonly paths_ = new Map<string, Shown>();
   private cell_: Cell | null = null;
-  /** Some are still to be built, each when it is followed again. */
+  /** True while ghosts still have to be built, one for each call of follow(). */
   lacks_ghosts = false;
   private ghosts_at_ = '';
   private seen_ = '';
@@ -31,9 +31,9 @@ export class Ahead {
     this.group.add(this.ghosts_.group);
   }
 
-  /** Another cell, or another theme: all is made anew. */
+  /** Discards everything after a change of cell or theme. */
   begin(cell: Cell | null): void {
-    for (const key of [...this.ways_.keys()]) this.forget(key);
+    for (const key of [...this.paths_.keys()]) this.forget(key);
     this.ghosts_.clear();
     this.ghosts_at_ = '';
     this.lacks_ghosts = false;
@@ -44,65 +44,65 @@ export class Ahead {
       try {
         this.kinematics_.push(new Kinematics(robot));
       } catch {
-        // It cannot be drawn, either, and that was said.
+        // Robots reported this error already.
       }
     }
   }
 
   get count(): number {
-    return this.ways_.size;
+    return this.paths_.size;
   }
 
   /**
-   * By what is known now; `at_now`: else an instant of the past is looked at, which has no future here.
-   * Answers whether something else is to be seen than before.
+   * Updates paths and ghosts. With `at_now` false a past time is shown, which has no prediction.
+   * Returns true if something visible changed.
    */
   follow(surfaces: Surfaces, at_now: boolean): boolean {
     const { settings, store } = this.app_;
-    const legs = at_now ? this.legs() : [];
-    const wanted = new Set(settings.shows.value.ways ? legs.map(({ arm, job }) => `${arm}\n${job.id}`) : []);
-    for (const [key, { motion, job }] of [...this.ways_]) {
+    const steps = at_now ? this.steps() : [];
+    const wanted = new Set(settings.shows.value.paths ? steps.map(({ arm, job }) => `${arm}\n${job.id}`) : []);
+    for (const [key, { motion, job }] of [...this.paths_]) {
       const known = this.app_.store.job(job);
       if (!wanted.has(key) || !known || this.app_.motions.of(known) !== motion) this.forget(key);
     }
-    for (const leg of legs) if (settings.shows.value.ways) this.add(leg.arm, leg.job);
-    this.show_ghosts(settings.shows.value.ghosts ? legs : [], surfaces);
+    for (const step of steps) if (settings.shows.value.paths) this.add(step.arm, step.job);
+    this.show_ghosts(settings.shows.value.ghosts ? steps : [], surfaces);
     this.move();
     const granted = store.motions.map(({ job, authority_s }) => `${job} ${authority_s}`);
-    const seen = [...this.ways_.keys(), ...granted, this.ghosts_at_].join('\n');
+    const seen = [...this.paths_.keys(), ...granted, this.ghosts_at_].join('\n');
     const changed = seen !== this.seen_;
     this.seen_ = seen;
     return changed;
   }
 
-  /** How far each is, and how far it may go, by the last frame. */
+  /** Updates progress and authority from the last frame. */
   move(): void {
-    for (const { way, arm, job, motion } of this.ways_.values()) {
-      const told = this.app_.store.motions.find((one) => one.arm === arm && one.job === job);
-      way.show(told ? { from_s: told.progress_s, granted_s: told.authority_s } : { from_s: 0, granted_s: 0 });
-      way.group.visible = told === undefined || told.progress_s < motion.duration_s;
+    for (const { path, arm, job, motion } of this.paths_.values()) {
+      const authority = this.app_.store.motions.find((one) => one.arm === arm && one.job === job);
+      path.show(authority ? { from_s: authority.progress_s, granted_s: authority.authority_s } : { from_s: 0, granted_s: 0 });
+      path.group.visible = authority === undefined || authority.progress_s < motion.duration_s;
     }
   }
 
-  /** Drawings take long: ghosts are left out first. */
+  /** Hides the ghosts when drawing is slow. */
   show_level(ghosts: boolean): void {
     this.ghosts_.group.visible = ghosts;
   }
 
-  /** Of each arm the motions that are admitted, the one under way first. */
-  private legs(): { arm: string; job: Job }[] {
+  /** Returns the admitted motions of each arm, the current one first. */
+  private steps(): { arm: string; job: Job }[] {
     const { store } = this.app_;
     return (store.forecast?.arms ?? []).flatMap(({ name, steps }) => steps
-      .flatMap((leg) => {
-        const job = store.job(leg.id);
+      .flatMap((step) => {
+        const job = store.job(step.id);
         return job && job.result === null ? [{ arm: name, job }] : [];
       })
-      .slice(0, kLegs));
+      .slice(0, kSteps));
   }
 
   private add(arm: string, job: Job): void {
     const key = `${arm}\n${job.id}`;
-    if (this.ways_.has(key)) return;
+    if (this.paths_.has(key)) return;
     const motion = this.app_.motions.of(job);
     const robot = this.cell_?.robots.find((one) => one.arms.some(({ name }) => name === arm));
     const kinematics = this.kinematics_.find(({ name }) => name === robot?.name);
@@ -115,19 +115,19 @@ export class Ahead {
       if (p_W) points.push(p_W);
     }
     if (points.length === 0) return;
-    const way = new Way(points, motion.duration_s);
-    way.paint(ink(arm_colour([...this.app_.store.arms.keys()], arm)));
-    this.ways_.set(key, { way, arm, job: job.id, motion });
-    this.group.add(way.group);
+    const path = new Path(points, motion.duration_s);
+    path.paint(ink(arm_color([...this.app_.store.arms.keys()], arm)));
+    this.paths_.set(key, { path, arm, job: job.id, motion });
+    this.group.add(path.group);
   }
 
-  /** Where each arm is at the end of the motion that is under way, or comes next. */
-  private show_ghosts(legs: readonly { arm: string; job: Job }[], surfaces: Surfaces): void {
+  /** Shows where each arm's current or next motion ends. */
+  private show_ghosts(steps: readonly { arm: string; job: Job }[], surfaces: Surfaces): void {
     if (!this.cell_) return;
     const q: Record<string, number> = {};
     const ends: string[] = [];
     const seen = new Set<string>();
-    for (const { arm, job } of legs) {
+    for (const { arm, job } of steps) {
       const motion = seen.has(arm) ? null : this.app_.motions.of(job);
       seen.add(arm);
       if (!motion) continue;
@@ -137,16 +137,16 @@ export class Ahead {
     const at = ends.join('\n');
     if (at === this.ghosts_at_) return;
     const names = [...this.app_.store.arms.keys()];
-    const all = this.ghosts_.show({ q: ends.length === 0 ? null : q, now: this.app_.store.q }, this.cell_, surfaces, (arm) => ink(arm_colour(names, arm)));
+    const all = this.ghosts_.show({ q: ends.length === 0 ? null : q, now: this.app_.store.q }, this.cell_, surfaces, (arm) => ink(arm_color(names, arm)));
     this.lacks_ghosts = !all;
     this.ghosts_at_ = all ? at : `${at}\n${this.ghosts_.count}`;
   }
 
   private forget(key: string): void {
-    const shown = this.ways_.get(key);
+    const shown = this.paths_.get(key);
     if (!shown) return;
-    this.group.remove(shown.way.group);
-    shown.way.close();
-    this.ways_.delete(key);
+    this.group.remove(shown.path.group);
+    shown.path.close();
+    this.paths_.delete(key);
   }
 }

@@ -1,5 +1,5 @@
-// The 3D view with what is laid over it: the smallest clearance, the mark of a stop, of an instant that
-// is held. The view itself is loaded after the rest of the page stands.
+// The 3D view with its overlays: clearance, stop, shown time. The view is loaded after the rest of
+// the page.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { waiting_arms } from '../recovery/needs';
@@ -10,9 +10,12 @@ import type { Shows } from '../state/settings';
 import { instant_of, why_unheard } from '../state/instant';
 import { is_known, seen_app } from '../state/as_of';
 import { use_beats } from '../state/seen';
-import { clearance_in_words, clock, millimetres } from '../wording';
+import { clearance_in_words, clock, millimeters } from '../wording';
 import type { CellView } from './cell_view';
+import { kText } from '../strings';
 import { step_of_key, type CameraStep } from './steer';
+
+const kWords = kText.view;
 
 interface Props { app: App; on_view(view: CellView): void }
 
@@ -44,14 +47,14 @@ export function CellPanel({ app, on_view }: Props) {
   return (
     <div class={`cell${app.seen.store.value.stopped ? ' stopped' : ''}`}>
       <div class="view" ref={host} role="img" tabIndex={0} data-test="view"
-        aria-label="The cell in 3D: every arm where it was measured. Arrow keys turn it, plus and minus lead nearer and farther, 0 shows all"
+        aria-label={kWords.label}
         onKeyDown={(event) => {
           const step = event.ctrlKey || event.metaKey || event.altKey ? null : step_of_key(event.key);
           if (step === null) return;
           event.preventDefault();
           view?.steer(step);
         }} />
-      {!view && <p class="loading">{fault === null ? 'Loading the 3D view…' : `The 3D view cannot be shown here; everything else can. ${fault}`}</p>}
+      {!view && <p class="loading">{fault === null ? kWords.loading : kWords.not_available(fault)}</p>}
       {view && <Waits app={app} />}
       <ClearanceFigure app={app} />
       <InstantMark app={app} />
@@ -60,71 +63,71 @@ export function CellPanel({ app, on_view }: Props) {
   );
 }
 
-/** Nothing is drawn of arms before it is known where they stand. */
+/** No arm is drawn before its position is known. */
 function Waits({ app }: { app: App }) {
   use_beats(app.store);
-  return waits_for_first(app) ? <p class="loading" role="status" data-test="no-pose-yet">Waiting for where the arms stand…</p> : null;
+  return waits_for_first(app) ? <p class="loading" role="status" data-test="no-pose-yet">{kWords.waiting_for_positions}</p> : null;
 }
 
 function waits_for_first({ store }: App): boolean {
   return store.link.status !== 'recording' && store.trace.last_s === null && Object.keys(store.q).length === 0;
 }
 
-/** That another instant than now is shown; or, where it was not heard, that it cannot be. */
+/** States that a past time is shown, or that its positions are unknown. */
 function InstantMark({ app }: { app: App }) {
   use_beats(app.store);
   const { store, router } = app;
   const instant = instant_of(router.address.value, store);
   if (store.link.status === 'recording' && store.trace.first_s === null) return <WithoutPositions app={app} />;
   if (instant.kind === 'now' || waits_for_first(app)) return null;
-  if (instant.kind === 'kept') return <div class="instant-mark" data-test="instant">Looking back at {clock(instant.t_s)}, not at now</div>;
+  if (instant.kind === 'kept') return <div class="instant-mark" data-test="instant">{kWords.shown_time(clock(instant.t_s))}</div>;
   const { first_s } = store.trace;
   return (
     <div class="unheard" role="status" data-test="unheard" style={{ '--covered': `${app.covered_px.value}px` }}>
-      <p><b>The arms are not shown: where they were at <span class="mono">{clock(instant.t_s)}</span> is not known here.</b></p>
-      <p class="dim">{why_unheard(instant.why, store)}{is_known(app.seen.store.value) && ' The lists and the events are of that time all the same: the server told them.'}</p>
+      <p><b>{kWords.unknown_positions}<span class="mono">{clock(instant.t_s)}</span>.</b></p>
+      <p class="dim">{why_unheard(instant.why, store)}{is_known(app.seen.store.value) && kWords.lists_are_known}</p>
       <div class="line">
-        <button class="small" data-test="unheard-now" onClick={() => router.hold_at(null)}>Look at now</button>
-        {instant.why === 'before' && first_s !== null && <button class="small" onClick={() => router.hold_at(first_s)}>The earliest that is kept</button>}
-        <Link app={app} to={{ page: 'recordings' }}>Open a recording</Link>
+        <button class="small" data-test="unheard-now" onClick={() => router.show_time(null)}>{kText.past.go_to_now}</button>
+        {instant.why === 'before' && first_s !== null && <button class="small" onClick={() => router.show_time(first_s)}>{kWords.earliest}</button>}
+        <Link app={app} to={{ page: 'recordings' }}>{kWords.open_recording}</Link>
       </div>
     </div>
   );
 }
 
-/** A recording of events alone. */
+/** Overlay for a recording without positions. */
 function WithoutPositions({ app }: { app: App }) {
   return (
     <div class="unheard" role="status" data-test="without-positions" style={{ '--covered': `${app.covered_px.value}px` }}>
-      <p><b>The arms are not shown: this recording has no positions.</b></p>
-      <p class="dim">It was written without <code>--record</code>. The lists, the timeline and the events are of <span class="mono">{clock(app.router.address.value.t_s ?? app.store.t_s)}</span>.</p>
+      <p><b>{kWords.no_positions}</b></p>
+      <p class="dim">{kWords.recorded_without}<code>--record</code>{kWords.lists_show}<span class="mono">{clock(app.router.address.value.t_s ?? app.store.t_s)}</span>.</p>
     </div>
   );
 }
 
-/** That arms are stopped, and the way to what they need. */
+/** States which arms are stopped, with a link to the recovery page. */
 function StoppedMark({ app }: { app: App }) {
   const { store } = app;
   const waiting = waiting_arms(store);
   if (!store.stopped && waiting.length === 0) return null;
-  const words = store.stopped ? 'Stopped.' : `${waiting.map(({ name, state }) => `${name} is ${state === 'fault' ? 'at fault' : 'stopped'}`).join(', ')}.`;
+  const words = store.stopped ? kWords.stopped : `${waiting.map(({ name, state }) => (state === 'fault' ? kWords.arm_fault(name) : kWords.arm_stopped(name))).join(', ')}.`;
   return (
     <div class="stopped-mark" role="status" data-test={store.stopped ? 'stopped' : 'some-stopped'}>■ {words}{' '}
-      <Link app={app} to={{ page: 'recovery' }} test="to-recovery">What to do</Link></div>
+      <Link app={app} to={{ page: 'recovery' }} test="to-recovery">{kText.common.open_recovery}</Link></div>
   );
 }
 
 const kShows: readonly [what: keyof Shows, title: string, meaning: string][] = [
-  ['ways', 'Ways', 'The way that each tool has before it, a bead every 0.05 s; bright as far as the arm may go'],
-  ['ghosts', 'Ghosts', 'Where each arm comes to rest next'],
-  ['distances', 'Distances', 'The closest pairs as the monitor measures them'],
+  ['paths', kWords.paths, kWords.paths_title],
+  ['ghosts', kWords.ghosts, kWords.ghosts_title],
+  ['distances', kWords.distances, kWords.distances_title],
 ];
 
-/** What is drawn beside the arms. */
+/** Buttons for the optional parts of the view. */
 function ShownBar({ app }: { app: App }) {
   const shows = app.settings.shows.value;
   return (
-    <div class="shown-bar" role="group" aria-label="What the cell shows">
+    <div class="shown-bar" role="group" aria-label={kWords.shown}>
       {kShows.map(([what, title, meaning]) => (
         <button key={what} class="small" aria-pressed={shows[what]} title={meaning} data-test={`show-${what}`}
           onClick={() => app.settings.set_shows({ ...shows, [what]: !shows[what] })}>{title}</button>
@@ -134,14 +137,14 @@ function ShownBar({ app }: { app: App }) {
 }
 
 const kSteps: readonly [step: CameraStep, sign: string, title: string][] = [
-  ['left', '←', 'Camera to the left'], ['right', '→', 'Camera to the right'], ['up', '↑', 'Camera up'], ['down', '↓', 'Camera down'],
-  ['nearer', '+', 'Nearer'], ['farther', '−', 'Farther'], ['whole', 'All', 'All in the picture, as at first'],
+  ['left', '←', kWords.camera_left], ['right', '→', kWords.camera_right], ['up', '↑', kWords.camera_up], ['down', '↓', kWords.camera_down],
+  ['nearer', '+', kWords.camera_nearer], ['farther', '−', kWords.camera_farther], ['whole', kWords.show_all_sign, kWords.show_all],
 ];
 
-/** Where the camera stands, for who does not drag. */
+/** Camera buttons, as an alternative to dragging. */
 function CameraBar({ view }: { view: CellView | null }) {
   return (
-    <div class="camera-bar" role="group" aria-label="Camera">
+    <div class="camera-bar" role="group" aria-label={kWords.camera}>
       {kSteps.map(([step, sign, title]) => (
         <button key={step} class="small" disabled={!view} aria-label={title} title={title} data-test={`camera-${step}`} onClick={() => view?.steer(step)}>{sign}</button>
       ))}
@@ -157,8 +160,8 @@ function ClearanceFigure({ app }: { app: App }) {
   const limit_m = store.cell?.clearance_m ?? 0;
   const level = nearest.m < limit_m ? 'low' : nearest.m < 3 * limit_m ? 'near' : '';
   return (
-    <div class={`clearance ${level}`} title="The smallest clearance that the monitor measures now">
-      <span class="dim">{level === 'low' ? 'too close, ' : ''}{clearance_in_words(nearest)}</span> <b class="mono">{millimetres(nearest.m)}</b>
+    <div class={`clearance ${level}`} title={kWords.clearance_title}>
+      <span class="dim">{level === 'low' ? kWords.too_close : ''}{clearance_in_words(nearest)}</span> <b class="mono">{millimeters(nearest.m)}</b>
       <div class="small dim">{nearest.links[0]} – {nearest.links[1]}</div>
     </div>
   );

@@ -1,11 +1,11 @@
-// The cell in 3D: robots where they stand, moved by pose frames, with a mark and a label per arm.
+// The cell in 3D: robots at their measured positions, with a label for each arm.
 
 import * as THREE from 'three';
 import type { Arm, Cell } from '../server/messages';
 import type { Address, Camera } from '../route/address';
 import type { Selection } from '../route/selection';
 import type { App } from '../state/app';
-import { arm_colour, ink } from '../state/palette';
+import { arm_color, ink } from '../state/palette';
 import { instant_of, pose_at, type Instant } from '../state/instant';
 import type { Store } from '../state/store';
 import { arm_in_words } from '../wording';
@@ -15,17 +15,17 @@ import { on_click } from './click';
 import { Distances } from './distances';
 import { box_around_bases } from './framing';
 import { Ghosts } from './ghosts';
-import { ByHand } from './by_hand';
+import { DragHandles } from './drag_handles';
 import { ArmLabels } from './labels';
 import { Robots } from './robots';
 import { SceneObjects } from './scene_objects';
 import { Stage } from './stage';
 import type { CameraStep } from './steer';
 import { SurfaceShelf, type Surfaces } from './surfaces';
-import { ToolInHand } from './tool_in_hand';
+import { ToolGoal } from './tool_goal';
 import { ToolPaths } from './tool_path';
 
-// Among more, figures cover the tools that they are about.
+// With more arms, distance labels would cover the tools.
 const kFewArms = 4;
 
 export class CellView {
@@ -39,19 +39,19 @@ export class CellView {
   private readonly labels_: ArmLabels;
   private readonly shelf_ = new SurfaceShelf();
   private readonly objects_: SceneObjects;
-  private readonly by_hand_: ByHand;
-  private readonly tool_: ToolInHand;
+  private readonly drag_handles_: DragHandles;
+  private readonly tool_: ToolGoal;
   private cell_: Cell | null = null;
   private readonly off_: (() => void)[];
 
-  /** As they are drawn: a drawing costs much, so it is asked for when something has changed. */
+  /** The arm states as last drawn: drawing is expensive and done only after changes. */
   private states_ = '';
-  /** The instant that is looked at. */
+  /** The shown time. */
   private at_: Pick<Address, 't_s' | 'run'>;
-  /** The next ghost is built then; one asks for it, however often the store changes meanwhile. */
+  /** The frame request for building the next ghost; at most one is pending. */
   private builds_: number | null = null;
 
-  constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'seen' | 'covered_px' | 'motions' | 'settings' | 'actions' | 'by_hand' | 'tool'>) {
+  constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'seen' | 'covered_px' | 'motions' | 'settings' | 'actions' | 'dragged_object' | 'tool'>) {
     const store_ = this.store_;
     this.at_ = app_.router.address.peek();
     this.robots_.group.visible = this.paths_.group.visible = false;  // until a pose is known
@@ -63,14 +63,14 @@ export class CellView {
     this.stage_.scene.add(this.robots_.group, this.objects_.group, this.ghosts_.group, this.ahead_.group, this.distances_.group, this.paths_.group);
     this.stage_.after_draw = () => this.place_labels();
     this.stage_.on_level = ({ ghosts }) => this.ahead_.show_level(ghosts);
-    this.by_hand_ = new ByHand(this.stage_, (object) => this.let_go(object));
-    this.tool_ = new ToolInHand(this.stage_, (arm, link) => this.robots_.get(store_.arms.get(arm)?.robot)?.frame_of(arm, link) ?? null);
+    this.drag_handles_ = new DragHandles(this.stage_, (object) => this.put_dragged(object));
+    this.tool_ = new ToolGoal(this.stage_, (arm, link) => this.robots_.get(store_.arms.get(arm)?.robot)?.frame_of(arm, link) ?? null);
     on_click(this.stage_.canvas, (x_px, y_px) => this.pick(x_px, y_px));
     this.stage_.on_camera = (camera) => app_.router.look_from(camera);
     this.off_ = [
       store_.on_change(() => this.follow()), store_.on_frame(() => this.move()), store_.on_beat(() => this.measure()),
       app_.motions.changes.subscribe(() => this.look_ahead()), app_.settings.shows.subscribe(() => this.show_shows()),
-      app_.by_hand.subscribe(() => this.take_in_hand()), app_.tool.subscribe((tool) => this.tool_.show(tool)), app_.seen.store.subscribe(() => this.follow()),
+      app_.dragged_object.subscribe(() => this.update_dragged()), app_.tool.subscribe((tool) => this.tool_.show(tool)), app_.seen.store.subscribe(() => this.follow()),
       app_.covered_px.subscribe((left_px) => this.stage_.set_covered(left_px)),
     ];
     this.follow();
@@ -81,12 +81,12 @@ export class CellView {
     if (this.builds_ !== null) cancelAnimationFrame(this.builds_);
     this.labels_.clear();
     this.distances_.clear();
-    this.by_hand_.close();
+    this.drag_handles_.close();
     this.tool_.close();
     this.stage_.close();
   }
 
-  /** Lights up what the address points at. */
+  /** Highlights what the address selects. */
   show_selection(selection: Selection): void {
     this.objects_.light(selection.object);
     this.labels_.light(selection.arms);
@@ -94,7 +94,7 @@ export class CellView {
     this.stage_.invalidate();
   }
 
-  /** Where the arms were then, or are now; none where that was not heard: another pose is no answer. */
+  /** Shows the arms at a time, or no arms if their positions are unknown. */
   show_instant(at: Pick<Address, 't_s' | 'run'>): void {
     this.at_ = at;
     this.paths_.clear();
@@ -102,19 +102,19 @@ export class CellView {
     this.show_shows();
   }
 
-  /** Arms as they would stand with these joints; null: no ghost. */
+  /** Shows a ghost with these joints, or none if null. */
   show_ghost(q: Readonly<Record<string, number>> | null): void {
     if (!this.cell_) return;
     const names = [...this.store_.arms.keys()];
-    const colour = (arm: string) => ink(arm_colour(names, arm));
-    while (!this.ghosts_.show({ q, now: this.store_.q }, this.cell_, this.surfaces_, colour));
+    const color = (arm: string) => ink(arm_color(names, arm));
+    while (!this.ghosts_.show({ q, now: this.store_.q }, this.cell_, this.surfaces_, color));
     this.stage_.invalidate(true);
   }
 
-  /** As an address has it; null leaves it as it is. */
+  /** Moves the camera; null leaves it unchanged. */
   show_camera(camera: Camera | null): void { this.stage_.show_camera(camera); }
 
-  /** By a button or a key, as by dragging. */
+  /** Moves the camera by a button or key. */
   steer(step: CameraStep): void { this.stage_.steer(step); }
 
   show_theme(): void {
@@ -128,7 +128,7 @@ export class CellView {
   private get store_(): Store {
     return this.app_.store;
   }
-  /** As it was at the instant that is looked at. */
+  /** The state at the shown time. */
   private get seen_(): Store {
     return this.app_.seen.store.peek();
   }
@@ -136,31 +136,31 @@ export class CellView {
     return instant_of(this.at_, this.store_);
   }
 
-  /** Whether every robot of the cell stands in the view. */
+  /** Returns true if every robot of the cell is in the view. */
   is_drawn(): boolean {
     return this.cell_ !== null && this.robots_.size === this.cell_.robots.length;
   }
 
-  /** Kept once all that changed until now has been drawn. */
+  /** Resolves when all changes so far are drawn. */
   drawn(): Promise<void> { return this.stage_.drawn(); }
 
-  /** Where the middle of an object stands, px from the view's top left. */
+  /** Returns the center of an object, px from the view's top left. */
   where_is(object: string): { x: number; y: number } | null {
     const found = this.objects_.find(object);
     return found ? this.stage_.to_page(found.position) : null;
   }
-  /** The same of the tool that is in hand. */
+  /** Returns the same of the dragged tool goal. */
   where_is_tool(): { x: number; y: number } | null {
     return this.tool_.position ? this.stage_.to_page(this.tool_.position) : null;
   }
 
-  /** How many ways ahead are drawn. */
+  /** Returns the number of drawn tool paths. */
   ahead(): number { return this.ahead_.count; }
-  /** How many pictures have been drawn, and how finely the next one will be. */
+  /** Returns the number of drawn frames, and the present level of detail. */
   pictures(): number { return this.stage_.pictures; }
   level(): Level { return this.stage_.level; }
 
-  /** For tests and debugging: a robot is drawn or not. */
+  /** Shows or hides a robot, for tests and debugging. */
   set_robot_visible(name: string, visible: boolean): void {
     this.robots_.set_visible(name, visible);
     this.stage_.invalidate(true);
@@ -171,7 +171,7 @@ export class CellView {
     const { objects, arms } = this.seen_;
     if (cell && cell !== this.cell_) this.build(cell);
     this.objects_.show(objects);
-    this.take_in_hand();
+    this.update_dragged();
     const states = [...arms.values()].map((arm) => `${arm.name} ${arm_in_words(arm, this.seen_)}`).join('\n');
     if (states !== this.states_) {
       for (const arm of arms.values()) this.show_arm(arm);
@@ -182,11 +182,11 @@ export class CellView {
     this.look_ahead();
   }
 
-  private take_in_hand(): void {
-    if (this.by_hand_.show(this.objects_.find(this.app_.by_hand.peek()))) this.stage_.invalidate();
+  private update_dragged(): void {
+    if (this.drag_handles_.show(this.objects_.find(this.app_.dragged_object.peek()))) this.stage_.invalidate();
   }
 
-  private let_go({ name, position }: THREE.Object3D): void {
+  private put_dragged({ name, position }: THREE.Object3D): void {
     const object = this.store_.objects.find((one) => one.name === name);
     const xyz = position.toArray().map((m) => Number(m.toFixed(3))) as [number, number, number];
     if (object) void this.app_.actions.move_object(object, xyz).then((moved) => { if (!moved) this.objects_.renew(); });
@@ -207,7 +207,7 @@ export class CellView {
     });
   }
 
-  /** The monitor's closest pairs, as things are now. */
+  /** Updates the monitor's closest pairs. */
   private measure(): void {
     const shown = this.app_.settings.shows.peek().distances && this.instant.kind === 'now';
     const changed = this.distances_.show(shown ? this.store_.clearance : [], this.store_.cell?.clearance_m ?? 0, this.store_.arms.size > kFewArms ? 1 : Infinity);
@@ -236,7 +236,7 @@ export class CellView {
     const addresses = cell.robots.flatMap((robot) => Object.values(robot.meshes));
     if (addresses.length === 0) return this.add_robots(cell, new Map());
     void this.shelf_.load(addresses).then((surfaces) => {
-      if (this.cell_ !== cell) return;  // another run has begun meanwhile
+      if (this.cell_ !== cell) return;  // another session has begun
       this.add_robots(cell, surfaces);
       this.frame_robots(cell);
       this.follow();
@@ -251,8 +251,8 @@ export class CellView {
   }
 
   /**
-   * Looks at the robots as they stand at home: those with meshes come in all sizes. Wherever they stand now,
-   * a camera that an address names then shows the same.
+   * Frames the robots at their home positions, since meshes vary in size. An address's camera then
+   * shows the same, wherever the robots are now.
    */
   private frame_robots(cell: Cell): void {
     this.robots_.set_home(cell);
@@ -270,7 +270,7 @@ export class CellView {
     if (this.robots_.group.visible !== (q !== null)) {
       this.robots_.group.visible = this.paths_.group.visible = q !== null;
       this.stage_.invalidate(true);
-      // On a busy machine the next picture may be seconds away, and this one shows arms that stand elsewhere, or nowhere.
+      // On a busy machine the next frame may be seconds away, and this one shows wrong positions.
       this.stage_.hurry();
       if (q === null) this.labels_.hide();
     }
@@ -285,9 +285,9 @@ export class CellView {
     return foot ? this.stage_.to_page(foot) : null;
   }
 
-  /** What was clicked, an arm or an object, is looked at. */
+  /** Opens the page of the clicked arm or object. */
   private pick(x_px: number, y_px: number): void {
-    if (this.by_hand_.is_touched || this.tool_.is_touched) return;
+    if (this.drag_handles_.is_touched || this.tool_.is_touched) return;
     const sight = this.stage_.sight(x_px, y_px);
     const robots = this.robots_.group.visible ? [this.robots_.group] : [];
     const hit = sight.intersectObjects([...robots, ...this.objects_.group.children], true)[0]?.object;

@@ -1,8 +1,8 @@
-// A click on the view, as apart from turning it.
+// Distinguishes clicks on the view from drags.
 
 const kStill_px = 4;
 
-/** Calls back with the place, px from the element's top left. */
+/** Calls back with the position, px from the element's top left. */
 export function on_click(element: HTMLElement, heard: (x_px: number, y_px: number) => void): void {
   let from: { x: number; y: number } | null = null;
   element.addEventListener('pointerdown', (event) => { from = event.button === 0 ? { x: event.offsetX, y: event.offsetY } : null; });

@@ -1,5 +1,5 @@
-// The closest points of two surfaces of triangles: from a point of one to the nearest of the other, and
-// back, until they stay. Exact for convex ones, close to it for links; what is drawn, not what is proven.
+// The closest points of two triangle surfaces, by alternating projection. Exact for convex
+// surfaces, approximate for others: for drawing only, never as a proof.
 
 import * as THREE from 'three';
 
@@ -7,10 +7,10 @@ const kMostTriangles = 3000;
 const kSteps = 24;
 const kStill_m = 1e-5;
 
-/** Three corners after another, in the frame of `X_W`. */
+/** Three corners per triangle, in the frame of `X_W`. */
 export interface Surface { corners: Float32Array; X_W: THREE.Matrix4 }
 
-/** A mesh's triangles; of very many only some. */
+/** Returns a mesh's triangles; a sample if there are very many. */
 export function corners_of(geometry: THREE.BufferGeometry): Float32Array {
   const plain = geometry.index ? geometry.toNonIndexed() : geometry;
   const place = plain.getAttribute('position');
@@ -23,12 +23,12 @@ export function corners_of(geometry: THREE.BufferGeometry): Float32Array {
   return new Float32Array(corners);
 }
 
-/** In the world; null: one of them has no triangle. */
+/** Returns the points in the world, or null if a surface has no triangle. */
 export function closest_points(a: Surface, b: Surface): [THREE.Vector3, THREE.Vector3] | null {
   if (a.corners.length === 0 || b.corners.length === 0) return null;
   let best: [THREE.Vector3, THREE.Vector3] | null = null;
   let best_m = Infinity;
-  // Two beginnings: one alone may end at the wrong side of a link that is no convex body.
+  // Two start points, because one may end on the wrong side of a nonconvex link.
   for (const begin of [middle(b), corner(a)]) {
     let p = nearest(a, begin);
     let q = nearest(b, p);

@@ -1,19 +1,19 @@
-// The pairs that the monitor finds closest, each as a line between the two bodies with its distance. The
-// figure is what the monitor measured; the line joins the closest points of what is drawn.
+// The monitor's closest pairs, each as a line with its distance. The number is the monitor's
+// measurement; the line joins the closest drawn points.
 
 import * as THREE from 'three';
 import type { Clearance } from '../server/messages';
 import { ink } from '../state/palette';
-import { millimetres } from '../wording';
+import { millimeters } from '../wording';
 import { FinishedMesh } from './finish';
 import { closest_points, corners_of, type Surface } from './closest';
 import { stacked } from './stacking';
 
 const kShown_m = 0.4;
-// What stands on a table is always close to it: an object is told of when an arm comes near its limit.
+// Objects on a table are always close to it, so pairs with objects are shown only near the limit.
 const kNear = 3;
 
-// As labels are drawn (layout.css).
+// As styled in layout.css.
 const kLabel_px = 19;
 const kLabelGap_px = 2;
 
@@ -24,12 +24,12 @@ export class Distances {
   private readonly lines_: Line[] = [];
   private readonly corners_ = new WeakMap<THREE.BufferGeometry, Float32Array>();
 
-  /** `find`: what is drawn of a link or an object of this name. */
+  /** `find` returns the drawn mesh of a link or object. */
   constructor(private readonly host_: HTMLElement, private readonly find_: (body: string) => THREE.Mesh | null) {}
 
   /**
-   * Bodies stand where they are drawn; nothing is shown of what is farther apart, and of so many only the closest, or
-   * what comes near its limit. Answers whether other lines are seen.
+   * Shows the pairs that are close, at most `most` of them plus all near the limit. Bodies must be
+   * at their drawn positions. Returns true if other lines are visible.
    */
   show(pairs: readonly Clearance[], limit_m: number, most = Infinity): boolean {
     const before = this.seen();
@@ -40,7 +40,10 @@ export class Distances {
     return this.seen() !== before;
   }
 
-  /** Labels follow their lines, below each other where they would lie on one; the function says where a point stands, px from the view's top left. */
+  /**
+   * Places the labels at their lines, stacked where they would overlap. `to_page` returns a point's
+   * position, px from the view's top left.
+   */
   place(to_page: (p_W: THREE.Vector3) => { x: number; y: number } | null): void {
     const found = this.lines_.flatMap((shown) => {
       const p = shown.line.visible ? to_page(shown.middle) : null;
@@ -69,8 +72,8 @@ export class Distances {
     shown.line.geometry.setFromPoints(points);
     (shown.line.material as THREE.LineBasicMaterial).color.set(ink(level === 'low' ? '--red' : level === 'near' ? '--amber' : '--text'));
     shown.middle.copy(points[0]).add(points[1]).multiplyScalar(0.5);
-    const figure = millimetres(m);
-    if (figure.length !== shown.element.textContent?.length) shown.width_px = 0;  // measured when it is placed
+    const figure = millimeters(m);
+    if (figure.length !== shown.element.textContent?.length) shown.width_px = 0;  // measured by place()
     shown.element.textContent = figure;
     shown.element.className = `distance-label ${level}`;
   }
@@ -87,7 +90,7 @@ export class Distances {
     line.renderOrder = 2;
     line.frustumCulled = false;
     const made = { line, element: document.createElement('div'), middle: new THREE.Vector3(), width_px: 0 };
-    hide(made);  // until it is placed
+    hide(made);  // until placed
     this.group.add(line);
     this.host_.append(made.element);
     this.lines_.push(made);
@@ -97,7 +100,7 @@ export class Distances {
   private surface(body: string): Surface | null {
     const mesh = this.find_(body);
     if (!mesh) return null;
-    // One line, however finely the mesh is drawn now.
+    // The same line at every level of detail.
     const geometry = mesh instanceof FinishedMesh ? mesh.fine.geometry : mesh.geometry;
     let corners = this.corners_.get(geometry);
     if (!corners) {

@@ -1,4 +1,4 @@
-// What this browser draws with, and whether the page's address asks for pictures as fine as can be.
+// Detects software rendering, and the address option for full quality.
 
 export function wants_fine_picture(): boolean {
   return new URLSearchParams(window.location.search).has('fine');

@@ -1,9 +1,9 @@
-// How long a drawing really takes: a fence behind its commands, looked at by a timer, as animation frames
-// come too seldom to tell.
+// Measures how long drawing takes: a GPU fence polled by a timer, because animation frames are too
+// rare.
 
 const kLook_ms = 3;
-// A drawing is waited for so long before the next one is asked for: on a busy machine drawings that are
-// asked for before the last one is done pile up, and the page answers no click until all are drawn.
+// The longest wait for a drawing. Drawings requested before the last one is done pile up on a busy
+// machine, and block the page until all are drawn.
 const kLongest_ms = 10_000;
 
 export class Fence {
@@ -12,12 +12,12 @@ export class Fence {
 
   constructor(private readonly gl_: WebGL2RenderingContext) {}
 
-  /** Something is still being drawn. */
+  /** True while a drawing is in progress. */
   get is_up(): boolean {
     return this.sync_ !== null;
   }
 
-  /** Behind all that was asked for until now; `done` is told how long it took since then, in ms. */
+  /** Sets a fence after all commands so far; `done` receives the time since `from_ms`. */
   put(from_ms: number, done: (took_ms: number) => void): void {
     this.sync_ = this.gl_.fenceSync(this.gl_.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.gl_.flush();

@@ -1,23 +1,23 @@
-// A surface in two finishes: the fine one, lit at each point and with shadows, and a quick one for computers
-// that draw in software, lit at its corners, with fewer of them. There a fine picture of two arms takes a
-// sixth of a second, a quick one a tenth of that; the light is the same.
+// A surface in two qualities: fine (lit per pixel, with shadows) and quick for software rendering
+// (lit per vertex, fewer vertices). With software rendering a fine frame of two arms takes about
+// 170 ms, a quick one a tenth of that.
 
 import * as THREE from 'three';
 
 export interface Finish { geometry: THREE.BufferGeometry; material: THREE.Material }
 
-/** Fine until it is told otherwise. */
+/** Fine at first. */
 export class FinishedMesh extends THREE.Mesh {
   constructor(readonly fine: Finish, readonly quick: Finish) {
     super(fine.geometry, fine.material);
   }
 
-  /** Of the same shape, with the same materials until it is painted otherwise. */
+  /** Shares shape and materials until painted. */
   override clone(): this {
     return new FinishedMesh({ ...this.fine }, { ...this.quick }).copy(this) as this;
   }
 
-  /** Materials of its own in place of those that it shares with others. */
+  /** Sets own materials instead of shared ones. */
   wear(fine: THREE.Material, quick: THREE.Material): void {
     this.fine.material = fine;
     this.quick.material = quick;
@@ -30,7 +30,7 @@ export class FinishedMesh extends THREE.Mesh {
     this.material = material;
   }
 
-  /** Other materials, in both finishes; those before are let go. */
+  /** Replaces both materials and disposes of the old ones. */
   paint(fine: THREE.Material, quick: THREE.Material): void {
     for (const finish of [this.fine, this.quick]) finish.material.dispose();
     this.wear(fine, quick);
@@ -44,12 +44,12 @@ export class FinishedMesh extends THREE.Mesh {
   }
 }
 
-/** All below, in one finish. */
+/** Sets the quality of everything below `root`. */
 export function show_finish(root: THREE.Object3D, fine: boolean): void {
   root.traverseVisible((node) => { if (node instanceof FinishedMesh) node.finish(fine); });
 }
 
-// Lights, tones and sRGB at the corners, by three's own functions; nothing is left to do at the points between.
+// Lighting, tone mapping and sRGB per vertex, with three's functions; fragments only interpolate.
 const kVertexShader = /* glsl */ `
 uniform vec3 diffuse;
 uniform vec3 emissive;
@@ -87,7 +87,7 @@ void main() {
   gl_FragColor = vec4(vShade, opacity);
 }`;
 
-/** The quick one of a fine material: it has the same colours, and follows when these are changed. */
+/** Returns the quick version of a fine material; it shares the colors and follows their changes. */
 export function quick_material(fine: THREE.MeshStandardMaterial): THREE.ShaderMaterial {
   const quick = new THREE.ShaderMaterial({
     vertexShader: kVertexShader, fragmentShader: kFragmentShader, lights: true,

@@ -1,12 +1,15 @@
-// How far a camera stands off so that a box is seen whole.
+// The camera distance from which a box is completely visible.
 
 import * as THREE from 'three';
 import type { Cell } from '../server/messages';
 
-/** Half angles under which the free part of the picture is seen, as tangents. */
+/** Tangents of the half angles of the uncovered part of the view. */
 export interface Opening { across: number; up: number }
 
-/** The least distance from the box's middle, along `direction` (a unit vector towards the camera; z is up). */
+/**
+ * Returns the least distance from the box's center along `direction`, a unit vector towards the
+ * camera (z is up).
+ */
 export function distance_for(box: THREE.Box3, direction: THREE.Vector3, opening: Opening): number {
   const middle = box.getCenter(new THREE.Vector3());
   const right = new THREE.Vector3(0, 0, 1).cross(direction).normalize();
@@ -22,11 +25,11 @@ export function distance_for(box: THREE.Box3, direction: THREE.Vector3, opening:
   return distance;
 }
 
-// Around the bases: a little less than an arm's reach, and as high as arms at work are.
+// Margins around the bases: slightly less than an arm's reach, and the usual working height.
 const kReach_m = 0.46;
 const kHeight_m = 0.85;
 
-/** Where arms work; null: there is none. */
+/** Returns the box in which the arms work, or null without robots. */
 export function box_around_bases(cell: Cell): THREE.Box3 | null {
   const box = new THREE.Box3();
   for (const robot of cell.robots) box.expandByPoint(new THREE.Vector3(...robot.base.xyz));

@@ -1,4 +1,4 @@
-// Arms as they would stand: translucent, each in its own colour, over the cell as it is.
+// Ghosts: translucent robots in their arms' colors, at planned positions.
 
 import * as THREE from 'three';
 import type { Cell, CellRobot } from '../server/messages';
@@ -10,7 +10,7 @@ import type { Surfaces } from './surfaces';
 const kPreview = 0.42;
 
 type Model = Pick<RobotModel, 'set_q'> & { root: THREE.Object3D };
-/** Where joints of ghosts are, and where all are measured. */
+/** Joints of the ghosts, and the measured joints. */
 export interface Poses { q: Readonly<Record<string, number>> | null; now: Readonly<Record<string, number>> }
 
 export class Ghosts {
@@ -20,10 +20,10 @@ export class Ghosts {
   constructor(private readonly opacity_ = kPreview, private readonly build_: (robot: CellRobot, surfaces: Surfaces) => Model = (robot, surfaces) => new RobotModel(robot, surfaces)) {}
 
   /**
-   * The robots that these joints belong to stand as told; null: no ghost. A robot is built when it is first
-   * asked for, and one at a time, as that takes long: false says that others are still missing.
+   * Shows the robots of the given joints, or no ghost if null. Robots are built on first use, one
+   * per call, because building is slow. Returns false while robots are missing.
    */
-  show({ q, now }: Poses, cell: Cell, surfaces: Surfaces, colour: (arm: string) => string): boolean {
+  show({ q, now }: Poses, cell: Cell, surfaces: Surfaces, color: (arm: string) => string): boolean {
     for (const model of this.models_.values()) model.root.visible = false;
     let built = 0;
     for (const robot of q ? cell.robots : []) {
@@ -31,27 +31,27 @@ export class Ghosts {
       if (!arm) continue;
       const known = this.models_.get(robot.name);
       if (!known && ++built > 1) return false;
-      const model = known ?? this.add(robot, surfaces, colour(arm.name));
+      const model = known ?? this.add(robot, surfaces, color(arm.name));
       model.root.visible = true;
       model.set_q({ ...now, ...q });
     }
     return true;
   }
 
-  /** How many have been built. */
+  /** The number of built robots. */
   get count(): number {
     return this.models_.size;
   }
 
-  private add(robot: CellRobot, surfaces: Surfaces, colour: string): Model {
+  private add(robot: CellRobot, surfaces: Surfaces, color: string): Model {
     const model = this.build_(robot, surfaces);
     this.models_.set(robot.name, model);
-    paint(model.root, colour, this.opacity_);
+    paint(model.root, color, this.opacity_);
     this.group.add(model.root);
     return model;
   }
 
-  /** Another cell has other robots. */
+  /** Discards the robots of another cell. */
   clear(): void {
     dispose(this.group);
     this.group.clear();
@@ -59,8 +59,8 @@ export class Ghosts {
   }
 }
 
-function paint(root: THREE.Object3D, colour: string, opacity: number): void {
-  const skin = new THREE.MeshStandardMaterial({ color: colour, transparent: true, opacity, depthWrite: false, roughness: 0.6, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 4 });
+function paint(root: THREE.Object3D, color: string, opacity: number): void {
+  const skin = new THREE.MeshStandardMaterial({ color: color, transparent: true, opacity, depthWrite: false, roughness: 0.6, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 4 });
   const quick_skin = quick_material(skin);
   root.traverse((node) => {
     if (!(node instanceof THREE.Mesh)) return;

@@ -1,19 +1,18 @@
-// Triangles that nobody can see, because they lie within another primitive of the same link: half of the
-// spheres at the ends of a URDF's capsules. A primitive is convex, so that a triangle lies within it when
-// its corners do.
+// Removes triangles that lie within another primitive of the same link, such as half of the end
+// spheres of capsules. Primitives are convex, so a triangle lies within one if its corners do.
 
 import type * as THREE from 'three';
 import { Vector3 } from 'three';
 
-/** Which points lie within a primitive as it is drawn, in its own frame; null: not a primitive that is known. */
+/** Returns true if a point, in the primitive's frame, lies within the primitive as drawn. */
 export type Inside = (p: THREE.Vector3) => boolean;
 
-/** What is drawn of a round one lies within it: so much of the radius is surely filled. */
+/** Drawn round shapes are inscribed: only this share of the radius is filled. */
 export function inside_sphere(filled: number): Inside {
   return (p) => p.lengthSq() < filled * filled;
 }
 
-/** Along y, a unit high. */
+/** Along y, unit height. */
 export function inside_cylinder(filled: number): Inside {
   return (p) => p.x * p.x + p.z * p.z < filled * filled && Math.abs(p.y) < kHalf;
 }
@@ -22,13 +21,13 @@ export function inside_box(p: THREE.Vector3): boolean {
   return Math.abs(p.x) < kHalf && Math.abs(p.y) < kHalf && Math.abs(p.z) < kHalf;
 }
 
-// Faces that only touch are both kept.
+// Slightly less than half: touching faces are kept.
 const kHalf = 0.499;
 
-/** A solid in the frame L: points of L are taken into its own. */
+/** A solid in frame L; X_SL maps points from L to the solid. */
 export interface Solid { X_SL: THREE.Matrix4; inside: Inside }
 
-/** Leaves out, in place, the triangles that lie within one of the solids. Only of geometries with an index. */
+/** Removes the triangles within one of the solids, in place. The geometry must have an index. */
 export function without_hidden(geometry: THREE.BufferGeometry, solids: readonly Solid[]): THREE.BufferGeometry {
   const index = geometry.index;
   if (!index || solids.length === 0) return geometry;

@@ -1,4 +1,4 @@
-// Where a robot's links are for given joints, without anything to be drawn: for ways that are to come.
+// Forward kinematics of a robot without drawing, for predicted paths.
 
 import * as THREE from 'three';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
@@ -11,7 +11,7 @@ export class Kinematics {
   private readonly prefix_: string;
   private readonly arms_: readonly CellArm[];
 
-  /** Throws when the text is not a URDF. */
+  /** Throws if the text is not a URDF. */
   constructor(robot: CellRobot) {
     const loader = new URDFLoader();
     loader.parseVisual = false;
@@ -32,12 +32,12 @@ export class Kinematics {
     this.root.updateMatrixWorld(true);
   }
 
-  /** Where the arm's tool is in the world: between its fingers, else at its last joint. */
+  /** Returns the tool's position in the world: between the fingers, else at the last joint. */
   tool(arm: string): THREE.Vector3 | null {
     return tool_of(this.root, this.prefix_, this.arms_.find((one) => one.name === arm));
   }
 
-  /** Every link with its name in the cell. */
+  /** Returns every link with its name in the cell. */
   links(): [name: string, link: THREE.Object3D][] {
     return Object.entries(this.root.links).map(([name, link]) => [this.prefix_ + name, link]);
   }

@@ -1,18 +1,18 @@
-// A label under each arm: its name and its state, in words, a glyph and a colour.
+// A label under each arm with name and state, in words, glyph and color.
 
-import { arm_colour, kStateColours, kStateGlyphs } from '../state/palette';
-import type { ToldState } from '../state/standing';
+import { arm_color, kStateColors, kStateGlyphs } from '../state/palette';
+import type { ShownState } from '../state/shown_state';
 import { stacked, within_room } from './stacking';
 import { shown_name } from '../names';
 
 const kHeight_px = 22;
 const kGap_px = 4;
-// Its top stands so far below the foot.
+// The distance from the foot to the label's top.
 const kBelow_px = 26;
 const kBelowShort_px = 8;
-// More have no room for words.
+// With more arms there is no room for words.
 const kMostInWords = 4;
-// Farther below its arm a label seems to be another's.
+// A label farther below would seem to belong to another arm.
 const kMostBelow_px = 30;
 
 interface Point { x: number; y: number }
@@ -24,7 +24,7 @@ export class ArmLabels {
 
   constructor(private readonly host_: HTMLElement) {}
 
-  show(arm: string, state: ToldState, arms: readonly string[], words: string): void {
+  show(arm: string, state: ShownState, arms: readonly string[], words: string): void {
     let label = this.labels_.get(arm);
     if (!label) {
       label = make_label();
@@ -38,8 +38,8 @@ export class ArmLabels {
     label.state.textContent = words;
     label.element.classList.toggle('alarmed', state === 'stopped' || state === 'fault');
     label.element.classList.toggle('short', arms.length > kMostInWords);
-    label.element.style.setProperty('--arm', arm_colour(arms, arm));
-    label.element.style.setProperty('--state', kStateColours[state]);
+    label.element.style.setProperty('--arm', arm_color(arms, arm));
+    label.element.style.setProperty('--state', kStateColors[state]);
   }
 
   light(arms: readonly string[]): void {
@@ -50,7 +50,10 @@ export class ArmLabels {
     }
   }
 
-  /** Puts each where the function says, px from the view's top left, or below one that is there; null hides it. */
+  /**
+   * Places each label at the given position (px from the view's top left), or below another label;
+   * null hides it.
+   */
   place(where: (arm: string) => Point | null): void {
     const found = [...this.labels_].flatMap(([name, label]) => {
       const p = where(name);
@@ -71,7 +74,7 @@ export class ArmLabels {
     });
   }
 
-  /** Until they are placed again. */
+  /** Hides all labels until they are placed again. */
   hide(): void {
     for (const { element } of this.labels_.values()) element.hidden = true;
   }
@@ -87,7 +90,7 @@ function make_label(): Label {
   const name = document.createElement('b');
   const state = document.createElement('span');
   element.className = 'arm-label';
-  element.hidden = true;  // until it is placed
+  element.hidden = true;  // until placed
   const glyph = document.createElement('span');
   state.className = 'state-word';
   element.append(name, glyph, state);

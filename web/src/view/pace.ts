@@ -1,33 +1,34 @@
-// How often and how finely the view is drawn: it gives way when drawings take long, so that the
-// page answers clicks on a machine that has other things to do. Pure: told how long each took.
+// Adapts frame rate and detail to the drawing time, so that the page answers clicks on a busy
+// machine. Pure: it is told each drawing time.
 
-/** What a drawing at this level leaves out: fine surfaces with shadows, ghosts, points. */
+/** The detail of a level: resolution, fine surfaces with shadows, ghosts. */
 export interface Level { resolution: number; fine: boolean; ghosts: boolean }
 
 export const kLevels: readonly [Level, ...Level[]] = [
   { resolution: 1, fine: true, ghosts: true },
   { resolution: 1, fine: false, ghosts: true },
   { resolution: 1, fine: false, ghosts: false },
-  // Below that a picture is no good, and hardly quicker: only for machines that are busy otherwise.
+  // Lower levels look poor and are hardly faster: only for machines busy otherwise.
   { resolution: 0.6, fine: false, ghosts: false },
   { resolution: 0.35, fine: false, ghosts: false },
 ];
-// A level whose drawings take longer for a while is left for the next.
+// A level is lowered if drawings take longer than this for a while.
 const kMost_ms = [28, 28, 45, 120, Infinity];
-// One whose drawings take less is left for the one before: that may take twice as long, with ghosts half more.
+// A level is raised if drawings take less than this for a while. The higher level may take twice as
+// long, with ghosts half more.
 const kLeast_ms = [0, 12, 20, 20, 40];
-/** Where software draws: fine pictures are for what stands still. */
+/** The first level for software rendering: fine frames only at rest. */
 export const kFirstInSoftware = 1;
 
-// A picture that takes no longer does not disturb the page; one that takes longer leaves it more and more time.
+// Longer drawings disturb the page, so they leave it increasing pauses.
 const kQuick_ms = 30;
 const kMostShare = 4;
 const kLongestPause_ms = 2_000;
-// Thirty pictures a second and some to spare; twice as many where they cost next to nothing.
+// Slightly above 30 frames per second; twice as many if drawing is cheap.
 const kPeriod_ms = 28;
 const kLeastPeriod_ms = 15;
 const kRest = 2.5;
-// So many in a row, so that one hiccup, or one quick drawing between slow ones, changes nothing.
+// Required counts in a row, so that a single slow or quick drawing changes nothing.
 const kLongInARow = 10;
 const kVeryLong_ms = 120;
 const kVeryLongInARow = 2;
@@ -48,12 +49,12 @@ export class Pace {
     return kLevels[this.level_] ?? kLevels[0];
   }
 
-  /** Whether the page is better left alone when it has something to do. */
+  /** True if drawing should wait while the page has other work. */
   get disturbs(): boolean {
     return this.last_ms_ > kQuick_ms;
   }
 
-  /** A drawing took so long; answers how long after its beginning the next one may begin. */
+  /** Records a drawing time. Returns how long after its start the next drawing may begin. */
   took(took_ms: number): number {
     const most_ms = kMost_ms[this.level_] ?? Infinity;
     this.last_ms_ = took_ms;
@@ -70,7 +71,7 @@ export class Pace {
 
   private fall(): void {
     if (this.level_ + 1 >= kLevels.length) return;
-    // What was tried in vain is tried again later, and later.
+    // After a failed rise, wait longer before the next try.
     this.wanted_ = this.since_rise_ < kQuickInARow ? Math.min(2 * this.wanted_, kMostQuickInARow) : kQuickInARow;
     this.change(1);
   }

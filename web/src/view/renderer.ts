@@ -1,8 +1,8 @@
-// The renderer as the stage wants it.
+// Creates the renderer of the stage.
 
 import * as THREE from 'three';
 
-/** `fine`: edges are smoothed. */
+/** `fine` enables antialiasing. */
 export function make_renderer(fine: boolean): THREE.WebGLRenderer {
   const renderer = new THREE.WebGLRenderer({ antialias: fine, alpha: true, powerPreference: 'low-power' });
   renderer.toneMapping = THREE.ACESFilmicToneMapping;
@@ -10,6 +10,6 @@ export function make_renderer(fine: boolean): THREE.WebGLRenderer {
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
   renderer.shadowMap.autoUpdate = false;
-  renderer.debug.checkShaderErrors = false;  // to ask is to wait until they are compiled
+  renderer.debug.checkShaderErrors = false;  // the check would wait for compilation
   return renderer;
 }

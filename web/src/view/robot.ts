@@ -1,15 +1,15 @@
-// One robot of the cell, built from its URDF text by urdf-loader and moved joint by joint.
+// A drawn robot, built from its URDF by urdf-loader.
 //
-// The URDF's names carry no prefix; joint names outside are prefix + URDF name. A robot is drawn by
-// its visuals. A link whose visual meshes cannot be read is drawn by its collision shapes in the
-// visuals' colour, and so is a robot without visuals; a link of which nothing can be read is a mark.
+// URDF names have no prefix; joint names outside are prefix + URDF name. A robot is drawn by its
+// visuals. Links without readable visual meshes, and robots without visuals, are drawn by their
+// collision shapes; a link with no readable shape is drawn as a marker.
 
 import * as THREE from 'three';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
 import type { CellArm, CellRobot } from '../server/messages';
-import { ink, kStateColours } from '../state/palette';
+import { ink, kStateColors } from '../state/palette';
 import { FinishedMesh } from './finish';
-import type { ToldState } from '../state/standing';
+import type { ShownState } from '../state/shown_state';
 import type { Surfaces } from './surfaces';
 import { tool_of } from './kinematics';
 import { mark_geometry, place } from './shapes';
@@ -31,12 +31,12 @@ export class RobotModel {
   private readonly arms_: readonly CellArm[];
   private readonly prefix_: string;
 
-  /** `surfaces`: what was read of the robot's meshes, by address. Throws when the text is not a URDF. */
+  /** `surfaces` are the robot's meshes by address. Throws if the text is not a URDF. */
   constructor(robot: CellRobot, surfaces: Surfaces = new Map()) {
     this.arms_ = robot.arms;
     this.prefix_ = robot.prefix;
     this.root = pattern_of(robot, surfaces).clone();
-    // Limits are the server's matter; what it measured is drawn as it is.
+    // Measured positions are drawn even beyond limits.
     for (const joint of Object.values(this.root.joints)) joint.ignoreLimits = true;
     this.skin_ = give_skin(this.root);
     place(this.root, robot.base.xyz, robot.base.rpy);
@@ -44,7 +44,7 @@ export class RobotModel {
     for (const arm of robot.arms) this.marks_.set(arm.name, this.mark(arm, robot.prefix));
   }
 
-  /** Moves the joints; answers whether any has moved visibly. */
+  /** Moves the joints. Returns true if any moved visibly. */
   set_q(q: Readonly<Record<string, number>>): boolean {
     let moved = false;
     for (const joint of this.joints_) {
@@ -57,31 +57,34 @@ export class RobotModel {
     return moved;
   }
 
-  show_state(arm: string, state: ToldState): void {
+  show_state(arm: string, state: ShownState): void {
     const mark = this.marks_.get(arm);
     if (!mark) return;
-    mark.ring.material.color.set(ink(kStateColours[state]));
+    mark.ring.material.color.set(ink(kStateColors[state]));
     mark.ring.material.opacity = state === 'idle' ? 0.5 : 0.95;
     const alarmed = state === 'fault' || state === 'stopped';
     this.skin_.emissive.set(alarmed ? 0x4a0d10 : 0x000000);
   }
 
-  /** A wider ring around the arms that are looked at. */
+  /** Widens the rings of the selected arms. */
   show_lit(arms: readonly string[]): void {
     for (const [arm, mark] of this.marks_) mark.ring.scale.setScalar(arms.includes(arm) ? kLitRing : 1);
   }
 
-  /** The point of the world where the arm stands; null for an arm that is not this robot's. */
+  /** Returns the arm's base point in the world, or null if the arm is not of this robot. */
   foot(arm: string): THREE.Vector3 | null {
     return this.marks_.get(arm)?.foot.getWorldPosition(new THREE.Vector3()) ?? null;
   }
 
-  /** Where the arm's tool is in the world: between its fingers, else at its last joint. */
+  /** Returns the tool's position in the world: between the fingers, else at the last joint. */
   tool(arm: string): THREE.Vector3 | null {
     return tool_of(this.root, this.prefix_, this.arms_.find((one) => one.name === arm));
   }
 
-  /** The frame of a link in the world, by its name with or without prefix; empty: of the arm's last joint. */
+  /**
+   * Returns a link's frame in the world. `link` may have the prefix; empty means the link of the
+   * arm's last joint.
+   */
   frame_of(arm: string, link: string): THREE.Matrix4 | null {
     const last = this.arms_.find((one) => one.name === arm)?.joints.at(-1);
     const own = link.startsWith(this.prefix_) ? link.slice(this.prefix_.length) : link;
@@ -90,13 +93,15 @@ export class RobotModel {
     return found?.matrixWorld.clone() ?? null;
   }
 
-  /** What is drawn of a link, by its name in the cell. */
+  /** Returns the drawn mesh of a link, by its name in the cell. */
   skin_of(link: string): THREE.Mesh | null {
     const known = link.startsWith(this.prefix_) ? this.root.links[link.slice(this.prefix_.length)] : undefined;
     return known?.children.find((child): child is FinishedMesh => child instanceof FinishedMesh) ?? null;
   }
 
-  /** The arm that a drawn thing belongs to; the robot's only one for what no joint moves. */
+  /**
+   * Returns the arm of a drawn object. Parts that no joint moves belong to the robot's only arm.
+   */
   arm_of(node: THREE.Object3D): string | null {
     let inside = false;
     for (let at: THREE.Object3D | null = node; at; at = at.parent) {
@@ -121,8 +126,8 @@ export class RobotModel {
   }
 }
 
-// To read a description and to merge its shapes takes long: done once for all that look the same, as two
-// arms of a kind and their ghosts do. Patterns go with the surfaces that they were made of.
+// Parsing a URDF and merging its shapes is slow, so it is done once for equal robots and their
+// ghosts. The cache lives as long as the surfaces.
 const patterns = new WeakMap<Surfaces, Map<string, URDFRobot>>();
 
 function pattern_of(robot: CellRobot, surfaces: Surfaces): URDFRobot {
@@ -138,7 +143,7 @@ function load(robot: CellRobot, surfaces: Surfaces): URDFRobot {
   const loader = new URDFLoader();
   loader.parseVisual = true;
   loader.parseCollision = true;
-  // Names stay as the URDF has them: the server's table of meshes goes by these.
+  // The server's mesh table uses the names of the URDF.
   loader.packages = (name: string) => `package://${name}`;
   loader.loadMeshCb = (name, _manager, done) => {
     const surface = surfaces.get(robot.meshes[name] ?? '') ?? null;
@@ -152,7 +157,7 @@ function load(robot: CellRobot, surfaces: Surfaces): URDFRobot {
   return root;
 }
 
-/** Leaves each link with what is to be drawn of it. Meshes that could not be read are marked `missing`. */
+/** Keeps only the shapes to draw in each link. Unreadable meshes are marked `missing`. */
 export function choose_shapes(root: Pick<URDFRobot, 'links'>): void {
   const links = Object.values(root.links).map((link) => {
     const of_kind = (kind: string) => link.children.filter((child) => kind in child);
@@ -162,12 +167,12 @@ export function choose_shapes(root: Pick<URDFRobot, 'links'>): void {
   for (const { link, visuals, colliders } of links) {
     const named = visuals.flatMap(meshes_below);
     const by_colliders = !named.some(is_read) && (named.length > 0 || !any_visual);
-    const colour = named.find((mesh) => !is_read(mesh))?.material;
+    const color = named.find((mesh) => !is_read(mesh))?.material;
     for (const node of by_colliders ? visuals : colliders) node.removeFromParent();
     const drawn = (by_colliders ? colliders : visuals).flatMap(meshes_below);
     for (const mesh of drawn) {
       if (!is_read(mesh)) mesh.removeFromParent();
-      else if (by_colliders && colour) mesh.material = colour;
+      else if (by_colliders && color) mesh.material = color;
     }
     if (drawn.length > 0 && !drawn.some(is_read)) link.add(new THREE.Mesh(mark_geometry(), new THREE.MeshPhongMaterial()));
   }

@@ -1,4 +1,4 @@
-// The robots of a cell as they are drawn.
+// The drawn robots of a cell.
 
 import * as THREE from 'three';
 import type { Arm, Cell } from '../server/messages';
@@ -10,7 +10,7 @@ export class Robots {
   readonly group = new THREE.Group();
   private readonly models_ = new Map<string, RobotModel>();
 
-  /** Those of another cell. One that cannot be drawn is said in the console. */
+  /** Adds the robots of a cell. Robots that cannot be drawn are reported in the console. */
   add(cell: Cell, surfaces: Surfaces): void {
     for (const robot of cell.robots) {
       try {
@@ -37,26 +37,26 @@ export class Robots {
     return this.models_.get(name ?? '') ?? null;
   }
 
-  /** Answers whether any has moved visibly. */
+  /** Returns true if any joint moved visibly. */
   set_q(q: Readonly<Record<string, number>>): boolean {
     let moved = false;
     for (const robot of this.models_.values()) moved = robot.set_q(q) || moved;
     return moved;
   }
 
-  /** As they stand at home. */
+  /** Moves all robots to their home positions. */
   set_home({ robots }: Cell): void {
     const arms = robots.flatMap((robot) => robot.arms);
     this.set_q(Object.fromEntries(arms.flatMap(({ joints, home }) => joints.map((joint, i) => [joint, home[i] ?? 0] as const))));
   }
 
-  /** Where an arm stands; null while it is not drawn. */
+  /** Returns the arm's base point, or null if it is not drawn. */
   foot_of(arm: Pick<Arm, 'name' | 'robot'> | undefined): THREE.Vector3 | null {
     const robot = this.get(arm?.robot);
     return arm && robot?.root.visible && this.group.visible ? robot.foot(arm.name) : null;
   }
 
-  /** For tests and debugging: one is drawn or not. */
+  /** Shows or hides a robot, for tests and debugging. */
   set_visible(name: string, visible: boolean): void {
     const robot = this.get(name);
     if (!robot) throw new Error(`no robot "${name}"`);
@@ -67,7 +67,7 @@ export class Robots {
     for (const robot of this.models_.values()) robot.show_lit(arms);
   }
 
-  /** What is drawn of a link; null while its robot is put away. */
+  /** Returns the drawn mesh of a link, or null if its robot is hidden. */
   skin_of(link: string): THREE.Mesh | null {
     for (const robot of this.models_.values()) {
       const skin = robot.root.visible ? robot.skin_of(link) : null;
@@ -76,7 +76,7 @@ export class Robots {
     return null;
   }
 
-  /** The arm that a drawn thing belongs to. */
+  /** Returns the arm of a drawn object. */
   arm_of(node: THREE.Object3D): string | null {
     for (const robot of this.models_.values()) {
       const arm = robot.arm_of(node);

@@ -1,4 +1,4 @@
-// The objects of the scene as they are drawn; one of them may be lit up.
+// The drawn scene objects; one may be highlighted.
 
 import * as THREE from 'three';
 import type { SceneObject } from '../server/messages';
@@ -14,7 +14,7 @@ export class SceneObjects {
   private shown_: readonly SceneObject[] | null = null;
   private lit_: string | null = null;
 
-  /** `drawn` is called when something has changed: meshes come later. */
+  /** `drawn` is called after changes; meshes are loaded later. */
   constructor(private readonly shelf_: SurfaceShelf, private readonly drawn_: () => void) {}
 
   show(objects: readonly SceneObject[]): void {
@@ -27,7 +27,7 @@ export class SceneObjects {
     });
   }
 
-  /** As it is known, again: what was moved by hand goes back. */
+  /** Draws the known objects again, which undoes a drag. */
   renew(): void {
     const shown = this.shown_;
     this.shown_ = null;
@@ -38,13 +38,13 @@ export class SceneObjects {
     return this.group.children.find((child) => child.name === name) ?? null;
   }
 
-  /** Of this name, or none. */
+  /** Highlights the object of this name, or none. */
   light(name: string | null): void {
     this.lit_ = name;
     this.repaint();
   }
 
-  /** The name of the object that a drawn thing is of. */
+  /** Returns the name of a drawn object. */
   name_of(node: THREE.Object3D): string | null {
     const object = this.group.children.find((child) => child === node || child.children.includes(node));
     return object?.name ?? null;
@@ -61,7 +61,7 @@ export class SceneObjects {
     this.repaint();
   }
 
-  /** In the theme's colours. */
+  /** Applies the theme's colors. */
   repaint(): void {
     const [ground, light] = [new THREE.Color(ink('--object')), new THREE.Color(ink('--blue'))];
     for (const object of this.group.children) {

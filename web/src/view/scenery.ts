@@ -5,7 +5,7 @@ import { ink } from '../state/palette';
 
 const kShadows = 0.7;
 
-/** Answers the one that throws shadows. */
+/** Adds the lights. Returns the light that casts shadows. */
 export function add_lights(scene: THREE.Scene): THREE.DirectionalLight {
   scene.add(new THREE.HemisphereLight(0xe6edf7, 0x39404c, 1.7));
   const key = new THREE.DirectionalLight(0xfff6ea, 1.9);
@@ -20,7 +20,7 @@ export function add_lights(scene: THREE.Scene): THREE.DirectionalLight {
   return key;
 }
 
-/** Its shadows reach so far around a point. */
+/** Aims the light; shadows reach `reach_m` around the center. */
 export function light_up(light: THREE.DirectionalLight, middle: THREE.Vector3, reach_m: number): void {
   light.target.position.copy(middle);
   light.position.copy(middle).add(new THREE.Vector3(0.55, -0.85, 2.1).multiplyScalar(1.2 * reach_m));

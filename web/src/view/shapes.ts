@@ -1,5 +1,5 @@
-// Objects of the scene (tables, rods, parts) as meshes. Poses as in URDF: metres, and roll, pitch,
-// yaw about the fixed axes x, y, z.
+// Meshes of scene objects. Poses as in URDF: meters, and roll, pitch, yaw about the fixed axes x,
+// y, z.
 
 import * as THREE from 'three';
 import { FinishedMesh, quick_material } from './finish';
@@ -7,13 +7,13 @@ import { shape_of, type SceneObject, type Shape } from '../server/messages';
 
 export function place(object: THREE.Object3D, xyz: readonly number[], rpy: readonly number[]): void {
   object.position.set(xyz[0] ?? 0, xyz[1] ?? 0, xyz[2] ?? 0);
-  // Fixed axes x, y, z are the moving axes z, y, x: three's order 'ZYX'.
+  // Rotations about fixed x, y, z equal moving z, y, x: three's order 'ZYX'.
   object.rotation.set(rpy[0] ?? 0, rpy[1] ?? 0, rpy[2] ?? 0, 'ZYX');
 }
 
 /**
- * The object as a mesh with fine edges; null for a shape that cannot be drawn. `surface`: what the
- * server has at the address of its mesh; without it the object is drawn as a mark where it stands.
+ * Returns the object with its edges, or null if its shape cannot be drawn. `surface` is the content
+ * of its mesh file; without it a marker is drawn.
  */
 export function object_mesh(object: SceneObject, surface: THREE.BufferGeometry | null = null): THREE.Object3D | null {
   const shape = shape_of(object);
@@ -35,7 +35,7 @@ export function object_mesh(object: SceneObject, surface: THREE.BufferGeometry |
   return mesh;
 }
 
-/** What stands where a mesh should be that cannot be read. */
+/** The marker for a mesh that cannot be read. */
 export function mark_geometry(): THREE.BufferGeometry {
   return new THREE.OctahedronGeometry(0.06);
 }
@@ -45,7 +45,7 @@ function scaled(geometry: THREE.BufferGeometry, [x, y, z]: readonly [number, num
   return x * y * z < 0 ? turned_inside_out(copy) : copy;
 }
 
-/** Mirroring turns triangles away from the eye: this turns them back. */
+/** Reverses triangles that mirroring turned inside out. */
 export function turned_inside_out(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
   const plain = geometry.index ? geometry.toNonIndexed() : geometry;
   for (const attribute of Object.values(plain.attributes)) {
@@ -65,7 +65,7 @@ export function turned_inside_out(geometry: THREE.BufferGeometry): THREE.BufferG
 function shape_geometry(shape: Exclude<Shape, { kind: 'mesh' }>): THREE.BufferGeometry {
   switch (shape.kind) {
     case 'box': return new THREE.BoxGeometry(...shape.size);
-    // three's cylinder stands along y, ours along z.
+    // three's cylinder is along y, ours along z.
     case 'cylinder': return new THREE.CylinderGeometry(shape.radius, shape.radius, shape.length, 40).rotateX(Math.PI / 2);
     case 'sphere': return new THREE.SphereGeometry(shape.radius, 32, 20);
   }

@@ -1,9 +1,9 @@
-// Turns the many primitives of a URDF's links into one mesh per link.
+// Merges the primitives of each URDF link into one mesh.
 //
-// A Panda is eighty primitives; drawn one by one, with shadows, they cost more than anything else
-// on the page, above all without a graphics card. Colours go into the vertices, so that a link is
-// one draw call, and curved primitives get no more triangles than their size on the screen needs,
-// and none where another primitive hides them.
+// A Panda has eighty primitives; drawn one by one with shadows they dominate the cost of the page,
+// above all without a graphics card. Colors go into the vertices, so that a link is one draw call.
+// Curved primitives get only as many triangles as needed, and none where another primitive hides
+// them.
 
 import * as THREE from 'three';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
@@ -12,7 +12,7 @@ import { FinishedMesh, quick_material } from './finish';
 import { inside_box, inside_cylinder, inside_sphere, without_hidden, type Solid } from './hidden';
 import { turned_inside_out } from './shapes';
 
-// urdf-loader builds every sphere and cylinder with unit size and scales the mesh.
+// urdf-loader builds spheres and cylinders of unit size and scales the mesh.
 interface Rounds { sphere: THREE.SphereGeometry; cylinder: THREE.CylinderGeometry }
 const kFine: Rounds = { sphere: new THREE.SphereGeometry(1, 20, 12), cylinder: new THREE.CylinderGeometry(1, 1, 1, 24) };
 const kQuick: Rounds = { sphere: new THREE.SphereGeometry(1, 12, 8), cylinder: new THREE.CylinderGeometry(1, 1, 1, 14) };
@@ -34,7 +34,7 @@ export function merge_links(robot: URDFRobot): void {
   }
 }
 
-/** A skin that all links share and no other robot; answers it. */
+/** Gives the robot its own material, shared by all its links, and returns it. */
 export function give_skin(robot: URDFRobot): THREE.MeshStandardMaterial {
   const skin = make_skin();
   const quick_skin = quick_material(skin);
@@ -46,7 +46,7 @@ function make_skin(): THREE.MeshStandardMaterial {
   return new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.5, metalness: 0.05 });
 }
 
-/** What can be seen of the parts, in the link's frame. */
+/** Returns the visible surface of the parts, in the link's frame. */
 function merged(parts: readonly THREE.Mesh[], link: THREE.Object3D, rounds: Rounds): THREE.BufferGeometry | null {
   if (parts.length === 0) return null;
   const solids = parts.map((part) => solid_of(part, link, rounds));
@@ -54,7 +54,7 @@ function merged(parts: readonly THREE.Mesh[], link: THREE.Object3D, rounds: Roun
     without_hidden(painted(part, link, rounds), solids.flatMap((solid, k) => (solid && k !== i ? [solid] : []))))));
 }
 
-/** Null: it may not fill what is within its surface. */
+/** Returns the solid of a primitive, or null if the shape may be hollow. */
 function solid_of(part: THREE.Mesh, link: THREE.Object3D, { sphere, cylinder }: Rounds): Solid | null {
   const inside = part.geometry instanceof THREE.SphereGeometry ? inside_sphere(filled(sphere.parameters.heightSegments) * filled(sphere.parameters.widthSegments / 2))
     : part.geometry instanceof THREE.CylinderGeometry ? inside_cylinder(filled(cylinder.parameters.radialSegments / 2))
@@ -62,12 +62,12 @@ function solid_of(part: THREE.Mesh, link: THREE.Object3D, { sphere, cylinder }: 
   return inside && { X_SL: part.matrixWorld.clone().invert().multiply(link.matrixWorld), inside };
 }
 
-/** How much of its radius a round one fills that so many flat pieces make half a turn of. */
+/** Returns the filled share of the radius if half a turn has this many flat pieces. */
 function filled(pieces: number): number {
   return Math.cos(Math.PI / 2 / pieces);
 }
 
-/** The meshes that are rigid with a link: below it, but not beyond one of its joints. */
+/** Returns the meshes rigidly attached to a link, not those beyond its joints. */
 function meshes_of(link: THREE.Object3D): THREE.Mesh[] {
   const found: THREE.Mesh[] = [];
   const visit = (node: THREE.Object3D) => {
@@ -78,7 +78,7 @@ function meshes_of(link: THREE.Object3D): THREE.Mesh[] {
   return found;
 }
 
-/** A copy of the mesh's shape in the link's frame, with the mesh's colour in every vertex. */
+/** Returns a copy of the mesh in the link's frame, with the mesh's color in each vertex. */
 function painted(mesh: THREE.Mesh, link: THREE.Object3D, rounds: Rounds): THREE.BufferGeometry {
   const X_LM = link.matrixWorld.clone().invert().multiply(mesh.matrixWorld);
   const geometry = simpler(mesh.geometry, rounds).clone().applyMatrix4(X_LM);
@@ -89,13 +89,13 @@ function painted(mesh: THREE.Mesh, link: THREE.Object3D, rounds: Rounds): THREE.
   geometry.morphAttributes = {};
   const material = [mesh.material].flat()[0] as THREE.MeshPhongMaterial;
   const count = geometry.getAttribute('position').count;
-  const colours = new Float32Array(3 * count);
-  for (let i = 0; i < count; i++) material.color.toArray(colours, 3 * i);
-  geometry.setAttribute('color', new THREE.BufferAttribute(colours, 3));
+  const colors = new Float32Array(3 * count);
+  for (let i = 0; i < count; i++) material.color.toArray(colors, 3 * i);
+  geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3));
   return X_LM.determinant() < 0 ? turned_inside_out(geometry) : geometry;
 }
 
-/** Only geometries with an index, or only without one, can be merged: meshes of files have none. */
+/** Geometries can be merged only if all or none have an index; meshes from files have none. */
 function alike(geometries: THREE.BufferGeometry[]): THREE.BufferGeometry[] {
   if (geometries.every((geometry) => geometry.index)) return geometries;
   return geometries.map((geometry) => (geometry.index ? geometry.toNonIndexed() : geometry));

@@ -1,11 +1,11 @@
-// Labels that would lie on each other are put below each other. Pure.
+// Stacks labels that would overlap. Pure.
 
 export interface Placed { x: number; y: number; width_px: number }
 
 /**
- * Where each is put, in the order given: as it is, or below those from left to right that are in its way.
- * Each looks once at those that are placed, from the top down, and only ever goes down: it ends, whatever
- * the numbers are rounded to.
+ * Returns the y of each label: its own, or below the placed labels that it would overlap, from left
+ * to right. Each label checks the placed labels once, from the top, and only moves down, so this
+ * always ends.
  */
 export function stacked(labels: readonly Placed[], height_px: number, gap_px: number): number[] {
   const placed: Placed[] = [];
@@ -16,8 +16,8 @@ export function stacked(labels: readonly Placed[], height_px: number, gap_px: nu
     if (!label) continue;
     const own = { ...label };
     for (const other of placed) {
-      const beside = Math.abs(other.x - own.x) >= (other.width_px + own.width_px) / 2 + gap_px;
-      if (!beside && Math.abs(other.y - own.y) < height_px) own.y = other.y + height_px;
+      const is_clear = Math.abs(other.x - own.x) >= (other.width_px + own.width_px) / 2 + gap_px;
+      if (!is_clear && Math.abs(other.y - own.y) < height_px) own.y = other.y + height_px;
     }
     y[i] = own.y;
     placed.push(own);
@@ -29,8 +29,8 @@ export function stacked(labels: readonly Placed[], height_px: number, gap_px: nu
 export interface Room { width_px: number; height_px: number }
 
 /**
- * Where each is drawn, inside of the room: its middle across, and its top. Without a place is one that was
- * put farther below its own than `most_px`, and does not have to be seen.
+ * Returns the center x and top y of each label within the room. Null if a label was moved down by
+ * more than `most_px` and need not be visible.
  */
 export function within_room(labels: readonly (Placed & { must: boolean })[], y: readonly number[], room: Room, height_px: number, most_px: number): ({ x: number; y: number } | null)[] {
   return labels.map((label, i) => {

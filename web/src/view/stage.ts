@@ -1,10 +1,9 @@
-// The stage of the 3D view: renderer, camera, lights, floor, and drawing on demand.
+// The stage of the 3D view: renderer, camera, lights, floor, drawing on demand.
 //
-// The world is z up, metres. Nothing is drawn unless `invalidate` was called, and then as often and as
-// finely as Pace says: without a graphics card (a panel PC at the cell, a browser test), or on a busy
-// machine, a frame may take a tenth of a second of all cores and more.
-// A fence behind each frame's commands tells how long it really took. Without a card edges are not
-// smoothed either, unless the page's address ends in `?fine` (for pictures of the page).
+// The world is z up, meters. Frames are drawn only after `invalidate`, as often and as finely as
+// Pace allows: without a graphics card (panel PC, browser test), or on a busy machine, a frame may
+// take 0.1 s of all cores and more. A fence behind each frame measures the real time. Without a
+// card antialiasing is off, unless the address ends in `?fine` (for pictures of the page).
 
 import * as THREE from 'three';
 import type { Camera } from '../route/address';
@@ -21,17 +20,17 @@ import { Viewpoint } from './viewpoint';
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
 const kLate_ms = 20;
-// A whole picture, as asked for or at rest, is followed by as long a pause as it took.
+// After a frame in full quality the pause is as long as the frame took.
 const kShareOfWhole = 2;
 const kRest_ms = 900;
-// Where pictures take long, what was clicked is shown first: so long no new one is begun.
+// If frames are slow, a click is answered first: no new frame starts for this time.
 const kAnswer_ms = 200;
 
 export class Stage {
   readonly scene = new THREE.Scene();
-  /** Called after each drawn frame, for labels that follow points of the scene. */
+  /** Called after each frame, for labels that follow points of the scene. */
   after_draw: () => void = () => {};
-  /** Told what the next drawing leaves out, when that changes. */
+  /** Called when the level of detail changes. */
   on_level: (level: Level) => void = () => {};
 
   private readonly renderer_: THREE.WebGLRenderer;
@@ -47,7 +46,7 @@ export class Stage {
   private readonly full_ratio_: number;
   private readonly key_light_: THREE.DirectionalLight;
   private pictures_ = 0;
-  private shapes_moved_ = true;  // since shadows were drawn
+  private shapes_moved_ = true;  // since the last shadow update
   private shown_: Level | undefined = kLevels[0];
   private readonly waiting_: (() => void)[] = [];
   private rest_timer_: number | null = null;
@@ -83,10 +82,10 @@ export class Stage {
   get camera(): THREE.PerspectiveCamera { return this.viewpoint_.camera; }
   get canvas(): HTMLCanvasElement { return this.renderer_.domElement; }
 
-  /** Told when the user has turned or moved the camera; null: it stands as at first. */
+  /** Called when the user moved the camera; null means the default view. */
   set on_camera(tell: (camera: Camera | null) => void) { this.viewpoint_.on_camera = tell; }
 
-  /** Looks at a box so that it fills the view; kept until the user turns it. */
+  /** Frames a box; kept until the user moves the camera. */
   frame(box: THREE.Box3): void {
     const radius_m = box.getBoundingSphere(new THREE.Sphere()).radius;
     this.viewpoint_.frame(box, radius_m);
@@ -94,12 +93,12 @@ export class Stage {
     this.resize();
   }
 
-  /** As an address has it; null: as it is. */
+  /** Moves the camera; null leaves it unchanged. */
   show_camera(camera: Camera | null): void {
     if (camera && this.viewpoint_.show(camera)) this.invalidate();
   }
 
-  /** The user's, by a button or a key. */
+  /** Moves the camera by a button or key. */
   steer(step: CameraStep): void {
     this.viewpoint_.steer(step);
     this.invalidate();
@@ -113,7 +112,7 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Lets the graphics card have its memory back. */
+  /** Frees the memory of the graphics card. */
   close(): void {
     if (this.frame_ !== null) cancelAnimationFrame(this.frame_);
     if (this.rest_timer_ !== null) clearTimeout(this.rest_timer_);
@@ -124,14 +123,14 @@ export class Stage {
     this.renderer_.domElement.remove();
   }
 
-  /** So many pixels at the left are covered. */
+  /** Sets the width of the covered left part. */
   set_covered(left_px: number): void {
     if (left_px === this.covered_px_) return;
     this.covered_px_ = left_px;
     this.resize();
   }
 
-  /** Asks for a drawing; `shapes_moved` also renews the shadows. */
+  /** Requests a frame; `shapes_moved` also updates the shadows. */
   invalidate(shapes_moved = false): void {
     this.shapes_moved_ ||= shapes_moved;
     if (shapes_moved) this.whole_ = false;
@@ -147,13 +146,16 @@ export class Stage {
     this.frame_ = requestAnimationFrame(draw);
   }
 
-  /** What is seen is wrong: the next drawing is not put off, neither for its pace nor for a click. */
+  /** Draws the next frame without delay, because the visible frame is wrong. */
   hurry(): void { this.hurried_ = true; }
 
-  /** Whether a drag turns the view. */
-  let_turn(yes: boolean): void { this.viewpoint_.let_turn(yes); }
+  /** Enables or disables turning the view by dragging. */
+  enable_turning(yes: boolean): void { this.viewpoint_.enable_turning(yes); }
 
-  /** Kept after the next drawing, which it asks for; that one leaves nothing out, nor do others until something moves. */
+  /**
+   * Requests a frame in full quality and resolves after it; quality stays full until something
+   * moves.
+   */
   drawn(): Promise<void> {
     this.whole_ = true;
     return new Promise((done) => {
@@ -162,16 +164,19 @@ export class Stage {
     });
   }
 
-  /** The line of sight through a point of the page, px from the view's top left. */
+  /** Returns the ray through a point of the page, px from the view's top left. */
   sight(x_px: number, y_px: number): THREE.Raycaster {
     const { clientWidth: width, clientHeight: height } = this.host_;
     const caster = new THREE.Raycaster();
-    caster.params.Line.threshold = 0.002;  // three's own is a metre
+    caster.params.Line.threshold = 0.002;  // three's default is a meter
     caster.setFromCamera(new THREE.Vector2((2 * x_px) / width - 1, 1 - (2 * y_px) / height), this.camera);
     return caster;
   }
 
-  /** Where a point of the world stands on the page, px from the view's top left; null behind the camera. */
+  /**
+   * Returns the position of a world point on the page, px from the view's top left; null if behind
+   * the camera.
+   */
   to_page(p_W: THREE.Vector3): { x: number; y: number } | null {
     const p = p_W.clone().project(this.camera);
     if (p.z > 1) return null;
@@ -186,7 +191,7 @@ export class Stage {
     this.drawn_at_ms_ = performance.now();
     this.hurried_ = false;
     this.pictures_ += 1;
-    // Not before: a canvas of another size is empty until it is drawn on, and that may be a while.
+    // Not earlier: a resized canvas is empty until the next frame, which may be late.
     if (this.resized_) this.renderer_.setSize(this.host_.clientWidth, this.host_.clientHeight);
     this.resized_ = false;
     const paced = this.waiting_.length === 0 && !this.at_rest_ && !this.whole_ && !wants_fine_picture();
@@ -201,14 +206,14 @@ export class Stage {
     this.renderer_.render(this.scene, this.camera);
     this.after_draw();
     this.fence_.put(this.drawn_at_ms_, (took_ms) => {
-      // A little late is made up for, as animation frames never come at the very instant.
+      // Small delays are compensated, because animation frames are never exact.
       const due_ms = Math.max(this.next_at_ms_, this.drawn_at_ms_ - kLate_ms);
       this.next_at_ms_ = due_ms + (paced ? this.pace_.took(took_ms) : kShareOfWhole * took_ms);
     });
     for (const tell of this.waiting_.splice(0)) tell();
   }
 
-  /** What stands still is drawn once more, with nothing left out. */
+  /** At rest, draws once more in full quality. */
   private refine_later(): void {
     if (this.rest_timer_ !== null) clearTimeout(this.rest_timer_);
     this.rest_timer_ = this.shown_ === kLevels[0] ? null : window.setTimeout(() => {

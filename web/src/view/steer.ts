@@ -1,15 +1,18 @@
-// The camera by steps, for who does not drag: about what it looks at, nearer and farther. Pure.
+// Camera steps, as an alternative to dragging: around the target, nearer and farther. Pure.
 
 import type { Camera } from '../route/address';
 
-/** 'whole': as at first, with all in the picture. */
+/** 'whole' is the default view of the whole cell. */
 export type CameraStep = 'left' | 'right' | 'up' | 'down' | 'nearer' | 'farther' | 'whole';
 
 const kTurn_rad = Math.PI / 18;
 const kTilt_rad = Math.PI / 24;
 const kCloser = 1.2;
 export const kNearest_m = 0.5;
-/** From straight above: not below the floor, and not so steep that left and right are lost. */
+/**
+ * Polar angles: not below the floor, and not exactly from above, where left and right are
+ * undefined.
+ */
 export const kLowest_rad = Math.PI / 2 - 0.03;
 const kHighest_rad = 0.08;
 
@@ -22,7 +25,7 @@ export function step_of_key(key: string): CameraStep | null {
   return kKeys.get(key) ?? null;
 }
 
-/** Where the camera stands after a step; 'left' is the way that the camera goes. */
+/** Returns the camera after a step; 'left' moves the camera to the left. */
 export function stepped([x, y, z, at_x, at_y, at_z]: Camera, step: CameraStep): Camera {
   const [dx, dy, dz] = [x - at_x, y - at_y, z - at_z];
   const across = Math.hypot(dx, dy);
@@ -35,7 +38,7 @@ export function stepped([x, y, z, at_x, at_y, at_z]: Camera, step: CameraStep): 
   return [at_x + radius * Math.cos(turned), at_y + radius * Math.sin(turned), at_z + distance * Math.cos(polar), at_x, at_y, at_z];
 }
 
-/** As an address tells it: to the millimetre. */
+/** Compares to the precision of addresses, a millimeter. */
 export function is_same(a: Camera, b: Camera): boolean {
   return a.every((value, i) => Math.abs(value - (b[i] ?? 0)) < 2e-3);
 }

@@ -1,8 +1,7 @@
-// The surfaces of mesh files that the server serves: STL, OBJ and COLLADA, each read once.
+// Loads mesh files from the server: STL, OBJ and COLLADA, each once.
 //
-// Only the address itself is asked for: whatever a file names besides (materials, textures) is not
-// loaded. Points are in the file's own frame, in metres; the up axis of a COLLADA file is not
-// applied, as the server does not apply it either.
+// Only the file itself is loaded, not its materials and textures. Points are in the file's frame,
+// in meters. The up axis of COLLADA is not applied; the server ignores it too.
 
 import * as THREE from 'three';
 import { ColladaLoader } from 'three/addons/loaders/ColladaLoader.js';
@@ -11,7 +10,7 @@ import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
 import { turned_inside_out } from './shapes';
 
-/** By address; null when it cannot be read. */
+/** Surfaces by address; null if unreadable. */
 export type Surfaces = ReadonlyMap<string, THREE.BufferGeometry | null>;
 type FetchBytes = (address: string) => Promise<ArrayBuffer>;
 
@@ -20,7 +19,7 @@ export class SurfaceShelf {
 
   constructor(private readonly fetch_: FetchBytes = fetch_bytes) {}
 
-  /** Kept when all have been read or have failed; never rejected. */
+  /** Resolves when all files are read or have failed; never rejects. */
   async load(addresses: readonly string[]): Promise<Surfaces> {
     const all = [...new Set(addresses)].map(async (address) => [address, await this.get(address)] as const);
     return new Map(await Promise.all(all));
@@ -40,21 +39,21 @@ export class SurfaceShelf {
       return parse_surface(address, await this.fetch_(address));
     } catch (error) {
       console.warn(`mesh ${address} cannot be read:`, error);
-      this.loading_.delete(address);  // another time it may be there
+      this.loading_.delete(address);  // it may succeed later
       return null;
     }
   }
 }
 
 async function fetch_bytes(address: string): Promise<ArrayBuffer> {
-  // An address from the cell is a path of this server, and nothing else.
+  // Mesh addresses must be paths of this server.
   if (!/^\/api\//.test(address)) throw new Error('not an address of this server');
   const response = await fetch(address);
   if (!response.ok) throw new Error(`${response.status} ${response.statusText}`);
   return response.arrayBuffer();
 }
 
-/** Triangles with positions and normals, without index. Throws when there are none. */
+/** Returns triangles with positions and normals, without index. Throws if there are none. */
 export function parse_surface(name: string, bytes: ArrayBuffer): THREE.BufferGeometry {
   const geometries = flat(parse(name, bytes));
   const merged = geometries.length ? mergeGeometries(geometries) : null;
@@ -73,13 +72,13 @@ function parse(name: string, bytes: ArrayBuffer): THREE.Object3D {
   const document = new ColladaLoader(quiet).parse(text(), '');
   if (!document) throw new Error('is not a COLLADA document');
   const root = new THREE.Group();
-  // Only its scale is kept, which is the unit; its turn is the up axis.
+  // Keeps the scale, which is the unit, and drops the rotation, which is the up axis.
   document.scene.quaternion.identity();
   root.add(document.scene);
   return root;
 }
 
-/** All triangles below, in the root's frame. */
+/** Returns all triangles below `root`, in its frame. */
 function flat(root: THREE.Object3D): THREE.BufferGeometry[] {
   const found: THREE.BufferGeometry[] = [];
   root.updateMatrixWorld(true);

@@ -1,8 +1,8 @@
-// The way that an arm's tool has come lately, as a line that fades towards its beginning.
+// The recent path of an arm's tool, as a line that fades with age.
 
 import * as THREE from 'three';
 import type { Arm } from '../server/messages';
-import { arm_colour, ink } from '../state/palette';
+import { arm_color, ink } from '../state/palette';
 import type { Robots } from './robots';
 
 const kPoints = 120;
@@ -21,28 +21,28 @@ export class ToolPath {
     this.line.frustumCulled = false;
   }
 
-  /** Another instant of the past: what was passed since is no past of it. */
+  /** Clears the line, because a different past time is shown. */
   clear(): void {
     this.passed_.length = 0;
     this.line.geometry.setDrawRange(0, 0);
   }
 
-  /** Where the tool is at a cell time; the line's colour is the arm's. */
-  pass(t_s: number, p_W: THREE.Vector3, colour: THREE.Color): void {
+  /** Adds the tool's position at a cell time, in the arm's color. */
+  pass(t_s: number, p_W: THREE.Vector3, color: THREE.Color): void {
     const last = this.passed_.at(-1);
     if (last && t_s < last.t_s) this.clear();
     if (!last || last.p_W.distanceTo(p_W) > kLeastStep_m) this.passed_.push({ t_s, p_W: p_W.clone() });
     while (this.passed_.length > kPoints || (this.passed_[0] && this.passed_[0].t_s < t_s - kLasts_s)) this.passed_.shift();
-    this.draw(t_s, colour);
+    this.draw(t_s, color);
   }
 
-  private draw(t_s: number, colour: THREE.Color): void {
+  private draw(t_s: number, color: THREE.Color): void {
     const { geometry } = this.line;
     const position = geometry.getAttribute('position');
     const shade = geometry.getAttribute('color');
     this.passed_.forEach((passed, i) => {
       position.setXYZ(i, passed.p_W.x, passed.p_W.y, passed.p_W.z);
-      shade.setXYZW(i, colour.r, colour.g, colour.b, 1 - (t_s - passed.t_s) / kLasts_s);
+      shade.setXYZW(i, color.r, color.g, color.b, 1 - (t_s - passed.t_s) / kLasts_s);
     });
     position.needsUpdate = true;
     shade.needsUpdate = true;
@@ -50,7 +50,7 @@ export class ToolPath {
   }
 }
 
-/** One for each arm. */
+/** The recent paths of all arms. */
 export class ToolPaths {
   readonly group = new THREE.Group();
   private readonly paths_ = new Map<string, ToolPath>();
@@ -59,22 +59,22 @@ export class ToolPaths {
     for (const path of this.paths_.values()) path.clear();
   }
 
-  /** Where each tool stands at a cell time, in its arm's colour. */
+  /** Adds the tool positions at a cell time, in the arms' colors. */
   follow(robots: Robots, arms: ReadonlyMap<string, Arm>, t_s: number): void {
     const names = [...arms.keys()];
     for (const arm of arms.values()) {
       const p_W = robots.get(arm.robot)?.tool(arm.name);
-      if (p_W) this.pass(arm.name, t_s, p_W, ink(arm_colour(names, arm.name)));
+      if (p_W) this.pass(arm.name, t_s, p_W, ink(arm_color(names, arm.name)));
     }
   }
 
-  private pass(arm: string, t_s: number, p_W: THREE.Vector3, colour: string): void {
+  private pass(arm: string, t_s: number, p_W: THREE.Vector3, color: string): void {
     let path = this.paths_.get(arm);
     if (!path) {
       path = new ToolPath();
       this.paths_.set(arm, path);
       this.group.add(path.line);
     }
-    path.pass(t_s, p_W, new THREE.Color(colour));
+    path.pass(t_s, p_W, new THREE.Color(color));
   }
 }

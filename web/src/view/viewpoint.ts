@@ -1,4 +1,5 @@
-// Where the camera of the 3D view stands: so that all is seen beside what is covered, until somebody moves it.
+// The camera of the 3D view: shows the whole cell next to the covered part, until the user moves
+// it.
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -13,7 +14,7 @@ const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
 export class Viewpoint {
   readonly camera = new THREE.PerspectiveCamera(26, 1, 0.05, 60);
   readonly fog = new THREE.Fog(0x000000, 5, 14);
-  /** Told when the user has turned or moved the camera; null: it stands as at first. */
+  /** Called when the user moved the camera; null means the default view. */
   on_camera: (camera: Camera | null) => void = () => {};
 
   private readonly controls_: OrbitControls;
@@ -22,7 +23,7 @@ export class Viewpoint {
   private size_px_ = { width: 1, height: 1 };
   private moved_by_user_ = false;
 
-  /** `changed`: it has moved, by hand or else. */
+  /** `changed` is called after each move. */
   constructor(canvas: HTMLCanvasElement, changed: () => void) {
     this.controls_ = new OrbitControls(this.camera, canvas);
     this.controls_.maxPolarAngle = kLowest_rad;
@@ -30,7 +31,7 @@ export class Viewpoint {
     let before = this.now;
     this.controls_.addEventListener('start', () => { before = this.now; });
     this.controls_.addEventListener('end', () => {
-      if (is_same(before, this.now)) return;  // it was a click
+      if (is_same(before, this.now)) return;  // a click
       this.moved_by_user_ = true;
       this.on_camera(this.now);
     });
@@ -46,14 +47,14 @@ export class Viewpoint {
     return [position.x, position.y, position.z, target.x, target.y, target.z];
   }
 
-  /** Looks at a box so that it fills the view; kept until the user turns it. */
+  /** Frames a box; kept until the user moves the camera. */
   frame(box: THREE.Box3, radius_m: number): void {
     this.shown_box_ = box.clone();
     this.controls_.maxDistance = Math.max(12, 8 * radius_m);
     this.camera.far = 12 * this.controls_.maxDistance;
   }
 
-  /** As an address has it. Answers whether it was another one. */
+  /** Moves the camera. Returns true if it changed. */
   show(camera: Camera): boolean {
     if (is_same(camera, this.now)) return false;
     this.moved_by_user_ = true;
@@ -63,7 +64,7 @@ export class Viewpoint {
     return true;
   }
 
-  /** The user's, by a button or a key. */
+  /** Moves the camera by a button or key. */
   steer(step: CameraStep): void {
     if (step === 'whole') this.look_from_default();
     else this.show(stepped(this.now, step));
@@ -71,33 +72,36 @@ export class Viewpoint {
     this.on_camera(this.moved_by_user_ ? this.now : null);
   }
 
-  /** Whether a drag turns the view. */
-  let_turn(yes: boolean): void { this.controls_.enabled = yes; }
+  /** Enables or disables turning the view by dragging. */
+  enable_turning(yes: boolean): void { this.controls_.enabled = yes; }
 
   close(): void { this.controls_.dispose(); }
 
-  /** So many pixels, and so many of them at the left covered: the middle of the picture goes to the middle of the rest, as small as it needs. */
+  /**
+   * Fits the view to its size with `covered_px` covered at the left: centers it in the rest, zoomed
+   * out as needed.
+   */
   fit(size_px: { width: number; height: number }, covered_px: number): void {
     const { width, height } = size_px;
     this.size_px_ = size_px;
-    // Under what covers nearly all it stays as it is.
+    // If nearly all is covered, the view stays unchanged.
     this.covered_px_ = covered_px < kMostCovered * width ? covered_px : 0;
     this.camera.aspect = width / height;
-    // The camera stays where it is, so that an address means the same with a pane and without.
+    // Only zoom and offset change, so that an address means the same with and without a pane.
     this.camera.zoom = this.distance_through(0) / this.distance_through(this.covered_px_);
     this.camera.setViewOffset(width, height, -this.covered_px_ / 2, 0, width, height);
     this.camera.updateProjectionMatrix();
     if (!this.moved_by_user_) this.look_from_default();
   }
 
-  /** Tangents of the half angles under which the part that is not covered is seen. */
+  /** Returns the half-angle tangents of the uncovered part. */
   private opening(covered_px: number): Opening {
     const { width, height } = this.size_px_;
     const up = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
     return { across: up * Math.max(0.2, (width - covered_px) / height), up };
   }
 
-  /** From where all is seen beside what is covered. */
+  /** Returns the default distance for the uncovered part. */
   private distance_through(covered_px: number): number {
     return kMargin * distance_for(this.shown_box_, kDirection, this.opening(covered_px));
   }
@@ -110,7 +114,7 @@ export class Viewpoint {
     this.fit_depth();
   }
 
-  /** Fog begins behind what is looked at, however far away that is. */
+  /** Fog begins behind the target, at any distance. */
   private fit_depth(): void {
     const distance = this.camera.position.distanceTo(this.controls_.target);
     const depth = this.shown_box_.getSize(new THREE.Vector3()).length();

@@ -1,4 +1,4 @@
-// Runs beside the page: what a long text comes to.
+// Web worker that reads a long text (long_text.ts).
 
 import { composed } from './composed';
 

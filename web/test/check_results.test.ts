@@ -1,13 +1,13 @@
 import { describe, expect, it } from 'vitest';
-import { only_in_turn } from '../src/compose/judged';
+import { only_in_turn } from '../src/compose/check_results';
 import { is_yaml } from '../src/compose/new_job';
 import type { WaitsOn } from '../src/server/messages';
 import { wait_json } from './samples';
 
 const wait = (kind: string) => wait_json({ kind }) as WaitsOn;
 
-describe('a job that was asked about', () => {
-  it('merely comes after others where nothing but their order is in its way', () => {
+describe('Check result', () => {
+  it('says that a job waits its turn if only predecessors block it', () => {
     expect(only_in_turn({ verdict: 'conflict', waits_on: [wait('predecessor'), wait('predecessor')] })).toBe(true);
     expect(only_in_turn({ verdict: 'conflict', waits_on: [wait('predecessor'), wait('job')] })).toBe(false);
     expect(only_in_turn({ verdict: 'conflict', waits_on: [] })).toBe(false);
@@ -15,8 +15,8 @@ describe('a job that was asked about', () => {
   });
 });
 
-describe('what was pasted', () => {
-  it('is told as YAML where it begins as ROS prints it', () => {
+describe('Pasted text', () => {
+  it('is recognized as YAML in the format of ROS tools', () => {
     expect(['joint_names:\n- a', '---\ntrajectory:', 'header:\n  stamp: 1'].map(is_yaml)).toEqual([true, true, true]);
     expect(['{"a": 1}', '[1]', '', 'hello', '"a: b"'].map(is_yaml)).toEqual(Array(5).fill(false));
   });

@@ -1,5 +1,5 @@
-// The way that an arm's tool has before it, as beads at equal times: far apart is fast. Those that the
-// arm may pass are bright, up to a mark where its authority ends; those beyond are faint.
+// The remaining tool path of an arm, with markers at equal time steps. Markers up to the granted
+// authority are bright, later ones faint; a ring marks the authority.
 
 import * as THREE from 'three';
 
@@ -11,7 +11,7 @@ const kMark_px = 13;
 
 export interface Stretch { from_s: number; granted_s: number }
 
-export class Way {
+export class Path {
   readonly group = new THREE.Group();
   private readonly geometry_ = new THREE.BufferGeometry();
   private readonly mark_geometry_ = new THREE.BufferGeometry();
@@ -20,7 +20,7 @@ export class Way {
   private readonly beyond_: THREE.Points;
   private readonly mark_: THREE.Points;
 
-  /** `points`: where the tool is at equal times over the whole motion. */
+  /** `points` are tool positions at equal time steps over the whole motion. */
   constructor(private readonly points_: readonly THREE.Vector3[], private readonly duration_s_: number) {
     this.geometry_.setFromPoints([...points_]);
     this.mark_geometry_.setFromPoints([points_[0] ?? new THREE.Vector3()]);
@@ -32,11 +32,11 @@ export class Way {
     for (const part of this.group.children) part.frustumCulled = false;
   }
 
-  paint(colour: string): void {
-    for (const part of [this.line_, this.granted_, this.beyond_, this.mark_]) (part.material as THREE.PointsMaterial).color.set(colour);
+  paint(color: string): void {
+    for (const part of [this.line_, this.granted_, this.beyond_, this.mark_]) (part.material as THREE.PointsMaterial).color.set(color);
   }
 
-  /** What of it is still to come, and how much of that the arm may go. */
+  /** Shows the rest of the path from `from_s`, bright up to `granted_s`. */
   show({ from_s, granted_s }: Stretch): void {
     const count = this.points_.length;
     const index = (t_s: number) => Math.min(count, Math.max(0, Math.ceil((t_s / this.duration_s_) * (count - 1))));
@@ -44,15 +44,15 @@ export class Way {
     const granted = Math.max(from, index(granted_s) + (granted_s >= this.duration_s_ ? 1 : 0));
     this.geometry_.setDrawRange(from, count - from);
     const within = granted > from;
-    const stands = granted_s < this.duration_s_ - 1e-3 && within;
+    const is_limited = granted_s < this.duration_s_ - 1e-3 && within;
     this.granted_.visible = within;
-    // One buffer of places, shown in two parts: the range is set as each is drawn.
+    // One buffer drawn in two parts: the range is set before each part.
     this.granted_.onBeforeRender = () => this.geometry_.setDrawRange(from, granted - from);
     this.beyond_.onBeforeRender = () => this.geometry_.setDrawRange(granted, count - granted);
     this.line_.onBeforeRender = () => this.geometry_.setDrawRange(from, count - from);
-    this.mark_.visible = stands;
+    this.mark_.visible = is_limited;
     const end = this.points_[Math.min(count - 1, granted)];
-    if (stands && end) {
+    if (is_limited && end) {
       this.mark_geometry_.getAttribute('position').setXYZ(0, end.x, end.y, end.z);
       this.mark_geometry_.getAttribute('position').needsUpdate = true;
     }
@@ -65,7 +65,7 @@ export class Way {
   }
 }
 
-/** How many instants a motion is sampled at. */
+/** Returns the number of samples of a motion. */
 export function beads_of(duration_s: number): number {
   return Math.min(kMostBeads, Math.max(2, Math.ceil(duration_s / kBead_s) + 1));
 }

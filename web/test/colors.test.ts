@@ -11,13 +11,14 @@ const kEyes: Record<Eye, readonly [Triple, Triple, Triple]> = {
   'no green': [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
   'no blue': [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.3039]],
 };
-// In CIELAB 2 is just seen side by side; marks that lie apart want several times that.
+// In CIELAB a distance of 2 is just visible side by side; marks apart from each other need several
+// times that.
 const kLeastOfTwo = 20;
 const kLeastOfFour = 12;
 
 const [dark = '', light = ''] = css.split(":root[data-theme='light']");
 
-function colour(theme: string, name: string): Triple {
+function color(theme: string, name: string): Triple {
   const hex = new RegExp(`${name}: #([0-9a-f]{6})`).exec(theme)?.[1];
   if (hex === undefined) throw new Error(`no ${name}`);
   const [r, g, b] = [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16) / 255).map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));
@@ -33,12 +34,12 @@ function lab(rgb: Triple): Triple {
 }
 
 function apart(theme: string, a: number, b: number, eye: Eye): number {
-  const [p, q] = [a, b].map((i) => lab(times(kEyes[eye], colour(theme, `--arm-${i}`)))) as [Triple, Triple];
+  const [p, q] = [a, b].map((i) => lab(times(kEyes[eye], color(theme, `--arm-${i}`)))) as [Triple, Triple];
   return Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
 }
 
-describe.each([['dark', dark], ['light', light]])('Colours of arms, %s', (_, theme) => {
-  it.each(Object.keys(kEyes) as Eye[])('tell the first arms apart for an eye with %s', (eye) => {
+describe.each([['dark', dark], ['light', light]])('Arm colors, %s', (_, theme) => {
+  it.each(Object.keys(kEyes) as Eye[])('are distinguishable with %s', (eye) => {
     expect(apart(theme, 0, 1, eye)).toBeGreaterThan(kLeastOfTwo);
     for (const a of [0, 1, 2, 3]) for (let b = a + 1; b < 4; b++) expect(apart(theme, a, b, eye), `arms ${a} and ${b}`).toBeGreaterThan(kLeastOfFour);
   });

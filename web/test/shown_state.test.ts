@@ -6,7 +6,7 @@ import { when_in_words } from '../src/jobs/when';
 import { need_of } from '../src/recovery/needs';
 import { Store } from '../src/state/store';
 import { known_lanes } from '../src/timeline/known';
-import { lane_in_words } from '../src/timeline/told';
+import { lane_in_words } from '../src/timeline/mark_words';
 import { figure_in_words } from '../src/wording';
 import { arm_json, envelope, job_json, snapshot, wait_json } from './samples';
 
@@ -20,17 +20,17 @@ function told(store: Store, text: string): void {
   else throw new Error(JSON.stringify(parsed));
 }
 
-describe('an arm that was stopped', () => {
-  it('is told as stopped: by its job, which the server says holds, and by what it needs', () => {
+describe('Stopped arm', () => {
+  it('is shown as stopped by its job, although the server says paused, and by its needs', () => {
     expect(figure_in_words(stopped_job(), 9, 0.25).text).toBe('stopped');
     expect(figure_in_words(stopped_job({ waits_on: [wait_json()] }), 9, 0.25).text).toBe('paused');
     expect(need_of(arm({ state: 'stopped' }), stopped_job(), null)).toMatchObject({ resume: true });
     expect(need_of(arm({ state: 'moving' }), stopped_job(), null).words).toBe('Brakes on its path.');
-    // Of a motion of several arms only one was stopped: the others hold for it.
+    // Only one arm of a common motion was stopped: the others pause with it.
     expect(need_of(arm({ name: 'right' }), stopped_job({ arms: ['left', 'right'] }), null)).toMatchObject({ resume: false });
   });
 
-  it('is remembered as stopped, with when: by its job, and on the timeline', () => {
+  it('is recorded with its times by its job and on the timeline', () => {
     const store = new Store(() => 0);
     told(store, snapshot(1));
     told(store, envelope('job', 2, stopped_job({ state: 'running', waits_on: [] })));
@@ -38,52 +38,52 @@ describe('an arm that was stopped', () => {
     told(store, envelope('job', 4, stopped_job()));
     told(store, envelope('arm', 5, arm({ state: 'stopped' })));
     expect(store.arms.get('left') && store.arm_state(store.arms.get('left') as Arm)).toBe('stopped');
-    expect(store.book.stands('pick')).toMatchObject([{ from_s: 3, to_s: 4, stopped: false }, { from_s: 4, to_s: null, stopped: true }]);
+    expect(store.book.pauses('pick')).toMatchObject([{ from_s: 3, to_s: 4, stopped: false }, { from_s: 4, to_s: null, stopped: true }]);
     told(store, envelope('job', 7, stopped_job({ state: 'running', waits_on: [] })));
-    expect(store.book.stands('pick').at(-1)).toMatchObject({ from_s: 4, to_s: 7, stopped: true });
+    expect(store.book.pauses('pick').at(-1)).toMatchObject({ from_s: 4, to_s: 7, stopped: true });
     expect(states_of(store.job('pick') as Job, store.book.changes('pick')).map(([name]) => name)).toEqual(['submitted', 'running', 'paused', 'stopped', 'running', 'ended']);
     expect(known_lanes({ store })[0]?.marks.filter(({ kind }) => kind === 'pause').map(({ stopped }) => stopped)).toEqual([false, true]);
   });
 
-  it('that stands and goes on for hours is remembered for the last times only', () => {
+  it('has a bounded record of pauses', () => {
     const store = new Store(() => 0);
     told(store, snapshot(1));
     for (let i = 0; i < 3000; i++) told(store, envelope('job', 2 + i, stopped_job({ state: i % 2 ? 'running' : 'paused', waits_on: [] })));
-    expect(store.book.stands('pick').length).toBeLessThanOrEqual(400);
+    expect(store.book.pauses('pick').length).toBeLessThanOrEqual(400);
     expect(store.book.changes('pick').length).toBeLessThanOrEqual(400);
   });
 });
 
-// As the server expects it after a stop: nobody knows when it is over.
+// The server's prediction after a stop: no end is known.
 const forecast = (now_s: number) => {
-  const stands = (at_s: number, waits_on: unknown) => [{ from_s: now_s, to_s: null, at_s, waits_on }];
+  const pauses = (at_s: number, waits_on: unknown) => [{ from_s: now_s, to_s: null, at_s, waits_on }];
   return {
     now_s, horizon_steps: 6, arms: [
       {
         name: 'left', waiting: 1, steps: [
-          { id: 'pick', name: '', arms: ['left'], state: 'paused', progress: 0.25, starts_s: 2, ends_s: null, pauses: stands(3, kStop) },
-          { id: 'behind', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ kind: 'predecessor', id: 'pick' })) },
+          { id: 'pick', name: '', arms: ['left'], state: 'paused', progress: 0.25, starts_s: 2, ends_s: null, pauses: pauses(3, kStop) },
+          { id: 'behind', name: '', arms: ['left'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: pauses(0, wait_json({ kind: 'predecessor', id: 'pick' })) },
         ],
       },
       {
         name: 'right', waiting: 0, steps: [
           { id: 'other', name: '', arms: ['right'], state: 'running', progress: 0.5, starts_s: 1, ends_s: now_s + 4, pauses: [] },
-          { id: 'waits', name: '', arms: ['right'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: stands(0, wait_json({ id: 'pick', arm: 'left' })) },
+          { id: 'waits', name: '', arms: ['right'], state: 'scheduled', progress: 0, starts_s: null, ends_s: null, pauses: pauses(0, wait_json({ id: 'pick', arm: 'left' })) },
         ],
       },
     ],
   } as unknown as Forecast;
 };
 
-describe('what is expected beside an arm that was stopped', () => {
-  it('is told by the job, and by the lane', () => {
+describe('Prediction for a stopped arm', () => {
+  it('is described by the job and by the lane', () => {
     const store = new Store(() => 0);
     told(store, snapshot(10, { jobs: [stopped_job(), job_json('waits', { state: 'scheduled', arms: ['right'], waits_on: [wait_json({ id: 'pick' })] })], arms: [arm({ state: 'stopped' }), arm_json('right')] }));
     store.set_forecast(forecast(10));
     expect(when_in_words(store.job('pick') as Job, store)).not.toMatch(/end/);
-    expect(when_in_words(store.job('waits') as Job, store)).toBe('no start as things are');
+    expect(when_in_words(store.job('waits') as Job, store)).toBe('not scheduled');
     const [left, right] = known_lanes({ store }).map((lane) => lane_in_words(lane, 10));
-    expect(left).toEqual(['pick waits for resume: left is stopped (operator), until it is resumed', '2 more wait without a time yet']);
-    expect(right?.at(-1)).toMatch(/^waits waits .*, with no end as things are$/);
+    expect(left).toEqual(['pick waits for resume: left is stopped (operator), until it is resumed', '2 more jobs not scheduled yet']);
+    expect(right?.at(-1)).toMatch(/^waits waits .*, end unknown \(blocked\)$/);
   });
 });

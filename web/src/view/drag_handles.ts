@@ -1,5 +1,5 @@
-// Something is moved by hand: by arrows along the world's axes or by its middle, or turned by rings about
-// its own axes. What comes of it is asked of the server when it is let go.
+// Handles to drag something in the 3D view: arrows along the world axes, or rings about its own
+// axes. The result goes to the server on release.
 
 import * as THREE from 'three';
 import { TransformControls } from 'three/addons/controls/TransformControls.js';
@@ -9,35 +9,37 @@ const kSize = 0.75;
 
 export type Grip = 'move' | 'turn';
 
-export class ByHand {
+export class DragHandles {
   private readonly controls_: TransformControls;
   private object_: THREE.Object3D | null = null;
 
-  /** `moved`: it was let go there. */
+  /** `moved` is called on release. */
   constructor(stage: Stage, moved: (object: THREE.Object3D) => void) {
     this.controls_ = new TransformControls(stage.camera, stage.canvas);
     this.controls_.setSize(kSize);
     this.controls_.addEventListener('change', () => stage.invalidate(true));
     this.controls_.addEventListener('dragging-changed', ({ value }) => {
-      stage.let_turn(value !== true);
+      stage.enable_turning(value !== true);
       if (value !== true && this.object_) moved(this.object_);
     });
     stage.scene.add(this.controls_.getHelper());
   }
 
-  /** This one may be moved; null: none. Answers whether it was another one before. */
+  /**
+   * Attaches the handles to an object, or hides them if null. Returns true if the object changed.
+   */
   show(object: THREE.Object3D | null, grip: Grip = 'move'): boolean {
     this.controls_.setMode(grip === 'move' ? 'translate' : 'rotate');
     this.controls_.setSpace(grip === 'move' ? 'world' : 'local');
     if (object === this.object_) return false;
-    if (this.controls_.dragging) this.controls_.reset();  // it is taken back: nobody was asked to move it
+    if (this.controls_.dragging) this.controls_.reset();  // undoes a drag that was not released
     this.object_ = object;
     if (object) this.controls_.attach(object);
     else this.controls_.detach();
     return true;
   }
 
-  /** A handle is under the pointer: a click is no click on what is behind it. */
+  /** True if the pointer is on a handle, so that a click is not meant for what is behind it. */
   get is_touched(): boolean {
     return this.object_ !== null && this.controls_.axis !== null;
   }
