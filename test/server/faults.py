@@ -43,7 +43,7 @@ FAULTS = {'server_store_test': [
     ('two requests with one key run side by side', ACCEPTED, 'if (taken == under_way_.end()) continue;', 'if (FAULT || taken == under_way_.end()) continue;'),
     ('an object that the operator removed comes back after a restart', RESTART, 'if (!stored.text) return is_there ?', 'if (!stored.text) return is_there && !FAULT ?'),
     ('pages of other sites may command', HEAD, 'request.foreign = request.stranger ?', 'request.foreign = request.stranger || FAULT ?'),
-    ('a rebound host name is served', HEAD, 'if (authority.empty() || may_command', 'if (FAULT || authority.empty() || may_command'),
+    ('a rebound host name is served', HEAD, 'if (authority.empty() || is_allowed_host', 'if (FAULT || authority.empty() || is_allowed_host'),
     ('a handshake without a sound key is accepted', HEAD, 'if (keys.size() == 1 && is_websocket_key', 'if (FAULT || keys.size() == 1 && is_websocket_key'),
     ('Content-Length may occur twice', FRAMING, '  if (lengths.size() > 1) {', '  if (lengths.size() > 1 && !FAULT) {'),
     ('Content-Length is accepted with Transfer-Encoding', FRAMING, '  if (!lengths.empty()) {', '  if (!lengths.empty() && !FAULT) {'),
