@@ -1,13 +1,12 @@
-// Makes the README's pictures of the dashboard: two Pandas under the demo load, one waiting for the
-// other.
+// Makes the picture of a job's page in web/README.md: two Pandas under the demo load, one waiting for the other.
 //
-//   node test/browser/picture.mjs [FOLDER]      default web/; writes dashboard.png and dashboard-job.png
+//   node test/browser/picture.mjs [FILE]      default web/dashboard-job.png
 
 import { spawn } from 'node:child_process';
 import { join, resolve } from 'node:path';
-import { Browser, kRoot, Server } from './harness.mjs';
+import { Browser, go_to, kRoot, Server } from './harness.mjs';
 
-const folder = resolve(process.argv[2] ?? join(kRoot, 'web'));
+const file = resolve(process.argv[2] ?? join(kRoot, 'web/dashboard-job.png'));
 const server = new Server('config/two_pandas.json', 'coordinated');
 const browser = new Browser();
 let load;
@@ -22,16 +21,13 @@ try {
     return lanes.some(({ marks }) => marks.some(({ expected, from_s }) => !expected && from_s > 20)) && lanes.some(({ marks }) => marks.some(long));
   }, least_s, { timeout: 120_000 });
   await waits(0.4);
-  await page.evaluate(() => window.armloom.drawn());
-  await page.screenshot({ path: join(folder, 'dashboard.png') });
-  await waits(0.4);
   const waiting = await page.evaluate(() => window.armloom.lanes().flatMap(({ marks }) => marks).find(({ expected, kind, waits_on }) => expected && kind !== 'motion' && waits_on?.arm)?.job);
-  await page.getByText('Settings').click();
+  await go_to(page, '#/settings');
   await page.getByLabel('Light', { exact: true }).check();
   await page.evaluate((id) => { location.hash = `#/job/${id}`; }, waiting);
   await page.locator('.uplot').waitFor({ timeout: 60_000 });
   await page.evaluate(() => window.armloom.drawn());
-  await page.screenshot({ path: join(folder, 'dashboard-job.png') });
+  await page.screenshot({ path: file });
 } finally {
   load?.kill();
   await browser.close();
