@@ -7,7 +7,8 @@
 
 namespace armloom {
 
-// Appends the problems found in the part of the input at `place`, a prefix of their pointers.
+// Appends problems that were found in a part of the input. `place` is the JSON pointer of this
+// part; it is put in front of the problems' pointers.
 inline void add_below(const std::string& place, Problems found, Problems& problems) {
   for (Problem& problem : found) {
     problem.pointer.insert(0, place);

@@ -7,7 +7,8 @@
 
 namespace armloom {
 
-// A 64-bit content hash, equal on every machine. Not cryptographic: detects accidents only.
+// A 64-bit content hash, equal on every machine. Not cryptographic: detects only accidental
+// changes.
 class ContentHash {
  public:
   void add(std::unsigned_integral auto value) { mix(static_cast<std::uint64_t>(value)); }

@@ -10,9 +10,9 @@
 
 namespace armloom {
 
-// Collects the problems and warnings of a cell, so that a user sees every mistake at once.
-// Repeated entries are skipped, because two robots may share one URDF file. After
-// kMaxDiagnostics entries the rest is only counted; the last entry gives the count.
+// Collects the problems and warnings of a cell, so that a user sees every mistake at once. Repeated
+// entries are skipped, because two robots may share one URDF file. After kMaxDiagnostics entries,
+// further entries are only counted; a last entry gives their number.
 class Diagnostics {
  public:
   static constexpr std::size_t kMaxDiagnostics = 100;
@@ -27,8 +27,8 @@ class Diagnostics {
   void in_cell(std::string slug, std::string pointer, std::string detail,
                decltype(Problem::value) value = {});
 
-  // Returns the number of add() calls. If unchanged, a reader has found no problem, not even a
-  // repeated problem.
+  // Returns the number of add() calls, repeated problems included. If this number is the same
+  // before and after reading something, no problem was found in it.
   [[nodiscard]] std::size_t count() const { return added_; }
 
   [[nodiscard]] Problems take();

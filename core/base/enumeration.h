@@ -8,8 +8,8 @@
 namespace armloom {
 
 // Names of enumeration values. Each enumeration defines a constexpr to_string() with a case for
-// each value (the compiler reports a missing case) and nullptr for other numbers. Values count
-// from zero.
+// each value; the compiler reports a missing case. For other numbers, to_string() returns nullptr.
+// Values count from zero.
 
 template <class E>
 inline constexpr std::size_t kValueCount = [] {

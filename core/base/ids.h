@@ -27,10 +27,12 @@ using JointId = Id<struct JointTag>;  // a movable joint, not a mimic: one entry
 using LinkId = Id<struct LinkTag>;    // a link of any robot of the cell
 using ObjectId = Id<struct ObjectTag>;  // a collision object of the planning scene
 
-// Submission order: smaller is earlier. Clients see a string instead (JobView::key).
+// Jobs in the order of their submission: a smaller id is an earlier job. Clients see a string
+// instead (JobView::key).
 using JobId = Id<struct JobTag, std::uint64_t>;
 
-// Version of what a check depends on (reservations, scene). Verdicts name the version checked.
+// Version of the data on which a check depends (reservations, scene). A verdict names the version
+// that was checked.
 using Version = std::uint64_t;
 
 }  // namespace armloom

@@ -8,13 +8,14 @@
 
 namespace armloom {
 
-// Returns the known name with the fewest letters changed, added, omitted or swapped with a
-// neighbor (optimal string alignment). Returns nullopt if that is more than a third of its
-// letters.
+// Returns the known name that differs in the fewest letters: changed, added, omitted, or swapped
+// with a neighbor (optimal string alignment). Returns nullopt if more than a third of its letters
+// differ.
 [[nodiscard]] std::optional<std::string_view> nearest_name(std::string_view misspelt,
                                                            std::span<const std::string_view> known);
 
-// Returns the nearest key of a map. Ignores large maps: many names can be unknown at once.
+// Returns the key of the map that is nearest to the misspelt name. Returns nullopt if the map is
+// large, because many names can be unknown at once and each search takes time.
 template <class Map>
 [[nodiscard]] std::optional<std::string> nearest_key(const std::string& misspelt,
                                                      const Map& known) {

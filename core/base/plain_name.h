@@ -5,9 +5,9 @@
 
 namespace armloom {
 
-// For names in API paths (robots, arms, objects): 1 to kPlainNameMax characters of UTF-8, no
-// slashes, backslashes or control characters, and not "." or "..", which clients resolve as
-// folders.
+// A plain name may be part of an API path (robots, arms, objects). It has 1 to kPlainNameMax
+// characters of UTF-8, and no slashes, backslashes or control characters. It is not "." or "..",
+// because clients resolve these as folders.
 inline constexpr std::size_t kPlainNameMax = 128;
 inline constexpr const char* kPlainNameRule =
     "a name is 1 to 128 characters without slashes and control characters, and not . or ..";

@@ -8,14 +8,14 @@
 
 namespace armloom {
 
-// Kind of mistake. Mapped to an HTTP status by the server, to exit code 2 by the command line.
+// The kind of a mistake. The server maps it to an HTTP status, the command line to exit code 2.
 enum class ProblemKind {
   malformed,    // cannot be read at all: broken JSON or XML, wrong type
   invalid,      // readable, but never right: limits, sizes, unknown names
   not_found,    // names something that does not exist
   conflict,     // contradicts the present state: id in use, job already ended
   too_large,    // exceeds a documented limit
-  unsupported,  // an unsupported kind of input: content type, <capsule>
+  unsupported,  // input of a kind that is not supported: content type, <capsule>
   unavailable,  // valid, but not possible now: queue full, shutting down
 };
 
@@ -28,7 +28,7 @@ struct Problem {
   std::variant<std::monostate, double, std::string> value = {};  // found at `pointer`
 };
 
-// One or more problems, in the order found. Never empty when it travels inside a Result.
+// Problems in the order in which they were found. Never an empty list inside a Result.
 using Problems = std::vector<Problem>;
 
 template <class T>

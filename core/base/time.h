@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// Cell time: starts at zero with the executive and runs X times faster than the wall clock under
-// --speed X. Only the executive's drivers read a clock: there is no now().
+// Cell time starts at zero when the executive starts. With --speed X it runs X times faster than
+// the wall clock. There is no now(), because only the executive's drivers read a clock.
 struct CellClock {
   using rep = std::int64_t;
   using period = std::nano;

@@ -15,8 +15,8 @@ namespace armloom {
 
 // Certificates: proofs of the checker, as self-contained values.
 
-// Content hash of what a proof relies on besides motions: shapes, poses, attached objects,
-// unchecked pairs, required distances.
+// Content hash of everything on which a proof relies, except motions: shapes, poses, attached
+// objects, pairs that are not checked, required distances.
 using Fingerprint = std::uint64_t;
 
 // The content of a planning scene.
@@ -26,29 +26,30 @@ struct SceneFingerprint {
   // By ArmId: the objects within the arm's reach, ascending.
   std::vector<std::vector<Fingerprint>> objects;
 
-  // Returns the content that a proof about these arms relies on. Precondition: each list is
-  // ascending, and no arm is in both.
+  // Returns the hash of the content on which a proof about these arms relies. Precondition: each
+  // list is ascending, and no arm is in both lists.
   [[nodiscard]] Fingerprint of(std::span<const ArmId> one, std::span<const ArmId> other = {}) const;
   bool operator==(const SceneFingerprint&) const = default;
 };
-// Returns the arms whose motions must be checked again: arms with a new or changed object within
-// reach; all arms if an arm or the common content changed.
+// Returns the arms whose motions must be checked again. These are the arms with a new or changed
+// object within reach, or all arms if an arm or the common content changed.
 [[nodiscard]] std::vector<ArmId> arms_in_question(const SceneFingerprint& before,
                                                   const SceneFingerprint& now);
 
-// The arms of one motion, or one resting arm, in a proof. Each joint is at most `error` (rad, m)
-// from its stated position.
+// One side of a proof: the arms of one motion, or one resting arm. The proof assumes that each
+// joint is at most `error` (rad, m) from its position on the motion or at rest.
 struct CertifiedSide {
   std::vector<ArmId> arms;  // ascending
   TrajectoryPtr motion;     // null if the arm rests
   Duration from{};          // valid from this progress on
   double error = 0.0;
-  std::vector<std::pair<JointId, double>> still;  // the arms' joints that do not move
+  std::vector<std::pair<JointId, double>> still;  // positions of the arms' joints that do not move
 };
 
 // Proves that two sides keep their clearance at all combinations of positions on their motions,
-// except in `blocked` (progress of `a`, progress of `b`; zero at rest). A rectangle's edge is free
-// unless another rectangle, or the motion's own end, adjoins it.
+// except in the rectangles `blocked`. A rectangle is an interval of the progress of `a` and an
+// interval of the progress of `b`; the progress of a resting side is zero. The edge of a rectangle
+// is free unless it is also the edge of another rectangle or at the end of a motion.
 struct PairCertificate {
   CertifiedSide a;
   CertifiedSide b;
@@ -56,17 +57,17 @@ struct PairCertificate {
   Fingerprint geometry;
 };
 [[nodiscard]] PairCertificate turned(const PairCertificate& pair);
-// Proves that two arms keep their clearance in all positions.
+// Proves that two arms keep their clearance in all their positions.
 struct ApartCertificate {
   ArmId a;
   ArmId b;
   Fingerprint geometry;
 };
-// Proves that the rest of the motion keeps its clearance from itself, stationary links and these
-// objects.
+// Proves that the side's motion, from the progress side.from on, keeps its clearance from the
+// side's own links, from stationary links and from these objects.
 struct SceneCertificate {
   CertifiedSide side;
-  std::vector<std::vector<Fingerprint>> objects;  // of each arm of the side, ascending
+  std::vector<std::vector<Fingerprint>> objects;  // for each arm of the side, ascending
   Fingerprint geometry;
 };
 // Proves that a motion's arms keep their clearance from each other while no arm is ahead of another

@@ -19,13 +19,13 @@ struct ProgressBox {
 // it), or B is.
 struct ConflictRegion {
   std::vector<ProgressBox> boxes;  // never empty
-  Proximity proximity;             // evidence: the closest pair found; body_a is A's
-  Duration time_a;                 // state of `proximity`
+  Proximity proximity;             // evidence: the closest pair found; body_a belongs to A
+  Duration time_a;                 // state in which `proximity` was found
   Duration time_b;
 };
 
-// Conflict regions of a candidate and another motion or resting arm. From the question's progress
-// on, every state outside the boxes is certified free, including the tracking errors.
+// Conflict regions of a candidate and another motion or resting arm. Every state from the
+// question's progress on and outside the boxes is certified free, with tracking errors included.
 struct PairRegions {
   JobId a;                       // a candidate
   std::variant<JobId, ArmId> b;  // another motion, or a resting arm: its times are zero

@@ -10,12 +10,13 @@
 
 namespace armloom {
 
-// A rectangle of trajectory times of A and of B.
+// A rectangle of the coordination diagram of two motions A and B: an interval of trajectory times
+// of each.
 struct DiagramCell {
   enum class State : std::uint8_t {
     free,       // the arms keep their clearance in every state (certified)
-    conflict,   // they violate it in every state
-    undecided,  // both kinds, or not proven
+    conflict,   // the arms violate their clearance in every state
+    undecided,  // some states are free and some are not, or nothing is proven
   };
   Duration from_a, to_a, from_b, to_b;
   State state;
@@ -32,11 +33,11 @@ struct DiagramCell {
   return nullptr;
 }
 
-// Diagram of two arms' motions.
+// The coordination diagram of one arm of A and one arm of B.
 struct DiagramLayer {
   ArmId arm_a;
   ArmId arm_b;
-  std::vector<DiagramCell> cells;  // cover the rectangle of both motions
+  std::vector<DiagramCell> cells;  // together they cover both motions completely
 };
 
 // Requests the coordination diagram of two motions.
@@ -49,7 +50,8 @@ struct Drawing {
   std::uint64_t budget;  // cells per pair of arms
 };
 
-// One layer for each arm of A and each arm of B.
+// The coordination diagram of two motions, with a layer for each pair of an arm of A and an arm of
+// B.
 struct Diagram {
   Duration duration_a;
   Duration duration_b;

@@ -7,9 +7,9 @@
 
 namespace armloom {
 
-// A job is not deferred because its budget of evaluations ran out: its question is checked again
-// with a larger budget, up to kEffortMax times the usual budget. Each check continues where the
-// previous check ended (motion_store.h).
+// If a check runs out of its budget of evaluations, the job is not deferred. Its question is
+// checked again with a larger budget, up to kEffortMax times the usual budget. Each check continues
+// where the previous check ended (motion_store.h).
 inline constexpr std::uint64_t kEffortGrowth = 4;
 inline constexpr std::uint64_t kEffortMax = 16;
 

@@ -11,15 +11,16 @@ namespace armloom {
 struct GuardRefusal {
   enum class Why {
     uncertified,  // no valid certificate: ask the checker
-    region,       // the certified product of authorities overlaps a conflict region
-    busy,         // the arm is on another motion
+    region,       // the positions that the arms could reach include a conflict region
+    busy,         // the arm is executing another motion
     out_of_step,  // the motion's arms are too far apart in progress
   };
   Why why = Why::uncertified;
-  ArmId arm{0};                     // the refused arm
-  std::optional<ArmId> other = {};  // nullopt if about the scene or the same motion's arms
-  ProgressBox asked = {};           // progress of `arm`, progress of `other`, up to authority
-  std::optional<ProgressBox> region = {};  // Why::region: the first rectangle that overlaps
+  ArmId arm{0};  // the refused arm
+  std::optional<ArmId> other =
+      {};                  // counterpart; nullopt if this is the scene or an arm of the same motion
+  ProgressBox asked = {};  // progress of `arm` and of `other`, up to their authority
+  std::optional<ProgressBox> region = {};  // Why::region: the first rectangle that overlaps `asked`
 };
 [[nodiscard]] constexpr const char* to_string(GuardRefusal::Why why) {
   switch (why) {

@@ -13,32 +13,34 @@
 namespace armloom {
 
 // One job's motion in a collision check. At the question's instant the motion is at `progress`
-// (trajectory time, <= duration), from which it runs to the end and rests at the goal. If
-// `progress` is negative, the motion first rests at its start for that long.
+// (trajectory time, <= duration). From there it runs to its end and then rests at the goal. If
+// `progress` is negative, the arm first rests at the motion's start for the duration -progress.
 struct Motion {
   JobId job;
   TrajectoryPtr trajectory;
   Duration progress;
   bool to_come = false;  // Coordinated only: its arm executes another motion first
-  // Largest distance of its joints from the path at its start or resume (rad, m). Certified methods
-  // use the larger of this and their tracking error.
+  // Largest distance of a joint from the path when the motion starts or resumes (rad, m). Certified
+  // methods use the larger value of off_path and their tracking error.
   double off_path = 0.0;
-  // TimedDiscrete only: no passing orders protect a paused motion.
+  // Used only by TimedDiscrete, because there no passing orders protect a paused motion.
   enum class Stands : std::uint8_t {
     goes_on,
-    may_stay,  // brakes, or has not moved for a while: both cases are checked
-    stays,     // was stopped; checked again before it continues
+    may_stay,  // brakes, or has not moved for a while: checked as moving and as at rest
+    stays,     // was stopped; will be checked again before it continues
   };
   Stands stands = Stands::goes_on;
 
   [[nodiscard]] Duration remaining() const { return trajectory->duration() - progress; }
 };
 
-// The paper's method: checks equal instants, every `step`. Guarantees nothing between them.
+// The paper's method: compares the motions at equal instants, every `step`. Guarantees nothing
+// between these instants.
 struct TimedDiscrete {
   Duration step;
 };
-// Ignores times: checks the whole remainder of each motion against that of every other motion.
+// Ignores times: checks the whole remainder of each motion against the whole remainder of every
+// other motion.
 struct Swept {
   double tracking_error;  // of each joint from its path (rad, m)
 };
@@ -60,23 +62,23 @@ using CheckMethod = std::variant<TimedDiscrete, Swept, Coordinated>;
 struct PassageQuestion {
   Motion motion;
   ArmId arm;
-  Eigen::VectorXd rest;  // the arm's joints, in its order
+  Eigen::VectorXd rest;  // positions of the arm's joints, in the arm's order
 };
 
 // Asks if the candidates may start together, given all other motions and resting arms. Plain
 // data, safe to pass to another thread.
 struct Question {
-  Version version;                 // of the reservations behind `others` and `rest`
-  TimePoint start_at;              // the question's instant
+  Version version;                 // of the reservations from which `others` and `rest` were made
+  TimePoint start_at;              // the instant at which each motion is at its `progress`
   std::vector<Motion> candidates;  // usually one; several are checked as one synchronous start
   std::vector<Motion> others;      // every motion that holds a reservation
-  Configuration rest;              // joints that are in none of these motions
+  Configuration rest;              // positions of the joints that are in none of these motions
   CheckMethod method;
   std::vector<PassageQuestion> passages = {};  // answered whatever the result for the candidates
   // Multiple of the usual budget of evaluations (not for TimedDiscrete).
   std::uint64_t effort = 1;
-  // Lets pairs that are too close at the question's instant move apart. Must be false if the arms
-  // are not really there yet.
+  // Permits pairs that are too close at the question's instant to move apart. Must be false if the
+  // arms are not yet at these positions.
   bool may_part = true;
 };
 

@@ -17,25 +17,27 @@ struct LinkTarget {
   LinkId link;
   Eigen::Isometry3d X_WL;  // in the world (m)
 };
-// Goal: the nearest configuration found that is clear of the rest of this motion.
+// Goal: the nearest configuration found that is clear of this motion from `progress` on.
 struct ClearOf {
   TrajectoryPtr motion;
   Duration progress{};
 };
 struct MotionGoal {
   ArmId arm;
-  // Joint positions in the arm's order (rad, m), a link pose, or out of another motion's path.
+  // Joint positions in the arm's order (rad, m), a link pose, or a place out of another motion's
+  // path.
   std::variant<Eigen::VectorXd, LinkTarget, ClearOf> to;
-  double speed = 1.0;     // in (0, 1]: scales velocity, and acceleration by its square
+  double speed = 1.0;     // in (0, 1]: scales velocities; accelerations are scaled by its square
   bool straight = false;  // LinkTarget: along a straight line in the world (tool_line.h)
 };
 
 // Asks for a motion to a goal. Plain data, safe to pass to another thread.
 struct PlanQuestion {
   MotionGoal goal;
-  Configuration at;  // all joints of the cell; the arm's own are the start
-  // Arms that will move away from their present position. The planner first looks for a path
-  // past them, except those at the arm's start or goal. If there is none, it ignores them all.
+  Configuration at;  // positions of all joints of the cell; the arm starts at its own
+  // Arms that will move away from their present position. The planner first looks for a path past
+  // these arms, but ignores them all if such an arm is in the way at the arm's start or goal, or if
+  // there is no path.
   std::vector<ArmId> may_move = {};
   bool has_no_way_past = false;  // no path exists past `may_move`: ignore them at once
   std::uint64_t seed = 1;

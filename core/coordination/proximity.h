@@ -8,13 +8,13 @@
 
 namespace armloom {
 
-// Two bodies that come too close, and their distance. Names are links (with prefix) or objects.
-// An attached object belongs to the arm.
+// Two bodies that come too close, and their distance. The bodies are named by link (with prefix) or
+// object. An attached object belongs to its arm.
 struct Proximity {
   std::string body_a;          // a link or attached object
   std::string body_b;          // a link, attached object, or object of the scene
-  std::optional<ArmId> arm_a;  // nullopt if a static link
-  std::optional<ArmId> arm_b;  // nullopt if a static link or an object
+  std::optional<ArmId> arm_a;  // nullopt if body_a is a static link
+  std::optional<ArmId> arm_b;  // nullopt if body_b is a static link or an object
   bool object_b = false;       // body_b is an object of the scene
   double clearance_m = 0.0;    // distance; zero or less in contact
   bool held_a = false;         // body_a is attached to arm_a

@@ -19,27 +19,27 @@ namespace armloom {
 // Evidence of a conflict: the bodies that come too close, with the place and times.
 struct Conflict {
   enum class With {
-    motion,  // another job's motion, or its rest after its end
+    motion,  // another job's motion, or the rest of its arms after the end
     rest,    // an arm at rest that no job will move
     scene,   // an object, or a stationary link
     self,    // the candidate's own links (Cell::is_own)
   };
   With with;
-  JobId candidate;                 // whose motion
+  JobId candidate;                 // the job whose motion comes too close
   std::optional<JobId> other_job;  // With::motion
   Proximity proximity;             // body_a belongs to the candidate
   Duration own_time;               // trajectory time of the candidate
   Duration other_time;             // trajectory time of the other job, or zero
 };
 
-// Answer to a PassageQuestion. Not decided within the budget means `blocked`.
+// Answer to a PassageQuestion. A passage that cannot be decided within the budget is `blocked`.
 enum class PassageAnswer {
   free,
   blocked,
   apart,  // free in all positions of both arms
 };
 
-// Proven clearance in m: the smallest limit to which pairs of each kind were held.
+// Proven clearance (m): for each kind of pair, the smallest clearance that the check required.
 struct ClearanceBound {
   static constexpr double kNone = std::numeric_limits<double>::infinity();
   // Between arms, and from arms to everything stationary, including their mounts.
@@ -63,15 +63,15 @@ struct Verdict {
   std::uint64_t evaluations = 0;                  // combined states checked
   // If a policy was asked too (executive/dry_run.h): delay until the candidates would start.
   std::optional<Duration> earliest_start = {};
-  // Coordinated without conflict: every pair of a candidate and another motion or resting arm
-  // that is not free in all states.
+  // Filled by Coordinated if there is no conflict: every pair of a candidate and another motion or
+  // resting arm that is not free in all states, with its conflict regions.
   std::vector<PairRegions> regions = {};
-  std::vector<PassageAnswer> passages = {};  // to Question::passages; empty if all are free
+  std::vector<PassageAnswer> passages = {};  // answers to Question::passages; empty if all are free
   // The budget of evaluations ran out. A larger Question::effort may find more states free.
   bool exhausted = false;
   // The check was aborted: all other members are void.
   bool interrupted = false;
-  // If free by a certified method: all that the answer proves about the candidates.
+  // If the candidates are free by a certified method: all that is proven about them.
   std::vector<Certificate> certificates = {};
 };
 [[nodiscard]] constexpr const char* to_string(Verdict::Kind kind) {

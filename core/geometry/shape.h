@@ -8,7 +8,8 @@
 
 namespace armloom {
 
-// Collision shapes, each centered in its own frame S. Lengths in meters, axes along z as in URDF.
+// Collision shapes, each in its own frame S; boxes, cylinders and spheres are centered there.
+// Lengths are in meters. The axis of a cylinder is z, as in URDF.
 struct Box {
   Eigen::Vector3d size_m;  // full side lengths
 };
@@ -23,7 +24,7 @@ struct MeshData;  // core/geometry/mesh/mesh.h
 struct Mesh {
   std::string path;  // resolved file
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
-  // The triangles with the scale applied. Set for every mesh of a Cell; null in descriptions.
+  // The triangles with the scale applied. Set for every mesh of a Cell; null while a cell is read.
   std::shared_ptr<const MeshData> data = nullptr;
 };
 using Shape = std::variant<Box, Cylinder, Sphere, Mesh>;

@@ -20,7 +20,8 @@ using Directions = std::vector<Eigen::Vector3d>;
 
 constexpr int kOutermostDirections = 60;
 
-// The search's variables: a line, and extra width (a wider capsule may be shorter).
+// The variables of the search: the line of the capsule's axis, and extra width, because a wider
+// capsule may be shorter.
 struct Axis {
   Eigen::Vector3d point;
   Eigen::Vector3d direction;  // unit
@@ -45,7 +46,7 @@ LinkCapsule capsule_about(const Axis& axis, const Balls& balls) {
     low = std::min(low, t + along);
     high = std::max(high, t - along);
   }
-  if (low > high) {  // one ball about any point between contains all balls
+  if (low > high) {  // no axis is needed: a single ball contains all balls
     low = high = 0.5 * (low + high);
     const Eigen::Vector3d center = axis.point + low * axis.direction;
     radius = 0.0;
@@ -117,7 +118,8 @@ Axis moved(const Axis& axis, const Step& step, double extent) {
   return next;
 }
 
-// Pattern search along the coordinates and, because the volume has creases, random directions.
+// Improves a candidate by a pattern search. It tries steps of each variable alone and, because the
+// volume is not a smooth function, steps in random directions.
 Candidate improved(Candidate best, const Balls& balls, double extent) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -149,7 +151,7 @@ Candidate improved(Candidate best, const Balls& balls, double extent) {
   return best;
 }
 
-// Corrects the radius for rounding and verifies containment.
+// Corrects the radius for rounding and verifies that the capsule contains every ball.
 LinkCapsule checked(LinkCapsule capsule, const Balls& balls) {
   double reach = 0.0;
   capsule.radius_m = 0.0;

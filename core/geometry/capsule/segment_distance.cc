@@ -61,8 +61,8 @@ double segment_box_distance(const CenteredSegment& segment, const Eigen::Vector3
   const Outside last = outside_at(p0 + d, d, half_size_m);
   if (last.derivative <= 0.0) return std::sqrt(last.squared);
 
-  // The derivative never decreases along the segment, so each breakpoint narrows the interval of
-  // its zero.
+  // The derivative never decreases along the segment, so each breakpoint narrows the interval that
+  // contains the zero of the derivative.
   double left = 0.0;
   double right = 1.0;
   double slope_left = first.derivative;

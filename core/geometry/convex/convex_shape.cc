@@ -43,7 +43,7 @@ ConvexShape primitive_body(const PlacedShape& placed) {
   return body;
 }
 
-// Adds a shape's bodies, before cylinders and caps are merged.
+// Adds the bodies of one shape. Cylinders and the spheres at their ends are merged later.
 void add_plain_bodies(const PlacedShape& placed, std::vector<ConvexShape>& bodies) {
   const auto* mesh = std::get_if<Mesh>(&placed.shape);
   if (mesh == nullptr) {
@@ -68,7 +68,8 @@ bool is_sphere(const ConvexShape& body) {
   return body.kind == ConvexShapeKind::round && body.half_length_m == 0.0;
 }
 
-// Returns the sphere at the cylinder's end (+1 or -1).
+// Returns the index of a sphere with the cylinder's radius at its upper (`end` = 1) or lower (-1)
+// end, or nullopt if there is no such sphere.
 std::optional<std::size_t> cap_at(const std::vector<ConvexShape>& bodies,
                                   const ConvexShape& cylinder, double end) {
   const Eigen::Vector3d p_end = cylinder.X_PS * Eigen::Vector3d(0, 0, end * cylinder.half_length_m);
@@ -82,13 +83,15 @@ std::optional<std::size_t> cap_at(const std::vector<ConvexShape>& bodies,
   return std::nullopt;
 }
 
-// Returns the radius of a capsule about the axis that contains the cap.
+// Returns the radius that a capsule about the cylinder's axis needs to contain the cylinder and the
+// sphere `cap` at its end.
 double radius_with(const ConvexShape& cylinder, double end, const ConvexShape& cap) {
   const Eigen::Vector3d p_end = cylinder.X_PS * Eigen::Vector3d(0, 0, end * cylinder.half_length_m);
   return std::max(cylinder.radius_m, cap.radius_m + (cap.X_PS.translation() - p_end).norm());
 }
 
-// Returns the distance of a world segment from a box (hull: its box).
+// Returns the distance (m) of a segment in the world frame from a box, or from the box around a
+// hull.
 double segment_to_box(const PlacedConvexShape& at_box, const ConvexShape& box,
                       const CenteredSegment& segment) {
   const auto R_BW = at_box.X_WS.linear().transpose();
@@ -96,7 +99,8 @@ double segment_to_box(const PlacedConvexShape& at_box, const ConvexShape& box,
       {R_BW * (segment.center - at_box.X_WS.translation()), R_BW * segment.half}, box.half_size_m);
 }
 
-// Returns the widest gap across faces: six of the fifteen separating axes.
+// Returns the widest gap between two boxes along their six face normals. These are six of the
+// fifteen possible separating axes.
 double face_gap(const ConvexShape& a, const PlacedConvexShape& at_a, const ConvexShape& b,
                 const PlacedConvexShape& at_b) {
   const Eigen::Matrix3d R_AB = at_a.X_WS.linear().transpose() * at_b.X_WS.linear();
@@ -113,7 +117,8 @@ bool has_box(const ConvexShape& body) {
   return body.kind == ConvexShapeKind::box || body.kind == ConvexShapeKind::hull;
 }
 
-// Bounds a pair with a hull by the better of its capsule and box.
+// Returns a lower bound of the distance if a or b is a hull: the better of the bounds from the
+// hull's capsule and from its box.
 double bound_of_hull(const ConvexShape& a, const PlacedConvexShape& at_a, const ConvexShape& b,
                      const PlacedConvexShape& at_b) {
   if (a.kind != ConvexShapeKind::hull) return bound_of_hull(b, at_b, a, at_a);

@@ -27,11 +27,13 @@ class ExactGeometry {
 
 namespace {
 
-// FCL's tolerance bounds one GJK step, not the error, which is below 1e-7 m at 1e-12.
+// FCL's tolerance bounds one GJK step, not the error of the distance. At a tolerance of 1e-12 the
+// error is below 1e-7 m.
 constexpr double kGjkTolerance = 1e-12;
-// Sometimes GJK still stops early (libccd's for 1 in 20 pairs of boxes rotated about parallel axes,
-// 1 in 5000 of other shapes) or reports false contact (boxes). Then FCL's own solver is tried, then
-// libccd's with the bodies swapped, and last the nearest triangles of the surfaces.
+// If FCL's distance exceeds the proven gap by this, GJK stopped early. With libccd's GJK this
+// happens for 1 in 20 pairs of boxes rotated about parallel axes, and for 1 in 5000 of other
+// shapes; for boxes it may also report false contact. Then FCL's own solver is tried, then libccd's
+// with the bodies swapped, and last the nearest triangles of the surfaces.
 constexpr double kProofGap_m = 5e-7;
 
 // Returns the largest n·(x - center) over the body; n of unit length, in world axes.
@@ -58,8 +60,9 @@ double gap_along(const ConvexShape& a, const Eigen::Isometry3d& X_WA, const Conv
          support(b, X_WB, -n);
 }
 
-// FCL's distance and the gap between separating planes across the direction of its nearest points
-// (n, from a to b). Both zero in contact.
+// FCL's distance (claimed) and the gap between two separating planes (proven). The normal n of the
+// planes is the direction from a to b between FCL's nearest points. Both lengths are zero in
+// contact.
 struct Proof {
   double claimed;
   double proven;
@@ -86,12 +89,13 @@ Proof prove(const ConvexShape& a, const Eigen::Isometry3d& X_WA, const ConvexSha
   return {0.0, 0.0, Eigen::Vector3d::Zero(), true};
 }
 
-// Finds separating planes by the nearest triangles of the surfaces. Not for pieces, whose surface
-// is the whole mesh's.
+// Finds separating planes across the direction between the surfaces' nearest triangles. Returns
+// nullopt for pieces of a mesh, because their `solid` is the whole mesh.
 std::optional<Separation> prove_by_surfaces(const ConvexShape& a, const Eigen::Isometry3d& X_WA,
                                             const ConvexShape& b, const Eigen::Isometry3d& X_WB) {
   if (a.solid == nullptr || b.solid == nullptr || a.is_piece || b.is_piece) return std::nullopt;
-  // The tree is in the part's frame; the poses are of the shape frames.
+  // The solid's pose X_PT is given in the part's frame P, but X_WS is the pose of the shape's frame
+  // S.
   const auto solid = [](const ConvexShape& body, const Eigen::Isometry3d& X_WS) {
     return PlacedSolid{*body.solid, X_WS * body.X_PS.inverse(Eigen::Isometry) * body.solid->X_PT};
   };
@@ -147,7 +151,7 @@ std::optional<Separation> exact_separation(const ConvexShape& a, const Eigen::Is
                                            const ConvexShape& b, const Eigen::Isometry3d& X_WB) {
   const Proof one = prove(a, X_WA, b, X_WB);
   Separation best{one.proven, one.n};
-  // Contact of boxes may be reported wrongly.
+  // FCL may report contact of boxes that are apart.
   const bool boxes = a.kind == ConvexShapeKind::box && b.kind == ConvexShapeKind::box;
   if (one.failed || one.claimed - one.proven >= kProofGap_m || (boxes && !one.is_settled())) {
     const Proof other = prove(a, X_WA, b, X_WB, fcl::GST_INDEP);

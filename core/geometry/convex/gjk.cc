@@ -12,10 +12,10 @@ using Eigen::Vector3d;
 
 // Shapes with flat faces take 5 to 10 steps; on a curved rim, convergence is only linear.
 constexpr int kMostSteps = 48;
-// A flatter tetrahedron has no inside.
+// A tetrahedron of less height has no inside.
 constexpr double kLeastHeight_m = 1e-11;
 
-// A shape without the radius around it: a segment if it is round.
+// A shape without its radius: only the axis if the shape is round.
 struct Core {
   const ConvexShape& shape;
   const PlacedConvexShape& at;
@@ -24,8 +24,8 @@ struct Core {
   [[nodiscard]] double radius_m() const {
     return shape.kind == ConvexShapeKind::round ? shape.radius_m : 0.0;
   }
-  // Returns the farthest point along n, from the shape's center. A hull's search starts at the last
-  // corner.
+  // Returns the shape's farthest point along n, relative to the shape's center, in world axes. The
+  // search on a hull starts at the corner found last.
   [[nodiscard]] Vector3d farthest(const Vector3d& n_W) {
     if (shape.kind == ConvexShapeKind::round) {
       return n_W.dot(at.segment.half) < 0.0 ? Vector3d(-at.segment.half) : at.segment.half;
@@ -44,7 +44,8 @@ struct Core {
     }
     return at.X_WS.linear() * p;
   }
-  // Returns the reach beyond farthest(); nonzero only for hulls.
+  // Returns how much farther along n the shape reaches than the last result of farthest(). Nonzero
+  // only for hulls, where that search may end too early.
   [[nodiscard]] double beyond(const Vector3d& n_W) const {
     if (shape.kind != ConvexShapeKind::hull) return 0.0;
     const Vector3d n = at.X_WS.linear().transpose() * n_W;
@@ -52,15 +53,15 @@ struct Core {
   }
 };
 
-// Up to four points of the difference, all of which are needed.
+// The simplex of GJK: up to four points of the shapes' Minkowski difference.
 class Simplex {
  public:
   void add(const Vector3d& p) { points_[static_cast<std::size_t>(size_++)] = p; }
   [[nodiscard]] bool has(const Vector3d& p) const {
     return std::find(points_.begin(), points_.begin() + size_, p) != points_.begin() + size_;
   }
-  // Returns the point nearest to the origin, and keeps only the corners around it; all four if the
-  // origin is inside.
+  // Returns the simplex's point nearest to the origin. Keeps only the corners of the face, edge or
+  // corner on which this point lies, or all four if the origin is inside.
   [[nodiscard]] Vector3d reduce() {
     switch (size_) {
       case 1:
@@ -109,7 +110,8 @@ class Simplex {
     return keep(between(0, 1, share));
   }
 
-  // C. Ericson, "Real-Time Collision Detection", 5.1.5, for the origin.
+  // Returns the triangle's point nearest to the origin (C. Ericson, "Real-Time Collision
+  // Detection", 5.1.5).
   [[nodiscard]] Nearest of_triangle(int i, int j, int k) const {
     const Vector3d& a = points_[static_cast<std::size_t>(i)];
     const Vector3d& b = points_[static_cast<std::size_t>(j)];
@@ -133,12 +135,13 @@ class Simplex {
     if (va <= 0.0 && d4 >= d3 && d5 >= d6) {
       return between(j, k, (d4 - d3) / ((d4 - d3) + (d5 - d6)));
     }
-    // Better conditioned than barycentric coordinates.
+    // Numerically better than barycentric coordinates.
     const Vector3d n = ab.cross(ac);
     return {n * (n.dot(a) / n.squaredNorm()), {i, j, k}, 3};
   }
 
-  // Checks only faces that have the origin outside or in their plane.
+  // Returns the tetrahedron's point nearest to the origin. Checks only faces that have the origin
+  // on their outer side or in their plane.
   Vector3d of_tetrahedron() {
     constexpr std::array<std::array<int, 4>, 4> kFaces{
         {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}}};
@@ -174,7 +177,7 @@ std::optional<Separation> gjk(const ConvexShape& a, const PlacedConvexShape& at_
   const double radii_m = of_a.radius_m() + of_b.radius_m();
   const Vector3d centers = at_b.segment.center - at_a.segment.center;
   Simplex simplex;
-  Vector3d nearest = centers;  // of b - a, to the origin
+  Vector3d nearest = centers;  // the point of b - a nearest to the origin
   double length = nearest.norm();
   for (int step = 0; step < kMostSteps && length > 0.0; ++step) {
     const Vector3d n = nearest / length;

@@ -70,7 +70,7 @@ HullShape fit_hull(const ConvexHull& hull_M) {
   for (const Eigen::Vector3d& p_M : points) {
     const Eigen::Vector3d p = X_SM * p_M;
     shape.hull.vertices.push_back(p);
-    // Computed from the stored corners, so that rounding is on the safe side.
+    // The bounds are computed from the stored corners, so that rounding is on the safe side.
     shape.half_size_m = shape.half_size_m.cwiseMax(p.cwiseAbs());
     shape.radius_m = std::max(shape.radius_m, std::hypot(p.x(), p.y()));
   }

@@ -8,23 +8,24 @@
 
 namespace armloom {
 
-// The convex hull of a mesh or piece, with its bounds. Its frame S is centered in a tight box
-// around it (along the mesh's axes or the corners' principal axes), with z along the longest side.
+// The convex hull of a mesh or of one of its convex pieces, with simple volumes around it. The
+// origin of its frame S is the center of a tight box around the hull; z is along the box's longest
+// side. The box is aligned with the mesh's axes or with the corners' principal axes.
 struct HullShape {
   ConvexHull hull;              // corners in S
-  Eigen::Isometry3d X_MS;       // S in the mesh's frame
-  Eigen::Vector3d half_size_m;  // of the box
-  double radius_m = 0.0;        // of a capsule about z that contains the hull
-  double half_length_m = 0.0;   // half its axis
+  Eigen::Isometry3d X_MS;       // pose of S in the mesh's frame M
+  Eigen::Vector3d half_size_m;  // half the sides of the box
+  double radius_m = 0.0;        // radius of a capsule about z that contains the hull
+  double half_length_m = 0.0;   // half the length of the capsule's axis
 
-  // Neighbors of each corner along edges, corner by corner.
+  // The neighbors (along edges) of corner 0, then of corner 1, and so on.
   std::vector<std::uint32_t> neighbors;
-  std::vector<std::uint32_t> neighbors_end;  // end of each corner's neighbors
+  std::vector<std::uint32_t> neighbors_end;  // by corner: end of its part of `neighbors`
 
-  // Returns the largest n . x of all corners; n in S.
+  // Returns the largest n . x of all corners x.
   [[nodiscard]] double support(const Eigen::Vector3d& n_S) const;
-  // Walks uphill along edges to the corner with the largest n . x. May end at its neighbor if faces
-  // are flat except for rounding.
+  // Returns the corner with the largest n . x. Walks uphill along edges, from the corner `from`. If
+  // faces are flat except for rounding, the walk may end at a neighbor of this corner.
   [[nodiscard]] std::uint32_t uphill(const Eigen::Vector3d& n_S, std::uint32_t from) const;
 };
 

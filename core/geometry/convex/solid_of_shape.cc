@@ -32,9 +32,10 @@ SurfaceTreePtr box_tree(const Vector3d& half) {
                                                  {1, 7, 5}});
 }
 
-// A prism whose sides touch the cylinder, with a center vertex at each end.
+// Returns a prism whose sides touch the cylinder, with a vertex at the center of each end.
 SurfaceTreePtr prism_tree(double radius_m, double half_length_m) {
-  const double angle = std::acos(radius_m / (radius_m + kPrismOverestimate_m));  // half a side's
+  const double angle =
+      std::acos(radius_m / (radius_m + kPrismOverestimate_m));  // half the angle of a side
   const auto count = static_cast<std::uint32_t>(
       std::clamp(std::ceil(std::numbers::pi / angle), 16.0, double{kPrismCornersMost}));
   // A little more than needed, for rounding.

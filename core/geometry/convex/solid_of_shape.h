@@ -4,12 +4,13 @@
 
 namespace armloom {
 
-// How far a cylinder's prism may be outside the cylinder.
+// Largest distance (m) by which a cylinder's prism may reach outside the cylinder.
 inline constexpr double kPrismOverestimate_m = 1e-4;
 inline constexpr int kPrismCornersMost = 256;
 
-// Returns the body as a surface (hull: its faces; cylinder: a prism around it, with
-// kPrismCornersMost corners if large: 0.1 mm outside for 1.3 m radius).
+// Returns the body's surface. A hull has its faces, a cylinder a prism around it. If the radius is
+// above 1.3 m, the prism has kPrismCornersMost corners and reaches farther outside than
+// kPrismOverestimate_m.
 [[nodiscard]] SolidPtr solid_of(const ConvexShape& body);
 
 }  // namespace armloom

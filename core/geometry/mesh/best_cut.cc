@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kOffsets = 7;        // cuts tried along an axis before refinement
 constexpr int kRefinements = 5;    // each halves the distance to the next cut tried
-constexpr double kBeside = 1e-5;   // of the extent: distance of a cut from a face
+constexpr double kBeside = 1e-5;   // of the extent: distance of a cut from a corner
 constexpr int kEstimateFrom = 80;  // directions whose farthest points represent a side
 
 double estimated_volume(const Points& points) {
@@ -50,7 +50,7 @@ Estimated without_doubles(const Polygons& surface) {
   return estimated;
 }
 
-// Estimates the volume of both sides' hulls.
+// Estimates the volume of both sides' hulls, in m^3.
 double estimated_volume(const Estimated& cell, Eigen::Index axis, double at) {
   Points low;
   Points high;
@@ -60,7 +60,8 @@ double estimated_volume(const Estimated& cell, Eigen::Index axis, double at) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3d& p = cell.surface.corners[i];
       const Eigen::Vector3d& next = cell.surface.corners[i + 1 < end ? i + 1 : begin];
-      if (!(p[axis] < at && next[axis] > at)) continue;  // the neighbor has this edge reversed
+      if (!(p[axis] < at && next[axis] > at))
+        continue;  // the neighbor triangle has the edge reversed
       low.push_back(p + (at - p[axis]) / (next[axis] - p[axis]) * (next - p));
       high.push_back(low.back());
     }
@@ -77,7 +78,8 @@ void try_cuts(const Estimated& cell, Eigen::Index axis, const std::vector<double
   }
 }
 
-// Returns positions next to the corner nearest to the cut: cuts gain most at concave edges.
+// Returns the positions just before and behind the corner nearest to the cut, because cuts gain
+// most at concave edges.
 std::vector<double> beside_corner(const Points& corners, const Cut& cut, double extent) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& p : corners) {

@@ -9,23 +9,26 @@ namespace armloom {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-// Convex polygons, corner by corner; polygon i ends before ends[i].
+// Convex polygons. `corners` has the corners of polygon 0, then of polygon 1, and so on; those of
+// polygon i end before index ends[i].
 struct Polygons {
   Points corners;
   std::vector<std::size_t> ends;
 };
 
-// A plane across an axis.
+// A plane perpendicular to an axis, at position `at` (m) on this axis.
 struct Cut {
   Eigen::Index axis = 0;
   double at = 0.0;
-  double volume_m3 = std::numeric_limits<double>::infinity();  // estimated hulls of both sides
+  double volume_m3 =
+      std::numeric_limits<double>::infinity();  // estimated volume of both sides' hulls
 };
 
-// Returns the tried cut with the smallest hulls on both sides.
+// Tries some cuts. Returns the cut with the smallest estimated volume of both sides' hulls.
 [[nodiscard]] Cut best_cut(const Polygons& surface);
 
-// Returns the part with sign * (x - cut.at) >= 0 along the cut's axis.
+// Returns the part of the polygons with sign * (x - cut.at) >= 0, where x is the coordinate along
+// the cut's axis.
 [[nodiscard]] Polygons clipped(const Polygons& polygons, const Cut& cut, double sign);
 
 }  // namespace armloom

@@ -95,7 +95,8 @@ tl::expected<Facets, std::string> run_qhull(const Points& points) {
   return facets;
 }
 
-// Returns a small cube for each point, or nullopt if the points have volume.
+// Returns the corners of a small cube around each point, or nullopt if the points do not lie within
+// kFlat_m of a plane.
 std::optional<Points> thickened(const Points& points) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : points) mean += p / static_cast<double>(points.size());
@@ -121,7 +122,7 @@ std::optional<Points> thickened(const Points& points) {
   return cubes;
 }
 
-// Returns a unit icosahedron's corners after halving its edges twice.
+// Returns 162 unit vectors: the corners of an icosahedron after halving all edges twice.
 Points directions() {
   const double t = 0.5 * (1.0 + std::sqrt(5.0));
   Points corners;
@@ -165,9 +166,9 @@ Points directions() {
   return corners;
 }
 
-// Returns the corners of a polytope of half spaces that touch the hull in all directions(). A half
-// space n . (x - inside) <= h is the point n / h of the dual hull; each facet of the dual hull is a
-// corner of the polytope.
+// Returns the corners of a polytope around the hull. It has a face for each of directions(), which
+// touches the hull. The half space n . (x - inside) <= h of a face is the point n / h of a dual
+// hull, and each facet of the dual hull is a corner of the polytope.
 tl::expected<Points, std::string> corners_around(const Points& hull) {
   Eigen::Vector3d inside = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& p : hull) inside += p / static_cast<double>(hull.size());

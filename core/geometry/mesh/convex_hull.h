@@ -14,17 +14,18 @@ struct ConvexHull {
   std::vector<std::array<std::uint32_t, 3>> faces;  // counter-clockwise from outside, closed
 };
 
-// Points within kFlat_m of a plane have no volume: each becomes a cube of this side, so that the
-// hull is slightly too large, never too small.
+// If all points lie within kFlat_m of a plane, each point is replaced by a cube with this side. So
+// the hull has a volume; it is slightly too large, never too small.
 inline constexpr double kFlat_m = 2e-4;
-// Hulls with more vertices are replaced by a simpler polytope around them that touches them in 162
-// directions (for a sphere at most 1.5 % of the radius too large).
+// A hull with more vertices is replaced by a simpler polytope around it, which touches it in 162
+// directions. Around a sphere, this polytope is at most 1.5 % of the radius too large.
 inline constexpr std::size_t kMaxHullVertices = 400;
 // No point lies farther than this outside a face (checked for every point).
 inline constexpr double kHullTolerance_m = 1e-6;
 
-// Returns the hull of the points by qhull, or qhull's error, or that the tolerance is missed.
-// Precondition: at least one point, all finite.
+// Returns the hull of the points, computed by qhull. The error is qhull's, or it says that a point
+// lies farther outside than kHullTolerance_m. Precondition: at least one point; all points are
+// finite.
 [[nodiscard]] tl::expected<ConvexHull, std::string> convex_hull(
     const std::vector<Eigen::Vector3d>& points);
 

@@ -39,13 +39,15 @@ bool may_hit(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
     any_negative = any_negative || side < -size;
   }
   if (any_positive && any_negative) return false;
-  // The line hits, behind the origin if all corners are.
+  // The line of the ray hits the triangle. If all corners are behind the ray's origin, the ray does
+  // not.
   return std::any_of(t.begin(), t.end(), [&](const Eigen::Vector3d& p) {
     return direction.dot(p - from) > -kDoubt * ((p - from).norm() + kDoubt);
   });
 }
 
-// Returns true if a ray from p does not hit the surface, so that nothing encloses p.
+// Returns true if one of the rays tried from p does not hit the surface, so that the surface does
+// not enclose p.
 bool escapes(const Eigen::Vector3d& p, const MeshData& mesh) {
   static const Points kDirections = spread_directions(kEscapeDirections);
   return std::any_of(kDirections.begin(), kDirections.end(), [&](const Eigen::Vector3d& n) {
@@ -66,7 +68,8 @@ Points enclosed_corners(const Eigen::AlignedBox3d& box, const MeshData& mesh) {
   return corners;
 }
 
-// Returns the volume by orientation; wrong if triangles overlap or are inconsistent.
+// Returns the enclosed volume (m^3), computed from the triangles' orientation. Wrong if triangles
+// overlap or their orientations are inconsistent.
 double enclosed_volume(const MeshData& mesh) {
   double sum = 0.0;
   for (const Triangle& t : mesh.triangles) {
@@ -92,7 +95,7 @@ std::optional<Block> side_of(const Block& cell, const Cut& cut, double sign, con
   return side;
 }
 
-// Returns both sides of the best cut; empty if it gains too little.
+// Returns both sides of the best cut, or an empty list if the cut removes too little volume.
 std::vector<Block> parted(const Block& cell, const MeshData& mesh, double least_gain_m3) {
   const Cut cut = best_cut(cell.surface);
   if (!(cut.volume_m3 < cell.volume_m3)) return {};
@@ -128,7 +131,7 @@ std::vector<ConvexHull> convex_pieces(const MeshData& mesh) {
   if (open.front().volume_m3 - enclosed_volume(mesh) < least_gain_m3) return {mesh.hull};
   std::vector<ConvexHull> pieces;
   while (!open.empty()) {
-    // Largest first, because the number of pieces is limited.
+    // The largest block is cut first, because the number of pieces is limited.
     const auto largest =
         std::max_element(open.begin(), open.end(),
                          [](const auto& a, const auto& b) { return a.volume_m3 < b.volume_m3; });

@@ -17,13 +17,14 @@ inline constexpr std::size_t kMaxTrianglesCut = 20'000;
 // Returns convex polytopes whose union contains the mesh: its surface S and every point that S
 // encloses. Returns just {mesh.hull} if
 // - no single cut across an axis of the mesh's frame helps (for example for a ring),
-// - the surface, by its orientation, encloses nearly its hull's volume,
+// - the volume that the surface encloses (computed from the triangles' orientation) is nearly that
+//   of its hull,
 // - an edge borders an odd number of triangles (not closed), or
 // - the mesh is too large.
 //
 // Proof. The cuts divide space into boxes, some with sides at infinity. Let K be the part of the
-// mesh in one box. An extreme point of K's hull lies in K. If it is on S, it is a corner of a
-// triangle clipped by the box. If S encloses it, S encloses its neighborhood too, so it is a corner
+// mesh in one box. An extreme point e of K's hull lies in K. If e is on S, e is a corner of a
+// triangle clipped by the box. If S encloses e, S also encloses all points near e, so e is a corner
 // of the box. The piece is the hull of all corners of clipped triangles and of all corners of the
 // box from which every ray tried hits S. Orientation and overlap of triangles do not matter.
 // Rounding is below kHullTolerance_m.

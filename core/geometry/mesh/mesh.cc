@@ -78,7 +78,7 @@ Checked<void> check_vertices(const MeshData& mesh) {
   return {};
 }
 
-// Refuses a single point, because it could never be touched.
+// Refuses a mesh that is a single point, because nothing could ever touch it.
 Checked<void> check_extent(const MeshData& mesh) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : mesh.vertices) box.extend(p);

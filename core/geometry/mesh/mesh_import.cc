@@ -98,7 +98,8 @@ class Collector {
     const Eigen::Vector3d as_written(p_N.x, p_N.y, p_N.z);
     const aiVector3D p = X_FN * p_N;
     const Eigen::Vector3d p_S = scale_.cwiseProduct(Eigen::Vector3d(p.x, p.y, p.z));
-    // NaN is unordered and cannot be a key. The caller reports it as written in the file.
+    // A point with NaN cannot be a key, because NaN is unordered. The caller reports the point as
+    // written in the file.
     if (!p_S.allFinite()) {
       mesh.vertices.push_back(as_written.allFinite() ? p_S : as_written);
       return next;
@@ -112,7 +113,8 @@ class Collector {
   std::map<std::tuple<double, double, double>, std::uint32_t> known_;
 };
 
-// Keeps only the importer for the file's format; assimp would also guess from the content.
+// Keeps only the importer for the file's format. Otherwise assimp would also guess the format from
+// the content.
 void keep_only(Assimp::Importer& importer, const char* extension) {
   std::set<Assimp::BaseImporter*> others;
   for (std::size_t i = 0; i < importer.GetImporterCount(); ++i)

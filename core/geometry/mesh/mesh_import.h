@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// A refusal, without the mesh's name.
+// The reason why a mesh is refused. The caller adds the mesh's name.
 struct MeshRefusal {
   ProblemKind kind;
   std::string slug;
@@ -28,9 +28,9 @@ using Checked = tl::expected<T, MeshRefusal>;
 
 enum class MeshFormat { stl, obj, dae };
 
-// Reads all triangles of all nodes with assimp (used only here), in the shape's frame, merging
-// equal points. Refuses what assimp cannot read and more than kMaxMeshTriangles. May throw for some
-// broken files.
+// Reads the triangles of all nodes with assimp, which is used only here. Points are in the shape's
+// frame; equal points are merged. Refuses files that assimp cannot read, and more than
+// kMaxMeshTriangles. May throw for some broken files.
 [[nodiscard]] Checked<MeshData> import_mesh(const std::string& bytes, MeshFormat format,
                                             const Eigen::Vector3d& scale);
 

@@ -24,11 +24,11 @@ class MeshWords {
   std::size_t line_ = 1;
 };
 
-// Parses a decimal number, nan or inf; infinity if too large for a float; nullopt if not one
-// number.
+// Parses a decimal number, nan or inf. Returns infinity if the number is too large for a float, and
+// nullopt if the word is not a number.
 [[nodiscard]] std::optional<float> float_of(std::string_view word);
 
-// Quotes a word for a message, shortened, unprintable characters replaced.
+// Quotes a word for a message. Long words are shortened, and unprintable characters are replaced.
 [[nodiscard]] std::string quoted(std::string_view word);
 
 }  // namespace armloom

@@ -45,7 +45,8 @@ class ObjReader {
     return quoted(first) + " is not an OBJ keyword";
   }
 
-  // Checks the largest vertex index, because faces may use vertices that come later.
+  // Checks the largest vertex index of all faces. This is possible only at the end of the file,
+  // because faces may use vertices that come later.
   [[nodiscard]] Error at_end() const {
     if (largest_ <= vertices_) return std::nullopt;
     return "line " + std::to_string(largest_line_) + ": a face names vertex " +

@@ -12,9 +12,9 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-// A triangle of either orientation, with its count for each.
+// A triangle regardless of its orientation, and how often it occurs in each orientation.
 struct Face {
-  std::size_t first;  // its first triangle
+  std::size_t first;  // index of its first occurrence
   std::array<std::size_t, 2> sides{};
   [[nodiscard]] bool doubled() const { return sides[0] == sides[1]; }
 };
@@ -25,13 +25,15 @@ Triangle sorted(Triangle t) {
   return t;
 }
 
-// Returns the direction of the corners, from the smallest index on.
+// Returns the orientation: 0 if, starting at the smallest index, the next corner's index is smaller
+// than the last corner's, else 1.
 std::size_t side_of(const Triangle& t) {
   const auto least = static_cast<std::size_t>(std::ranges::min_element(t) - t.begin());
   return t[(least + 1) % 3] < t[(least + 2) % 3] ? 0 : 1;
 }
 
-// A fast test, because most meshes have none.
+// Returns true if any triangle occurs twice, in either orientation. A fast test, because in most
+// meshes no triangle does.
 bool any_twice(const std::vector<Triangle>& triangles) {
   std::vector<Triangle> keys;
   for (const Triangle& t : triangles) keys.push_back(sorted(t));

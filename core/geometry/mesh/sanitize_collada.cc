@@ -45,7 +45,7 @@ void keep_children(XMLElement& element, std::initializer_list<std::string_view> 
   });
 }
 
-// Returns a whole-number attribute, or `otherwise` if absent.
+// Returns the value of a whole-number attribute, or `otherwise` if the attribute is missing.
 unsigned count_of(const XMLElement& element, const char* attribute, unsigned otherwise) {
   unsigned value = otherwise;
   const auto read = element.QueryUnsignedAttribute(attribute, &value);
@@ -81,8 +81,8 @@ std::size_t count_numbers(const XMLElement& element, const char* what) {
   return count;
 }
 
-// Checks that arrays hold their stated count and accessors stay within. Returns the element count
-// of the longest accessor.
+// Checks that each array has as many numbers as it states, and that each accessor stays within its
+// array. Returns the element count of the longest accessor.
 std::size_t check_source(XMLElement& source) {
   std::size_t longest = 0;
   keep_children(source, {"float_array", "technique_common"});
@@ -115,8 +115,8 @@ std::size_t check_source(XMLElement& source) {
   return longest;
 }
 
-// Returns the triangle count of <triangles>, <polylist> and similar. Checks that all indices (one
-// per corner and input) are below `elements`.
+// Returns the triangle count of <triangles>, and an upper bound for <polylist> and similar
+// elements. Checks that all indices (one for each corner and input) are below `elements`.
 std::size_t check_primitive(XMLElement& part, std::size_t elements) {
   keep_children(part, {"input", "p", "vcount"});
   unsigned inputs = 0;
@@ -195,7 +195,7 @@ class DaeReader {
   }
 
   void read_node(XMLElement& node) {
-    // Dropping these would change the shape, not only its appearance.
+    // Dropping these elements would change the shape, not only its appearance.
     each_child(node, [](const XMLElement& child) {
       if (is_one_of(child, {"skew", "instance_controller"})) {
         throw Fault{std::string("<") + child.Name() + "> is not supported"};
@@ -215,8 +215,8 @@ class DaeReader {
     });
   }
 
-  // Returns the triangle count of a node or scene with the nodes it instances. Each instance adds
-  // one, because empty nodes can multiply too.
+  // Returns the triangle count of a node or scene, including the nodes that it instances. Each
+  // instance adds a further one, so that endlessly multiplied empty nodes are detected too.
   std::size_t below(const XMLElement& node) {
     const auto known = placed_.find(&node);
     if (known != placed_.end()) return known->second;

@@ -7,9 +7,10 @@
 
 namespace armloom {
 
-// A COLLADA document reduced to its geometry and checked, because assimp 5.2 reads past the end of
-// arrays if an accessor is too long, recurses forever through cyclic nodes, and fills the memory if
-// an index is not a number.
+// A COLLADA document, checked and reduced to its geometry. Without these checks, assimp 5.2
+// - reads past the end of arrays if an accessor is too long,
+// - recurses forever through cyclic nodes, and
+// - fills the memory if an index is not a number.
 struct DaeEssence {
   std::string text;       // asset, geometries, nodes, scenes; no materials, images, controllers
   std::size_t triangles;  // upper bound, with every instance included; saturates at 10^15

@@ -7,10 +7,11 @@
 
 namespace armloom {
 
-// Returns an STL file in binary form: a binary file unchanged, a text file with the triangles of
-// all its solids. The error is a phrase that names the line ("line 12: expected 'facet' or
-// 'endsolid', found 'facte'"). Detects truncated files: a text must end with `endsolid`, a binary
-// file must have the length given by its triangle count. Ignores case and normals.
+// Returns an STL file in binary form. A binary file is returned unchanged; a text file is
+// converted, with the triangles of all its solids. The error is a phrase that names the line ("line
+// 12: expected 'facet' or 'endsolid', found 'facte'"). Detects truncated files: a text must end
+// with `endsolid`, a binary file must have the length given by its triangle count. Ignores case and
+// normals.
 [[nodiscard]] tl::expected<std::string, std::string> read_stl(std::string bytes);
 
 // Returns the triangle count of read_stl()'s result.

@@ -18,14 +18,15 @@ float rounded_up(double x) {
   return std::nextafter(near, std::numeric_limits<float>::infinity());
 }
 
-// A triangle, or its part in a box. One box around a long triangle would be mostly empty.
+// A triangle, or the part of a long triangle in `box`. A box around a whole long triangle would be
+// mostly empty.
 struct Share {
   std::uint32_t triangle;
   Eigen::AlignedBox3d box;
 };
 
 constexpr double kShare = 1.0 / 16.0;  // of the extent: larger triangles are divided
-constexpr double kRounding = 1e-12;    // of the extent: shares are enlarged by this
+constexpr double kRounding = 1e-12;    // of the extent: boxes of shares are enlarged by this
 
 constexpr float kNoBox_m = -1e18F;  // half extent of an unused box
 
@@ -52,7 +53,8 @@ class Builder {
   }
 
  private:
-  // Halves the polygon until it is small or fills its box well.
+  // Adds shares for a part of a triangle: halves the polygon until it is small or fills its box
+  // well.
   void share_out(std::uint32_t triangle, const std::vector<Eigen::Vector3d>& polygon) {
     Eigen::AlignedBox3d box;
     for (const Eigen::Vector3d& p : polygon) box.extend(p);
@@ -118,7 +120,8 @@ class Builder {
     return index;
   }
 
-  // Returns the start of the upper half. A single share is its own upper half.
+  // Sorts the shares into a lower and an upper half, and returns the start of the upper half. A
+  // single share is in the upper half.
   std::size_t halve(std::size_t begin, std::size_t end) {
     Eigen::AlignedBox3d middles;
     for (std::size_t i = begin; i < end; ++i) middles.extend(shares_[i].box.center());
@@ -155,7 +158,8 @@ std::uint32_t root_of(std::vector<std::uint32_t>& above, std::uint32_t i) {
   return i;
 }
 
-// A triangle with a repeated corner has an edge in both directions: not open.
+// Returns the edges of all triangles, sorted. A triangle with a repeated corner has the same edge
+// in both directions, so that this edge is not open.
 std::vector<Edge> sorted_edges(const std::vector<Triangle>& triangles, bool directed) {
   std::vector<Edge> edges;
   edges.reserve(3 * triangles.size());

@@ -15,14 +15,15 @@ using Triangle = std::array<std::uint32_t, 3>;
 [[nodiscard]] std::size_t open_edges(const std::vector<Triangle>& triangles);
 [[nodiscard]] bool is_closed(const std::vector<Triangle>& triangles);
 
-// Triangles in a tree of boxes, so that distance queries visit few of them. All in the frame T of
-// the vertices (m). About 100 bytes per triangle, more if long. Immutable.
+// Triangles in a tree of boxes, so that distance queries visit only few triangles. All members are
+// in the frame T of the vertices (m). Takes about 100 bytes per triangle, more for long triangles.
+// Immutable.
 struct SurfaceTree {
   // A box along the axes of T around all triangles, or parts of triangles, below it.
   struct Box {
     Eigen::Vector3f center;
     Eigen::Vector3f half;  // rounded up, so that the box contains its triangles
-    std::uint32_t below;   // leaf: its triangle; else a node
+    std::uint32_t below;   // leaf: index of its triangle; else index of a node
     bool leaf;
   };
   // Up to four boxes, stored by coordinate so that four are tested in one step.
@@ -54,7 +55,7 @@ struct SurfaceTree {
   std::vector<std::uint32_t> component_of;  // by triangle
   std::vector<Component> components;
   double reach_m = 0.0;   // farthest vertex from the origin of T
-  bool encloses = false;  // is_closed(), with enough triangles for a volume
+  bool encloses = false;  // is closed and has at least four triangles
 
   [[nodiscard]] std::array<Eigen::Vector3d, 3> corners(std::uint32_t triangle) const {
     const Triangle& t = triangles[triangle];
@@ -63,10 +64,10 @@ struct SurfaceTree {
 };
 using SurfaceTreePtr = std::shared_ptr<const SurfaceTree>;
 
-// Builds the tree: divides long triangles into parts, each with a box, and halves at the median
-// along the longest side until each leaf has one part. Accepts degenerate triangles (points,
-// segments). Deterministic; half a second for half a million triangles. Precondition: at least one
-// triangle, all numbers finite.
+// Builds the tree. Divides long triangles into parts, each with a box. Halves the list of parts at
+// the median along the longest side until each leaf has a single part. Accepts degenerate triangles
+// (points, segments). Deterministic; half a second for half a million triangles. Precondition: at
+// least one triangle, all numbers finite.
 [[nodiscard]] SurfaceTreePtr make_surface_tree(std::vector<Eigen::Vector3d> vertices,
                                                std::vector<Triangle> triangles);
 

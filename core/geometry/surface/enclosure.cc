@@ -14,7 +14,7 @@ namespace {
 using Eigen::Array4f;
 using Eigen::Vector3d;
 
-// Arbitrary, so that robot faces are unlikely to be parallel to a ray.
+// Arbitrary directions, so that faces of robots are unlikely to be parallel to a ray.
 const std::array<Vector3d, 12> kRays = {{{0.8365, 0.4127, 0.3613},
                                          {-0.3119, 0.8741, -0.3724},
                                          {0.2371, -0.4509, 0.8606},
@@ -27,13 +27,13 @@ const std::array<Vector3d, 12> kRays = {{{0.8365, 0.4127, 0.3613},
                                          {-0.4471, 0.3812, 0.8092},
                                          {0.1219, 0.9318, 0.3418},
                                          {-0.5237, -0.2411, -0.8171}}};
-constexpr double kDoubt = 1e-12;     // relative: a sign below it is uncertain
+constexpr double kDoubt = 1e-12;     // relative: the sign of a smaller value is uncertain
 constexpr std::size_t kMost = 64;    // most crossings of one ray
 constexpr std::size_t kDepth = 128;  // stack size: the tree's depth is logarithmic
 
 enum class Hit { no, from_behind, from_front, doubtful };
 
-// Classifies the ray from the origin along n.
+// Returns if the ray from the origin along n crosses the triangle t, and from which side.
 Hit hit_of(const Vector3d& n, const std::array<Vector3d, 3>& t) {
   double side[3];
   bool any_positive = false;
@@ -49,7 +49,8 @@ Hit hit_of(const Vector3d& n, const std::array<Vector3d, 3>& t) {
     clear = clear && std::abs(side[i]) > doubt;
   }
   if (any_positive && any_negative) return Hit::no;
-  // The line may cross the triangle, at a distance between those of the corners.
+  // The ray's line may cross the triangle. The crossing is then between the corners, as seen along
+  // n.
   const double along[3] = {n.dot(t[0]), n.dot(t[1]), n.dot(t[2])};
   if (along[0] < 0.0 && along[1] < 0.0 && along[2] < 0.0) return Hit::no;
   if (!clear) return Hit::doubtful;
@@ -64,7 +65,8 @@ Hit hit_of(const Vector3d& n, const std::array<Vector3d, 3>& t) {
   return rise > 0.0 ? Hit::from_behind : Hit::from_front;
 }
 
-// Returns which boxes the ray may meet: a slab test with `slack_m` for rounding to float.
+// Returns for each box of the node if the ray from p may meet this box. A slab test; `slack_m`
+// covers the rounding to float.
 Eigen::Array<bool, 4, 1> may_meet(const SurfaceTree::Node& node, const Vector3d& p,
                                   const Vector3d& inverse, float slack_m) {
   Array4f from = Array4f::Zero();
@@ -92,7 +94,8 @@ struct Crossings {
   bool doubtful = false;
 };
 
-// Returns false if it is uncertain whether the ray crosses, or if it crosses too many.
+// Adds the ray's crossing with the triangle, if any. Returns false if the crossing is uncertain, or
+// if the ray crosses more than kMost triangles.
 bool add_crossing(const SurfaceTree& tree, std::uint32_t triangle, const Vector3d& p,
                   const Vector3d& n, Crossings& crossings) {
   const Triangle& t = tree.triangles[triangle];
@@ -133,14 +136,14 @@ Crossings cross(const SurfaceTree& tree, const Vector3d& p, const Vector3d& n) {
 
 enum class Answer { outside, enclosed, open };
 
-// Returns a clear ray's answer; `open` if only components of inconsistent orientation might enclose
-// the point.
+// Returns the answer of a ray whose crossings are all certain. The answer is `open` if only
+// components of inconsistent orientation might enclose the point.
 Answer answer_of(const SurfaceTree& tree, Crossings& crossings) {
   const auto begin = crossings.all.begin();
   const auto place = [](const Crossing& c) { return std::pair(c.component, c.triangle); };
   std::sort(begin, begin + static_cast<std::ptrdiff_t>(crossings.count),
             [&](const Crossing& a, const Crossing& b) { return place(a) < place(b); });
-  // Several leaves may share the triangle.
+  // A triangle that several leaves share may be listed several times.
   const auto end =
       std::unique(begin, begin + static_cast<std::ptrdiff_t>(crossings.count),
                   [](const Crossing& a, const Crossing& b) { return a.triangle == b.triangle; });

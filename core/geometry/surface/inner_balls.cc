@@ -32,7 +32,7 @@ bool InnerBalls::surely_meet(const InnerBalls& others, const Eigen::Isometry3d& 
                              double limit_m) const {
   const Eigen::Matrix3f R = X.linear().cast<float>();
   const Eigen::Vector3f p = X.translation().cast<float>();
-  // About twenty roundings of numbers not larger than the sum in parentheses.
+  // Covers about twenty roundings of numbers that are at most the sum in parentheses.
   const double slack_m = 64.0 * static_cast<double>(std::numeric_limits<float>::epsilon()) *
                          (reach_m_ + others.reach_m_ + X.translation().norm());
   const auto more_m = static_cast<float>(limit_m - slack_m);

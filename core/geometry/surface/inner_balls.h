@@ -10,14 +10,15 @@
 
 namespace armloom {
 
-// Balls inside a solid: if those of two solids overlap, so do the solids. Immutable.
+// Balls inside a solid. If balls of two solids overlap, the solids overlap too. Immutable.
 class InnerBalls {
  public:
   InnerBalls() = default;  // no balls
   explicit InnerBalls(const std::vector<Ball>& balls);
 
-  // Returns true if a ball of these and a ball of `others` (X: their frame in this frame) are
-  // certainly closer than limit_m or overlap. Single precision, minus the rounding error.
+  // Returns true if one of these balls and one of `others` are certainly closer than limit_m, or
+  // overlap. X is the pose of the others' frame in this frame. Computes in single precision;
+  // rounding cannot make the result true.
   [[nodiscard]] bool surely_meet(const InnerBalls& others, const Eigen::Isometry3d& X,
                                  double limit_m) const;
 
@@ -30,17 +31,18 @@ class InnerBalls {
     Eigen::Array4f radius_m;
   };
   std::vector<Four> fours_;
-  double reach_m_ = 0.0;  // largest reach of a ball from the origin
+  double reach_m_ = 0.0;  // distance of the balls' farthest point from the origin
 };
 
-// Returns at most kInnerBalls large balls inside a solid in the box about `center`. depth_m returns
-// a lower bound of an inside point's distance to the surface, at most zero elsewhere, and is called
-// about 500 times.
+// Returns at most kInnerBalls large balls inside a solid that lies in the box with this center and
+// these half sides. For a point inside, depth_m returns a lower bound of its distance to the
+// surface; for any other point, zero or less. It is called about 500 times.
 inline constexpr std::size_t kInnerBalls = 16;
 using Depth = std::function<double(const Eigen::Vector3d& p)>;
 [[nodiscard]] std::vector<Ball> inner_balls(const Eigen::Vector3d& center,
                                             const Eigen::Vector3d& half_m, const Depth& depth_m);
-// Returns balls inside a surface, none if it encloses nothing. Takes some milliseconds.
+// Returns balls inside a surface, or an empty list if the surface encloses no volume. Takes some
+// milliseconds.
 [[nodiscard]] std::vector<Ball> inner_balls(const SurfaceTree& tree);
 
 }  // namespace armloom

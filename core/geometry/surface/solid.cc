@@ -10,7 +10,8 @@ namespace armloom {
 namespace {
 
 using Eigen::Vector3d;
-// Returns true if a component of `inner` is inside `outer`. Precondition: they do not touch.
+// Returns true if a component of `inner` is inside `outer`. Precondition: the surfaces do not
+// touch.
 bool lies_inside(const SurfaceTree& inner, const SurfaceTree& outer,
                  const Eigen::Isometry3d& X_OI) {
   if (!outer.encloses) return false;

@@ -24,7 +24,8 @@ SurfaceDescent::SurfaceDescent(const SurfaceTree& a, const SurfaceTree& b,
       best_m_(limit_m),
       enough_m_(enough_m),
       kept_{nullptr, std::numeric_limits<double>::infinity()} {
-  // About thirty (boxes) and ten (triangles) roundings of numbers not larger than `most_m`.
+  // Covers about thirty roundings for boxes, and ten for triangles, of numbers that are at most
+  // `most_m`.
   const double most_m = a.reach_m + b.reach_m + X_AB.translation().norm();
   rounding_.boxes_m = 64.0F * std::numeric_limits<float>::epsilon() * static_cast<float>(most_m);
   rounding_.triangles_m = 64.0 * std::numeric_limits<double>::epsilon() * most_m;
@@ -67,7 +68,8 @@ double SurfaceDescent::run() {
   return std::min(best_m_, passed_m_);
 }
 
-// Returns lower bounds from the axes of both frames.
+// Returns lower bounds of the gaps between `box` and the four boxes of `others`, from the axes of
+// both frames and the latest separating direction.
 SurfaceDescent::Gaps SurfaceDescent::gaps(const Box& box, const Node& others,
                                           const Turn& turn) const {
   const Eigen::Vector3f from = turn.p - box.center;
@@ -98,7 +100,8 @@ SurfaceDescent::Gaps SurfaceDescent::gaps(const Box& box, const Node& others,
           (across > 0.0F).select(least, across)};
 }
 
-// Opens one of two boxes that are not both leaves.
+// Opens the larger box, or the only box that is not a leaf. Precondition: the boxes are not both
+// leaves.
 void SurfaceDescent::visit(const Box& a, const Box& b) {
   const bool into_a = b.leaf || (!a.leaf && size(a) >= size(b));
   const Node& opened = into_a ? a_.nodes[a.below] : b_.nodes[b.below];

@@ -11,49 +11,51 @@
 
 namespace armloom {
 
-// Predicate for triangle pairs that may be skipped although closer than the query distance. In the
-// frame of A's tree; directions of unit length, from A to B.
+// Decides which pairs of triangles may be skipped although they are closer than the query distance.
+// All arguments are in the frame of A's tree; directions have unit length and point from A to B.
 class KeptApart {
  public:
   virtual ~KeptApart() = default;
   // Returns true if two triangles may be skipped; n separates them (TriangleGap).
   [[nodiscard]] virtual bool keeps(const TrianglePoints& a, const TrianglePoints& b,
                                    const Eigen::Vector3d& n) = 0;
-  // Returns the separation along n beyond which everything can be skipped.
+  // Returns a distance (m). Boxes and triangles that are separated by at least this along n are
+  // skipped.
   [[nodiscard]] virtual double enough_along(const Eigen::Vector3d& n) const = 0;
 };
 
-// Distances from exact_below_m on may be returned up to by_m too small.
+// Permits results that are up to by_m too small, for distances of exact_below_m or more.
 struct Roughness {
   double exact_below_m = 0.0;
   double by_m = 0.0;
 };
 
-// Computes the distance of two surfaces (without radii): descends both trees, nearer boxes first,
-// to the triangles. Boxes are compared in single precision, minus the rounding error; triangles in
-// double. Holds references; one query each.
+// Computes the distance of two surfaces, without radii. Descends both trees to the triangles,
+// nearer boxes first. Boxes are compared in single precision, triangles in double precision; the
+// rounding error is subtracted. Keeps references to the trees. Each object serves a single query.
 class SurfaceDescent {
  public:
-  // Finds distances below limit_m, and stops once below enough_m.
+  // Searches for distances below limit_m, and stops as soon as a distance below enough_m is found.
   SurfaceDescent(const SurfaceTree& a, const SurfaceTree& b, const Eigen::Isometry3d& X_AB,
                  double limit_m, double enough_m);
 
   void pass_over(KeptApart* kept) { kept_.apart = kept; }
   void allow(const Roughness& rough) { rough_ = rough; }
-  // Returns min(distance, limit), never larger than the true value. Above enough_m, less than 1e-9
-  // m below it, plus allow().
+  // Returns min(distance, limit_m), never a larger value. A result above enough_m is less than 1e-9
+  // m too small, plus what allow() permits.
   [[nodiscard]] double run();
-  // After run() with a result above zero and below the limit: direction from a to b of the nearest
-  // triangles, in A's frame.
+  // Returns the unit direction from the nearest triangle of a to that of b, in A's frame.
+  // Precondition: run() returned a result above zero and below the limit.
   [[nodiscard]] const Eigen::Vector3d& direction() const { return n_A_; }
-  // After run(): true if the two root boxes are apart.
+  // Returns true if the boxes around the whole surfaces are apart. Precondition: run() was called.
   [[nodiscard]] bool boxes_apart() const { return roots_m_ > 0.0; }
 
  private:
   using Box = SurfaceTree::Box;
   using Node = SurfaceTree::Node;
-  // One tree's frame X in the other's frame S: rotation, its absolute values, translation; and the
-  // latest separating direction towards X, which separates most other triangles too.
+  // The pose of one tree's frame X in the other tree's frame S: rotation, its absolute values, and
+  // translation. Also the latest separating direction n towards X, which separates most other
+  // triangles too: in S, and its absolute values in S and in X.
   struct Turn {
     Eigen::Matrix3f R;
     Eigen::Matrix3f width;
@@ -86,7 +88,7 @@ class SurfaceDescent {
     double triangles_m;
   };
   Rounding rounding_;
-  // Returns the lower bound from which pairs are skipped.
+  // Returns a distance (m): pairs whose lower bound is at least this are skipped.
   [[nodiscard]] double passes_at() const {
     return rough_.by_m > 0.0
                ? std::max(best_m_ - rough_.by_m, std::min(best_m_, rough_.exact_below_m))
@@ -94,20 +96,23 @@ class SurfaceDescent {
   }
 
   double best_m_;
-  double passed_m_ = std::numeric_limits<double>::infinity();  // smallest lower bound skipped
+  double passed_m_ =
+      std::numeric_limits<double>::infinity();  // smallest lower bound of a skipped pair
   double enough_m_;
   Roughness rough_;
   double roots_m_ = 0.0;
   struct Kept {
     KeptApart* apart = nullptr;
-    double along_m;  // skip beyond this along n_A_
+    double along_m;  // pairs separated by at least this along n_A_ are skipped
   };
   Kept kept_;
-  // Recently measured pairs of triangles (key plus one), because leaves may share triangles.
+  // Keys (plus one) of recently measured pairs of triangles. Leaves may share triangles, and this
+  // avoids measuring a pair twice.
   std::array<std::uint64_t, 128> measured_{};
 };
 
-// Returns a point's distance from the surface, inside or outside (no radius).
+// Returns the distance of a point from the surface (without radius), whether it is inside or
+// outside.
 [[nodiscard]] double distance_to_surface(const SurfaceTree& tree, const Eigen::Vector3d& p_T);
 
 }  // namespace armloom

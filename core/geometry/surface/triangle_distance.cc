@@ -10,18 +10,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A distance is proven if its bounds differ by less.
+// A distance is proven if its lower and upper bound differ by less than this (m).
 constexpr double kProven = 1e-10;
 // Smaller squared normals are meaningless because of rounding.
 constexpr double kLeastSquare = 1e-60;
 
-// The best proven gap so far, and the smallest distance of points found.
+// Keeps the largest gap proven so far, and the smallest distance of two points found so far.
 class Search {
  public:
   Search(const TrianglePoints& a, const TrianglePoints& b, double limit_m)
       : a_(a), b_(b), limit_m_(limit_m) {}
 
-  // Tries a direction that may separate them. Returns true if final.
+  // Tries a direction that may separate the triangles. Returns true if the result is final.
   bool try_direction(const Vector3d& from_a_to_b, double length) {
     const double a = std::max({from_a_to_b.dot(a_[0]), from_a_to_b.dot(a_[1]),  //
                                from_a_to_b.dot(a_[2])});
@@ -56,12 +56,12 @@ class Search {
   double claimed_squared_ = std::numeric_limits<double>::infinity();
   double claimed_ = std::numeric_limits<double>::infinity();
   double proven_ = 0.0;
-  Vector3d direction_ = Vector3d::Zero();  // proves proven_
+  Vector3d direction_ = Vector3d::Zero();  // the planes across it have the gap proven_
   double length_ = 1.0;
 };
 
-// Tries the nearest points of p + s u and q + t v, s and t from 0 to 1 (Ericson, "Real-Time
-// Collision Detection", 5.1.9).
+// Tries the nearest points of two edges, p + s u and q + t v with s and t from 0 to 1 (Ericson,
+// "Real-Time Collision Detection", 5.1.9).
 bool try_edges(const Vector3d& p, const Vector3d& u, const Vector3d& q, const Vector3d& v,
                Search& search) {
   const Vector3d r = p - q;
@@ -81,7 +81,8 @@ bool try_edges(const Vector3d& p, const Vector3d& u, const Vector3d& q, const Ve
   return search.try_points(p + s * u, q + t * v);
 }
 
-// Tries the other triangle's corner nearest to the face's plane, if its projection is on the face.
+// Tries the face's normal if the other triangle is completely on one side of the face's plane. Then
+// tries its corner nearest to the plane, if the projection of this corner is on the face.
 bool try_face(const TrianglePoints& face, const TrianglePoints& other, bool face_is_a,
               Search& search) {
   const Vector3d normal = (face[1] - face[0]).cross(face[2] - face[0]);
