@@ -17,8 +17,8 @@ struct GuardRefusal {
   };
   Why why = Why::uncertified;
   ArmId arm{0};  // the refused arm
-  std::optional<ArmId> other =
-      {};                  // counterpart; nullopt if this is the scene or an arm of the same motion
+  // Counterpart; nullopt if this is the scene or an arm of the same motion.
+  std::optional<ArmId> other = {};
   ProgressBox asked = {};  // progress of `arm` and of `other`, up to their authority
   std::optional<ProgressBox> region = {};  // Why::region: the first rectangle that overlaps `asked`
 };

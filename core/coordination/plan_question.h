@@ -36,8 +36,8 @@ struct PlanQuestion {
   MotionGoal goal;
   Configuration at;  // positions of all joints of the cell; the arm starts at its own
   // Arms that will move away from their present position. The planner first looks for a path past
-  // these arms, but ignores them all if such an arm is in the way at the arm's start or goal, or if
-  // there is no path.
+  // these arms, except those that are in the way at the arm's start or goal. If there is no such
+  // path, it ignores all these arms.
   std::vector<ArmId> may_move = {};
   bool has_no_way_past = false;  // no path exists past `may_move`: ignore them at once
   std::uint64_t seed = 1;

@@ -26,13 +26,13 @@ enum class ConvexShapeKind {
 struct ConvexShape {
   ConvexShapeKind kind = ConvexShapeKind::round;
   Eigen::Isometry3d X_PS = Eigen::Isometry3d::Identity();  // the shape's frame S; z is the axis
-  double half_length_m =
-      0.0;  // half the axis (hull: of the capsule around it); zero for spheres and boxes
+  // Half the axis (hull: of the capsule around it); zero for spheres and boxes.
+  double half_length_m = 0.0;
   double radius_m = 0.0;  // distance of the surface from the axis; box: bounding sphere
-  Eigen::Vector3d half_size_m =
-      Eigen::Vector3d::Zero();  // half the sides of the box, or of the box around the hull
-  Eigen::Vector3d p_SE_P =
-      Eigen::Vector3d::Zero();            // from the center S to the upper end E of the axis
+  // Half the sides of the box, or of the box around the hull.
+  Eigen::Vector3d half_size_m = Eigen::Vector3d::Zero();
+  // From the center S to the upper end E of the axis.
+  Eigen::Vector3d p_SE_P = Eigen::Vector3d::Zero();
   std::shared_ptr<const HullShape> hull;  // hulls only
   std::shared_ptr<const ExactGeometry> exact;
   SolidPtr solid;         // the true shape; the pieces of one mesh share one solid

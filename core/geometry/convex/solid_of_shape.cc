@@ -34,8 +34,8 @@ SurfaceTreePtr box_tree(const Vector3d& half) {
 
 // Returns a prism whose sides touch the cylinder, with a vertex at the center of each end.
 SurfaceTreePtr prism_tree(double radius_m, double half_length_m) {
-  const double angle =
-      std::acos(radius_m / (radius_m + kPrismOverestimate_m));  // half the angle of a side
+  // Half the angle of a side.
+  const double angle = std::acos(radius_m / (radius_m + kPrismOverestimate_m));
   const auto count = static_cast<std::uint32_t>(
       std::clamp(std::ceil(std::numbers::pi / angle), 16.0, double{kPrismCornersMost}));
   // A little more than needed, for rounding.

@@ -20,8 +20,8 @@ struct Polygons {
 struct Cut {
   Eigen::Index axis = 0;
   double at = 0.0;
-  double volume_m3 =
-      std::numeric_limits<double>::infinity();  // estimated volume of both sides' hulls
+  // Estimated volume of both sides' hulls.
+  double volume_m3 = std::numeric_limits<double>::infinity();
 };
 
 // Tries some cuts. Returns the cut with the smallest estimated volume of both sides' hulls.

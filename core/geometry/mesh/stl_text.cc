@@ -68,8 +68,8 @@ class StlText {
  private:
   bool read_facet() {
     if (!expect("normal")) return false;
-    for (int i = 0; i < 3; ++i)
-      static_cast<void>(words_.next());  // some programs write -1.#IND here
+    // Some programs write -1.#IND here.
+    for (int i = 0; i < 3; ++i) static_cast<void>(words_.next());
     if (!expect("outer") || !expect("loop")) return false;
     std::array<float, 12> facet{};
     for (std::size_t corner = 1; corner <= 3; ++corner) {

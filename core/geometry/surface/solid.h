@@ -20,8 +20,8 @@ namespace armloom {
 // - capsule or sphere: its axis, a triangle without area, with its radius
 struct Solid {
   SurfaceTreePtr tree;
-  Eigen::Isometry3d X_PT =
-      Eigen::Isometry3d::Identity();  // pose of the tree's frame T in the part's frame P
+  // Pose of the tree's frame T in the part's frame P.
+  Eigen::Isometry3d X_PT = Eigen::Isometry3d::Identity();
   double radius_m = 0.0;
   InnerBalls inner = {};  // balls inside it, in the tree's frame
 };

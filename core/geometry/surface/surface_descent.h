@@ -96,8 +96,8 @@ class SurfaceDescent {
   }
 
   double best_m_;
-  double passed_m_ =
-      std::numeric_limits<double>::infinity();  // smallest lower bound of a skipped pair
+  // Smallest lower bound of a skipped pair.
+  double passed_m_ = std::numeric_limits<double>::infinity();
   double enough_m_;
   Roughness rough_;
   double roots_m_ = 0.0;
