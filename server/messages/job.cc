@@ -115,7 +115,7 @@ PartPtr<JobTimesView> times_part() {
                 "Cell time at which the job expires if nothing changes, while it waits in the "
                 "backlog, or on its path for something that no job moves"),
       output_times("scheduled", &JobTimesView::scheduled_at,
-                 "Scheduled start; null if not scheduled"),
+                   "Scheduled start; null if not scheduled"),
       output_times("started", &JobTimesView::started_at, "Start of motion; null before it"),
       output_times("ended", &JobTimesView::ended_at, "End; null before it"),
   });
@@ -129,6 +129,8 @@ PartPtr<JobMotionView> motion_part() {
                   "Duration of the trajectory; an estimate until a goal is planned"),
       output_if("planned", &JobMotionView::planned, flag(),
                 "For a goal: true if the path is planned"),
+      output_if("retimed", &JobMotionView::retimed, flag(),
+                "true if the server computed the times of the trajectory (`retime`)"),
       output_only("stopping", &JobMotionView::stopping, flag(),
                   "true while the job brakes on its path"),
   });
