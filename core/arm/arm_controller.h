@@ -18,7 +18,7 @@ struct ArmFeedback {
     braking,   // coming to rest on the path
     stopped,   // at rest on the path after a brake; can continue
     finished,  // at the goal and at rest, until the next command
-    fault,     // gave up; at rest
+    fault,     // the controller gave up; the arm is at rest
   };
   Phase phase = Phase::idle;
   Duration commanded_progress{};  // trajectory time commanded so far
@@ -31,8 +31,8 @@ struct ArmFeedback {
   bool settled = false;
 };
 
-// One arm (arm joints, then gripper joints); an interface for real arms too. Confined to the
-// executive's strand. Never blocks.
+// Controls one arm: its arm joints, then its gripper joints. Drivers of real arms implement this
+// interface too. Confined to the executive's strand. Never blocks.
 class ArmController {
  public:
   virtual ~ArmController() = default;
@@ -45,11 +45,12 @@ class ArmController {
   // `from_progress`.
   virtual void start(TrajectoryPtr trajectory, TimePoint start_at, Duration from_progress,
                      Duration authority) = 0;
-  // Moves the authority of the present motion, but not back past what is commanded.
+  // Sets the authority of the present motion. It never moves back beyond the progress already
+  // commanded.
   virtual void grant(Duration authority) = 0;
-  // Category 2 stop: brakes on the path within the joints' brake limits and keeps the position.
+  // Category 2 stop: brakes on the path within the joints' brake limits, then keeps the position.
   virtual void brake() = 0;
-  // Drops the motion after stopped, finished or fault: the arm becomes idle.
+  // Drops the motion, so that the arm becomes idle. Precondition: stopped, finished or fault.
   virtual void release() = 0;
 
   // Runs one control cycle up to `now`, which grows by the control period.

@@ -8,8 +8,8 @@ namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds(1);
 constexpr double kStep_s = 1e-3;
-// Less than the brake limits, so that ticks between the curve's points can stay below it within
-// them.
+// Share of the brake limits that the curve uses. Below one, so that an arm between two points of
+// the curve can stay below the curve without exceeding the brake limits.
 constexpr double kLimitShare = 0.95;
 
 }  // namespace

@@ -19,7 +19,7 @@ void CommandedProgress::follow(TrajectoryPtr trajectory, Duration from, Duration
 
 void CommandedProgress::grant(Duration authority) {
   if (authority < authority_ && authority < trajectory_->duration()) {
-    // Progress at rest if the arm braked from the next tick on.
+    // The progress at which the arm would rest if it braked from the next tick on.
     Duration stop = progress_;
     double rate = rate_;
     while (rate > 0.0 && stop < trajectory_->duration()) {
@@ -61,7 +61,8 @@ void CommandedProgress::advance(Duration period, bool braking) {
   if (progress_ == end()) rate_ = 0.0;
 }
 
-// A brake that ends within the tick covers only the distance up to the rest.
+// Returns the step of a braking arm. A brake that ends within the tick covers only the distance up
+// to rest.
 CommandedProgress::Step CommandedProgress::braked(Duration progress, double rate, double period_s) {
   if (period_s <= 0.0) return {rate, 0.0};
   const Duration last = std::min(progress + from_seconds(rate * period_s), trajectory_->duration());

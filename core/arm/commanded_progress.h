@@ -15,7 +15,8 @@ class CommandedProgress {
 
   // Starts at rest at `from`.
   void follow(TrajectoryPtr trajectory, Duration from, Duration authority);
-  // Sets the authority; raises it to where a brake ends if it is too close.
+  // Sets the authority. If a brake cannot end there any more, the authority is raised to where a
+  // brake ends.
   void grant(Duration authority);
   void advance(Duration period, bool braking);
 

@@ -39,7 +39,7 @@ void FaultyArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration fro
 
 void FaultyArm::grant(Duration authority) {
   granted_ = authority;
-  // Withheld authority stays withheld; the next tick decides.
+  // Authority that a fault withholds stays withheld; the next tick decides.
   if (allowed_ > granted_ || (!active(ArmFault::Kind::stall) && !active(ArmFault::Kind::slow))) {
     allowed_ = granted_;
     inner_->grant(allowed_);

@@ -56,14 +56,15 @@ class FaultyArm final : public ArmController {
   std::map<std::uint64_t, ArmFault> faults_;
   TimePoint now_{};
   bool under_way_ = false;
-  Duration granted_{};             // by the caller
-  Duration allowed_{};             // to the inner controller
-  std::optional<double> creep_s_;  // while slow: authority that grows with time
+  Duration granted_{};  // authority granted by the caller
+  Duration allowed_{};  // authority passed on to the inner controller
+  // During a `slow` fault: authority (s) that it grants, growing with time.
+  std::optional<double> creep_s_;
   bool giving_up_ = false;
   ArmFeedback::Phase phase_ = ArmFeedback::Phase::idle;  // last reported by advance()
   ArmFeedback feedback_;
   bool dropping_ = false;
-  ArmFeedback told_;  // reported while dropping
+  ArmFeedback told_;  // feedback reported during a `drop_feedback` fault
 };
 
 }  // namespace armloom

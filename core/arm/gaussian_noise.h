@@ -7,8 +7,8 @@
 
 namespace armloom {
 
-// Standard normal numbers (Box and Muller). Unlike std::normal_distribution, equal with every
-// standard library.
+// Standard normal numbers (Box and Muller). Unlike std::normal_distribution, every standard library
+// gives the same numbers.
 class GaussianNoise {
  public:
   explicit GaussianNoise(std::uint64_t seed) : engine_(seed) {}

@@ -85,7 +85,8 @@ double RateLaw::least_breach(const JointState& first, double rate_first, const J
     return std::max(worst_share(first, rate_first, brake_, change),
                     worst_share(last, rate_last, brake_, change));
   };
-  // The largest of |linear functions| is convex: ternary search.
+  // The largest absolute value of linear functions is convex, so a ternary search finds its
+  // minimum.
   double low = -kRateChangeMax_1_s;
   double high = -floor_;
   for (int i = 0; i < 40; ++i) {

@@ -8,7 +8,7 @@
 
 namespace armloom {
 
-// A point of a motion's phase plane; rate r = ds/dt (1: as planned).
+// A point of a motion's phase plane. The rate is r = ds/dt: trajectory time per time; 1 as planned.
 struct PathPoint {
   Duration progress;
   double rate;
@@ -23,15 +23,15 @@ class RateLaw {
  public:
   // Bound on |s''|, because the joint limits permit any s'' where the path almost rests.
   inline static constexpr double kRateChangeMax_1_s = 50.0;
-  // Least share of the joint limits used by a brake, even if the path itself needs them all: so it
-  // ends.
+  // A brake uses at least this share of the joint limits, even if the path itself needs all of
+  // them. So every brake ends.
   inline static constexpr double kBrakeFloorShare = 0.02;
 
   explicit RateLaw(CellPtr cell) : cell_(std::move(cell)) {}
   void follow(TrajectoryPtr trajectory);
 
   // Returns the strongest deceleration s'' < 0 from `first` to `last` within `share` of the brake
-  // limits at both ends, or the s'' that violates them least if there is none.
+  // limits at both ends, or, if there is no such s'', the s'' that violates the limits least.
   [[nodiscard]] double brake(PathPoint first, PathPoint last, double share = 1.0);
   // Returns the strongest acceleration s'' >= 0 within the limits for a tick of `period_s`.
   [[nodiscard]] double rise(PathPoint first, double period_s);

@@ -10,7 +10,7 @@ namespace {
 
 using Phase = ArmFeedback::Phase;
 
-// The arm has arrived if closer than this to its commanded position.
+// The arm has arrived if each joint is closer than this to its commanded position.
 constexpr double kArrived_rad = 1e-5;
 
 }  // namespace
@@ -142,7 +142,7 @@ void SimulatedArm::advance(Duration period) {
   if (moved && controller_.noise_rad <= 0.0) feedback_.measured = position_;
 }
 
-// Solves m' = (s - m) / lag exactly for constant s'.
+// Moves the measured progress m: solves m' = (s - m) / lag exactly for constant s'.
 void SimulatedArm::lag_behind(Duration commanded_before, Duration period) {
   const Duration commanded = feedback_.commanded_progress;
   Duration& measured = feedback_.measured_progress;

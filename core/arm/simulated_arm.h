@@ -13,16 +13,21 @@ namespace armloom {
 // A simulated arm with a 1 kHz control cycle. A brake lowers the rate (0..1) of commanded progress
 // to zero, and a start or resume raises it to one, as fast as the joints' brake or acceleration
 // limits permit: |q'(s) s'' + q''(s) s'^2| <= limit. Measured progress follows with a first-order
-// lag (ControllerDescription::lag). Measured positions are the path at that progress, plus optional
-// Gaussian noise. Deterministic: the same seed and calls give the same feedback, bit for bit.
+// lag (ControllerDescription::lag). Measured positions are the positions on the path at measured
+// progress, plus optional Gaussian noise. Deterministic: the same seed and calls give the same
+// feedback, bit for bit.
 //
 // Behavior that the interface leaves open:
-// - At the start of a path (at rest there) the rate is one at once; elsewhere it starts at zero.
-// - Synchronous arms keep equal commanded progress: all joints of the trajectory bind the rate.
-// - At rest at its authority the phase stays `moving`; more authority continues the motion.
-// - A grant that is too close is raised to where a brake ends.
-// - A brake near the goal may end at the goal: the phase is then `finished`.
-// - A start off the path (within execution.start_tolerance_rad) is pulled in with the lag.
+// - A motion that begins at the start of its path, where the path itself is at rest, has rate one
+//   at once. Elsewhere the rate begins at zero.
+// - Synchronous arms keep equal commanded progress, because all joints of the trajectory limit the
+//   rate.
+// - When the arm rests at its authority, the phase stays `moving`. More authority continues the
+//   motion.
+// - An authority that is too close for a brake is raised to where the brake ends.
+// - A brake near the goal may end at the goal. The phase is then `finished`.
+// - An arm that starts off the path (within execution.start_tolerance_rad) approaches the path with
+//   the lag.
 // - It never reports `fault`.
 // Broken preconditions throw std::logic_error.
 class SimulatedArm final : public ArmController {
@@ -65,7 +70,7 @@ class SimulatedArm final : public ArmController {
   Path path_;
   Eigen::VectorXd position_;  // true positions of joints_
   struct Offset {
-    Eigen::VectorXd left;  // of joints_: what is left of the start's distance to the path
+    Eigen::VectorXd left;  // what remains of the distance of joints_ from the path at the start
     bool is_any = false;
   };
   Offset offset_;

@@ -26,15 +26,15 @@ struct AuditFinding {
 
 struct AuditReport {
   std::optional<AuditFinding> first_contact;
-  std::optional<AuditFinding> smallest_clearance;  // over all pairs that must not touch
+  std::optional<AuditFinding> smallest_clearance;  // over all pairs except those within one arm
   std::size_t states_checked = 0;
 };
 
 // Re-checks recorded states with plain FCL. Shares only the model with admission: it has its own
 // FCL objects, one per collision element of the URDF. Joints are interpolated linearly between
-// states, in steps of at most `step`, except during rest. The smallest clearance covers arms
-// against each other and the scene, static links included. Pairs within one arm (Cell::is_own) are
-// checked for contact only. Precondition: every q has one entry per joint of the cell; times
+// states, in steps of at most `step`, except during rest. The smallest clearance is over all pairs
+// of arms, and of an arm and the scene or a static link. Pairs within one arm (Cell::is_own) are
+// checked only for contact. Precondition: every q has one entry per joint of the cell; times
 // increase.
 [[nodiscard]] Result<AuditReport> audit(const Cell& cell, const std::vector<RecordedState>& states,
                                         Duration step);

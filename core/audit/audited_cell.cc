@@ -13,8 +13,9 @@ namespace {
 
 // Subtracted from a distance before later states rely on it.
 constexpr double kDoubt_m = 1e-3;
-// FCL needs milliseconds for meshes unless it may skip what is beyond a bound. Looking this much
-// beyond the relevant distance saves that much travel until the next look.
+// FCL needs milliseconds for meshes, unless it may ignore distances above a bound. The bound is
+// this much above the relevant distance, so that the solids can travel as far before the next
+// look().
 constexpr double kLookAhead_m = 0.05;
 
 bool lacks_mesh(const std::vector<PlacedShape>& shapes) {

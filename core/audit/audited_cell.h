@@ -21,9 +21,9 @@ namespace armloom {
 struct AuditedSolid {
   struct Element {
     fcl::CollisionObjectd surface;  // triangles
-    Eigen::Isometry3d X_LS;         // mesh: to the center of its bounding box
-    double radius_m;                // bounding sphere
-    double round_m;                 // subtracted from distances to the surface
+    Eigen::Isometry3d X_LS;  // pose in the link's frame (mesh: of the center of its bounding box)
+    double radius_m;         // bounding sphere
+    double round_m;          // subtracted from distances to the surface
     // Exactly one is set.
     std::shared_ptr<const AuditedMesh> mesh;
     std::shared_ptr<const AuditedPrimitive> primitive;
@@ -34,7 +34,7 @@ struct AuditedSolid {
   std::vector<Element> elements;
   double radius_m = 0.0;  // bounding sphere about the link's origin
   Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
-  double travel_m = 0.0;         // upper bound of any point's travel
+  double travel_m = 0.0;         // upper bound of the path length of each of its points so far
   bool elements_placed = false;  // the FCL objects are placed at X_WL
 };
 
@@ -61,9 +61,10 @@ class AuditedCell {
 
   // Returns a lower bound of the distance, from the last look() and the travel since.
   [[nodiscard]] double at_least(const AuditedPair& pair) const;
-  // Computes the distance with FCL and stores it for at_least(). Exact (to 0.03 mm; 0.1 mm for
-  // cylinders of 1 m radius) if below `matters_m`, else at least `matters_m`. Zero in contact, if
-  // one solid is inside the other, or if FCL throws.
+  // Computes the distance with FCL and stores it for at_least(). If the distance is below
+  // `matters_m`, the result is exact (to 0.03 mm; 0.1 mm for cylinders of 1 m radius). Otherwise
+  // the result is at least `matters_m`. Zero in contact, if one solid is inside the other, or if
+  // FCL throws.
   [[nodiscard]] double look(AuditedPair& pair, double matters_m);
 
  private:

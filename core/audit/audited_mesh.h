@@ -19,16 +19,16 @@ class AuditedMesh {
   [[nodiscard]] double radius_m() const { return radius_m_; }          // about C
   [[nodiscard]] std::shared_ptr<fcl::CollisionGeometryd> make_surface() const;
 
-  // One vertex of each connected piece, at most kMaxRepresentatives (largest pieces first). A piece
-  // that touches nothing is inside another surface if its vertex is.
+  // Returns one vertex of each connected piece, at most kMaxRepresentatives (largest pieces first).
+  // A piece that does not touch another surface is inside this surface if its vertex is.
   static constexpr std::size_t kMaxRepresentatives = 64;
   [[nodiscard]] const std::vector<Eigen::Vector3d>& representatives() const {
     return representatives_;
   }
 
-  // Returns true if rays from the point cross a piece of the surface an odd number of times
-  // (majority of three, because a ray may graze an edge). Orientation is ignored. Either result is
-  // possible on the surface; surfaces with holes enclose nothing.
+  // Returns true if rays from the point cross a piece of the surface an odd number of times (for
+  // the majority of three rays, because a ray may graze an edge). Orientation is ignored. For a
+  // point on the surface, and for surfaces with holes, either result is possible.
   [[nodiscard]] bool encloses(const Eigen::Vector3d& p_C) const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// A solid box, cylinder or sphere about its center. Immutable.
+// A solid box, cylinder or sphere, centered in its own frame. Immutable.
 class AuditedPrimitive {
  public:
   explicit AuditedPrimitive(const Shape& shape);  // precondition: no mesh
@@ -24,9 +24,10 @@ class AuditedPrimitive {
   [[nodiscard]] double radius_m() const;  // bounding sphere
   [[nodiscard]] bool contains(const Eigen::Vector3d& p, double within_m = 0.0) const;
 
-  // Returns the GJK distance if proven to kProof_m by two points of the shapes and by two planes
-  // that separate them, else nullopt, as in contact. For 5 % of upright box pairs, libccd's GJK
-  // ends too early and returns up to twice the distance, or none.
+  // Returns the GJK distance if it is proven to kProof_m: from above by two points of the shapes,
+  // and from below by two planes that separate the shapes. Otherwise returns nullopt, for example
+  // in contact. For 5 % of upright box pairs, libccd's GJK ends too early and returns up to twice
+  // the distance, or none.
   [[nodiscard]] static std::optional<double> proven_distance(const AuditedPrimitive& a,
                                                              const Eigen::Isometry3d& X_WA,
                                                              const AuditedPrimitive& b,

@@ -9,9 +9,10 @@ namespace {
 
 using Why = GuardRefusal::Why;
 
-// Free states next to a rectangle certify its edge, and an interval across the common edge of two
-// rectangles overlaps the inside of one. So the edge matters only if the arm rests or the rectangle
-// has no width.
+// Returns true if an arm's interval overlaps a rectangle's side. If they only share an end, this is
+// no overlap: free states next to a rectangle certify its edge, and an interval across the common
+// edge of two rectangles overlaps the inside of one of them. So a shared end matters only if the
+// arm rests (the interval has no length) or the rectangle has no width.
 bool overlap(Duration from, Duration to, Duration box_from, Duration box_to) {
   if (from < to && box_from < box_to) return box_from < to && from < box_to;
   return box_from <= to && from <= box_to;
@@ -153,13 +154,14 @@ double AuthorityGuard::off(const Trajectory& motion, ArmId arm, Duration progres
   return largest;
 }
 
-// A start before the measured progress restarts the motion of one arm. Arms of a synchronous motion
-// may rest at different progress: no restart there.
+// Returns the arm's position after the grant. A start before the measured progress restarts the
+// motion, if it moves a single arm. Arms of a synchronous motion may rest at different progress, so
+// that a start before an arm's progress is no restart.
 ArmPosition AuthorityGuard::as_granted(const TrajectoryPtr& motion, ArmId arm, From from,
                                        Duration authority) const {
   ArmPosition position = positions_[arm.index()];
   const Duration set_out = from.value_or(Duration{});
-  constexpr Duration kReported = std::chrono::milliseconds(100);  // age of a report
+  constexpr Duration kReported = std::chrono::milliseconds(100);  // largest age of a report
   const bool again = from && position.at_rest && motion->arms().size() == 1 &&
                      set_out < position.measured - kReported;
   if (position.motion != motion || again) position = {motion, set_out, set_out};
@@ -169,7 +171,8 @@ ArmPosition AuthorityGuard::as_granted(const TrajectoryPtr& motion, ArmId arm, F
   return position;
 }
 
-// Returns the arm's interval on this side of a certificate, or nullopt if not covered.
+// Returns the arm's interval of progress on this side of a certificate, or nullopt if the side does
+// not cover the arm.
 std::optional<AuthorityGuard::Interval> AuthorityGuard::covers(const CertifiedSide& side, ArmId arm,
                                                                const ArmPosition& position) const {
   const bool is_still = std::ranges::all_of(side.still, [&](const auto& joint) {
@@ -198,8 +201,9 @@ bool AuthorityGuard::sees_scene(const Known& known, ArmId arm, const ArmPosition
   });
 }
 
-// Returns nullopt if a certificate proves both positions free. Otherwise returns the refusal of
-// the last certificate that covers both, or Why::uncertified.
+// Returns nullopt if a certificate proves that the two arms keep their clearance. Otherwise returns
+// the conflict with the last certificate that covers both arms, or Why::uncertified if no
+// certificate does.
 std::optional<GuardRefusal> AuthorityGuard::between(const Known& known, ArmId arm,
                                                     const ArmPosition& own, ArmId other) const {
   GuardRefusal refusal{Why::uncertified, arm, other, {own.measured, own.authority}};
@@ -220,7 +224,7 @@ std::optional<GuardRefusal> AuthorityGuard::between(const Known& known, ArmId ar
   return refusal;
 }
 
-// Checks that the motion's arms may be as far apart as `last` and `first`.
+// Checks if the first arm of a motion may be at progress `first` while the last arm is at `last`.
 std::optional<GuardRefusal> AuthorityGuard::together(const Known& known, Duration last,
                                                      Duration first) const {
   const auto& of = known.together;

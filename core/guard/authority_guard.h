@@ -19,17 +19,17 @@ struct ArmPosition {
   Duration measured{};        // progress proven by feedback
   Duration authority{};       // largest permitted progress; `measured` at rest
   bool at_rest = true;
-  double off_path = 0.0;  // of its joints, where it started or rests (rad, m)
+  double off_path = 0.0;  // largest distance of a joint from the path, at the last rest (rad, m)
 };
 
 // The last check before every start, resume and grant of authority (README.md). Invariants:
 // - For every two arms, a valid certificate covers the product [measured, authority] x [measured,
-//   authority], which overlaps none of its rectangles.
+//   authority], and this product overlaps none of the certificate's blocked rectangles.
 // - Every motion has a valid certificate for the present scene.
 //
 // A certificate covers an arm on its motion, an arm at rest where the certificate says, and an arm
-// at rest at the motion's start or end. Each is a proof by itself while its content is the present
-// content. Pure; not thread-safe.
+// at rest at the motion's start or end. Each certificate is a proof by itself, as long as its
+// content hash is that of the present content. Pure; not thread-safe.
 class AuthorityGuard {
  public:
   // `joints`: by ArmId, the joints of each arm and its gripper. `rest`: all joints of the cell.
@@ -42,8 +42,8 @@ class AuthorityGuard {
   // ignored.
   void look_at(SceneFingerprint present) { present_ = std::move(present); }
   [[nodiscard]] const SceneFingerprint& scene() const { return present_; }
-  // Forgets a motion that will not start again. Its certificates are dropped when no arm is on
-  // it.
+  // Forgets a motion that will not start again. The motion's certificates are dropped when no arm
+  // is on the motion.
   void forget(const TrajectoryPtr& motion);
 
   // Reports a moving arm's progress, which never decreases.
@@ -68,8 +68,8 @@ class AuthorityGuard {
   // Returns the largest distance of a joint from the motion (rad, m).
   [[nodiscard]] double off_path(const TrajectoryPtr& motion, From from) const;
 
-  // Limits; the oldest are dropped: motions per arm (those with an arm on them are kept), and per
-  // motion the certificates with one other arm and with the scene.
+  // Limits: motions per arm, and certificates of one motion with one other arm and with the scene.
+  // Beyond a limit the oldest are dropped, but no motion that an arm is on.
   inline static constexpr std::size_t kMotionsKept = 16, kPairsKept = 16, kScenesKept = 2;
 
  private:
@@ -77,7 +77,7 @@ class AuthorityGuard {
     TrajectoryPtr motion;
     std::uint64_t taken_at = 0;
     bool is_forgotten = false;
-    // By arm of the other side. The motion's own side is `a`.
+    // By an arm of the other side. Side `a` of each certificate is this motion.
     std::map<ArmId, std::vector<PairCertificate>> pairs = {};
     std::vector<SceneCertificate> scene = {};
     std::optional<TogetherCertificate> together = {};

@@ -79,7 +79,7 @@ class LimitCheck {
     return k == 0 || k + 1 == request_.points.size();
   }
 
-  // Sets velocities at both ends to exactly zero.
+  // Returns joint j's state at waypoint k. Velocities at both ends are set to exactly zero.
   [[nodiscard]] KnotState knot(std::size_t k, std::size_t j) const {
     const WaypointRequest& point = request_.points[k];
     return {point.positions[j], is_end(k) ? 0.0 : point.velocities[j],
@@ -111,6 +111,7 @@ class LimitCheck {
     }
   }
 
+  // Raises too_fast_ if a velocity or acceleration exceeds its limit by a larger factor.
   // Accelerations fall with the square of the scaling factor.
   void note_excess(const Quantity& quantity, double value, double limit) {
     if (quantity.bit == kPosition.bit) return;
@@ -157,7 +158,8 @@ class LimitCheck {
     return segment;
   }
 
-  // Quantities broken at one of the two waypoints were reported there.
+  // Checks the segment between waypoints k - 1 and k. A quantity that breaks its limit at one of
+  // these waypoints is not reported again.
   void check_between(std::size_t k, std::size_t j, const Polynomial& p, double duration_s) {
     const Polynomial v = derivative(p);
     const Polynomial a = derivative(v);
@@ -196,7 +198,8 @@ class LimitCheck {
   ProblemList& problems_;
   const double share_;
   const bool quintic_;
-  // By joint: bits of the quantities that the previous (this) waypoint breaks.
+  // By joint: bits of the quantities whose limits are broken at the previous waypoint, and at this
+  // waypoint.
   std::vector<std::uint8_t> broken_before_;
   std::vector<std::uint8_t> broken_;
   double too_fast_ = 0.0;

@@ -29,13 +29,13 @@ class ProblemList {
 // Formats with at most six significant digits: "3.41", "1e-06", "nan".
 [[nodiscard]] std::string to_text(double value);
 
-// Returns the segments of a request with valid names and shape, and checks rest and limits. `times`
-// are those of the waypoints, ascending from zero. Segments are complete only if `problems` stays
-// empty.
+// Returns the segments of a request, and checks rest at both ends and limits. Precondition: the
+// request's names and shape are valid; `times` are the times of the waypoints, ascending from zero.
+// The segments are complete only if `problems` stays empty.
 struct CheckedSegments {
   std::vector<Segment> segments;
-  // By this factor the motion is too fast for the limits of velocity and acceleration; at most 1 if
-  // it keeps them.
+  // The factor by which the motion is too fast for the limits of velocity and acceleration; at most
+  // 1 if the motion keeps these limits.
   double too_fast = 0.0;
 };
 [[nodiscard]] CheckedSegments checked_segments(const TrajectoryRequest& request,

@@ -27,7 +27,7 @@ WaypointRequest at_rest(const Eigen::VectorXd& position, double time_s) {
   return {{position.begin(), position.end()}, zeros, zeros, time_s};
 }
 
-// Turns p(t) into p(h - t): the Taylor polynomial about h with odd signs changed.
+// Turns p(t) into p(h - t): the Taylor polynomial about h, with the signs of odd powers changed.
 void reverse(Eigen::Matrix<double, Eigen::Dynamic, 6>& c, double h) {
   for (Eigen::Index j = 0; j < c.rows(); ++j) {
     for (Eigen::Index k = 0; k < 5; ++k) {

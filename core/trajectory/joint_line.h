@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// Minimum duration, also of a line without length.
+// Minimum duration of a line, also if its length is zero.
 inline constexpr Duration kLineMin = std::chrono::milliseconds(10);
 
 // Returns the straight line in joint space from `from` to `to`, at rest (velocity and acceleration
@@ -26,14 +26,15 @@ inline constexpr Duration kLineMin = std::chrono::milliseconds(10);
 [[nodiscard]] Result<TrajectoryPtr> joint_line(const Cell& cell, const std::vector<JointId>& joints,
                                                const Eigen::VectorXd& from,
                                                const Eigen::VectorXd& to);
-// Returns joint_line(), or a rest at `to` if `from` is outside the limits. Null if `to` is outside,
-// too.
+// Returns joint_line(), or a rest at `to` if `from` is outside the limits. Returns null if `to` is
+// outside, too.
 [[nodiscard]] TrajectoryPtr line_or_stay(const Cell& cell, const std::vector<JointId>& joints,
                                          const Eigen::VectorXd& from, const Eigen::VectorXd& to);
 
-// Returns the trajectory backwards in time: at t it is where `trajectory` is at duration - t, with
-// the velocity negated and the acceleration kept. So every limit of `trajectory` still holds.
-// Begins exactly at trajectory.goal() and ends at trajectory.start() up to rounding (1e-12).
+// Returns the trajectory reversed in time: its position at t is that of `trajectory` at
+// (duration - t). The velocity is negated and the acceleration is the same, so all limits that
+// `trajectory` keeps still hold. Begins exactly at trajectory.goal() and ends at trajectory.start()
+// up to rounding (1e-12).
 [[nodiscard]] TrajectoryPtr retraced(const Trajectory& trajectory);
 
 }  // namespace armloom

@@ -25,8 +25,9 @@ Polynomial shifted(Polynomial p, double shift_s) {
   return p;
 }
 
-// On [0, duration_s]: b[i] = sum over k <= i of C(i, k) / C(n, k) * c[k] duration^k. Lower degrees
-// are also written in degree 5: that only tightens the bounds.
+// Returns the Bernstein coefficients of p on [0, duration_s]:
+//   b[i] = sum over k <= i of C(i, k) / C(n, k) * c[k] duration^k.
+// Polynomials of lower degree are also written in degree 5, which only tightens the bounds.
 Bernstein bernstein(const Polynomial& p, double duration_s) {
   std::array<double, kDegree + 1> scaled{};
   double power = 1.0;
@@ -41,7 +42,7 @@ Bernstein bernstein(const Polynomial& p, double duration_s) {
   return b;
 }
 
-// Bisects by de Casteljau: only averages, so rounding does not grow.
+// Bisects by de Casteljau's algorithm. It only averages, so that rounding errors do not grow.
 void halve(const Bernstein& b, Bernstein& left, Bernstein& right) {
   right = b;
   for (std::size_t i = 0; i <= kDegree; ++i) {
@@ -52,8 +53,8 @@ void halve(const Bernstein& b, Bernstein& left, Bernstein& right) {
 
 double slack(double value) { return kLimitSlack * std::max(1.0, std::abs(value)); }
 
-// Branch and bound for the largest value above a limit. Skips parts whose bound is not above the
-// best value reached.
+// Finds the largest value above a limit by branch and bound. Skips parts whose bound is not above
+// the largest value reached so far.
 class Maximum {
  public:
   explicit Maximum(double limit) : best_(limit + slack(limit)) {}
@@ -64,7 +65,7 @@ class Maximum {
     const double bound = *std::max_element(b.begin(), b.end());
     if (bound <= best_ + slack(best_)) return;
     const double middle_s = 0.5 * (from_s + to_s);
-    if (depth == kDepthMax) return reach(bound, middle_s);  // undecided: exceeded
+    if (depth == kDepthMax) return reach(bound, middle_s);  // undecided: counts as exceeded
     Bernstein left;
     Bernstein right;
     halve(b, left, right);
@@ -74,7 +75,8 @@ class Maximum {
   [[nodiscard]] const std::optional<Extreme>& found() const { return found_; }
 
  private:
-  // The gap shrinks by four at each level: ample for any slack.
+  // The gap between bound and value shrinks by a factor of four at each level, so this is enough
+  // for any slack.
   static constexpr int kDepthMax = 60;
 
   void reach(double value, double t_s) {
@@ -145,7 +147,7 @@ Bounds bounds(const Polynomial& p, double from_s, double to_s) {
 
 std::optional<Extreme> worst_outside(const Polynomial& p, double duration_s,
                                      const Bounds& allowed) {
-  // Most are far inside.
+  // A fast test: most polynomials are far inside.
   const double swing = magnitude(p, duration_s) - std::abs(p[0]);
   if (p[0] - swing >= allowed.lower && p[0] + swing <= allowed.upper) return std::nullopt;
 

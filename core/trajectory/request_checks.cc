@@ -31,7 +31,8 @@ std::optional<JointId> find_joint(const std::string& name, const std::string& ar
   return cell.find_joint(cell.robots[cell.arm(*prefixed).robot.index()].prefix + name);
 }
 
-// Names the joints that the name means with a prefix, and how to say so.
+// Returns a remedy if the name with a robot's prefix is a joint: it lists these joints, and says
+// how to name the robot. Otherwise returns an empty string.
 std::string with_prefix(const std::string& joint, const Cell& cell) {
   std::string found, arm;
   for (const Robot& robot : cell.robots) {

@@ -7,7 +7,7 @@
 #include "core/trajectory/check_limits.h"
 
 // Internal to core/trajectory: stages of validate() that also apply to requests without times.
-// Slugs and messages: validate.h.
+// validate.h lists the problems.
 namespace armloom {
 
 [[nodiscard]] std::string pointer_to(std::size_t waypoint);  // "/points/3"
@@ -26,7 +26,7 @@ struct Names {
                                   ProblemList& problems);
 // Returns true if the number of waypoints is allowed.
 [[nodiscard]] bool check_count(const TrajectoryRequest& request, ProblemList& problems);
-// Requires one finite number for each joint.
+// Adds a problem unless `numbers` has one finite number for each joint.
 void check_numbers(std::size_t k, const char* member, const std::vector<double>& numbers,
                    const TrajectoryRequest& request, ProblemList& problems);
 

@@ -12,12 +12,12 @@ constexpr double kDecelerationMin_1_s = 1e-3;
 
 // Long segments are divided into stretches: a joint's top speed and acceleration rarely coincide.
 constexpr double kStretch_s = 0.05;
-constexpr double kStretchesMax = 32.0;  // of a segment
+constexpr double kStretchesMax = 32.0;  // largest number of stretches of a segment
 
 struct Stretch {
   double from_s;
   double to_s;
-  double deceleration_1_s;  // possible in every state
+  double deceleration_1_s;  // possible in every state of the stretch
 };
 
 double deceleration_on(const Cell& cell, const Trajectory& trajectory,

@@ -29,7 +29,7 @@ void accelerations_at(const Coefficients& c, double t, Eigen::VectorXd& out) {
       ((20.0 * c.col(5) * t + 12.0 * c.col(4)) * t + 6.0 * c.col(3)) * t + 2.0 * c.col(2);
 }
 
-// Taylor coefficients about t: c[0..5] of one joint.
+// Returns the six Taylor coefficients of joint j's polynomial about t.
 std::array<double, 6> shifted(const Coefficients& c, Eigen::Index j, double t) {
   std::array<double, 6> p{c(j, 0), c(j, 1), c(j, 2), c(j, 3), c(j, 4), c(j, 5)};
   for (std::size_t k = 0; k < 5; ++k) {
@@ -182,7 +182,7 @@ void Trajectory::enclose_about_line(Duration from, Duration to, AboutLine& line)
     const Duration first = std::max(from - starts_[i], Duration::zero());
     const Duration last = std::min(to, end_of(i)) - starts_[i];
     const double h = 0.5 * to_seconds(last - first);
-    const double at = to_seconds(first) + h;  // of the segment
+    const double at = to_seconds(first) + h;  // since the segment's start
     const double ahead = to_seconds(starts_[i] - middle) + at;
     for (Eigen::Index j = 0; j < line.off.size(); ++j) {
       auto p = shifted(segment, j, at);

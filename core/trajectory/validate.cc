@@ -52,7 +52,7 @@ void check_members(const TrajectoryRequest& request, ProblemList& problems) {
   }
 }
 
-// Returns the time of waypoint k, or nullopt with a problem.
+// Returns the time of waypoint k, or adds a problem and returns nullopt.
 std::optional<Duration> read_time(std::size_t k, double time_s, ProblemList& problems) {
   if (time_s >= 0.0 && time_s <= kDurationMax_s) return from_seconds(time_s);
   const std::string pointer = pointer_to(k) + "/time_from_start";
@@ -72,7 +72,7 @@ std::optional<Duration> read_time(std::size_t k, double time_s, ProblemList& pro
   } else if (time_s <= -1.0 || from_seconds(time_s) < Duration::zero()) {
     problems.add({ProblemKind::invalid, "negative-time", pointer, found + "is negative", time_s});
   } else {
-    return Duration::zero();  // less than a nanosecond below
+    return Duration::zero();  // negative by less than a nanosecond
   }
   return std::nullopt;
 }
@@ -118,7 +118,8 @@ bool is_repeat(const std::vector<WaypointRequest>& points, std::size_t k) {
          std::ranges::equal(a.velocities, b.velocities, within(kRestVelocity));
 }
 
-// Returns nullopt if no waypoint repeats its predecessor.
+// Returns the request without repeated waypoints, or nullopt if no waypoint repeats its
+// predecessor.
 std::optional<TrajectoryRequest> without_repeats(const TrajectoryRequest& request) {
   TrajectoryRequest kept = request;
   kept.points = {request.points.front()};
@@ -150,7 +151,8 @@ Result<TrajectoryPtr> validate_as_given(const TrajectoryRequest& request, const 
                                             std::move(checked.segments), request.is_made_here);
 }
 
-// Returns the largest factor, rounded down to three digits, with which the request is valid.
+// Returns a factor near the largest velocity scaling factor with which the request is valid,
+// rounded down to three decimals. Returns nullopt if none of the factors tried is valid.
 std::optional<double> passing_factor(const TrajectoryRequest& request, const Cell& cell,
                                      double too_fast) {
   for (const double margin : {1.0, 0.99, 0.95}) {
@@ -168,7 +170,7 @@ bool is_of_speed(const Problem& problem) {
   return problem.slug == "velocity-limit" || problem.slug == "acceleration-limit";
 }
 
-// Names the remedy for a motion that is only too fast.
+// Adds a remedy to the first problem if the motion only breaks limits of velocity or acceleration.
 void add_remedy(const TrajectoryRequest& request, const Cell& cell, double too_fast,
                 Problems& problems) {
   if (!std::ranges::all_of(problems, is_of_speed) || !std::isfinite(too_fast)) return;
@@ -180,7 +182,7 @@ void add_remedy(const TrajectoryRequest& request, const Cell& cell, double too_f
   detail += kRetimeRemedy;
 }
 
-// Tries again without repeated waypoints if the request is not valid as given.
+// Validates the request as given and, if this fails, without repeated waypoints.
 Result<TrajectoryPtr> validate_without_repeats(const TrajectoryRequest& request, const Cell& cell,
                                                double& too_fast) {
   auto as_given = validate_as_given(request, cell, too_fast);

@@ -22,19 +22,21 @@ struct WaypointRequest {
 struct TrajectoryRequest {
   std::vector<std::string> joint_names;  // any order, kept by Trajectory::joints()
   std::vector<WaypointRequest> points;
-  // Times, velocities and accelerations are computed (retime.h).
+  // If set, times, velocities and accelerations are computed (retime.h).
   struct Retime {
-    std::optional<double> velocity = {};  // share of the joint velocities; the cell's if nullopt
-    bool only_if_needed = false;          // only if the trajectory as given is not valid
+    // Share of the joints' velocity limits; nullopt: the cell's.
+    std::optional<double> velocity = {};
+    bool only_if_needed = false;  // retime only if the trajectory is not valid as given
   };
   std::optional<Retime> retime = {};
   // If given: joint names may lack the prefix of this arm's robot.
   std::string arm = {};
   double scaled_by = 1.0;     // product of the factors of slow_down()
-  bool is_made_here = false;  // by the server: a refusal names no remedy
+  bool is_made_here = false;  // made by the server: a refusal names no remedy
 };
-// Stretches the motion in time, as MoveIt's velocity scaling: times are divided by `factor`, in
-// (0, 1]. Times made by `retime` use the factor instead of the cell's.
+// Stretches the motion in time, like velocity scaling in MoveIt: divides times by `factor`, which
+// is in (0, 1]. If the request has `retime`, the factor replaces the cell's velocity scaling
+// factor.
 void slow_down(TrajectoryRequest& request, double factor);
 
 // Larger requests are refused before anything is computed.
@@ -42,9 +44,10 @@ inline constexpr std::size_t kWaypointsMax = 10'000;
 inline constexpr double kDurationMax_s = 3600.0;
 // A shorter time between waypoints would make coefficients of t^5 meaningless.
 inline constexpr double kSegmentMin_s = 1e-6;
-// A waypoint that repeats the previous one's state so soon after it is dropped.
+// A waypoint that repeats the state of the previous waypoint within this time is dropped.
 inline constexpr double kRepeat_s = 1e-3;
-// First and last velocities up to this are rounded zeros and become exactly zero; rad/s.
+// First and last velocities up to this (rad/s) are taken as rounding errors and become exactly
+// zero.
 inline constexpr double kRestVelocity = 1e-4;
 // Tolerance of position limits at waypoints (rounding by planners) and between waypoints
 // (overshooting splines); rad or m.
@@ -57,33 +60,43 @@ inline constexpr double kPositionOvershoot = 1e-4;
 }
 
 // Checks a request and returns its trajectory. Requests with `retime` go to retimed()
-// (timing/retime.h); with `only_if_needed`, only if they are not valid as given. If a request
-// is not valid, waypoints that repeat the one before them (positions within kPositionTolerance,
-// velocities within kRestVelocity, less than kRepeat_s later) are dropped.
-// If the motion breaks only limits of velocity or acceleration, the first problem names the largest
-// velocity scaling factor that passes. Checks in this order:
-//  names:  known ("unknown-joint"), of an arm ("joint-of-no-arm"), once each ("duplicate-joint"),
-//          every joint of each arm that moves ("missing-joint"); gripper joints are optional,
-//          joints of several arms make one motion;
-//  shape:  "empty-trajectory", "too-few-points" (one), "too-many-points"; one number for each joint
-//          in positions, velocities, accelerations ("size-mismatch", "no-velocities"; accelerations
-//          in all waypoints or in none: "partial-accelerations"); "not-finite"; times: zero at
-//          first ("first-time-not-zero", "negative-time"), ascending by kSegmentMin_s or more
-//          ("time-not-increasing"), "too-long";
-//  motion: only if names and shape are right: first and last velocities within kRestVelocity of
-//          zero ("not-at-rest"); limits at every waypoint as given, and *between* waypoints by
-//          bounds that hold for every instant (core/trajectory/polynomial.h):
-//            "position-limit":     within [lower, upper], kPositionTolerance more at waypoints,
-//                                  kPositionOvershoot more between them;
-//            "velocity-limit", "acceleration-limit": |v|, |a| up to the joint's limit times
-//                                  (1 + cell.checking.limit_tolerance), at and between waypoints.
-//          A cubic's acceleration jumps at waypoints: both one-sided values are checked, each as
-//          the end of its segment. Given accelerations need not be zero at the ends.
-// Problems point into the request, "/points/14/velocities/3", with the value found. A limit that is
-// broken only between waypoints is reported at the later waypoint, "/points/14", with the worst
-// value; a missing member at its object. The caller prepends its prefix ("/trajectory"). Returns
-// all problems of the stages that were reached, at most kProblemsMax. Thread-safe. About 0.1 ms for
-// 100 waypoints of 7 joints.
+// (timing/retime.h); with `only_if_needed`, only if they are not valid as given. If a request is
+// not valid, waypoints that repeat the previous waypoint are dropped: positions within
+// kPositionTolerance, velocities within kRestVelocity, less than kRepeat_s later. If the motion
+// breaks only limits of velocity or acceleration, the first problem names the largest velocity
+// scaling factor that passes.
+//
+// Names are checked first:
+// - each joint is known ("unknown-joint"), belongs to an arm ("joint-of-no-arm") and is named once
+//   ("duplicate-joint");
+// - every joint of each arm that moves is named ("missing-joint"). Gripper joints are optional.
+//   Joints of several arms make one synchronous motion.
+// Then the shape:
+// - there are 2 to kWaypointsMax waypoints ("empty-trajectory", "too-few-points",
+//   "too-many-points");
+// - positions, velocities and accelerations have one finite number for each joint
+//   ("no-velocities", "size-mismatch", "not-finite");
+// - accelerations are given in all waypoints or in none ("partial-accelerations");
+// - times are given ("no-time") and begin with zero ("first-time-not-zero", "negative-time");
+// - times ascend by kSegmentMin_s or more ("time-not-increasing"), up to kDurationMax_s
+//   ("too-long").
+// If names and shape are right, the motion:
+// - first and last velocities are within kRestVelocity of zero ("not-at-rest");
+// - positions are within [lower, upper], with a tolerance of kPositionTolerance at waypoints and of
+//   kPositionOvershoot between them ("position-limit");
+// - |velocity| and |acceleration| are up to the joint's limit times
+//   (1 + cell.checking.limit_tolerance) ("velocity-limit", "acceleration-limit").
+// Limits hold at every waypoint and, by bounds, at every instant between waypoints
+// (core/trajectory/polynomial.h). The acceleration of a cubic jumps at waypoints: both one-sided
+// values are checked, each as the end of its segment. Given accelerations need not be zero at the
+// ends.
+//
+// The pointer of a problem leads into the request, for example "/points/14/velocities/3"; its value
+// is the value found. A limit that is broken only between waypoints is reported at the later
+// waypoint ("/points/14") with the worst value. A missing member is reported at the object that
+// lacks it. The caller prepends its prefix ("/trajectory"). Returns all problems of the stages that
+// were reached, at most kProblemsMax. Thread-safe. Takes about 0.1 ms for 100 waypoints of 7
+// joints.
 inline constexpr std::size_t kProblemsMax = 20;
 [[nodiscard]] Result<TrajectoryPtr> validate(const TrajectoryRequest& request, const Cell& cell);
 

@@ -60,7 +60,7 @@ double estimated_volume(const Estimated& cell, Eigen::Index axis, double at) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3d& p = cell.surface.corners[i];
       const Eigen::Vector3d& next = cell.surface.corners[i + 1 < end ? i + 1 : begin];
-      // The neighbor triangle has the edge reversed.
+      // Uses each edge only once: the neighbor triangle has the edge reversed.
       if (!(p[axis] < at && next[axis] > at)) continue;
       low.push_back(p + (at - p[axis]) / (next[axis] - p[axis]) * (next - p));
       high.push_back(low.back());

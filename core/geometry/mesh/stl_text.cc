@@ -68,7 +68,7 @@ class StlText {
  private:
   bool read_facet() {
     if (!expect("normal")) return false;
-    // Some programs write -1.#IND here.
+    // Skips the normal: some programs write -1.#IND here.
     for (int i = 0; i < 3; ++i) static_cast<void>(words_.next());
     if (!expect("outer") || !expect("loop")) return false;
     std::array<float, 12> facet{};

@@ -9,7 +9,7 @@ namespace {
 using Points = std::vector<Eigen::VectorXd>;
 using Piece = Eigen::Matrix<double, Eigen::Dynamic, 4>;
 
-// Shorter steps than this have no direction.
+// Steps shorter than this have no direction.
 constexpr double kStepMin = 1e-9;
 
 Points without_repetitions(const Points& points) {
@@ -34,7 +34,7 @@ Points corners_of(const Points& points) {
   return kept;
 }
 
-// Returns the second derivatives of the natural cubic spline at its knots, a column each (de Boor,
+// Returns the second derivatives of the natural cubic spline, with a column for each knot (de Boor,
 // "A Practical Guide to Splines", IV).
 Eigen::MatrixXd second_derivatives(const Points& q, const std::vector<double>& h) {
   const std::size_t n = q.size();
@@ -88,7 +88,7 @@ JointPath JointPath::rounded(const Points& points, double within) {
   JointPath path(q.back());
   Piece piece = Piece::Zero(q.front().size(), 4);
   const auto chord = [&](std::size_t i) { return (q[i + 1] - q[i]).norm(); };
-  double cut = 0.0;  // of the chord by the previous corner
+  double cut = 0.0;  // length of the chord replaced by the previous corner's parabola
   for (std::size_t i = 0; i + 1 < q.size(); ++i) {
     const Eigen::VectorXd direction = (q[i + 1] - q[i]) / chord(i);
     double next_cut = 0.0;

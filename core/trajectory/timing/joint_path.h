@@ -12,15 +12,16 @@ namespace armloom {
 // prismatic joints; s is in the same unit, roughly the Euclidean length in joint space. Immutable.
 class JointPath {
  public:
-  // Returns the cubic spline through these points, over the chord lengths, with a continuous second
-  // derivative that is zero at both ends. Leaves the chords, so collision-free chords do not prove
-  // it collision-free. Drops repeated points.
+  // Returns the cubic spline through these points. Its parameter is the length along the chords;
+  // its second derivative is continuous, and zero at both ends. The spline leaves the chords, so
+  // collision-free chords do not prove that the spline is collision-free. Repeated points are
+  // dropped.
   [[nodiscard]] static JointPath spline_through(const std::vector<Eigen::VectorXd>& points);
-  // Returns straight lines from point to point, each corner cut by a parabola. A parabola takes at
-  // most half of each chord and passes the corner no farther away than `within` (Euclidean, in
-  // joint space), inside the triangle of the corner and its ends. After Kunz and Stilman,
-  // "Time-Optimal Trajectory Generation for Path Following with Bounded Acceleration and Velocity",
-  // RSS 2012, who use arcs.
+  // Returns straight lines from point to point, with each corner cut by a parabola. A parabola
+  // replaces at most half of each chord. It passes the corner at most `within` away (Euclidean, in
+  // joint space), and stays inside the triangle of the corner and its own two ends. After Kunz and
+  // Stilman, "Time-Optimal Trajectory Generation for Path Following with Bounded Acceleration and
+  // Velocity", RSS 2012, who use arcs.
   [[nodiscard]] static JointPath rounded(const std::vector<Eigen::VectorXd>& points, double within);
 
   // Returns true if the points are not all equal. Otherwise the factories above throw

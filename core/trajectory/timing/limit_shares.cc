@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Returns the largest |p| at both ends of [0, h] and at places inside.
+// Returns the largest |value| at both ends of [0, h] and at those `places` that are inside.
 template <class Value>
 double largest(const Value& value, double h, std::initializer_list<double> places) {
   double most = std::max(std::abs(value(0.0)), std::abs(value(h)));
@@ -17,8 +17,8 @@ double largest(const Value& value, double h, std::initializer_list<double> place
   return most;
 }
 
-// Adds what one joint uses on a piece of h seconds, if it may exceed the shares so far. Extremes of
-// jerk (quadratic) and acceleration (cubic) are exact.
+// Raises the shares to those that joint j uses on a piece of h seconds. Exact extremes of jerk
+// (quadratic) and acceleration (cubic) are computed only if they may exceed the shares so far.
 void add(const Polynomial& c, double h, const JointRates& rates, Eigen::Index j,
          LimitShares& shares) {
   const double j0 = 6.0 * c[3], j1 = 24.0 * c[4], j2 = 60.0 * c[5];
@@ -28,7 +28,8 @@ void add(const Polynomial& c, double h, const JointRates& rates, Eigen::Index j,
     most_jerk = largest(jerk, h, {-j1 / (2.0 * j2)});
     shares.jerk = std::max(shares.jerk, most_jerk / rates.jerk[j]);
   }
-  // Bounded by the nearer end plus what the jerk adds; the velocity likewise.
+  // The acceleration is bounded by its value at the nearer end plus the change that the jerk
+  // permits. The velocity is bounded in the same way.
   const auto acceleration = [&](double t) {
     return 2.0 * c[2] + t * (j0 + t * (j1 / 2.0 + t * j2 / 3.0));
   };

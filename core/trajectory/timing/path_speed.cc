@@ -10,24 +10,25 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// |on_u u + on_x x| <= limit, with x = s'^2 at the part's beginning and u = s'' in the part, solved
-// for u: within `half` of -slope x. Rows without u bound x alone.
+// A limit of the form |on_u u + on_x x| <= limit, with x = s'^2 at the part's beginning and u = s''
+// in the part. Solved for u, it is |u + slope x| <= half. A limit with on_u = 0 bounds only x
+// (Part::x_begin).
 struct Row {
   double slope;
   double half;
 };
 
-// Between two stations: one row for each joint and Bernstein coefficient.
+// The part of the path between two stations. It has a Row for each joint and Bernstein coefficient.
 struct Part {
   double begin;
   double length;
   std::size_t piece;
   std::size_t rows_begin;
-  double x_max = kInfinity;    // at both ends, from velocities
-  double x_begin = kInfinity;  // at the beginning, from rows without u
+  double x_max = kInfinity;    // largest x at both ends, from velocity limits
+  double x_begin = kInfinity;  // largest x at the beginning, from limits with on_u = 0
 };
 
-// Allowed accelerations, and the slope over x of each bound.
+// The interval of allowed u, and the derivative of each bound by x.
 struct Range {
   double lowest = -kInfinity;
   double highest = kInfinity;
@@ -66,8 +67,9 @@ Reachability::Reachability(const JointPath& path, const JointRates& rates, std::
   }
 }
 
-// With y = (s - begin) / length in 0..1 and the part's cubic q = c0 + c1 y + c2 y^2 + c3 y^3, and
-// z = x + 2 u length y:  length^2 q'' = u length^2 q_s + z q_ss, by y:
+// Adds a part with its rows. Let y = (s - begin) / length, from 0 to 1 in the part, and
+//   q = c0 + c1 y + c2 y^2 + c3 y^3.
+// Then s'^2 = x + 2 u length y, and length^2 q'' is a quadratic of y:
 //   u length (c1 + 2 c2 y + 3 c3 y^2) + (x + 2 u length y)(2 c2 + 6 c3 y) =: w0 + w1 y + w2 y^2.
 void Reachability::add_part(const JointPath& path, const JointRates& rates, Part part) {
   const auto of = path.coefficients(part.piece);
@@ -75,7 +77,7 @@ void Reachability::add_part(const JointPath& path, const JointRates& rates, Part
   const double b = part.begin;
   for (std::size_t j = 0; j < path.joints(); ++j) {
     const double* p = of.data() + 4 * j;
-    // The piece's cubic, of y from the part's beginning.
+    // Coefficients of the piece's cubic as a function of y (0 to 1 over the part).
     const double c1 = h * (p[1] + b * (2.0 * p[2] + 3.0 * b * p[3]));
     const double c2 = h * h * (p[2] + 3.0 * b * p[3]);
     const double c3 = h * h * h * p[3];
@@ -87,8 +89,8 @@ void Reachability::add_part(const JointPath& path, const JointRates& rates, Part
       part.x_max = std::min(part.x_max, speed * speed);
     }
     const double limit = rates.acceleration[row] * h * h;
-    const double u0 = h * c1, u1 = h * 6.0 * c2, u2 = h * 15.0 * c3;  // by u: 1, y, y^2
-    const double x0 = 2.0 * c2, x1 = 6.0 * c3;                        // by x
+    const double u0 = h * c1, u1 = h * 6.0 * c2, u2 = h * 15.0 * c3;  // factors of u in w0, w1, w2
+    const double x0 = 2.0 * c2, x1 = 6.0 * c3;                        // factors of x in w0, w1
     // A quadratic's Bernstein coefficients are w0, w0 + w1 / 2, w0 + w1 + w2.
     const auto add_row = [&](double on_u, double on_x) {
       if (std::abs(on_u) >= 1e-12 * limit) {
@@ -121,9 +123,9 @@ Range Reachability::range_of_u(std::size_t part, double x) const {
   return range;
 }
 
-// Returns the largest x from which some u keeps the part's rows and leads to at most x_next.
-// lowest(x) is convex and highest(x) concave, so Newton's steps from above on their piecewise
-// linear difference reach the intersection and never pass it.
+// Returns the largest x from which some u keeps all limits of the part and leads to at most x_next
+// at the part's end. lowest(x) is convex and highest(x) concave, so Newton's steps from above on
+// their piecewise linear difference reach the intersection and never pass it.
 double Reachability::largest_x(std::size_t part, double x_next) const {
   const double twice = 2.0 * parts_[part].length;
   double x = std::min(parts_[part].x_max, parts_[part].x_begin);
@@ -143,7 +145,7 @@ double Reachability::largest_x(std::size_t part, double x_next) const {
 
 std::vector<Station> Reachability::solve() {
   const std::size_t n = parts_.size();
-  std::vector<double> reach(n + 1, 0.0);  // largest x from which it can stop at the end
+  std::vector<double> reach(n + 1, 0.0);  // largest x from which the motion can rest at the end
   for (std::size_t i = n; i-- > 0;)
     reach[i] = std::min(largest_x(i, reach[i + 1]), i > 0 ? parts_[i - 1].x_max : kInfinity);
   std::vector<Station> stations;

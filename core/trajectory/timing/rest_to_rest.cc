@@ -6,15 +6,15 @@
 namespace armloom {
 namespace {
 
-// Phases of the first half: acceleration grows, is constant, falls for as long as it grew; then
-// velocity is constant; s.
+// Durations (s) of the phases of the first half: the acceleration grows (`grow`), is constant
+// (`hold`), and falls for as long as it grew. Then the velocity is constant (`cruise`).
 struct Phases {
   double grow;
   double hold;
   double cruise;
 };
 
-// The distance is 1.
+// Returns the phases of the fastest motion over the distance 1.
 Phases fastest(const ProfileRates& r) {
   // If the velocity limit is reached, with or without the acceleration limit:
   Phases p{};

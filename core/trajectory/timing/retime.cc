@@ -31,7 +31,7 @@ std::vector<Eigen::VectorXd> way_of(const TrajectoryRequest& request) {
   return way;
 }
 
-// Returns the distance to a chord.
+// Returns the distance of a point from the chord between two points.
 double distance_to_chord(const Eigen::VectorXd& point, const Eigen::VectorXd& from,
                          const Eigen::VectorXd& to) {
   const Eigen::VectorXd chord = to - from;
@@ -40,7 +40,8 @@ double distance_to_chord(const Eigen::VectorXd& point, const Eigen::VectorXd& fr
   return (point - from - std::clamp(share, 0.0, 1.0) * chord).norm();
 }
 
-// Bounds the span of a chord that replaces waypoints, so that the time is linear in their number.
+// A chord replaces at most this many steps between waypoints, so that the computing time is linear
+// in the number of waypoints.
 constexpr std::size_t kSpanMax = 64;
 
 std::vector<Eigen::VectorXd> thinned(const std::vector<Eigen::VectorXd>& way) {
@@ -57,7 +58,8 @@ std::vector<Eigen::VectorXd> thinned(const std::vector<Eigen::VectorXd>& way) {
     kept.push_back(way[to]);
     from = to;
   }
-  return JointPath::leads_somewhere(kept) ? kept : way;  // else it only goes there and back
+  // Otherwise the path only goes there and back.
+  return JointPath::leads_somewhere(kept) ? kept : way;
 }
 
 // Returns a remedy for too many waypoints.

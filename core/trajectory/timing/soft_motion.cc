@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kKnotsApart_s = 5e-4;
 
-// Gauss-Legendre places and weights on [-1, 1]: exact to degree five.
+// Gauss-Legendre places and weights on [-1, 1], exact for polynomials up to degree five.
 constexpr std::array<double, 3> kPlaces{-0.7745966692414834, 0.0, 0.7745966692414834};
 constexpr std::array<double, 3> kWeights{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
 

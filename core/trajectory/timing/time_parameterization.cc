@@ -18,7 +18,9 @@ using Points = std::vector<Eigen::VectorXd>;
 
 // Minimum number of parts of a path.
 constexpr std::size_t kParts = 160;
-// Quintics usually exceed the motion by less than this share; rare cases are slowed down.
+// Factor of the acceleration limits. The quintics between waypoints usually exceed the
+// accelerations of the softened motion by less than the difference to 1; motions that still exceed
+// a limit are slowed down.
 constexpr double kHeadroom = 1.0 - 2e-3;
 
 TrajectoryRequest request_for(const Cell& cell, const std::vector<JointId>& joints) {
@@ -45,7 +47,8 @@ WaypointRequest on_line(const Eigen::VectorXd& from, const Eigen::VectorXd& way,
   return point;
 }
 
-// Appends the fastest straight motion, with its first point only if there is none yet.
+// Appends the fastest straight motion. Its first point is appended only if the request has no point
+// yet.
 void append_line(TrajectoryRequest& request, const JointRates& rates, const Eigen::VectorXd& from,
                  const Eigen::VectorXd& to) {
   const Eigen::VectorXd way = to - from;
@@ -67,8 +70,8 @@ void append_line(TrajectoryRequest& request, const JointRates& rates, const Eige
   request.points.back().positions.assign(to.begin(), to.end());
 }
 
-// Slows a motion: velocities are divided by `factor`, accelerations by its square. Waypoints move
-// to where the motion is at whole nanoseconds.
+// Slows a motion: velocities are divided by `factor`, accelerations by its square. Times are
+// rounded to whole nanoseconds, and waypoints move to where the motion is at these times.
 void slow_down(std::vector<WaypointRequest>& points, double factor) {
   for (WaypointRequest& point : points) {
     const double exact_s = factor * point.time_from_start_s;
