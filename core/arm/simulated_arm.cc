@@ -55,7 +55,8 @@ void SimulatedArm::start(TrajectoryPtr trajectory, TimePoint start_at, Duration 
     rows[j] = found - all.begin();
     concerned = true;
   }
-  if (!concerned) throw std::logic_error("SimulatedArm::start: none of its joints");
+  if (!concerned)
+    throw std::logic_error("SimulatedArm::start: the trajectory moves no joint of the arm");
 
   trajectory->sample_positions(from_progress, path_.at);
   path_.target = path_.at;  // allocates both before the first tick

@@ -11,7 +11,7 @@ namespace armloom {
 struct GuardRefusal {
   enum class Why {
     uncertified,  // no valid certificate: ask the checker
-    region,       // the positions that the arms could reach include a conflict region
+    region,       // the positions that the arms could reach overlap a conflict region
     busy,         // the arm is executing another motion
     out_of_step,  // the motion's arms are too far apart in progress
   };

@@ -19,7 +19,7 @@ namespace armloom {
 // Evidence of a conflict: the bodies that come too close, with the place and times.
 struct Conflict {
   enum class With {
-    motion,  // another job's motion, or the rest of its arms after the end
+    motion,  // another job's motion, or its arms at rest after its end
     rest,    // an arm at rest that no job will move
     scene,   // an object, or a stationary link
     self,    // the candidate's own links (Cell::is_own)

@@ -43,7 +43,7 @@ Result<TrajectoryPtr> joint_line(const Cell& cell, const std::vector<JointId>& j
                                  const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
   const auto size = static_cast<Eigen::Index>(joints.size());
   if (from.size() != size || to.size() != size) {
-    throw std::invalid_argument("joint_line: one position for each joint");
+    throw std::invalid_argument("joint_line: give one position for each joint");
   }
   TrajectoryRequest request;
   double duration_s = to_seconds(kLineMin);

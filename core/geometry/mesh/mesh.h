@@ -37,8 +37,8 @@ inline constexpr std::size_t kMaxMeshTriangles = 500'000;
 inline constexpr double kMaxMeshReach_m = 1000.0;  // bound of each coordinate
 
 // Reads an STL (text or binary), OBJ or DAE file. Never opens other files that the mesh file names
-// (materials, textures). The Problem has `pointer`, and a sentence that starts with `whose`, for
-// example "robot left". Returns a Problem if the file
+// (materials, textures). Returns a Problem with `pointer`, and with a sentence that starts with
+// `whose` (for example "robot left"), if the file
 // - is missing, not regular, unreadable, empty or of another kind,
 // - exceeds a bound above (checked before much memory is used),
 // - has no triangle, is a single point, or has a number that is not finite, or

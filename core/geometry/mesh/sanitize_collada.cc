@@ -216,7 +216,7 @@ class DaeReader {
   }
 
   // Returns the triangle count of a node or scene, including the nodes that it instances. Each
-  // instance adds a further one, so that endlessly multiplied empty nodes are detected too.
+  // instance adds a further one, so that multiplied empty nodes are limited too.
   std::size_t below(const XMLElement& node) {
     const auto known = placed_.find(&node);
     if (known != placed_.end()) return known->second;

@@ -7,7 +7,8 @@ namespace armloom {
 JointRates rates_of(const Cell& cell, const std::vector<JointId>& joints,
                     const RateShares& shares) {
   for (const double share : {shares.velocity, shares.acceleration}) {
-    if (!(share > 0.0 && share <= 1.0)) throw std::invalid_argument("rates_of: a share in (0, 1]");
+    if (!(share > 0.0 && share <= 1.0))
+      throw std::invalid_argument("rates_of: a share is not in (0, 1]");
   }
   const auto size = static_cast<Eigen::Index>(joints.size());
   JointRates rates{Eigen::VectorXd(size), Eigen::VectorXd(size), Eigen::VectorXd(size)};

@@ -31,7 +31,7 @@ TrajectoryRequest request_for(const Cell& cell, const std::vector<JointId>& join
 
 void require_size(const std::vector<JointId>& joints, std::size_t size) {
   if (size != joints.size()) {
-    throw std::invalid_argument("time parameterisation: one position for each joint");
+    throw std::invalid_argument("time parameterization: give one position for each joint");
   }
 }
 
