@@ -43,8 +43,8 @@ void slow_down(TrajectoryRequest& trajectory, double factor) {
   }
 }
 
-// Read after "atomic" and "reorderable". In a non-atomic batch each job is read alone, with
-// pointers into its own body.
+// The member "jobs", which is read after "atomic" and "reorderable". In a non-atomic batch, each
+// job is read alone: pointers of problems begin at the job's own body.
 class BatchJobs final : public CustomPart<BatchRequest> {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("jobs"); }
@@ -99,9 +99,9 @@ PartPtr<JobRequest> retime_part() {
   using Request = JobRequest;
   return member<Request>(
       {"retime",
-       "Time-parameterizes the waypoints: as fast as the joints' limits allow, at rest at both "
-       "ends, corners cut by at most 0.01 rad. Times, velocities and accelerations of the "
-       "waypoints are ignored. A `move_to` is always time-parameterized",
+       "Time-parameterizes the waypoints: the motion is as fast as the joints' limits allow, rests "
+       "at both ends, and cuts corners by at most 0.01 rad. Times, velocities and accelerations of "
+       "the waypoints are ignored. A `move_to` is always time-parameterized",
        Need::optional, Schema(false)},
       flag(), [](const Request&) { return std::optional<bool>(); },
       [](Request& request, bool retime) {
@@ -175,11 +175,11 @@ FormatPtr<JobRequest> job_request_format() {
           field("alternatives", &Request::alternatives,
                 list(trajectory_request_format(),
                      {.fewest = 2, .most = kAlternativesMax, .noun = "trajectories"}),
-                "Alternatives to `trajectory`: the same work by different arms, each returning to "
-                "where it begins; exactly one is executed"),
+                "Instead of `trajectory`: several trajectories that do the same work with "
+                "different arms. Each of them ends where it begins. Exactly one is executed"),
           field("move_to", &Request::move_to, plan_goal_format(),
-                "Alternative to `trajectory`: a goal for `arm`. The path is planned from where the "
-                "arm will be after its earlier jobs, and planned again if that changes"),
+                "Instead of `trajectory`: a goal for `arm`. The path is planned from where the arm "
+                "will be after its earlier jobs. It is planned again if that position changes"),
           field("arm", &Request::arm, formats::name(), "With `move_to`: the arm that moves"),
           field("arms", &Request::arms,
                 list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
@@ -187,7 +187,7 @@ FormatPtr<JobRequest> job_request_format() {
                 "arm that arrives first takes the job"),
           at_most_one<Request>({"arm", "arms"}),
           at_most_one<Request>({"trajectory", "alternatives", "move_to"}),
-          // Read after the trajectory, which they change.
+          // Both are read after the trajectory, because they change it.
           retime_part(),
           velocity_scaling_part(),
       }));
