@@ -16,7 +16,8 @@ struct ComparedRun {
   RunFigures figures;
   Judging judging;
   bool all_ended = false;
-  // Planned motion of the busiest arm in succeeded jobs: a lower bound of the makespan.
+  // Planned time in motion of the busiest arm, counting jobs that succeeded. It is a lower bound of
+  // the makespan.
   Duration least{};
   Duration wall{};  // wall time
 
@@ -34,8 +35,8 @@ struct Comparison {
   std::vector<ComparedRun> runs;
 };
 
-// Returns an aligned Markdown table, a row per policy. All but the last two columns, which are
-// machine times, depend only on the seed.
+// Returns an aligned Markdown table with a row for each policy. The last two columns are times of
+// the machine; all others depend only on the seed.
 [[nodiscard]] std::string comparison_markdown(const Comparison& comparison);
 
 // Returns CSV as in RFC 4180, but with "\n". Units are at the end of column names; missing values
