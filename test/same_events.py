@@ -36,9 +36,10 @@ def without_words(value):
 
 
 def recorded(binary, cell, jobs, policy, faults, folder):
+    # Exit 1: not all jobs ended, as after a stop under timed_discrete.
     command = [binary, 'simulate', '--cell', cell, '--jobs', jobs, '--policy', policy, '--seed', '7', '--out', folder, *(['--faults', faults] if faults else [])]
     done = subprocess.run(command, capture_output=True, text=True)
-    if done.returncode: sys.exit(f'{command}: exit {done.returncode}: {done.stderr}')
+    if done.returncode not in (0, 1): sys.exit(f'{command}: exit {done.returncode}: {done.stderr}')
     events = [json.loads(line) for line in (folder / 'events.jsonl').read_text().splitlines()]
     return events, (folder / 'states.csv').read_bytes()
 

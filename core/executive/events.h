@@ -87,6 +87,7 @@ struct JobTimesView {
 struct JobMotionView {
   Duration duration{};
   std::optional<bool> planned;  // for a goal; if false, the duration is an estimate
+  std::optional<bool> retimed;  // for a trajectory, true if the server computed its times
   double progress = 0.0;        // 0..1
   bool stopping = false;
 };

@@ -43,6 +43,20 @@ void find_bad_alternatives(const Cell& cell, const std::vector<TrajectoryPtr>& m
   }
 }
 
+// The arm that a trajectory's job names must be among those that move.
+void find_other_arm(const Cell& cell, const std::string& name,
+                    const std::vector<TrajectoryPtr>& motions, Problems& problems) {
+  if (name.empty() || motions.empty()) return;
+  const auto arm = cell.find_arm(name);
+  const std::vector<ArmId>& moved = motions.front()->arms();
+  if (arm && std::ranges::count(moved, *arm) > 0) return;
+  problems.push_back({ProblemKind::invalid, "unknown-arm", "/arm",
+                      arm ? "the trajectory moves " + cell.arm(moved.front()).name + ", not " +
+                                name + ": correct or leave out \"arm\""
+                          : "the cell has no arm \"" + name + "\"",
+                      name});
+}
+
 Problem key_in_use(const std::string& key) {
   return Problem{ProblemKind::conflict, "id-in-use", "/id",
                  "id \"" + key + "\" is in use by another job", key};
@@ -77,11 +91,11 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
   find_bad_after(request, ahead, problems);
   std::vector<MotionGoal> goals;
   std::vector<TrajectoryPtr> motions;
-  if (!request.move_to && (!request.arm.empty() || !request.arms.empty())) {
-    problems.push_back({ProblemKind::invalid, "unknown-field",
-                        request.arm.empty() ? "/arms" : "/arm",
-                        "an arm is named with move_to; a trajectory's joints say which arms move",
-                        request.arm.empty() ? request.arms.front() : request.arm});
+  if (!request.move_to && !request.arms.empty()) {
+    problems.push_back({ProblemKind::invalid, "unknown-field", "/arms",
+                        "\"arms\" names candidates for a \"move_to\"; the joints of a trajectory "
+                        "say which arms move: leave out \"arms\"",
+                        request.arms.front()});
   }
   if (request.terms.move_to_start == MoveToStart::plan &&
       (request.move_to || request.motions().size() > 1)) {
@@ -96,6 +110,7 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
     if (problems.empty()) motions = estimates_for(goals, ahead);
   } else {
     motions = read_motions(request, ahead, returns, problems);
+    find_other_arm(*cell_, request.arm, motions, problems);
   }
   if (!problems.empty()) return failure(std::move(problems));
   const std::size_t bytes = ahead.bytes + bytes_of(motions);

@@ -146,8 +146,10 @@ JobTimesView times_of(const Job& job) {
 
 JobMotionView motion_of(const Job& job) {
   const Duration duration = job.trajectory->duration();
+  const bool is_retimed = !job.goal && !job.system_job && job.trajectory->timed_here();
   return {.duration = duration,
           .planned = job.goal ? std::optional(!job.is_unplanned()) : std::nullopt,
+          .retimed = is_retimed ? std::optional(true) : std::nullopt,
           .progress = to_seconds(job.progress) / to_seconds(duration),
           .stopping = job.stopping()};
 }

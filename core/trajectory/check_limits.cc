@@ -1,5 +1,6 @@
 #include "core/trajectory/check_limits.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -59,15 +60,16 @@ class LimitCheck {
         broken_before_(joints.size(), 0),
         broken_(joints.size(), 0) {}
 
-  std::vector<Segment> run() {
-    std::vector<Segment> segments;
-    segments.reserve(request_.points.size() - 1);
-    for (std::size_t k = 0; k < request_.points.size() && !problems_.full(); ++k) {
+  CheckedSegments run() {
+    CheckedSegments checked;
+    checked.segments.reserve(request_.points.size() - 1);
+    for (std::size_t k = 0; k < request_.points.size(); ++k) {
       broken_before_.swap(broken_);
       check_waypoint(k);
-      if (k > 0) segments.push_back(checked_segment(k));
+      if (k > 0) checked.segments.push_back(checked_segment(k));
     }
-    return segments;
+    checked.too_fast = too_fast_;
+    return checked;
   }
 
  private:
@@ -109,9 +111,17 @@ class LimitCheck {
     }
   }
 
+  // Accelerations fall with the square of the scaling factor.
+  void note_excess(const Quantity& quantity, double value, double limit) {
+    if (quantity.bit == kPosition.bit) return;
+    const double excess = std::abs(value) / limit;
+    too_fast_ = std::max(too_fast_, quantity.bit == kVelocity.bit ? excess : std::sqrt(excess));
+  }
+
   void check_value(std::size_t k, std::size_t j, const Quantity& quantity, double value) {
     const Bounds limit = allowed(joint(j), quantity, kPositionTolerance);
     if (value >= limit.lower && value <= limit.upper) return;
+    note_excess(quantity, value, limit.upper);
     broken_[j] = static_cast<std::uint8_t>(broken_[j] | quantity.bit);
     if (problems_.full()) return;
     problems_.add({ProblemKind::invalid, quantity.slug,
@@ -123,12 +133,12 @@ class LimitCheck {
 
   void not_at_rest(std::size_t k, std::size_t j) {
     const double value = request_.points[k].velocities[j];
-    problems_.add({ProblemKind::invalid, "not-at-rest",
-                   pointer_to(k) + "/velocities/" + std::to_string(j),
-                   "waypoint " + std::to_string(k) + ", " + joint(j).name + ": " + to_text(value) +
-                       " " + unit(joint(j), kVelocity) + " at the " + (k == 0 ? "start" : "end") +
-                       ", where the motion must be at rest (" + to_text(kRestVelocity) + ")",
-                   value});
+    problems_.add(
+        {ProblemKind::invalid, "not-at-rest", pointer_to(k) + "/velocities/" + std::to_string(j),
+         "waypoint " + std::to_string(k) + ", " + joint(j).name + ": " + to_text(value) + " " +
+             unit(joint(j), kVelocity) + " at the " + (k == 0 ? "start" : "end") +
+             ", where the motion must be at rest (" + to_text(kRestVelocity) + ")" + kRetimeRemedy,
+         value});
   }
 
   Segment checked_segment(std::size_t k) {
@@ -166,10 +176,11 @@ class LimitCheck {
 
   void check_range(std::size_t k, std::size_t j, const Quantity& quantity, const Polynomial& p,
                    double duration_s) {
-    if (((broken_before_[j] | broken_[j]) & quantity.bit) != 0) return;
-    const std::optional<Extreme> worst =
-        worst_outside(p, duration_s, allowed(joint(j), quantity, kPositionOvershoot));
-    if (!worst || problems_.full()) return;
+    const Bounds limit = allowed(joint(j), quantity, kPositionOvershoot);
+    const std::optional<Extreme> worst = worst_outside(p, duration_s, limit);
+    if (!worst) return;
+    note_excess(quantity, worst->value, limit.upper);
+    if (((broken_before_[j] | broken_[j]) & quantity.bit) != 0 || problems_.full()) return;
     problems_.add({ProblemKind::invalid, quantity.slug, pointer_to(k),
                    "between waypoints " + std::to_string(k - 1) + " and " + std::to_string(k) +
                        " (t = " + to_text(to_seconds(times_[k - 1]) + worst->t_s) + " s), " +
@@ -188,6 +199,7 @@ class LimitCheck {
   // By joint: bits of the quantities that the previous (this) waypoint breaks.
   std::vector<std::uint8_t> broken_before_;
   std::vector<std::uint8_t> broken_;
+  double too_fast_ = 0.0;
 };
 
 }  // namespace
@@ -196,10 +208,10 @@ std::string to_text(double value) {
   return std::isnan(value) ? "nan" : digits(value, 6);  // printf has "-nan" too
 }
 
-std::vector<Segment> checked_segments(const TrajectoryRequest& request,
-                                      const std::vector<Duration>& times,
-                                      const std::vector<JointId>& joints, const Cell& cell,
-                                      ProblemList& problems) {
+CheckedSegments checked_segments(const TrajectoryRequest& request,
+                                 const std::vector<Duration>& times,
+                                 const std::vector<JointId>& joints, const Cell& cell,
+                                 ProblemList& problems) {
   return LimitCheck(request, times, joints, cell, problems).run();
 }
 

@@ -19,6 +19,7 @@ class ProblemList {
   }
   [[nodiscard]] bool full() const { return problems_.size() >= kProblemsMax; }
   [[nodiscard]] bool empty() const { return problems_.empty(); }
+  [[nodiscard]] Problems& found() { return problems_; }
   [[nodiscard]] Problems take() && { return std::move(problems_); }
 
  private:
@@ -29,11 +30,17 @@ class ProblemList {
 [[nodiscard]] std::string to_text(double value);
 
 // Returns the segments of a request with valid names and shape, and checks rest and limits. `times`
-// are those of the waypoints, ascending from zero. Stops after kProblemsMax problems; segments are
-// complete only if `problems` stays empty.
-[[nodiscard]] std::vector<Segment> checked_segments(const TrajectoryRequest& request,
-                                                    const std::vector<Duration>& times,
-                                                    const std::vector<JointId>& joints,
-                                                    const Cell& cell, ProblemList& problems);
+// are those of the waypoints, ascending from zero. Segments are complete only if `problems` stays
+// empty.
+struct CheckedSegments {
+  std::vector<Segment> segments;
+  // By this factor the motion is too fast for the limits of velocity and acceleration; at most 1 if
+  // it keeps them.
+  double too_fast = 0.0;
+};
+[[nodiscard]] CheckedSegments checked_segments(const TrajectoryRequest& request,
+                                               const std::vector<Duration>& times,
+                                               const std::vector<JointId>& joints, const Cell& cell,
+                                               ProblemList& problems);
 
 }  // namespace armloom

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <string_view>
+
+#include "core/base/nearest_name.h"
 
 namespace armloom {
 namespace {
@@ -20,13 +23,46 @@ void check_complete(const Cell& cell, const std::vector<ArmId>& arms,
   }
 }
 
+std::optional<JointId> find_joint(const std::string& name, const std::string& arm,
+                                  const Cell& cell) {
+  if (const auto id = cell.find_joint(name)) return id;
+  const auto prefixed = cell.find_arm(arm);
+  if (!prefixed) return std::nullopt;
+  return cell.find_joint(cell.robots[cell.arm(*prefixed).robot.index()].prefix + name);
+}
+
+// Names the joints that the name means with a prefix, and how to say so.
+std::string with_prefix(const std::string& joint, const Cell& cell) {
+  std::string found, arm;
+  for (const Robot& robot : cell.robots) {
+    const auto id = cell.find_joint(robot.prefix + joint);
+    if (robot.prefix.empty() || !id || !cell.joint(*id).arm) continue;
+    if (found.empty()) arm = cell.arm(*cell.joint(*id).arm).name;
+    found += (found.empty() ? "" : " or ") + robot.prefix + joint;
+  }
+  if (found.empty()) return "";
+  return "; write " + found + ", or name the arm whose prefix is meant (\"arm\": \"" + arm +
+         "\" in the job)";
+}
+
+std::string nearest_joint(const std::string& joint, const Cell& cell) {
+  std::vector<std::string_view> names;
+  for (const Joint& known : cell.joints) {
+    if (known.arm) names.push_back(known.name);
+  }
+  const auto nearest = nearest_name(joint, names);
+  return nearest ? "; did you mean " + std::string(*nearest) + "?" : "";
+}
+
 std::string why_it_does_not_move(const std::string& joint, const Cell& cell) {
   for (const Robot& robot : cell.robots) {
     const auto still = robot.joints_without_value.find(joint);
     if (still == robot.joints_without_value.end()) continue;
     return still->second + ", and has no value of its own: leave it out";
   }
-  return "is not a movable joint of the cell";
+  const std::string prefixed = with_prefix(joint, cell);
+  return "is not a movable joint of the cell" +
+         (prefixed.empty() ? nearest_joint(joint, cell) : prefixed);
 }
 
 }  // namespace
@@ -48,7 +84,7 @@ Names resolve_names(const TrajectoryRequest& request, const Cell& cell, ProblemL
       problems.add({ProblemKind::invalid, slug, "/joint_names/" + std::to_string(i),
                     "joint " + name + " " + why, name});
     };
-    const std::optional<JointId> id = cell.find_joint(name);
+    const std::optional<JointId> id = find_joint(name, request.arm, cell);
     if (!id) {
       refuse("unknown-joint", why_it_does_not_move(name, cell));
     } else if (!cell.joint(*id).arm) {
@@ -73,8 +109,12 @@ bool check_count(const TrajectoryRequest& request, ProblemList& problems) {
   if (count == 0) {
     problems.add({ProblemKind::invalid, "empty-trajectory", "/points", "points is empty", 0.0});
   } else if (count == 1) {
-    problems.add({ProblemKind::invalid, "too-few-points", "/points",
-                  "1 waypoint makes no motion; at least 2 are needed", 1.0});
+    problems.add(
+        {ProblemKind::invalid, "too-few-points", "/points",
+         "1 waypoint makes no motion; at least 2 are needed: insert the position where the "
+         "arm will be, or send the waypoint as a goal, \"move_to\": {\"joints\": [...]}, "
+         "for which the server plans the path",
+         1.0});
   } else if (count > kWaypointsMax) {
     problems.add(
         {ProblemKind::too_large, "too-many-points", "/points",

@@ -13,6 +13,10 @@ namespace armloom {
 [[nodiscard]] std::string pointer_to(std::size_t waypoint);  // "/points/3"
 [[nodiscard]] std::string waypoint(std::size_t index);       // "waypoint 3"
 
+// Remedy for missing or unusable times, velocities and accelerations.
+inline constexpr const char* kRetimeRemedy =
+    "; or let the server compute times and velocities along the path (\"retime\": true in the job)";
+
 struct Names {
   std::vector<JointId> joints;
   std::vector<ArmId> arms;  // ascending, each once

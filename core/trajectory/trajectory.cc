@@ -69,8 +69,11 @@ SegmentBounds bounds_of(const Segment& segment, double from_s, double to_s) {
 }
 
 Trajectory::Trajectory(std::vector<JointId> joints, std::vector<ArmId> arms,
-                       std::vector<Segment> segments)
-    : joints_(std::move(joints)), arms_(std::move(arms)), duration_(Duration::zero()) {
+                       std::vector<Segment> segments, bool timed_here)
+    : timed_here_(timed_here),
+      joints_(std::move(joints)),
+      arms_(std::move(arms)),
+      duration_(Duration::zero()) {
   require(!joints_.empty(), "Trajectory: no joints");
   require(!arms_.empty(), "Trajectory: no arms");
   require(std::adjacent_find(arms_.begin(), arms_.end(), std::greater_equal<>{}) == arms_.end(),

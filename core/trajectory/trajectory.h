@@ -45,8 +45,9 @@ class Trajectory {
  public:
   // Throws std::invalid_argument unless segments are contiguous from zero, each of positive
   // duration, with finite coefficients and joints.size() rows; arms ascend without repetition; and
-  // nothing is empty.
-  Trajectory(std::vector<JointId> joints, std::vector<ArmId> arms, std::vector<Segment> segments);
+  // nothing is empty. `timed_here`: times and velocities were computed, not given by a client.
+  Trajectory(std::vector<JointId> joints, std::vector<ArmId> arms, std::vector<Segment> segments,
+             bool timed_here = false);
 
   // In the order of the request, as are the rows of all vectors.
   [[nodiscard]] const std::vector<JointId>& joints() const { return joints_; }
@@ -58,6 +59,7 @@ class Trajectory {
   // Returns the memory used.
   [[nodiscard]] std::size_t bytes() const;
   [[nodiscard]] Duration duration() const { return duration_; }
+  [[nodiscard]] bool timed_here() const { return timed_here_; }
   [[nodiscard]] const Eigen::VectorXd& start() const { return start_; }
   [[nodiscard]] const Eigen::VectorXd& goal() const { return goal_; }
 
@@ -87,6 +89,7 @@ class Trajectory {
   // Precondition: 0 <= progress < duration.
   [[nodiscard]] std::size_t segment_at(Duration progress) const;
 
+  bool timed_here_;
   std::vector<JointId> joints_;
   std::vector<ArmId> arms_;
   // One array for all segments, up to 10,000; computable values are not stored.

@@ -24,8 +24,10 @@ void check_members(const TrajectoryRequest& request, ProblemList& problems) {
     problems.add({ProblemKind::invalid,
                   "no-velocities",
                   pointer_to(k),
-                  waypoint(k) + " has no velocities: without them the motion cannot start and "
-                                "end at rest",
+                  waypoint(k) +
+                      " has no velocities: without them the motion cannot start and "
+                      "end at rest. Give velocities, 0 at both ends" +
+                      kRetimeRemedy,
                   {}});
   }
   const auto first_without = std::find_if(points.begin(), points.end(), no_accelerations);
@@ -59,8 +61,7 @@ std::optional<Duration> read_time(std::size_t k, double time_s, ProblemList& pro
     problems.add({ProblemKind::invalid,
                   "no-time",
                   pointer_to(k),
-                  waypoint(k) + " has no time_from_start: give one, or let the server make times "
-                                "(\"retime\": true in the job)",
+                  waypoint(k) + " has no time_from_start: give one" + kRetimeRemedy,
                   {}});
   } else if (!std::isfinite(time_s)) {
     problems.add({ProblemKind::invalid, "not-finite", pointer, found + "is not a finite number",
@@ -85,7 +86,10 @@ std::vector<Duration> read_times(const TrajectoryRequest& request, ProblemList& 
     const std::optional<Duration> time = read_time(k, time_s, problems);
     if (time && k == 0 && *time != Duration::zero()) {
       problems.add({ProblemKind::invalid, "first-time-not-zero", "/points/0/time_from_start",
-                    "waypoint 0: time " + to_text(time_s) + " s, but a motion begins at 0",
+                    "waypoint 0: time " + to_text(time_s) +
+                        " s, but a motion begins at 0: insert the position where the arm will be, "
+                        "with time 0, or subtract " +
+                        to_text(time_s) + " s from all times" + kRetimeRemedy,
                     time_s});
     }
     if (time && before && *time - *before < from_seconds(kSegmentMin_s)) {
@@ -93,7 +97,7 @@ std::vector<Duration> read_times(const TrajectoryRequest& request, ProblemList& 
                     waypoint(k) + ": time " + to_text(time_s) + " s is " +
                         to_text(to_seconds(*time - *before)) + " s after waypoint " +
                         std::to_string(k - 1) + "; at least " + to_text(kSegmentMin_s) +
-                        " s is needed",
+                        " s is needed: remove one of the two" + kRetimeRemedy,
                     time_s});
     }
     if (time) times.push_back(*time);
@@ -102,10 +106,34 @@ std::vector<Duration> read_times(const TrajectoryRequest& request, ProblemList& 
   return times;
 }
 
-}  // namespace
+// Returns true if waypoint k only repeats the state of the waypoint before it, up to rounding.
+bool is_repeat(const std::vector<WaypointRequest>& points, std::size_t k) {
+  const WaypointRequest &a = points[k - 1], &b = points[k];
+  const double later_s = b.time_from_start_s - a.time_from_start_s;
+  const auto within = [](double most) {
+    return [most](double x, double y) { return std::abs(x - y) <= most; };
+  };
+  return later_s >= 0.0 && later_s < kRepeat_s &&
+         std::ranges::equal(a.positions, b.positions, within(kPositionTolerance)) &&
+         std::ranges::equal(a.velocities, b.velocities, within(kRestVelocity));
+}
 
-Result<TrajectoryPtr> validate(const TrajectoryRequest& request, const Cell& cell) {
-  if (request.retime) return retimed(request, cell);
+// Returns nullopt if no waypoint repeats its predecessor.
+std::optional<TrajectoryRequest> without_repeats(const TrajectoryRequest& request) {
+  TrajectoryRequest kept = request;
+  kept.points = {request.points.front()};
+  for (std::size_t k = 1; k < request.points.size(); ++k) {
+    const bool repeats = is_repeat(request.points, k);
+    if (repeats && kept.points.size() == 1) continue;  // the first waypoint keeps time 0
+    if (repeats) kept.points.pop_back();               // the last waypoint keeps its position
+    kept.points.push_back(request.points[k]);
+  }
+  if (kept.points.size() == request.points.size()) return std::nullopt;
+  return kept;
+}
+
+Result<TrajectoryPtr> validate_as_given(const TrajectoryRequest& request, const Cell& cell,
+                                        double& too_fast) {
   ProblemList problems;
   Names names = resolve_names(request, cell, problems);
   std::vector<Duration> times;
@@ -115,10 +143,76 @@ Result<TrajectoryPtr> validate(const TrajectoryRequest& request, const Cell& cel
   }
   if (!problems.empty()) return failure(std::move(problems).take());
 
-  std::vector<Segment> segments = checked_segments(request, times, names.joints, cell, problems);
+  CheckedSegments checked = checked_segments(request, times, names.joints, cell, problems);
+  too_fast = checked.too_fast;
   if (!problems.empty()) return failure(std::move(problems).take());
   return std::make_shared<const Trajectory>(std::move(names.joints), std::move(names.arms),
-                                            std::move(segments));
+                                            std::move(checked.segments), request.is_made_here);
+}
+
+// Returns the largest factor, rounded down to three digits, with which the request is valid.
+std::optional<double> passing_factor(const TrajectoryRequest& request, const Cell& cell,
+                                     double too_fast) {
+  for (const double margin : {1.0, 0.99, 0.95}) {
+    const double factor = std::floor(1000.0 * margin / too_fast) / 1000.0;
+    if (factor <= 0.0) return std::nullopt;
+    TrajectoryRequest slower = request;
+    slow_down(slower, factor);
+    double ignored = 0.0;
+    if (validate_as_given(slower, cell, ignored)) return factor;
+  }
+  return std::nullopt;
+}
+
+bool is_of_speed(const Problem& problem) {
+  return problem.slug == "velocity-limit" || problem.slug == "acceleration-limit";
+}
+
+// Names the remedy for a motion that is only too fast.
+void add_remedy(const TrajectoryRequest& request, const Cell& cell, double too_fast,
+                Problems& problems) {
+  if (!std::ranges::all_of(problems, is_of_speed) || !std::isfinite(too_fast)) return;
+  std::string& detail = problems.front().detail;
+  detail += " (tolerance " + to_text(100.0 * cell.checking.limit_tolerance) + " %)";
+  if (const auto factor = passing_factor(request, cell, too_fast)) {
+    detail += "; \"velocity_scaling_factor\": " + to_text(*factor * request.scaled_by) + " passes";
+  }
+  detail += kRetimeRemedy;
+}
+
+// Tries again without repeated waypoints if the request is not valid as given.
+Result<TrajectoryPtr> validate_without_repeats(const TrajectoryRequest& request, const Cell& cell,
+                                               double& too_fast) {
+  auto as_given = validate_as_given(request, cell, too_fast);
+  const std::size_t count = request.points.size();
+  if (as_given || count == 0 || count > kWaypointsMax) return as_given;
+  const auto kept = without_repeats(request);
+  if (!kept) return as_given;
+  double of_kept = 0.0;
+  auto valid = validate_as_given(*kept, cell, of_kept);
+  return valid ? valid : as_given;
+}
+
+}  // namespace
+
+void slow_down(TrajectoryRequest& request, double factor) {
+  if (request.retime) request.retime->velocity = factor;
+  request.scaled_by *= factor;
+  for (WaypointRequest& point : request.points) {
+    point.time_from_start_s /= factor;
+    for (double& velocity : point.velocities) velocity *= factor;
+    for (double& acceleration : point.accelerations) acceleration *= factor * factor;
+  }
+}
+
+Result<TrajectoryPtr> validate(const TrajectoryRequest& request, const Cell& cell) {
+  if (request.retime && !request.retime->only_if_needed) return retimed(request, cell);
+  double too_fast = 0.0;
+  auto valid = validate_without_repeats(request, cell, too_fast);
+  if (valid) return valid;
+  if (request.retime) return retimed(request, cell);
+  if (!request.is_made_here) add_remedy(request, cell, too_fast, valid.error());
+  return valid;
 }
 
 }  // namespace armloom

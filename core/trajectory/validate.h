@@ -24,16 +24,26 @@ struct TrajectoryRequest {
   std::vector<WaypointRequest> points;
   // Times, velocities and accelerations are computed (retime.h).
   struct Retime {
-    std::optional<double> velocity;  // share of the joint velocities; the cell's if nullopt
+    std::optional<double> velocity = {};  // share of the joint velocities; the cell's if nullopt
+    bool only_if_needed = false;          // only if the trajectory as given is not valid
   };
   std::optional<Retime> retime = {};
+  // If given: joint names may lack the prefix of this arm's robot.
+  std::string arm = {};
+  double scaled_by = 1.0;     // product of the factors of slow_down()
+  bool is_made_here = false;  // by the server: a refusal names no remedy
 };
+// Stretches the motion in time, as MoveIt's velocity scaling: times are divided by `factor`, in
+// (0, 1]. Times made by `retime` use the factor instead of the cell's.
+void slow_down(TrajectoryRequest& request, double factor);
 
 // Larger requests are refused before anything is computed.
 inline constexpr std::size_t kWaypointsMax = 10'000;
 inline constexpr double kDurationMax_s = 3600.0;
 // A shorter time between waypoints would make coefficients of t^5 meaningless.
 inline constexpr double kSegmentMin_s = 1e-6;
+// A waypoint that repeats the previous one's state so soon after it is dropped.
+inline constexpr double kRepeat_s = 1e-3;
 // First and last velocities up to this are rounded zeros and become exactly zero; rad/s.
 inline constexpr double kRestVelocity = 1e-4;
 // Tolerance of position limits at waypoints (rounding by planners) and between waypoints
@@ -47,7 +57,11 @@ inline constexpr double kPositionOvershoot = 1e-4;
 }
 
 // Checks a request and returns its trajectory. Requests with `retime` go to retimed()
-// (timing/retime.h). Checks in this order:
+// (timing/retime.h); with `only_if_needed`, only if they are not valid as given. If a request
+// is not valid, waypoints that repeat the one before them (positions within kPositionTolerance,
+// velocities within kRestVelocity, less than kRepeat_s later) are dropped.
+// If the motion breaks only limits of velocity or acceleration, the first problem names the largest
+// velocity scaling factor that passes. Checks in this order:
 //  names:  known ("unknown-joint"), of an arm ("joint-of-no-arm"), once each ("duplicate-joint"),
 //          every joint of each arm that moves ("missing-joint"); gripper joints are optional,
 //          joints of several arms make one motion;

@@ -127,6 +127,8 @@ PartPtr<JobMotionView> motion_part() {
                   "Duration of the trajectory; an estimate until a goal is planned"),
       output_if("planned", &JobMotionView::planned, flag(),
                 "For a goal: true if the path is planned"),
+      output_if("retimed", &JobMotionView::retimed, flag(),
+                "true if the server computed the times of the trajectory (`retime`)"),
       output_only("stopping", &JobMotionView::stopping, flag(),
                   "true while the job brakes on its path"),
   });

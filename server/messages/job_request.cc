@@ -34,15 +34,6 @@ std::vector<TrajectoryRequest*> motions_of(JobRequest& request) {
   return motions;
 }
 
-void slow_down(TrajectoryRequest& trajectory, double factor) {
-  if (trajectory.retime) trajectory.retime->velocity = factor;
-  for (WaypointRequest& point : trajectory.points) {
-    point.time_from_start_s /= factor;
-    for (double& velocity : point.velocities) velocity *= factor;
-    for (double& acceleration : point.accelerations) acceleration *= factor * factor;
-  }
-}
-
 // The member "jobs", which is read after "atomic" and "reorderable". In a non-atomic batch, each
 // job is read alone: pointers of problems begin at the job's own body.
 class BatchJobs final : public CustomPart<BatchRequest> {
@@ -95,18 +86,67 @@ FormatPtr<std::vector<TimedJob>> jobs_file_format() {
   return format;
 }
 
+// The member "arm": the arm of a goal. With a trajectory, the arm gives the prefix of joint names.
+PartPtr<JobRequest> arm_part() {
+  using Request = JobRequest;
+  return member<Request>(
+      {"arm",
+       "With `move_to`: the arm that moves. With `trajectory`: joint names may lack the prefix of "
+       "this arm's robot",
+       Need::optional,
+       {}},
+      formats::name(),
+      [](const Request& request) {
+        return request.arm.empty() ? std::nullopt : std::optional(request.arm);
+      },
+      [](Request& request, std::string arm) {
+        request.trajectory.arm = arm;
+        request.arm = std::move(arm);
+      });
+}
+
+enum class WhenRetimed { never, always, if_needed };
+
+// Reads true, false or "if_needed".
+class RetimeFormat final : public CustomFormat<WhenRetimed> {
+ public:
+  void read(const JsonNode& node, WhenRetimed& out) const override {
+    if (node.raw() == kIfNeeded) {
+      out = WhenRetimed::if_needed;
+    } else if (node.raw().is_boolean()) {
+      out = node.raw().get<bool>() ? WhenRetimed::always : WhenRetimed::never;
+    } else {
+      node.fault(ProblemKind::malformed, "wrong-type",
+                 std::string("expected true, false or \"if_needed\", found ") + node.raw().dump());
+    }
+  }
+  void write(JsonWriter& out, const WhenRetimed& when) const override {
+    when == WhenRetimed::if_needed ? out.value(kIfNeeded) : out.value(when == WhenRetimed::always);
+  }
+  Schema schema(Way) const override {
+    return {{"oneOf", Schema::array({{{"type", "boolean"}}, {{"const", kIfNeeded}}})}};
+  }
+
+ private:
+  static constexpr const char* kIfNeeded = "if_needed";
+};
+
 PartPtr<JobRequest> retime_part() {
   using Request = JobRequest;
   return member<Request>(
       {"retime",
-       "Time-parameterizes the waypoints: the motion is as fast as the joints' limits allow, rests "
-       "at both ends, and cuts corners by at most 0.01 rad. Times, velocities and accelerations of "
-       "the waypoints are ignored. A `move_to` is always time-parameterized",
+       "true: time-parameterizes the waypoints. The motion is as fast as the joints' limits allow, "
+       "rests at both ends, and cuts corners by at most 0.01 rad. Times, velocities and "
+       "accelerations of the waypoints are ignored. \"if_needed\": does this only if the "
+       "trajectory is not valid as given; the job's `retimed` says whether it was done. A "
+       "`move_to` is always time-parameterized",
        Need::optional, Schema(false)},
-      flag(), [](const Request&) { return std::optional<bool>(); },
-      [](Request& request, bool retime) {
+      make_format<RetimeFormat>(), [](const Request&) { return std::optional<WhenRetimed>(); },
+      [](Request& request, WhenRetimed when) {
         for (TrajectoryRequest* motion : motions_of(request)) {
-          motion->retime = retime ? std::optional(TrajectoryRequest::Retime{}) : std::nullopt;
+          motion->retime.reset();
+          if (when == WhenRetimed::never) continue;
+          motion->retime = {.only_if_needed = when == WhenRetimed::if_needed};
         }
       });
 }
@@ -180,14 +220,14 @@ FormatPtr<JobRequest> job_request_format() {
           field("move_to", &Request::move_to, plan_goal_format(),
                 "Instead of `trajectory`: a goal for `arm`. The path is planned from where the arm "
                 "will be after its earlier jobs. It is planned again if that position changes"),
-          field("arm", &Request::arm, formats::name(), "With `move_to`: the arm that moves"),
           field("arms", &Request::arms,
                 list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
                 "With `move_to`, instead of `arm`: candidate arms. A path is planned for each; the "
                 "arm that arrives first takes the job"),
           at_most_one<Request>({"arm", "arms"}),
           at_most_one<Request>({"trajectory", "alternatives", "move_to"}),
-          // Both are read after the trajectory, because they change it.
+          // These are read after the trajectory, because they change it.
+          arm_part(),
           retime_part(),
           velocity_scaling_part(),
       }));

@@ -185,6 +185,56 @@ TEST(Validate, RejectsTimesThatDoNotStartAtZero) {
   EXPECT_TRUE(validate(request, test_cell()));
 }
 
+// Planners that join segments print the state at a joint twice.
+TEST(Validate, DropsWaypointsThatRepeatTheirPredecessor) {
+  const auto plain = validate(pair_request(), test_cell());
+  ASSERT_TRUE(plain);
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const double later_s : {0.0, 3e-9, 9e-7}) {
+      TrajectoryRequest request = pair_request();
+      WaypointRequest again = request.points[k];
+      again.time_from_start_s += later_s;
+      request.points.insert(request.points.begin() + static_cast<std::ptrdiff_t>(k) + 1, again);
+      const auto read = validate(request, test_cell());
+      ASSERT_TRUE(read) << k << ", " << later_s << ": " << read.error().front().detail;
+      EXPECT_EQ((*read)->segment_count(), (*plain)->segment_count());
+      EXPECT_EQ((*read)->goal(), (*plain)->goal());
+    }
+  }
+}
+
+TEST(Validate, RejectsEqualTimesOfDifferentStates) {
+  TrajectoryRequest request = pair_request();
+  request.points.insert(request.points.begin() + 2, request.points[1]);
+  request.points[2].velocities[0] += 0.01;
+  expect_only(request, "time-not-increasing", "/points/2/time_from_start", 1.0);
+  EXPECT_THAT(refused(request)[0].detail, HasSubstr("\"retime\": true"));
+}
+
+TEST(Validate, ReadsJointNamesWithoutPrefixIfTheArmIsNamed) {
+  Cell cell = test_cell();
+  cell.robots.resize(2);
+  cell.robots[0].prefix = "left_";
+  cell.robots[1].prefix = "right_";
+  cell.arms[1].robot = RobotId(1);
+  TrajectoryRequest request = quiet_panda_request("left");
+  for (std::string& name : request.joint_names) name = name.substr(std::string("left_").size());
+  const auto refused = validate(request, cell);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error()[0].detail,
+              HasSubstr("write left_panda_joint1 or right_panda_joint1, or name the arm"));
+  request.arm = "left";
+  const auto read = validate(request, cell);
+  ASSERT_TRUE(read) << read.error().front().detail;
+  EXPECT_EQ((*read)->arms(), std::vector<ArmId>{ArmId(0)});
+}
+
+TEST(Validate, SuggestsTheNearestJointForAMisspeltName) {
+  TrajectoryRequest request = quiet_panda_request("left");
+  request.joint_names[3] = "left_panda_jiont4";
+  EXPECT_THAT(refused(request)[0].detail, HasSubstr("did you mean left_panda_joint4?"));
+}
+
 TEST(Validate, RejectsEqualDecreasingAndTooCloseTimes) {
   TrajectoryRequest request = pair_request();
   request.points[1].time_from_start_s = 0.0;

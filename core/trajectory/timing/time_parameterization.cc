@@ -84,6 +84,7 @@ void slow_down(std::vector<WaypointRequest>& points, double factor) {
 }
 
 Result<TimedMotion> validated(TrajectoryRequest request, const Cell& cell) {
+  request.is_made_here = true;
   auto trajectory = validate(request, cell);
   if (!trajectory) return failure(std::move(trajectory.error()));
   return TimedMotion{std::move(request), *std::move(trajectory)};

@@ -33,6 +33,22 @@ struct Way {
   TrajectoryRequest request;
 };
 
+TEST(Retime, IfNeededKeepsAValidTrajectoryAsGiven) {
+  const auto cell = testing::test_cell();
+  TrajectoryRequest request = testing::quiet_panda_request("left");
+  request.retime = TrajectoryRequest::Retime{.only_if_needed = true};
+  const auto kept = validate(request, cell);
+  ASSERT_TRUE(kept) << kept.error().front().detail;
+  EXPECT_FALSE((*kept)->timed_here());
+  for (WaypointRequest& point : request.points) point.time_from_start_s /= 100.0;
+  const auto made = validate(request, cell);
+  ASSERT_TRUE(made) << made.error().front().detail;
+  EXPECT_TRUE((*made)->timed_here());
+  EXPECT_NEAR(((*made)->goal() - (*kept)->goal()).norm(), 0.0, 1e-9);
+  for (WaypointRequest& point : request.points) point.velocities.clear();
+  EXPECT_TRUE(validate(request, cell)) << "times without velocities";
+}
+
 TEST(Retime, RestsOnlyAtTheFirstAndLastWaypoint) {
   const Way way(5);
   const auto made = way.read();
