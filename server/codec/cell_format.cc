@@ -46,7 +46,8 @@ FormatPtr<SchedulingSettings> scheduling_format() {
       field("on_idle_blocker", &Scheduling::on_idle_blocker, choice<OnIdleBlocker>(),
             "Action when an idle arm or a deadlock cycle blocks a job. park: move an arm out of "
             "the way (retreat). replan: plan another path to the job's end, which loses the rest "
-            "of its trajectory; if there is no path, park. report: only report the blockade."),
+            "of its trajectory; if there is no path, park. report: only report the blockade; in a "
+            "deadlock cycle, the job submitted last fails."),
       field("horizon_steps", &Scheduling::horizon_steps, integer(Scheduling::horizon_steps_range),
             "Number of jobs per arm that are scheduled together, including the running one (only "
             "for the policy coordinated). The time for a decision grows with the square of this "
