@@ -11,7 +11,7 @@ namespace armloom {
 namespace {
 
 constexpr int kNice = 10;
-constexpr std::size_t kKeptAnyway = 1024;  // texts
+constexpr std::size_t kKeptAnyway = 1024;  // unused texts that are always kept
 
 // Returns true if the job's text stays correct until the job changes. The wall time of a scheduled
 // start may still change (WallClock).

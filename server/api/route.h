@@ -32,7 +32,8 @@ struct Parameter {
 
 struct Body {
   Schema schema;
-  std::vector<std::pair<std::string, std::string>> examples;  // name, JSON; each is accepted
+  std::vector<std::pair<std::string, std::string>>
+      examples;  // name and JSON; the server accepts each
 };
 
 struct Content {

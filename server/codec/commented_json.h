@@ -8,7 +8,8 @@
 
 namespace armloom {
 
-// JSON pointer -> additional comments; "" is the head of the document.
+// Additional comments, by the JSON pointer of the member that they describe. "" is the head of the
+// document.
 using JsonNotes = std::map<std::string, std::vector<std::string>>;
 
 // Returns the value as readable JSON with comments. The comment of a member is its description in

@@ -66,7 +66,7 @@ class JsonNode {
   bool read(double& out) const;
   bool read(std::string& out) const;
   bool read(bool& out) const;
-  // Accepts 1.0 and 1e3 as integers, like JSON Schema.
+  // Accepts 1.0 and 1e3 as integers, as JSON Schema does.
   bool read_integer(std::int64_t& out, std::int64_t lowest, std::int64_t highest) const;
   bool read(std::vector<double>& out) const;
   bool read(std::vector<std::string>& out) const;

@@ -136,7 +136,7 @@ class StrictBuilder {
     problem_.detail = std::move(detail);
     if (!found.empty()) problem_.value = std::move(found);
     for (const Level& level : levels_) {
-      if (level.value->is_array()) {  // an open element is already in its array
+      if (level.value->is_array()) {  // an element that is being read is already in its array
         const bool innermost = &level == &levels_.back();
         append_index(problem_.pointer, level.value->size() - (innermost ? 0 : 1));
       } else if (level.slot != nullptr) {

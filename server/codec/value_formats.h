@@ -20,10 +20,10 @@ namespace armloom::formats {
 // Describes a list of any numbers. It is faster than list(number(kAnyNumber)), which matters for
 // trajectories with tens of thousands of numbers.
 [[nodiscard]] FormatPtr<std::vector<double>> number_list();
-// Cell time in seconds.
+// Describe a cell time in seconds.
 [[nodiscard]] FormatPtr<TimePoint> cell_time();
 [[nodiscard]] FormatPtr<TimePoint> cell_time(double highest_s);
-// A text; an empty text is written as null.
+// Describes a text. An empty text is written as null.
 [[nodiscard]] FormatPtr<std::string> text_or_null();
 
 // A rule that a text must obey. A text that breaks the rule is the fault `slug` with the message

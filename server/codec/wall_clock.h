@@ -34,8 +34,8 @@ class WallClock {
   void observe(TimePoint time, Wall wall);
 
   [[nodiscard]] Wall wall_at(TimePoint time) const;
-  // Returns the cell time of a wall time before the session: negative, or zero if the wall clock
-  // was set back.
+  // Returns the cell time of a wall time before the session. It is negative, or zero if the wall
+  // clock was set back.
   [[nodiscard]] TimePoint time_before(Wall wall) const;
   // Returns the present speed: cell seconds per wall second.
   [[nodiscard]] double speed() const { return anchors_.back().speed; }

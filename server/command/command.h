@@ -139,8 +139,8 @@ int audit_recording(const AuditOptions& options);
 // the same. Exit 1 if they differ (the first difference is on stderr), or if no events were
 // recorded.
 struct ReplayOptions {
-  std::string data;               // newest recording in this folder, or ...
-  std::string recording;          // ... this recording
+  std::string data;               // replays the newest recording in this folder
+  std::string recording;          // replays this recording instead
   std::optional<double> until_s;  // cell time
   std::string out;                // folder for the replayed events
 };

@@ -21,14 +21,14 @@ struct ComparedRun {
   Duration least{};
   Duration wall{};  // wall time
 
-  // Returns nullopt if no job started or the time limit was reached.
+  // Returns nullopt if a job did not end, or if no job started.
   [[nodiscard]] std::optional<Duration> makespan() const;
 };
 
 struct Comparison {
   std::string cell;
   std::vector<std::string> arms;
-  std::size_t jobs = 0;  // in the file
+  std::size_t jobs = 0;  // number of jobs in the file
   std::string busiest;   // arm with the most planned motion; "" without jobs
   Duration busiest_work{};
   std::uint64_t seed = 1;

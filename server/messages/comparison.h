@@ -30,10 +30,10 @@ struct PolicyRun {
   std::uint64_t canceled = 0;                 // by the server, interrupted jobs included
   std::uint64_t refused = 0;                  // job would not begin where its arm would be
   std::uint64_t unfinished = 0;               // not ended when the simulation stopped
-  std::uint64_t backlogged = 0;               // at least once
+  std::uint64_t backlogged = 0;               // waited in the backlog at least once
   std::optional<Duration> makespan = {};      // nullopt if a job did not end or none started
   std::optional<double> makespan_ratio = {};  // divided by the makespan of `sequential`
-  Duration wait_mean{};                       // from submission to start
+  Duration wait_mean{};                       // mean time from submission to start
   Duration wait_max{};
   std::optional<double> min_clearance_m = {};  // nullopt if no pair came close
   std::uint64_t monitor_stops = 0;
@@ -64,7 +64,7 @@ struct ComparisonView {
   TimePoint last{};
   std::string in_force;               // policy at the time of the request
   std::vector<std::string> policies;  // in the order of the runs
-  std::vector<PolicyRun> runs = {};   // finished
+  std::vector<PolicyRun> runs = {};   // of the finished simulations
   std::string detail = {};            // reason of a failure
 };
 [[nodiscard]] FormatPtr<ComparisonView> comparison_format();

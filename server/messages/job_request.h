@@ -14,7 +14,7 @@ namespace armloom {
 // Body of POST /jobs.
 [[nodiscard]] FormatPtr<JobRequest> job_request_format();
 [[nodiscard]] FormatPtr<std::string> job_id_format();
-// Returns true for at most kJobNameMax characters without control characters.
+// Returns true if the name has at most kJobNameMax characters and no control characters.
 [[nodiscard]] bool is_job_name(std::string_view name);
 [[nodiscard]] FormatPtr<std::string> job_name_format();
 

@@ -7,7 +7,7 @@
 
 namespace armloom {
 
-// A goal of an arm, one of
+// Describes a goal of an arm, which is one of
 //   {"joints": [...]}      rad or m, in the order of the arm's group
 //   {"named": "ready"}     a named state of the SRDF, or "home"
 //   {"pose": {"link": "left_tool0", "xyz": [...], "rpy": [...]}}   of a link, in the world
