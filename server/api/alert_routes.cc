@@ -10,7 +10,8 @@ namespace armloom {
 namespace {
 
 void get_alerts(Call call) {
-  // Posted after all earlier events, because a stop is answered before its alert is listed here.
+  // Runs after all tasks that are already posted. A stop is answered ahead of them, so its alert
+  // may still be among them.
   call.parts.post([&parts = call.parts, respond = call.respond] {
     const auto& alerts = parts.alerts.alerts();
     AlertList list;
@@ -19,7 +20,8 @@ void get_alerts(Call call) {
   });
 }
 
-// Prefers the token's name, which is proven, to the name that the client sends.
+// Returns the token's name if tokens are required, because it is proven. Otherwise returns the name
+// that the client sent, or the client's address.
 std::string who_of(const Guard& guard, const std::optional<Caller>& caller, const AlertsSeen& seen,
                    const std::string& peer) {
   if (guard.asks() && caller) return caller->name;
@@ -87,7 +89,7 @@ std::vector<Route> alert_routes() {
             .tag = "service",
             .summary = "List warnings and errors with their acknowledgements, newest first",
             .text =
-                "Keeps at most 1,000 alerts: beyond that, acknowledged alerts are dropped first "
+                "Keeps at most 1,000 alerts. Beyond that, acknowledged alerts are dropped first "
                 "and errors last. With `--data`, alerts of earlier sessions are included."};
   get.outcomes = {outcome(200, "The alerts", alert_list_format())};
   get.run = get_alerts;
@@ -97,9 +99,9 @@ std::vector<Route> alert_routes() {
              .tag = "service",
              .summary = "Acknowledge alerts",
              .text =
-                 "Acknowledges all listed alerts, or none if one of them is unknown. The first "
-                 "acknowledgement of an alert is kept. With `--data`, the acknowledgement is on "
-                 "disk before the answer. Event subscribers are informed."};
+                 "Acknowledges all listed alerts, or none if one of them is unknown. If an alert "
+                 "was already acknowledged, its first acknowledgement is kept. With `--data`, the "
+                 "acknowledgement is on disk before the answer. Event subscribers are informed."};
   seen.reads = body(alerts_seen_format(), {{"none", R"({"ids": [], "who": "Ada"})"}});
   seen.outcomes = {outcome(200, "The acknowledged alerts", alert_list_format())};
   seen.refuses = {404, 422, 507};

@@ -47,11 +47,11 @@ Route amend_route() {
               .tag = "jobs",
               .summary = "Change a job"};
   route.text =
-      "Changes priority, backlog timeout, timeout action and name until the job has ended; absent "
+      "Changes priority, backlog timeout, timeout action and name until the job has ended. Absent "
       "members keep their values. The change applies at once: a new priority makes the scheduler "
       "check all waiting jobs again in the new order. With `--data`, the change is on disk before "
-      "the answer. `If-Match` fails only if another client changed the job; progress and waits do "
-      "not matter. 409 if the job has ended.";
+      "the answer. `If-Match` fails only if another client changed one of these members; progress "
+      "and waits do not matter. 409 if the job has ended.";
   route.parameters = {if_match_parameter()};
   route.reads =
       body(job_amendment_format(), {{"sooner", R"({"priority": 5})"},

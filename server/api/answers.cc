@@ -39,7 +39,8 @@ Response refusal_response(const Refusal& refusal) {
 
 Response done_but_not_stored(Refusal refusal) {
   refusal.detail =
-      "done, but not stored: after a restart the server may not know of it: " + refusal.detail;
+      "done, but not stored, so the server may not know of this change after a restart: " +
+      refusal.detail;
   return refusal_response(refusal);
 }
 

@@ -11,12 +11,12 @@ namespace armloom {
 [[nodiscard]] Response json_response(int status, std::string body);
 [[nodiscard]] Response problem_response(const Problems& problems);
 [[nodiscard]] Response refusal_response(const Refusal& refusal);
-// Answer to a command that took effect but was not stored, because of `refusal`.
+// Answers a command that took effect but could not be stored, for the reason in `refusal`.
 [[nodiscard]] Response done_but_not_stored(Refusal refusal);
-// Answers 404: no `what` ("arm") has this name.
+// Answers 404, because no `what` ("arm") has this name.
 [[nodiscard]] Response no_such(const char* what, const std::string& name);
 
-// `clock`: required by formats that write wall time.
+// Answers with `value` as JSON. `clock` is required by formats that write wall time.
 template <class T>
 [[nodiscard]] Response answer(int status, const FormatPtr<T>& format, const T& value,
                               const WallClock* clock = nullptr) {

@@ -7,8 +7,8 @@
 
 namespace armloom {
 
-// The HTTP interface of one server session. The parts must outlive it, and it must outlive the
-// router's calls.
+// The HTTP interface of one server session. The parts must outlive the Api, and the Api must
+// outlive all calls of the router.
 class Api {
  public:
   explicit Api(ApiParts parts)

@@ -15,15 +15,16 @@ void list_arms(Call call) {
   call.respond(answer(200, arm_list_format(), arms));
 }
 
-// Returns the arm in the path; answers 404 and returns nullopt if there is none.
+// Returns the arm that the path names. If the cell has no such arm, answers 404 and returns
+// nullopt.
 std::optional<ArmId> named_arm(const Call& call) {
   const auto arm = call.parts.cell->find_arm(call.arguments.front());
   if (!arm) call.respond(no_such("arm", call.arguments.front()));
   return arm;
 }
 
-// Runs change(executive, arms) ahead of everything that waits for the strand, and answers with the
-// arm.
+// Runs change(executive, {arm}) on the executive's strand, ahead of everything that waits there.
+// Answers with the arm's new state.
 template <class Change>
 void with_arm(Call& call, Change change) {
   const auto arm = named_arm(call);
@@ -46,7 +47,7 @@ void get_arm(Call call) {
 void stop_arm(Call call) {
   with_arm(call, [](Executive& executive, const Arms& arms) { executive.stop(arms, "operator"); });
 }
-// Answers 503 and returns true while no motion can be stored.
+// While the store refuses writes, answers 503 and returns true: nothing may be resumed then.
 bool is_held_by_store(const Call& call) {
   auto refusal = refusal_of_store(call.parts);
   if (!refusal) return false;

@@ -46,7 +46,8 @@ Response batch_response(bool atomic, const Results& results, const WallClock& cl
   return answer(202, batch_accepted_format(), jobs, &clock);
 }
 
-// Returns the answer if the store refuses the batch.
+// Returns the answer if the store refuses the whole batch, else nullopt. In a non-atomic batch,
+// replaces each job that the store refuses by its problems.
 std::optional<Response> refused_by_store(const ApiParts& parts, Batch& batch) {
   Problems problems;
   if (parts.keeper == nullptr) return std::nullopt;
@@ -97,7 +98,7 @@ Results merged(const Batch& batch, const std::vector<Result<JobView>>& submitted
   return results;
 }
 
-// The jobs to store and the answer, for a batch taken by the executive.
+// For a batch that the executive has taken: the jobs to store, and the answer.
 struct Taken {
   std::vector<JobKeeper::AcceptedJob> accepted = {};
   KnownJobs ids;  // ids of accepted jobs by position
@@ -121,7 +122,7 @@ Taken taken(const Batch& batch, const std::vector<Result<JobView>>& submitted, R
   return all;
 }
 
-// Writes on another thread, because a thousand jobs take long.
+// Writes the answer on a worker thread, because a thousand jobs take long.
 void tell(const ApiParts& parts, const BatchPtr& batch,
           const std::shared_ptr<const Executive::BatchAnswers>& submitted, const Respond& respond) {
   look_at(parts, batch->known, [&parts, batch, submitted, respond](const Results& before) {
@@ -140,8 +141,8 @@ void tell(const ApiParts& parts, const BatchPtr& batch,
   });
 }
 
-// Submits the jobs in chunks, between control cycles and stops. Calls `then` on the server's
-// thread.
+// Submits the jobs to the executive in chunks, so that control cycles and stops run in between.
+// Then calls `then` on the server's thread.
 void take(const ApiParts& parts, std::vector<JobRequest> jobs, bool atomic,
           std::function<void(const std::shared_ptr<const Executive::BatchAnswers>&)> then) {
   struct Taking {
@@ -161,9 +162,9 @@ void take(const ApiParts& parts, std::vector<JobRequest> jobs, bool atomic,
 
 Problem partly_known(std::ptrdiff_t place, const std::string& id) {
   return {ProblemKind::conflict, "partly-accepted", "/jobs/" + std::to_string(place),
-          "job already accepted as \"" + id +
-              "\", but other jobs of this batch were not (or are forgotten); submit the missing "
-              "jobs alone",
+          "this job was already accepted as \"" + id +
+              "\", but other jobs of this batch were not accepted or are forgotten: submit the "
+              "missing jobs alone",
           id};
 }
 
@@ -202,7 +203,7 @@ void post_batch(Call call) {
       submit_batch(parts, batch, ending);
     });
   };
-  // Validate here: the strand has no time.
+  // Validates here, because the executive's strand has no time for it.
   const auto read = [cell = parts.cell](std::string_view text) {
     auto batch = read_batch_submission(text);
     if (!batch) return batch;
@@ -219,27 +220,28 @@ void post_batch(Call call) {
 }  // namespace
 
 Route batch_route() {
-  return {.method = "POST",
-          .path = api_path("/batches"),
-          .id = "submitBatch",
-          .tag = "jobs",
-          .summary = "Submit several jobs at once",
-          .text =
-              "An atomic batch (the default) is accepted as a whole or not at all; problem "
-              "pointers begin with /jobs/<index>. A job may name an earlier job of the batch in "
-              "`after`. A repeated request (same `Idempotency-Key` or same ids of all jobs, same "
-              "body) returns the same jobs; for a non-atomic batch, refused jobs are retried.",
-          .parameters = {idempotency_parameter()},
-          .reads = body(batch_request_format(), {{"both", example_batch()}}),
-          .outcomes = {outcome(200, "All jobs were accepted before; returns their present state",
-                               batch_accepted_format()),
-                       outcome(202, "All jobs were accepted", batch_accepted_format()),
-                       outcome(207, "With `\"atomic\": false`: one result per job",
-                               batch_results_format())},
-          .refuses = {409, 422, 507},
-          .who = Who::commander,
-          .role = Role::operate,
-          .run = post_batch};
+  return {
+      .method = "POST",
+      .path = api_path("/batches"),
+      .id = "submitBatch",
+      .tag = "jobs",
+      .summary = "Submit several jobs at once",
+      .text =
+          "An atomic batch (the default) is accepted as a whole or not at all; problem pointers "
+          "begin with /jobs/<index>. A job may name an earlier job of the batch in `after`. A "
+          "repeated request has the same body, and the same `Idempotency-Key` or the same ids of "
+          "all jobs. It returns the same jobs; refused jobs of a non-atomic batch are retried.",
+      .parameters = {idempotency_parameter()},
+      .reads = body(batch_request_format(), {{"both", example_batch()}}),
+      .outcomes = {outcome(200, "All jobs were accepted before; returns their present state",
+                           batch_accepted_format()),
+                   outcome(202, "All jobs were accepted", batch_accepted_format()),
+                   outcome(207, "With `\"atomic\": false`: one result per job",
+                           batch_results_format())},
+      .refuses = {409, 422, 507},
+      .who = Who::commander,
+      .role = Role::operate,
+      .run = post_batch};
 }
 
 }  // namespace armloom

@@ -11,21 +11,21 @@
 
 namespace armloom {
 
-// Serves the mesh files of URDFs (visuals included) and of objects at start. A request contains a
-// name of mesh_address.h, never a path.
+// Serves the mesh files of URDFs (visual meshes included) and of the cell file's objects. A request
+// contains a mesh_name() (mesh_address.h), never a path.
 class CellMeshes {
  public:
   explicit CellMeshes(const Cell& cell);
 
   [[nodiscard]] static std::vector<std::string> content_types();
 
-  // Answers 404 if the name is unknown, or the file is gone or exceeds kMaxMeshBytes; 503 if no
-  // file descriptor is left. Concurrent requests share the bytes.
+  // Answers 404 if the name is unknown, or if the file is gone or exceeds kMaxMeshBytes. Answers
+  // 503 if no file descriptor is left. Concurrent requests for a file share its bytes in memory.
   [[nodiscard]] Response answer(const Request& request, const std::string& name);
 
  private:
   struct Place {
-    std::filesystem::path file;  // canonical at start, so that no later link redirects it
+    std::filesystem::path file;  // canonical at start: a later symbolic link is refused
     std::string stamp;           // file stamp of `bytes`
     std::weak_ptr<const std::string> bytes;
     std::string tag;

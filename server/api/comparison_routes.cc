@@ -61,10 +61,11 @@ std::vector<Route> comparison_routes() {
              .tag = "cell",
              .summary = "Simulate the submitted jobs under several policies"};
   post.text =
-      "Simulates the jobs submitted since the server started (at most the last 500 jobs or 16 "
-      "MiB), each at its submission time, with the present scene and without cancels, stops and "
-      "faults. If older jobs are left out, each arm begins at the start of its first trajectory. "
-      "The cell is not affected. One comparison runs at a time; GET returns its progress.";
+      "Simulates the jobs submitted since the server started, at most the last 500 jobs or 16 MiB. "
+      "Each job is submitted at its original time, with the present scene and without cancels, "
+      "stops and faults. If older jobs are left out, each arm begins at the start of its first "
+      "trajectory. The cell is not affected. One comparison runs at a time; GET returns its "
+      "progress.";
   post.reads = body(comparison_inquiry_format(),
                     {{"all", "{}"}, {"two", R"({"policies": ["sequential", "coordinated"]})"}});
   post.outcomes = {outcome(202, "The comparison has started", comparison_format())};

@@ -36,8 +36,8 @@ void let_go(const ApiParts& parts, const std::optional<Control::Move>& move) {
   });
 }
 
-// Returns the control; ends it if the holder's token was revoked. Call it once per request and keep
-// the result, because a token can be revoked at any time.
+// Returns the control. If the token of the client that has control was revoked, control ends first.
+// Call it once per request and keep the result, because a token can be revoked at any time.
 Control& control_of(const ApiParts& parts) {
   const auto& holder = parts.control.holder();
   if (holder && holder->token && !parts.guard.caller(holder->token)) {
@@ -103,7 +103,7 @@ Response jog_response(int status, const Result<JobView>& job, const ApiParts& pa
   return response;
 }
 
-// Returns the job of a jog.
+// Returns the job to submit for a jog request.
 Result<JobRequest> job_of(const JogRequest& hold, const std::string& arm) {
   auto read = read_job_submission(job_text_of(hold, arm));
   if (!read) return failure(std::move(read.error()));
@@ -121,8 +121,8 @@ Problems in_words_of_jog(Problems problems) {
   return problems;
 }
 
-// Submits the job and starts its lease in one step, so that the arm never moves without a lease.
-// Jogs are not stored.
+// Submits the job of a jog and starts its lease in one task, so that the arm never moves without a
+// lease. Jogs are not stored.
 void begin_jog(Call call) {
   const ApiParts& parts = call.parts;
   const std::string arm = call.arguments.front();
@@ -209,9 +209,9 @@ std::vector<Route> control_routes() {
   get.run = get_control;
   Route take = command("POST", "/control", "takeControl", "Take control in order to jog arms");
   take.text =
-      "One client at a time has control. While another client has it, the answer is 409 unless "
-      "`take` is true; then control changes hands and the other client's jog motion brakes on its "
-      "path. Jobs need no control.";
+      "One client at a time has control. If another client has it, the answer is 409 unless `take` "
+      "is true. With `take`, the caller gets control, and the jog motion of the other client "
+      "brakes on its path. Jobs need no control.";
   take.reads = body(control_request_format(), {{"ada", R"({"who": "Ada", "take": true})"}});
   take.outcomes = {outcome(200, "The caller has control; `key` authorizes its jog requests",
                            control_taken_format())};
@@ -226,8 +226,8 @@ std::vector<Route> control_routes() {
   begin.text =
       "Submits a slow job that is planned and checked like any other. The motion continues only "
       "while PUT renews its lease within `lease_s`; otherwise the control cycle cancels the job "
-      "and the arm brakes on its path. DELETE /jobs/{id} stops it at once. Jog jobs are never "
-      "stored, even with `--data`.";
+      "and the arm brakes on its path. DELETE /jobs/{id} stops the motion at once. Jog jobs are "
+      "never stored, even with `--data`.";
   begin.reads = body(
       jog_request_format(),
       {{"ready",
@@ -237,8 +237,8 @@ std::vector<Route> control_routes() {
   begin.run = begin_jog;
   Route renew = command("PUT", "/arms/{name}/jog", "renewJog", "Renew the lease of a jog");
   renew.text =
-      "409 if the motion has ended, if the caller does not have control, or if the lease has "
-      "expired; then the motion has been canceled.";
+      "409 if the motion has ended, or if the caller does not have control. Also 409 if the lease "
+      "has expired; the motion has then been canceled.";
   renew.reads = body(control_key_format(), {{"key", R"({"control": "0f1e-2d3c"})"}});
   renew.outcomes = {outcome(200, "The lease is renewed", jog_format())};
   renew.refuses = {404, 409, 422};

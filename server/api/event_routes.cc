@@ -27,7 +27,7 @@ std::vector<QueryPart<StreamQuery>> resume_parts() {
     return is_read ? std::nullopt
                    : std::optional("since must be the seq of an event, found \"" + value + "\"");
   };
-  return {query::text<Query>("stream", &Query::stream, "With since: the stream to resume"),
+  return {query::text<Query>("stream", &Query::stream, "With `since`: the stream to resume"),
           {{"since",
             "The last seq that the subscriber has received",
             {{"type", "string"}, {"pattern", "^[0-9]+$"}}},
@@ -46,8 +46,9 @@ const QueryFormat<StreamQuery>& events_query() {
   return format;
 }
 
-// Returns where to resume. `Last-Event-ID: <stream>:<seq>` takes precedence, because a reconnecting
-// browser repeats the original query.
+// Returns the position at which the client resumes the stream. The header `Last-Event-ID:
+// <stream>:<seq>` takes precedence over the query, because a reconnecting browser repeats the
+// original query.
 StreamQuery place_of(const Request& request, StreamQuery asked) {
   if (!request.last_event_id) return asked;
   const std::string& id = *request.last_event_id;
@@ -71,8 +72,10 @@ std::string snapshot_text(const ApiParts& parts, const Status& status, const Wal
 
 void write_snapshot(const ApiParts& parts);
 
-// Subscribes newcomers. All events up to `seq` were posted to this thread before the text, so later
-// events complete the snapshot. If the hub has dropped them, newcomers wait again.
+// Subscribes newcomers (subscribers that wait for a snapshot). `text` is the snapshot; `seq` is its
+// last event. All events up to `seq` reached this thread before the text, so the hub continues
+// after `seq` without a gap. If the hub has already dropped later events, the newcomers wait for
+// the next snapshot.
 void welcome(const ApiParts& parts, const std::vector<ApiParts::Newcomer>& newcomers,
              std::uint64_t seq, const Hub::Text& text) {
   for (const ApiParts::Newcomer& newcomer : newcomers) {
@@ -86,7 +89,7 @@ void welcome(const ApiParts& parts, const std::vector<ApiParts::Newcomer>& newco
   if (!parts.newcomers->waiting.empty()) write_snapshot(parts);
 }
 
-// Writes a snapshot for all newcomers with the same `gap` as the first.
+// Writes one snapshot, for the first newcomer and all others with the same `gap`.
 void write_snapshot(const ApiParts& parts) {
   parts.newcomers->is_one_written = true;
   std::vector<ApiParts::Newcomer>& waiting = parts.newcomers->waiting;
@@ -105,8 +108,8 @@ void write_snapshot(const ApiParts& parts) {
       });
 }
 
-// Resumes at `place` if its events are still kept, else begins with a snapshot ("gap" if `place`
-// was given).
+// Resumes after `place` if all later events are still kept, else begins with a snapshot. If `place`
+// was given, the snapshot has `"gap": true`.
 void subscribe(const ApiParts& parts, const StreamQuery& place,
                std::function<void(SubscriptionPtr)> then) {
   if (place.since) {
@@ -166,16 +169,17 @@ std::vector<Route> event_routes() {
                .tag = "events",
                .summary = "Subscribe to events as Server-Sent Events",
                .text =
-                   "A subscriber resumes with `Last-Event-ID`, or `stream` and `since`. If those "
-                   "events are no longer kept or belong to another session, a new snapshot with "
-                   "`\"gap\": true` is sent.",
+                   "A subscriber resumes with `Last-Event-ID`, or with `stream` and `since`. If "
+                   "the following events are no longer kept, or the stream belongs to another "
+                   "session, a new snapshot with `\"gap\": true` is sent.",
                .parameters = events_query().parameters(),
                .run = get_events};
-  events.parameters.push_back({"Last-Event-ID",
-                               "`<stream>:<seq>` of the last event received; resumes after it",
-                               {{"type", "string"}},
-                               false,
-                               "header"});
+  events.parameters.push_back(
+      {"Last-Event-ID",
+       "`<stream>:<seq>` of the last event received; the stream resumes after this event",
+       {{"type", "string"}},
+       false,
+       "header"});
   events.outcomes = {
       {200,
        "Each event has `id: <stream>:<seq>` and `data: <envelope>`. The stream begins with a "

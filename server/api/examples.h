@@ -6,7 +6,8 @@ namespace armloom {
 
 // Example bodies for the two-Panda cell.
 
-// Returns a motion from home with ROS 2 times. `head`: members before it, each with a comma.
+// Returns a job whose motion starts at home, with ROS 2 times. `head`: members before `trajectory`,
+// each followed by a comma.
 [[nodiscard]] std::string example_job(const std::string& head, const std::string& arm);
 // Returns a job with ROS 1 times and MoveIt's nesting.
 [[nodiscard]] std::string example_moveit_job();

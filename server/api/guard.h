@@ -14,8 +14,8 @@ namespace armloom {
 inline const std::pair<std::string, std::string> kHowToShowAToken{"WWW-Authenticate",
                                                                   "Bearer realm=\"armloom\""};
 
-// Access control. With a token file, a request may do what its token's role allows; without the
-// file, everything. Used on the server's thread.
+// Access control. With a token file, a request may do what its token's role allows. Without a token
+// file, every request is allowed. Used on the server's thread.
 class Guard {
  public:
   // `tls`: marks cookies Secure.
@@ -25,7 +25,8 @@ class Guard {
   [[nodiscard]] bool is_tls() const { return tls_; }
   // Returns the token's caller, or nullopt. Without a token file, every caller is an unnamed admin.
   [[nodiscard]] std::optional<Caller> caller(const std::optional<std::string>& token);
-  // Returns the key for rate limits: the token's name, or the address.
+  // Returns the name under which rate limits count the client: the token's name, or the client's
+  // address if the request has no valid token.
   [[nodiscard]] std::string client(const Request& request);
   // Returns the fault of the token file, or nullopt.
   [[nodiscard]] std::optional<std::string> fault() { return book_ ? book_->fault() : std::nullopt; }

@@ -25,11 +25,11 @@ struct JobFilter {
 };
 
 [[nodiscard]] const QueryFormat<JobFilter>& job_query();
-// Problems (invalid): those of the query; an unknown arm.
+// Problems (invalid): a query parameter that cannot be read, or an unknown arm.
 [[nodiscard]] Result<JobFilter> read_job_filter(const Target& target, const Cell& cell);
 
-// Merges the executive's jobs and the `stored` jobs into a page. Precondition: `stored` is
-// filtered, newest first, and has no job of the executive.
+// Merges the executive's jobs and the `stored` jobs into a page. Precondition: `stored` is already
+// filtered and sorted (newest first), and contains no job of the executive.
 [[nodiscard]] JobPage select(const Status& status, std::vector<StoredJob> stored,
                              const JobFilter& filter, const WallClock& clock, JobTexts& texts);
 

@@ -17,7 +17,8 @@
 namespace armloom {
 namespace {
 
-// Returns jobs that only the store has, one more than a page at most.
+// Returns the jobs that are in the store and not in `known`, newest first. Returns at most one more
+// than a page, so that the caller sees whether there is a next page.
 Result<std::vector<StoredJob>> stored_jobs(const JobHistory& history, const JobFilter& filter,
                                            const JobSheet& known) {
   std::vector<StoredJob> jobs;
@@ -80,7 +81,7 @@ void command_job(Call call, Command command) {
        if_match = call.request.if_match](const Commanded& done) {
         if (!done) return respond(refused_command(parts, key, done.error()));
         if (!*done) return respond(was_changed_since(key, if_match));
-        // stored first, because clients rely on the answer
+        // Answers after the change is stored, because clients rely on the answer.
         const auto tell = [&parts, respond, job = **done](std::optional<Refusal> refusal) {
           if (!refusal) return respond(answer(202, job_format(), job, &parts.clock));
           respond(done_but_not_stored(*std::move(refusal)));
@@ -160,7 +161,8 @@ void get_queue(Call call) {
 
 void get_timeline(Call call) {
   const ApiParts& parts = call.parts;
-  // The strand provides only the few admitted jobs.
+  // Writes the text on the thread of the listings. The executive's strand only collects the few
+  // admitted jobs.
   const auto write = [&parts, respond = call.respond](const TimelineView& timeline) {
     parts.listings.write(
         [cell = parts.cell, timeline](JobTexts&) {
@@ -180,12 +182,12 @@ Route replan_route() {
   Route replan = of_one("POST", "/jobs/{id}/replan", "replanJob", "Replan a job");
   replan.text =
       "Plans a new path from the arm's present position to the job's end, around everything at "
-      "rest; for a trajectory, the end is its last waypoint and its other waypoints are lost. The "
-      "speed is at most that of the original path. A moving job first brakes on its path and stays "
+      "rest. For a trajectory, the end is its last waypoint; its other waypoints are lost. The "
+      "speed is at most that of the original path. A moving arm first brakes on its path and waits "
       "there until the plan is ready (`waits_on` has the kind `plan`). The job then waits like a "
-      "new one under the same id, or keeps its own path if there is no other; member `replan` "
-      "reports the outcome. 409 if the job has ended, moves several arms, ends where it begins, or "
-      "was created by the server.";
+      "new job, under the same id. If there is no other path, the job keeps its own. Member "
+      "`replan` reports the outcome. 409 if the job has ended, moves several arms, ends where it "
+      "begins, or was created by the server.";
   replan.outcomes = {outcome(202, "Replanning has started", job_format())};
   replan.parameters = {if_match_parameter()};
   replan.refuses = {404, 409, 412, 507};
@@ -199,10 +201,11 @@ Route diagram_route() {
   Route diagram =
       of_one("GET", "/jobs/{id}/diagram", "getDiagram", "Get the coordination diagram of two jobs");
   diagram.text =
-      "Shows for each pair of positions on the two motions whether they conflict: rectangles of "
-      "trajectory time of A (the job in the path) and B (`with`) that are certified free, in "
-      "conflict, or undecided, refined down to 5 ms within 64,000 cells. Ended jobs are included "
-      "while they are known. 422 if both are the same job, or move only the same arm.";
+      "Shows for each pair of positions on the two motions whether they conflict. A is the job in "
+      "the path, B the job in `with`. The diagram consists of rectangles in the trajectory times "
+      "of A and B, each certified free, in conflict, or undecided. They are refined down to 5 ms "
+      "within 64,000 cells. Ended jobs are included while they are known. 422 if both are the same "
+      "job, or move only the same arm.";
   diagram.parameters = diagram_query().parameters();
   diagram.outcomes = {outcome(200, "The diagram", diagram_format())};
   diagram.refuses = {404, 422};
@@ -216,9 +219,10 @@ Route timeline_route() {
   timeline.text =
       "Lists the admitted motions of every arm with their predicted start and end, their pauses "
       "and the cause of each pause. The prediction assumes that all motions run at the speed of "
-      "their trajectories, in the present passing order. A delay with a cause of its own (late, "
-      "stalled, stopped until resumed) is assumed to last as long again as it has lasted so far. "
-      "Later events or jobs may change passing orders, so the times are not guaranteed.";
+      "their trajectories, in the present passing order. If an arm is delayed for a reason of its "
+      "own (late, stalled, stopped until resumed), the delay is assumed to last as long again as "
+      "it has lasted so far. Later events or jobs may change passing orders, so the times are not "
+      "guaranteed.";
   timeline.outcomes = {outcome(200, "The predicted motions of each arm", timeline_format())};
   timeline.run = get_timeline;
   return timeline;

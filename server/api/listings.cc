@@ -11,9 +11,10 @@ namespace armloom {
 namespace {
 
 constexpr int kNice = 10;
-constexpr std::size_t kKeptAnyway = 1024;  // texts
+constexpr std::size_t kKeptAnyway = 1024;  // unused texts that are always kept
 
-// Returns false while the job's future start may get another wall time (WallClock).
+// Returns true if the job's text stays correct until the job changes. The wall time of a scheduled
+// start may still change (WallClock).
 bool is_written_for_good(const JobView& job) {
   return !job.times.scheduled_at || is_terminal(job.state);
 }

@@ -20,7 +20,7 @@ class JobTexts {
   [[nodiscard]] ListedJob of(const JobSheet::JobPtr& job, const WallClock& clock);
   [[nodiscard]] std::vector<ListedJob> of(const std::vector<JobSheet::JobPtr>& jobs,
                                           const WallClock& clock);
-  // Drops texts unused since the previous call, if they are the majority.
+  // Drops the texts that no list has used since the previous call, if they are the majority.
   void end_list();
 
  private:
@@ -47,7 +47,7 @@ class Listings {
 
  private:
   Post post_;
-  JobTexts texts_;  // the worker's
+  JobTexts texts_;  // used only by the worker
   Worker worker_;   // last member: destroyed first
 };
 

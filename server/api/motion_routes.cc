@@ -26,11 +26,11 @@ std::vector<Route> motion_routes() {
        .id = "getTrajectory",
        .tag = "jobs",
        .summary = "Get the trajectory of a job",
-       .text =
-           "Returns the motion that the job executes or will execute. For `retime` it is the timed "
-           "trajectory; for a goal the planned one (before planning, a straight-line estimate); "
-           "for `alternatives` the selected or most likely one. 404 if the job is unknown or "
-           "forgotten; the trajectories of earlier sessions are in their recordings only.",
+       .text = "Returns the motion that the job executes or will execute. With `retime`, this is "
+               "the timed trajectory. For a goal, it is the planned trajectory; before planning, "
+               "an estimate along a straight line. With `alternatives`, it is the selected or most "
+               "likely trajectory. 404 if the job is unknown or forgotten: trajectories of earlier "
+               "sessions are only in their recordings.",
        .outcomes = {outcome(200, "The trajectory", job_motion_format())},
        .refuses = {404},
        .run = get_trajectory},

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kSchemas = "#/components/schemas/";
 
-// Responses of refusals: component name and description by status.
+// Describes the responses to refused requests: component name and text, by HTTP status.
 struct RefusalText {
   const char* name;
   const char* text;
@@ -64,8 +64,8 @@ Schema header() {
       {"summary", "An execution server for robot cells in which several arms share one workspace."},
       {"description",
        "Clients post joint trajectories, goals or batches of jobs. Armloom starts each motion as "
-       "soon as it is certified collision-free with respect to everything already moving, and "
-       "keeps the rest in a backlog together with the reason each job waits. Armloom runs "
+       "soon as it is certified collision-free with respect to everything already moving. Jobs "
+       "that cannot start yet wait in a backlog, each with the reason why it waits. Armloom runs "
        "simulated arms only and is not a safety system: Stop is an operational stop and does not "
        "replace an emergency stop.\n\nLengths are in m, angles in rad. Times are seconds of cell "
        "time (keys end in `_s`) or RFC 3339 wall time (`_at`). Every path that serves GET also "
@@ -188,7 +188,8 @@ Schema refusals() {
   return responses;
 }
 
-// `x-role` of an operation is the lowest role that may call it.
+// Describes how a client authenticates. `x-role` of an operation is the lowest role that may call
+// it.
 Schema security_schemes() {
   return {
       {"token",

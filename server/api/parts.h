@@ -31,8 +31,9 @@ class Comparison;
 class Control;
 class Listings;
 
-// Parts used by all routes, which outlive them. Routes run on the server's thread. Commands go to
-// the executive's strand and return asynchronously; reads use the loop's board.
+// The parts of the server that routes use; they outlive the routes. Routes run on the server's
+// thread. Commands are sent to the executive's strand, and their results come back asynchronously.
+// Reads use the state that the loop publishes on its board.
 struct ApiParts {
   CellPtr cell;
   std::string stream;
@@ -46,7 +47,7 @@ struct ApiParts {
   std::function<void(std::function<void()>)> post;  // runs a task on the server's thread, in order
   std::function<void(std::function<void()>)> post_urgent;  // ahead of tasks from `post`
   Guard& guard;
-  // Runs a long task on a worker thread; it must not use the parts.
+  // Runs a long task on a worker thread. The task may use only thread-safe parts.
   std::function<void(std::function<void()>)> aside;
   Listings& listings;
   Metrics& metrics;
@@ -55,7 +56,7 @@ struct ApiParts {
   Control& control;
   std::optional<std::filesystem::path> data;  // folder of recordings, if any
   std::chrono::milliseconds jog_lease;        // jogs are canceled after this time without renewal
-  // Subscribers that wait for a snapshot share the next one.
+  // A subscriber that waits for a snapshot. All newcomers share the next snapshot.
   struct Newcomer {
     bool gap;
     std::function<void(SubscriptionPtr)> then;
@@ -69,7 +70,7 @@ struct ApiParts {
   std::shared_ptr<Newcomers> newcomers = std::make_shared<Newcomers>();
 };
 
-// Runs ask(executive) on the strand, then then(result) on the server's thread.
+// Runs ask(executive) on the executive's strand, then then(result) on the server's thread.
 template <class Ask, class Then>
 void ask(const ApiParts& parts, Ask ask, Then then) {
   parts.loop.post([&parts, ask = std::move(ask), then = std::move(then)](Executive& executive) {
@@ -78,7 +79,7 @@ void ask(const ApiParts& parts, Ask ask, Then then) {
   });
 }
 
-// Like ask(), but ahead of everything that waits on both.
+// Does the same as ask(), but ahead of all other tasks on the strand and on the server's thread.
 template <class Ask, class Then>
 void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
   parts.loop.post_urgent([&parts, ask = std::move(ask),
@@ -88,21 +89,24 @@ void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
   });
 }
 
-// Returns why the store refuses writes, if it does.
+// Returns why the store refuses writes, or nullopt.
 [[nodiscard]] std::optional<Refusal> refusal_of_store(const ApiParts& parts);
 
-// Counts `jobs` against the client's limit; answers 429 and returns true beyond it.
+// Counts `jobs` against the client's limit of jobs per second. Beyond the limit, answers 429 and
+// returns true.
 [[nodiscard]] bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jobs,
                               const Respond& respond);
 
-// Checks the Content-Type. Problem (unsupported): not JSON in UTF-8, or encoded.
+// Checks Content-Type and Content-Encoding. Problem (unsupported): the body is not JSON in UTF-8,
+// or is encoded (compressed).
 [[nodiscard]] Result<void> check_content_type(const Request& request);
 
-// Larger bodies are read on a worker thread.
+// Maximum number of bytes of a body that is read at once. Larger bodies are read on a worker
+// thread.
 inline constexpr std::size_t kReadAtOnceMax = 64 * 1024;
 
-// Reads the body with read(text) -> Result and calls then(value) on the server's thread, or answers
-// the problems.
+// Reads the body with read(text), which returns a Result. Then calls then(value) on the server's
+// thread, or answers with the problems.
 template <class Read, class Then>
 void read_body(const ApiParts& parts, const Request& request, const Respond& respond, Read read,
                Then then) {

@@ -15,7 +15,7 @@ Response plan_response(const Result<PlanOutcome>& result) {
   return refused;
 }
 
-// Plans a motion; `gone` drops the plan if the client has disconnected.
+// Plans a motion. If the client disconnects (`gone`), the plan is dropped.
 void post_plan(Call call) {
   const auto plan = [&parts = call.parts, respond = call.respond,
                      gone = call.request.gone](PlanInquiry read) {
@@ -47,7 +47,8 @@ std::vector<Route> plan_routes() {
                      {{"named", R"({"arm": "left", "to": {"named": "ready"}})"},
                       {"pose", R"({"arm": "left", "to": {"pose": {"link": "left_panda_link8", )"
                                R"("xyz": [0, 0.2, 0.5], "rpy": [3.14, 0, 0]}}, "seed": 7})"}}),
-       .outcomes = {outcome(200, "The motion, with its verdict as a job", plan_format())},
+       .outcomes = {outcome(200, "The planned motion, and the verdict that it would get as a job",
+                            plan_format())},
        .refuses = {422},
        .who = Who::commander,
        .run = post_plan},

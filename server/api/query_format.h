@@ -19,14 +19,14 @@ namespace armloom {
 template <class T>
 struct QueryPart {
   Parameter parameter;
-  // Stores the value; returns what is wrong with it, or nullopt.
+  // Stores the value in `out`. Returns what is wrong with the value, or nullopt.
   std::function<std::optional<std::string>(const std::string& value, T& out)> take;
 };
 
 template <class T>
 class QueryFormat {
  public:
-  // `bad`: `invalid` (422) or `malformed` (400).
+  // `bad`: kind of the problem if a parameter cannot be read, `invalid` (422) or `malformed` (400).
   QueryFormat(std::vector<QueryPart<T>> parts, ProblemKind bad)
       : parts_(std::move(parts)), bad_(bad) {}
 
@@ -76,7 +76,8 @@ template <class Number>
   return true;
 }
 
-// Name T explicitly if the member is of its base class: text<AuditQuery>(...).
+// Describes a parameter that may have any text. If the member belongs to a base class of T, the
+// caller must name T: text<AuditQuery>(...).
 
 template <class T, class Of, class Text>
 [[nodiscard]] QueryPart<T> text(std::string name, Text Of::*where, std::string description) {
@@ -87,7 +88,7 @@ template <class T, class Of, class Text>
           }};
 }
 
-// A non-empty text.
+// Describes a required parameter, a text that must not be empty.
 template <class T>
 [[nodiscard]] QueryPart<T> required_text(std::string name, std::string T::*where,
                                          std::string description) {
@@ -125,7 +126,7 @@ template <class T, class E>
           }};
 }
 
-// Entries of a page.
+// Number of entries on a page.
 inline constexpr std::size_t kPage = 100;  // default
 inline constexpr std::size_t kPageMax = 1000;
 template <class T>
@@ -134,7 +135,7 @@ template <class T>
                          "Number of entries per page; default " + std::to_string(kPage) + "");
 }
 
-// The end of the previous page, encoded by the server.
+// Describes the position where the previous page ended, encoded by the server.
 template <class T, class Of>
 [[nodiscard]] QueryPart<T> cursor(std::optional<std::uint64_t> Of::*where) {
   return {{"cursor", "`next_cursor` of the previous page", {{"type", "string"}}},

@@ -31,7 +31,7 @@ RecordingView view_of(const KeptRecording& kept, bool is_running) {
   return view;
 }
 
-// Returns the size up to the last complete line.
+// Returns the size of the file up to the end of its last complete line.
 tl::expected<std::size_t, NoFile> whole_lines(const OpenFile& file) {
   constexpr std::size_t kPiece = std::size_t{64} * 1024;
   for (std::size_t end = file.size(); end > 0;) {

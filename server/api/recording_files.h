@@ -14,11 +14,11 @@
 
 namespace armloom {
 
-// Recordings for HTTP clients. A request contains the names of a recording and of its file, never a
-// path. Thread-safe; call it on a worker thread.
+// Serves recordings to HTTP clients. A request names a recording and one of its files, never a
+// path. Thread-safe. Call it on a worker thread, because it reads from disk.
 class RecordingFiles {
  public:
-  // Files open at once; each holds a descriptor while its client reads.
+  // Maximum number of open files. Each file takes a descriptor while its client reads.
   inline static constexpr std::size_t kOpenMax = 32;
 
   // `running`: the recording being written, or null; must outlive this object.
@@ -30,9 +30,10 @@ class RecordingFiles {
 
   struct Opened {
     std::shared_ptr<const OpenFile> file;
-    std::size_t size = 0;  // bytes to hand out
+    std::size_t size = 0;  // bytes that the client gets
   };
-  // Refuses symbolic links. Of a recording in progress only complete lines are available.
+  // Opens a file of a recording; refuses symbolic links. If the recording is in progress, `size`
+  // ends at the last complete line.
   [[nodiscard]] tl::expected<Opened, NoFile> open(const std::string& name,
                                                   const std::string& file) const;
 

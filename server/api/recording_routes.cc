@@ -13,7 +13,7 @@ Response no_such_file(const std::string& name) {
                                    "request target", "no recording has the file " + name, name}});
 }
 
-// Runs `look` on a worker thread when all measured states are in the files.
+// Writes all states measured so far to the recording's files, then runs `look` on a worker thread.
 void look_aside(const ApiParts& parts, std::function<void()> look) {
   if (parts.recording == nullptr) return parts.aside(std::move(look));
   ask(
@@ -34,7 +34,7 @@ void get_recordings(Call call) {
   });
 }
 
-// Reads pieces on a worker thread, because disks are slow.
+// Returns a body that is read in pieces on a worker thread, because disks are slow.
 PiecedBody body_of(const ApiParts& parts, RecordingFiles::Opened opened) {
   return {opened.size, [&parts, file = std::move(opened.file)](
                            std::uintmax_t from, std::size_t count, PiecedBody::Then then) {
@@ -92,8 +92,8 @@ std::vector<Route> recording_routes() {
   file.text =
       "Returns one of the listed files, for `armloom audit`, `armloom replay` and the dashboard. "
       "`inputs.jsonl` and `jobs.json` contain the requests of clients but no tokens or keys, so "
-      "every role may read them. A recording in progress is returned up to its last complete line; "
-      "its `jobs.json` lacks the end. 503 if too many files are being read.";
+      "every role may read them. A file of a recording in progress is returned up to its last "
+      "complete line; `jobs.json` is then incomplete. 503 if too many files are being read.";
   file.outcomes = {{200,
                     "The file",
                     {{"application/octet-stream", {{"type", "string"}, {"format", "binary"}}}}}};

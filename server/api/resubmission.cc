@@ -26,7 +26,8 @@ Problem other_body(const std::string& key) {
           key.substr(key.find(kNameEnds) + 1)};  // the whole key if no token is required
 }
 
-// Finds jobs by the key. Problem (conflict): the key had another body.
+// Finds the jobs that were accepted with this Idempotency-Key. Problem (conflict): the key was used
+// with another body.
 Result<void> recall_key(const ApiParts& parts, const SentRequest& sent, KnownJobs& known) {
   if (sent.key.empty()) return {};
   const auto put = [&](std::size_t place, const std::string& id) {
@@ -46,7 +47,8 @@ Result<void> recall_key(const ApiParts& parts, const SentRequest& sent, KnownJob
   return {};
 }
 
-// Finds a job by the client's id. submit() refuses an id that had another body.
+// Finds the job that was accepted with this id and this body. If the id had another body, submit()
+// refuses the job later.
 Result<void> recall_id(const ApiParts& parts, const SentRequest::Job& job, std::string& known) {
   if (job.id.empty() || !known.empty()) return {};
   if (const auto* before = parts.accepted->find(AcceptedRequests::name_of_id(job.id))) {
@@ -90,13 +92,13 @@ Result<ListedJob> stored_or_forgotten(const ApiParts& parts, const std::string& 
 }  // namespace
 
 Parameter idempotency_parameter() {
-  return {
-      "Idempotency-Key",
-      "Client-chosen name of the request. A request with the same key and body returns the same "
-      "jobs, also after a restart with `--data`; the same key with another body is answered 409",
-      {{"type", "string"}, {"minLength", 1}, {"maxLength", kKeyMax}},
-      false,
-      "header"};
+  return {"Idempotency-Key",
+          "Client-chosen name of the request. A repeated request with the same key and body "
+          "returns the same jobs; with `--data`, also after a restart. The same key with another "
+          "body is answered 409",
+          {{"type", "string"}, {"minLength", 1}, {"maxLength", kKeyMax}},
+          false,
+          "header"};
 }
 
 Result<std::string> idempotency_key(const ApiParts& parts, const Request& request) {
@@ -128,7 +130,7 @@ void recall(const ApiParts& parts, const SentRequestPtr& sent, Respond respond,
 }
 
 void note_accepted(const ApiParts& parts, const SentRequest& sent, const KnownJobs& accepted) {
-  if (parts.keeper != nullptr) return;  // the store has it
+  if (parts.keeper != nullptr) return;  // the store remembers the jobs
   AcceptedRequests::Accepted by_key{sent.digest, {}};
   for (std::size_t i = 0; i < accepted.size(); ++i) {
     if (accepted[i].empty()) continue;

@@ -12,7 +12,7 @@
 
 namespace armloom {
 
-// One call of a route. The parts outlive every answer; the request is valid only during the call.
+// One call of a route. The parts outlive every answer. The request is valid only during the call.
 struct Call {
   const ApiParts& parts;
   CellMeshes& meshes;
@@ -32,7 +32,8 @@ struct Parameter {
 
 struct Body {
   Schema schema;
-  std::vector<std::pair<std::string, std::string>> examples;  // name, JSON; each is accepted
+  std::vector<std::pair<std::string, std::string>>
+      examples;  // name and JSON; the server accepts each
 };
 
 struct Content {
@@ -47,7 +48,8 @@ struct Outcome {
   bool has_tag = false;  // ETag
 };
 
-// A route; dispatch, `Allow` and /openapi.json follow from it.
+// Describes a route. Its dispatch, the header `Allow` and its entry in /openapi.json are made from
+// this.
 struct Route {
   std::string method;
   std::string path;  // full path; {id} matches any segment
@@ -67,7 +69,7 @@ struct Route {
   [[nodiscard]] Rights rights() const { return {who, role, is_never_limited}; }
 };
 
-// Routes by resource, in the order in which they are matched.
+// The routes of each resource.
 [[nodiscard]] std::vector<Route> job_routes();         // /jobs, /queue, /timeline
 [[nodiscard]] std::vector<Route> motion_routes();      // /jobs/{id}/trajectory
 [[nodiscard]] std::vector<Route> submission_routes();  // POST /jobs, /batches, /check
@@ -89,7 +91,8 @@ struct Route {
 [[nodiscard]] std::vector<Route> service_routes();     // /healthz, /docs, ...
 [[nodiscard]] const std::vector<Route>& all_routes();
 
-// Refusals of every route, plus 415 for bodies and 403 for commands.
+// Returns the HTTP statuses of refusals that a route need not list in `refuses`. Some of them
+// depend on the route; for example, 415 only applies to routes that read a body.
 [[nodiscard]] std::vector<int> common_refusals(const Route& route);
 
 // Adds the prefix: "/jobs" becomes "/api/v1/jobs".

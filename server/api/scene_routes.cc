@@ -37,7 +37,8 @@ void get_scene(Call call) {
   call.respond(answer(200, scene_format(), *call.parts.loop.board().read().scene));
 }
 
-// Answers when the change is stored. `text`: the object as sent; nullopt if removed.
+// Answers when the change is stored. `text`: the object as the client sent it, or nullopt if it was
+// removed.
 void respond_when_stored(const ApiParts& parts, const std::string& name,
                          std::optional<std::string> text, const Respond& respond,
                          Response response) {
@@ -48,7 +49,8 @@ void respond_when_stored(const ApiParts& parts, const std::string& name,
                        });
 }
 
-// `change`: add or put. `name`: from the path, if any.
+// Adds or replaces an object with `change`, which is add or put. `name`: name of the object in the
+// path, if any.
 template <class Change>
 void set_object(Call& call, const std::optional<std::string>& name, Change change) {
   const auto set = [&parts = call.parts, respond = call.respond, text = call.request.body,
@@ -74,7 +76,7 @@ void set_object(Call& call, const std::optional<std::string>& name, Change chang
 void post_object(Call call) { set_object(call, std::nullopt, add); }
 void put_object(Call call) { set_object(call, call.arguments.front(), put); }
 
-// Removes nothing while the removal cannot be stored.
+// Removes an object. Refuses to do so while the removal cannot be stored.
 void delete_object(Call call) {
   if (const auto refusal = refusal_of_store(call.parts)) {
     return call.respond(refusal_response(*refusal));

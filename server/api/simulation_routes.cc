@@ -8,7 +8,8 @@
 namespace armloom {
 namespace {
 
-// Changes the speed on the strand, where cell time and wall time are known together.
+// Changes the speed on the executive's strand, because cell time and wall time of the change are
+// known together only there.
 void put_speed(Call call) {
   struct Change {
     TimePoint time;

@@ -1,4 +1,4 @@
-// Writes a hundred thousand numbers on a worker thread.
+// GET /states. An answer can have a hundred thousand numbers, so it is written on a worker thread.
 #include <memory>
 
 #include "server/api/route.h"
@@ -31,9 +31,9 @@ std::vector<Route> state_routes() {
             .tag = "arms",
             .summary = "Get the measured joint positions of the last five minutes"};
   get.text =
-      "Ten samples per second of wall time, for clients that connect later. From then on, events "
-      "bring frames of type `state` at 30 Hz. Recordings made with `--record` contain all states "
-      "at 1 kHz.";
+      "Returns ten samples per second of wall time, for clients that connect later. Later "
+      "positions arrive as events of type `state` at 30 Hz. Recordings made with `--record` "
+      "contain all states at 1 kHz.";
   get.outcomes = {outcome(200, "Samples of the last five minutes", measured_states_format())};
   get.run = get_states;
   return {get};

@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-// Returns the answer if the store refuses the job.
+// Returns the answer if the store refuses the job, else nullopt.
 std::optional<Response> refused_by_store(const ApiParts& parts, JobRequest& job) {
   if (parts.keeper == nullptr) return std::nullopt;
   if (const auto refusal = parts.keeper->refusal()) return refusal_response(*refusal);
@@ -106,10 +106,11 @@ std::vector<Route> submission_routes() {
        .id = "submitJob",
        .tag = "jobs",
        .summary = "Submit a job",
-       .text = "422 if the job can never run: limits, names, shape, or a start where its arm will "
-               "not be. 409 if the id is in use with another body. With `--data` the job is on "
-               "disk before the answer and survives a restart; 507 if the disk is full. A repeated "
-               "request (same `id` or `Idempotency-Key`, same body) returns the same job.",
+       .text = "422 if the job can never run: unknown names, a malformed trajectory, exceeded "
+               "joint limits, or a start at which its arm will not be. 409 if the id is in use "
+               "with another body. With `--data`, the job is on disk before the answer and "
+               "survives a restart; 507 if the disk is full. A repeated request (same `id` or "
+               "`Idempotency-Key`, same body) returns the same job.",
        .parameters = {idempotency_parameter()},
        .reads = body(job_request_format(),
                      {{"reach", example_job(head, "left")}, {"moveit", example_moveit_job()}}),
@@ -126,8 +127,8 @@ std::vector<Route> submission_routes() {
        .id = "checkJob",
        .tag = "jobs",
        .summary = "Check a job without submitting it",
-       .text = "Checks the job as if it started now, against everything that holds a reservation. "
-               "Changes nothing.",
+       .text = "Checks the job as if it started now, against all motions that are admitted and "
+               "everything at rest. Changes nothing.",
        .reads = body(job_request_format(), {{"reach", example_job("", "left")}}),
        .outcomes = {outcome(200, "The verdict of the admission code", verdict_format())},
        .refuses = {409, 422},

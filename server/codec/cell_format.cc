@@ -16,16 +16,16 @@ namespace {
 FormatPtr<CheckingSettings> checking_format() {
   using Checking = CheckingSettings;
   return object<Checking>({
-      field(
-          "time_step_s", &Checking::time_step, seconds(Checking::time_step_range),
-          "Time step of the policy timed_discrete, which compares motions only at these instants."),
+      field("time_step_s", &Checking::time_step, seconds(Checking::time_step_range),
+            "Time step of the policy timed_discrete. This policy compares motions only at these "
+            "instants."),
       field("tracking_error_rad", &Checking::tracking_error_rad,
             number(Checking::tracking_error_range),
-            "Largest deviation of a joint from its path; all certificates cover it."),
+            "Largest deviation of a joint from its path. All certificates allow for it."),
       field("delay_s", &Checking::delay, seconds(Checking::delay_range),
-            "Expected delay of a motion behind its plan; `validate` warns of controllers with a "
-            "larger lag_s. Certificates do not depend on it, because motions are coordinated by "
-            "measured progress."),
+            "Expected delay of a motion behind its plan. `validate` warns of controllers with a "
+            "larger lag_s. Certificates do not depend on this value, because motions are "
+            "coordinated by measured progress."),
       field("limit_tolerance", &Checking::limit_tolerance, number(Checking::limit_tolerance_range),
             "Share by which a trajectory may exceed a velocity, acceleration or jerk limit between "
             "its waypoints."),
@@ -36,24 +36,26 @@ FormatPtr<SchedulingSettings> scheduling_format() {
   using Scheduling = SchedulingSettings;
   return object<Scheduling>({
       field("policy", &Scheduling::policy, one_of(known_policies()),
-            "Policy that decides when jobs start; `armloom compare` simulates your jobs under each "
+            "Policy that decides when jobs start. `armloom compare` simulates your jobs under each "
             "policy."),
       field("backlog_timeout_s", &Scheduling::backlog_timeout,
             seconds(Scheduling::backlog_timeout_range),
             "Time in the backlog after which a job expires; a job can override it."),
       field("aging_s", &Scheduling::aging, seconds(Scheduling::aging_range),
-            "After waiting this long, a job can no longer be overtaken."),
+            "Waiting time after which a job can no longer be overtaken."),
       field("on_idle_blocker", &Scheduling::on_idle_blocker, choice<OnIdleBlocker>(),
             "Action when an idle arm or a deadlock cycle blocks a job. park: move an arm out of "
-            "the way (retreat). replan: plan another path to the job's end, losing the rest of its "
-            "trajectory; park if there is no path. report: only report the blockade."),
+            "the way (retreat). replan: plan another path to the job's end, which loses the rest "
+            "of its trajectory; if there is no path, park. report: only report the blockade; in a "
+            "deadlock cycle, the job submitted last fails."),
       field("horizon_steps", &Scheduling::horizon_steps, integer(Scheduling::horizon_steps_range),
-            "Number of jobs per arm that are scheduled together, including the running one (policy "
-            "coordinated only). Decision time grows quadratically: tens of milliseconds above 12."),
+            "Number of jobs per arm that are scheduled together, including the running one (only "
+            "for the policy coordinated). The time for a decision grows with the square of this "
+            "number: above 12, it is tens of milliseconds."),
       field("on_restart", &Scheduling::on_restart, choice<OnRestart>(),
-            "Action after a restart of a server with `--data` for jobs that had not ended. ask: "
-            "all arms stay stopped until they are resumed. continue: jobs that had not begun "
-            "continue by themselves."),
+            "Action after a restart of a server with `--data` if jobs had not ended. ask: all arms "
+            "stay stopped until they are resumed. continue: jobs that had not begun continue by "
+            "themselves."),
   });
 }
 
@@ -65,7 +67,7 @@ FormatPtr<MonitorSettings> monitor_format() {
       field("reaction_s", &Monitor::reaction, seconds(Monitor::reaction_range),
             "Time from a finding to the start of braking."),
       field("stop_clearance_m", &Monitor::stop_clearance_m, number(Monitor::stop_clearance_range),
-            "Clearance below which the monitor stops the arms. At most clearance_m."),
+            "Clearance below which the monitor stops the arms; at most clearance_m."),
   });
 }
 
@@ -77,15 +79,15 @@ FormatPtr<ExecutionSettings> execution_format() {
             "Largest deviation of an arm from the start of its job."),
       field("duration_scaling", &Execution::duration_scaling,
             number(Execution::duration_scaling_range),
-            "A motion fails as overrun if it takes longer than its duration times this factor plus "
-            "duration_margin_s, and has not moved for 10 s."),
+            "A motion fails as overrun if two conditions hold: it takes longer than its duration "
+            "times this factor plus duration_margin_s, and it has not moved for 10 s."),
       field("duration_margin_s", &Execution::duration_margin,
             seconds(Execution::duration_margin_range),
             "Margin added to the scaled duration; increase it if arms may stall for longer."),
       field("velocity_scaling_factor", &Execution::velocity_scaling_factor,
             number(Execution::velocity_scaling_range),
-            "Default velocity scaling for every motion that the server time-parameterizes: goals, "
-            "`retime`, replans and retreats. As in MoveIt; a request can override it. Trajectories "
+            "Default velocity scaling of every motion that the server time-parameterizes: goals, "
+            "`retime`, replans and retreats. A request can override it, as in MoveIt. Trajectories "
             "with times run as given."),
   });
 }
@@ -155,8 +157,8 @@ const Format<CellDescription>& cell_format() {
       field("objects", &Description::objects, list(scene_object_format()),
             "Collision objects at start: tables, fixtures, fences."),
       field("allowed_collisions", &Description::allowed_collisions, list(pair_of(name())),
-            "Pairs that may touch: two links, or a link and an object; link names include the "
-            "prefix. Collisions of these pairs are not checked."),
+            "Pairs that may touch: two links, or a link and an object. Link names include the "
+            "prefix. Collisions of these pairs are not checked, so the bodies may hit each other."),
       settings_part(),
   });
   return *format;

@@ -8,8 +8,8 @@
 
 namespace armloom {
 
-// Describes every field of the cell file. The reader, the schema, config/README.md, the output of
-// `armloom import` and the settings in GET /cell follow from it.
+// Describes every field of the cell file. The following are made from it: the reader, the schema,
+// config/README.md, the output of `armloom import`, and the settings in GET /cell.
 [[nodiscard]] const Format<CellDescription>& cell_format();
 
 // Returns clearances, checking, scheduling, monitor and execution as members of one object.

@@ -115,7 +115,8 @@ class CommentedWriter {
     for (const std::string& note : notes->second) write_comment(note);
   }
 
-  // Writes a comment; line ends become spaces, because the rest would not be a comment.
+  // Writes a comment. Line ends become spaces, because text after a line end would not belong to
+  // the comment.
   void write_comment(const std::string& text) {
     std::istringstream words(text);
     std::string word;

@@ -8,11 +8,13 @@
 
 namespace armloom {
 
-// JSON pointer -> additional comments; "" is the head of the document.
+// Additional comments, by the JSON pointer of the member that they describe. "" is the head of the
+// document.
 using JsonNotes = std::map<std::string, std::vector<std::string>>;
 
-// Returns the value as readable JSON with comments: the description of each member at its first
-// occurrence, then its notes. Reads back as the same value (JsonComments::allowed).
+// Returns the value as readable JSON with comments. The comment of a member is its description in
+// the schema, at the first occurrence only, followed by its notes. The text reads back as the same
+// value (JsonComments::allowed).
 [[nodiscard]] std::string commented_json(const Schema& value, const Schema& schema,
                                          const JsonNotes& notes);
 

@@ -14,37 +14,39 @@ namespace armloom {
 // JSON Schema (draft 2020-12); keys keep their order.
 using Schema = nlohmann::ordered_json;
 
-// Input of clients or output of the server. In output, members with defaults are always present.
+// Direction for which a schema is made: input from clients, or output of the server. In output,
+// members with defaults are always present.
 enum class Way { in, out };
 
 using PathMap = std::function<std::string(const std::string&)>;
 
-// Describes the JSON form of a value; reader, writer, schema and reference follow from it.
-// Immutable, and shared by threads.
+// Describes the JSON form of a value. Its reader, writer, schema and reference are made from this
+// description. Immutable, and shared by threads.
 //
-// The value's type is erased, so that formats are compiled once: `out` and `value` are addresses.
-// FormatPtr<T> is the typed handle.
+// The type of the value is erased, so that formats are compiled only once: `out` and `value` are
+// addresses of the value. FormatPtr<T> is the typed handle.
 class AnyFormat {
  public:
   AnyFormat() = default;
   AnyFormat(const AnyFormat&) = delete;
   AnyFormat& operator=(const AnyFormat&) = delete;
   virtual ~AnyFormat() = default;
-  // Reads into `out`, which holds the defaults. Faults are added to the node's list; then `out`
-  // must not be used.
+  // Reads into `out`, which must hold the defaults. Adds faults to the list of the node; if there
+  // are faults, the caller must not use `out`.
   virtual void read_any(const JsonNode& node, void* out) const = 0;
   virtual void write_any(JsonWriter& out, const void* value) const = 0;
   [[nodiscard]] virtual Schema schema(Way way) const = 0;
-  // Replaces paths in a value before it is read; ignores what does not fit the format.
+  // Replaces the file paths in a JSON value that has not been read yet. Ignores everything that
+  // does not fit the format.
   virtual void map_paths(nlohmann::json& /*value*/, const PathMap& /*map*/) const {}
 };
 
-// A std::shared_ptr that is copied and destroyed out of line, because descriptions create thousands
-// of temporaries.
+// A std::shared_ptr whose copying and destruction are not inlined, because descriptions create
+// thousands of temporaries.
 template <class Any>
 class SharedAny {
  public:
-  explicit SharedAny(const Any* made);  // owns it
+  explicit SharedAny(const Any* made);  // takes ownership
   SharedAny(const SharedAny& other);
   SharedAny(SharedAny&& other) noexcept;
   SharedAny& operator=(SharedAny other) noexcept;
@@ -57,7 +59,8 @@ class SharedAny {
 };
 using AnyFormatPtr = SharedAny<AnyFormat>;
 
-// Copy it to keep it: a reference from `*format_pointer` lives only as long as the FormatPtr.
+// A typed AnyFormat. To keep a Format, copy it: a reference from `*format_pointer` is valid only as
+// long as that FormatPtr.
 template <class T>
 class Format {
  public:
@@ -103,7 +106,7 @@ template <class Kind, class... Arguments>
       AnyFormatPtr(new Kind(std::forward<Arguments>(arguments)...)));
 }
 
-// Returns a value for a schema; whole numbers have no decimal point.
+// Return a value for a schema. Whole numbers get no decimal point.
 [[nodiscard]] Schema as_json(double number);
 [[nodiscard]] Schema as_json(const JsonWriter& written);
 [[nodiscard]] Schema as_json(const AnyFormat& format, const void* value);

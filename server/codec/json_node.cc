@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// Fields of requests and cell files that version 0.2 renamed.
+// Fields of requests and cell files that version 0.2 renamed: old and new name.
 constexpr std::pair<std::string_view, std::string_view> kRenamed[] = {
     {"approach", "move_to_start"}, {"horizon_legs", "horizon_steps"}, {"order", "reorderable"}};
 
@@ -23,7 +23,7 @@ std::optional<std::string_view> renamed(std::string_view key,
   return is_known ? std::optional(it->second) : std::nullopt;
 }
 
-// Returns the found value, shortened to fit into a sentence.
+// Returns the value that was found, shortened so that it fits into a sentence.
 std::variant<std::monostate, double, std::string> shown(const json& value) {
   static constexpr std::size_t kShown = 80;
   if (value.is_number()) return value.get<double>();
@@ -39,7 +39,7 @@ bool is_whole_double(const json& value) {
   return value.is_number_float() && value.get<double>() == std::trunc(value.get<double>());
 }
 
-// Returns nullopt if out of range. Precondition: a whole number.
+// Returns nullopt if the number is out of range. Precondition: the value is a whole number.
 std::optional<std::int64_t> whole_within_int64(const json& value) {
   constexpr double kBeyond = 9223372036854775808.0;  // 2^63
   if (value.is_number_float()) {

@@ -14,32 +14,32 @@
 
 namespace armloom {
 
-// A JSON value with its place. Faults go to the root's list and reading continues. The value and
-// the parent node must outlive the node. Wrong types are `malformed`; impossible values are
-// `invalid`.
+// A JSON value with its place in the document. Faults are added to the list of the root, and
+// reading continues. A wrong type is `malformed`, an impossible value `invalid`. The value and the
+// parent node must outlive the node.
 class JsonNode {
  public:
   inline static constexpr std::size_t kFaultsMax = 20;
 
-  // `prefix` precedes every pointer ("/3/job").
+  // Makes the root of a document. `prefix` precedes every pointer ("/3/job").
   JsonNode(const nlohmann::json& value, std::string_view prefix, Problems& faults)
       : value_(&value), key_(prefix), faults_(&faults) {}
 
   [[nodiscard]] std::string pointer() const;
   [[nodiscard]] const nlohmann::json& raw() const { return *value_; }
 
-  // Returns true for an object; reports unknown keys.
+  // Returns true if the value is an object. Reports keys that are not in `known`.
   [[nodiscard]] bool object(std::span<const std::string_view> known) const;
   [[nodiscard]] bool object(std::initializer_list<std::string_view> known) const {
     return object(std::span(known.begin(), known.size()));
   }
   [[nodiscard]] bool has(std::string_view key) const { return value_->contains(key); }
-  // Precondition: object() returned true.
+  // Calls read(member) if the object has this key. Precondition: object() returned true.
   template <class Read>
   void optional(std::string_view key, Read read) const {
     if (const auto it = value_->find(key); it != value_->end()) read(JsonNode(*it, *this, key));
   }
-  // Also reports a missing member.
+  // Does the same as optional(), but reports a missing member.
   template <class Read>
   void required(std::string_view key, Read read) const {
     if (const auto it = value_->find(key); it != value_->end()) {
@@ -48,7 +48,7 @@ class JsonNode {
       missing(key);
     }
   }
-  // Reports a value that is not an array.
+  // Calls read(element) for each element of an array. Reports a value that is not an array.
   template <class Read>
   void each(Read read) const {
     if (!array()) return;
@@ -62,11 +62,11 @@ class JsonNode {
     }
   }
 
-  // On a fault, these return false and leave `out` unchanged.
+  // On a fault, these return false. `out` is then unchanged, except that a list may be incomplete.
   bool read(double& out) const;
   bool read(std::string& out) const;
   bool read(bool& out) const;
-  // Accepts 1.0 and 1e3 as integers, like JSON Schema.
+  // Accepts 1.0 and 1e3 as integers, as JSON Schema does.
   bool read_integer(std::int64_t& out, std::int64_t lowest, std::int64_t highest) const;
   bool read(std::vector<double>& out) const;
   bool read(std::vector<std::string>& out) const;

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-// Builds the value and keeps the path to it.
+// Builds the JSON value while its text is parsed. Keeps the path to the present place.
 class StrictBuilder {
  public:
   explicit StrictBuilder(std::string_view text) : text_(text) {}
@@ -46,7 +46,7 @@ class StrictBuilder {
   }
 
   bool parse_error(std::size_t position, const std::string&, const json::exception& error) {
-    // The library counts from one, after the last character read.
+    // The library gives the number of characters read so far, the wrong one included.
     const std::size_t offset = std::min(position > 0 ? position - 1 : 0, text_.size());
     const bool out_of_range = error.id == 406;
     const std::string found = token_around(offset);
@@ -89,7 +89,7 @@ class StrictBuilder {
   bool open(json container) {
     if (levels_.size() >= kJsonDepthMax) {
       return refuse_size("nesting-too-deep",
-                         "nested more than" + std::to_string(kJsonDepthMax) + " levels deep");
+                         "nested more than " + std::to_string(kJsonDepthMax) + " levels deep");
     }
     if (!count_part()) return false;
     json* place = &root_;
@@ -103,7 +103,7 @@ class StrictBuilder {
       *parent.slot = std::move(container);
       place = parent.slot;
     }
-    // Stays valid: nothing is added to the parent before this container is closed.
+    // `place` stays valid, because nothing is added to the parent before this container is closed.
     levels_.push_back(Level{place, {}, nullptr});
     return true;
   }
@@ -136,7 +136,7 @@ class StrictBuilder {
     problem_.detail = std::move(detail);
     if (!found.empty()) problem_.value = std::move(found);
     for (const Level& level : levels_) {
-      if (level.value->is_array()) {  // an open element is already in its array
+      if (level.value->is_array()) {  // an element that is being read is already in its array
         const bool innermost = &level == &levels_.back();
         append_index(problem_.pointer, level.value->size() - (innermost ? 0 : 1));
       } else if (level.slot != nullptr) {

@@ -15,13 +15,14 @@ namespace armloom {
 
 class WallClock;
 
-// Writes JSON without spaces. Numbers read back the same. The text is always valid: NaN and
-// infinities become null, -0 becomes 0, invalid UTF-8 becomes U+FFFD. The caller must balance begin
-// and end.
+// Writes JSON without spaces. Numbers are written so that they read back the same. The text is
+// always valid: NaN and infinities become null, -0 becomes 0, invalid UTF-8 becomes U+FFFD. The
+// caller must balance begin and end.
 class JsonWriter {
  public:
   JsonWriter() = default;
-  // `clock` gives wall time and must outlive the writer; null if unknown.
+  // `clock` converts cell time to wall time and must outlive the writer. It is null if wall time is
+  // unknown.
   explicit JsonWriter(const WallClock* clock) : clock_(clock) {}
 
   JsonWriter& begin_object() { return open('{'); }
@@ -35,7 +36,8 @@ class JsonWriter {
   JsonWriter& value(const std::string& text) { return value(std::string_view(text)); }
   JsonWriter& value(double number);
   JsonWriter& value(std::nullptr_t) { return raw("null"); }
-  // Divides instead of multiplying, so that a whole millisecond is exact.
+  // Writes seconds. Divides by 1e9 instead of multiplying by 1e-9, so that whole milliseconds are
+  // written exactly.
   JsonWriter& value(Duration time) { return value(static_cast<double>(time.count()) / 1e9); }
   JsonWriter& value(TimePoint time) { return value(time.time_since_epoch()); }
   template <class T>
@@ -60,7 +62,7 @@ class JsonWriter {
   }
   // Rounds to `decimals` (0..9) places.
   JsonWriter& rounded(double number, int decimals);
-  // Returns false in a simulated session: keys ending in _at are not written.
+  // Returns false in a simulated session, where keys ending in _at are not written.
   [[nodiscard]] bool knows_wall_time() const { return clock_ != nullptr; }
   JsonWriter& wall_time(std::optional<TimePoint> time);  // nullopt is written as null
   // Writes `json`, which must be valid.
@@ -82,7 +84,7 @@ class JsonWriter {
 
   const WallClock* clock_ = nullptr;
   std::string out_;
-  bool comma_ = false;  // a value precedes on this level
+  bool comma_ = false;  // the next value on this level needs a comma
 };
 
 }  // namespace armloom

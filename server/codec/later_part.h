@@ -4,7 +4,7 @@
 
 namespace armloom::formats {
 
-// Makes members optional when reading, because older versions did not write them.
+// Makes the members of a part optional in schemas, because earlier versions did not write them.
 [[nodiscard]] AnyPartPtr later(const AnyPartPtr& part);
 template <class T>
 [[nodiscard]] PartPtr<T> later(const PartPtr<T>& part) {

@@ -12,7 +12,8 @@
 
 namespace armloom::formats {
 
-// A list with more than `most` is not read: fault "too-many-<what>", counted as `noun`.
+// The allowed size of a list. A list with more than `most` elements is not read and is the fault
+// "too-many-<what>". The message calls the elements `noun`.
 struct ListSize {
   std::size_t fewest = 0;
   std::optional<std::size_t> most = {};

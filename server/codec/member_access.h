@@ -9,7 +9,7 @@
 
 namespace armloom::formats {
 
-// The function must outlive the reference.
+// Refers to a function that takes the address of a value. The function must outlive this object.
 template <class Void>
 class AddressFunction {
  public:
@@ -25,8 +25,8 @@ class AddressFunction {
 using UseValue = AddressFunction<const void>;
 using FillValue = AddressFunction<void>;
 
-// Offset in bytes: a pointer to a data member in the Itanium C++ ABI (GCC; Clang except on
-// Windows).
+// Returns the offset of a member in bytes. In the Itanium C++ ABI (GCC; Clang except on Windows), a
+// pointer to a data member is this number.
 template <class T, class Where>
 [[nodiscard]] std::ptrdiff_t offset_of(Where T::*where) {
   static_assert(sizeof where == sizeof(std::ptrdiff_t) && !std::is_function_v<Where>);
@@ -39,7 +39,8 @@ template <class T, class Where>
   return static_cast<std::byte*>(object) + offset;
 }
 
-// Returns a value to read into. Eigen types need Zero(), because they are not initialized.
+// Returns a value to read into. Eigen types need Zero(), because their constructors leave them
+// uninitialized.
 template <class M>
 [[nodiscard]] M fresh() {
   if constexpr (requires { M::Zero(); }) {
@@ -49,16 +50,18 @@ template <class M>
   }
 }
 
-// Access to a value in an object of erased type, by an offset or two functions.
+// Access to a value in an object whose type is erased: by the offset of the value, or by two
+// functions.
 class Access {
  public:
-  // Calls use(object's value), unless the object has none.
+  // Calls use(address of the value in the object), unless the object has no such value.
   using Use = void (*)(const Access&, const void* object, const UseValue& use);
-  // Calls fill(storage for the value), then stores the value read in the object.
+  // Calls fill(address of storage for the value). Then stores the value that was read in the
+  // object.
   using Fill = void (*)(const Access&, void* object, const FillValue& fill);
 
   explicit Access(std::ptrdiff_t offset) : Access(offset, nullptr, nullptr) {}
-  // `state`: for the functions. If a function is null, it must be the offset.
+  // `state` is kept for the functions. If one of the functions is null, `state` must be the offset.
   template <class State>
   Access(const State& state, Use use, Fill fill) : use_(use), fill_(fill) {
     static_assert(std::is_trivially_copyable_v<State> && sizeof(State) <= sizeof state_);
@@ -107,7 +110,7 @@ template <class T, class M>
         fill(maybe ? &*maybe : &maybe.emplace(fresh<M>()));
       });
 }
-// An empty list, dictionary or text means no value.
+// Returns an access to a list, dictionary or text. If it is empty, the object has no value.
 template <class T, class M>
 [[nodiscard]] Access unless_empty(M T::*where) {
   return Access(
@@ -118,7 +121,8 @@ template <class T, class M>
       nullptr);
 }
 
-// Get(const T&) returns std::optional<M>; Put(T&, M) stores the value that was read.
+// Returns an access by two functions. Get(const T&) returns std::optional<M>; Put(T&, M) stores the
+// value that was read.
 template <class T, class M, class Get, class Put>
 [[nodiscard]] Access computed_access(Get get, Put put) {
   struct Both {

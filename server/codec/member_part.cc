@@ -7,7 +7,7 @@
 namespace armloom::formats {
 namespace {
 
-// Returns false for empty lists and objects, whose defaults are not worth showing.
+// Returns true if a schema should show this default: not for objects and empty lists.
 bool is_telling(const Schema& fallback) {
   return !fallback.is_object() && !(fallback.is_array() && fallback.empty());
 }

@@ -18,10 +18,10 @@ struct MemberText {
   std::string key;
   std::string text;  // one or two sentences
   Need need = Need::optional;
-  std::optional<Schema> stated;  // default, if not that of the object
+  std::optional<Schema> stated;  // default, if not that of a new object
 };
 
-// `fallback`: default of an absent member, if any.
+// Adds the member to the schema of an object. `fallback`: value of an absent member, if any.
 void describe_member(Schema& object, const MemberText& member, Schema schema,
                      const std::optional<Schema>& fallback, Way way);
 
@@ -32,7 +32,8 @@ void describe_member(Schema& object, const MemberText& member, Schema schema,
 [[nodiscard]] AnyPartPtr member_part(Need need, std::string_view key, std::string_view text,
                                      const AnyFormatPtr& format, std::ptrdiff_t offset);
 
-// Empty lists, dictionaries and texts are not written, because an absent member means the same.
+// Returns the access to a member. Empty lists, dictionaries and texts are not written, because an
+// absent member means the same.
 template <class M, class T>
 [[nodiscard]] auto field_access(M T::*where) {
   if constexpr (requires(const M& value) { value.empty(); }) {
@@ -49,13 +50,14 @@ template <class T, class Where, class M>
 [[nodiscard]] PartPtr<T> member(MemberText text, Where T::*where, const FormatPtr<M>& format) {
   return PartPtr<T>(member_part(std::move(text), format->any(), Access(field_access<M>(where))));
 }
-// Get(const T&) returns the value or an optional; Put(T&, M) stores the value read.
+// Describes a member by two functions. Get(const T&) returns the value or an optional; Put(T&, M)
+// stores the value that was read.
 template <class T, class M, class Get, class Put>
 [[nodiscard]] PartPtr<T> member(MemberText text, const FormatPtr<M>& format, Get get, Put put) {
   return PartPtr<T>(member_part(std::move(text), format->any(), computed_access<T, M>(get, put)));
 }
 
-// Common forms: key, member, format, description.
+// The common forms, with the arguments key, member, format and description.
 template <class T, class Where, class M>
 [[nodiscard]] PartPtr<T> required(std::string_view key, Where T::*where, const FormatPtr<M>& format,
                                   std::string_view text) {
@@ -73,14 +75,15 @@ template <class T, class Where, class M>
                 format);
 }
 
-// Always written, even if empty.
+// Describes a member that is always written, even if it is empty.
 template <class T, class M>
 [[nodiscard]] PartPtr<T> always(std::string_view key, M T::*where,
                                 const std::type_identity_t<FormatPtr<M>>& format,
                                 std::string_view text = "") {
   return PartPtr<T>(member_part(Need::required, key, text, format->any(), offset_of(where)));
 }
-// `spell` converts the member to its written form, `mean` back.
+// Does the same for a member that is written in another form. `spell` converts the member to this
+// form, `mean` converts it back.
 template <class T, class Where, class M, class Spell, class Mean>
 [[nodiscard]] PartPtr<T> always(std::string_view key, Where T::*where, const FormatPtr<M>& format,
                                 std::string_view text, Spell spell, Mean mean) {
@@ -90,7 +93,7 @@ template <class T, class Where, class M, class Spell, class Mean>
       [where, mean](T& to, M value) { to.*where = mean(std::move(value)); });
 }
 
-// Written only if different from `usual`, the default.
+// Describes a member that is written only if it differs from its default, `usual`.
 template <class T, class M>
 [[nodiscard]] PartPtr<T> omit_default(std::string_view key, M T::*where,
                                       std::type_identity_t<M> usual, const FormatPtr<M>& format,

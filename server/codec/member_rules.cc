@@ -87,9 +87,10 @@ class CompanionPart final : public AroundPart {
   std::vector<std::string_view> keys_;
 };
 
-// Makes the part's requirements apply only without `key`. `before`: the schema without the part.
+// Makes the requirements of a part apply only to objects without `key`. `before`: the schema before
+// the part was added.
 void describe_unless(Schema& object, const std::string& key, const Schema& before) {
-  // Takes out the entries that `before` does not have.
+  // Removes the entries that are not in `before` from a list of the schema, and returns them.
   const auto take_new = [&](const char* list) {
     const Schema all = object.value(list, Schema::array());
     const Schema old = before.value(list, Schema::array());
@@ -102,7 +103,7 @@ void describe_unless(Schema& object, const std::string& key, const Schema& befor
   if (!needed.empty()) rules.push_back({{"required", needed}});
   for (const Schema& rule : rules) {
     Schema either{has(key)};
-    if (rule.contains("anyOf")) {  // made by an outer UnlessPart
+    if (rule.contains("anyOf")) {  // made by an UnlessPart within this part
       either.insert(either.end(), rule["anyOf"].begin(), rule["anyOf"].end());
     } else {
       either.push_back(rule);

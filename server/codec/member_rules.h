@@ -23,7 +23,7 @@ template <class T>
   return PartPtr<T>(count_rule(HowMany::at_most_one, std::move(keys)));
 }
 
-// Requires the member `companion`; not written without it.
+// Makes a part whose members require the member `companion`. They are not written without it.
 [[nodiscard]] AnyPartPtr only_with(std::string_view companion, const Access& access,
                                    const AnyPartPtr& part);
 template <class T, class M>
@@ -32,19 +32,22 @@ template <class T, class M>
   return PartPtr<T>(only_with(companion, member_access(where), part.any()));
 }
 
-// Applies only to objects without the member `key`. `may_be`: false if no object has it.
+// Makes a part that applies only to objects without the member `key`. `may_be`: false if objects
+// with `key` are always refused.
 [[nodiscard]] AnyPartPtr unless(std::string_view key, const AnyPartPtr& part, bool may_be);
 template <class T>
 [[nodiscard]] PartPtr<T> unless(std::string_view key, const PartPtr<T>& part) {
   return PartPtr<T>(unless(key, part.any(), true));
 }
-// Like unless(), if not_served() refuses `key`, so that only one fault is reported.
+// Does the same as unless() for a `key` that not_served() refuses. The members of the part are then
+// not reported as missing, so that there is only one fault.
 template <class T>
 [[nodiscard]] PartPtr<T> unless_refused(std::string_view key, const PartPtr<T>& part) {
   return PartPtr<T>(unless(key, part.any(), false));
 }
 
-// A known but unsupported member, except for the value `but_for`. Fault: `slug`, `sentence`.
+// A member that is known but not supported. If `but_for` is given, this value is accepted. Any
+// other value is the fault `slug` with the message `sentence`.
 struct NotServed {
   std::string key;
   std::string slug;

@@ -6,10 +6,10 @@
 
 namespace armloom::formats {
 
-// Calls use(object with the defaults).
+// A function that calls use(address of an object with the defaults).
 using WithDefaults = void (*)(const UseValue& use);
 
-// Describes an object; unknown keys are faults.
+// Describes an object. Unknown keys in it are faults.
 [[nodiscard]] AnyFormatPtr object_format(AnyParts parts, WithDefaults with_defaults);
 template <class T>
 [[nodiscard]] FormatPtr<T> object(const PartList<T>& parts) {

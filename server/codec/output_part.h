@@ -11,7 +11,7 @@
 
 namespace armloom::formats {
 
-// Members that are written and described, never read. Get is a member or function of T.
+// Members that are written and described, but never read. Get is a data member or a function of T.
 [[nodiscard]] AnyPartPtr output_part(Need need, std::string_view key, std::string_view text,
                                      const AnyFormatPtr& format, const Access& access);
 [[nodiscard]] AnyPartPtr output_part(Need need, std::string_view key, std::string_view text,
@@ -38,7 +38,8 @@ template <class M, class T>
 [[nodiscard]] Access output_access(std::optional<M> T::*where) {
   return member_access(where);
 }
-// std::invoke(get, const T&) returns an M, or an optional or pointer that may be empty.
+// Returns an access by std::invoke(get, const T&). It must return an M, or an optional or a pointer
+// that may be empty.
 template <class M, class Get>
 [[nodiscard]] Access output_access(Get get) {
   using T = ObjectOf<Get>;
@@ -64,7 +65,7 @@ template <class M, class Get>
   return PartPtr<ObjectOf<Get>>(
       output_part(Need::required, key, text, format->any(), output_access<M>(get)));
 }
-// Get returns an optional or a pointer.
+// Describes a member that is absent if Get returns nullopt or a null pointer.
 template <class M, class Get>
 [[nodiscard]] PartPtr<ObjectOf<Get>> output_if(std::string_view key, Get get,
                                                const FormatPtr<M>& format,
@@ -80,8 +81,8 @@ template <class T, class Value>
   return PartPtr<T>(constant_part(key, value));
 }
 
-// Describes "started_s" (cell time) and "started_at" (wall time, if known). `may_lack`: the member
-// is a std::optional<TimePoint>, written as null if empty.
+// For `what` = "started", describes the members "started_s" (cell time) and "started_at" (wall
+// time, if known). `may_lack`: the time is a std::optional<TimePoint>; nullopt is written as null.
 [[nodiscard]] AnyPartPtr output_times(std::string_view what, std::ptrdiff_t offset, bool may_lack,
                                       std::string_view text);
 template <class T>

@@ -9,8 +9,8 @@
 
 namespace armloom::formats {
 
-// One member of an object, several members that form a value, or a rule about members. The type is
-// erased as in AnyFormat.
+// A part of an object: one member, several members that form a value, or a rule about members. The
+// type of the object is erased as in AnyFormat.
 class AnyPart {
  public:
   AnyPart() = default;
@@ -20,7 +20,7 @@ class AnyPart {
   virtual void list_keys(std::vector<std::string_view>& /*keys*/) const {}
   virtual void read_any(const JsonNode& object, void* out) const = 0;
   virtual void write_any(JsonWriter& /*out*/, const void* /*value*/) const {}
-  // Adds "properties" and "required" to the object's schema.
+  // Adds the members of this part to "properties" and "required" of the object's schema.
   virtual void describe_any(Schema& object, const void* defaults, Way way) const = 0;
   virtual void map_paths(nlohmann::json& /*object*/, const PathMap& /*map*/) const {}
 };

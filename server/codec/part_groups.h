@@ -34,7 +34,9 @@ class AroundPart : public AnyPart {
   AnyPartPtr part_;
 };
 
-// `spell` converts a T to Words (it may return a reference), `mean` converts Words to a T.
+// A value of type T that is written as the members of another type, Words: for example a pose as
+// xyz and rpy. `spell` converts a T to Words (it may return a reference), `mean` converts Words to
+// a T.
 template <class T, class Words, class Spell>
 class SpeltPart final : public AroundPart {
  public:
@@ -64,7 +66,8 @@ template <class T, class Words, class Spell>
   return PartPtr<T>(AnyPartPtr(new SpeltPart<T, Words, Spell>(parts(words.any()), spell, mean)));
 }
 
-// Members of the same JSON object: xyz and rpy of a pose.
+// Describes a value whose members are written directly into the enclosing JSON object: for example
+// xyz and rpy of a pose.
 [[nodiscard]] AnyPartPtr inlined(std::ptrdiff_t offset, const AnyPartPtr& part);
 template <class T, class M>
 [[nodiscard]] PartPtr<T> inlined(M T::*where, const PartPtr<M>& part) {

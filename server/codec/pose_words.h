@@ -5,7 +5,7 @@
 
 namespace armloom {
 
-// Fixed-axis roll, pitch, yaw, as in URDF.
+// A pose as in URDF: position, and roll, pitch, yaw about fixed axes.
 struct PoseWords {
   Eigen::Vector3d xyz_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d rpy_rad = Eigen::Vector3d::Zero();
@@ -13,7 +13,7 @@ struct PoseWords {
 };
 
 [[nodiscard]] Eigen::Isometry3d pose_of_words(const PoseWords& words);
-// Sets yaw to zero at a pitch of ±90°.
+// Returns yaw zero at a pitch of ±90°, where roll and yaw are not unique.
 [[nodiscard]] PoseWords pose_in_words(const Eigen::Isometry3d& X);
 
 }  // namespace armloom

@@ -20,7 +20,7 @@ template <class T>
   return value;
 }
 
-// `clock`: null if wall time is unknown.
+// Returns the value as JSON. `clock` is null if wall time is unknown.
 template <class T>
 [[nodiscard]] std::string text_of(const Format<T>& format, const T& value,
                                   const WallClock* clock = nullptr) {

@@ -7,7 +7,8 @@
 namespace armloom {
 namespace {
 
-// Reads parts from the front of a text; after the first mismatch everything is wrong.
+// Reads a time piece by piece from the front of a text. After the first mismatch, are_all() returns
+// false.
 class TimeText {
  public:
   explicit TimeText(std::string_view text) : text_(text) {}

@@ -16,18 +16,18 @@ namespace {
 constexpr Range kHeld{-1000.0, 1000.0};  // rad or m
 
 struct LimitText {
-  const char* angular;  // key with angular, and with linear units
+  const char* angular;  // keys with angular and with linear units
   const char* linear;
   const char* text;
   std::optional<Schema> stated = {};
 };
 
-// Describes a limit by two keys: for revolute and for prismatic joints.
+// Describes a limit that has two keys: one for revolute and one for prismatic joints.
 PartPtr<JointLimitsDescription> limit(const LimitText& said,
                                       std::optional<double> JointLimitsDescription::*where,
                                       Range range) {
   using Limits = JointLimitsDescription;
-  // A limit given by neither key is written with the angular key.
+  // If neither key was given, the limit is written with the angular key.
   const auto part = [&](const char* key, bool is_linear, const char* words) {
     return member<Limits>(
         {key, words, Need::optional, said.stated}, number(range),
@@ -40,7 +40,7 @@ PartPtr<JointLimitsDescription> limit(const LimitText& said,
         });
   };
   return parts<Limits>({part(said.angular, false, said.text),
-                        part(said.linear, true, "Likewise, for a prismatic joint."),
+                        part(said.linear, true, "The same for a prismatic joint."),
                         at_most_one<Limits>({said.angular, said.linear})});
 }
 
@@ -48,11 +48,13 @@ FormatPtr<JointLimitsDescription> limits_format() {
   using Limits = JointLimitsDescription;
   return object<Limits>({
       limit({"lower_rad", "lower_m",
-             "Lowest position: narrows the URDF's limit, or sets a missing one."},
+             "Lowest position: narrows the limit of the URDF, or sets a missing limit."},
             &Limits::lower, kAnyNumber),
-      limit({"upper_rad", "upper_m", "Highest position, likewise."}, &Limits::upper, kAnyNumber),
+      limit({"upper_rad", "upper_m",
+             "Highest position: narrows the limit of the URDF, or sets a missing limit."},
+            &Limits::upper, kAnyNumber),
       limit({"velocity_rad_s", "velocity_m_s",
-             "Highest velocity: at most the URDF's, or a missing one."},
+             "Highest velocity: lowers the limit of the URDF, or sets a missing limit."},
             &Limits::velocity, kPositive),
       limit({"acceleration_rad_s2", "acceleration_m_s2",
              "Highest acceleration; overrides joint_limits. URDFs have none.",
@@ -118,14 +120,15 @@ FormatPtr<ArmDescription> arm_description_format() {
   return object<ArmDescription>({
       required("name", &ArmDescription::name, name(), "Name of the arm; unique in the cell."),
       required("group", &ArmDescription::group, name(),
-               "SRDF group that makes up the arm: a chain, or joints."),
+               "SRDF group that makes up the arm; the group is a chain or a list of joints."),
       home_part(),
       field("gripper", &ArmDescription::gripper, dictionary(number(kHeld)),
             "Start positions of the gripper's joints (rad, m), by joint name without prefix. "
-            "Default: zero, or the limit closest to zero. Jobs can move these joints."),
+            "Default: each joint at zero, or at the limit closest to zero. Jobs can move these "
+            "joints."),
       field("limits", &ArmDescription::limits, dictionary(limits_format()),
-            "Limits of joints of the arm and its gripper, by joint name without prefix. They take "
-            "precedence over joint_limits and the URDF."),
+            "Limits of joints of the arm and its gripper, by joint name without prefix. These "
+            "limits take precedence over joint_limits and the URDF."),
   });
 }
 
@@ -148,21 +151,23 @@ FormatPtr<RobotDescription> robot_format() {
   return object<Robot>({
       required("name", &Robot::name, name(), "Name of the robot; unique in the cell."),
       required("urdf", &Robot::urdf, path(), "Path of the URDF."),
-      required("srdf", &Robot::srdf, path(),
-               "Path of the SRDF: groups, named states, pairs of links that need no check. "
-               "Disabled pairs of different arms, or of an arm and bodies other than its mount, "
-               "are still checked unless they are proven out of reach."),
+      required(
+          "srdf", &Robot::srdf, path(),
+          "Path of the SRDF: groups, named states, and disabled pairs of links, which need no "
+          "check. A disabled pair is still checked if it belongs to different arms, or to an arm "
+          "and a body other than its mount, unless the two are proven out of reach of each other."),
       field("joint_limits", &Robot::joint_limits, path(),
             "Path of MoveIt's joint_limits.yaml: velocity and acceleration limits."),
       field("prefix", &Robot::prefix, text(),
-            "Prefix of every joint and link name of the robot: left_ makes left_joint_1."),
+            "Prefix of every joint and link name of the robot: with left_, joint_1 becomes "
+            "left_joint_1."),
       field("base", &Robot::X_WB, object<Eigen::Isometry3d>({pose_part()}),
             "Pose of the URDF's root link in the world."),
       field("packages", &Robot::packages, dictionary(path()),
             "Folder of each package in the URDF's package://name/... paths."),
       field("fixed", &Robot::fixed, dictionary(number(kHeld)),
-            "Fixed joints with their positions (rad, m), for example a torso under two arms; names "
-            "without prefix. No job moves them."),
+            "Joints that no job moves, with their positions (rad, m), for example of a torso under "
+            "two arms. Names are without prefix."),
       required("arms", &Robot::arms, list(arm_description_format(), {.fewest = 1}),
                "Arms of the robot."),
       field("controller", &Robot::controller, controller_format(), "Controller of the robot."),

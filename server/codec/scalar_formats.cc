@@ -115,7 +115,7 @@ class OneOfFormat final : public TextFormat {
   std::vector<std::string> names_;
 };
 
-// An array of fixed size, in any container.
+// Describes an array of fixed size. `Numbers` may be any container.
 template <class Numbers, std::size_t size>
 class NumbersFormat final : public CustomFormat<Numbers> {
  public:

@@ -19,13 +19,14 @@ inline constexpr Range kPositive{0.0, std::numeric_limits<double>::infinity(), t
 [[nodiscard]] FormatPtr<double> number(Range range);
 [[nodiscard]] FormatPtr<Duration> seconds(Range range);
 [[nodiscard]] FormatPtr<std::string> text();
-// A text that must not be empty.
+// Describes a text that must not be empty.
 [[nodiscard]] FormatPtr<std::string> name();
-// A path, not empty; map_paths() changes it unless it is a URL (https://...).
+// Describes a path, which must not be empty. map_paths() replaces it unless it is a URL
+// (https://...).
 [[nodiscard]] FormatPtr<std::string> path();
-// One of a few names.
+// Describes a text that is one of these names.
 [[nodiscard]] FormatPtr<std::string> one_of(std::vector<std::string> names);
-// An array of fixed size whose numbers are in the range.
+// Describes an array of fixed size. All numbers must be in the range.
 [[nodiscard]] FormatPtr<Eigen::Vector3d> vector3(Range range);
 template <std::size_t size>
 [[nodiscard]] FormatPtr<std::array<double, size>> numbers(Range range);

@@ -57,7 +57,7 @@ PartList<ShapeWords> primitives() {
 PartPtr<Shape> shape_part() {
   PartList<ShapeWords> parts = primitives();
   parts.add({field("mesh", &ShapeWords::mesh, path(),
-                   "A mesh: path of an STL, OBJ or DAE file. Everything that it encloses is "
+                   "A mesh: path of an STL, OBJ or DAE file. Everything that the mesh encloses is "
                    "treated as solid, cavities included."),
              only_with("mesh", &ShapeWords::mesh,
                        field("scale", &ShapeWords::scale, vector3(kAnyNumber),

@@ -8,14 +8,14 @@
 
 namespace armloom {
 
-// Parts of the cell file's description (cell_format.h) for poses, shapes and objects.
+// Parts of the description of the cell file (cell_format.h): poses, shapes and objects.
 
-// Members xyz and rpy.
+// Describes a pose by the members xyz and rpy.
 [[nodiscard]] formats::PartPtr<Eigen::Isometry3d> pose_part(
     formats::Need xyz = formats::Need::optional);
-// A box, a cylinder or a sphere: exactly one of these members.
+// Describes a box, a cylinder or a sphere: an object must have exactly one of these members.
 [[nodiscard]] formats::PartPtr<Shape> primitive_part();
-// An object of the scene: a name, a shape, a pose.
+// Describes an object of the scene by name, shape and pose.
 [[nodiscard]] FormatPtr<ObjectDescription> scene_object_format();
 
 }  // namespace armloom

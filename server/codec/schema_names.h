@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// Replaces each named part (formats::named) by {"$ref": place + name} and adds its schema to
-// `parts`. Throws std::logic_error if a name has two schemas.
+// Returns the schema with each named part (formats::named) replaced by {"$ref": place + name}. Adds
+// the schemas of the named parts to `parts`. Throws std::logic_error if a name has two schemas.
 [[nodiscard]] Schema refer_to_names(const Schema& schema, const std::string& place, Schema& parts);
 
 }  // namespace armloom

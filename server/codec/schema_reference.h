@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// Returns a schema as Markdown: a section with a table for each object. Only for schemas made by
-// formats.
+// Returns a schema as Markdown, with a section and a table for each object. Precondition: the
+// schema was made by a format.
 [[nodiscard]] std::string schema_reference(const Schema& schema);
 
 // Returns "rad/s" for "velocity_rad_s"; "" if the key has no unit.

@@ -32,7 +32,7 @@ class IntegerFormat final : public CustomFormat<int> {
   int highest_;
 };
 
-// Every integer up to here is exact in JSON (RFC 8259, 6).
+// JSON represents every integer up to this number exactly (RFC 8259, 6).
 constexpr std::int64_t kLargestCount = std::int64_t{1} << 53;
 
 class CountFormat final : public CustomFormat<std::uint64_t> {

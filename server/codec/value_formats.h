@@ -17,15 +17,17 @@ namespace armloom::formats {
 [[nodiscard]] FormatPtr<int> integer(int lowest, int highest);
 [[nodiscard]] FormatPtr<int> integer(const NumberRange& range);  // bounds must be whole
 [[nodiscard]] FormatPtr<std::uint64_t> count();                  // zero or more
-// Faster than list(number(kAnyNumber)): trajectories have tens of thousands of numbers.
+// Describes a list of any numbers. It is faster than list(number(kAnyNumber)), which matters for
+// trajectories with tens of thousands of numbers.
 [[nodiscard]] FormatPtr<std::vector<double>> number_list();
-// Cell time in seconds.
+// Describe a cell time in seconds.
 [[nodiscard]] FormatPtr<TimePoint> cell_time();
 [[nodiscard]] FormatPtr<TimePoint> cell_time(double highest_s);
-// A text; an empty text is written as null.
+// Describes a text. An empty text is written as null.
 [[nodiscard]] FormatPtr<std::string> text_or_null();
 
-// Breaking the rule is the fault `slug` with `sentence`; `said` describes it in the schema.
+// A rule that a text must obey. A text that breaks the rule is the fault `slug` with the message
+// `sentence`. `said` describes the rule in the schema.
 struct TextRule {
   bool (*holds)(std::string_view);
   std::string slug;
@@ -34,7 +36,7 @@ struct TextRule {
 };
 [[nodiscard]] FormatPtr<std::string> text(TextRule rule);
 
-// An ignored value of this JSON type; of any type if "".
+// Describes an ignored value of this JSON type; `type` "" allows any type.
 struct Anything {};
 [[nodiscard]] FormatPtr<Anything> anything(std::string type);
 
@@ -63,7 +65,7 @@ template <class T>
 void refuse_choice(const JsonNode& node, const std::string& found,
                    const std::vector<std::string>& known);
 
-// Operations on an enumeration (core/base/enumeration.h), numbered from zero.
+// Operations on an enumeration (core/base/enumeration.h) whose values are numbered from zero.
 struct ChoiceOperations {
   const char* (*name)(std::size_t value);  // null if the number is no value
   std::size_t (*value)(const void* choice);
@@ -80,8 +82,8 @@ template <class E>
   return FormatPtr<E>(choice(kChoiceOperations<E>));
 }
 
-// Names a format, so that schemas can refer to it. The schema has {"$name", "$of"} until
-// refer_to_names(). `text` may be empty.
+// Name a format, so that schemas can refer to it by name. The schema has {"$name", "$of"} until
+// refer_to_names() replaces them. `text` may be empty.
 [[nodiscard]] Schema named_schema(std::string_view name, std::string_view text, Schema schema);
 [[nodiscard]] AnyFormatPtr named(std::string_view name, std::string_view text,
                                  const AnyFormatPtr& format);

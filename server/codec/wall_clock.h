@@ -14,26 +14,28 @@ namespace armloom {
   return std::chrono::floor<std::chrono::milliseconds>(wall).time_since_epoch().count();
 }
 
-// Converts cell time to wall time by anchors, where both are known and from which cell time runs
-// `speed` times as fast. A new anchor does not change earlier times. Used on the server's thread.
+// Converts cell time to wall time by anchors. At an anchor, cell time and wall time are both known;
+// from there on, cell time runs `speed` times as fast as wall time. A new anchor does not change
+// earlier times. Used on the server's thread.
 class WallClock {
  public:
   using Wall = std::chrono::system_clock::time_point;
   inline static constexpr std::size_t kAnchorsMax = 256;  // older anchors are dropped
-  // A larger deviation is a slip (a busy machine).
+  // If cell time deviates from wall time by more than this, it has slipped, because the machine was
+  // busy.
   inline static constexpr std::chrono::milliseconds kSlip{100};
 
   WallClock(Wall start, double speed) : anchors_{{TimePoint{}, start, speed}} {}
 
-  // Sets an anchor: cell time `time` is `wall` and runs at `speed` > 0 from there. Times must not
-  // decrease.
+  // Sets an anchor: cell time `time` is wall time `wall`, and runs at `speed` > 0 from there on.
+  // The times of successive anchors must not decrease.
   void anchor(TimePoint time, Wall wall, double speed);
-  // Corrects a slip with a new anchor.
+  // Sets a new anchor if cell time has slipped.
   void observe(TimePoint time, Wall wall);
 
   [[nodiscard]] Wall wall_at(TimePoint time) const;
-  // Returns the cell time of a wall time before the session: negative, or zero if the wall clock
-  // was set back.
+  // Returns the cell time of a wall time before the session. It is negative, or zero if the wall
+  // clock was set back.
   [[nodiscard]] TimePoint time_before(Wall wall) const;
   // Returns the present speed: cell seconds per wall second.
   [[nodiscard]] double speed() const { return anchors_.back().speed; }

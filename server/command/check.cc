@@ -18,7 +18,7 @@ int check_jobs_file(const CheckOptions& options) {
   if (!jobs) return refuse(options.jobs_file, jobs.error());
   auto checked = check_jobs(loaded->cell, options.policy, *jobs);
   if (!checked) {
-    // policy and homes are in the cell file
+    // Faults of the policy and of homes belong to the cell file.
     const std::string& place = checked.error().front().pointer;
     const bool of_cell = place.starts_with("/scheduling") || place.starts_with("/robots");
     Problems problems = std::move(checked.error());

@@ -13,7 +13,7 @@ namespace armloom {
 
 // Exit codes of every command.
 inline constexpr int kExitDone = 0;
-inline constexpr int kExitFound = 1;        // negative result: a contact, a job that did not end
+inline constexpr int kExitFound = 1;        // negative result, for example a contact
 inline constexpr int kExitBadInput = 2;     // one sentence on stderr for each fault
 inline constexpr int kExitNotWritten = 74;  // output not written completely (EX_IOERR)
 
@@ -23,7 +23,7 @@ struct ServeOptions {
   std::string data;  // default: no recording, no stored jobs
   std::size_t keep_jobs = 100'000;
   std::size_t keep_days = 0;  // zero: unlimited
-  // Recordings in `data`, the running one included; zero: unlimited.
+  // Limits of the recordings in `data`, the running one included. Zero: unlimited.
   std::size_t keep_recordings = 0;
   std::size_t keep_recording_days = 0;
   std::size_t keep_recording_mb = 0;
@@ -31,7 +31,7 @@ struct ServeOptions {
   std::string log_format = "text";
   std::string log_requests = "none";
   std::string tokens;           // default: all requests are allowed
-  std::string tls_certificate;  // both or neither
+  std::string tls_certificate;  // required with tls_key, and vice versa
   std::string tls_key;
   bool record = false;
   double speed = 1.0;
@@ -39,7 +39,7 @@ struct ServeOptions {
   std::vector<std::string> allowed_origins;
   std::vector<std::string> allowed_hosts;  // besides IP addresses and localhost
   std::string policy;                      // default: the cell's
-  // Per client; for all clients see --help.
+  // Limits of one client. `serve --help` gives the limits of all clients together.
   double requests_per_s = 5'000;
   double jobs_per_s = 1'000;
   std::size_t connections_per_client = 3'500;
@@ -61,7 +61,8 @@ int validate_cell(const std::string& cell_file);
 int print_cell_schema(bool markdown);
 int print_openapi();
 
-// Writes a cell file to stdout or a file; notes and faults go to stderr. Exit 0 if the cell loads.
+// Writes a cell file to stdout or to a file. Notes and faults go to stderr. Exit 0 if the cell can
+// be loaded.
 struct ImportOptions {
   std::vector<std::string> urdf;
   std::vector<std::string> srdf;          // one per URDF
@@ -69,7 +70,7 @@ struct ImportOptions {
   std::vector<std::string> robots;        // NAME or NAME:x=0.75,yaw_deg=180
   std::vector<std::string> packages;      // NAME=FOLDER
   std::string prefix;                     // for a single robot
-  std::string name;                       // default: from --out, else the robots
+  std::string name;                       // default: name of `out`, else names of the robots
   std::string out;                        // default: stdout
 };
 int import_robots(const ImportOptions& options);
@@ -82,22 +83,22 @@ struct CheckOptions {
 };
 int check_jobs_file(const CheckOptions& options);
 
-// Plans a job (body of POST /jobs) that moves an arm to a goal, all others at home; exit 0. If
-// there is no plan, prints the reason as JSON; exit 1.
+// Plans a job that moves an arm to a goal, with all other arms at home. Prints the job (a body of
+// POST /jobs); exit 0. If there is no plan, prints the reason as JSON; exit 1.
 struct PlanOptions {
   std::string cell_file;
   std::string arm;
   std::vector<std::string> arms;  // candidates; the fastest arm moves
   std::string to;                 // see server/messages/plan_goal.h
-  std::string from;               // no pose; default: home
+  std::string from;               // named state or joints; default: home
   std::uint64_t seed = 1;
   std::optional<int> budget = {};  // PlanQuestion::budget
   std::string out;                 // default: stdout
 };
 int plan_way(const PlanOptions& options);
 
-// Prints the share of a grid of tool poses that each arm reaches, and overlaps; optionally draws an
-// SVG.
+// Prints the share of a grid of tool poses that each arm reaches, and where the reach of arms
+// overlaps. Can also draw an SVG.
 struct ReachOptions {
   std::string cell_file;
   double step_m = 0.2;
@@ -117,7 +118,7 @@ struct SimulateOptions {
 };
 int simulate_jobs(const SimulateOptions& options);
 
-// Prints a Markdown table. Exit 0 if every job ended under every policy.
+// Prints a Markdown table. Exit 0 if no job was refused and every job ended, under every policy.
 struct CompareOptions {
   std::string cell_file;
   std::string jobs_file;
@@ -134,11 +135,12 @@ struct AuditOptions {
 };
 int audit_recording(const AuditOptions& options);
 
-// Replays a recording of `serve --data`; the last line of stdout is JSON. Exit 0 if the events are
-// the same; 1 if they differ (the first difference is on stderr) or none was recorded.
+// Replays a recording of `serve --data`. The last line on stdout is JSON. Exit 0 if the events are
+// the same. Exit 1 if they differ (the first difference is on stderr), or if no events were
+// recorded.
 struct ReplayOptions {
-  std::string data;               // newest recording in this folder, or ...
-  std::string recording;          // ... this recording
+  std::string data;               // replays the newest recording in this folder
+  std::string recording;          // replays this recording instead
   std::optional<double> until_s;  // cell time
   std::string out;                // folder for the replayed events
 };
@@ -164,11 +166,11 @@ struct LoadedCell {
 };
 // Prints problems and warnings on stderr and returns nullopt if the cell cannot be built.
 [[nodiscard]] std::optional<LoadedCell> load_cell(const std::string& cell_file);
-// Loads a text that is or will be in `cell_file`.
+// Loads a cell from a text, which is or will be the content of `cell_file`.
 [[nodiscard]] std::optional<LoadedCell> load_cell_text(std::string text,
                                                        const std::string& cell_file);
-// Returns true if a server would run the cell. Prints warnings, pairs disabled without proof, and
-// faults on stderr.
+// Returns true if a server would run the cell. Prints on stderr: warnings, pairs of links that the
+// SRDF disables without proof, and faults.
 [[nodiscard]] bool is_fit_to_run(const LoadedCell& loaded);
 
 // Prints "armloom: config/x.json:/robots/0/urdf: ..." on stderr.
@@ -177,7 +179,7 @@ void warn(const std::string& file, const Problems& warnings);
 // Prints the problems and returns kExitBadInput.
 int refuse(const std::string& file, const Problems& problems);
 
-// Problems with this slug get the option ("--out") as their place.
+// Returns the problems. Those with this slug get the option ("--out") as their place.
 [[nodiscard]] Problems said_of_option(Problems problems, std::string_view slug,
                                       std::string_view option);
 

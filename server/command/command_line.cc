@@ -254,7 +254,8 @@ Command audit_command(CLI::App& app) {
   return {command, [options] { return audit_recording(*options); }};
 }
 
-// Refuses empty values, which unset shell variables leave: `--tokens ""` would admit every request.
+// Refuses empty option values, which come from unset shell variables. For example, `--tokens ""`
+// would admit every request.
 void refuse_empty_values(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     if (option->get_items_expected_max() == 0) continue;  // a flag

@@ -39,7 +39,8 @@ Result<std::vector<std::string>> read_policies(const std::string& text) {
   return names;
 }
 
-// Return the planned time in motion per arm: of all jobs of the file, and of all that succeeded.
+// Return the planned time in motion of each arm: over all jobs of the file, and over all jobs that
+// succeeded.
 std::vector<Duration> work_of_file(const JobsFile& file, const Cell& cell) {
   std::vector<Duration> work(cell.arms.size());
   for (const TrajectoryPtr& trajectory : file.trajectories) {
@@ -78,7 +79,7 @@ Result<ComparedRun> run(const std::string& policy, const CellPtr& cell, const Jo
                      .wall = result->wall};
 }
 
-// Opened before the simulation, written after it.
+// The output files. They are opened before the simulation and written after it.
 struct Files {
   std::ofstream csv;
   std::ofstream svg;

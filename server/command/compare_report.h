@@ -16,26 +16,27 @@ struct ComparedRun {
   RunFigures figures;
   Judging judging;
   bool all_ended = false;
-  // Planned motion of the busiest arm in succeeded jobs: a lower bound of the makespan.
+  // Planned time in motion of the busiest arm, counting jobs that succeeded. It is a lower bound of
+  // the makespan.
   Duration least{};
   Duration wall{};  // wall time
 
-  // Returns nullopt if no job started or the time limit was reached.
+  // Returns nullopt if a job did not end, or if no job started.
   [[nodiscard]] std::optional<Duration> makespan() const;
 };
 
 struct Comparison {
   std::string cell;
   std::vector<std::string> arms;
-  std::size_t jobs = 0;  // in the file
+  std::size_t jobs = 0;  // number of jobs in the file
   std::string busiest;   // arm with the most planned motion; "" without jobs
   Duration busiest_work{};
   std::uint64_t seed = 1;
   std::vector<ComparedRun> runs;
 };
 
-// Returns an aligned Markdown table, a row per policy. All but the last two columns, which are
-// machine times, depend only on the seed.
+// Returns an aligned Markdown table with a row for each policy. The last two columns are times of
+// the machine; all others depend only on the seed.
 [[nodiscard]] std::string comparison_markdown(const Comparison& comparison);
 
 // Returns CSV as in RFC 4180, but with "\n". Units are at the end of column names; missing values

@@ -36,7 +36,7 @@ Problems read_trajectories(JobsFile& file, const Cell& cell) {
   return faults;
 }
 
-// Returns, for example, ", waits for arm right"; omits a detail that `said` has.
+// Returns, for example, ", waits for arm right". Omits a detail that `said` already contains.
 std::string waits_for(const WaitView& wait, const std::string& said) {
   std::string text = std::string(", waits for ") + to_string(wait.kind);
   const bool names_arm = wait.kind == Wait::Kind::arm || wait.kind == Wait::Kind::stop;

@@ -17,16 +17,17 @@ struct JobsFile {
 
   [[nodiscard]] TimePoint first_submit() const;  // TimePoint::max() if there are no jobs
 };
-// Prints faults that do not depend on the course of events (limits, duplicate ids) and returns
-// nullopt if there are any.
+// Loads a jobs file. Checks all that does not depend on the course of the simulation, for example
+// limits and duplicate ids. If there are faults, prints them and returns nullopt.
 [[nodiscard]] std::optional<JobsFile> load_jobs(const std::string& file, const Cell& cell);
 
-// Prints jobs refused on submission, with their places. `under`: the policy, if several are
-// simulated.
+// Prints each job that was refused on submission, with its place in the file. `under`: the policy,
+// if several policies are simulated.
 void complain_of_refusals(const SimulationResult& result, const std::string& jobs_file,
                           const std::string& under = "");
 
-// Prints each client's job that did not succeed, and what it waits for.
+// Prints each job that did not succeed, with the reason or what it still waits for. Omits jobs that
+// the server created and that have ended.
 void complain_of_ends(const SimulationResult& result, const std::string& under = "");
 
 }  // namespace armloom

@@ -62,7 +62,7 @@ Result<ImportRequest> request_of(const ImportOptions& options) {
   return request;
 }
 
-// Writes a new file; never overwrites one, because it may have manual changes.
+// Writes a new file. Never overwrites an existing file, because it may have manual changes.
 bool write_new(const fs::path& file, const std::string& text) {
   std::error_code error;
   if (fs::exists(file, error)) {

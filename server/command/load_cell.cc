@@ -12,7 +12,7 @@
 namespace armloom {
 namespace {
 
-// The executive is created only to learn what it would refuse.
+// Does nothing. It serves an executive that is created only to learn what it would refuse.
 class NoJudgements final : public JudgementService {
  public:
   void ask(Question, PlanningScenePtr, std::function<void(Verdict)>) override {}
@@ -32,12 +32,13 @@ bool is_at_or_below(const std::string& pointer, const std::string& above) {
          (pointer.size() == above.size() || pointer[above.size()] == '/');
 }
 
-// Adds problems of building the cell, except those that may follow from faults of the file.
+// Adds problems of building the cell to `problems`, the faults of the file. Omits those that may be
+// a consequence of these faults.
 void add_what_is_independent(const Problems& found, Problems& problems) {
   const Problems faults = problems;
   for (const Problem& problem : found) {
     const bool follows = std::any_of(faults.begin(), faults.end(), [&](const Problem& fault) {
-      // Nothing was read from malformed JSON.
+      // If the JSON is malformed, nothing was read, so every problem may follow from that.
       return fault.slug == "malformed-json" || fault.slug == "duplicate-key" ||
              fault.pointer.empty() || fault.pointer.front() != '/' ||
              is_at_or_below(problem.pointer, fault.pointer) ||

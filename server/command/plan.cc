@@ -107,7 +107,8 @@ Result<std::vector<PlanQuestion>> questions_of(const PlanOptions& options, const
   return questions;
 }
 
-// Returns the shortest motion, or nullopt; adds the reasons of other arms to `refused`.
+// Returns the arm with the shortest motion and this motion, or nullopt if no arm has a plan. Adds
+// the arms without a plan, with their reasons, to `refused`.
 std::optional<std::pair<std::string, PlannedMotion>> first_there(
     const PlanningScenePtr& scene, const std::vector<PlanQuestion>& questions,
     std::vector<RefusedArm>& refused) {

@@ -26,7 +26,8 @@ std::string formatted(const char* format, double a, double b = 0.0, double c = 0
   return text;
 }
 
-// A view along one axis: x to the right, `up` upward.
+// A view along one axis of the world. The x axis points to the right, the axis `up` (1: y, 2: z)
+// upward. A column is the row of positions behind one square of the view.
 class View {
  public:
   View(const ToolReach& reach, std::size_t up, double left)
@@ -52,7 +53,7 @@ class View {
   [[nodiscard]] std::size_t columns() const {
     return static_cast<std::size_t>(grid_.count[0]) * static_cast<std::size_t>(grid_.count[up_]);
   }
-  // Returns the number of reached positions in the column.
+  // Returns the number of positions in the column that the arm reaches.
   [[nodiscard]] int reached(std::size_t arm, std::size_t column) const {
     const auto nx = static_cast<std::size_t>(grid_.count[0]);
     const auto ny = static_cast<std::size_t>(grid_.count[1]);
@@ -92,7 +93,7 @@ class View {
     }
     svg += "</g>\n";
   }
-  // Returns true if several arms reach the same position in the column.
+  // Returns true if at least two arms reach the same position in the column.
   [[nodiscard]] bool is_shared(std::size_t column) const {
     const auto nx = static_cast<std::size_t>(grid_.count[0]);
     const auto ny = static_cast<std::size_t>(grid_.count[1]);
@@ -141,7 +142,7 @@ class View {
   const ToolReach& reach_;
   const ReachGrid& grid_;
   std::size_t up_;
-  std::size_t along_;  // axis of the view
+  std::size_t along_;  // axis along which the view looks (1: y, 2: z)
   double left_;
 };
 

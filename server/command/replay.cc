@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// Returns the newest recording in the folder; the folder itself may be one.
+// Returns the newest recording in the folder. The folder itself may be a recording.
 std::optional<fs::path> newest_recording(const fs::path& data) {
   std::error_code ec;
   std::optional<fs::path> newest;
@@ -33,7 +33,7 @@ std::optional<fs::path> newest_recording(const fs::path& data) {
   return newest;
 }
 
-// Removes wall times, which do not follow from the inputs.
+// Removes wall times, because a replay cannot reproduce them from the inputs.
 void drop_wall_time(Json& value) {
   if (value.is_object()) {
     for (auto it = value.begin(); it != value.end();) {
@@ -83,7 +83,7 @@ class EventComparison final : public Observer {
     const Json last = Json::parse(recorded_.back(), nullptr, false);
     return TimePoint(from_seconds(last.value("t_s", 0.0)));
   }
-  // Reports a difference if an event recorded until `time` was not replayed.
+  // If an event that was recorded until `time` was not replayed, reports this as the difference.
   void expect_all_until(TimePoint time) {
     if (differs_ || events_ >= recorded_.size()) return;
     const Json next = Json::parse(recorded_[events_], nullptr, false);
@@ -95,9 +95,10 @@ class EventComparison final : public Observer {
   };
   [[nodiscard]] const std::optional<Difference>& difference() const { return differs_; }
   [[nodiscard]] std::size_t events() const { return events_; }
-  // Returns the number of compared events; later ones were not on disk when the server ended.
+  // Returns the number of compared events. Later events were not on disk when the server ended, so
+  // they cannot be compared.
   [[nodiscard]] std::size_t compared() const { return std::min(events_, recorded_.size()); }
-  // Returns true if no event was recorded.
+  // Returns true if events were replayed, but none was recorded.
   [[nodiscard]] bool is_void() const { return compared() == 0 && events_ > 0; }
   [[nodiscard]] bool is_written() const { return !out_.is_open() || out_.good(); }
 
@@ -124,7 +125,7 @@ struct Run {
   TimePoint ended{};
 };
 
-// Replays all lines until `until`. Problems: faults of the log.
+// Replays the inputs of the log until cell time `until`. Problems: faults of the log.
 Result<Run> run(Replay& replay, const std::vector<std::string>& lines,
                 std::optional<TimePoint> until) {
   Run done;
@@ -147,7 +148,7 @@ int tell(const fs::path& folder, const Run& done, const EventComparison& compari
               << "armloom: replayed: " << difference->replayed << '\n';
   } else if (comparison.compared() < comparison.events()) {
     std::cerr << "armloom: " << comparison.compared() << " of " << comparison.events()
-              << " events compared: events.jsonl has no more\n";
+              << " events were compared: events.jsonl has no more\n";
   }
   JsonWriter out;
   out.begin_object().field("recording", folder.string()).field("ended_s", done.ended);
@@ -182,7 +183,7 @@ int replay_recording(const ReplayOptions& options) {
   EventComparison comparison(whole_lines(*folder / "events.jsonl"), *std::move(out));
   auto replay = Replay::begin(loaded->cell, lines.front(), comparison);
   if (!replay) return refuse((*folder / InputFile::kName).string(), replay.error());
-  // The inputs after the last line are unknown.
+  // The replay ends here, because later inputs are unknown.
   const TimePoint end =
       std::max(comparison.end(), Replay::time_of(lines.back()).value_or(TimePoint{}));
   std::optional<TimePoint> until;

@@ -35,7 +35,8 @@ bool parse_listen(const std::string& text, std::string& address, std::uint16_t& 
   return ec == std::errc{} && stop == end;
 }
 
-// Returns web/dist of the repository, the installed folder, or `web` next to the binary.
+// Returns the folder of the dashboard's files: `asked` if given, else web/dist of the repository,
+// the installed folder, or `web` next to the binary.
 fs::path web_folder(const std::string& asked) {
   if (!asked.empty()) return asked;
   std::error_code ec;
@@ -47,9 +48,11 @@ fs::path web_folder(const std::string& asked) {
   return folder / "web";
 }
 
-// Raises the limit of file descriptors and returns the number of connections that it allows.
+// Raises the limit of file descriptors to its maximum. Returns the number of connections that it
+// allows, at most `wanted`.
 std::size_t connections_within_descriptors(std::size_t wanted) {
-  // For files and the reserve of HttpServer, 64 each; half of all if few.
+  // Descriptors that are not for connections: 64 for files and 64 for the reserve of HttpServer. If
+  // the limit is low, half of it.
   constexpr rlim_t kOther = 128;
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return wanted;
@@ -69,7 +72,8 @@ void limit_clients(const ServeOptions& options, ServiceOptions& service) {
   service.connections_per_client_max = options.connections_per_client;
 }
 
-// Checks that an address that other machines can reach has tokens, and TLS to protect them.
+// Adds faults of the options for tokens and TLS. An address that other machines can reach requires
+// tokens, and TLS to protect them.
 void find_faults_of_access(const ServeOptions& options, const std::string& address,
                            const Result<std::vector<KeptToken>>& tokens, Problems& problems) {
   if (options.tls_certificate.empty() != options.tls_key.empty()) {
@@ -99,7 +103,7 @@ std::string dashboard_address(const std::string& scheme, const std::string& addr
   return scheme + "://" + (v6 ? "[" + address + "]" : address) + ":" + std::to_string(port) + "/";
 }
 
-// Faults to report before the server listens.
+// Returns faults of the options. They are reported before the server listens.
 Problems faults_of(const ServeOptions& options) {
   Problems problems;
   std::error_code ec;
@@ -123,8 +127,8 @@ Problems faults_of(const ServeOptions& options) {
   return problems;
 }
 
-// Logs on a thread of its own: a slow stderr reader never blocks the server; the oldest lines are
-// lost.
+// Returns a log that writes on a thread of its own, so that a slow stderr reader never blocks the
+// server. If more than kLinesMax lines wait, the oldest are lost.
 Log log_of(const std::string& format) {
   constexpr std::size_t kLinesMax = 8192;
   spdlog::init_thread_pool(kLinesMax, 1);
@@ -204,7 +208,7 @@ int serve(const ServeOptions& options) {
   service_options.logged_requests = logged_requests(options.log_requests);
   service_options.kept_recordings = recording_bounds(options);
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);  // report a file size limit as a write error
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit then fails with an error
 
   auto service = Service::start(loaded->cell, {loaded->file, loaded->text}, service_options);
   if (!service) {

@@ -27,7 +27,7 @@ FormatPtr<ArmView> arm_format() {
                         "Measured joint positions in the order of `joints`: rad or m"),
             output_only("home", &ArmView::home, number_list()),
             output_only("deviation_rad", &ArmView::deviation_rad, number({0.0}),
-                        "Measured deviation of the worst joint from the path"),
+                        "Largest measured deviation of a joint from the path"),
         }));
   }();
   return format;

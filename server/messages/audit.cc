@@ -29,7 +29,7 @@ FormatPtr<AuditPage> audit_page_format() {
             object<AuditPage>({
                 output_only("entries", &AuditPage::entries, list(entry), "Newest first"),
                 output_only("damaged", &AuditPage::damaged, count(),
-                            "Number of corrupt entries between these, left out"),
+                            "Number of corrupt entries that were left out of this page"),
                 output_only("next_cursor", &AuditPage::next_cursor, nullable(text()),
                             "Value for `?cursor=` to get the next page; null on the last page"),
             }));

@@ -8,7 +8,8 @@
 
 namespace armloom {
 
-// Answer to GET /cell, with names instead of ids. Meshes are paths, by their name in the URDF.
+// The answer to GET /cell and its parts, with names instead of ids. Meshes are given by their path
+// on this server, under the name that the URDF uses.
 struct CellArmView {
   const Arm* arm;
   std::vector<std::string> joints;

@@ -56,19 +56,18 @@ FormatPtr<PolicyRun> policy_run_format() {
           output_only("expired", &Run::expired, count()),
           output_only("failed", &Run::failed, count()),
           output_only("canceled", &Run::canceled, count(),
-                      "Canceled by the server, interrupted jobs included"),
+                      "Jobs canceled by the server, interrupted jobs included"),
           output_only(
               "refused", &Run::refused, count(),
-              "Refused on submission, because the job would not begin where its arm would be"),
-          output_only(
-              "unfinished", &Run::unfinished, count(),
-              "Not ended when nothing could move any more, or when the simulation was given up"),
+              "Jobs refused on submission, because the job would not begin where its arm would be"),
+          output_only("unfinished", &Run::unfinished, count(),
+                      "Jobs that had not ended when nothing could move any more, or when the "
+                      "simulation was given up"),
           output_only("backlogged", &Run::backlogged, count(),
-                      "Waited in the backlog at least once"),
-          output_only(
-              "makespan_s", &Run::makespan, nullable(seconds({0.0})),
-              "From the first submission to the last end; null if a job did not end or no job "
-              "started"),
+                      "Jobs that waited in the backlog at least once"),
+          output_only("makespan_s", &Run::makespan, nullable(seconds({0.0})),
+                      "Time from the first submission to the last end; null if a job did not end "
+                      "or no job started"),
           output_only("makespan_ratio", &Run::makespan_ratio, nullable(number({0.0})),
                       "`makespan_s` divided by that of `sequential`; null if unknown"),
           output_only("wait_mean_s", &Run::wait_mean, seconds({0.0}),
@@ -78,11 +77,10 @@ FormatPtr<PolicyRun> policy_run_format() {
                       "Smallest clearance that the monitor measured; null if no pair came close"),
           output_only("monitor_stops", &Run::monitor_stops, count()),
           output_only("evaluations", &Run::evaluations, count(),
-                      "State checks that the decisions took"),
-          output_only(
-              "given_up", &Run::given_up, flag(),
-              "true if the simulation exceeded its limit of evaluations; the results cover the "
-              "part before"),
+                      "Number of state checks that the decisions of the policy took"),
+          output_only("given_up", &Run::given_up, flag(),
+                      "true if the simulation exceeded its limit of evaluations; the results then "
+                      "cover only the time before"),
       }));
 }
 

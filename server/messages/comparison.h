@@ -19,7 +19,7 @@ struct ComparisonInquiry {
   std::uint64_t seed = 1;
 };
 [[nodiscard]] FormatPtr<ComparisonInquiry> comparison_inquiry_format();
-// Reads the body. Problems: its shape; a repeated policy.
+// Reads the body. Problems: a malformed body; a policy that is listed twice.
 [[nodiscard]] Result<ComparisonInquiry> read_comparison_inquiry(std::string_view text);
 
 struct PolicyRun {
@@ -27,13 +27,13 @@ struct PolicyRun {
   std::uint64_t succeeded = 0;
   std::uint64_t expired = 0;
   std::uint64_t failed = 0;
-  std::uint64_t canceled = 0;                 // by the server; includes interrupted jobs
-  std::uint64_t refused = 0;                  // would not have begun where the arm would be
-  std::uint64_t unfinished = 0;               // nothing could move any more, or given up
-  std::uint64_t backlogged = 0;               // at least once
+  std::uint64_t canceled = 0;                 // by the server, interrupted jobs included
+  std::uint64_t refused = 0;                  // job would not begin where its arm would be
+  std::uint64_t unfinished = 0;               // not ended when the simulation stopped
+  std::uint64_t backlogged = 0;               // waited in the backlog at least once
   std::optional<Duration> makespan = {};      // nullopt if a job did not end or none started
   std::optional<double> makespan_ratio = {};  // divided by the makespan of `sequential`
-  Duration wait_mean{};                       // from submission to start
+  Duration wait_mean{};                       // mean time from submission to start
   Duration wait_max{};
   std::optional<double> min_clearance_m = {};  // nullopt if no pair came close
   std::uint64_t monitor_stops = 0;
@@ -64,7 +64,7 @@ struct ComparisonView {
   TimePoint last{};
   std::string in_force;               // policy at the time of the request
   std::vector<std::string> policies;  // in the order of the runs
-  std::vector<PolicyRun> runs = {};   // finished
+  std::vector<PolicyRun> runs = {};   // of the finished simulations
   std::string detail = {};            // reason of a failure
 };
 [[nodiscard]] FormatPtr<ComparisonView> comparison_format();

@@ -52,7 +52,7 @@ FormatPtr<ControlView::Holder> holder_format() {
 
 FormatPtr<ControlView> control_format() {
   static const auto format =
-      named("Control", "Who may jog arms: one client at a time.",
+      named("Control", "The client that may jog arms; one client at a time.",
             object<ControlView>({
                 output_only("holder", &ControlView::holder, nullable(holder_format()),
                             "null if no client has control"),
@@ -75,7 +75,7 @@ FormatPtr<ControlKey> control_key_format() {
   static const auto format =
       named("ControlKey", "",
             object<ControlKey>({required("control", &ControlKey::control, name(),
-                                         "The key that POST /control answered")}));
+                                         "The key that POST /control returned")}));
   return format;
 }
 
@@ -88,7 +88,7 @@ FormatPtr<JogRequest> jog_request_format() {
   static const auto format =
       named("JogRequest", "",
             object<Jog>({
-                required("control", &Jog::control, name(), "The key that POST /control answered"),
+                required("control", &Jog::control, name(), "The key that POST /control returned"),
                 required("to", &Jog::to, plan_goal_format(), "The goal of the motion"),
                 field("velocity_scaling_factor", &Jog::speed, number({0.001, kJogSpeedMax}),
                       "Share of the joints' speed limits"),

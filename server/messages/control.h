@@ -13,8 +13,8 @@ namespace armloom {
 
 // Body of POST /control.
 struct ControlRequest {
-  std::optional<std::string> who = {};  // shown to people; a token's name applies instead
-  bool take = false;                    // from its present holder
+  std::optional<std::string> who = {};  // display name; with tokens, the token's name applies
+  bool take = false;                    // take control from another client
 };
 [[nodiscard]] FormatPtr<ControlRequest> control_request_format();
 [[nodiscard]] Result<ControlRequest> read_control_request(std::string_view text);
@@ -50,7 +50,7 @@ inline constexpr double kJogSpeedMax = 0.25;
 [[nodiscard]] FormatPtr<JogRequest> jog_request_format();
 [[nodiscard]] Result<JogRequest> read_jog_request(std::string_view text);
 
-// Returns the equivalent body of POST /jobs for this arm.
+// Returns the body of POST /jobs that does the same on this arm.
 [[nodiscard]] std::string job_text_of(const JogRequest& hold, const std::string& arm);
 
 // Answer to POST and PUT /arms/{name}/jog.

@@ -51,9 +51,10 @@ FormatPtr<DiagramCell> cell_format() {
   return named(
       "DiagramCell", "",
       object<DiagramCell>({
-          output_only("state", &DiagramCell::state, cell_state_format(),
-                      "`free`: every state of the cell keeps the clearance; `conflict`: no state "
-                      "keeps it; `undecided`: some states keep it, or neither is proven"),
+          output_only(
+              "state", &DiagramCell::state, cell_state_format(),
+              "`free`: every state of the cell keeps the clearance; `conflict`: no state keeps the "
+              "clearance; `undecided`: only some states keep the clearance, or nothing is proven"),
           stretch("a_s", &DiagramCell::from_a, &DiagramCell::to_a),
           stretch("b_s", &DiagramCell::from_b, &DiagramCell::to_b),
       }));
@@ -68,12 +69,12 @@ FormatPtr<DiagramView::Layer> layer_format() {
       output_if(
           "cells", [](const Layer& layer) { return layer.cells.empty() ? nullptr : &layer.cells; },
           list(cell_format(), {.fewest = 1}),
-          "Cells that cover the rectangle of both durations without overlap; absent with "
-          "`cells=0`"),
-      output_only(
-          "first_contact", &Layer::met, nullable(met_format()),
-          "The first conflict, or else the first undecided cell, if both motions continue from "
-          "their present progress and each rests at its end; null if only free cells follow"),
+          "Cells that cover the rectangle of both durations without overlapping each other; absent "
+          "with `cells=0`"),
+      output_only("first_contact", &Layer::met, nullable(met_format()),
+                  "What the motions reach first if both continue from their present progress and "
+                  "each rests at its end: the first conflict, or else the first undecided cell. "
+                  "null if only free cells follow"),
   });
 }
 
@@ -83,8 +84,8 @@ FormatPtr<DiagramView> diagram_format() {
   using View = DiagramView;
   static const auto format = named(
       "Diagram",
-      "The coordination diagram of two motions. Times in cells and of progress are "
-      "trajectory time.",
+      "The coordination diagram of two motions. The times of cells and of progress are trajectory "
+      "time.",
       object<View>({
           output_only("t_s", &View::time, cell_time(), "Cell time of `state` and `progress_s`"),
           output_only("a", &View::a, side_format()),

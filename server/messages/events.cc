@@ -67,18 +67,20 @@ FormatPtr<GuardEvent> guard_event_format() {
           output_only(
               "kind", [](const Told& event) { return event.refusal.why; },
               choice<GuardRefusal::Why>(),
-              "Reason. `uncertified`: no certificate covers the authority; `region`: it enters a "
-              "conflict region out of order; `busy`: the arm is on another motion; `out_of_step`: "
-              "the arms of one motion are too far apart on it"),
+              "Reason. `uncertified`: no certificate covers the authority; `region`: the authority "
+              "enters a conflict region out of order; `busy`: the arm is on another motion; "
+              "`out_of_step`: the arms of one motion are too far apart in progress"),
           output_only("arm", &Told::arm, text()),
           output_only("job", &Told::job, text()),
-          output_only("other_arm", &Told::other_arm, text(),
-                      "Other arm; empty for the scene or the motion's own arms"),
+          output_only(
+              "other_arm", &Told::other_arm, text(),
+              "Other arm; empty if the refusal concerns the scene or only the arms of this motion"),
           output_only("other_job", &Told::other_job, text(), "Last job of the other arm, or empty"),
           output_only("asked", asked, progress_box_format(),
-                      "From the present progress of both arms to their authority"),
+                      "Authority that was refused: from the present progress of both arms to their "
+                      "authority"),
           output_if("region", region, progress_box_format(),
-                    "The first rectangle of the conflict region that was entered"),
+                    "First rectangle of the conflict region that `asked` overlaps"),
       }));
 }
 
@@ -129,7 +131,7 @@ struct Envelope {
   const T* data;
 };
 
-// Member "at": wall time, if the writer knows it.
+// The member "at": wall time of the event. Not written if the writer does not know wall time.
 class AtPart final : public AnyPart {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("at"); }
@@ -208,7 +210,7 @@ const Kinds& kinds() {
   return kinds;
 }
 
-// Poses are for display only.
+// Writes numbers with 6 decimals, because poses are for display only.
 class Rounded final : public CustomFormat<double> {
  public:
   void read(const JsonNode&, double&) const override {}
@@ -234,9 +236,9 @@ FormatPtr<NearView> near_format() {
     return std::pair(near.proximity->body_a, near.proximity->body_b);
   };
   return object<View>({
-      output_only(
-          "arms", arms, list(text(), {.fewest = 1, .most = 2}),
-          "Two arms; or one arm if the other body is an object or a link that no arm moves"),
+      output_only("arms", arms, list(text(), {.fewest = 1, .most = 2}),
+                  "Names of two arms; or of one arm, if the other body is an object or a link that "
+                  "no arm moves"),
       output_only(
           "m", [](const View& near) { return near.proximity->clearance_m; }, rounded()),
       output_only("links", links, pair_of(text())),
@@ -252,8 +254,9 @@ FormatPtr<ArmAuthority> authority_format() {
           output_only("arm", &Told::arm, text()),
           output_only("job", &Told::job, text()),
           output_only("progress_s", &Told::progress, seconds(kAnyNumber), "Measured progress"),
-          output_only("authority_s", &Told::authority, seconds({0.0}),
-                      "Movement authority: the arm stops here unless more is granted"),
+          output_only(
+              "authority_s", &Told::authority, seconds({0.0}),
+              "Movement authority: the arm stops at this time unless more authority is granted"),
       }));
 }
 

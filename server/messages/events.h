@@ -14,20 +14,20 @@
 
 namespace armloom {
 
-// Messages on WebSocket and SSE and in recordings. `clock`: null in a simulated session; then `at`
-// and keys ending in `_at` are absent.
+// Messages on WebSocket and SSE and in recordings. `clock` is null in a simulated session; the
+// member `at` and keys ending in `_at` are then absent.
 
 // Returns {"stream", "seq", "type", "t_s", "at", "data"}.
 [[nodiscard]] std::string event_json(const Event& event, const std::string& stream,
                                      const WallClock* clock);
 
-// The first envelope of a new subscriber.
+// Content of the first message to a new subscriber.
 struct SnapshotView {
-  const Snapshot* snapshot;  // without its jobs
+  const Snapshot* snapshot;  // except its jobs, which are in `jobs`
   const std::vector<ListedJob>* jobs;
   const Cell* cell;
   double speed;
-  bool gap;  // events since the last visit were lost
+  bool gap;  // events since the subscriber's last connection were lost
 };
 [[nodiscard]] std::string snapshot_json(const SnapshotView& view, const std::string& stream,
                                         const WallClock& clock);
@@ -35,7 +35,7 @@ struct SnapshotView {
 // Positions are rounded to 1e-6. `speed`: cell seconds per wall second.
 [[nodiscard]] std::string state_json(const StateFrame& frame, const Cell& cell, double speed);
 
-// Return the schema of all messages, and their types with the names of their schemas.
+// Return the schema of all messages, and each message type with the name of its schema.
 [[nodiscard]] Schema message_schema();
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> message_types();
 

@@ -79,7 +79,7 @@ bool has_known_kind(const JsonNode& fault) {
   return std::ranges::any_of(kKinds, [&](const KindRule& rule) { return name == rule.name; });
 }
 
-// "for_s" and "value" depend on the kind, so they are read after it.
+// Members "for_s" and "value". They depend on the kind of fault, so they are read after "kind".
 class KindsOwn final : public CustomPart<FaultRequest> {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override {
@@ -107,8 +107,8 @@ class KindsOwn final : public CustomPart<FaultRequest> {
   void describe(Schema& object, const FaultRequest&, Way way) const override {
     describe_member(object,
                     {"for_s",
-                     "Duration; default: until the fault is removed. Not allowed for `fault`, "
-                     "which occurs once",
+                     "Duration; by default, the fault lasts until it is removed. Not allowed for "
+                     "`fault`, which occurs once",
                      Need::optional,
                      {}},
                     seconds({0.0, kFaultTimeMax_s})->schema(way), std::nullopt, way);
@@ -134,7 +134,7 @@ class KindsOwn final : public CustomPart<FaultRequest> {
   }
 };
 
-// Checks a logged fault against its kind.
+// Checks that the value and the duration of a logged fault are allowed for its kind.
 class WithinKind final : public CustomPart<FaultRequest> {
  public:
   void read(const JsonNode& object, FaultRequest& fault) const override {
@@ -153,9 +153,11 @@ PartPtr<FaultRequest> told_members(FormatPtr<TimePoint> at, FormatPtr<Duration> 
   return parts<Fault>({
       always("arm", &Fault::arm, text()),
       always("kind", &Fault::kind, kind_format()),
-      always("at_s", &Fault::at, nullable(std::move(at)), "Start in cell time; null: at once"),
-      always("for_s", &Fault::lasting, nullable(std::move(lasting)),
-             "null: until removed, or for `fault` until it has occurred"),
+      always("at_s", &Fault::at, nullable(std::move(at)),
+             "Start in cell time; null if the fault begins at once"),
+      always(
+          "for_s", &Fault::lasting, nullable(std::move(lasting)),
+          "Duration; null if the fault lasts until it is removed (`fault`: until it has occurred)"),
       always("value", &Fault::value, number(kAnyNumber)),
       make_part<WithinKind>(),
   });
@@ -175,13 +177,13 @@ FormatPtr<FaultRequest> make_fault_format(Need time_needed) {
 }  // namespace
 
 FormatPtr<FaultRequest> fault_request_format() {
-  static const auto format =
-      named("FaultRequest",
-            "A fault of a simulated arm. `stall`: stays where it is on its path. `slow`: follows "
-            "its path at a share of its speed. `late_start`: begins each motion late. "
-            "`drop_feedback`: repeats its last feedback. `fault`: the controller fails once, from "
-            "`at_s` on: during the present motion, else as soon as the next motion moves.",
-            make_fault_format(Need::optional));
+  static const auto format = named(
+      "FaultRequest",
+      "A fault of a simulated arm. `stall`: the arm stays where it is on its path. `slow`: the arm "
+      "follows its path at a share of its speed. `late_start`: the arm begins each motion late. "
+      "`drop_feedback`: the arm repeats its last feedback. `fault`: the controller fails once, "
+      "from `at_s` on: during the present motion, or else as soon as the next motion moves.",
+      make_fault_format(Need::optional));
   return format;
 }
 

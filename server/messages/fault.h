@@ -11,12 +11,13 @@
 
 namespace armloom {
 
-// Body of POST /sim/faults. Required values: for `slow` a share of the speed in 0..1, for
-// `late_start` seconds. Problem "unsupported-fault": a kind that simulated arms do not have.
+// Body of POST /sim/faults. `slow` requires a value, the share of the speed in 0..1. `late_start`
+// requires a value in seconds. Problem "unsupported-fault": simulated arms do not have this kind of
+// fault.
 [[nodiscard]] FormatPtr<FaultRequest> fault_request_format();
 [[nodiscard]] Result<FaultRequest> read_fault_text(std::string_view text);
 
-// Reads an array of such bodies, each with "at_s". Arms must be in `cell`.
+// Reads an array of bodies of POST /sim/faults. Each body must have "at_s" and an arm of `cell`.
 [[nodiscard]] Result<std::vector<FaultRequest>> read_faults_text(std::string_view text,
                                                                  const Cell& cell);
 
@@ -26,7 +27,8 @@ struct FaultView {
   FaultRequest fault;
 };
 [[nodiscard]] FormatPtr<FaultView> fault_format();
-// Describes a fault in the input log, without id; read as strictly as a request.
+// Describes a fault in the input log, whose id is not kept. Values are checked as strictly as in a
+// request.
 [[nodiscard]] FormatPtr<FaultRequest> logged_fault_format();
 
 // Body and answer of PUT /sim/speed.

@@ -36,10 +36,9 @@ FormatPtr<ChoiceView> choice_format() {
           "Jobs that could have gone first, or arms that could have done the job, when the choice "
           "was first made"),
       output_only("selected", &ChoiceView::selected, text(), "The selected candidate"),
-      output_only(
-          "time_saved_s", &ChoiceView::time_saved_s, nullable(number(kAnyNumber)),
-          "Gain over the first candidate: lower plan cost, or for a goal earlier arrival; null if "
-          "the first candidate is selected or could not go"),
+      output_only("time_saved_s", &ChoiceView::time_saved_s, nullable(number(kAnyNumber)),
+                  "Time saved compared with the first candidate: lower plan cost, or for a goal "
+                  "earlier arrival. null if the first candidate is selected or could not go"),
       output_only("detail", &ChoiceView::detail, text()),
   });
 }
@@ -62,10 +61,9 @@ FormatPtr<DetourView> detour_format() {
       output_only("candidates_evaluated", &DetourView::candidates_evaluated, count(),
                   "Number of detours evaluated"),
       output_only("selected", &DetourView::is_selected, flag(), "true if the job takes a detour"),
-      output_only(
-          "time_saved_s", &DetourView::time_saved_s, nullable(number(kPositive)),
-          "Predicted earlier arrival by the detour; null if none is selected, or if the shortest "
-          "path was blocked"),
+      output_only("time_saved_s", &DetourView::time_saved_s, nullable(number(kPositive)),
+                  "Time by which the detour is predicted to arrive earlier. null if no detour is "
+                  "selected, or if the shortest path was blocked"),
   });
 }
 std::optional<std::vector<std::string>> alternatives_of(const JobWaysView& ways) {
@@ -84,8 +82,8 @@ PartPtr<CheckView> make_verdict_part() {
       output_only("earliest_start_s", &View::earliest_start_s, nullable(number({0.0})),
                   "Delay until the earliest start; 0 for an immediate start, null if unknown"),
       output_only("clearance_bound_m", &View::clearance_bound_m, nullable(number(kAnyNumber)),
-                  "Certified clearance between arms and between arms and objects: the smallest one "
-                  "required of any such pair"),
+                  "Certified clearance between arms, and between arms and objects: the smallest "
+                  "clearance required of any such pair"),
       output_only("self_clearance_bound_m", &View::self_clearance_bound_m,
                   nullable(number(kAnyNumber)), "Certified clearance between links of one arm"),
       output_only(
@@ -99,8 +97,8 @@ PartPtr<CheckView> make_verdict_part() {
                 "For a goal with several candidate arms: the arm that would be selected"),
       output_if("move_to_start_s", &View::move_to_start_s, number({0.0}),
                 "For a job with `move_to_start`: duration of the motion to its start. The verdict "
-                "covers that motion; if the job cannot be admitted together with it, the job is "
-                "checked again at the start"),
+                "covers that motion. If the job cannot be admitted together with that motion, it "
+                "is checked again at its start"),
       output_if("result", &View::result, result_format(),
                 "Result of a job that would end at once without moving"),
   });
@@ -112,8 +110,8 @@ PartPtr<JobTimesView> times_part() {
       output_if("backlogged_s", &JobTimesView::backlogged_at, cell_time(),
                 "Cell time of the first conflict; absent if there was none"),
       output_if("expires_s", &JobTimesView::expires_at, cell_time(),
-                "Cell time at which the job expires if nothing changes, while it waits in the "
-                "backlog, or on its path for something that no job moves"),
+                "Cell time at which the job expires if nothing changes. Present while the job "
+                "waits in the backlog, or waits on its path for something that no job moves"),
       output_times("scheduled", &JobTimesView::scheduled_at,
                    "Scheduled start; null if not scheduled"),
       output_times("started", &JobTimesView::started_at, "Start of motion; null before it"),
@@ -143,8 +141,8 @@ PartPtr<JobWaysView> ways_part() {
                 "waits"),
       output_if("replan", &JobWaysView::another_way, another_way_format(), "Replans of the job"),
       output_if("detour", &JobWaysView::detour, detour_format(),
-                "For a goal whose shortest path would have to wait: detours around the motions of "
-                "other arms"),
+                "Present for a goal whose shortest path would have to wait: detours around the "
+                "motions of other arms"),
       output_if("choice", &JobWaysView::choice, choice_format(),
                 "Why this job went before others, or why this arm was selected"),
   });
@@ -153,10 +151,10 @@ PartPtr<JobWaysView> ways_part() {
 }  // namespace
 
 FormatPtr<JobState> job_state_format() {
-  static const auto format =
-      named("JobState",
-            "State of a job. The last five are terminal; every job reaches exactly one of them.",
-            choice<JobState>());
+  static const auto format = named(
+      "JobState",
+      "State of a job. The last five states are terminal; every job reaches exactly one of them.",
+      choice<JobState>());
   return format;
 }
 
@@ -178,35 +176,35 @@ FormatPtr<WaitView> wait_format() {
           output_only("clearance_m", &WaitView::clearance_m, nullable(number(kAnyNumber)),
                       "Distance found; zero or negative in contact"),
           output_if("detail", detail_of, text(), "Details, for example the cause of a stop"),
-          output_if(
-              "progress", &WaitView::progress, number(kShare),
-              "For a running check: share of its limit of evaluations used so far; most checks "
-              "end early"),
+          output_if("progress", &WaitView::progress, number(kShare),
+                    "While the job is being checked: share of the limit of evaluations used so "
+                    "far. Most checks end before the limit"),
       }));
   return format;
 }
 
 FormatPtr<JobView> job_format() {
   using View = JobView;
-  static const auto format = named(
-      "Job", "A job with its present state.",
-      object<View>({
-          output_only("id", &View::key, job_id_format()),
-          output_only("name", &View::name, text(), "Display name; may be empty"),
-          output_only("state", &View::state, job_state_format()),
-          output_only("arms", &View::arms, list(text()), "Arms that the job moves"),
-          inlined(&View::terms, job_terms_part()),
-          inlined(&View::times, times_part()),
-          inlined(&View::motion, motion_part()),
-          output_only("waits_on", &View::waits_on, list(wait_format()),
-                      "Reasons to wait; empty if the job does not wait"),
-          inlined(&View::ways, ways_part()),
-          output_only("cycle", &View::cycle, list(text()),
-                      "Ids of the deadlock cycle that contains the job, itself first; each job "
-                      "waits for the next, the last for the first. Empty if there is none"),
-          output_only("result", &View::result, nullable(result_format()),
-                      "Result of an ended job; else null"),
-      }));
+  static const auto format =
+      named("Job", "A job with its present state.",
+            object<View>({
+                output_only("id", &View::key, job_id_format()),
+                output_only("name", &View::name, text(), "Display name; may be empty"),
+                output_only("state", &View::state, job_state_format()),
+                output_only("arms", &View::arms, list(text()), "Arms that the job moves"),
+                inlined(&View::terms, job_terms_part()),
+                inlined(&View::times, times_part()),
+                inlined(&View::motion, motion_part()),
+                output_only("waits_on", &View::waits_on, list(wait_format()),
+                            "Reasons to wait; empty if the job does not wait"),
+                inlined(&View::ways, ways_part()),
+                output_only("cycle", &View::cycle, list(text()),
+                            "Ids of the jobs in the deadlock cycle that contains this job, this "
+                            "job first. Each job waits for the next, and the last for the first. "
+                            "Empty if the job is in no cycle"),
+                output_only("result", &View::result, nullable(result_format()),
+                            "Result of an ended job; else null"),
+            }));
   return format;
 }
 

@@ -18,7 +18,7 @@ namespace armloom {
 // Ids of the jobs in each list of the queue.
 [[nodiscard]] FormatPtr<QueueView> queue_ids_format();
 
-// From the executive, or as JSON: cached, or from the store.
+// A job in a list: a view from the executive, or JSON text (cached, or from the store).
 using JobText = std::shared_ptr<const std::string>;
 using ListedJob = std::variant<JobView, JobText>;
 [[nodiscard]] FormatPtr<ListedJob> listed_job_format();
@@ -37,11 +37,11 @@ struct QueueJobs {
 };
 [[nodiscard]] FormatPtr<QueueJobs> queue_format();
 
-// Answers to POST /batches: atomic, and not atomic.
+// Answers to POST /batches: of an atomic batch, and of a non-atomic batch.
 [[nodiscard]] FormatPtr<std::vector<ListedJob>> batch_accepted_format();
 [[nodiscard]] FormatPtr<std::vector<Result<ListedJob>>> batch_results_format();
 
-// Answer to POST /check; verdict_part() has its members alone.
+// Answer to POST /check. verdict_part() describes the same members for use in another object.
 [[nodiscard]] FormatPtr<CheckView> verdict_format();
 [[nodiscard]] const formats::PartPtr<CheckView>& verdict_part();
 

@@ -26,7 +26,7 @@ class ListedJobFormat final : public CustomFormat<ListedJob> {
   Schema schema(Way way) const override { return job_format()->schema(way); }
 };
 
-// {"status": 202, "job": {...}} or {"status": 422, "problem": {...}}
+// Writes {"status": 202, "job": {...}} or {"status": 422, "problem": {...}}.
 class BatchResultFormat final : public CustomFormat<Result<ListedJob>> {
  public:
   void read(const JsonNode&, Result<ListedJob>&) const override {}

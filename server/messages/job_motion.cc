@@ -15,7 +15,8 @@ using namespace formats;
 
 namespace {
 
-// A quintic segment needs accelerations; a cubic one would become another curve with them.
+// Returns true for a cubic segment. A quintic segment is only reproduced if its waypoints have
+// accelerations. With accelerations, a cubic segment would be read as another curve.
 bool is_cubic(const Segment& segment) { return segment.coefficients.rightCols<2>().isZero(0.0); }
 
 WaypointRequest waypoint_of(const Trajectory& trajectory, Duration at, bool with_accelerations) {

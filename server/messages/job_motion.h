@@ -14,7 +14,7 @@ namespace armloom {
 
 // Answer to GET /jobs/{id}/trajectory.
 struct JobMotion {
-  std::string job;  // key
+  std::string job;  // key of the job
   Duration duration;
   TrajectoryRequest trajectory;
 };

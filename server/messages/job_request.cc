@@ -34,8 +34,8 @@ std::vector<TrajectoryRequest*> motions_of(JobRequest& request) {
   return motions;
 }
 
-// Read after "atomic" and "reorderable". In a non-atomic batch each job is read alone, with
-// pointers into its own body.
+// The member "jobs", which is read after "atomic" and "reorderable". In a non-atomic batch, each
+// job is read alone: pointers of problems begin at the job's own body.
 class BatchJobs final : public CustomPart<BatchRequest> {
  public:
   void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back("jobs"); }
@@ -86,7 +86,7 @@ FormatPtr<std::vector<TimedJob>> jobs_file_format() {
   return format;
 }
 
-// "arm" names the arm of a goal; with a trajectory, it supplies the prefix of joint names.
+// The member "arm": the arm of a goal. With a trajectory, the arm gives the prefix of joint names.
 PartPtr<JobRequest> arm_part() {
   using Request = JobRequest;
   return member<Request>(
@@ -135,10 +135,11 @@ PartPtr<JobRequest> retime_part() {
   using Request = JobRequest;
   return member<Request>(
       {"retime",
-       "true: time-parameterizes the waypoints, as fast as the joints' limits allow, at rest at "
-       "both ends, corners cut by at most 0.01 rad. Times, velocities and accelerations of the "
-       "waypoints are ignored. \"if_needed\": only if the trajectory is not valid as given; the "
-       "job's `retimed` reports it. A `move_to` is always time-parameterized",
+       "true: time-parameterizes the waypoints. The motion is as fast as the joints' limits allow, "
+       "rests at both ends, and cuts corners by at most 0.01 rad. Times, velocities and "
+       "accelerations of the waypoints are ignored. \"if_needed\": does this only if the "
+       "trajectory is not valid as given; the job's `retimed` says whether it was done. A "
+       "`move_to` is always time-parameterized",
        Need::optional, Schema(false)},
       make_format<RetimeFormat>(), [](const Request&) { return std::optional<WhenRetimed>(); },
       [](Request& request, WhenRetimed when) {
@@ -214,18 +215,18 @@ FormatPtr<JobRequest> job_request_format() {
           field("alternatives", &Request::alternatives,
                 list(trajectory_request_format(),
                      {.fewest = 2, .most = kAlternativesMax, .noun = "trajectories"}),
-                "Alternatives to `trajectory`: the same work by different arms, each returning to "
-                "where it begins; exactly one is executed"),
+                "Instead of `trajectory`: several trajectories that do the same work with "
+                "different arms. Each of them ends where it begins. Exactly one is executed"),
           field("move_to", &Request::move_to, plan_goal_format(),
-                "Alternative to `trajectory`: a goal for `arm`. The path is planned from where the "
-                "arm will be after its earlier jobs, and planned again if that changes"),
+                "Instead of `trajectory`: a goal for `arm`. The path is planned from where the arm "
+                "will be after its earlier jobs. It is planned again if that position changes"),
           field("arms", &Request::arms,
                 list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
                 "With `move_to`, instead of `arm`: candidate arms. A path is planned for each; the "
                 "arm that arrives first takes the job"),
           at_most_one<Request>({"arm", "arms"}),
           at_most_one<Request>({"trajectory", "alternatives", "move_to"}),
-          // Read after the trajectory, which they change.
+          // These are read after the trajectory, because they change it.
           arm_part(),
           retime_part(),
           velocity_scaling_part(),

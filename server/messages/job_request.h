@@ -14,7 +14,7 @@ namespace armloom {
 // Body of POST /jobs.
 [[nodiscard]] FormatPtr<JobRequest> job_request_format();
 [[nodiscard]] FormatPtr<std::string> job_id_format();
-// Returns true for at most kJobNameMax characters without control characters.
+// Returns true if the name has at most kJobNameMax characters and no control characters.
 [[nodiscard]] bool is_job_name(std::string_view name);
 [[nodiscard]] FormatPtr<std::string> job_name_format();
 
@@ -25,14 +25,15 @@ inline constexpr std::size_t kAfterMax = 100;   // predecessors of one job
 inline constexpr std::size_t kBatchMax = 1000;  // jobs of one batch
 inline constexpr std::size_t kAlternativesMax = 8;
 
-// Reads the shape only; validate() checks limits, names and times. Returns all faults, at most
-// JsonNode::kFaultsMax. ROS's `header` and `effort` are ignored; MoveIt's nesting is accepted.
+// Reads a job. Checks only the structure of the JSON; validate() checks limits, names and times.
+// Returns all faults, at most JsonNode::kFaultsMax. ROS's `header` and `effort` are ignored;
+// MoveIt's nesting is accepted.
 [[nodiscard]] Result<JobRequest> read_job(const nlohmann::json& body);
 
 [[nodiscard]] Result<JobRequest> read_job_text(std::string_view text);
 
-// A request and its body in canonical form (members sorted, no white space), which identifies
-// repeated requests.
+// A request, and its body in canonical form (members sorted, no white space). The canonical form
+// identifies repeated requests.
 template <class T>
 struct Submission {
   T request;
@@ -40,8 +41,8 @@ struct Submission {
 };
 [[nodiscard]] Result<Submission<JobRequest>> read_job_submission(std::string_view text);
 
-// Body of POST /batches. In an atomic batch every job has been read; else each entry has its own
-// result.
+// Body of POST /batches. In an atomic batch, all jobs have been read without problems. Otherwise
+// each entry has its own result.
 struct BatchRequest {
   struct Entry {
     Result<JobRequest> job;

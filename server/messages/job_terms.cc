@@ -28,10 +28,10 @@ PartPtr<JobTerms> job_terms_part() {
       later(field("on_timeout", &Terms::on_timeout, choice<OnTimeout>(),
                   "Action on backlog timeout. `abort`: the job expires. `replan`: the server plans "
                   "another path from the arm's position to the job's end, around everything at "
-                  "rest; the job expires if there is no path, and after the third replan")),
+                  "rest. The job expires if there is no such path, and after the third replan")),
       omit_default("move_to_start", &Terms::move_to_start, MoveToStart::none, choice<MoveToStart>(),
-                   "`plan`: the arms need not be at the start of the trajectory; the server first "
-                   "moves each of them there on a planned path, slowly"),
+                   "`plan`: the arms need not be at the start of the trajectory. The server first "
+                   "moves each arm there slowly, on a planned path"),
       omit_default("reorderable", &Terms::reorderable, false, flag(),
                    "true: the scheduler may reorder this job among reorderable jobs of the same "
                    "arm that begin and end at the same configuration"),

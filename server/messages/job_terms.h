@@ -5,9 +5,9 @@
 
 namespace armloom {
 
-// Terms of a job, for requests and answers.
+// Describes the terms of a job, for requests and answers.
 [[nodiscard]] formats::PartPtr<JobTerms> job_terms_part();
-// For PATCH /jobs/{id}.
+// Describes the terms that PATCH /jobs/{id} can change.
 [[nodiscard]] formats::PartPtr<AmendedTerms> amended_terms_part();
 
 }  // namespace armloom

@@ -12,7 +12,7 @@ using namespace formats;
 
 namespace {
 
-// Positions are for display only, as in state frames.
+// Writes positions with 6 decimals, because they are for display only.
 class RoundedPositions final : public CustomFormat<Configuration> {
  public:
   void read(const JsonNode&, Configuration&) const override {}

@@ -4,7 +4,7 @@
 
 namespace armloom {
 
-// Prefix of all paths, except those of the server itself (/healthz, /docs, ...).
+// Prefix of all paths of the API. Paths of the server itself (/healthz, /docs, ...) do not have it.
 inline constexpr const char* kApiPrefix = "/api/v1";
 inline constexpr const char* kMeshFolder = "/cell/meshes/";
 

@@ -14,9 +14,10 @@ namespace armloom {
 
 // Answer to POST /plan.
 [[nodiscard]] FormatPtr<PlanView> plan_format();
-// Returns the answer (422) if there is no plan.
+// Returns the problem document (422) that is answered if there is no plan.
 [[nodiscard]] ProblemDocument document_of(const RefusedInquiry& refused);
-// Returns the links that come too close, or the link that misses its pose; may be empty.
+// Returns the two links that come too close, or the link that misses its pose. Empty if the refusal
+// names no link.
 [[nodiscard]] std::vector<std::string> links_of(const PlanRefusal& refusal);
 
 }  // namespace armloom

@@ -101,8 +101,9 @@ FormatPtr<ProblemDocument> problem_format() {
           output_if("required_clearance_m", &Document::required_clearance_m, number({0.0}),
                     "Distance that the two links must keep"),
           output_if("nearest", &Document::nearest, number_list(),
-                    "Nearest usable joint positions found: collision-free ones; for an unreachable "
-                    "pose, the closest to it; for a straight line, the farthest point on it"),
+                    "Usable joint positions nearest to the request: the nearest collision-free "
+                    "ones; for an unreachable pose, the closest to the pose; for a straight line, "
+                    "the farthest point on the line"),
           output_if("evaluations", &Document::evaluations, count(),
                     "Evaluations that planning took"),
       }));

@@ -13,7 +13,8 @@ namespace armloom {
 
 [[nodiscard]] int status_of(ProblemKind kind);
 
-// An RFC 9457 problem document: the first problem, and all in `errors` if there are several.
+// An RFC 9457 problem document. It describes the first problem; if there are several, `errors`
+// lists all of them.
 struct ProblemDocument {
   struct Error {
     std::string pointer;  // JSON pointer, or the place in words
@@ -28,7 +29,7 @@ struct ProblemDocument {
   std::optional<decltype(Problem::value)> value;
   std::vector<Error> errors;  // empty if there is one problem only
   // Set only if planning failed.
-  std::optional<std::vector<std::string>> links = {};  // too close, or missing the pose
+  std::optional<std::vector<std::string>> links = {};  // too close, or one that misses its pose
   std::optional<double> clearance_m = {};              // distance of these links
   std::optional<double> required_clearance_m = {};
   std::optional<std::vector<double>> nearest = {};  // nearest usable joint positions
@@ -38,13 +39,13 @@ struct ProblemDocument {
 
 // Precondition: `problems` is not empty.
 [[nodiscard]] ProblemDocument document_of(const Problems& problems);
-// Return "urn:armloom:problem:limit-exceeded", and "Limit exceeded".
+// For the slug "limit-exceeded", return "urn:armloom:problem:limit-exceeded" and "Limit exceeded".
 [[nodiscard]] std::string problem_type(const std::string& slug);
 [[nodiscard]] std::string problem_title(const std::string& slug);
 [[nodiscard]] std::string problem_json(const Problems& problems);
 
-// Returns one sentence: "config/x.json:/robots/0/urdf: ...". A place that is not a JSON pointer
-// ("panda.urdf: joint panda_joint3") names its own file.
+// Returns one sentence: "config/x.json:/robots/0/urdf: ...". If the problem's place is not a JSON
+// pointer ("panda.urdf: joint panda_joint3"), it replaces `file`, because it names its own file.
 [[nodiscard]] std::string problem_sentence(std::string_view file, const Problem& problem);
 
 }  // namespace armloom

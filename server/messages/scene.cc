@@ -63,17 +63,18 @@ class CollisionObjectFormat final : public CustomFormat<CollisionObject> {
 }  // namespace
 
 FormatPtr<ObjectDescription> object_request_format() {
-  static const auto format =
-      named("ObjectRequest",
-            "An object as in the cell file: exactly one shape, but no mesh. Default pose: zero.",
-            make_object_format(Need::required));
+  static const auto format = named("ObjectRequest",
+                                   "An object as in the cell file, with exactly one shape. Meshes "
+                                   "are not allowed. Default pose: zero.",
+                                   make_object_format(Need::required));
   return format;
 }
 
 FormatPtr<ObjectDescription> named_object_request_format() {
-  static const auto format = named(
-      "NamedObjectRequest", "Like ObjectRequest; the name is in the path and may be repeated here.",
-      make_object_format(Need::optional));
+  static const auto format =
+      named("NamedObjectRequest",
+            "The members of ObjectRequest. The name is in the path; it may be repeated here.",
+            make_object_format(Need::optional));
   return format;
 }
 
@@ -91,7 +92,7 @@ Result<CollisionObject> read_object_text(std::string_view text,
   ObjectDescription object;
   (name ? named_object_request_format() : object_request_format())->read(node, object);
   if (name && object.name.empty() && !node.has("name")) {
-    // The name in the path obeys the same rule.
+    // A name in the path must obey the same rule as a name in the body.
     const nlohmann::json of_address(*name);
     object_name_format()->read(JsonNode(of_address, "/name", faults), object.name);
   } else if (name && node.is_object()) {

@@ -13,8 +13,8 @@
 
 namespace armloom {
 
-// Bodies of POST /scene/objects and of PUT, whose path has the name; a name in the body must agree.
-// No meshes: a client cannot name files of the server.
+// Bodies of POST /scene/objects and PUT /scene/objects/{name}. If a body of PUT has a name, it must
+// be the name in the path. Meshes are refused, because a client must not name files of the server.
 
 [[nodiscard]] FormatPtr<ObjectDescription> object_request_format();
 [[nodiscard]] FormatPtr<ObjectDescription> named_object_request_format();
@@ -23,8 +23,8 @@ namespace armloom {
 
 [[nodiscard]] bool has_object(const std::vector<CollisionObject>& objects, std::string_view name);
 
-// Describes an object with the path of its mesh instead of the file. Other objects read back, up to
-// rounding of angles.
+// Describes an object of the scene. A mesh is written as a path on the server instead of its file.
+// Objects without a mesh can be read back, up to rounding of angles.
 [[nodiscard]] FormatPtr<CollisionObject> object_format();
 [[nodiscard]] FormatPtr<SceneView> scene_format();
 

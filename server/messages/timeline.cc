@@ -30,10 +30,9 @@ FormatPtr<TimelineLanes::Pause> pause_format() {
                       "End of the pause; null if no end is predicted (only for the last pause)"),
           output_only("at_s", &Pause::at, seconds({0.0}),
                       "Position of the pause in trajectory time"),
-          output_only(
-              "waits_on", &Pause::waits_on, nullable(wait_format()),
-              "What the motion waits for; null if its own arms cause the pause, which is assumed "
-              "to last as long again as it has lasted so far"),
+          output_only("waits_on", &Pause::waits_on, nullable(wait_format()),
+                      "What the motion waits for; null if its own arms cause the pause. Such a "
+                      "pause is predicted to last as long again as it has lasted so far"),
       }));
 }
 
@@ -41,8 +40,8 @@ FormatPtr<TimelineLanes::Leg> leg_format() {
   using Leg = TimelineLanes::Leg;
   return named(
       "TimelineStep",
-      "An admitted motion. It begins after the previous motion of its arms; waiting for "
-      "that is not a pause.",
+      "An admitted motion. It begins after the previous motion of its arms; the time until then is "
+      "not listed as a pause.",
       object<Leg>({
           output_only("id", of_job(&JobView::key), job_id_format()),
           output_only("name", of_job(&JobView::name), text(), "Display name; may be empty"),
@@ -52,10 +51,11 @@ FormatPtr<TimelineLanes::Leg> leg_format() {
           output_only("progress", progress_of, number({0.0, 1.0}),
                       "Share of the trajectory's time at `now_s`"),
           output_only("starts_s", &Leg::starts, nullable(cell_time()),
-                      "Time of leaving its start, past or predicted; null if not predicted"),
+                      "Time at which the motion leaves its start, past or predicted; null if not "
+                      "predicted"),
           output_only("ends_s", &Leg::ends, nullable(cell_time()),
-                      "Predicted end; null if none is predicted: the last pause gives the "
-                      "reason, unless the job is canceled and brakes"),
+                      "Predicted end; null if no end is predicted. The last pause then gives the "
+                      "reason, unless the job is canceled and its arm brakes"),
           output_only("pauses", &Leg::pauses, list(pause_format()), "Pauses from now on"),
       }));
 }
@@ -68,8 +68,8 @@ FormatPtr<TimelineLanes::Lane> lane_format() {
           output_only("name", &Lane::arm, text(), "Name of the arm"),
           output_only("steps", &Lane::steps, list(leg_format()), "Admitted motions in order"),
           output_only("waiting", &Lane::waiting, count(),
-                      "Number of jobs of the arm that have not ended and are not in `steps`: not "
-                      "admitted yet, so without times"),
+                      "Number of jobs of the arm that have not ended and are not in `steps`. They "
+                      "are not admitted yet, so they have no times"),
       }));
 }
 

@@ -105,7 +105,8 @@ class OnceNested final : public CustomFormat<TrajectoryRequest> {
   FormatPtr<TrajectoryRequest> plain_ = plain_format();
 };
 
-// ROS prints an empty multi-DOF trajectory; no cell has such joints.
+// Accepts only the empty multi-DOF trajectory that ROS prints, because no cell has multi-DOF
+// joints.
 class EmptyMultiDof final : public CustomFormat<Anything> {
  public:
   void read(const JsonNode& node, Anything&) const override {

@@ -9,7 +9,7 @@
 namespace armloom {
 namespace {
 
-// White space of \s in a JSON Schema pattern, without control characters.
+// The characters that \s matches in a JSON Schema pattern, without control characters.
 constexpr std::string_view kWhiteSpace[] = {
     " ",  // U+0020, U+00A0, U+1680, U+2000 to U+200A,
           // U+2028, U+2029, U+202F, U+205F, U+3000, U+FEFF

@@ -6,7 +6,7 @@
 
 namespace armloom {
 
-// Describes a person's name, which may be empty but not blank.
+// Describes a person's name. It may be empty, but must not consist of white space only.
 [[nodiscard]] FormatPtr<std::string> who_format();
 
 }  // namespace armloom

@@ -1,5 +1,5 @@
 # cmake -DOUT=pages.cc -DFOLDER=. -P embed.cmake
-# Writes a source file that holds these files as they are.
+# Writes a C++ source file with one function for each of these files, which returns the unchanged text of the file.
 file(WRITE "${OUT}" "#include \"server/api/openapi.h\"\n\nnamespace armloom {\n\n")
 foreach(name docs.html docs.css docs.js login.html login.js)
   file(READ "${FOLDER}/${name}" text)
