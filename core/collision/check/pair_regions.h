@@ -40,7 +40,7 @@ class PairRegionSearch {
   [[nodiscard]] std::vector<Certificate> take_certificates() { return std::move(certificates_); }
   // Returns the smallest limits of pairs that part; +inf if no pair parts.
   [[nodiscard]] const ClearanceBound& parted() const { return parted_; }
-  // Returns true if a larger effort might find more free states.
+  // Returns true if a larger effort (Question::effort) might find more free states.
   [[nodiscard]] bool exhausted() const { return exhausted_; }
   [[nodiscard]] std::uint64_t evaluations() const { return evaluations_; }
 
@@ -96,7 +96,7 @@ class PairRegionSearch {
   std::vector<Certificate> certificates_;
   std::vector<const Motion*> in_order_;  // all motions; those of an arm in their order of execution
   // For the current two sides:
-  std::vector<OrientedDiagram> layers_;  // each arm of one side against each of the other
+  std::vector<OrientedDiagram> layers_;  // each arm of one side with each arm of the other
   std::vector<BlockedCell> blocked_;
   // By index in blocked_: index in layers_, and the leaf of that layer.
   std::vector<std::pair<std::size_t, CoordinationDiagram::Blocked>> leaves_;

@@ -12,7 +12,7 @@ struct CoordinationDiagram::Search {
   std::vector<Open> open;
   Answer answer;
   double conflict_at_s = ProgressBand::kUnbounded;   // of the earliest proven conflict
-  double undecided_at_s = ProgressBand::kUnbounded;  // of the earliest cell that cannot be refined
+  double undecided_at_s = ProgressBand::kUnbounded;  // of the earliest cell that stays open
   int undecided = -1;
 
   void leave_open(const Open& cell) {

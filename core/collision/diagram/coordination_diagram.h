@@ -85,8 +85,8 @@ class CoordinationDiagram {
   };
   [[nodiscard]] std::vector<Blocked> blocked(Duration now_a, Duration now_b) const;
 
-  // Where motions pass each other closely, cells remain that are neither free nor in conflict.
-  // Halves such cells if their middle lies in one of `areas`, until each is free or no wider than
+  // Cells that are neither free nor in conflict remain if motions pass each other closely. Halves
+  // such cells if their middle lies in one of `areas`, until each is free or no wider than
   // `finest`. Stops at a proven conflict, because then the motions do not just pass closely.
   std::uint64_t refine_close_passes(const std::vector<ProgressBox>& areas, Duration finest,
                                     std::uint64_t budget);
