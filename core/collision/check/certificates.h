@@ -8,11 +8,12 @@
 
 namespace armloom {
 
-// Returns the arms of one motion from its present progress on, or one arm at rest (`motion` is
-// null). Precondition: `arms` are its entries, not empty.
+// Returns one side of a certificate: the arms of one motion from its present progress on, or one
+// arm at rest if `motion` is null. Precondition: `arms` are the entries of these arms; not empty.
 [[nodiscard]] CertifiedSide certified_side(std::span<MotionStore::Entry* const> arms,
                                            const Motion* motion);
-// Precondition: both were compared in this scene and are free outside `blocked`.
+// Returns the certificate of a pair of sides. Precondition: both sides were compared in this scene,
+// and all states outside `blocked` are free.
 [[nodiscard]] PairCertificate pair_certificate(const PlanningScene& scene, CertifiedSide a,
                                                CertifiedSide b, std::vector<ProgressBox> blocked);
 

@@ -62,7 +62,7 @@ std::vector<CertifiedCheck::ArmMotion> CertifiedCheck::arms_of(const Motion& mot
   return arms;
 }
 
-// Returns arms of candidates, then of others, then those at rest.
+// Returns the arms of candidates, then those of other motions, then the arms at rest.
 std::vector<CertifiedCheck::ArmMotion> CertifiedCheck::all_arms() {
   const Cell& cell = store_.scene()->cell();
   std::vector<bool> moved(cell.arms.size(), false);
@@ -106,7 +106,8 @@ Verdict CertifiedCheck::swept() {
   return std::move(verdict_);
 }
 
-// Certifies the candidates with themselves, static bodies, and arms out of their reach.
+// Adds certificates for each candidate against itself and static bodies, and against arms out of
+// its reach.
 void CertifiedCheck::certify_alone() {
   const PlanningScene& scene = *store_.scene();
   const SceneFingerprint& content = scene.fingerprint();
@@ -136,7 +137,8 @@ void CertifiedCheck::certify_alone() {
   }
 }
 
-// Certifies all of each candidate with every other motion and every arm at rest.
+// Adds certificates for all that remains of each candidate, against every other motion and every
+// arm at rest.
 void CertifiedCheck::certify_swept(const std::vector<ArmMotion>& all, std::size_t candidates) {
   struct Side {
     const Motion* motion;
@@ -202,7 +204,8 @@ void CertifiedCheck::check_swept(const ArmMotion& own, const ArmMotion& other) {
       own, &other);
 }
 
-// Checks two arms of one synchronous motion, each as far behind the other as it can get.
+// Checks two arms of one synchronous motion. Each arm may be as far behind the other as in_step.h
+// permits.
 void CertifiedCheck::check_in_step(const ArmMotion& own, const ArmMotion& other) {
   const double apart_s = to_seconds(kOutOfStep + kUntilTold);
   const double duration_s = to_seconds(own.entry->duration());

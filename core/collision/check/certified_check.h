@@ -10,7 +10,7 @@ namespace armloom {
 // begun in the store (MotionStore::begin_question).
 class CertifiedCheck {
  public:
-  // Store and question must outlive it.
+  // Store and question must outlive the CertifiedCheck.
   CertifiedCheck(MotionStore& store, const Question& question);
   [[nodiscard]] Verdict swept();
   [[nodiscard]] Verdict coordinated();
@@ -42,10 +42,11 @@ class CertifiedCheck {
   Verdict verdict_;
 };
 
-// Returns a budget of `cells` for each 10 s of the longest motion, at least `cells`.
+// Returns a budget of `cells` for each 10 s of the longest motion, but at least `cells`.
 [[nodiscard]] std::uint64_t cell_budget(std::uint64_t cells, double longest_s);
 
-// Joints may be up to `tracking_error` off their paths. Adds to `evaluations`.
+// Answers a PassageQuestion. Each joint may be up to `tracking_error` off its path. Adds the number
+// of evaluated cells to `evaluations`.
 [[nodiscard]] PassageAnswer check_passage(MotionStore& store, const PassageQuestion& passage,
                                           Configuration rest, double tracking_error,
                                           std::uint64_t& evaluations);

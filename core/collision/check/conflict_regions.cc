@@ -9,8 +9,9 @@
 namespace armloom {
 namespace {
 
-// One axis, cut at the edges of all cells. Cuts within kTouch are merged; a column reaches from the
-// first of its cuts to the last of the next.
+// One axis of the diagram, cut into columns at the edges of all cells. A column of A and a column
+// of B form a field. Cuts within kTouch of each other are merged into one. A column includes all
+// cuts that were merged at its beginning and at its end.
 class Axis {
  public:
   explicit Axis(std::vector<Duration> cuts) {
@@ -25,7 +26,7 @@ class Axis {
     }
   }
 
-  // An axis without width has one column.
+  // An axis of zero width has one column.
   [[nodiscard]] int columns() const { return std::max(1, static_cast<int>(first_.size()) - 1); }
   [[nodiscard]] Duration from(int column) const { return first_[index(column)]; }
   [[nodiscard]] Duration to(int column) const {
@@ -65,7 +66,7 @@ std::pair<Axis, Axis> axes_of(const std::vector<BlockedCell>& cells,
   return {Axis(std::move(a)), Axis(std::move(b))};
 }
 
-// Returns the enclosed free fields, as rectangles.
+// Returns the free fields that blocked fields enclose, as rectangles.
 std::vector<Span> holes_of(const Lines& solid, const Axis& axis_a, const Axis& axis_b,
                            const ProgressBox& remaining) {
   const Lines free = solid.gaps();
@@ -117,7 +118,8 @@ class SolidFields {
     const auto behind = std::ranges::upper_bound(runs, b, {}, &Run::from);
     return component_of(a, static_cast<std::size_t>(behind - runs.begin()) - 1);
   }
-  // Returns the rectangles of each component, joined along A or B first.
+  // Returns rectangles that cover each component. If `along_a`, fields are joined along A first,
+  // else along B.
   [[nodiscard]] std::vector<std::vector<Span>> rectangles(bool along_a) const {
     std::vector<std::vector<Span>> spans(components_);
     const auto take = [&](const Span& span) {
@@ -144,8 +146,8 @@ class SolidFields {
 
   Lines along_b_;                       // one line per column of A
   Lines along_a_;                       // one line per column of B
-  std::vector<std::size_t> first_;      // by line of along_b_: its first run
-  std::vector<std::size_t> component_;  // by run of along_b_
+  std::vector<std::size_t> first_;      // by line of along_b_: number of its first run
+  std::vector<std::size_t> component_;  // by number of a run of along_b_
   std::size_t components_ = 0;
 };
 

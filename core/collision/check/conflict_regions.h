@@ -21,17 +21,21 @@ struct BlockedCell {
 
 struct BlockedRegion {
   std::vector<ProgressBox> boxes;  // by from_a, then from_b; never empty
-  std::size_t evidence;  // cell with the closest proven state, else the smallest distance, else the
-                         // largest cell
+  // Index of the cell with the best evidence: the closest proven conflict, else the smallest known
+  // distance, else the largest area.
+  std::size_t evidence;
 };
 
 // Returns the connected components of the cells, each as few boxes that overlap by at most kTouch.
-// Corners and gaps up to kTouch connect. The boxes cover all reachable states of the cells, and
-// holes that components enclose, because no motion gets there. `remaining` is what remains of both
-// motions: cells behind it are dropped, and a free state where both are now is never filled. Sorted
-// by from_a and from_b of the first boxes. Pure.
+// Cells that touch in a corner, or have a gap of at most kTouch, are connected. The boxes cover all
+// states of the cells that motions can reach. They also cover holes that a component encloses,
+// because no motion can get into a hole.
 //
-// Precondition: no cell has zero width, except on an axis on which all have (an arm at rest).
+// `remaining`: what remains of both motions. Cells that the motions have passed are dropped. A hole
+// that contains the present state of both motions is not covered. Regions are sorted by from_a and
+// from_b of their first box. Pure.
+//
+// Precondition: a cell has zero width only along the axis of an arm at rest; then all cells have.
 [[nodiscard]] std::vector<BlockedRegion> blocked_regions(const std::vector<BlockedCell>& cells,
                                                          const ProgressBox& remaining);
 inline constexpr Duration kTouch = std::chrono::nanoseconds(1);

@@ -9,7 +9,8 @@
 
 namespace armloom {
 
-// A rectangle of fields: half-open ranges of columns.
+// A rectangle of fields, as half-open ranges of columns of A and of B. A column of A and a column
+// of B form a field.
 struct Span {
   int from_a, to_a, from_b, to_b;
 };
@@ -23,8 +24,8 @@ struct Run {
   int from, to;
 };
 
-// Fields as runs by line, so that the cost does not grow with the area. A line is one column of A;
-// runs go along B.
+// A set of fields, stored as the runs of each line. So the cost does not grow with the area. A line
+// is one column of A, and its runs go along B; or A and B are exchanged.
 class Lines {
  public:
   Lines(int lines, int places) : runs_(static_cast<std::size_t>(lines)), places_(places) {}
@@ -74,7 +75,8 @@ class Lines {
   int places_;
 };
 
-// Sets of connected runs, each named by its first run. Runs are numbered line by line.
+// Sets of connected runs. Each set is named by its first run; runs are numbered line by line. If
+// `corners`, runs that touch in a corner are connected too.
 class ConnectedRuns {
  public:
   ConnectedRuns(const Lines& lines, bool corners) {
@@ -102,12 +104,12 @@ class ConnectedRuns {
     }
   }
 
-  std::vector<std::size_t> first_;  // by line
+  std::vector<std::size_t> first_;  // number of the first run of each line
   std::size_t size_ = 0;
   DisjointSets sets_;
 };
 
-// Calls take(rectangle) for equal runs on consecutive lines.
+// Joins equal runs on consecutive lines to rectangles. Calls take(rectangle) for each.
 template <class Take>
 void each_rectangle(const Lines& lines, const Take& take) {
   struct Open {

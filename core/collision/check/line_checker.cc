@@ -8,14 +8,14 @@
 namespace armloom {
 namespace {
 
-// The first cut yields as many stretches as the filter checks at once.
+// The first cut yields eight stretches, as many as the filter checks at once.
 constexpr int kFirstLevels = 3;
-// Bodies mostly move towards each other by at least this share of their motion bounds. With less
-// room, no proof is tried.
+// Bodies mostly move towards each other by at least this share of their motion bounds. If their
+// distance exceeds the limit by less, no proof is tried.
 constexpr double kLineTowardsShare = 0.25;
 constexpr Duration kLength = std::chrono::seconds(1);
 
-// Returns a node of the line and the node of a static counterpart.
+// Returns a node of the line together with the only node of a counterpart at rest.
 TubePair::Nodes nodes_of(const TubePair& pair, const std::shared_ptr<MotionTube>& line, int node) {
   if (pair.is_self()) return {node, node};
   return pair.a() == line ? TubePair::Nodes{node, TimeTree::root()}
@@ -78,12 +78,12 @@ TubePair LineChecker::pair_with(const Counterpart& other,
   return turned ? TubePair(setting, other.tube, tube) : TubePair(setting, tube, other.tube);
 }
 
-// Decides a stretch from what the filter left open.
+// Decides a stretch from the pairs that the filter left undecided.
 LineChecker::Stretch LineChecker::look(TubePair& pair, TubePair::Nodes at,
                                        std::vector<TubePair::Undecided>& undecided) const {
   if (undecided.empty()) return Stretch::free;
   using Undecided = TubePair::Undecided;
-  // Returns the largest possible excess over the limit, according to the capsules.
+  // Returns by how much the distance may exceed the limit at most, according to the capsules.
   const auto room = [](const Undecided& u) {
     return std::max(u.distance_m, 0.0) + u.slack_m - u.limit_m;
   };
@@ -108,7 +108,8 @@ LineChecker::Stretch LineChecker::look(TubePair& pair, TubePair::Nodes at,
   return Stretch::free;
 }
 
-// Searches level by level, so that conflicts are found early; nullopt if the line is free.
+// Returns a stretch that is in conflict or undecided, or nullopt if the line is free. Halves all
+// stretches level by level, so that conflicts are found early.
 std::optional<LineChecker::Found> LineChecker::search(const std::shared_ptr<MotionTube>& tube,
                                                       double distance) {
   std::vector<int> level{TimeTree::root()};
@@ -189,7 +190,8 @@ LineChecker::Worst LineChecker::worst_of(TubePair& pair, const std::shared_ptr<M
     return c.distance_m - limit_m(c.pair);
   };
   if (!close.empty()) return {*std::ranges::min_element(close, {}, missing), 0.0};
-  // No pair is too close at the middle: find the pair that is too close for the whole stretch.
+  // No pair is too close at the middle. Find the pair that is not far enough apart for its motion
+  // within the stretch.
   const TubePair::Nodes nodes = nodes_of(pair, tube, found.node);
   pair.filter({&nodes, 1});
   std::optional<Worst> worst;

@@ -12,35 +12,37 @@
 
 namespace armloom {
 
-// Checks for planners whether one arm may move straight through joint space while everything else
-// rests. Certifies the whole line with the clearances and tracking error of jobs (Swept,
-// motion_checker.h): the arm and its attached objects against themselves, static bodies, the mount,
-// and the other arms where they rest. A line is cut in eight; stretches that are not certified are
-// halved.
+// Checks for planners if one arm can move along a straight line in joint space without conflict
+// while everything else rests. The whole line is certified with the clearances and tracking error
+// of jobs (Swept, motion_checker.h). The arm and its attached objects are checked against
+// themselves, static bodies, the mount, and the other arms at rest.
+// A line is first cut into eight stretches. Stretches that are not certified are halved.
 //
-// Deterministic. Not thread-safe: use one per worker thread.
+// Deterministic. Not thread-safe: use one LineChecker per worker thread.
 class LineChecker {
  public:
-  // `rest`: positions of all joints of the cell; those of the arm's group are ignored.
-  // `tracking_error`: of each joint (rad, m). `left_out`: arms that are ignored, with their
-  // attached objects. Throws std::invalid_argument unless `rest` has an entry for each joint.
+  // - `rest`: positions of all joints of the cell; those of the arm's own joints are ignored
+  // - `tracking_error`: of each joint (rad, m)
+  // - `left_out`: arms that are ignored, with their attached objects
+  // Throws std::invalid_argument unless `rest` has an entry for each joint.
   LineChecker(PlanningScenePtr scene, ArmId arm, const Configuration& rest, double tracking_error,
               const std::vector<ArmId>& left_out = {});
 
   enum class Kind {
-    free,       // for the whole line
+    free,       // the whole line is certified
     conflict,   // a pair is closer than its limit somewhere on the line
-    undecided,  // neither; treat as a conflict
+    undecided,  // neither is proven; treat it as a conflict
   };
   struct Answer {
     Kind kind = Kind::free;
-    double at = 0.0;                          // share of the line, 0 to 1: where ...
-    std::optional<Proximity> proximity = {};  // ... and which pair; body_a has the smaller arm id
-    // Undecided: how far the pair may move within the stretch, tracking error included. Its
-    // distance is too small for that.
+    double at = 0.0;                          // place of the evidence: share of the line, 0 to 1
+    std::optional<Proximity> proximity = {};  // the pair there; body_a has the smaller arm id
+    // If undecided: how far the pair may move within the stretch (m), tracking error included. The
+    // pair is not far enough apart for this motion.
     double moves_m = 0.0;
   };
-  // Checks a line; rows as the arm's joints. With from == to: one state.
+  // Checks a line between two positions of the arm's joints, in their order. If from == to, checks
+  // one state.
   [[nodiscard]] Answer line(const Eigen::VectorXd& from, const Eigen::VectorXd& to);
   [[nodiscard]] Answer state(const Eigen::VectorXd& q) { return line(q, q); }
   // Returns true if line() would return `free`; faster, without evidence.
@@ -50,9 +52,10 @@ class LineChecker {
   [[nodiscard]] ArmId arm() const { return arm_; }
   [[nodiscard]] const PlanningScene& scene() const { return *scene_; }
 
-  // A line that needs more stretches passes something so closely that another path is found faster.
+  // Largest number of stretches of a line. A line that needs more passes something so closely that
+  // the planner finds another path faster.
   inline static constexpr int kStretchesMax = 600;
-  // Stretches in which no joint moves by more than this are not halved; rad or m.
+  // Stretches in which no joint moves by more than this (rad or m) are not halved.
   inline static constexpr double kFinest = 1e-3;
 
  private:
@@ -72,7 +75,7 @@ class LineChecker {
                                    const std::shared_ptr<MotionTube>& tube) const;
   [[nodiscard]] std::optional<Found> search(const std::shared_ptr<MotionTube>& tube,
                                             double distance);
-  // The pair that falls short most, and how far it may move.
+  // The pair whose distance is farthest below the required distance, and how far the pair may move.
   struct Worst {
     TubePair::PairDistance pair;
     double moves_m;
@@ -91,7 +94,7 @@ class LineChecker {
   std::shared_ptr<MotionTube::Scratch> tube_scratch_;
   std::shared_ptr<TubePair::Scratch> pair_scratch_;
   std::vector<Counterpart> counterparts_;
-  std::vector<std::vector<int>> open_;  // by counterpart: nodes of the current line
+  std::vector<std::vector<int>> open_;  // by counterpart: nodes of the line still to check
   std::uint64_t evaluations_ = 0;
 };
 

@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-// Returns true if both cells have one state and form a rectangle.
+// Returns true if both cells have the same state and together form a rectangle.
 bool joins(const DiagramCell& x, const DiagramCell& y) {
   const bool same_a = x.from_a == y.from_a && x.to_a == y.to_a;
   const bool same_b = x.from_b == y.from_b && x.to_b == y.to_b;
@@ -19,8 +19,8 @@ bool joins(const DiagramCell& x, const DiagramCell& y) {
                                 (same_b && (x.to_a == y.from_a || y.to_a == x.from_a)));
 }
 
-// Returns the cell's index on the curve of Morton (1966), on which neighbors from a quadtree are
-// adjacent.
+// Returns the cell's index on the Z-order curve (Morton 1966). Neighbors from a quadtree are
+// adjacent on this curve.
 std::uint64_t place_of(const DiagramCell& cell, const Diagram& diagram) {
   const auto share = [](Duration from, Duration whole) {
     return static_cast<std::uint64_t>(std::llround(to_seconds(from) / to_seconds(whole) * 65536.0));
@@ -34,8 +34,8 @@ std::uint64_t place_of(const DiagramCell& cell, const Diagram& diagram) {
   return place;
 }
 
-// Merges neighbors of equal state, because conflicts are proven in small cells only. `diagram` has
-// the durations.
+// Merges neighboring cells of equal state, because conflicts are proven only in small cells.
+// `diagram` has the durations of both motions.
 std::vector<DiagramCell> joined(std::vector<DiagramCell> cells, const Diagram& diagram) {
   std::ranges::sort(cells, {}, [&](const DiagramCell& cell) { return place_of(cell, diagram); });
   std::vector<DiagramCell> result;

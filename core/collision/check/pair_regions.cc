@@ -101,7 +101,7 @@ std::vector<PairRegionSearch::Side> PairRegionSearch::standing_beside(const Moti
       return motion != nullptr && !share_an_arm(candidate, *motion);
     };
     if (compared(before) || compared(behind)) continue;
-    Configuration rest = question_.rest;  // not the start of its next motion
+    Configuration rest = question_.rest;  // where the arm is now, not the start of its next motion
     if (before != nullptr) put(*before->trajectory, before->trajectory->duration(), rest);
     sides.push_back(resting(arm, rest));
   }
@@ -133,7 +133,7 @@ std::vector<PairRegions> PairRegionSearch::find() {
 void PairRegionSearch::compare(Side& a, Side& b, std::vector<PairRegions>& found) {
   if (b.motion != nullptr && share_an_arm(*a.motion, *b.motion)) return;
   layers_.clear();
-  bool apart = true;  // true: ApartCertificates cover the pair
+  bool apart = true;  // if true, ApartCertificates cover the pair
   for (MotionStore::Entry* arm_a : a.arms) {
     for (MotionStore::Entry* arm_b : b.arms) {
       apart = apart && store_.out_of_reach(arm_a->arm, arm_b->arm);
@@ -183,7 +183,7 @@ OrientedDiagram PairRegionSearch::outlined(const Side& a, const Side& b, Oriente
   return parting;
 }
 
-// Returns the components of what is not free in any layer.
+// Returns the regions of states that are not free in at least one layer.
 std::vector<BlockedRegion> PairRegionSearch::blocked(const Side& a, const Side& b) {
   blocked_.clear();
   leaves_.clear();
@@ -201,8 +201,8 @@ std::vector<BlockedRegion> PairRegionSearch::blocked(const Side& a, const Side& 
   return blocked_regions(blocked_, {a.now(), a.end(), b.now(), b.end()});
 }
 
-// Refines regions without a proven conflict, in which motions may pass each other closely. Returns
-// true if cells were evaluated.
+// Refines regions without a proven conflict, because motions may only pass each other closely
+// there. Returns true if cells were evaluated.
 bool PairRegionSearch::refine_close_passes(const std::vector<BlockedRegion>& regions,
                                            std::uint64_t budget) {
   std::uint64_t looked_at = 0;

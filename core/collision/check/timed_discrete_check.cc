@@ -11,14 +11,14 @@
 namespace armloom {
 namespace {
 
-// Rounding of the distance of a pair that rests or moves in parallel.
+// A pair that rests or moves in parallel may seem closer by this much, because of rounding.
 constexpr double kSameDistance_m = 1e-6;
 
 struct Runner {
   const Motion* motion;
   bool candidate;
   Duration progress;  // trajectory time
-  bool moved = true;  // since the last instant
+  bool moved = true;  // moved since the last instant
 };
 
 // A pair that has been too close since the first instant.
@@ -30,7 +30,7 @@ struct Parting {
 
 class Judgement {
  public:
-  // `stay`: motions that may stay do.
+  // If `stay`, motions that may stay (Motion::Stands::may_stay) do.
   Judgement(const Question& question, ClearanceQuery& query, bool stay)
       : question_(question),
         stay_(stay),
@@ -138,7 +138,8 @@ class Judgement {
     std::erase_if(parting_, [](const Parting& parting) { return !parting.still_close; });
   }
 
-  // Adds the conflict, or replaces a farther conflict with the same counterpart.
+  // Adds the conflict. If a conflict with the same counterpart is known, keeps only the closer
+  // pair.
   void report(const NearPair& near, std::vector<Conflict>& conflicts) const {
     Conflict found = conflict_of(near);
     for (Conflict& known : conflicts) {
@@ -157,7 +158,8 @@ class Judgement {
     Proximity proximity = query_.describe(near);
     const Runner* own = runner_of(proximity.arm_a);
     const Runner* other = runner_of(proximity.arm_b);
-    // Body a belongs to the candidate; of two, to the first named.
+    // Body a belongs to the candidate. If both bodies do, body a is that of the candidate named
+    // first.
     const bool b_is_own =
         other != nullptr && other->candidate && (own == nullptr || !own->candidate || other < own);
     if (b_is_own) {
@@ -193,7 +195,7 @@ class Judgement {
   std::vector<Runner> runners_;               // candidates first
   std::vector<const Runner*> runner_of_arm_;  // by ArmId; null if at rest
   std::vector<bool> of_candidates_;           // by ArmId
-  std::vector<bool> moved_;                   // by ArmId: since the last instant
+  std::vector<bool> moved_;                   // by ArmId: moved since the last instant
   std::vector<Parting> parting_;
   std::vector<NearPair> near_;
   Eigen::VectorXd positions_;

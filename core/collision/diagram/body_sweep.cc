@@ -45,11 +45,11 @@ bool groups_keep_apart(const std::vector<ConvexShape>& shapes, const MovingGroup
   return true;
 }
 
-// Most free cells are proven with some hundred pairs of triangles. Others are decided faster by
-// halving.
+// Most free cells are proven with some hundred pairs of triangles. If more are needed, halving the
+// cell decides it faster.
 constexpr int kMostAsked = 500;
 
-// The surfaces of two bodies in the frame T of the first one's tree.
+// The surfaces of two moving bodies, in the frame T of the first body's tree of triangles.
 class SweptSurfaces final : public KeptApart {
  public:
   SweptSurfaces(const MovingSolid& a, const MovingSolid& b, double limit_m)
@@ -72,7 +72,7 @@ class SweptSurfaces final : public KeptApart {
  private:
   struct Side {
     std::vector<MovingAxis> axes;
-    std::array<Vector3d, 8> corners;  // of a box around the tree
+    std::array<Vector3d, 8> corners;  // of a box around the surface, in T
     double radius_m;
 
     Side(const MovingSolid& moving, const Eigen::Isometry3d& X_TW)
@@ -104,7 +104,7 @@ double swept_gap(const MovingShape& a, const MovingShape& b, const Vector3d& n_W
   return -Sweep(a.axes, n_W).reach(a.shape, a.at) - Sweep(b.axes, -n_W).reach(b.shape, b.at);
 }
 
-// If no two triangles can meet, neither surface gets inside the other.
+// If no two triangles can meet during the motion, neither surface gets inside the other.
 bool surfaces_keep_apart(const MovingSolid& a, const MovingSolid& b, double limit_m,
                          double enough_m) {
   SweptSurfaces swept(a, b, limit_m);

@@ -9,21 +9,24 @@
 
 namespace armloom {
 
-// A body and the joints that may move it, base to tip. For two bodies of one arm, omit joints
-// upstream of both, which do not change their distance.
+// A body and the joints that may move it, base to tip. For two bodies of one arm, omit the joints
+// upstream of both, because they do not change the distance of the two bodies.
 struct MovingBody {
   PlacedBody at;
   std::span<const MovingAxis> axes;
 };
 
-// Returns true if the bodies are proven to keep limit_m for all joint values within the spans. Each
-// pair of shapes or surface triangles needs a direction along which the two stay limit_m apart
-// (Sweep). Pairs that are enough_m apart here are skipped; the caller must know that this suffices.
-// Never wrongly true. Precondition: the bodies are apart here (body_distance() > 0).
+// Returns true if the bodies are proven to keep limit_m for all joint values within the spans. For
+// each pair of shapes or surface triangles, a direction must be found along which the two stay
+// limit_m apart (Sweep). Pairs that are enough_m apart in the present configuration are skipped:
+// the caller must know that they keep limit_m.
+// A true answer is always right. Precondition: the bodies do not touch in the present configuration
+// (body_distance() > 0).
 [[nodiscard]] bool keep_apart(const std::vector<ConvexShape>& shapes, const MovingBody& a,
                               const MovingBody& b, double limit_m, double enough_m);
 
-// The same for two surfaces. Precondition: neither lies inside the other here.
+// Returns the same for the surfaces of two solids. Precondition: in the present configuration,
+// neither solid lies inside the other.
 struct MovingSolid {
   PlacedSolid at;
   std::span<const MovingAxis> axes;

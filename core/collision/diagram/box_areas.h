@@ -9,7 +9,8 @@
 
 namespace armloom {
 
-// Boxes that hardly overlap, for point queries by a search along axis A.
+// Boxes that overlap little, with a fast test if a point lies in one of them (a search along axis
+// A).
 class BoxAreas {
  public:
   // Precondition: `boxes` is not empty.
@@ -23,7 +24,7 @@ class BoxAreas {
     }
   }
 
-  // Returns false only if no point of the box is in an area.
+  // Returns false only if no point of `box` lies in any of the boxes.
   [[nodiscard]] bool may_hold(const ProgressBox& box) const {
     return box.from_a <= hull_.to_a && hull_.from_a <= box.to_a && box.from_b <= hull_.to_b &&
            hull_.from_b <= box.to_b;
@@ -39,7 +40,7 @@ class BoxAreas {
 
  private:
   std::vector<ProgressBox> boxes_;  // by from_a
-  std::vector<Duration> to_a_;      // largest to_a up to this box
+  std::vector<Duration> to_a_;      // by box: largest to_a of it and all previous boxes
   ProgressBox hull_;
 };
 

@@ -10,25 +10,32 @@
 
 namespace armloom {
 
-// The cells of a diagram: rectangles over the times of two motions, halved along one axis or both.
-// The first cell covers both motions; children are consecutive.
+// The cells of a diagram, as a tree. A cell is a rectangle: an interval of A's time and an interval
+// of B's time. Splitting halves a cell along one axis or both. The first cell covers both motions
+// completely. The children of a cell are consecutive.
 class CellTree {
  public:
+  // States of a cell:
+  // - unknown: not evaluated
+  // - free, conflict: proven for every state of the cell
+  // - mixed: neither is proven, so the cell must be split
+  // - finest: neither is proven, and the cell is too small to be split
+  // - inner: the cell was split
   enum class CellState : std::uint8_t { unknown, free, mixed, conflict, finest, inner };
   struct Node {
-    int a;  // nodes of the axes
+    int a;  // nodes of the axes (TimeTree)
     int b;
-    int children = -1;  // first of two or four
+    int children = -1;  // first of two or four children, or -1
     CellState state = CellState::unknown;
-    bool split_a = false;  // of mixed cells: how to split; of inner cells: how they were split
+    bool split_a = false;  // mixed: halve along A; inner: was halved along A
     bool split_b = false;
-    std::uint8_t levels = 1;  // of a mixed cell: halvings at once
-    int witness = -1;         // at its middle, or -1
+    std::uint8_t levels = 1;  // mixed: number of halvings at once
+    int witness = -1;         // closest pair found at its middle (CoordinationDiagram), or -1
 
     [[nodiscard]] int child_count() const { return (split_a ? 2 : 1) * (split_b ? 2 : 1); }
   };
 
-  // Wider stretches are hardly ever free as a whole: they are halved without a check.
+  // Wider cells are hardly ever free as a whole. So they are halved without being evaluated.
   inline static constexpr Duration kWide = std::chrono::milliseconds(700);
   // Cells are not split below this width.
   inline static constexpr Duration kFinest = std::chrono::microseconds(500);
@@ -53,16 +60,18 @@ class CellTree {
     return a_->to(cell.a) >= now_a && b_->to(cell.b) >= now_b;
   }
 
-  // Splits as split_a and split_b say; children too if `levels` > 1.
+  // Halves the cell along the axes that split_a and split_b select. If these axes are too narrow,
+  // sets the state to `finest`. Splits the children too if `levels` > 1.
   void split(int cell, int levels);
-  // Splits an unknown cell that is wider than `wide` (at least kWide) without a check.
+  // Splits the cell, without evaluating it, if it is unknown and wider than `wide` (at least
+  // kWide).
   void split_if_wide(int cell, Duration wide = kWide);
-  // Splits a mixed cell that is wider than `resolution`. Halves the other axis if the preferred
-  // axis is fine already.
+  // Splits the cell if it is mixed and wider than `resolution`. If the preferred axis is fine
+  // enough already, halves the other axis.
   void split_if_coarse(int cell, Duration resolution);
 
-  // Calls visit(leaf) for leaves that touch `of`, corners included, until it returns true. Returns
-  // true if it did.
+  // Calls visit(leaf) for leaves that touch `of`, corners included, until visit returns true.
+  // Returns true if visit did.
   template <class Visit>
   bool leaves_at(const Node& of, const Visit& visit) const {
     std::vector<int>& open = walk_;
@@ -83,7 +92,8 @@ class CellTree {
     return false;
   }
 
-  // Calls visit(leaf) for each leaf below cells for which descend(box) is true.
+  // Calls visit(leaf) for each leaf, if descend(box) is true for the leaf and all cells that
+  // contain it.
   template <class Descend, class Visit>
   void leaves_where(const Descend& descend, const Visit& visit) const {
     std::vector<int>& open = walk_;

@@ -19,7 +19,7 @@ class CheckProgress {
     return std::min(1.0, static_cast<double>(done_) / static_cast<double>(expected));
   }
 
-  // Ends the check within a batch of cells; its verdict is then void.
+  // Ends the check after its current batch of cells. The verdict of the check is then void.
   void interrupt() { interrupted_ = true; }
   [[nodiscard]] bool is_interrupted() const { return interrupted_; }
 

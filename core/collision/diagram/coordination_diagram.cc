@@ -12,7 +12,7 @@ struct CoordinationDiagram::Search {
   std::vector<Open> open;
   Answer answer;
   double conflict_at_s = ProgressBand::kUnbounded;   // of the earliest proven conflict
-  double undecided_at_s = ProgressBand::kUnbounded;  // of the earliest cell that cannot be refined
+  double undecided_at_s = ProgressBand::kUnbounded;  // of the earliest cell that stays open
   int undecided = -1;
 
   void leave_open(const Open& cell) {
@@ -57,7 +57,8 @@ const CoordinationDiagram::NarrowWitness* CoordinationDiagram::proven(const Node
 
 // ---- The question ----
 
-// Adds the unknown leaves below the cell that the question needs; notes known conflicts.
+// Adds to search.open the unknown leaves of this cell that the question needs. Notes known
+// conflicts.
 void CoordinationDiagram::collect(int index, Search& search) {
   const auto times = meets(search.band, tree_.at(index));
   if (!times || times->from > search.conflict_at_s - kFirst_s) return;
@@ -73,7 +74,7 @@ void CoordinationDiagram::collect(int index, Search& search) {
     case CellState::unknown:
       search.open.push_back(open);
       break;
-    case CellState::conflict:  // no state of the band known to conflict: still not free
+    case CellState::conflict:  // not free, even if no conflict within the band is proven
       if (search.conflict_at_s <= times->to) break;
       [[fallthrough]];
     case CellState::finest:
@@ -127,7 +128,8 @@ CoordinationDiagram::Answer CoordinationDiagram::ask(const ProgressBand& band,
   return answer;
 }
 
-// Notes the conflict at the cell's middle, or where the plan passes the cell, if it is in the band.
+// Notes the proven conflict at the cell's middle if the band contains this state. Otherwise checks
+// the state in which both motions pass the cell as planned.
 void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
   const Node& cell = tree_.at(open.cell);
   const NarrowWitness* found = proven(cell);
@@ -147,7 +149,8 @@ void CoordinationDiagram::consider_conflict(const Open& open, Search& search) {
   search.answer.conflict = witness;
 }
 
-// Returns the planned state at the middle of its time in the cell, if it is a conflict.
+// Returns the planned state at the middle of its time in the cell, or nullopt if this state is no
+// conflict.
 std::optional<CoordinationDiagram::Witness> CoordinationDiagram::on_the_line(
     const Open& open, const ProgressBand& band) {
   const Node& cell = tree_.at(open.cell);

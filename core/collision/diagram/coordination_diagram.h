@@ -13,23 +13,24 @@
 
 namespace armloom {
 
-// The progress of two motions of different arms determines if they collide (O'Donnell and
-// Lozano-Perez 1989). Cells over (trajectory time of A, trajectory time of B) are certified
-// free, in conflict, or not known yet. They are refined only where a question needs it, and kept,
-// so that repeating a question costs next to nothing. For one arm against static bodies, or against
-// itself, the second axis has no length.
+// The coordination diagram of two motions of different arms (O'Donnell and Lozano-Perez 1989). A
+// state is (trajectory time of A, trajectory time of B). Each cell of states is certified free, in
+// conflict, or not known yet. Cells are refined only where a question needs it. They are kept, so
+// repeating a question costs next to nothing. If one arm is compared with static bodies or with
+// itself, the second axis has zero length.
 //
-// A cell is free if every pair of bodies keeps its limit in all its states: the distance at its
-// middle, less the motion of both bodies within the cell (MotionTube), is at least the limit.
-// Capsules are tried first, then the exact distance, last the motion of the bodies towards each
-// other only (body_sweep.h).
+// A cell is free if every pair of bodies keeps its limit in all states of the cell. This is proven
+// if the distance at the cell's middle, less the motion of both bodies within the cell
+// (MotionTube), is at least the limit. The distance of the capsules is tried first, then the exact
+// distance. The last attempt takes only motion of the bodies towards each other into account
+// (body_sweep.h).
 //
 // Not thread-safe; diagrams of one thread may share tubes.
 class CoordinationDiagram {
  public:
   explicit CoordinationDiagram(TubePair pair);
   [[nodiscard]] TubePair& pair() { return pair_; }
-  // Without its tubes.
+  // Returns the memory used, without the tubes.
   [[nodiscard]] std::size_t bytes() const {
     return static_cast<std::size_t>(tree_.size()) * sizeof(Node) +
            found_.size() * sizeof(NarrowWitness);
@@ -40,52 +41,53 @@ class CoordinationDiagram {
     double distance_m;  // exact if below the limit, else a lower bound
     Duration time_a;    // trajectory times
     Duration time_b;
-    double at_s;  // from the start of the question's band until it first contains this state
+    double at_s;  // time until the question's band (ProgressBand) first contains this state
   };
   struct Answer {
     bool free = false;
     bool exhausted = false;  // the budget ended before the question was decided
-    // If proven, the first conflict in time, to within kFirst_s; else the first cell that could not
-    // be decided. nullopt if free.
+    // If proven, the first conflict in time, to within kFirst_s. Else, the closest pair at the
+    // middle of the first cell that could not be decided. nullopt if free.
     std::optional<Witness> conflict;
     bool proven = false;
-    std::uint64_t evaluations = 0;  // cells and states
+    std::uint64_t evaluations = 0;  // number of cells and states
   };
-  // Evaluates at most `budget` cells and states. The refine functions stop within a batch of eight
-  // after `budget`; they return the number of evaluated cells (at least `budget` if interrupted).
+  // ask() evaluates at most `budget` cells and states. The refine functions stop within a batch of
+  // eight cells after `budget`. They return the number of evaluated cells, or at least `budget` if
+  // the check was interrupted.
   [[nodiscard]] Answer ask(const ProgressBand& band, std::uint64_t budget);
 
-  // Refines what remains of both motions until each cell is free, in conflict, or no wider than
-  // `resolution`.
+  // Refines the cells that remain from (now_a, now_b) on. Afterwards each is free, in conflict, or
+  // no wider than `resolution`.
   std::uint64_t refine(Duration now_a, Duration now_b, Duration resolution, std::uint64_t budget);
 
-  // Refines the border of the free part of what remains of both motions: cells that touch a free
-  // cell, or an edge where a motion is now. They become no wider than `fine`, or `coarse` if their
-  // middle is in conflict, and as `passing` requires where motions pass a region. Cells behind the
-  // border are not evaluated: no motion gets there.
+  // Refines the border of the free part of the diagram, from (now_a, now_b) on. The border consists
+  // of the cells that touch a free cell, or touch the edge where a motion is now. These cells
+  // become no wider than `fine`, or `coarse` if their middle is in conflict. Where motions pass a
+  // region, cells become as narrow as `passing` requires. Cells behind the border are not
+  // evaluated, because no motion gets there.
   struct Resolution {
     Duration coarse;
     Duration fine;
     PassingResolution passing;
   };
-  //
-  // Long motions begin with wider cells, so that the budget goes where motions are close. A full
-  // diagram (kFull) is not refined further; it starts again when less than half of its area
-  // remains.
+  // For long motions, refine_outline() begins with wider cells, so that the budget is spent where
+  // motions are close. A full diagram (kFull) is not refined further. It starts again when less
+  // than half of its area remains.
   std::uint64_t refine_outline(Duration now_a, Duration now_b, const Resolution& resolution,
                                std::uint64_t budget);
 
-  // Returns the leaves of what remains that are not known to be free, in a fixed order.
+  // Returns the leaves from (now_a, now_b) on that are not known to be free, in a fixed order.
   struct Blocked {
     ProgressBox box;
-    std::optional<Witness> found;  // at the middle; at_s is not set
-    bool proven = false;           // closer than its limit
+    std::optional<Witness> found;  // closest pair found at the middle; at_s is not set
+    bool proven = false;           // `found` is closer than its limit
   };
   [[nodiscard]] std::vector<Blocked> blocked(Duration now_a, Duration now_b) const;
 
-  // Close passes leave cells that are neither free nor in conflict. Halves such cells with the
-  // middle in one of `areas`, until each is free or no wider than `finest`. Stops at a proven
-  // conflict, because it is no close pass.
+  // Cells that are neither free nor in conflict remain if motions pass each other closely. Halves
+  // such cells if their middle lies in one of `areas`, until each is free or no wider than
+  // `finest`. Stops at a proven conflict, because then the motions do not just pass closely.
   std::uint64_t refine_close_passes(const std::vector<ProgressBox>& areas, Duration finest,
                                     std::uint64_t budget);
 
@@ -94,18 +96,18 @@ class CoordinationDiagram {
     ProgressBox box;
     CellState state;
   };
-  // Returns the leaves, in a fixed order. Unknown leaves were never needed.
+  // Returns the leaves, in a fixed order. A leaf is unknown if no question needed it.
   [[nodiscard]] std::vector<CellView> cells() const;
 
-  // Largest share of the budget for the first cells.
+  // Largest share of the budget that refine_outline() spends on its first, wide cells.
   inline static constexpr double kFirstShare = 0.125;
-  inline static constexpr int kFull = 1'000'000;
+  inline static constexpr int kFull = 1'000'000;  // number of cells
 
   inline static constexpr double kFirst_s = 0.01;
 
  private:
   using Node = CellTree::Node;
-  struct NarrowWitness {  // at the middle of a cell
+  struct NarrowWitness {  // a pair and its distance at the middle of a cell
     PairId pair;
     int narrow;
     bool box;
@@ -149,14 +151,14 @@ class CoordinationDiagram {
   [[nodiscard]] bool clears(Node& cell, TubePair::Undecided& undecided);
 
   TubePair pair_;
-  CellTree tree_;  // axes: times of the tubes; the second may have no length
+  CellTree tree_;  // axes: times of the two tubes; the second has zero length for one arm alone
   std::vector<NarrowWitness> found_;
   struct Outlined {
     Duration now_a, now_b;
     Resolution resolution;
   };
   std::optional<Outlined> outlined_;  // last completed refine_outline()
-  double begun_with_s2_ = 0.0;        // area at the first refine_outline()
+  double begun_with_s2_ = 0.0;        // area (s^2) that remained at the first refine_outline()
 };
 
 }  // namespace armloom

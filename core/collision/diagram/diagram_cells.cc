@@ -6,14 +6,14 @@
 namespace armloom {
 namespace {
 
-// Both sides are halved if the smaller motion is at least this share of the larger.
+// A cell is halved along both axes if the smaller motion is at least this share of the larger.
 constexpr double kBothShare = 0.5;
 
-// Bodies mostly move towards each other by at least this share of their motion bounds. With less
-// room, no proof is tried.
+// Bodies mostly move towards each other by at least this share of their motion bounds. If their
+// distance exceeds the limit by less, no proof is tried.
 constexpr double kTowardsShare = 0.25;
 
-// Required accuracy of surface distances above the limit, as a share of the motion.
+// Surface distances above the limit may be too small by this share of the motion, which saves time.
 constexpr double kRoughShare = 0.125;
 
 }  // namespace
@@ -30,8 +30,9 @@ void CoordinationDiagram::evaluate(std::span<const int> cells) {
   for (std::size_t i = 0; i < cells.size(); ++i) decide(cells[i], pair_.undecided(i));
 }
 
-// Returns true if the pair is proven to keep its limit throughout the cell. If capsules keep the
-// limit at the middle, there is no conflict to prove: only the separating direction is tried.
+// Returns true if the pair is proven to keep its limit throughout the cell. If the capsules keep
+// the limit at the middle, the middle cannot be a conflict. Then no exact distance is computed, and
+// only the separating direction is tried.
 bool CoordinationDiagram::clears(Node& cell, TubePair::Undecided& u) {
   const NarrowPair& pair = pair_.narrow(u.narrow, u.box);
   const double enough_m = u.limit_m + u.moves_m();
@@ -54,7 +55,8 @@ void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& un
   cell.state = CellState::free;
   if (undecided.empty()) return;
 
-  // A conflict throughout the cell decides the cell. A pair that is not cleared splits it.
+  // A pair that is in conflict throughout the cell decides the cell. If a pair is proven neither in
+  // conflict nor apart, the cell must be split.
   constexpr double kProven = -std::numeric_limits<double>::infinity();
   const auto passes = [&](Undecided& u) {
     if (u.short_m == kProven) return true;
@@ -69,12 +71,12 @@ void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& un
     }
     return false;
   };
-  // Most likely a conflict, unless one body is in a notch of the other.
+  // This pair is most likely in conflict, unless one body is in a notch of the other.
   const auto closest = std::ranges::min_element(
       undecided, {}, [](const Undecided& u) { return u.distance_m + u.slack_m - u.limit_m; });
   if (closest->distance_m + closest->slack_m < closest->limit_m && !passes(*closest)) return;
   const auto worst = std::ranges::max_element(undecided, {}, &Undecided::needs_m);
-  if (worst->needs_m() > TubePair::kAlongShapes_m) {  // no distance can suffice
+  if (worst->needs_m() > TubePair::kAlongShapes_m) {  // no exact distance can prove the pair apart
     choose_split(cell, *worst);
     return;
   }
@@ -84,7 +86,7 @@ void CoordinationDiagram::decide(int index, std::vector<TubePair::Undecided>& un
   }
 }
 
-// Keeps the closest pair at a cell's middle.
+// Keeps the pair if it is the closest found at the cell's middle.
 void CoordinationDiagram::note(Node& cell, const NarrowWitness& found) {
   if (cell.witness < 0) {
     cell.witness = static_cast<int>(found_.size());

@@ -15,8 +15,8 @@ bool is_refinable(const CellTree::Node& cell) {
 }  // namespace
 
 // Refines `leaves` within the budget; returns the number of evaluated cells. expand(leaves,
-// unknown) splits leaves as required and lists cells to evaluate. follow(unknown) returns the next
-// leaves.
+// unknown) splits leaves as required and lists the cells to evaluate in `unknown`. After their
+// evaluation, follow(unknown) returns the leaves to refine next.
 template <class Expand, class Follow>
 std::uint64_t CoordinationDiagram::refine_from(std::vector<int> leaves, std::uint64_t budget,
                                                const Expand& expand, const Follow& follow) {
@@ -46,7 +46,7 @@ std::uint64_t CoordinationDiagram::refine_from(std::vector<int> leaves, std::uin
 std::uint64_t CoordinationDiagram::refine(Duration now_a, Duration now_b, Duration resolution,
                                           std::uint64_t budget) {
   const auto expand = [&](std::vector<int>& open, std::vector<int>& unknown) {
-    for (std::size_t i = 0; i < open.size(); ++i) {  // grows
+    for (std::size_t i = 0; i < open.size(); ++i) {  // `open` grows
       const int index = open[i];
       if (!tree_.remains(tree_.at(index), now_a, now_b)) continue;
       tree_.split_if_wide(index, std::max(CellTree::kWide, resolution));
@@ -71,7 +71,8 @@ std::uint64_t CoordinationDiagram::refine_outline(Duration now_a, Duration now_b
   for (; width >= CellTree::kWide && looked_at < budget; width /= 2) {
     looked_at += refine(now_a, now_b, width, budget - looked_at);
   }
-  // A motion that is to come may find the other motion anywhere on its path, so edges are entries.
+  // When a motion that is to come starts, the other motion may be anywhere on its path. So motions
+  // may also enter cells through the edges of the diagram.
   const auto may_be_entered = [&](const Node& cell) {
     return tree_.a().from(cell.a) <= now_a || tree_.b().from(cell.b) <= now_b ||
            tree_.leaves_at(cell,
@@ -125,13 +126,13 @@ double CoordinationDiagram::area_s2(Duration now_a, Duration now_b) const {
   return to_seconds(tree_.a().duration() - now_a) * to_seconds(tree_.b().duration() - now_b);
 }
 
-// Returns kWide, doubled until the first cells are few enough.
+// Returns kWide, doubled until the first cells need at most kFirstShare of the budget.
 Duration CoordinationDiagram::first_width(Duration now_a, Duration now_b,
                                           std::uint64_t budget) const {
   const double cells_max = kFirstShare * static_cast<double>(budget);
   const double area = area_s2(now_a, now_b);
   Duration width = CellTree::kWide;
-  // Halving makes cells up to twice as fine as required.
+  // Halving may make cells half as wide as required, and so four times as many.
   while (4.0 * area > cells_max * to_seconds(width) * to_seconds(width)) width *= 2;
   return width;
 }
@@ -172,14 +173,15 @@ OpenLeaf CoordinationDiagram::open_leaf(int index) const {
   return {index, tree_.box_of(cell), is_refinable(cell), proven(cell) != nullptr};
 }
 
-// Evaluates only children that affect where a motion passes: the corner and its neighbors. If the
-// leaf's middle is in conflict, the neighbors touch it and cannot be free.
+// Splits a leaf where motions pass a region. Evaluates only the children that affect where a motion
+// passes: the child at the corner, and its neighbors. If the leaf's middle is in conflict, the
+// neighbors are left out, because they touch it and cannot be free.
 void CoordinationDiagram::split_passing_edge(const CoarseLeaf& leaf, std::vector<int>& unknown) {
   const bool middle_is_open = proven(tree_.at(leaf.cell)) == nullptr;
   tree_.split_if_coarse(leaf.cell, leaf.allowed);
   const Node cell = tree_.at(leaf.cell);
   if (cell.state != CellState::inner) return;
-  // Children are ordered along B, then along A. A passes first at the corner (to_a, from_b).
+  // Children are sorted along A, then along B. At the corner (to_a, from_b), A passes first.
   const int a_first = cell.split_a ? (cell.split_b ? 2 : 1) : 0;
   const int b_first = cell.split_b ? 1 : 0;
   for (int child = 0; child < cell.child_count(); ++child) {
@@ -194,7 +196,7 @@ std::uint64_t CoordinationDiagram::refine_passing_edges(Duration now_a, Duration
                                                         std::uint64_t budget) {
   const ProgressBox remaining{now_a, tree_.a().duration(), now_b, tree_.b().duration()};
   bool ended = false;
-  std::vector<int> open;  // a cell never becomes open again
+  std::vector<int> open;  // a cell that is not open never becomes open again
   int seen = 0;
   const auto expand = [&](const std::vector<int>&, std::vector<int>& unknown) {
     for (; seen < tree_.size(); ++seen) open.push_back(seen);

@@ -63,7 +63,8 @@ void MotionStore::count() {
   named_ = {};
 }
 
-// Drops the least recently used entry; of several, that of the first arm.
+// Drops the least recently used entry. If several entries are equally old, drops that of the first
+// arm.
 void MotionStore::drop_oldest() {
   const auto asked_at = [](const std::unique_ptr<Entry>& entry) { return entry->asked_at; };
   std::vector<std::unique_ptr<Entry>>* of_arm = nullptr;

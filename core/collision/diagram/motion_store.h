@@ -13,8 +13,9 @@
 
 namespace armloom {
 
-// Keeps the tubes of motions and rests, and their diagrams, while questions use them. Diagrams of
-// links and attached objects survive a change of objects. Not thread-safe.
+// Keeps the tubes of motions and of arms at rest, and the diagrams of these tubes, while questions
+// use them. If only the objects of the scene change, diagrams of two arms and of an arm with itself
+// are kept. Not thread-safe.
 class MotionStore {
  public:
   explicit MotionStore(PlanningScenePtr scene);
@@ -27,33 +28,34 @@ class MotionStore {
   struct Entry {
     ArmId arm;
     TrajectoryPtr trajectory;  // null if at rest
-    std::vector<double> rest;  // the arm's joints, rows as in its kinematics
+    std::vector<double> rest;  // joint positions, by row of ArmKinematics::joints()
     double tracking_error;
     std::shared_ptr<MotionTube> tube;
-    std::uint64_t asked_at;
-    std::vector<Entry*> compared = {};            // have a diagram with it
+    std::uint64_t asked_at;                       // number of the last question that used it
+    std::vector<Entry*> compared = {};            // entries that have a diagram with this entry
     std::optional<double> stopping_reach_s = {};  // cached
     std::size_t bytes = 0;                        // of the tube, as last counted
 
     [[nodiscard]] Duration duration() const { return tube->duration(); }
   };
-  // When a question begins, each arm keeps the entries used last. References stay valid until the
-  // next begin_question() or look_at().
+  // When a question begins, each arm keeps its kKept most recently used entries. References stay
+  // valid until the next begin_question() or look_at().
   inline static constexpr std::size_t kKept = 64;
   // Memory limit when a question begins; the least recently used entries are dropped first.
   inline static constexpr std::size_t kBytesKept = std::size_t{192} << 20;
-  // `progress`: null, or outlives the question.
+  // `progress`: null, or an object that outlives the question.
   void begin_question(CheckProgress* progress = nullptr);
-  // Announces how many cells the check may use; returns true if it must end early.
+  // Announces how many cells the check may evaluate.
   void expect(std::uint64_t cells);
+  // Returns true if the check must end early.
   [[nodiscard]] bool is_interrupted() const;
   [[nodiscard]] Entry& motion(const TrajectoryPtr& trajectory, ArmId arm, const Configuration& rest,
                               double tracking_error);
 
   [[nodiscard]] double stopping_reach_s(Entry& entry) const;
 
-  // Diagrams of two arms (empty if out of reach), of an arm and static bodies, of an arm with
-  // itself.
+  // Return the diagram of two arms (empty if out of reach), of an arm and static bodies, and of an
+  // arm with itself.
   [[nodiscard]] OrientedDiagram between(Entry& own, Entry& other);
   [[nodiscard]] OrientedDiagram with_still(const Entry& own);
   [[nodiscard]] OrientedDiagram with_itself(const Entry& own);
@@ -61,7 +63,8 @@ class MotionStore {
   [[nodiscard]] bool out_of_reach(ArmId a, ArmId b) const;
 
  private:
-  using Key = std::pair<const Entry*, const Entry*>;  // two arms; or the same entry twice
+  // Two arms. For an arm alone, both are the same entry.
+  using Key = std::pair<const Entry*, const Entry*>;
   struct Diagram {
     std::unique_ptr<CoordinationDiagram> cells;
     std::size_t bytes = 0;  // as last counted
@@ -81,7 +84,7 @@ class MotionStore {
   void count();
 
   PlanningScenePtr scene_;
-  PlanningScenePtr links_;  // source of cross and self pairs
+  PlanningScenePtr links_;  // scene of the pairs of two arms, and of an arm with itself
   std::vector<std::shared_ptr<const ArmGeometry>> arms_;
   struct Scratch {
     std::vector<std::shared_ptr<MotionTube::Scratch>> tubes;  // by arm
@@ -100,7 +103,8 @@ class MotionStore {
   };
   Kept diagrams_;
   std::uint64_t question_ = 0;
-  // Entries and diagrams of the current question. Only these grow and are recounted.
+  // Entries and diagrams that the current question uses. Only these grow, so only their memory is
+  // counted again.
   struct Named {
     std::vector<Entry*> entries;
     std::vector<Diagram*> diagrams;

@@ -25,7 +25,7 @@ struct MotionTube::Scratch {
   Motions joints;  // [row][kLanes]
   Motions frames;  // [frame][kLanes]
   std::vector<float> motion_bounds, axes;
-  std::vector<int> capsule_rows;  // in Block::motion_bound
+  std::vector<int> capsule_rows;  // by capsule: row in Block::motion_bound
   std::vector<filter::Hit> hits;
   std::vector<int> stretches;
   Eigen::VectorXd position;
@@ -75,7 +75,7 @@ std::size_t MotionTube::bytes() const {
       size() * (sizeof(Placement) + sizeof(Duration) * 3) + self_hits_.capacity() * sizeof(SelfHit);
   if (trajectory_) bytes += trajectory_->bytes();
   if (blocks_.empty()) return bytes;
-  const Block& block = *blocks_.front();  // all are alike
+  const Block& block = *blocks_.front();  // all blocks have the same size
   std::size_t numbers = block.frames.size() * 2;
   for (const auto* row : {&block.capsules, &block.motion_bound, &block.ball, &block.drifts,
                           &block.looses, &block.sweeps}) {
@@ -108,12 +108,12 @@ void MotionTube::place(std::span<const int> nodes) {
   if (count > 0) place_batch({batch, count});
 }
 
-// Fills a lane with the configuration at the middle of the interval, and with bounds of the joints'
-// deviation from it and from a line through it.
+// Fills a lane with the configuration at the middle of the interval. Also fills in bounds of the
+// joints' deviation from this configuration, and from a line through it in joint space.
 void MotionTube::fill_lane(int node, int lane) {
   Scratch& s = *scratch_;
   if (trajectory_) trajectory_->enclose_about_line(from(node), to(node), s.line);
-  // Nodes are cut at whole nanoseconds, so neither half is longer than this.
+  // Nodes are cut at whole nanoseconds, so neither half of a node is longer than half_s.
   const double half_s = 0.5 * to_seconds(width(node)) + 1e-9;
   for (std::size_t row = 0; row < rest_.size(); ++row) {
     const std::size_t place = lane_size(row) + static_cast<std::size_t>(lane);
@@ -144,7 +144,8 @@ void MotionTube::place_batch(std::span<const int> nodes) {
       fill_lane(nodes[i], lane);
       continue;
     }
-    for (std::size_t row = 0; row < rest_.size(); ++row) {  // unused lane: copy the last one
+    // An unused lane repeats the last used lane.
+    for (std::size_t row = 0; row < rest_.size(); ++row) {
       const std::size_t to = lane_size(row) + static_cast<std::size_t>(lane);
       s.q[to] = s.q[lane_size(row) + i];
       for (auto* rows : {&s.joints.span, &s.joints.drift, &s.joints.loose}) {

@@ -21,14 +21,15 @@ struct ArmGeometry {
   PairSet self;
 };
 
-// One arm's motion over its trajectory time, or all static bodies. A node holds the arm at the
-// middle of its interval, and bounds how far any point of each capsule may be from there during the
-// interval, `tracking_error` of each joint (rad, m) included. All comparisons of the motion share
-// its nodes. Not thread-safe.
+// One arm's motion over its trajectory time, or all static bodies. A node is an interval of this
+// time. It holds the arm at the middle of the interval. It also bounds how far any point of each
+// capsule may be from there during the interval. The bound includes `tracking_error` of each joint
+// (rad, m). All comparisons of the motion share its nodes. Not thread-safe.
 class MotionTube : public TimeTree {
  public:
-  // Joints that are not in the trajectory rest as in `rest` (whole cell). Without a trajectory, one
-  // node covers all times. Tubes of one arm and thread may share their scratch.
+  // Joints that are not in the trajectory rest at `rest` (positions of all joints of the cell).
+  // Without a trajectory, one node covers all times. Tubes of one arm and thread may share their
+  // scratch.
   struct Scratch;
   [[nodiscard]] static std::shared_ptr<Scratch> make_scratch(const ArmGeometry& geometry);
   MotionTube(std::shared_ptr<const ArmGeometry> geometry, TrajectoryPtr trajectory,
@@ -39,14 +40,15 @@ class MotionTube : public TimeTree {
   [[nodiscard]] const ArmGeometry& geometry() const { return *geometry_; }
   [[nodiscard]] const TrajectoryPtr& trajectory() const { return trajectory_; }
 
-  // Computes missing nodes, eight at once. Required before place_of(), axes_of() and self_hits().
+  // Places the nodes that are not placed yet, eight at once. Required before place_of(), axes_of()
+  // and self_hits().
   void place(std::span<const int> nodes);
-  // Includes the trajectory and the tree of times.
+  // Returns the memory used, including the trajectory and the tree of times.
   [[nodiscard]] std::size_t bytes() const;
-  // Wider nodes consist of stretches of at most this width.
+  // A wider node consists of stretches: nodes of at most this width.
   inline static constexpr Duration kStretch = std::chrono::microseconds(87'500);
 
-  // Eight nodes side by side, as the kernels place them.
+  // Eight nodes, one per lane, in the data layout of the kernels.
   struct Block {
     std::vector<float> capsules;      // [capsule][6][kLanes]
     std::vector<float> motion_bound;  // [capsule][kLanes]: motion bounds, m
@@ -64,7 +66,8 @@ class MotionTube : public TimeTree {
   [[nodiscard]] Place place_of(int node) const {
     return {blocks_[at(node).block].get(), at(node).lane};
   }
-  // The consecutive stretches of a placed node, placed on first use. Empty if more than eight.
+  // The stretches of a placed node: lanes [first, end) of a block. They are placed on first use.
+  // `block` is null if there are more than eight.
   struct Stretches {
     const Block* block = nullptr;
     int first = 0;
@@ -72,10 +75,11 @@ class MotionTube : public TimeTree {
   };
   [[nodiscard]] Stretches stretches_of(int node);
 
-  // Writes the axes that move a frame of the kinematics, base to tip, without the first `skipped`.
+  // Writes the axes of the joints that move a frame, base to tip, without the first `skipped` axes.
   void axes_of(int node, int frame, std::size_t skipped, std::vector<MovingAxis>& axes) const;
-  // Pairs of the arm's own links (ArmGeometry::self) that are undecided over the interval, with the
-  // bound of their relative motion.
+  // A pair of the arm's own capsules that is undecided over the interval. `pair`: index in
+  // ArmGeometry::self.pairs. distance: lower bound at the middle (m). motion_bound: bound of the
+  // relative motion of both (m).
   struct SelfHit {
     int pair;
     float distance;
@@ -83,7 +87,7 @@ class MotionTube : public TimeTree {
   };
   [[nodiscard]] std::span<const SelfHit> self_hits(int node) const;
 
-  // Writes the configuration at this time, rows as ArmKinematics::joints.
+  // Writes the configuration at this time, one value per ArmKinematics::joints().
   void configuration(Duration time, double* q);
 
  private:

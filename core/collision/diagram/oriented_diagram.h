@@ -9,9 +9,9 @@
 
 namespace armloom {
 
-// A coordination diagram as the asking motion sees it: A is always its own axis. Empty if no two
-// bodies can come too close. Not thread-safe. The store (motion_store.h) owns the cells, except
-// those of parting_at().
+// A view of a coordination diagram in which A is always the asking motion. Empty if no two bodies
+// can come too close. Not thread-safe. The store (motion_store.h) owns the cells, except those of
+// parting_at().
 class OrientedDiagram {
  public:
   OrientedDiagram() = default;
@@ -24,7 +24,7 @@ class OrientedDiagram {
 
   // See CoordinationDiagram.
   [[nodiscard]] CoordinationDiagram::Answer ask(ProgressBand band, std::uint64_t budget) const;
-  std::uint64_t refine(Duration resolution, std::uint64_t budget) const;  // all of both motions
+  std::uint64_t refine(Duration resolution, std::uint64_t budget) const;  // both whole motions
   std::uint64_t refine_outline(Duration now_a, Duration now_b,
                                const CoordinationDiagram::Resolution& resolution,
                                std::uint64_t budget) const;
@@ -34,17 +34,18 @@ class OrientedDiagram {
                                                                   Duration now_b) const;
   [[nodiscard]] std::vector<CoordinationDiagram::CellView> cells() const;
 
-  // Returns the closest pair at these times, exactly.
+  // Returns the closest pair at these times, with its exact distance.
   [[nodiscard]] CoordinationDiagram::Witness closest_at(Duration time_a, Duration time_b) const;
-  // Returns the evidence; body_a belongs to the asking motion.
+  // Returns the names and distance of the pair; body_a belongs to the asking motion.
   [[nodiscard]] Proximity proximity_of(const CoordinationDiagram::Witness& found) const;
   [[nodiscard]] bool is_self(const CoordinationDiagram::Witness& found) const;
 
-  // Returns a new diagram for pairs that are too close now and may part: each must keep
-  // kPartingShare of its present distance. Empty if no pair is too close.
+  // Returns a new diagram for pairs that are too close now and may part. Each of these pairs must
+  // keep kPartingShare of its present distance; other pairs must keep their limits. Empty if no
+  // pair is too close.
   inline static constexpr double kPartingShare = 0.8;
   [[nodiscard]] OrientedDiagram parting_at(Duration now_a, Duration now_b) const;
-  // Lowers the bound to the limits of the pairs here.
+  // Lowers the bound to the smallest limits of this diagram's pairs.
   void lower(ClearanceBound& bound) const;
 
  private:

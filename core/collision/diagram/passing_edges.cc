@@ -12,11 +12,11 @@
 namespace armloom {
 namespace {
 
-// Joins leaves that touch, by a sweep along A. Leaves do not overlap, so those that a line across A
-// cuts are ordered along B: binary search finds the neighbors of a new leaf.
+// Joins leaves that touch, by a sweep along A. Leaves do not overlap. So the leaves with the same
+// time of A are ordered along B, and binary search finds the neighbors of a new leaf.
 class TouchingLeaves {
  public:
-  // Precondition: sorted by from_a, then from_b.
+  // Precondition: leaves are sorted by from_a, then from_b.
   explicit TouchingLeaves(const std::vector<OpenLeaf>& leaves) : leaves_(leaves) {
     for (std::size_t i = 0; i < leaves.size(); ++i) sets_.add();
     for (std::size_t begin = 0; begin < leaves.size();) {
@@ -59,12 +59,12 @@ class TouchingLeaves {
 
   const std::vector<OpenLeaf>& leaves_;
   DisjointSets sets_;
-  std::set<Place> cut_;                                                    // by from_b
-  std::priority_queue<Place, std::vector<Place>, std::greater<>> ending_;  // by to_a
+  std::set<Place> cut_;  // leaves at the present A, by from_b
+  std::priority_queue<Place, std::vector<Place>, std::greater<>> ending_;  // the same, by to_a
 };
 
-// Returns the component of each leaf, named by its first leaf. Precondition: sorted by from_a,
-// from_b.
+// Returns for each leaf the index of its component's first leaf. Precondition: leaves are sorted by
+// from_a, then from_b.
 std::vector<std::size_t> components_of(const std::vector<OpenLeaf>& leaves) {
   TouchingLeaves touching(leaves);
   std::vector<std::size_t> component(leaves.size());
@@ -76,21 +76,23 @@ ProgressBox exchanged(const ProgressBox& box) {
   return {box.from_b, box.to_b, box.from_a, box.to_a};
 }
 
-// A leaf's corner where A passes first; with A and B exchanged, where B does.
+// A leaf's corner where A passes first. With A and B exchanged, its corner where B passes first.
 struct Corner {
   Duration far;   // to_a
   Duration near;  // from_b
-  bool at_rim;
+  bool at_rim;    // at the border of what remains of the motions
   std::size_t leaf;
 };
 
-// The corners of a component with nothing of it farther out; far and near ascending.
+// The outermost corners of a component: no other corner of the component has both a larger far and
+// a smaller near. Ascending in far and in near.
 struct Staircase {
   std::vector<Corner> corners;
-  // A path by the clock must clear at least this: the largest proven far - near.
+  // The largest far - near that is proven blocked. A path on which neither motion waits must pass
+  // outside of it.
   Duration certain = Duration::min() / 4;
 
-  // Keeps the first of equal corners.
+  // Adds an outermost corner and removes corners behind it. Of equal corners, keeps the first.
   void add(const Corner& corner) {
     const auto at = std::ranges::lower_bound(corners, corner.far, {}, &Corner::far);
     if (at != corners.end() && at->near <= corner.near) return;
@@ -106,8 +108,8 @@ struct Staircase {
   }
 };
 
-// Returns the allowed width of each leaf on this side, Duration::max() for any width. box_of(box)
-// turns a box so that A passes first.
+// Returns the allowed width of each leaf where A passes first, or Duration::max() if any width is
+// allowed. box_of(box) exchanges A and B if B passes first.
 template <class BoxOf>
 std::vector<Duration> allowed_widths(const std::vector<OpenLeaf>& leaves,
                                      const std::vector<std::size_t>& component, const BoxOf& box_of,

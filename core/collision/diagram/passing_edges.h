@@ -6,34 +6,38 @@
 
 namespace armloom {
 
+// A leaf of a diagram that is not free.
 struct OpenLeaf {
   int cell;
   ProgressBox box;
-  bool refinable = false;  // false: it stays as it is
-  bool proven = false;     // its middle is in conflict (all of it, if not refinable)
+  bool refinable = false;  // false if the leaf stays blocked as a whole
+  bool proven = false;     // its middle is in conflict
 };
 
-// How fine leaves must be where motions pass them. A monotone path passes a region on one side, so
-// only two staircases of its outline matter: the corners (to_a, from_b) with no part of the region
-// farther out in both, where A passes first; and the corners (from_a, to_b), where B does. A motion
-// by the clock comes closest to the largest to_a - from_b, or to_b - from_a. Leaves may be coarser
-// the farther they are behind that corner.
+// How narrow leaves must be where motions pass a region. A monotone path passes a region on one
+// side, A first or B first. So only two staircases of the region's outline matter:
+// - A first: the corners (to_a, from_b) for which no corner of the region has both a larger to_a
+//   and a smaller from_b
+// - B first: the corners (from_a, to_b), with A and B exchanged
+// If both motions run without waiting, they come closest to the corner with the largest to_a -
+// from_b (or to_b - from_a). Leaves may be wider, the farther they are behind this corner.
 struct PassingResolution {
-  Duration fine;    // at that corner, and at the border of what remains
-  Duration coarse;  // maximum width
-  double slope;     // allowed width per second behind
+  Duration fine;    // maximum width at this corner, and at the border of what remains
+  Duration coarse;  // maximum width anywhere on the staircases
+  double slope;     // allowed width per second that a leaf is behind the corner
 };
 
+// A leaf that is too wide.
 struct CoarseLeaf {
   int cell;
-  Duration allowed;
-  bool a_first;  // where A passes first
-  bool b_first;
+  Duration allowed;  // maximum width
+  bool a_first;      // too wide where A passes first
+  bool b_first;      // too wide where B passes first
 };
 
 // Returns the leaves that are too wide, in a fixed order. Leaves that touch, corners included, form
-// one region. `remaining`: of both motions. Precondition: leaves do not overlap. Takes n log n.
-// Pure.
+// one region. `remaining`: what remains of both motions. Precondition: leaves do not overlap. Takes
+// O(n log n) time. Pure.
 [[nodiscard]] std::vector<CoarseLeaf> coarse_leaves(std::vector<OpenLeaf> leaves,
                                                     const ProgressBox& remaining,
                                                     const PassingResolution& resolution);

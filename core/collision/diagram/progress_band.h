@@ -5,10 +5,10 @@
 
 namespace armloom {
 
-// The states (progress of A, progress of B) that a question is about. As time t >= 0 passes, both
-// advance second by second to their ends and rest there. Each may be up to its lag behind its
-// planned point (a(t), b(t)), but never behind its present progress. Seconds of trajectory time; 0
-// <= progress <= duration.
+// The states (progress of A, progress of B) that a question covers. From t = 0 on, both motions
+// advance by one second per second to their ends, and rest there. Each motion may be up to its lag
+// behind its planned progress at time t, but never behind its present progress. All in seconds of
+// trajectory time; 0 <= progress <= duration.
 struct ProgressBand {
   inline static constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
@@ -18,19 +18,20 @@ struct ProgressBand {
   double lag_b = 0.0;
   double duration_a = 0.0;
   double duration_b = 0.0;
-  bool swept = false;  // at all times: the rectangle of all that remains
+  bool swept = false;  // covers every combination of what remains of A and of B
 };
 
-// Times at which the band covers part of a cell.
+// Times t at which the band covers part of a cell.
 struct TimeRange {
   double from;
   double to;  // may be infinite
 };
 
-// Returns when the band meets the cell [a1, a2] x [b1, b2] for more than an instant, or nullopt.
+// Returns the times at which the band meets the cell [a1, a2] x [b1, b2]. nullopt if it meets the
+// cell for at most an instant.
 [[nodiscard]] std::optional<TimeRange> meets(const ProgressBand& band, double a1, double a2,
                                              double b1, double b2);
-// Returns when the band first contains the point, or nullopt.
+// Returns the time at which the band first contains the state (a, b), or nullopt if never.
 [[nodiscard]] std::optional<double> first_at(const ProgressBand& band, double a, double b);
 
 }  // namespace armloom

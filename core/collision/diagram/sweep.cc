@@ -31,7 +31,7 @@ Sweep::Sweep(std::span<const MovingAxis> axes, const Vector3d& n_W) : axes_(axes
   }
 }
 
-// Returns n . p plus a first-order bound of what the joints add.
+// Returns n . p plus the first sum (class comment).
 double Sweep::at(const Vector3d& p_W) const { return n_.dot(p_W) + added(p_W); }
 
 double Sweep::added(const Vector3d& p_W) const {
@@ -40,14 +40,15 @@ double Sweep::added(const Vector3d& p_W) const {
   return sum;
 }
 
-// Returns what a ball adds to at() of its center. For each choice of signs, at() is linear with the
-// slope n + sum +-m, and all m are normal to n.
+// Returns how much larger at() may be within a ball than at its center. at() is the largest of
+// several linear functions with slopes n + sum of +-m. All m are normal to n, so no slope exceeds
+// hypot(1, turn_).
 double Sweep::round(double radius_m) const { return radius_m * std::hypot(1.0, turn_); }
 
 // Returns the second sum (class comment) for points within radius_m of the center.
 double Sweep::remainder(const Vector3d& center_W, double radius_m) const {
   double sum = 0.0;
-  double turned = 0.0;  // by the previous axes
+  double turned = 0.0;  // sum of the spans of the previous axes that turn
   for (const MovingAxis& axis : axes_) {
     if (axis.prismatic) {
       sum += axis.span() * turned;
@@ -60,7 +61,8 @@ double Sweep::remainder(const Vector3d& center_W, double radius_m) const {
   return sum + kRounding_m;
 }
 
-// Bounds the rim of a flat end: like round(), with the part of the slope within the disc.
+// Bounds at() over both flat ends. Like round(), but only the part of the slope within the plane of
+// the disc matters.
 double Sweep::of_cylinder(const ConvexShape& shape, const PlacedConvexShape& placed) const {
   const Vector3d along = placed.X_WS.linear().col(2);
   const Vector3d across = n_ - n_.dot(along) * along;

@@ -9,13 +9,13 @@
 
 namespace armloom {
 
-// A joint that moves a body: its axis in the world at the present configuration. The joint may be
-// off by s * drift + e, with |e| <= loose, and the same s from -1 to 1 for all joints of the body
-// (the motion is nearly a line in joint space).
+// A joint that moves a body, with its axis in the world at the present configuration. The joint may
+// deviate from this configuration by s * drift + e, where |e| <= loose. s, from -1 to 1, is the
+// same for all joints of the body, because the motion is nearly a line in joint space.
 struct MovingAxis {
   Eigen::Vector3d z_W;
   Eigen::Vector3d p_WO;  // a point of the axis; unused if prismatic
-  double loose;          // rad, m
+  double loose;          // rad, or m if prismatic; so is drift
   bool prismatic;
   double drift = 0.0;
 
@@ -23,37 +23,39 @@ struct MovingAxis {
 };
 
 // Bounds how far a body may reach along a direction n, for all joint values within the spans. Much
-// tighter than the sum of spans times levers, which takes every motion to be along n.
+// tighter than the sum of spans times levers, which assumes that every joint moves the body along
+// n.
 //
-// With axes base to tip, a point p moves to E_1 E_2 ... E_k p if joint j is off by d_j, where E_j
-// turns or shifts about the present axis j (product of exponentials: Murray, Li and Sastry, "A
-// Mathematical Introduction to Robotic Manipulation", 3.2). Its displacement is the sum over j of
-// E_1 .. E_j-1 (E_j - 1) p. For a turn, with r = p - p_WO,
-//   (E - 1) p = sin d (z x r) + (1 - cos d) z x (z x r),
-// and E_1 .. E_j-1 move a vector v by at most |v| times the sum of their |d_i|. Hence, for |d_j| <=
-// s_j of any size, the displacement along n is at most
+// With axes base to tip, a point p moves to E_1 E_2 ... E_k p if each joint j deviates by d_j. E_j
+// turns about the present axis j, or shifts along it (product of exponentials: Murray, Li and
+// Sastry, "A Mathematical Introduction to Robotic Manipulation", 3.2). The displacement of p is the
+// sum over j of E_1 .. E_j-1 (E_j - 1) p. For a turn, with r = p - p_WO,
+//   (E - 1) p = sin d (z x r) + (1 - cos d) z x (z x r).
+// E_1 .. E_j-1 move a vector v by at most |v| times the sum of their |d_i|. Hence, for |d_j| <= s_j
+// of any size, the displacement along n is at most
 //   sum_j s_j |n . (z_j x r_j)|  +  sum_j s_j l_j (s_j / 2 + sum_{i<j} s_i),   l_j = |z_j x r_j|.
-// For a shift, |n . z_j| replaces the first factor and 1 replaces l_j; its s_j turns nothing, so
-// s_j / 2 and s_j in later sums are 0. With d_j = s drift_j + e_j, the first sum is at most
-//   |sum_j drift_j n . (z_j x r_j)| + sum_j loose_j |n . (z_j x r_j)|:
-// joints that move against each other cancel. It is convex in p, so it is largest at a corner of a
-// convex shape.
+// For a shift, |n . z_j| replaces the first factor and 1 replaces l_j. A shift turns nothing, so
+// its s_j / 2, and its s_j in the sums of later joints, are 0. With d_j = s drift_j + e_j, the
+// first sum is at most
+//   |sum_j drift_j n . (z_j x r_j)| + sum_j loose_j |n . (z_j x r_j)|.
+// In this bound, joints that move against each other cancel. The bound is convex in p, so it is
+// largest at a corner of a convex shape.
 class Sweep {
  public:
-  // n has unit length; axes are base to tip and must outlive the sweep.
+  // n has unit length; axes are base to tip and must outlive the Sweep.
   Sweep(std::span<const MovingAxis> axes, const Eigen::Vector3d& n_W);
 
-  // Returns an upper bound of n . x over a shape, for all joint values.
+  // Returns an upper bound of n . x over all points x of a shape, for all joint values.
   [[nodiscard]] double reach(const ConvexShape& shape, const PlacedConvexShape& placed) const;
-  // The same over all points within radius_m of the hull of these.
+  // Returns the same bound over all points within radius_m of the convex hull of `p_W`.
   [[nodiscard]] double reach(std::span<const Eigen::Vector3d> p_W, double radius_m) const;
-  // Returns an upper bound of n . (x - p) over points p of the hull and x within radius_m of where
-  // p may move.
+  // Returns an upper bound of n . (x - p) over all points p of the convex hull of `p_W`, and all
+  // points x within radius_m of a place to which p may move.
   [[nodiscard]] double overestimate(std::span<const Eigen::Vector3d> p_W, double radius_m) const;
 
  private:
   struct Moment {       // of an axis that turns
-    Eigen::Vector3d m;  // s (n x z), because s n . (z x (p - o)) = m . p - offset
+    Eigen::Vector3d m;  // s (n x z); with o on the axis, s n . (z x (p - o)) = m . p - offset
     double offset;
   };
   [[nodiscard]] double added(const Eigen::Vector3d& p_W) const;
@@ -69,7 +71,7 @@ class Sweep {
   std::vector<Moment> moments_;                 // of the loose parts
   Moment drift_{Eigen::Vector3d::Zero(), 0.0};  // of all drifts together, shifts included
   double shifts_m_ = 0.0;                       // loose parts of the prismatic joints, along n
-  double turn_ = 0.0;                           // bound of the slope: sum of |m| over whole spans
+  double turn_ = 0.0;                           // bound of the sum of |m|, if s is the whole span
 };
 
 }  // namespace armloom

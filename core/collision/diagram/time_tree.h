@@ -6,14 +6,15 @@
 
 namespace armloom {
 
-// A motion's time as a binary tree of intervals, created on first use. A rest has one node of zero
-// width, for all times.
+// The time of a motion as a binary tree of intervals. Nodes are created on first use. An arm at
+// rest has one node of zero width, which covers all times.
 class TimeTree {
  public:
   explicit TimeTree(Duration duration = {}) : nodes_{{Duration{}, duration}} {}
 
   [[nodiscard]] Duration duration() const { return nodes_.front().to; }
-  // The whole motion. Children are two halves: first_child(n) and the next node.
+  // The root is the whole motion. The children of a node n are its two halves: first_child(n) and
+  // the next node.
   [[nodiscard]] static int root() { return 0; }
   [[nodiscard]] int first_child(int node) {
     if (at(node).children < 0) {

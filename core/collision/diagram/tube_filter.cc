@@ -1,4 +1,5 @@
-// Filters a batch of cells of a TubePair: which pairs of capsules stay undecided in each.
+// Filters a batch of cells of a TubePair: finds the pairs of capsules that stay undecided in each
+// cell.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -28,7 +29,8 @@ struct TubePair::Batch {
     side = {rows(&Block::capsules, to.capsules), rows(&Block::motion_bound, to.motion_bound),
             rows(&Block::ball, to.ball)};
   }
-  // Returns the block that has this batch lane by lane, else null. A rest fills all lanes.
+  // If lane i of the batch is lane i of one block of the tube, returns that block, else null. A
+  // tube with a single node (an arm at rest) has this node in every lane of its block.
   [[nodiscard]] const Block* as_block() const {
     if (tube.size() == 1) return of[0].block;
     for (std::size_t lane = 0; lane < count; ++lane) {
@@ -36,7 +38,8 @@ struct TubePair::Batch {
     }
     return of[0].block;
   }
-  // Returns a row of all lanes, gathered unless the batch is one block.
+  // Returns a Block member with the nodes of the batch lane by lane. Copies the values to
+  // `gathered` unless the batch is one block.
   [[nodiscard]] const float* rows(std::vector<float> Block::*member,
                                   std::vector<float>& gathered) const {
     if (const Block* block = as_block()) return (block->*member).data();
@@ -65,10 +68,12 @@ struct TubePair::Lanes {
     }
   };
   std::array<Side, kLanes> a, b;
-  unsigned lost = 0;  // by lane: a pair cannot be proven apart; others are not tried
+  unsigned lost = 0;  // bit by lane: a pair cannot be proven apart, so no others are tried
 };
 
-// Bounds a hit along the direction that separates its capsules, for all pairs of stretches.
+// Bounds the distance of a hit's capsules along the direction that separates them, for all
+// combinations of stretches. Marks the lane as lost if not even the exact shapes can be proven
+// apart.
 void TubePair::look_along(Lanes& lanes, const filter::Hit& hit, unsigned lane,
                           filter::Parted& parted) const {
   const filter::Pair& pair = setting_.pairs->pairs[static_cast<std::size_t>(hit.pair)];
@@ -81,8 +86,8 @@ void TubePair::look_along(Lanes& lanes, const filter::Hit& hit, unsigned lane,
   if (short_m > slack_m(narrow(hit.pair, false)) + kAlongShapes_m) lanes.lost |= 1U << lane;
 }
 
-// Keeps the hits that stay undecided along the separating direction; returns their number. Tries
-// the closest pair of each cell first.
+// Keeps the hits that are not proven apart along the direction that separates their capsules;
+// returns their number. Tries the closest pair of each cell first.
 int TubePair::left_open(unsigned of_batch, int hits) {
   Scratch& s = *setting_.scratch;
   Lanes lanes;
@@ -168,8 +173,8 @@ std::vector<TubePair::Undecided>& TubePair::undecided(std::size_t lane) {
   Scratch& s = *setting_.scratch;
   const PairSet& set = *setting_.pairs;
   s.undecided.clear();
-  // By default: bodies mostly move towards each other by at least this share of their motion
-  // bounds.
+  // Estimate for pairs without a separating direction: bodies mostly move towards each other by at
+  // least this share of their motion bounds.
   constexpr double kTowardsShare = 0.25;
   const auto add = [&](int entry, bool box, double distance_m, double moves_a_m,
                        double moves_m) -> Undecided& {

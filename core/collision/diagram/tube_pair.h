@@ -14,7 +14,7 @@ namespace armloom {
 // bodies, or of an arm with itself (both tubes are the same). Not thread-safe.
 class TubePair {
  public:
-  // For the current batch or state; pairs of a thread may share it.
+  // Working memory for the current batch or state. TubePairs of one thread may share it.
   struct Scratch;
   [[nodiscard]] static std::shared_ptr<Scratch> make_scratch();
   // Scene and pairs must outlive the TubePair.
@@ -30,38 +30,41 @@ class TubePair {
   [[nodiscard]] const std::shared_ptr<MotionTube>& a() const { return a_; }
   [[nodiscard]] const std::shared_ptr<MotionTube>& b() const { return b_; }
   [[nodiscard]] bool is_self() const { return a_ == b_; }
-  // Counts cells of the current check; returns false if the check must end early.
+  // Adds evaluated cells to the progress of the current check. Returns false if the check must end
+  // early.
   [[nodiscard]] bool goes_on(std::uint64_t cells) const;
 
-  // For an arm with itself, twice the same node.
+  // A node of each tube: one cell. For an arm with itself, both are the same node.
   struct Nodes {
     int a;
     int b;
   };
-  // A pair of capsules that the filter leaves undecided within its nodes.
+  // A pair of capsules that the filter leaves undecided in a cell.
   struct Undecided {
-    int narrow;  // in PairSet::narrow, or narrow_boxes
+    int narrow;  // index in PairSet::narrow, or in narrow_boxes if `box`
     bool box;
-    double distance_m;  // lower bound at the middle
-    double moves_a_m;   // within the node
+    double distance_m;  // lower bound of the distance at the middle
+    double moves_a_m;   // bound of the motion of a within the cell
     double moves_b_m;
     double limit_m;
     double slack_m;      // the exact distance may be this much larger
-    double short_m;      // how much farther apart the capsules would have to be
-    double towards_a_m;  // how much closer each comes along the separating direction
+    double short_m;      // distance that the capsules lack for a proof
+    double towards_a_m;  // distance by which a comes closer along the separating direction
     double towards_b_m;
 
     [[nodiscard]] double moves_m() const { return moves_a_m + moves_b_m; }
-    // Returns how much farther apart the bodies would have to be.
+    // Returns the distance that the bodies lack for a proof, even if they are slack_m farther apart
+    // than their capsules.
     [[nodiscard]] double needs_m() const { return short_m - slack_m; }
   };
-  // Possible gain of the exact shapes' separating direction.
+  // Distance that may be gained by the separating direction of the exact shapes, compared with that
+  // of the capsules.
   inline static constexpr double kAlongShapes_m = 0.004;
 
-  // Places many at once, which is faster than by eight.
+  // Places the nodes of many cells at once, which is faster than eight at a time.
   void place_all(std::span<const Nodes> nodes);
-  // Places and filters up to eight. undecided() then returns what is open in each, until the next
-  // call.
+  // Places and filters up to eight cells. Until the next call, undecided(i) then returns the pairs
+  // that are undecided in cell i of the batch.
   void filter(std::span<const Nodes> batch);
   [[nodiscard]] std::vector<Undecided>& undecided(std::size_t of_batch);
   [[nodiscard]] const NarrowPair& narrow(int entry, bool box) const;
@@ -69,21 +72,23 @@ class TubePair {
   // Returns min(exact distance at the middle of both nodes, limit_m).
   [[nodiscard]] double distance(const NarrowPair& pair, Nodes at, double limit_m,
                                 const Roughness& of_surfaces = {}) const;
-  // Returns how many of these limits the exact distance there reaches. Precondition: ascending.
+  // Returns how many of `limits_m` the exact distance at the middle of both nodes reaches.
+  // Precondition: limits_m is ascending.
   [[nodiscard]] std::size_t limits_kept(const NarrowPair& pair, Nodes at,
                                         std::span<const double> limits_m) const;
-  // Returns true if the pair is proven to keep limit_m throughout both nodes. `enough_m`: see
-  // keep_apart().
+  // Returns true if the pair is proven to keep limit_m throughout the cell. `enough_m`: see
+  // keep_apart() in body_sweep.h.
   [[nodiscard]] bool keeps_apart(const NarrowPair& pair, Nodes at, double limit_m, double enough_m);
 
   struct PairDistance {
     PairId pair;
     double distance_m;
   };
-  // For placed_distance().
+  // Places both motions at these times. Afterwards, placed_distance() returns min(exact distance,
+  // limit_m).
   void place(Duration time_a, Duration time_b);
   [[nodiscard]] double placed_distance(const NarrowPair& pair, double limit_m) const;
-  // Return all pairs that are closer than their limits at these times; the closest pair.
+  // Return all pairs that are closer than their limits at these times, or the closest pair.
   [[nodiscard]] std::vector<PairDistance> too_close_at(Duration time_a, Duration time_b);
   [[nodiscard]] PairDistance closest_at(Duration time_a, Duration time_b);
 

@@ -8,12 +8,12 @@
 
 namespace armloom {
 
-// Nodes from different blocks, side by side.
+// Copies of nodes from different blocks, one per lane.
 struct TubePair::Gathered {
   std::vector<float> capsules, motion_bound, ball;  // MotionTube::Block
 };
 
-// Nodes being filtered, what is open in one of them, and one state.
+// The batch that is being filtered, the undecided pairs of one of its cells, and one placed state.
 struct TubePair::Scratch {
   CheckProgress* progress = nullptr;  // null if not watched
   Gathered a, b;

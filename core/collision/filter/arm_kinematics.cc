@@ -17,7 +17,8 @@ Eigen::Matrix3d z_to(const Eigen::Vector3d& axis) {
   return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis).toRotationMatrix();
 }
 
-// Removes rounding of right angles, such as 6e-17 or 1 - 1e-16.
+// Replaces a number within 1e-14 of an integer by the integer. This removes the rounding of right
+// angles, such as 6e-17 or 1 - 1e-16.
 double without_dust(double x) {
   const double whole = std::round(x);
   return std::abs(x - whole) < 1e-14 ? whole : x;

@@ -11,43 +11,45 @@
 
 namespace armloom {
 
-// A body (scene_bodies.h): the frame that moves it (-1: static) and its capsules in the filter.
+// A body of the scene (scene_bodies.h), as part of an ArmKinematics. `frame` moves the body; -1 if
+// the body is static. X_FP is the body's pose in that frame, or in the world if static.
 struct KinematicBody {
-  std::size_t body;  // in PlanningScene::Bodies::bodies
+  std::size_t body;  // index in PlanningScene::Bodies::bodies
   int frame;
   Eigen::Isometry3d X_FP;
-  int capsules_begin;
+  int capsules_begin;  // range in ArmKinematics::capsules()
   int capsules_end;
 };
 
-// One arm with its attached objects, in the form of the filter's kernels. Only movable joints
-// become frames, each with its axis as z; fixed links belong to the frame that moves them. Works
-// for any tree of revolute, continuous, prismatic and mimic joints. Static links and objects form a
-// kinematics without frames. Immutable.
+// One arm with its attached objects, in the data layout of the filter's kernels. Only movable
+// joints become frames, each with its axis as z. A fixed link belongs to the frame that moves the
+// link. Works for any tree of revolute, continuous, prismatic and mimic joints. The static links
+// and objects of a scene form an ArmKinematics without frames. Immutable.
 class ArmKinematics {
  public:
-  // nullopt: static bodies.
+  // Contains the bodies of `arm`, or the static bodies if `arm` is nullopt.
   ArmKinematics(const PlanningScene::Bodies& bodies, std::optional<ArmId> arm);
 
   [[nodiscard]] std::optional<ArmId> arm() const { return arm_; }
-  // Rows of the kernels' q, including upstream joints that no arm moves.
+  // Returns the joint of each row of the kernels' q. Includes joints upstream of the arm that no
+  // arm moves.
   [[nodiscard]] const std::vector<JointId>& joints() const { return joints_; }
   [[nodiscard]] const std::vector<KinematicBody>& bodies() const { return bodies_; }
   [[nodiscard]] const std::vector<filter::Frame>& frames() const { return frames_; }
   [[nodiscard]] const std::vector<filter::Capsule>& capsules() const { return capsules_; }
   [[nodiscard]] int motion_bound_rows() const { return motion_bound_rows_; }
   [[nodiscard]] filter::ArmKinematics view() const;
-  // Upper bound of all world coordinates of its bodies and joints (m).
+  // Returns an upper bound (m) of the world coordinates of all its bodies and joints.
   [[nodiscard]] double extent_m() const { return extent_m_; }
   // Returns the frames from the root to this frame; empty for the world (-1).
   [[nodiscard]] std::span<const int> ancestors(int frame) const;
   [[nodiscard]] int common_ancestors(int capsule_a, int capsule_b) const;
 
  private:
-  struct Carried {  // the frame that moves a link, and its pose there
+  struct Carried {  // the frame that moves a link, and the link's pose in it
     int frame = -1;
     Eigen::Isometry3d X_FL = Eigen::Isometry3d::Identity();
-    double reach_m = 0.0;  // upper bound, from the world's origin to the link's
+    double reach_m = 0.0;  // bound of the distance of the link's origin from the world's
   };
   Carried carry(const Cell& cell, LinkId link, std::vector<int>& seen,
                 std::vector<Carried>& carried);
@@ -65,10 +67,11 @@ class ArmKinematics {
   double extent_m_ = 0.0;
 };
 
-// Writes the pose of each frame, in double: [frame][12] as filter::Frame::C. `q` as
-// ArmKinematics::joints.
+// Writes the pose of each frame in the world, in double: [frame][12], laid out like
+// filter::Frame::C. `q`: one value per ArmKinematics::joints().
 void place_frames(const ArmKinematics& kinematics, const double* q, double* frames);
-// `frames` as above; `stride` between consecutive numbers.
+// Returns the body's pose in the world. `frames`: output of place_frames(), or of a kernel.
+// `stride`: distance of consecutive numbers in `frames` (filter::kLanes for a kernel).
 [[nodiscard]] Eigen::Isometry3d body_pose(const KinematicBody& body, const double* frames,
                                           int stride = 1);
 
@@ -80,7 +83,8 @@ struct NumberedCapsule {
   int number;
   const filter::Capsule& capsule;
 };
-// `margin_m`: rounding margin.
+// Returns a pair of capsules for the kernels, with a required distance. `margin_m`:
+// filter::rounding_margin().
 [[nodiscard]] filter::Pair kernel_pair(const NumberedCapsule& a, const NumberedCapsule& b,
                                        double limit_m, double margin_m);
 // Returns the smallest float that is not below x.

@@ -1,4 +1,4 @@
-// Four doubles or eight floats at once. Compiled for AVX2; runs only if the processor has AVX2.
+// Kernel for AVX2: four doubles or eight floats at once. Runs only if the processor has AVX2.
 #include <immintrin.h>
 
 #include "core/collision/filter/kernel_pairs.h"
@@ -11,7 +11,8 @@ struct D {
   __m256d v;
   static D load(const double* p) { return {_mm256_loadu_pd(p)}; }
   static D all(double x) { return {_mm256_set1_pd(x)}; }
-  // Ties to even: adding 1.5 * 2^52 leaves no digit for a fraction.
+  // Rounds to the nearest integer, ties to even. After 1.5 * 2^52 is added, a double has no digit
+  // left for a fraction.
   static D round(D a) {
     const __m256d shift = _mm256_set1_pd(6755399441055744.0);
     return {_mm256_sub_pd(_mm256_add_pd(a.v, shift), shift)};

@@ -1,4 +1,4 @@
-// Two doubles or four floats at once: SSE2, which every x86-64 has.
+// Kernel for SSE2, which every x86-64 has: two doubles or four floats at once.
 #include <immintrin.h>
 
 #include "core/collision/filter/kernel_pairs.h"
@@ -11,7 +11,8 @@ struct D {
   __m128d v;
   static D load(const double* p) { return {_mm_loadu_pd(p)}; }
   static D all(double x) { return {_mm_set1_pd(x)}; }
-  // Ties to even: adding 1.5 * 2^52 leaves no digit for a fraction.
+  // Rounds to the nearest integer, ties to even. After 1.5 * 2^52 is added, a double has no digit
+  // left for a fraction.
   static D round(D a) {
     const __m128d shift = _mm_set1_pd(6755399441055744.0);
     return {_mm_sub_pd(_mm_add_pd(a.v, shift), shift)};

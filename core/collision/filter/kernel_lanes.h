@@ -1,8 +1,9 @@
 #pragma once
 
-// The common source of the kernels, with kernel_pairs.h: where capsules are, and bounds of their
-// motion. Each instruction set's file includes it once, with its vector types D (doubles) and F
-// (floats). The unnamed namespace prevents code of one set from being linked into another.
+// Source that all kernels share, part 1: places capsules and bounds their motion. Part 2 is
+// kernel_pairs.h. Each instruction set's file includes this header once and passes its vector types
+// D (doubles) and F (floats). The unnamed namespace prevents the linker from using code of one
+// instruction set in another. Operations of the vector types:
 // - D, F: kLanes, load(p), store(p), all(x), +, -, *
 // - F also: max(a, b), min(a, b), sqrt, abs, /, not_at_least(a, b) (bits by lane of !(a >= b))
 // - D also: round, select(odd, a, b), store_float(p)
@@ -12,8 +13,8 @@
 namespace armloom::filter {
 namespace {
 
-// fdlibm's polynomials on [-pi/4, pi/4], after subtracting k * pi/2 in two parts. Error 1e-16 for
-// |x| < 1e6.
+// Computes sine and cosine with fdlibm's polynomials on [-pi/4, pi/4], after subtracting k * pi/2
+// from x. Error 1e-16 for |x| < 1e6.
 template <class D>
 inline void sin_cos(D x, D& sin_x, D& cos_x) {
   const D k = D::round(x * D::all(6.36619772367581382433e-01));
@@ -33,7 +34,8 @@ inline void sin_cos(D x, D& sin_x, D& cos_x) {
   c = c * z + D::all(-1.38888888888741095749e-03);
   c = c * z + D::all(4.16666666666666019037e-02);
   c = D::all(1.0) - (D::all(0.5) * z - z * z * c);
-  // Quarter turns m = k mod 4: odd ones swap; the sine changes sign for 2, 3, the cosine for 1, 2.
+  // Let m = k mod 4 quarter turns have been subtracted. An odd m swaps sine and cosine. The sine
+  // changes sign if m is 2 or 3, the cosine if m is 1 or 2.
   const D half = D::round(k * D::all(0.5) - D::all(0.25));      // floor(k / 2)
   const D turns = D::round(half * D::all(0.5) - D::all(0.25));  // floor(k / 4)
   const D odd = k - D::all(2.0) * half;                         // 0 or 1
@@ -44,7 +46,7 @@ inline void sin_cos(D x, D& sin_x, D& cos_x) {
   cos_x = D::select(odd, s, c) * sign_c;
 }
 
-// R v for a constant v.
+// Writes R v for a constant vector v.
 template <class D>
 inline void turn(const D* R, const double* v, D* out) {
   const D x = D::all(v[0]);
@@ -155,14 +157,14 @@ inline Vec<F> minus(const Vec<F>& a, const Vec<F>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-// Sums over a capsule's ancestors, base to tip.
+// The terms of a capsule's sweep (kSweep), summed over its ancestors.
 template <class F>
 struct SweepSums {
   F zero = F::all(0.0F);
-  Vec<F> ahead{zero, zero, zero};   // of the end at center + half
-  Vec<F> behind{zero, zero, zero};  // of the other end
-  F off = zero;                     // loose parts, and second-order terms
-  F turned = zero;
+  Vec<F> ahead{zero, zero, zero};   // V of the end at center + half
+  Vec<F> behind{zero, zero, zero};  // V of the other end
+  F off = zero;                     // bound of all other motion: loose parts, second-order terms
+  F turned = zero;                  // sum of the spans of all joints that turn
 
   void add(const Vec<F>& v, F by) {
     ahead = {ahead.x + v.x * by, ahead.y + v.y * by, ahead.z + v.z * by};
@@ -181,7 +183,8 @@ struct SweepSums {
   }
 };
 
-// Allows for float roundings of a lever: below one part in 1e5 and a micrometer.
+// Adds margins for the float rounding of each lever, which is below one part in 1e5 plus a
+// micrometer.
 template <class F>
 void inflate(const ArmKinematics& kinematics, const Placed& at, const JointMotions& motions,
              const MotionBounds& out) {
@@ -222,7 +225,8 @@ void inflate(const ArmKinematics& kinematics, const Placed& at, const JointMotio
         sum = sum + lever * by * F::all(1.00001F);
         sum.store(rows + k * kLanes + l);
       }
-      // sqrt(1 + t^2) - 1 <= t^2 / 2. Last term: roundings of the moments about each axis.
+      // The first addition uses sqrt(1 + t^2) - 1 <= t^2 / 2 (Sweep::round in sweep.cc). The second
+      // covers the rounding of the moments about each axis.
       const F turned = sweep.turned;
       const F size = F::abs(center.x) + F::abs(center.y) + F::abs(center.z);
       sweep.off = sweep.off + half_one * F::all(capsule.radius_up) * turned * turned +

@@ -1,13 +1,16 @@
 #pragma once
 
-// The common source of the kernels, part 2 (kernel_lanes.h): which pairs may be near.
+// Source that all kernels share, part 2: finds the pairs that may be too close. Part 1 is
+// kernel_lanes.h.
 
 #include "core/collision/filter/kernel_lanes.h"
 
 namespace armloom::filter {
 namespace {
 
-// Returns the vector from (nearly) the nearest point of b's axis to a's. w: from b's center to a's.
+// Returns the vector from the point of b's axis nearest to a's axis, to the point of a's axis
+// nearest to b's. The points are inexact by rounding. w: vector from b's center to a's center. ha,
+// hb: half axes.
 template <class F>
 inline Vec<F> between_axes(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pair& pair) {
   const F one = F::all(1.0F);
@@ -24,8 +27,8 @@ inline Vec<F> between_axes(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, 
   return {w.x + s * ha.x - t * hb.x, w.y + s * ha.y - t * hb.y, w.z + s * ha.z - t * hb.z};
 }
 
-// Returns a lower bound of the distance of the axes: the gap between planes normal to the direction
-// of the (nearly) nearest points. Errors of these points only lower it.
+// Returns a lower bound of the distance of the axes: the gap between two planes, normal to the
+// direction between their nearest points. If these points are inexact, the bound is only lower.
 template <class F>
 inline F axis_gap(const Vec<F>& w, const Vec<F>& ha, const Vec<F>& hb, const Pair& pair) {
   const Vec<F> v = between_axes(w, ha, hb, pair);
@@ -39,7 +42,8 @@ inline Vec<F> spread(const float* at) {
   return {F::all(at[0]), F::all(at[kLanes]), F::all(at[2 * kLanes])};
 }
 
-// Returns how much farther than its center a capsule's axis reaches along d in any stretch.
+// Returns how far the capsule's axis reaches along d beyond the center at of.at, at most, in any of
+// its stretches.
 template <class F>
 inline float reach_along(const SweptCapsule& of, const Vec<F>& d) {
   const Vec<F> center = spread<F>(of.at);
@@ -56,7 +60,8 @@ inline float reach_along(const SweptCapsule& of, const Vec<F>& d) {
   return most;
 }
 
-// 3e-6: roundings as in axis_gap(), and those of the direction and centers.
+// The margin of 3e-6 m covers the rounding in axis_gap(), and that of the direction and the
+// centers.
 template <class F>
 Parted parted(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair) {
   const Vec<F> w = minus(spread<F>(a.at), spread<F>(b.at));
@@ -77,11 +82,11 @@ Parted parted(const SweptCapsule& a, const SweptCapsule& b, const Pair& pair) {
           {of_a - own[kLanes], of_b - own[2 * kLanes]}};
 }
 
-// Centers the ball in the bounding box of the capsules' centers.
+// The ball's center is the center of the bounding box of the capsules' centers.
 template <class F>
 void enclose(const ArmKinematics& kinematics, const float* capsules, const float* motion_bound,
              const int* rows, float* ball) {
-  if (kinematics.capsule_count == 0) {  // an arm without shapes: never compared
+  if (kinematics.capsule_count == 0) {  // an arm without shapes is never compared
     for (int i = 0; i < 4 * kLanes; ++i) ball[i] = 0.0F;
     return;
   }
@@ -110,7 +115,7 @@ void enclose(const ArmKinematics& kinematics, const float* capsules, const float
   }
 }
 
-// Returns the lanes in which the pair is undecided; `hit` is filled for these.
+// Returns the lanes in which the pair is undecided. Fills `hit` for these lanes.
 template <class F, bool kMoving>
 inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& hit) {
   const float* at_a = a.capsules + pair.a * 6 * kLanes;
@@ -128,7 +133,7 @@ inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& h
     const F reach = keep + F::all(pair.ends_up);
     if (F::not_at_least(dot(w, w), reach * reach) == 0) continue;
     const Vec<F> ha = Vec<F>::load(at_a + 3 * kLanes + l);
-    // The ball around b against the axis of a.
+    // Compare a ball around b with the axis of a.
     const F one = F::all(1.0F);
     const F t = F::max(F::all(-1.0F), F::min(one, dot(ha, w) * F::all(-pair.inv_aa)));
     const Vec<F> v = {w.x + t * ha.x, w.y + t * ha.y, w.z + t * ha.z};
@@ -143,7 +148,8 @@ inline unsigned near_pair(const Side& a, const Side& b, const Pair& pair, Hit& h
   return near;
 }
 
-// Returns true if the group's capsule, of side `own`, may be near the other side's ball.
+// Returns true if the group's capsule, which belongs to side `own`, may be too close to the other
+// side's ball.
 template <class F, bool kMoving>
 inline bool near_ball(const Side& own, const Side& other, const Group& group) {
   const float* at = own.capsules + group.capsule * 6 * kLanes;
@@ -157,7 +163,7 @@ inline bool near_ball(const Side& own, const Side& other, const Group& group) {
   return near != 0;
 }
 
-// Returns true if the balls of both sides may be near each other.
+// Returns true if the balls of both sides may be too close to each other.
 template <class F>
 inline bool near_balls(const Side& a, const Side& b, float limit_up) {
   unsigned near = 0;
@@ -213,7 +219,8 @@ int near_pairs(const Side& a, const Side& b, const Pairs& pairs, unsigned lanes,
   return near_pairs_of<F, true>(a, b, pairs, lanes, hits);
 }
 
-// Uses the gap across the box's faces: a lower bound, exact in front of a face.
+// Compares a capsule with a box by the largest gap along the box's axes. This gap is a lower bound
+// of the distance; in front of a face, it is exact.
 template <class F>
 int near_boxes(const Side& a, const BoxPair* pairs, int count, unsigned lanes, Hit* hits) {
   int found = 0;

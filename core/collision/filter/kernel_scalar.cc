@@ -1,4 +1,4 @@
-// One lane at a time: the reference for the vector kernels.
+// Kernel that processes one lane at a time: the reference for the vector kernels.
 #include <cmath>
 
 #include "core/collision/filter/kernel_pairs.h"
@@ -11,7 +11,7 @@ struct D {
   double v;
   static D load(const double* p) { return {*p}; }
   static D all(double x) { return {x}; }
-  // Ties to even, as the vector kernels.
+  // Rounds to the nearest integer, ties to even, like the vector kernels.
   static D round(D a) { return {(a.v + 6755399441055744.0) - 6755399441055744.0}; }
   static D select(D odd, D a, D b) { return odd.v == 1.0 ? a : b; }
   void store(double* p) const { *p = v; }

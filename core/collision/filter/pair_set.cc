@@ -10,7 +10,7 @@
 namespace armloom {
 namespace {
 
-// Returns an upper bound of the coordinates of the body's capsule axes.
+// Returns an upper bound of the world coordinates of the static body's capsule axes (m).
 double extent_of(const KinematicBody& body, const ArmKinematics& still) {
   double extent_m = 0.0;
   for (int c = body.capsules_begin; c < body.capsules_end; ++c) {
@@ -72,7 +72,8 @@ void add_boxes(PairSet& set, const NarrowPair& narrow, const BodyCapsules& a, co
   }
 }
 
-// Groups the pairs by capsule of the side that `of_second` selects.
+// Groups the pairs by their capsule of one side: of the second side if `of_second`, else of the
+// first.
 void group(PairSet& set, const std::vector<filter::Capsule>& capsules, bool of_second,
            double margin_m) {
   const auto capsule_of = [of_second](const filter::Pair& pair) {
@@ -100,7 +101,7 @@ void group(PairSet& set, const std::vector<filter::Capsule>& capsules, bool of_s
   set.limits_changed();
 }
 
-// Adds the second side's capsules, unless they are too many for the kernel.
+// Sets `others` to the second side's capsules, unless there are too many for the kernel.
 void add_others(PairSet& set, const std::vector<filter::Capsule>& capsules, double margin_m) {
   if (capsules.size() > 64) return;
   for (std::size_t c = 0; c < capsules.size(); ++c) {
@@ -147,7 +148,7 @@ PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& 
       const BodyPair& pair = bodies.pairs[i];
       const NarrowPair narrow{PairId{static_cast<std::uint32_t>(i)}, index_of(a.bodies(), pair.a),
                               index_of(b.bodies(), pair.b), limit_of(bodies, group)};
-      if (narrow.body_b < 0) continue;  // of another group: a static body, or one of the arm
+      if (narrow.body_b < 0) continue;  // a group of another kind: body b is not in `b`
       const KinematicBody& body_a = a.bodies()[static_cast<std::size_t>(narrow.body_a)];
       const KinematicBody& body_b = b.bodies()[static_cast<std::size_t>(narrow.body_b)];
       const double extent_m = std::max(a.extent_m(), b.arm() ? b.extent_m() : extent_of(body_b, b));

@@ -8,28 +8,30 @@
 
 namespace armloom {
 
-// The bodies of a pair of capsules; they must not come closer than limit_m.
+// The two bodies of a pair of capsules. They must keep a distance of limit_m.
 struct NarrowPair {
-  PairId pair;  // in PlanningScene::Bodies::pairs
-  int body_a;   // in the kinematics of the first side
-  int body_b;   // in that of the second side
+  PairId pair;  // index in PlanningScene::Bodies::pairs
+  int body_a;   // index in ArmKinematics::bodies() of the first side
+  int body_b;   // index in ArmKinematics::bodies() of the second side
   double limit_m;
 };
 
-// The pairs of one comparison, for the broad phase and the narrow phase. Entry i of `pairs` belongs
-// to narrow[i], entry i of `boxes` to narrow_boxes[i].
+// The pairs of one comparison of two sides. The filter (broad phase) compares `pairs` and `boxes`;
+// exact distances (narrow phase) are computed for `narrow` and `narrow_boxes`. Entry i of `pairs`
+// belongs to narrow[i], entry i of `boxes` to narrow_boxes[i].
 struct PairSet {
   std::vector<filter::Pair> pairs;
   std::vector<NarrowPair> narrow;
   std::vector<filter::BoxPair> boxes;
   std::vector<NarrowPair> narrow_boxes;
-  std::vector<filter::Group> groups;  // of pairs: by the first side's capsules, or ...
-  bool groups_of_second = false;      // ... by the second side's
-  std::vector<filter::Group> others;  // filter::Groups::others
-  float limit_up = 0.0F;              // largest limit of pairs
+  std::vector<filter::Group> groups;  // `pairs`, grouped by a capsule of one side
+  bool groups_of_second = false;      // that side is the second
+  std::vector<filter::Group> others;  // see filter::Groups::others
+  float limit_up = 0.0F;              // largest limit of `pairs`
 
   [[nodiscard]] bool empty() const { return pairs.empty() && boxes.empty(); }
-  // For the broad phase: balls may skip whole groups, or every pair is compared.
+  // Return the pairs for the filter. With grouped(), the filter may skip whole groups; with
+  // ungrouped(), it compares every pair.
   [[nodiscard]] filter::Pairs grouped() const;
   [[nodiscard]] filter::Pairs ungrouped() const;
   // Sets the limit of each pair to limit_m(pair).
@@ -48,10 +50,12 @@ struct PairSet {
   void limits_changed();
 };
 
-// Returns the pairs to check, with the cell's limits: of two arms (the first has the smaller id),
-// an arm and static bodies, or an arm and itself (a and b are the same). Rows in motion_bound: one
-// per capsule; for an arm and itself those of its kinematics, without the motion that both capsules
-// share.
+// Returns the pairs to check between two sides, with the cell's limits. The sides are
+// - two arms, the first with the smaller id,
+// - an arm and the static bodies, or
+// - an arm and itself (a and b are the same).
+// Side::motion_bound must have one row per capsule. For an arm and itself, it must have the rows of
+// filter::MotionBounds; each pair uses rows without the motion that both capsules share.
 [[nodiscard]] PairSet pairs_between(const PlanningScene::Bodies& bodies, const ArmKinematics& a,
                                     const ArmKinematics& b);
 }  // namespace armloom

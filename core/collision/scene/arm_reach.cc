@@ -6,14 +6,14 @@
 namespace armloom {
 namespace {
 
-// Exceeds what tracking errors and rounding move a link.
+// Larger than the distance by which tracking errors and rounding can move a link.
 constexpr double kSlack_m = 0.05;
 
 class Chain {
  public:
   explicit Chain(const Cell& cell) : cell_(cell) {}
 
-  // Returns the position of the first joint of the link's chain (world).
+  // Returns the origin of the first movable joint between the world and the link (world, m).
   [[nodiscard]] Eigen::Vector3d root(LinkId id) const {
     Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
     std::vector<LinkId> from_root;
@@ -27,7 +27,7 @@ class Chain {
     return X_WL.translation();
   }
 
-  // Returns an upper bound of the distance between the link's origin and the center.
+  // Returns an upper bound of the distance between the link's origin and `center` (world, m).
   [[nodiscard]] double farthest_m(LinkId id, const Eigen::Vector3d& center) const {
     double way_m = 0.0;
     for (auto next = std::optional(id); next; next = cell_.link(*next).parent) {

@@ -17,7 +17,7 @@ namespace {
 using Balls = std::vector<Ball>;
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr int kCorners = 64;  // of the polygon around a cylinder's end
+constexpr int kCorners = 64;  // corners of the polygon around a cylinder's end
 constexpr std::size_t kAllPartitionsUpTo = 8;
 constexpr std::size_t kPartitionsFitted = 3;
 
@@ -28,7 +28,7 @@ LinkCapsule capsule_of(const ConvexShape& round) {
 
 struct Spanned {
   Balls balls;
-  Balls outer;  // balls that matter when partitions are compared
+  Balls outer;  // the outermost balls suffice to compare partitions
   Points axes;
 };
 
@@ -44,7 +44,7 @@ Spanned span(const ConvexShape& shape) {
   return spanned;
 }
 
-// True for shapes of the first capsule.
+// By shape: true if the shape belongs to the first of two capsules.
 using Partition = std::vector<bool>;
 
 LinkCapsule fit_group(const std::vector<Spanned>& shapes, const Partition& partition, bool group,
@@ -70,7 +70,8 @@ std::vector<Partition> all_partitions(std::size_t count) {
   return partitions;
 }
 
-// Returns for each axis of the body all splits of the shapes into the first k and the rest.
+// Sorts the shapes along each axis of the body. Returns all splits of each order into its first k
+// shapes and the rest.
 std::vector<Partition> partitions_along_axes(const std::vector<ConvexShape>& shapes) {
   std::vector<Partition> partitions;
   std::vector<std::size_t> order(shapes.size());
@@ -127,7 +128,7 @@ double distance_from(const ConvexShape& shape, const Eigen::Vector3d& p_P) {
   return distance_to_surface(*shape.solid->tree, shape.solid->X_PT.inverse(Eigen::Isometry) * p_P);
 }
 
-// Returns points on the surface: rings along the side, and the caps.
+// Returns points on the capsule's surface: rings along its side, and its two caps.
 Points surface_points(const LinkCapsule& capsule) {
   static const Points kDirections = spread_directions(96);
   const Eigen::Vector3d along = capsule.p_PB - capsule.p_PA;
@@ -176,7 +177,8 @@ double volume_of(const std::vector<LinkCapsule>& capsules) {
   return volume;
 }
 
-// Returns a round shape that contains all others, because no fit can be better.
+// Returns the capsule of a round shape that contains all others, because no other fit is better;
+// nullopt if there is no such shape.
 std::optional<LinkCapsule> shape_around_all(const std::vector<ConvexShape>& shapes) {
   for (const ConvexShape& round : shapes) {
     if (round.kind != ConvexShapeKind::round) continue;

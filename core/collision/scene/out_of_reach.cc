@@ -12,12 +12,14 @@ namespace {
 
 constexpr double kRounding_m = 1e-6;
 
-// Searches for two parts that may be too close, the closest first.
+// Searches for a part of each link that may be too close to each other (SweptLink::Part). Examines
+// the closest pairs of parts first.
 class Search {
  public:
   Search(SweptLink& a, SweptLink& b, double limit_m) : a_(a), b_(b), limit_m_(limit_m) {}
 
-  // Returns true if the links are proven apart. Decrements `budget` for each comparison.
+  // Returns true if the links are proven to keep `limit_m`. Subtracts the number of comparisons
+  // from `budget`.
   bool proves(int& budget) {
     if (!add(0, 0, budget)) return false;
     while (!open_.empty()) {
@@ -30,13 +32,14 @@ class Search {
 
  private:
   struct Open {
-    double least_m;
+    double least_m;  // lower bound of the distance of the two parts
     std::size_t of_a;
     std::size_t of_b;
     bool operator<(const Open& other) const { return least_m > other.least_m; }
   };
 
-  // Returns false if the search must end: the links may meet, or the budget is used up.
+  // Compares two parts and keeps them for halving if they are not proven apart. Returns false if
+  // the search must end: the links may meet, or the budget is used up.
   bool add(std::size_t of_a, std::size_t of_b, int& budget) {
     if (budget-- <= 0) return false;
     const PartGap gap = gap_between(a_.part(of_a), b_.part(of_b));

@@ -6,15 +6,16 @@
 
 namespace armloom {
 
-// Budgets of one proof, and of all proofs of a cell: comparisons of swept parts.
+// Largest number of comparisons of two link parts (SweptLink::Part): for one pair of links, and for
+// all pairs of a cell together.
 inline constexpr int kComparisonsPerPair = 4'000;
 inline constexpr int kComparisonsPerCell = 2'000'000;
 
-// Returns the claimed pairs (AllowedCollisions::claimed_pairs) that are proven to keep the cell's
-// clearance_m at all joint positions within the limits, exceeded by up to
-// checking.tracking_error_rad and execution.start_tolerance_rad. Never wrong, but omits a pair if
-// the proof exceeds the budget or the capsules are too coarse. Deterministic. Precondition:
-// `bodies` has all links.
+// Returns the pairs that an SRDF disables without proof (AllowedCollisions::claimed_pairs) and that
+// are proven to keep the cell's clearance_m. The proof covers all joint positions within the
+// limits, exceeded by up to checking.tracking_error_rad and execution.start_tolerance_rad.
+// Every returned pair is proven. A pair is missing if its proof exceeds the budget or if the links'
+// capsules are too coarse. Deterministic. Precondition: `bodies` already contains all links.
 [[nodiscard]] std::set<LinkPair> pairs_out_of_reach(const PlanningScene::Bodies& bodies);
 
 }  // namespace armloom

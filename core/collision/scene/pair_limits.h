@@ -6,8 +6,10 @@
 
 namespace armloom {
 
-// Required distances (m): of an arm from other arms and static bodies, from itself (Cell::is_own),
-// and from its mount (at most clearance_m).
+// Required distances (m) of an arm from
+// - other arms and static bodies: clearance_m
+// - itself (Cell::is_own): self_clearance_m
+// - its mount (Cell::is_mount): mount_clearance_m, but at most clearance_m
 struct PairLimits {
   double clearance_m;
   double self_clearance_m;
@@ -17,7 +19,7 @@ struct PairLimits {
     return {cell.clearances.clearance_m, cell.clearances.self_clearance_m,
             cell.clearances.mount_limit_m()};
   }
-  // Replaces the cell's clearance_m, and scales the other two limits by the same factor.
+  // Returns limits with another clearance_m. The other two limits are scaled by the same factor.
   [[nodiscard]] static PairLimits scaled(const Cell& cell, double clearance_m) {
     const PairLimits own = of(cell);
     const auto share = [&](double limit_m) {

@@ -14,7 +14,7 @@
 namespace armloom {
 namespace {
 
-// Sets a sphere around the center of the shapes' bounding boxes.
+// Sets the body's bounding sphere, centered in the common bounding box of its shapes.
 void bound(const std::vector<ConvexShape>& shapes, CollisionBody& body) {
   Eigen::AlignedBox3d box;
   for (std::size_t i = body.shapes_begin; i < body.shapes_end; ++i) {
@@ -51,8 +51,8 @@ void add_body(PlanningScene::Bodies& scene, CollisionBody body,
   scene.bodies.push_back(std::move(body));
 }
 
-// A link is one body. But each box of a static link is a body, like a box object, because a
-// sphere or capsule is a poor bound of a table.
+// Adds a link as one body. Each box of a static link becomes a body of its own, like a box object,
+// because a sphere or capsule is a poor bound of a table.
 void add_link(PlanningScene::Bodies& scene, LinkId id) {
   const Cell& cell = *scene.cell;
   const Link& link = cell.link(id);
@@ -94,7 +94,8 @@ bool allowed(const PlanningScene::Bodies& scene, std::size_t index_a, std::size_
          scene.out_of_reach->contains(std::minmax(*a.link, *b.link));
 }
 
-// Adds a group: the arm's bodies against the bodies that `wanted` selects.
+// Adds the pairs of the arm's bodies with the bodies that `wanted` selects, as one group. Leaves
+// out pairs that may touch.
 template <class Wanted>
 void add_group(PlanningScene::Bodies& scene, PairGroup group, const Wanted& wanted) {
   group.pairs_begin = scene.pairs.size();
@@ -209,7 +210,7 @@ Result<PlanningScenePtr> PlanningScene::build(CellPtr cell) {
   find_unknown_allowed(*cell, problems);
   if (!problems.empty()) return failure(std::move(problems));
 
-  PlanningScene links;  // without objects yet
+  PlanningScene links;  // without objects at first
   Bodies& bodies = *links.bodies_;
   bodies.cell = cell;
   bodies.attachments = std::make_shared<const std::vector<Attachment>>();

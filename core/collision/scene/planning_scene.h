@@ -12,51 +12,56 @@
 
 namespace armloom {
 
-// The immutable part of collision queries: shapes of all links, objects and attached objects, and
-// the pairs to check (after the allowed-collision matrix). A cylinder with two end spheres of its
-// radius becomes one exact capsule; a mesh becomes convex pieces or its hull as FCL geometry, and
-// its triangles if it is closed. Shared by all threads; a change makes a new scene.
+// The immutable part of collision queries: the shapes of all links, objects and attached objects,
+// and the pairs of bodies to check. Pairs in the allowed-collision matrix are left out.
+// A cylinder with an end sphere of its radius at each end becomes one exact capsule. A mesh becomes
+// its convex pieces or its hull; if it is closed, its triangles are also kept. Threads share a
+// scene; every change creates a new scene.
 class PlanningScene {
  public:
-  // Problems: a mesh without data (Mesh::data), an object name that is used twice or is unknown in
-  // the allowed collisions.
+  // Problems: a mesh without data (Mesh::data), two objects with the same name, an unknown object
+  // name in the allowed collisions.
   [[nodiscard]] static Result<std::shared_ptr<const PlanningScene>> build(CellPtr cell);
   ~PlanningScene();
 
-  // Returns the scene with other objects; link shapes are shared, attached objects stay. Pairs
-  // allowed by an object's name stay allowed. Problems, with pointers "/objects/<index>/...": as
-  // for build(), or an attached object's name.
+  // Returns a scene with these objects instead of the present objects. Link shapes are shared, and
+  // attached objects stay. Pairs that are allowed by an object's name stay allowed.
+  // Problems, with pointers "/objects/<index>/...": a mesh without data, two objects with the same
+  // name, an object with the name of an attached object.
   [[nodiscard]] Result<std::shared_ptr<const PlanningScene>> with_objects(
       std::vector<CollisionObject> objects) const;
   [[nodiscard]] const std::vector<CollisionObject>& objects() const;
 
-  // Returns the scene with only these attached objects. An attached object is part of the arm that
-  // moves its link. It is checked against everything that the arm's links are checked against,
-  // against attached objects of other arms, and against the arm's own links except `touch` and the
-  // hand that holds it (hand_of). Pairs of a link and an object name in the cell file stay allowed.
-  // SRDF pairs of the carrying link do not apply to the object.
+  // Returns a scene with these attached objects instead of the present attached objects. An
+  // attached object becomes part of the arm that moves its link. The object is checked against
+  // - everything that the arm's links are checked against,
+  // - attached objects of other arms,
+  // - the arm's own links, except `touch` and the hand that holds the object (hand_of).
+  // Pairs of a link and an object name that the cell file allows stay allowed. An SRDF that
+  // disables pairs of the carrying link has no effect on the object.
   //
   // Problems, with pointers "/attachments/<index>/...": an unknown link or touch, a link that no
   // arm moves, a name in use, a mesh without data.
   [[nodiscard]] Result<std::shared_ptr<const PlanningScene>> with_attachments(
       std::vector<Attachment> attachments) const;
   [[nodiscard]] const std::vector<Attachment>& attachments() const;
-  // Returns true if both scenes come from the same call of with_attachments(), or have no attached
-  // objects: links and attached objects are then equal, given the same cell.
+  // Returns true if both scenes have the attached objects of the same call of with_attachments(),
+  // or no attached objects. Then their links and attached objects are equal if their cell is the
+  // same.
   [[nodiscard]] bool holds_as(const PlanningScene& other) const;
 
   [[nodiscard]] const Cell& cell() const;
-  // The scene's content as hashes, for certificates.
+  // Returns hashes of the scene's content, for certificates.
   [[nodiscard]] const SceneFingerprint& fingerprint() const;
 
-  struct Bodies;  // has FCL types; for core/collision only
+  struct Bodies;  // defined in scene_bodies.h; for core/collision only
   [[nodiscard]] const Bodies& bodies() const;
 
  private:
   PlanningScene();
   std::unique_ptr<Bodies> bodies_;
 };
-// A pair that a scene checks (PlanningScene::Bodies::pairs), in the scene's order.
+// The index of a pair of bodies that the scene checks (PlanningScene::Bodies::pairs).
 using PairId = Id<struct PairTag>;
 using PlanningScenePtr = std::shared_ptr<const PlanningScene>;
 

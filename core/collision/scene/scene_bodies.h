@@ -24,27 +24,29 @@
 
 namespace armloom {
 
-// Shapes that move together: a link, one box of a static link, an object, or an attached object.
+// Shapes that move together: those of a link, of an object or of an attached object, or one box of
+// a static link. P is the body's frame.
 struct CollisionBody {
   std::string name;
-  std::optional<LinkId> link;     // nullopt: an object
-  std::optional<LinkId> carrier;  // moves the body: its link, or the link it is attached to
-  std::optional<ArmId> arm;       // moves the body; nullopt: it is static
-  std::optional<RobotId> robot;   // nullopt: a static object
-  // Pose in the carrier, or in the world; identity for a link.
+  std::optional<LinkId> link;     // nullopt if an object
+  std::optional<LinkId> carrier;  // the body's link, or the link that carries it
+  std::optional<ArmId> arm;       // the arm that moves the body; nullopt if static
+  std::optional<RobotId> robot;   // nullopt if a static object
+  // Pose of the body in the carrier's frame C (identity for a link), or in the world if there is no
+  // carrier.
   Eigen::Isometry3d X_CP = Eigen::Isometry3d::Identity();
   std::size_t shapes_begin = 0;  // range in Bodies::shapes
   std::size_t shapes_end = 0;
   struct BoundingSphere {
-    Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // its center
+    Eigen::Vector3d p_PC = Eigen::Vector3d::Zero();  // the sphere's center
     double radius_m = 0.0;
   } sphere = {};
-  bool has_pieces = false;  // of a closed mesh, among its shapes
+  bool has_pieces = false;  // some shapes are pieces of a closed mesh
   bool lone_box = false;    // its only shape is a box: a sphere would be a poor bound
-  LinkCapsules fitted;      // in P
+  LinkCapsules fitted;      // capsules around all shapes, in P
 
   [[nodiscard]] bool held() const { return carrier && !link; }
-  // `X_WL`: of all links.
+  // Returns the body's pose in the world. `X_WL`: poses of all links.
   [[nodiscard]] Eigen::Isometry3d pose(const LinkPoses& X_WL) const {
     if (!carrier) return X_CP;
     return link ? X_WL[carrier->index()] : X_WL[carrier->index()] * X_CP;
@@ -56,27 +58,27 @@ struct CollisionBody {
   return {a.name, b.name, a.arm, b.arm, !b.carrier, clearance_m, a.held(), b.held()};
 }
 
-// The first body belongs to the group's `arm`.
+// Two indices in Bodies::bodies. The first body belongs to the group's `arm`.
 struct BodyPair {
   std::size_t a;
   std::size_t b;
 };
 
-// A clearance of zero still forbids contact, where distances are zero.
+// Smallest limit (m). It forbids contact, where distances are zero, even if the clearance is zero.
 inline constexpr double kTouching_m = 1e-9;
 
-// All pairs with one counterpart, checked or skipped together. Limits, conflicts, the monitor and
-// metrics go by the kind.
+// All pairs of an arm with one counterpart. They are checked or skipped together. Limits,
+// conflicts, the monitor and metrics distinguish groups by their kind.
 struct PairGroup {
   enum class Kind {
     arms,   // links and attached objects of two arms
     still,  // an arm and static bodies, except its mount
-    mount,  // an arm and its mount (Cell::is_mount): scene with another limit
+    mount,  // an arm and its mount (Cell::is_mount): like still, with another limit
     self,   // an arm and itself, attached objects included
   };
   Kind kind;
   ArmId arm;
-  std::optional<ArmId> other;   // Kind::arms only, and larger than arm
+  std::optional<ArmId> other;   // Kind::arms only; has the larger id
   std::size_t pairs_begin = 0;  // range in Bodies::pairs
   std::size_t pairs_end = 0;
 
@@ -89,24 +91,27 @@ struct PairGroup {
   }
 };
 
-// Pairs are sorted by group: arms by (arm, other), then still and mount by arm, then self by arm.
-// Within a group: by link, attached object, object.
+// The bodies of a scene and the pairs to check. Groups, and their pairs, are in this order:
+// - Kind::arms by (arm, other)
+// - Kind::still and Kind::mount by arm
+// - Kind::self by arm
+// Within a group, pairs are sorted by first body, then by second body.
 struct PlanningScene::Bodies {
   CellPtr cell;
   std::vector<CollisionObject> objects;
   std::shared_ptr<const std::vector<Attachment>> attachments;  // shared while objects change
-  // Links in the order of their ids, attached objects, objects.
+  // In this order: links by id, attached objects, objects.
   std::vector<CollisionBody> bodies;
-  std::size_t links_end = 0;  // in `bodies`
-  // Proven claimed pairs (AllowedCollisions); equal in all scenes of a cell.
+  std::size_t links_end = 0;  // end of the links in `bodies`
+  // Pairs from pairs_out_of_reach(); equal in all scenes of a cell.
   std::shared_ptr<const std::set<LinkPair>> out_of_reach;
-  std::size_t held_end = 0;  // attached objects: from links_end to it
+  std::size_t held_end = 0;  // attached objects: [links_end, held_end) in `bodies`
   std::vector<ConvexShape> shapes;
   std::vector<BodyPair> pairs;
   std::vector<PairGroup> groups;
   std::vector<std::vector<std::size_t>> bodies_of_arm;  // by ArmId
-  std::vector<Ball> reach;                              // by ArmId (reach_of)
-  SceneFingerprint links_fingerprint;                   // of the links alone
+  std::vector<Ball> reach;             // by ArmId: ball around the arm at all positions (reach_of)
+  SceneFingerprint links_fingerprint;  // of the scene without objects and attached objects
   SceneFingerprint fingerprint;
 
   [[nodiscard]] const PairGroup& group_of(PairId pair) const {

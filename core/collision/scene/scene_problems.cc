@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Meshes are read when a cell is built, not here.
+// Returns a problem if the mesh has no data. Mesh files are read when a cell is built, not here.
 std::optional<Problem> mesh_problem(const Shape& shape, const std::string& pointer) {
   const auto* mesh = std::get_if<Mesh>(&shape);
   if (mesh == nullptr || mesh->data != nullptr) return std::nullopt;
@@ -58,7 +58,8 @@ void find_object_problems(const std::vector<CollisionObject>& objects,
   }
 }
 
-// Only for a new scene: an object of the cell file may be removed later.
+// Called only when a scene is built from a cell, because a client may remove an object of the cell
+// file later.
 void find_unknown_allowed(const Cell& cell, Problems& problems) {
   std::set<std::string> names;
   for (const CollisionObject& object : cell.objects) names.insert(object.name);
@@ -73,7 +74,7 @@ void find_unknown_allowed(const Cell& cell, Problems& problems) {
 
 void find_attachment_problems(const Cell& cell, const std::vector<CollisionObject>& objects,
                               const std::vector<Attachment>& attachments, Problems& problems) {
-  std::map<std::string, std::string> taken;  // name, owner
+  std::map<std::string, std::string> taken;  // what each name already belongs to
   for (const Link& link : cell.links) taken.emplace(link.name, "a link");
   for (const CollisionObject& object : objects) taken.emplace(object.name, "an object");
   for (std::size_t i = 0; i < attachments.size(); ++i) {

@@ -8,7 +8,7 @@
 
 namespace armloom {
 
-// Add what planning_scene.h calls problems, with pointers "/objects/<index>/..." and
+// Add the problems that planning_scene.h lists, with pointers "/objects/<index>/..." and
 // "/attachments/<index>/...".
 void find_link_problems(const Cell& cell, Problems& problems);
 void find_object_problems(const std::vector<CollisionObject>& objects,

@@ -70,7 +70,8 @@ void SweptLink::add_intervals(const Cell& cell, const std::vector<JointId>& driv
     const double lower = std::max(joint.lower, -kFarthestPosition) - beyond;
     const double upper = std::min(joint.upper, kFarthestPosition) + beyond;
     Interval interval{0.5 * (lower + upper), 0.5 * (upper - lower)};
-    // A full turn covers all poses, unless another link follows the joint at another rate.
+    // A full turn covers all poses of the link if only one step follows the joint, turns, and does
+    // so at rate 1 or -1.
     const auto turns_by_itself = [&](const Step& step) {
       return step.interval != i || (!step.prismatic && std::abs(step.multiplier) == 1.0);
     };
@@ -99,17 +100,19 @@ void SweptLink::bound_reach() {
   }
 }
 
-// Returns how far the step's joint moves a point at most that is far_m from its axis, with all
-// later joints at the center.
+// Returns the largest distance by which the step's joint moves a point that is far_m from its axis.
+// All later joints are at the center of their intervals.
 double SweptLink::shift(const Step& step, const Part& part, double far_m) const {
   const double half = std::abs(step.multiplier) * part.intervals[step.interval].half;
   if (step.prismatic) return half;
   return half >= kPi ? 2.0 * far_m : 2.0 * far_m * std::sin(0.5 * half);
 }
 
-// Bounds the motion. The joints leave the center one after the other, from the root on, so each
-// turns the rest of the chain while that is still at the center. Hence the distances from the axes
-// at the center apply, and a point moves by at most the sum.
+// Bounds how far any point of the capsules moves from its place at the center of all intervals. Let
+// the joints leave the center one after the other, from the root on. Each joint then turns the rest
+// of the chain while all later joints are still at the center. So each joint moves a point at most
+// as far as shift() says for the distance from its axis at the center. The sum over all joints is
+// the bound.
 void SweptLink::place(Part& part) const {
   std::vector<PlacedStep> placed;
   Eigen::Isometry3d X_WF = Eigen::Isometry3d::Identity();
@@ -148,7 +151,9 @@ void SweptLink::place(Part& part) const {
   enclose(part, placed);
 }
 
-// Sets the smallest ball: around the capsules with their motion, or around a joint's reach.
+// Sets part.ball to the smallest of several balls. One encloses the capsules and their motion. One
+// per joint is centered at the joint's origin, and covers the link's reach from there and the
+// origin's own motion.
 void SweptLink::enclose(Part& part, const std::vector<PlacedStep>& placed) const {
   part.ball = {part.capsules.front().line.center, 0.0};
   for (const Part::Segment& capsule : part.capsules) {

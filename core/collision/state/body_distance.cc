@@ -8,10 +8,10 @@
 namespace armloom {
 namespace {
 
-constexpr double kFound = -std::numeric_limits<double>::max();  // no limit is closer
+constexpr double kFound = -std::numeric_limits<double>::max();  // below every limit
 
-// Returns the distance of the convex shapes. With pieces of meshes: the first distance that is
-// small enough to query the surface.
+// Returns min(distance of the convex shapes of both groups, limit_m). If one group has pieces of a
+// mesh, returns the first distance that is small enough to query the surface.
 double shapes_distance(const std::vector<ConvexShape>& shapes, const ShapeGroups& a,
                        const ShapeGroups& b, double limit_m) {
   const bool pieces = a.are_pieces() || b.are_pieces();
@@ -28,7 +28,8 @@ double shapes_distance(const std::vector<ConvexShape>& shapes, const ShapeGroups
   return smallest;
 }
 
-// of_solids(a, b, limit_m) decides about two solids.
+// Returns min(distance of both bodies, limit_m). If pieces of a mesh are too close, of_solids(a, b,
+// within_m) returns the distance of the two solids.
 template <class OfSolids>
 double smallest_distance(const std::vector<ConvexShape>& shapes, const PlacedBody& a,
                          const PlacedBody& b, double limit_m, const OfSolids& of_solids) {

@@ -21,7 +21,7 @@ std::string home_pointer(const Cell& cell, ArmId arm) {
   return "/robots/" + std::to_string(robot.index()) + "/arms/" + std::to_string(place) + "/home";
 }
 
-// Returns where an SRDF disables the pair without proof; nullopt if none does.
+// Returns the place in an SRDF that disables the pair without proof, or nullopt if no SRDF does.
 std::optional<std::string> claim_of(const PlanningScene& scene, PairId pair) {
   const BodyPair& bodies = scene.bodies().pairs[pair.index()];
   const auto& a = scene.bodies().bodies[bodies.a].link;

@@ -23,18 +23,18 @@ struct ClearanceQuery::Scratch {
     PlacedBody b;
     double limit_m;
     std::size_t lane;
-    float least_m;  // from the capsules
+    float least_m;  // lower bound of the distance, from the capsules
   };
   struct Candidate {
-    double least_m;  // lower bound
+    double least_m;  // lower bound of the distance
     std::size_t pair;
   };
 
   PlanningScenePtr scene;
   const PlanningScene::Bodies& bodies;
   PlacedCell placed;
-  std::vector<Open> open;          // pairs of meshes, which are slow
-  std::vector<std::size_t> order;  // of `open`: deepest overlap of capsules first
+  std::vector<Open> open;          // undecided pairs of meshes, which take longest
+  std::vector<std::size_t> order;  // indices in `open`: deepest overlap of capsules first
   LinkPoses X_WL;
   std::vector<Candidate> candidates;
 
@@ -47,8 +47,9 @@ struct ClearanceQuery::Scratch {
     return bodies_closer_than(bodies.shapes, o.a, o.b, o.limit_m);
   }
 
-  // Adds lanes in which a hit is too close. Leaves pairs of meshes open if balls do not decide
-  // them, because most bad states also have a pair that overlaps deeply.
+  // Adds to `close` the lanes in which a hit is too close. If inner balls do not decide a pair of
+  // meshes, adds the pair to `open`. Deciding it can wait, because most states that are too close
+  // also have a pair that overlaps deeply.
   void decide_soon(const PlacedCell::Comparison& c, std::span<const filter::Hit> found,
                    const std::vector<NarrowPair>& narrow, unsigned& close) {
     for (const filter::Hit& hit : found) {
@@ -92,7 +93,8 @@ struct ClearanceQuery::Scratch {
 
   // ---- One state ----
 
-  // Writes the candidates of the groups that `wanted` selects, sorted by pair.
+  // Writes to `candidates` the pairs that the filter leaves undecided, if `wanted` selects their
+  // group. Sorted by pair, each pair once.
   template <class Wanted>
   void find_candidates(const Configuration& q, const Wanted& wanted) {
     const Configuration* const state[] = {&q};
@@ -114,15 +116,15 @@ struct ClearanceQuery::Scratch {
     candidates.erase(doubled.begin(), doubled.end());
   }
 
-  // min(distance of the pair, limit)
+  // Returns min(distance of the pair, limit_m).
   [[nodiscard]] double distance(std::size_t pair, double limit_m) const {
     const CollisionBody& a = bodies.bodies[bodies.pairs[pair].a];
     const CollisionBody& b = bodies.bodies[bodies.pairs[pair].b];
     return body_distance(bodies.shapes, {a, a.pose(X_WL)}, {b, b.pose(X_WL)}, limit_m);
   }
 
-  // Returns the closest pair of the group, if closer than the limit. Tries pairs with a large lower
-  // bound last.
+  // Returns the closest pair of the group, or nullopt if none is closer than limit_m. Tries pairs
+  // with a small lower bound first.
   [[nodiscard]] std::optional<NearPair> closest(const PairGroup& group, double limit_m) {
     std::optional<NearPair> found;
     const double asked_m = limit_m;
@@ -138,7 +140,7 @@ struct ClearanceQuery::Scratch {
       limit_m = d;
       found = {PairId{static_cast<std::uint32_t>(at->pair)}, d, asked_m};
     }
-    // Restore the order for other groups.
+    // Restore the order by pair, which the other groups need.
     std::sort(begin, end, [](const Candidate& x, const Candidate& y) { return x.pair < y.pair; });
     return found;
   }
@@ -203,7 +205,8 @@ std::vector<Proximity> ClearanceQuery::closest_apart(const Configuration& q, dou
   std::vector<Proximity> found;
   for (const PairGroup& group : scratch_->bodies.groups) {
     if (group.kind == Kind::self) continue;
-    // Static bodies and the mount are one counterpart here; the mount's group comes just after.
+    // Here, an arm's static bodies and its mount are one counterpart. The mount's group follows
+    // directly after the group of the other static bodies.
     const bool goes_on = group.kind == Kind::mount && !found.empty() && !found.back().arm_b &&
                          found.back().arm_a == group.arm;
     const auto pair = scratch_->closest(group, goes_on ? found.back().clearance_m : horizon_m);

@@ -9,10 +9,10 @@
 
 namespace armloom {
 
-// Number of states that are checked at once.
+// Number of states that are checked together.
 inline constexpr auto kStatesAtOnce = static_cast<std::size_t>(filter::kLanes);
 
-// Up to eight configurations of a whole cell as the kernels place them, and all pairs to check with
+// Up to eight configurations of a whole cell, placed by the kernels, and all pairs to check with
 // their limits. Not thread-safe.
 class PlacedCell {
  public:
@@ -23,14 +23,16 @@ class PlacedCell {
   // Places one to eight states; throws std::invalid_argument otherwise.
   void place(std::span<const Configuration* const> states);
 
-  // The pairs of two arms, an arm and itself (b == a), or an arm and static bodies.
+  // The pairs of two arms, of an arm and itself (b == a), or of an arm and the static bodies. a and
+  // b are indices of sides.
   struct Comparison {
     std::size_t a;
     std::size_t b;
     PairSet pairs;
   };
   [[nodiscard]] const std::vector<Comparison>& comparisons() const { return comparisons_; }
-  // Calls visit(hits, narrow pairs) for the pairs that the filter leaves undecided in these lanes.
+  // Calls visit(hits, narrow) for the pairs that the filter leaves undecided in `lanes`.
+  // narrow[hit.pair] has the bodies of a hit.
   template <class Visit>
   void filter(const Comparison& c, unsigned lanes, const Visit& visit) {
     const filter::Kernel& kernel = filter::best_kernel();
@@ -46,7 +48,8 @@ class PlacedCell {
                                   static_cast<int>(set.boxes.size()), lanes, hits_.data())),
           set.narrow_boxes);
   }
-  // `side`: Comparison::a or b.
+  // Returns a body and its pose in one lane. `side`: Comparison::a or b. `index`:
+  // NarrowPair::body_a or body_b.
   [[nodiscard]] PlacedBody body(std::size_t side, int index, std::size_t lane) const;
 
  private:
@@ -63,7 +66,7 @@ class PlacedCell {
 
   const PlanningScene::Bodies& bodies_;
   PairLimits limits_;
-  std::vector<Side> arms_;  // the last one: static bodies
+  std::vector<Side> arms_;  // all arms, then the static bodies
   std::vector<Comparison> comparisons_;
   std::vector<filter::Hit> hits_;
 };
