@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Returns the joints of no arm that place the link.
+// Returns the joints that belong to no arm and on which the link's pose depends.
 std::set<JointId> standing_above(const Cell& cell, LinkId id) {
   std::set<JointId> joints;
   for (std::optional<LinkId> link = id; link; link = cell.link(*link).parent) {
@@ -51,7 +51,7 @@ class StandingJoints {
     }
   }
 
-  // Warns of other joints that move shapes, such as a sliding table.
+  // Warns of joints that move shapes but no arm, such as the joint of a sliding table.
   void warn_of_others() {
     std::set<JointId> others;
     for (const LinkId link : robot_.links) {
@@ -73,8 +73,8 @@ class StandingJoints {
          names});
   }
 
-  // Warns of a gripper joint between joints of an arm's group: its position changes the geometry
-  // that the group's motions are checked against.
+  // Warns of a gripper joint between joints of an arm's group: its position changes the poses of
+  // the arm's links.
   void warn_of_gaps() {
     for (const ArmBuild& build : robot_.arms) {
       std::set<std::string> skipped;
