@@ -67,7 +67,7 @@ class StandingJoints {
     diagnostics_.warn(
         {ProblemKind::invalid, "stationary-joint", robot_.pointer,
          "robot " + robot_.description->name + ": " + names +
-             " in no arm's group, so the links that it moves are checked only at its position 0 "
+             " is in no arm's group, so the links that it moves are checked only at its position 0 "
              "(or at the limit next to 0); if it is elsewhere, " +
              how_to_hold(line),
          names});
