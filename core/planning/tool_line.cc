@@ -79,7 +79,7 @@ class ToolLine {
       const double off_rad = Eigen::AngleAxisd(off.linear()).angle() + goes_rad / 2;
       if (off_m > kLineWithin_m || off_rad > kLineWithin_rad) {
         PlanRefusal left =
-            refusal(share, "the joints may leave the line by " + text(1e3 * off_m) + " mm and " +
+            refusal(share, "the link may leave the line by " + text(1e3 * off_m) + " mm and " +
                                text(off_rad) + " rad; " + text(1e3 * kLineWithin_m) + " mm and " +
                                text(kLineWithin_rad) + " rad are allowed");
         const auto steps = static_cast<double>(points.size() - 1);
