@@ -54,9 +54,8 @@ struct TreeLink {
   bool solid = false;  // it has a <collision>, which may be faulty
   int line = 0;        // in the file
 
-  [[nodiscard]] bool is_rigid() const {
-    return !joint.motion.has_value();
-  }  // true if fixed to its parent
+  // Returns true if the link is fixed to its parent.
+  [[nodiscard]] bool is_rigid() const { return !joint.motion.has_value(); }
 };
 
 struct RobotTree {
