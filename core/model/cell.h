@@ -33,7 +33,7 @@ inline constexpr double kFarthestPosition = 1e5;
 struct Joint {
   std::string name;  // with prefix
   RobotId robot;
-  std::optional<ArmId> arm;  // that has it as a joint or gripper joint
+  std::optional<ArmId> arm;  // arm that has it as a joint or gripper joint
   JointKind kind;
   double lower;  // rad or m; -kFarthestPosition if a continuous joint has no limit
   double upper;

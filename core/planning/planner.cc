@@ -166,7 +166,7 @@ class Search {
   Eigen::VectorXd start_;
   LineChecker lines_;
   std::vector<std::size_t> goals_;
-  std::uint64_t nodes_ = 0, compared_ = 0;  // nodes of the trees
+  std::uint64_t nodes_ = 0, compared_ = 0;  // of the trees: nodes, comparisons
 };
 
 }  // namespace

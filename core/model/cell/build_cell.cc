@@ -283,7 +283,8 @@ Result<CellPtr> build_cell(const CellDescription& description, Problems& warning
     add_robot(std::move(build), *cell, diagnostics);
   }
   check_objects_are_no_links(description, links, diagnostics);
-  // If some link names could not be read, their pairs would be reported as unknown.
+  // If some link names could not be read, valid pairs with these names would be reported as
+  // unknown.
   if (complete) allow_pairs_of_cell(description, *cell, diagnostics);
   warn_of_cell(description, *cell, diagnostics);
   warn_of_settings(description, *cell, diagnostics);

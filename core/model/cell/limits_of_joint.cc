@@ -60,7 +60,8 @@ void LimitsOfJoint::settle(LimitsFile::Joint* filed, Needs& needs) {
   settle_velocity();
   settle_rates();
   warn_of_units();
-  // Faults of a limit are problems only if the limit is needed and no other file replaces it.
+  // Faults of the URDF's limits are problems only if a needed limit is missing. Otherwise they are
+  // warnings.
   if (own_ && !missing_.empty()) {
     needs.faulty = needs.faulty || link_.joint.limits.faults.count() > 0;
     diagnostics_.merge(std::move(link_.joint.limits.faults));

@@ -9,8 +9,9 @@ namespace armloom {
 
 // Resolves a mesh reference of a URDF to an existing file:
 //   package://name/rest          below the folder packages[name]
-//   relative/path                below the URDF's own folder; ../path is treated as an absolute
-//   path file:///path, /absolute/path below the URDF's own folder or any of the packages' folders
+//   relative/path                below the URDF's own folder
+//   ../path                      treated as an absolute path
+//   file:///path, /absolute/path below the URDF's own folder or any of the packages' folders
 // Refuses other schemes (http://) and paths that leave their folder, as written or through symbolic
 // links. A foreign robot description must not make the server read or show files that the cell file
 // does not permit, or reveal which files exist. The error text continues the sentence "mesh <uri>

@@ -15,7 +15,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// If an axis deviates less from length 1, only its digits were rounded.
+// An axis whose length deviates less from 1 is accepted, because its numbers were only rounded.
 constexpr double kUnitAxis = 0.01;
 
 // Narrows the limits to the soft limits of <safety_controller>, as MoveIt does.

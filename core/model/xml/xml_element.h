@@ -37,8 +37,8 @@ class XmlPlace {
   XmlPlace(std::string file, int line, std::string whose, Diagnostics& diagnostics)
       : file_(std::move(file)), line_(line), whose_(std::move(whose)), diagnostics_(&diagnostics) {}
 
-  // Return a copy of this place: at() with the line of another element, of() with a part added
-  // ("joint j1"), telling() with other diagnostics.
+  // Return a copy of this place. at() uses the line of another element, of() adds a part ("joint
+  // j1"), and telling() reports to other diagnostics.
   [[nodiscard]] XmlPlace at(const tinyxml2::XMLElement& element) const;
   [[nodiscard]] XmlPlace of(const std::string& part) const;
   [[nodiscard]] XmlPlace telling(Diagnostics& diagnostics) const;
