@@ -6,7 +6,8 @@ namespace armloom {
 
 std::vector<bool> hand_of(const Cell& cell, LinkId carrier) {
   const std::vector<JointId>& gripper = cell.arm(*cell.link(carrier).arm).gripper_joints;
-  // For each link, the topmost link of the hand that it would be part of; parents come first.
+  // For each link: the topmost link that it reaches through fixed joints and joints of `gripper`
+  // only. One pass suffices, because parents come before their children.
   std::vector<LinkId> top;
   for (std::uint32_t i = 0; i < cell.links.size(); ++i) {
     const Link& link = cell.links[i];

@@ -11,15 +11,15 @@ namespace armloom {
 // An object attached to a link: it moves with the link and is not part of the scene.
 struct Attachment {
   CollisionObject object;  // its X_WO is not used
-  LinkId link;             // moved by an arm
+  LinkId link;             // carries the object; an arm moves this link
   Eigen::Isometry3d X_LO = Eigen::Isometry3d::Identity();
-  std::vector<LinkId> touch;  // of any robot; may be touched besides the hand
+  std::vector<LinkId> touch;  // links of any robot that the object may touch besides the hand
 };
 
-// Returns for each LinkId whether the link belongs to the hand of `link`: links fixed to it, or
-// moved relative to it only by its arm's gripper joints; includes `link` itself. These links may
-// touch objects that `link` carries, and objects carried by two of them may touch. Precondition: an
-// arm moves `link`.
+// Returns, indexed by LinkId, true for each link of the hand to which `link` belongs. The hand is
+// `link` itself and all links connected to it by fixed joints or its arm's gripper joints only.
+// Links of the hand may touch the objects that `link` carries. Objects carried by two links of one
+// hand may touch each other. Precondition: an arm moves `link`.
 [[nodiscard]] std::vector<bool> hand_of(const Cell& cell, LinkId link);
 
 }  // namespace armloom

@@ -13,8 +13,8 @@ std::optional<Id> find_by_name(const Things& things, std::string_view name) {
   return std::nullopt;
 }
 
-// Returns true if the parent of `carried` is static and is `mount`, or is fixed to `mount` through
-// links without shapes.
+// Returns true if the parent of `carried` is static, and this parent is `mount` or is fixed to
+// `mount` through links without shapes.
 bool stands_on(const Cell& cell, const Link& carried, LinkId mount) {
   if (!carried.parent || cell.link(*carried.parent).arm) return false;
   for (auto below = carried.parent; below; below = cell.link(*below).parent) {

@@ -25,23 +25,24 @@ using Configuration = Eigen::VectorXd;
 
 enum class JointKind { revolute, continuous, prismatic };
 
-// Bound on every joint position (rad or m), also of joints without limits: beyond any use, but
-// small enough to avoid overflow and loss of precision.
+// Bound on every joint position (rad or m), also for joints without limits. It exceeds any useful
+// position, but is small enough to avoid overflow and loss of precision.
 inline constexpr double kFarthestPosition = 1e5;
 
 // A movable joint that is not a mimic: one entry of a Configuration.
 struct Joint {
   std::string name;  // with prefix
   RobotId robot;
-  std::optional<ArmId> arm;  // whose joint or gripper joint it is
+  std::optional<ArmId> arm;  // arm that has it as a joint or gripper joint
   JointKind kind;
   double lower;  // rad or m; -kFarthestPosition if a continuous joint has no limit
   double upper;
   double velocity_max;      // > 0; rad/s or m/s
   double acceleration_max;  // > 0
   double jerk_max;          // > 0
-  double brake;             // > 0; used by stops
-  // Outside arm groups: start position, nearest to 0 unless the cell file's "gripper" sets it.
+  double brake;             // > 0; deceleration of stops
+  // Start position of a joint that is in no arm's group. It is the position nearest to 0 within the
+  // limits, unless the cell file's "gripper" sets it.
   double start = 0.0;
 
   [[nodiscard]] bool has_lower() const { return lower > -kFarthestPosition; }
@@ -49,7 +50,7 @@ struct Joint {
   // For messages.
   [[nodiscard]] std::string unit() const { return kind == JointKind::prismatic ? "m" : "rad"; }
 
-  // Limits that no file gives: defaults apply.
+  // True for each limit that no file gives, so that its default applies.
   struct Assumed {
     bool velocity = false;
     bool acceleration = true;
@@ -58,13 +59,13 @@ struct Joint {
   } assumed = {};
 };
 
-// A link, with the joint above it folded in:
+// A link, together with the joint that connects it to its parent link P. Its pose in the world W is
 //   X_WL = X_WP * X_PJ * motion(axis, multiplier * q[driver] + offset)
-// P is the parent link. A root has no parent: its X_PJ is the robot's base pose X_WB.
+// where J is the joint frame. A root link has no parent: its X_PJ is the robot's base pose X_WB.
 struct Link {
   std::string name;  // with prefix
   RobotId robot;
-  std::optional<ArmId> arm;      // nearest arm above that moves it; nullopt if static
+  std::optional<ArmId> arm;      // arm that moves it, the nearest if several; nullopt if static
   std::optional<LinkId> parent;  // smaller than the link's own id
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
   std::optional<JointId> driver;  // nullopt if fixed
@@ -91,12 +92,12 @@ struct Robot {
   std::string prefix;
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   std::vector<ArmId> arms;
-  std::string urdf_text;  // as read, except that fixed joints are fixed; for the dashboard
+  std::string urdf_text;  // for the dashboard; as read, but joints named in "fixed" are fixed
   std::string srdf_text;
   ControllerDescription controller;
-  // Existing mesh files by the name in the URDF (package://...), also of visuals.
+  // Paths of existing mesh files, also of visuals, by their name in the URDF (package://...).
   std::map<std::string, std::string> mesh_files;
-  // Why a joint has no value of its own, by prefixed name: "follows left_finger".
+  // By prefixed joint name: the reason why a joint has no value of its own ("follows left_finger").
   std::map<std::string, std::string> joints_without_value;
 };
 
@@ -109,26 +110,28 @@ struct CollisionObject {
 // A pair of links, the smaller id first.
 using LinkPair = std::pair<LinkId, LinkId>;
 
-// Pairs that need no check, and pairs that are disabled by an SRDF without proof.
+// Pairs of bodies that are not checked, and pairs that an SRDF disables without proof.
 struct AllowedCollisions {
-  // From the robots' files: rigid bodies, and pairs disabled by SRDFs except claimed_pairs.
+  // From the robots' files: pairs within one rigid body, and pairs that an SRDF disables, except
+  // claimed_pairs.
   std::set<LinkPair> link_pairs;
   // From the cell file.
   std::set<LinkPair> cell_file_pairs;
   std::set<std::pair<LinkId, std::string>> link_objects;  // link, object name
-  // Pairs disabled by an SRDF between different arms, or between an arm and a static link other
-  // than its mount, with their place ("arm.srdf:17"). MoveIt's Setup Assistant disables pairs that
-  // did not meet in random samples, which proves nothing. So these pairs are checked unless proven
-  // out of reach (core/collision/scene/out_of_reach.h) or in cell_file_pairs.
+  // Pairs that an SRDF disables between different arms, or between an arm and a static link other
+  // than its mount. The value is the place in the SRDF ("arm.srdf:17"). MoveIt's Setup Assistant
+  // disables pairs that did not meet in random samples, which does not prove that they cannot meet.
+  // So these pairs are checked, unless they are proven out of reach
+  // (core/collision/scene/out_of_reach.h) or are in cell_file_pairs.
   std::map<LinkPair, std::string> claimed_pairs;
 
-  // Returns true if the pair may touch, in either order. Ignores claimed_pairs.
+  // Returns true if links a and b, in either order, may touch. Ignores claimed_pairs.
   [[nodiscard]] bool allows(LinkId a, LinkId b) const {
     const LinkPair pair = std::minmax(a, b);
     return link_pairs.contains(pair) || cell_file_pairs.contains(pair);
   }
 };
-// Distances to keep between bodies that may not touch.
+// Minimum distances between bodies that may not touch.
 struct Clearances {
   double clearance_m = 0.02;
   double self_clearance_m = 0.005;          // for Cell::is_own() pairs; at most clearance_m
@@ -144,10 +147,10 @@ struct Clearances {
 // Built and checked by build_cell (core/model/cell/build_cell.h).
 struct Cell {
   std::string name;
-  std::vector<Robot> robots;             // RobotId
-  std::vector<Arm> arms;                 // ArmId
-  std::vector<Joint> joints;             // JointId
-  std::vector<Link> links;               // LinkId; parents before children
+  std::vector<Robot> robots;             // indexed by RobotId
+  std::vector<Arm> arms;                 // indexed by ArmId
+  std::vector<Joint> joints;             // indexed by JointId
+  std::vector<Link> links;               // indexed by LinkId; parents before children
   std::vector<CollisionObject> objects;  // the scene at start
 
   AllowedCollisions allowed;
@@ -165,15 +168,16 @@ struct Cell {
   [[nodiscard]] std::optional<LinkId> find_link(std::string_view link_name) const;
 
   // Returns true if the link is static and carries the arm, directly or through fixed links without
-  // shapes. A mount may be a pedestal or a table in the same URDF. So every link of the arm keeps
-  // mount_clearance_m from it; less than clearance_m suits robots that fold onto their own body.
-  // Neighbors that touch are disabled by the SRDF or, without an SRDF, as parent and child.
+  // shapes. Such a mount may be a pedestal or a table in the same URDF. Every link of the arm keeps
+  // mount_clearance_m from the mount. A value below clearance_m suits robots that fold onto their
+  // own body. A link that touches the mount is allowed if the SRDF disables the pair or, without an
+  // SRDF, if a joint connects them.
   [[nodiscard]] bool is_mount(LinkId link, ArmId arm) const;
-  // Returns true if both links belong to one arm. They pass closely by design and keep
-  // self_clearance_m.
+  // Returns true if both links belong to one arm. Such links pass each other closely by design, so
+  // they keep only self_clearance_m.
   [[nodiscard]] bool is_own(LinkId a, LinkId b) const;
 
-  // Returns every arm at its home, other joints at Joint::start.
+  // Returns the configuration with every arm at its home and all other joints at Joint::start.
   [[nodiscard]] Configuration home() const;
 };
 

@@ -26,22 +26,23 @@ struct JointLimitsDescription {
   std::optional<double> acceleration;  // rad/s^2 (m/s^2), default kDefaultAcceleration
   std::optional<double> jerk;          // rad/s^3 (m/s^3), default kDefaultJerk
   std::optional<double> brake;         // rad/s^2 (m/s^2), default twice the acceleration
-  // As spelled in the cell file (velocity_m_s): their units must fit the joint.
+  // The given keys as spelled in the cell file (velocity_m_s). Their units must fit the joint.
   std::set<std::string> keys = {};
 };
-inline constexpr double kDefaultVelocity = 1.0;  // outside arm groups; as in MoveIt
+inline constexpr double kDefaultVelocity = 1.0;  // for joints in no arm's group; as in MoveIt
 inline constexpr double kDefaultAcceleration = 3.75;
 inline constexpr double kDefaultJerk = 7500.0;
 
 struct ArmDescription {
   std::string name;   // unique in the cell
   std::string group;  // SRDF group that forms the arm
-  // In group order. If empty, home_state applies; if both are empty, all joints are at zero,
-  // clamped.
+  // Home positions (rad, m) in group order. If empty, home_state applies. If both are empty, the
+  // home of each joint is zero, clamped to its limits.
   std::vector<double> home;
   std::string home_state;                                // a state of the group in the SRDF
   std::map<std::string, JointLimitsDescription> limits;  // by URDF joint name
-  // Start positions of gripper joints by URDF name (rad, m); others start at zero, clamped.
+  // Start positions (rad, m) of gripper joints by URDF name. Other gripper joints start at zero,
+  // clamped to their limits.
   std::map<std::string, double> gripper = {};
 };
 
@@ -63,12 +64,12 @@ struct ControllerDescription {
 struct RobotDescription {
   std::string name;
   std::string urdf;          // path, resolved against the folder of the cell file
-  std::string srdf;          // like urdf
-  std::string joint_limits;  // a MoveIt joint_limits.yaml, like urdf; may be empty
+  std::string srdf;          // path, resolved like urdf
+  std::string joint_limits;  // path of MoveIt's joint_limits.yaml; may be empty
   std::string prefix;        // prepended to the URDF's joint and link names
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();  // base link in the world
   std::map<std::string, std::string> packages;             // package:// name -> folder
-  // Joints fixed at a value, by URDF name (rad or m): not joints of the cell.
+  // Positions (rad or m) at which joints are fixed, by URDF name. These are not joints of the cell.
   std::map<std::string, double> fixed;
   std::vector<ArmDescription> arms;
   ControllerDescription controller;
@@ -96,7 +97,7 @@ struct CheckingSettings {
 enum class OnIdleBlocker {
   report,  // only report it
   park,    // move an arm out of the way (retreat)
-  replan,  // plan the job around it; without such a path, act as park
+  replan,  // plan a path around the arm; if there is none, park
 };
 [[nodiscard]] constexpr const char* to_string(OnIdleBlocker what) {
   switch (what) {
@@ -134,7 +135,7 @@ struct SchedulingSettings {
   Duration backlog_timeout = std::chrono::seconds(60);
   Duration aging = std::chrono::seconds(30);
   OnIdleBlocker on_idle_blocker = OnIdleBlocker::park;
-  int horizon_steps = 12;  // queued motions per arm, admitted by look-ahead policies
+  int horizon_steps = 12;  // motions per arm that look-ahead policies admit in advance
   OnRestart on_restart = OnRestart::ask;
 };
 struct MonitorSettings {
@@ -169,9 +170,9 @@ struct CellDescription {
   std::vector<ObjectDescription> objects;
   std::vector<std::pair<std::string, std::string>> allowed_collisions;  // link or object names
   double clearance_m = 0.02;
-  // Within an arm, whose links pass each other closely by design.
+  // Clearance between the links of one arm, which pass each other closely by design.
   double self_clearance_m = 0.005;
-  // Between an arm and its mount; clearance_m if nullopt.
+  // Clearance between an arm and its mount. If nullopt, clearance_m applies.
   std::optional<double> mount_clearance_m;
   CheckingSettings checking;
   SchedulingSettings scheduling;

@@ -6,8 +6,8 @@
 namespace armloom {
 namespace {
 
-// Multiplies X from the right by the joint's motion by `value` (Rodrigues' formula, from Eigen's
-// AngleAxis).
+// Moves the pose X by the joint's motion to position `value` (rad or m): multiplies X by the motion
+// from the right. Rotations use Rodrigues' formula, as in Eigen's AngleAxis.
 void move(const Link& link, double value, Eigen::Isometry3d& X) {
   if (link.motion == JointKind::prismatic) {
     X.translation() += X.linear() * (link.axis * value);

@@ -10,9 +10,10 @@ namespace armloom {
 // Pose of each link in the world, indexed by LinkId.
 using LinkPoses = std::vector<Eigen::Isometry3d>;
 
-// Computes the forward kinematics of the whole cell. q has one entry per joint of the cell; throws
-// std::invalid_argument otherwise. X_WL is caller-owned scratch: resized, overwritten, and not
-// reallocated from the second call on. Thread-safe on distinct scratch.
+// Computes the poses of all links of the cell in configuration q. Throws std::invalid_argument if q
+// does not have one entry per joint of the cell. The caller owns X_WL, which is resized and
+// overwritten; calls after the first do not reallocate it. Thread-safe if each thread has its own
+// X_WL.
 void forward_kinematics(const Cell& cell, const Configuration& q, LinkPoses& X_WL);
 
 }  // namespace armloom

@@ -12,13 +12,13 @@
 namespace armloom {
 namespace {
 
-// Budget of tries past other arms. Existing paths mostly take a tenth (README.md); without a path,
-// the full budget would delay the last try tenfold.
+// Budget of a try that plans around arms that may move. Most existing paths need only a tenth of it
+// (README.md). If there is no path, the full budget would delay the last try tenfold.
 constexpr std::uint64_t kBesideBudget = 40'000;
 
 struct JointGoals {
   std::vector<Eigen::VectorXd> q;
-  std::uint64_t evaluations = 0;  // spent on them
+  std::uint64_t evaluations = 0;  // spent to find them
 };
 using Goals = tl::expected<JointGoals, PlanRefusal>;
 
@@ -36,7 +36,7 @@ Goals joint_goals(const PlanningScenePtr& scene, const PlanQuestion& question) {
       .map([](std::vector<Eigen::VectorXd> q) { return JointGoals{std::move(q)}; });
 }
 
-// Adds the nearest joint positions that would work, if the start or goal does not.
+// If the start or the goal is unusable, adds the nearest joint positions that would work.
 PlanRefusal with_nearest(const PlanningScenePtr& scene, const PlanRequest& request,
                          PlanRefusal refusal) {
   using Reason = PlanRefusal::Reason;
@@ -52,7 +52,8 @@ PlanRefusal with_nearest(const PlanningScenePtr& scene, const PlanRequest& reque
   return refusal;
 }
 
-// Returns an arm that may move and rests at the start or the goal, so that it must leave first.
+// Returns an arm that occupies the start or the goal and that may move, or nullopt. That arm must
+// leave before the motion.
 std::optional<ArmId> stands_at_an_end(const PlanRefusal& refusal, const PlanRequest& request,
                                       const std::vector<ArmId>& may_move) {
   using Reason = PlanRefusal::Reason;

@@ -35,7 +35,8 @@ class Clearing {
                                             .method = Swept{cell_.checking.tracking_error_rad}});
     of_motions_ += verdict.evaluations;
     if (verdict.kind == Verdict::Kind::free) return true;
-    // Other conflicts of the motion do not depend on this arm.
+    // Only conflicts with this arm matter, because other conflicts of the motion do not depend on
+    // it.
     const bool is_told = !verdict.conflicts.empty();
     return is_told && std::ranges::none_of(verdict.conflicts, [&](const Conflict& conflict) {
              return conflict.with == Conflict::With::rest && conflict.proximity.arm_b == way_.arm;

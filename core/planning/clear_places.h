@@ -10,20 +10,21 @@
 
 namespace armloom {
 
-// An arm, and the remaining motion of others for which it must make way.
+// An arm that blocks a motion of other arms. It must clear the part of the motion after `progress`.
 struct InTheWay {
   ArmId arm;
   TrajectoryPtr motion;
   Duration progress{};
 };
 
-// Joint positions, nearest first, at which the arm keeps its clearances from everything at `at`,
-// and the motion keeps its own from the arm. Candidates are kPlacesLookedAt points of the Halton
-// sequence in a box around the arm's position that grows up to the joints' limits. Refused
-// (goal_not_reached) if none is clear. Thread-safe and deterministic.
+// Joint positions of the arm, nearest first. At each of them the arm keeps its clearances from
+// everything else in configuration `at`, and the motion keeps its clearances from the arm.
+// Candidates are kPlacesLookedAt points of the Halton sequence in a box around the arm's position;
+// the box grows up to the joints' limits. Refused (goal_not_reached) if no candidate is clear.
+// Thread-safe and deterministic.
 struct ClearPlaces {
   std::vector<Eigen::VectorXd> q;
-  std::uint64_t evaluations = 0;  // of states and motions
+  std::uint64_t evaluations = 0;  // checks of states and motions
 };
 [[nodiscard]] tl::expected<ClearPlaces, PlanRefusal> places_clear_of(const PlanningScenePtr& scene,
                                                                      const InTheWay& way,

@@ -5,8 +5,8 @@
 
 namespace armloom {
 
-// Returns a point of the Halton sequence, a prime for each dimension: points spread over the unit
-// cube. `index` starts at 1; each coordinate is in [0, 1).
+// Returns a point of the Halton sequence, whose points spread evenly over the unit cube. Each of up
+// to ten dimensions has its own prime as base. `index` starts at 1; each coordinate is in [0, 1).
 [[nodiscard]] inline Eigen::VectorXd halton(int index, Eigen::Index dimensions) {
   constexpr int kPrimes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
   Eigen::VectorXd place(dimensions);

@@ -20,7 +20,7 @@ std::optional<KdlChain> chain_to(const Cell& cell, ArmId arm, LinkId link, const
     if (found == joints.end()) return std::nullopt;
     return found - joints.begin();
   };
-  std::vector<LinkId> way;  // up to the first link that the arm moves
+  std::vector<LinkId> way;  // from the first link that the arm moves to `link`
   std::size_t moved = 0;
   for (std::optional<LinkId> at = link; at; at = cell.link(*at).parent) {
     way.push_back(*at);
@@ -34,7 +34,8 @@ std::optional<KdlChain> chain_to(const Cell& cell, ArmId arm, LinkId link, const
   const auto pose_of = [&](const std::optional<LinkId>& of) {
     return of ? X_WL[of->index()] : Eigen::Isometry3d::Identity();
   };
-  // Relative to the static link above.
+  // F is the frame of the last KDL segment, P the parent of the next link of `way`. Before the
+  // first segment, F is the world.
   Eigen::Isometry3d X_FP = pose_of(cell.link(way.front()).parent);
   for (const LinkId id : way) {
     const Link& at = cell.link(id);
@@ -50,7 +51,7 @@ std::optional<KdlChain> chain_to(const Cell& cell, ArmId arm, LinkId link, const
         at.motion == JointKind::prismatic ? KDL::Joint::TransAxis : KDL::Joint::RotAxis;
     const KDL::Joint joint(cell.joint(*at.driver).name, KDL::Vector(p.x(), p.y(), p.z()),
                            KDL::Vector(axis.x(), axis.y(), axis.z()), type, at.multiplier);
-    Eigen::Isometry3d X_JL = Eigen::Isometry3d::Identity();  // at joint zero
+    Eigen::Isometry3d X_JL = Eigen::Isometry3d::Identity();  // pose at joint position 0
     if (at.motion == JointKind::prismatic) {
       X_JL.translation() = at.offset * at.axis;
     } else {
@@ -60,7 +61,7 @@ std::optional<KdlChain> chain_to(const Cell& cell, ArmId arm, LinkId link, const
     result.rows.push_back(*row);
     X_FP = Eigen::Isometry3d::Identity();
   }
-  if (!X_FP.isApprox(Eigen::Isometry3d::Identity(), 0.0)) {  // fixed to the last joint
+  if (!X_FP.isApprox(Eigen::Isometry3d::Identity(), 0.0)) {  // `link` is below the last joint
     result.chain.addSegment(
         KDL::Segment(cell.link(link).name, KDL::Joint(KDL::Joint::Fixed), kdl_frame(X_FP)));
   }

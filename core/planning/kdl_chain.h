@@ -11,14 +11,14 @@
 // Internal to core/planning: interface to Orocos KDL.
 namespace armloom {
 
-// From the world to a link: joints of one arm move, all others are fixed.
+// Kinematic chain from the world to a link, in which only the joints of one arm move.
 struct KdlChain {
   KDL::Chain chain;
-  std::vector<Eigen::Index> rows;  // of the arm's joints, by the chain's; mimic joints repeat them
+  std::vector<Eigen::Index> rows;  // chain's joint -> arm's joint; mimic joints repeat it
 };
 
-// X_WL: poses of all links in the current configuration. Returns nullopt if no joint of the arm
-// moves the link.
+// Returns the chain to `link`, or nullopt if no joint of the arm moves the link. X_WL contains the
+// poses of all links in the current configuration.
 [[nodiscard]] std::optional<KdlChain> chain_to(const Cell& cell, ArmId arm, LinkId link,
                                                const LinkPoses& X_WL);
 

@@ -8,11 +8,12 @@
 namespace armloom {
 namespace {
 
-// Bisections of the line to the wanted position.
+// Number of bisections of the line to the wanted position.
 constexpr int kHalvings = 10;
-constexpr int kSweeps = 2;  // over the joints
+constexpr int kSweeps = 2;  // passes over all joints
 
-// Moves q along the line. Precondition: `q` is free, `blocked` is not.
+// Moves q toward `blocked`, as near as bisection finds it free. Precondition: `q` is free,
+// `blocked` is not.
 Eigen::VectorXd brought_nearer(LineChecker& states, Eigen::VectorXd blocked, Eigen::VectorXd q) {
   for (int i = 0; i < kHalvings; ++i) {
     Eigen::VectorXd middle = 0.5 * (q + blocked);
@@ -21,8 +22,9 @@ Eigen::VectorXd brought_nearer(LineChecker& states, Eigen::VectorXd blocked, Eig
   return q;
 }
 
-// Resets one joint after the other to its wanted position, moves the others on so that the distance
-// stays, then moves all nearer again.
+// Tries to reset one joint after the other to its wanted position. The other joints first move
+// farther away, so that the distance from `wanted` stays the same. If that position is free, all
+// joints are then moved toward `wanted` again.
 Eigen::VectorXd by_fewer_joints(LineChecker& states, const Cell& cell, const Arm& arm,
                                 const Eigen::VectorXd& wanted, Eigen::VectorXd q) {
   for (int sweep = 0; sweep < kSweeps; ++sweep) {

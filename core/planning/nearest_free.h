@@ -8,17 +8,17 @@
 
 namespace armloom {
 
-// Joint positions near `wanted`, within the limits, at which the arm keeps its clearances from
-// everything as in the request; nullopt if none was found. The first free places around `wanted`
-// (places_around.h) are moved toward it while they stay free, by as few joints as possible.
-// Thread-safe and deterministic.
+// Joint positions near `wanted` and within the limits, at which the arm keeps its clearances from
+// everything else as in the request; nullopt if none were found. The first free candidates around
+// `wanted` (places_around.h) are moved toward it as far as they stay free. As few joints as
+// possible then differ from `wanted`. Thread-safe and deterministic.
 struct NearestFree {
   std::optional<Eigen::VectorXd> q;
   std::uint64_t evaluations = 0;
 };
 [[nodiscard]] NearestFree nearest_free(const PlanningScenePtr& scene, const PlanRequest& request,
                                        const Eigen::VectorXd& wanted);
-// Number of free places that are moved nearer.
+// Maximum number of free candidates that are moved toward `wanted`.
 inline constexpr int kFreePlacesMax = 8;
 
 }  // namespace armloom

@@ -9,7 +9,7 @@
 namespace armloom {
 namespace {
 
-// From the center, for joints without limits.
+// Maximum distance of candidates from the center for a joint without limits (rad or m).
 constexpr double kFarthest = std::numbers::pi;
 
 }  // namespace

@@ -6,9 +6,10 @@
 
 namespace armloom {
 
-// Returns the i-th (from 1) of kPlacesLookedAt joint positions around others, within the limits:
-// points of the Halton sequence in a box that grows with i up to the joints' ranges, or half a turn
-// for a joint without.
+// Returns the i-th (from 1) of kPlacesLookedAt candidate positions around `centre`, clamped to the
+// limits. Candidates are points of the Halton sequence in a box that grows with i. The largest box
+// extends from the center by the range of each joint, or by pi for a joint without limits (rad or
+// m).
 inline constexpr int kPlacesLookedAt = 256;
 [[nodiscard]] Eigen::VectorXd place_around(const Cell& cell, const Arm& arm,
                                            const Eigen::VectorXd& centre, int i);

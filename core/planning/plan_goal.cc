@@ -36,14 +36,14 @@ Result<Eigen::VectorXd> named_state(const Arm& arm, const std::string& name) {
                name);
 }
 
-// "left_link1, left_link2".
+// Returns the names of the arm's links: "left_link1, left_link2".
 std::string links_of(const Cell& cell, const Arm& arm) {
   std::string links;
   for (const LinkId link : arm.links) links += (links.empty() ? "" : ", ") + cell.link(link).name;
   return links;
 }
 
-// With the robot's prefix and without.
+// Returns the arm's links by name, both with and without the robot's prefix.
 std::map<std::string, LinkId> names_of_links(const Cell& cell, const Arm& arm) {
   std::map<std::string, LinkId> names;
   for (const LinkId link : arm.links) {
@@ -70,10 +70,10 @@ Result<LinkTarget> target_of(const Cell& cell, const Arm& arm, const PlanPose& p
   return LinkTarget{*last, pose.X_WL};
 }
 
-// Returns known arms, each once; reports others.
+// Returns the named arms that the cell has, each once. Reports names that are unknown or repeated.
 std::vector<std::pair<std::string, ArmId>> arms_of(const Cell& cell, const GoalArms& who,
                                                    Problems& problems) {
-  std::vector<std::pair<std::string, ArmId>> arms;  // each with its place
+  std::vector<std::pair<std::string, ArmId>> arms;  // place of the name, arm
   const auto add = [&](std::string place, const std::string& name) {
     auto arm = find_arm(cell, name);
     if (!arm) return add_below(place, std::move(arm.error()), problems);
@@ -104,8 +104,8 @@ std::vector<std::pair<std::string, ArmId>> arms_of(const Cell& cell, const GoalA
   return arms;
 }
 
-// Reports a goal link that the arm does not move: a fault of the arm among several, else of the
-// link.
+// Reports a goal link that the arm does not move. The remedy depends on whether `place` is that of
+// a candidate arm or of the link.
 void find_link_of_another(const Cell& cell, const MotionGoal& goal, const std::string& place,
                           Problems& problems) {
   const auto* target = std::get_if<LinkTarget>(&goal.to);

@@ -10,9 +10,10 @@
 
 namespace armloom {
 
-// The goal of an arm, from a client: exactly one of the three.
+// A client's goal for an arm. In PlanGoal exactly one of `joints`, `named` and `pose` is given.
 struct PlanPose {
-  // With or without the robot's prefix; by default the link of the arm's last joint.
+  // Name of the link, with or without the robot's prefix; by default the link of the arm's last
+  // joint.
   std::optional<std::string> link;
   Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();  // in the world (m)
 };
@@ -29,14 +30,17 @@ struct GoalArms {
   std::vector<std::string> arms;
 };
 
-// Problems have the pointer "".
+// Returns the arm of that name. The place of a problem is "".
 [[nodiscard]] Result<ArmId> find_arm(const Cell& cell, const std::string& name);
-// Converts the goal to the cell's terms, at the cell's speed. Problems (unknown state or link,
-// wrong number of joints) point below the goal ("/named"). The planner checks limits.
+// Converts the goal to ids of the cell, with the cell's default speed. The place of a problem is
+// relative to the goal ("/named"): unknown state or link, wrong number of joints. Joint limits are
+// not checked here, but by the planner.
 [[nodiscard]] Result<MotionGoal> goal_of(const Cell& cell, ArmId arm, const PlanGoal& said);
-// Converts the goal for each arm. Problems are those of goal_of() below `place` ("/move_to"), and
-// those of arms at "/arm", "/arms" or "/arms/1": none, unknown, named twice, or one of several that
-// does not move the link (for a single arm at "/pose/link").
+// Converts the goal for each arm. Places of problems:
+// - below `place` ("/move_to"): problems of goal_of(), and "/pose/link" if a single arm does not
+//   move the link;
+// - "/arm", "/arms" or "/arms/1": no arm is given, an arm is unknown or named twice, or one of
+//   several arms does not move the link.
 [[nodiscard]] Result<std::vector<MotionGoal>> goals_of(const Cell& cell, const GoalArms& who,
                                                        const PlanGoal& said,
                                                        const std::string& place);

@@ -7,11 +7,11 @@
 namespace armloom {
 namespace {
 
-// Corner cuts in the order tried; rad or m in joint space.
+// Maximum corner cuts in the order in which they are tried (rad or m in joint space).
 constexpr double kRoundings[] = {0.2, 0.05, 0.01, 0.002};
 
-// A path certified line by line may fail as a job, whose diagram has other cells: then try another
-// seed.
+// Number of seeds to try. A path that is certified line by line may still fail the check as a job,
+// whose diagram has other cells.
 constexpr int kTries = 3;
 
 }  // namespace
@@ -27,7 +27,7 @@ std::optional<Conflict> found_in_the_way(MotionChecker& checker, const PlanReque
                                          .method = Swept{tracking_error}});
   if (verdict.kind == Verdict::Kind::free) return std::nullopt;
   if (verdict.conflicts.empty()) return Conflict{Conflict::With::self, JobId{0}, {}, {}, {}, {}};
-  // The check also finds conflicts with arms that are left out.
+  // The check also finds conflicts with arms that the request ignores.
   const auto counts = [&](const Conflict& conflict) {
     const auto& arm = conflict.proximity.arm_b;
     return conflict.with != Conflict::With::rest || !arm ||
@@ -43,7 +43,7 @@ bool is_free(MotionChecker& checker, const PlanRequest& request, const Trajector
   return !found_in_the_way(checker, request, trajectory);
 }
 
-// Returns the path with times if a check finds it free.
+// Returns the path with times, or nullopt if no timing of it is certified free.
 std::optional<PlannedMotion> timed_way(MotionChecker& checker, const PlanRequest& request,
                                        const JointWay& way, const TimingOptions& options) {
   const Cell& cell = checker.scene()->cell();

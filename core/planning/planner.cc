@@ -20,7 +20,7 @@ using Reason = PlanRefusal::Reason;
 
 // Maximum length of a tree's edge: Euclidean, in joint space (rad, m).
 constexpr double kStep = 1.2;
-// Node comparisons that take as long as one evaluation.
+// Number of node comparisons that take as long as one evaluation.
 constexpr std::uint64_t kCompared = 250;
 
 std::string mm(double metres) {
@@ -52,7 +52,8 @@ std::string in_words(const LineChecker::Answer& answer) {
   return armloom::in_words(*answer.proximity, answer.moves_m);
 }
 
-// Limits; for joints without limits, half a turn beyond start and goals.
+// Returns the range in which samples are drawn. A joint without limits has a range of half a turn
+// beyond the start and the goals.
 JointRoom room_of(const Cell& cell, const Arm& arm, const Eigen::VectorXd& start,
                   const std::vector<Eigen::VectorXd>& goals) {
   JointRoom room{start, start};
@@ -111,8 +112,8 @@ class Search {
   [[nodiscard]] bool stop() const {
     return lines_.evaluations() + compared_ / kCompared >= request_.budget || cancelled();
   }
-  // Before each edge, RRT-Connect compares a sample with all nodes of a tree. With few joints this
-  // takes longer than the edges, so the budget includes it.
+  // Before each edge, RRT-Connect compares a sample with all nodes of a tree. With few joints these
+  // comparisons take longer than the checks of edges, so the budget includes them.
   [[nodiscard]] bool joins(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
     compared_ += nodes_;
     const bool free = is_free(from, to);
@@ -132,7 +133,8 @@ class Search {
     return {std::move(points), goal, lines_.evaluations()};
   }
 
-  // Fills goals_ with free goals, nearest first.
+  // Fills goals_ with the free goals, nearest first. Returns a refusal if the start or every goal
+  // is unusable.
   std::optional<PlanRefusal> check_ends() {
     if (auto refusal = outside(cell_, arm_, start_, kStart)) return refusal;
     if (const auto answer = lines_.state(start_); answer.kind != LineChecker::Kind::free) {
@@ -164,7 +166,7 @@ class Search {
   Eigen::VectorXd start_;
   LineChecker lines_;
   std::vector<std::size_t> goals_;
-  std::uint64_t nodes_ = 0, compared_ = 0;  // of the trees
+  std::uint64_t nodes_ = 0, compared_ = 0;  // of the trees: nodes, comparisons
 };
 
 }  // namespace
@@ -201,7 +203,7 @@ std::string in_words(const Proximity& p, double moves_m) {
   const std::string distance =
       p.clearance_m > 0.0 ? " is " + mm(p.clearance_m) + " from " : std::string(" touches ");
   std::string text = p.body_a + distance + p.body_b;
-  const bool is_contact_alone = p.limit_m <= kTouching_m;  // a clearance of zero
+  const bool is_contact_alone = p.limit_m <= kTouching_m;  // the required clearance is zero
   text += "; " + (is_contact_alone ? "contact is not allowed" : mm(p.limit_m) + " are required");
   if (p.clearance_m < p.limit_m) return text;
   if (moves_m > 0.0) return text + ", plus " + mm(moves_m) + " for the tracking error";

@@ -15,8 +15,8 @@ constexpr double kConverged = 1e-7;  // m and rad
 }  // namespace
 
 // Levenberg-Marquardt with damping by the error (Sugihara, "Solvability-Unconcerned Inverse
-// Kinematics by the Levenberg-Marquardt Method", IEEE T-RO 2011). KDL's solver fails an assertion
-// of Eigen in Debian's build.
+// Kinematics by the Levenberg-Marquardt Method", IEEE T-RO 2011). KDL's own solver is not used,
+// because it fails an assertion of Eigen in Debian's build.
 Eigen::VectorXd descend(const Cell& cell, const Arm& arm, const KdlChain& chain,
                         const Eigen::Isometry3d& X_WL, Eigen::VectorXd q) {
   KDL::ChainFkSolverPos_recursive fk(chain.chain);

@@ -6,8 +6,9 @@
 
 namespace armloom {
 
-// Moves the arm's joints from `q` toward the pose X_WL (in the world) of the chain's link: damped
-// steps within the joints' limits. The result may miss the pose. Internal to core/planning.
+// Moves the arm's joints from `q` in damped steps within their limits, so that the chain's link
+// approaches the pose X_WL in the world. Returns the joint positions, which may miss the pose.
+// Internal to core/planning.
 [[nodiscard]] Eigen::VectorXd descend(const Cell& cell, const Arm& arm, const KdlChain& chain,
                                       const Eigen::Isometry3d& X_WL, Eigen::VectorXd q);
 

@@ -16,7 +16,7 @@ namespace {
 
 using Reason = PlanRefusal::Reason;
 
-// More seeds: the Halton sequence over the joints' ranges.
+// Number of further seeds, from the Halton sequence over the joints' ranges.
 constexpr int kFurtherSeeds = 40;
 
 class PoseSearch {
@@ -63,7 +63,7 @@ class PoseSearch {
     return seeds;
   }
 
-  // Removes whole turns, toward the current position, within limits.
+  // Moves each rotating joint by whole turns, as near to its current position as its limits permit.
   void unwind(Eigen::VectorXd& q) const {
     constexpr double kTurn = 2.0 * std::numbers::pi;
     for (Eigen::Index j = 0; j < q.size(); ++j) {

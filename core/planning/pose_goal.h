@@ -17,18 +17,19 @@ struct PoseGoal {
   Eigen::Isometry3d X_WL;
 };
 
-// Accuracy of solutions by the cell's own forward kinematics.
+// Maximum error of a solution, computed by the cell's own forward kinematics.
 inline constexpr double kPoseWithin_m = 1e-4;
 inline constexpr double kPoseWithin_rad = 1e-4;
 // Maximum number of solutions.
 inline constexpr std::size_t kPoseSolutionsMax = 16;
 
-// Returns joint positions of the arm that put the link at the pose, within the joints' limits, the
-// nearest to the arm's position in `at` first. Damped least squares on Orocos KDL's kinematics,
-// from that position, home, named states and a fixed list of others; each solution once. Other
-// joints stay as in `at`. Solutions may be in collision: the planner takes all as goals. Refusals,
-// goal_not_reached: the arm does not move the link, or no solution was found, with the nearest
-// pose. Thread-safe and deterministic.
+// Returns joint positions of the arm, within their limits, that put the link at the pose. Each
+// solution is returned once, the nearest to the arm's position in `at` first. Other joints stay as
+// in `at`. Solutions may be in collision, so the planner takes all of them as goals. The method is
+// damped least squares on Orocos KDL's kinematics. Seeds are the arm's position in `at`, its home,
+// its named states and a fixed list of further positions. Refused (goal_not_reached) if the arm
+// does not move the link, or if no solution was found. The latter refusal has the nearest pose
+// found. Thread-safe and deterministic.
 [[nodiscard]] tl::expected<std::vector<Eigen::VectorXd>, PlanRefusal> reach_pose(
     const Cell& cell, const PoseGoal& goal, const Configuration& at);
 

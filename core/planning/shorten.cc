@@ -8,7 +8,8 @@ namespace {
 
 using Points = std::vector<Eigen::VectorXd>;
 
-// From each kept point, keeps the farthest point on a free line.
+// Leaves out points that are not needed: after each kept point, keeps the farthest point that a
+// free line reaches.
 void leave_out(Points& points, const Shortening& by) {
   Points kept{points.front()};
   for (std::size_t from = 0; from + 1 < points.size();) {
@@ -67,7 +68,7 @@ void shorten(Points& points, const Shortening& by) {
     if (whole - length_of(next) > 0.01 * whole) failures = 0;
     points = std::move(next);
   }
-  // Drops points that became unnecessary.
+  // Leave out points that random lines made unnecessary.
   leave_out(points, by);
 }
 

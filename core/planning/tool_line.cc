@@ -20,8 +20,8 @@ using Reason = PlanRefusal::Reason;
 // The link moves about this far between samples.
 constexpr double kLook_m = 1e-4;
 constexpr double kLook_rad = 1e-3;
-// Softened corners of the joints' path (TimingOptions::off_path), rad or m: less than a tenth of
-// the tolerance even for a long arm.
+// Maximum deviation at softened corners of the joints' path (TimingOptions::off_path, rad or m).
+// Even for a long arm, the link then deviates by less than a tenth of the tolerance.
 constexpr double kOffPath = 1e-4;
 
 class ToolLine {
@@ -42,7 +42,7 @@ class ToolLine {
                                         "link " + cell_.link(goal_.link).name +
                                             " is not moved by the joints of arm " + arm_.name});
     }
-    // Bounds lines that no arm could reach.
+    // Bounds the number of steps, also for lines longer than any arm.
     const double steps =
         std::min(1e6, std::max(length_ / kLineStep_m, std::abs(angle_) / kLineStep_rad));
     const int count = std::max(4, static_cast<int>(std::ceil(steps)));
@@ -59,8 +59,8 @@ class ToolLine {
     return points;
   }
 
-  // Returns a refusal if the motion leaves the line. Between two samples the link is no farther off
-  // than at the nearer sample, plus half of its motion.
+  // Returns a refusal if the motion leaves the line. The deviation between two samples is at most
+  // that of the nearer sample plus half of the link's motion between them.
   [[nodiscard]] std::optional<PlanRefusal> leaves(const Trajectory& motion,
                                                   const std::vector<Eigen::VectorXd>& points) {
     const double looks = std::max({length_ / kLook_m, std::abs(angle_) / kLook_rad, 100.0});
@@ -79,7 +79,7 @@ class ToolLine {
       const double off_rad = Eigen::AngleAxisd(off.linear()).angle() + goes_rad / 2;
       if (off_m > kLineWithin_m || off_rad > kLineWithin_rad) {
         PlanRefusal left =
-            refusal(share, "the joints may leave the line by " + text(1e3 * off_m) + " mm and " +
+            refusal(share, "the link may leave the line by " + text(1e3 * off_m) + " mm and " +
                                text(off_rad) + " rad; " + text(1e3 * kLineWithin_m) + " mm and " +
                                text(kLineWithin_rad) + " rad are allowed");
         const auto steps = static_cast<double>(points.size() - 1);
@@ -91,14 +91,14 @@ class ToolLine {
     return std::nullopt;
   }
 
-  // Returns a refusal at this share of the line.
+  // Returns a refusal whose text states this share of the line (0 to 1).
   [[nodiscard]] PlanRefusal refusal(double share, const std::string& why) const {
     const std::string& link = cell_.link(goal_.link).name;
     PlanRefusal broken{Reason::line_broken, link + ", " + place(share) + ": " + why};
     broken.link = link;
     return broken;
   }
-  // Describes the link's place at that instant.
+  // Describes where on the line the link is at the time `when`.
   [[nodiscard]] std::string place_of(const Trajectory& motion, Duration when) {
     Eigen::VectorXd q;
     motion.sample_positions(when, q);
@@ -114,7 +114,8 @@ class ToolLine {
     return X;
   }
 
-  // Returns the share of a pose near the line; by the angle if the link only turns.
+  // Returns the share of the line (0 to 1) up to a pose near the line. If the link only turns, it
+  // is the share of the angle.
   [[nodiscard]] double share_of(const Eigen::Isometry3d& X) const {
     double share = 0.0;
     if (length_ > kLineWithin_m) {
@@ -176,7 +177,8 @@ class ToolLine {
   double length_ = 0.0;
 };
 
-// Returns the last point up to which the arm keeps its clearances; nullopt if the first does not.
+// Returns the last point up to which the arm keeps its clearances, or nullopt if it does not keep
+// them at the first point.
 NearestFree last_free(const PlanningScenePtr& scene, const PlanRequest& request,
                       const std::vector<Eigen::VectorXd>& points) {
   LineChecker lines(scene, request.arm, request.at, scene->cell().checking.tracking_error_rad,

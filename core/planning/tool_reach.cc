@@ -30,8 +30,8 @@ Result<LinkId> tool_of(const Cell& cell, const Arm& arm, const std::optional<std
                          name.value_or("")});
 }
 
-// Bounds the tool's distance from the first joint: the links end to end, plus travel of prismatic
-// joints.
+// Returns an upper bound on the tool's distance from the arm's first joint (m): the lengths of all
+// links plus the travel of prismatic joints.
 double farthest(const Cell& cell, const Arm& arm, LinkId tool, const LinkPoses& X_WL) {
   double sum = 0.0;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();
@@ -73,7 +73,8 @@ class ToolSweep {
     stands_.fill(cell_.arm(arm).home);
   }
 
-  // Starts from the last solution of the direction.
+  // Returns true if the tool reaches this place in this direction. The search starts from the last
+  // solution for the direction.
   bool reaches(const Eigen::Vector3d& place, std::size_t direction) {
     Eigen::Isometry3d X_WL = Eigen::Isometry3d::Identity();
     X_WL.translation() = place;
@@ -111,7 +112,7 @@ struct ReachBall {
   double radius_m;
 };
 
-// Grid points are multiples of the step.
+// Returns the grid that covers all balls. The coordinates of its points are multiples of the step.
 ReachGrid grid_over(const std::vector<ReachBall>& balls, double step_m) {
   Eigen::Vector3d lower = Eigen::Vector3d::Constant(1e9), upper = -lower;
   for (const ReachBall& ball : balls) {

@@ -34,7 +34,7 @@ struct ReachGrid {
 struct ArmReach {
   ArmId arm;
   LinkId tool;
-  Eigen::Vector3d base;                  // of its first joint (m)
+  Eigen::Vector3d base;                  // position of its first joint in the world (m)
   std::vector<std::uint8_t> directions;  // by place: number of directions reached
 };
 
@@ -51,10 +51,11 @@ struct ToolReach {
 inline constexpr std::size_t kReachDirections = 5;
 inline constexpr std::size_t kReachPlacesMax = 200'000;
 
-// Returns poses as reached if inverse kinematics (pose_goal.h) finds joint positions at which the
-// arm keeps its clearance from the scene and itself; other arms are ignored. The grid covers a ball
-// about each arm's first joint that its tool cannot leave. Deterministic. Problems: "--link" (an
-// arm has no such link), "--step" (too many places).
+// Counts the poses that each arm's tool reaches on the grid. A pose is reached if inverse
+// kinematics (pose_goal.h) finds joint positions at which the arm keeps its clearance from the
+// scene and itself. Other arms are ignored. The grid covers a ball around each arm's first joint
+// that the arm's tool cannot leave. Deterministic. Problems: "--link" (an arm has no such link),
+// "--step" (the grid has too many places).
 [[nodiscard]] Result<ToolReach> tool_reach(const PlanningScenePtr& scene,
                                            const ReachQuestion& question);
 

@@ -32,7 +32,7 @@ void set(ob::State* state, const Eigen::VectorXd& q) {
   }
 }
 
-// Replaces OMPL's process-wide random source, which is not repeatable.
+// Draws samples from a seed, because OMPL's process-wide random source is not repeatable.
 class SeededSampler final : public ob::StateSampler {
  public:
   SeededSampler(const ob::StateSpace* space, const JointRoom& room, std::uint64_t seed)
@@ -46,7 +46,7 @@ class SeededSampler final : public ob::StateSampler {
     }
     set(state, q);
   }
-  // RRT-Connect uses neither.
+  // RRT-Connect does not call these two functions.
   void sampleUniformNear(ob::State* state, const ob::State*, double) override {
     sampleUniform(state);
   }

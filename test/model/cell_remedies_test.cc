@@ -188,8 +188,8 @@ TEST(UngroupedJoints, OutsideAllArmsCauseAWarning) {
   CellDescription cell = two_arms_description();
   cell.robots[0].arms.pop_back();
   EXPECT_THAT(warnings_of(cell),
-              HasSubstr("/robots/0 | robot twin: joint r_spin, r_bend in no arm's group, so the "
-                        "links that it moves are checked only at its position 0"));
+              HasSubstr("/robots/0 | robot twin: joint r_spin, r_bend is in no arm's group, so "
+                        "the links that it moves are checked only at its position 0"));
 }
 
 TEST(UngroupedJoints, BetweenJointsOfAGroupCauseAWarning) {

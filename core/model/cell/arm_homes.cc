@@ -22,7 +22,8 @@ void warn_if_held_elsewhere(const RobotBuild& robot, const ArmBuild& build, std:
                     value});
 }
 
-// Returns values in the arm's order. Adds to `faults` why the state cannot be a home.
+// Returns the state's joint positions in the arm's order. Adds the reasons why the state cannot be
+// a home to state.faults.
 Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const std::string& name,
                           NamedState& state, const Cell& cell) {
   const auto& joints = cell.arm(arm.id).joints;
@@ -61,7 +62,8 @@ Eigen::VectorXd values_of(const RobotBuild& robot, const ArmBuild& arm, const st
   return values;
 }
 
-// Keeps states without faults. Faults are problems for the arm's home, else warnings.
+// Adds the named states without faults to the arm. Faults of the state that is the arm's home are
+// problems; faults of other states are warnings.
 void read_named_states(const RobotBuild& robot, const ArmBuild& build,
                        std::map<std::string, NamedState>& states, Cell& cell,
                        Diagnostics& diagnostics) {
@@ -84,7 +86,7 @@ std::string listed(const std::map<std::string, NamedState>& states) {
   return text.empty() ? "none" : text;
 }
 
-// Reports a home that names an unknown state. A state with faults has reported them already.
+// Reports a home that names an unknown state. The faults of a known state were reported before.
 void refuse_unknown_state(const RobotBuild& robot, const ArmDescription& arm,
                           const std::string& pointer, Diagnostics& diagnostics) {
   std::map<std::string, NamedState> none;
@@ -102,7 +104,8 @@ void refuse_unknown_state(const RobotBuild& robot, const ArmDescription& arm,
                       arm.home_state);
 }
 
-// Without a tree, checks the SRDF's states and the cell's homes against each other.
+// If the URDF could not be read, reports the faults of the SRDF's states, and homes that name an
+// unknown state.
 void tell_homes_without_tree(RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.semantics) return;
   const auto& arms = robot.description->arms;
@@ -120,7 +123,8 @@ void tell_homes_without_tree(RobotBuild& robot, Diagnostics& diagnostics) {
   }
 }
 
-// Returns the home that is named as a state, or nullopt with a report.
+// Returns the positions of the named state that is the arm's home. If the state is unusable,
+// returns nullopt; the faults are reported.
 std::optional<Eigen::VectorXd> named_home(const RobotBuild& robot, const ArmBuild& build,
                                           const Arm& arm, Diagnostics& diagnostics) {
   const std::string& name = build.description->home_state;
@@ -130,7 +134,8 @@ std::optional<Eigen::VectorXd> named_home(const RobotBuild& robot, const ArmBuil
   return std::nullopt;
 }
 
-// Returns the listed home, with or without values for fixed joints, or nullopt with a report.
+// Returns the home that the cell file lists as positions, which may include the fixed joints. If
+// the list has faults, reports them and returns nullopt.
 std::optional<Eigen::VectorXd> listed_home(const RobotBuild& robot, const ArmBuild& build,
                                            const Arm& arm, Diagnostics& diagnostics) {
   const std::vector<double>& home = build.description->home;
@@ -173,7 +178,7 @@ void check_home(const ArmBuild& build, const Arm& arm, const Cell& cell, Diagnos
   }
 }
 
-// Sets the start positions of joints outside the arm groups.
+// Sets the start positions of joints that are in no arm's group.
 void settle_grippers(const RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
   for (const auto& joint : robot.joints) {
     if (!joint) continue;

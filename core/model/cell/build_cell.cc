@@ -44,7 +44,7 @@ void load_meshes_of_objects(Cell& cell, MeshCache& meshes, Diagnostics& diagnost
   for (std::size_t o = 0; o < cell.objects.size(); ++o) {
     const auto* mesh = std::get_if<Mesh>(&cell.objects[o].shape);
     std::error_code error;
-    // Other objects were reported by check_objects.
+    // Faulty mesh objects are not loaded: check_objects has reported them.
     if (mesh == nullptr || !std::filesystem::is_regular_file(mesh->path, error)) continue;
     if (!mesh->scale.allFinite() || (mesh->scale.array() == 0.0).any()) continue;
     load_mesh_of(cell.objects[o].shape, "/objects/" + std::to_string(o) + "/mesh",
@@ -58,8 +58,8 @@ std::set<std::string> used_groups(const RobotDescription& robot) {
   return groups;
 }
 
-// Reads the robot's files as far as possible. Without a readable URDF the tree is empty and its
-// names are unknown; the other files are still checked against each other.
+// Reads the robot's files as far as possible. If the URDF is unreadable, the tree is empty and the
+// names of links and joints are unknown. The other files are still checked against each other.
 RobotBuild read_robot(const RobotDescription& description, std::size_t index, MeshCache& meshes,
                       Diagnostics& diagnostics) {
   const std::string pointer = "/robots/" + std::to_string(index);
@@ -119,7 +119,7 @@ void add_joints(RobotBuild& robot, Cell& cell) {
                            .robot = robot.id,
                            .arm = std::nullopt,
                            .kind = *link.joint.motion,
-                           .lower = 0.0,  // until settle_limits
+                           .lower = 0.0,  // settle_limits() sets the limits
                            .upper = 0.0,
                            .velocity_max = kDefaultVelocity,
                            .acceleration_max = kDefaultAcceleration,
@@ -128,7 +128,7 @@ void add_joints(RobotBuild& robot, Cell& cell) {
   }
 }
 
-// Precondition: the robot's joints are in the cell.
+// Adds the robot's links to the cell. Precondition: the robot's joints are in the cell.
 void add_links(RobotBuild& robot, Cell& cell) {
   for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
     TreeLink& source = robot.tree.links[i];
@@ -158,8 +158,8 @@ void add_links(RobotBuild& robot, Cell& cell) {
   }
 }
 
-// Reports one prefixed link and joint name of another robot: without prefixes, robots of one URDF
-// share all.
+// Reports a link name and a joint name, with prefix, that another robot also has. Reports only one
+// of each, because two robots of one URDF without prefixes share all names.
 void check_prefixed_names(const RobotBuild& robot, std::set<std::string>& links,
                           std::set<std::string>& joints, Diagnostics& diagnostics) {
   const auto first_taken = [&](const auto& by_name, std::set<std::string>& known) {
@@ -283,7 +283,8 @@ Result<CellPtr> build_cell(const CellDescription& description, Problems& warning
     add_robot(std::move(build), *cell, diagnostics);
   }
   check_objects_are_no_links(description, links, diagnostics);
-  // Unread link names would be reported as unknown.
+  // If some link names could not be read, valid pairs with these names would be reported as
+  // unknown.
   if (complete) allow_pairs_of_cell(description, *cell, diagnostics);
   warn_of_cell(description, *cell, diagnostics);
   warn_of_settings(description, *cell, diagnostics);

@@ -7,11 +7,12 @@
 namespace armloom {
 
 // Reads the URDF, SRDF and joint limits files that the description names, and builds the cell.
-// Returns every problem found, not only the first. The place of a problem is "panda.urdf:12: joint
-// panda_joint3" or a JSON pointer into the cell file ("/robots/0/arms/0/home/3"). If a line in the
-// cell file would help, the message quotes it. Collisions are not checked: core/collision checks
-// that homes are collision-free. `warnings` is overwritten, also if there are problems, with
-// probable mistakes and ignored input, each with its consequence.
+// Returns every problem found, not only the first. The place of a problem is a place in a robot
+// file ("panda.urdf:12: joint panda_joint3") or a JSON pointer into the cell file
+// ("/robots/0/arms/0/home/3"). If a line in the cell file solves the problem, the message quotes
+// that line. Overwrites `warnings`, also if there are problems. Each warning names a probable
+// mistake or ignored input, and its consequence. Does not check collisions; core/collision checks
+// that homes are collision-free.
 [[nodiscard]] Result<CellPtr> build_cell(const CellDescription& description, Problems& warnings);
 [[nodiscard]] Result<CellPtr> build_cell(const CellDescription& description);
 

@@ -5,7 +5,7 @@
 namespace armloom {
 namespace {
 
-// Lists the groups that an arm can have: those with joints that the cell moves.
+// Lists the names of the groups that an arm can have: groups with at least one movable joint.
 std::string usable_groups(const RobotBuild& robot) {
   std::string text;
   for (const auto& [name, joints] : robot.semantics->groups) {
@@ -17,8 +17,8 @@ std::string usable_groups(const RobotBuild& robot) {
   return text.empty() ? "no group has movable joints" : "groups with movable joints: " + text;
 }
 
-// Returns the arm's joints, fixed ones included, or nullopt with a report. Without an SRDF all
-// joints form one arm, whose group has no name.
+// Returns the joints of the arm's group, including fixed joints. If the group is unusable, reports
+// it and returns nullopt. Without an SRDF, all joints form one arm, whose group has no name.
 std::optional<RobotSemantics::JointSet> group_joints(const RobotBuild& robot,
                                                      const ArmDescription& arm,
                                                      const std::string& pointer,
@@ -76,7 +76,7 @@ void add_arms(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
       const JointId joint_id = *robot.joints[index];
       arm.joints.push_back(joint_id);
       Joint& joint = cell.joints[joint_id.index()];
-      if (!joint.arm) joint.arm = id;  // else shared: refuse_shared_joints reports it
+      if (!joint.arm) joint.arm = id;  // else refuse_shared_joints reports the joint
     }
     cell.robots[robot.id.index()].arms.push_back(id);
     cell.arms.push_back(std::move(arm));
@@ -85,7 +85,7 @@ void add_arms(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
 }
 
 void assign_to_arms(const RobotBuild& robot, Cell& cell) {
-  // A gripper's mimic joint may carry joints anywhere in the tree: repeat until stable.
+  // A gripper's mimic joint may move links anywhere in the tree, so repeat until nothing changes.
   for (bool settled = false; !settled;) {
     settled = true;
     for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {

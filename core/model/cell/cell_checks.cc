@@ -24,7 +24,8 @@ void check_name(const std::string& name, const std::string& kind, const std::str
   }
 }
 
-// Reports a setting that breaks `rule`. All comparisons below make `holds` false for NaN.
+// Reports a setting that is not finite or for which `holds` is false; `rule` completes the message.
+// The conditions below are false for NaN.
 void require(bool holds, double value, const std::string& pointer, const std::string& rule,
              Diagnostics& diagnostics) {
   if (holds && std::isfinite(value)) return;

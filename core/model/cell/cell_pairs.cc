@@ -7,8 +7,8 @@ namespace armloom {
 
 namespace {
 
-// Returns true for links of different arms, and for an arm's link and a static link that is not its
-// mount.
+// Returns true if an SRDF that disables this pair only claims that its links cannot meet: links of
+// different arms, or an arm's link and a static link that is not the arm's mount.
 bool is_only_claimed(const Cell& cell, LinkId a, LinkId b) {
   const auto& arm_a = cell.link(a).arm;
   const auto& arm_b = cell.link(b).arm;
@@ -24,7 +24,7 @@ void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell) {
     cell.allowed.link_pairs.insert(std::minmax(robot.links[a], robot.links[b]));
   };
   std::map<std::size_t, std::vector<std::size_t>>
-      bodies;  // first link of a rigid body -> its links
+      bodies;  // first link of a rigid body -> all links of that body
   std::vector<std::size_t> body_of;
   for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
     const TreeLink& link = robot.tree.links[i];

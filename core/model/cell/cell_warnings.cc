@@ -8,7 +8,7 @@
 namespace armloom {
 namespace {
 
-constexpr double kHuge_m = 10.0;  // of a link's mesh
+constexpr double kHuge_m = 10.0;  // a link's mesh of this size is probably a unit error
 constexpr double kHugeObject_m = 100.0;
 constexpr double kTiny_m = 0.002;
 
@@ -75,7 +75,7 @@ class MeshWarnings {
  public:
   explicit MeshWarnings(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  // Checks each file once: robots of one kind share their meshes.
+  // Checks each mesh file only once, because robots of one kind share their meshes.
   void look_at(const Shape& shape, const std::string& place, const std::string& whose,
                bool of_link) {
     const auto* mesh = std::get_if<Mesh>(&shape);

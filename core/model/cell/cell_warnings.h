@@ -5,7 +5,8 @@
 
 namespace armloom {
 
-// Warns of probable mistakes, each with its consequence. The cell may be incomplete. Checked are:
+// Warns of probable mistakes, and states the consequence of each. The cell may be incomplete.
+// Mistakes are:
 // - brakes weaker than the acceleration,
 // - arms with more lag or measurement noise than motions are certified for,
 // - meshes that are flat or not closed, or whose size suggests a unit error.

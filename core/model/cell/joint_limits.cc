@@ -13,7 +13,7 @@ const ArmBuild* arm_of(const RobotBuild& robot, const Joint& joint) {
   return found == robot.arms.end() ? nullptr : &*found;
 }
 
-// Lists the joints that can have limits.
+// Lists the names of the joints that can have limits.
 std::string joints_of(const RobotTree& tree) {
   std::string names;
   for (const TreeLink& link : tree.links) {
@@ -36,7 +36,7 @@ std::string no_such_joint(const RobotBuild& robot, const ArmDescription& arm,
   return sentence + ": it belongs to another arm or to none, or follows another joint";
 }
 
-// Reports names in "limits" that are neither joints of the arm nor of its gripper.
+// Reports names in the arm's "limits" that are neither joints of the arm nor joints of its gripper.
 void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
                  Diagnostics& diagnostics) {
   for (const auto& [name, given] : arm.description->limits) {
@@ -53,7 +53,7 @@ void check_names(const RobotBuild& robot, const ArmBuild& arm, const Cell& cell,
     const auto joint =
         link == robot.tree.by_joint.end() ? std::nullopt : robot.joints[link->second];
     if (joint && cell.joint(*joint).arm == arm.id) continue;
-    if (joint && robot.tree.patched) continue;  // it may be misplaced
+    if (joint && robot.tree.patched) continue;  // the joint may be misplaced
     diagnostics.in_cell("unknown-joint", pointer, no_such_joint(robot, *arm.description, name),
                         name);
   }
@@ -78,7 +78,7 @@ void check_names_without_group(const RobotBuild& robot, Diagnostics& diagnostics
   }
 }
 
-// Warns of a file that is older than the URDF.
+// Warns of joints in joint_limits.yaml that the URDF does not have: the file is probably outdated.
 void warn_of_stale_joints(const RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.limits_file || robot.tree.nameless) return;
   std::string names;
@@ -93,7 +93,8 @@ void warn_of_stale_joints(const RobotBuild& robot, Diagnostics& diagnostics) {
        file + ": joints that are not in " + robot.tree.file + " are left out: " + names, names});
 }
 
-// Without known joints, reports all faults: any joint may need the limits.
+// If joint names of the URDF are unknown, any unknown joint in joint_limits.yaml may need its
+// limits. Therefore reports all faults of such limits.
 void tell_limits_without_joint(RobotBuild& robot, Diagnostics& diagnostics) {
   if (!robot.limits_file || !robot.tree.nameless) return;
   for (auto& [name, joint] : robot.limits_file->joints) {
@@ -101,7 +102,7 @@ void tell_limits_without_joint(RobotBuild& robot, Diagnostics& diagnostics) {
   }
 }
 
-// Warns of mimic joints that the followed joint moves beyond their own limits.
+// Warns of mimic joints that move beyond their own limits within the range of the followed joint.
 void warn_of_mimics(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics) {
   constexpr double kRounding = 2e-3;  // rad or m
   for (const TreeLink& link : robot.tree.links) {
@@ -152,7 +153,7 @@ void settle_limits(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics) {
       continue;
     }
     Joint& joint = cell.joints[robot.joints[i]->index()];
-    // A shared joint must be fixed, so it needs no limits.
+    // A joint shared by several arms must be fixed anyway, so it needs no limits.
     const bool shared = robot.shared.contains(*robot.joints[i]);
     const ArmBuild* arm = shared ? nullptr : arm_of(robot, joint);
     const bool own =

@@ -6,10 +6,11 @@
 namespace armloom {
 namespace {
 
-// A limit that exceeds the URDF's by less than this share was only rounded: the URDF's applies.
+// If a limit exceeds the URDF's by less than this share, it was probably only rounded. The URDF's
+// limit then applies without a warning.
 constexpr double kRounding = 1e-3;
 
-// Limits beyond these are implausible.
+// Larger limits are probably unit errors (degrees, millimeters).
 constexpr double kFarthestTurn_rad = 20.0;
 constexpr double kFarthestSlide_m = 20.0;
 constexpr double kFastestTurn_rad_s = 30.0;
@@ -59,7 +60,8 @@ void LimitsOfJoint::settle(LimitsFile::Joint* filed, Needs& needs) {
   settle_velocity();
   settle_rates();
   warn_of_units();
-  // A faulty limit that is unneeded or replaced is only a warning.
+  // Faults of the URDF's limits are problems only if a needed limit is missing. Otherwise they are
+  // warnings.
   if (own_ && !missing_.empty()) {
     needs.faulty = needs.faulty || link_.joint.limits.faults.count() > 0;
     diagnostics_.merge(std::move(link_.joint.limits.faults));

@@ -7,23 +7,25 @@
 
 namespace armloom {
 
-// Limits that an arm's joint needs and no file gives, as members of the cell file's "limits".
+// Limits that an arm's joints need and that no file gives. `members` is text to add to the cell
+// file's "limits".
 struct Needs {
   std::string names;    // "velocity of j1, position of j2"
   std::string members;  // "\"j1\": {\"velocity_rad_s\": 1}"
-  bool faulty = false;  // the URDF gives faulty ones, which are reported
+  bool faulty = false;  // the URDF gives them, but with faults that are reported
 };
 
 void append_item(std::string& list, const char* separator, const std::string& item);
 [[nodiscard]] std::string json_member(const std::string& key, const std::string& value);
 
-// Determines the limits of one joint. An arm's own joint needs position and velocity limits from a
-// file. A gripper joint takes defaults, with a warning. A joint that no arm moves needs no limits.
+// Determines the limits of one joint. For an arm's own joint, some file must give position and
+// velocity limits. A gripper joint without limits takes defaults, with a warning. A joint that no
+// arm moves needs no limits.
 class LimitsOfJoint {
  public:
   struct OwnerOfJoint {
     const ArmBuild* arm;  // nullptr if no arm moves the joint
-    bool own;             // in the arm's group, not in its gripper
+    bool own;             // true if in the arm's group, false if in its gripper
   };
   LimitsOfJoint(const RobotBuild& robot, TreeLink& link, Joint& joint, OwnerOfJoint owner,
                 Diagnostics& diagnostics);
@@ -38,8 +40,8 @@ class LimitsOfJoint {
 
   void need(const std::string& word, const std::string& members);
 
-  // Returns the cell file's value. Reports it and returns nullopt if not finite or, per `wider`,
-  // wider than the URDF's.
+  // Returns the cell file's value. If it is not finite, or if `wider` says that it is wider than
+  // the URDF's, reports it and returns nullopt.
   std::optional<double> from_cell(const std::optional<double>& value, const std::string& name,
                                   const std::optional<double>& urdf, bool wider);
 
@@ -48,14 +50,15 @@ class LimitsOfJoint {
 
   void refuse(const char* slug, const std::string& name, const std::string& rest, double value);
 
-  // Returns the narrower value of joint_limits.yaml and the URDF.
+  // Returns the narrower of the values in joint_limits.yaml and the URDF.
   std::optional<double> from_file(const std::optional<double>& value, const char* name,
                                   const std::optional<double>& urdf, double wider_by);
 
   // limits_of_position.cc
   void settle_positions();
 
-  // Sets the missing limit to 0, as the URDF specification and MoveIt do.
+  // If only one position limit is given, sets the other to 0, as the URDF specification and MoveIt
+  // do.
   void take_zero_for_the_other(UrdfLimits& urdf);
 
   void refuse_crossed();

@@ -50,8 +50,8 @@ void LimitsOfJoint::take_zero_for_the_other(UrdfLimits& urdf) {
        0.0);
 }
 
-// Opens the limits after their fault was reported, so that homes and states outside them are not
-// reported as well.
+// Removes the limits after their fault was reported. Otherwise homes and states outside of them
+// would be reported too.
 void LimitsOfJoint::say_nothing_more() {
   joint_.lower = -kInfinity;
   joint_.upper = kInfinity;

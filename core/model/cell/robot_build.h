@@ -34,10 +34,10 @@ struct RobotBuild {
   std::optional<LimitsFile> limits_file;       // nullopt without a readable file
   std::vector<LinkId> links;                   // tree index -> link of the cell
   std::vector<std::optional<JointId>> joints;  // tree index -> joint of the cell, if independent
-  std::vector<ArmBuild> arms;                  // with known groups
-  std::set<JointId> shared;                    // by several arms; already reported
+  std::vector<ArmBuild> arms;                  // arms whose group was found
+  std::set<JointId> shared;                    // joints shared by several arms; already reported
 
-  // Returns true if the file was unreadable, as reported.
+  // Returns true if the joint limits file could not be read, which was reported.
   [[nodiscard]] bool limits_unread() const {
     return !limits_file && !description->joint_limits.empty();
   }
@@ -47,33 +47,35 @@ struct RobotBuild {
 void add_arms(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics);
 void assign_to_arms(const RobotBuild& robot, Cell& cell);
 
-// Reports joints that several arms of the robot share, also upstream joints and joints of no arm,
-// because each arm would move the other. Remedy: fix the joint.
+// Reports movable joints on which the links of several arms depend, because each arm would move the
+// other. The joints may also be upstream of the arms and in no arm's group. Remedy: fix the joint.
 void refuse_shared_joints(RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics);
 
-// Checks joints in no arm's group, which never move. Reports a joint that would move an arm,
-// because its position is not given. Warns of joints that move other shapes, and of joints between
-// those of an arm's group.
+// Checks joints that are neither in an arm's group nor in a gripper, and thus never move. Reports
+// such a joint if an arm depends on it, because its position is not given. Warns of such joints
+// that move other shapes. Also warns of gripper joints between the joints of an arm's group.
 void tell_standing_joints(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics);
 
-// Warns of joints that are passive in the SRDF but in an arm's group.
+// Warns of joints that the SRDF declares passive although they are in an arm's group.
 void warn_of_passive_joints(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics);
 
 // Warns of geometry that is displayed but not checked: links with <visual> but no <collision>, and
 // arms without any collision shape.
 void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Diagnostics& diagnostics);
 
-// Sets all limits of the robot's joints. The cell file takes precedence over joint_limits.yaml, the
-// URDF and the defaults. Positions and velocities are never wider than the URDF's. Reports limits
-// that an arm's own joints need and no file gives.
+// Sets all limits of the robot's joints. For each limit the first source with a value applies: the
+// cell file, joint_limits.yaml, the URDF, the defaults. Positions and velocities are never wider
+// than the URDF's. Reports limits that an arm's own joints need and that no file gives.
 void settle_limits(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics);
 
-// Sets the named states and homes of the robot's arms. Precondition: its limits are settled.
+// Sets the named states and homes of the robot's arms. Precondition: settle_limits() was called.
 void settle_homes(RobotBuild& robot, Cell& cell, Diagnostics& diagnostics);
 
-// Adds the robot's link pairs that need no check: within one rigid body, or disabled by the SRDF
-// within one arm or between an arm and its mount. Without an SRDF, adds the two links of each
-// movable joint. Pairs disabled for different arms, or for an arm and its surroundings, become
+// Adds the robot's link pairs that need no check:
+// - pairs within one rigid body,
+// - pairs that the SRDF disables within one arm or between an arm and its mount,
+// - without an SRDF, the two links of each movable joint.
+// Pairs that the SRDF disables between two arms, or between an arm and its surroundings, become
 // AllowedCollisions::claimed_pairs.
 void allow_pairs_of_robot(const RobotBuild& robot, Cell& cell);
 

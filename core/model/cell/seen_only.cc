@@ -29,7 +29,7 @@ void warn_of_seen_only(const RobotBuild& robot, const Cell& cell, Diagnostics& d
   }
   for (const ArmBuild& build : robot.arms) {
     const Arm& arm = cell.arm(build.id);
-    std::size_t own = 0;  // 0 if the group belongs to another arm
+    std::size_t own = 0;  // links that the arm moves; 0 if its group belongs to another arm
     std::size_t solid = 0;
     for (std::size_t i = 0; i < robot.links.size(); ++i) {
       if (cell.link(robot.links[i]).arm != build.id) continue;

@@ -29,7 +29,7 @@ class SettingWarnings {
   }
 
  private:
-  // The key is the pointer's last part; `consequence` follows the value.
+  // Warns: "<key> is <value><consequence>". The key is the last part of the pointer.
   void warn(const std::string& pointer, double value, const std::string& consequence) const {
     const std::string key = pointer.substr(pointer.rfind('/') + 1);
     diagnostics_.warn({ProblemKind::invalid, "doubtful-setting", pointer,

@@ -8,7 +8,8 @@ namespace {
 
 using JointsOfTheCell = std::set<JointId>;
 
-// Returns for each tree index the joints that place the link: its own and those above.
+// Returns, for each tree index, the joints on which the link's pose depends: its own joint, and all
+// joints between it and the root.
 std::vector<JointsOfTheCell> joints_above(const RobotBuild& robot, const Cell& cell) {
   std::vector<JointsOfTheCell> above;
   for (std::size_t i = 0; i < robot.tree.links.size(); ++i) {
@@ -19,7 +20,8 @@ std::vector<JointsOfTheCell> joints_above(const RobotBuild& robot, const Cell& c
   return above;
 }
 
-// Returns the joints that place the arm's motions: its own and all above.
+// Returns the joints on which the poses of the arm's links depend: its own joints with its gripper,
+// and all joints between them and the root.
 JointsOfTheCell joints_that_place(const Arm& arm, ArmId id, const Cell& cell,
                                   const RobotBuild& robot,
                                   const std::vector<JointsOfTheCell>& above) {
@@ -36,7 +38,7 @@ std::string plain_name(const RobotBuild& robot, const Cell& cell, JointId joint)
   return cell.joint(joint).name.substr(robot.description->prefix.size());
 }
 
-// Returns the line that fixes the joints at permitted values nearest to 0.
+// Returns the cell file line that fixes each joint at its permitted position nearest to 0.
 std::string line_to_hold(const RobotBuild& robot, const Cell& cell,
                          const std::vector<JointId>& joints) {
   std::string members;

@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Returns the joints of no arm that place the link.
+// Returns the joints that belong to no arm and on which the link's pose depends.
 std::set<JointId> standing_above(const Cell& cell, LinkId id) {
   std::set<JointId> joints;
   for (std::optional<LinkId> link = id; link; link = cell.link(*link).parent) {
@@ -51,7 +51,7 @@ class StandingJoints {
     }
   }
 
-  // Warns of other joints that move shapes, such as a sliding table.
+  // Warns of joints that move shapes but no arm, such as the joint of a sliding table.
   void warn_of_others() {
     std::set<JointId> others;
     for (const LinkId link : robot_.links) {
@@ -67,14 +67,14 @@ class StandingJoints {
     diagnostics_.warn(
         {ProblemKind::invalid, "stationary-joint", robot_.pointer,
          "robot " + robot_.description->name + ": " + names +
-             " in no arm's group, so the links that it moves are checked only at its position 0 "
+             " is in no arm's group, so the links that it moves are checked only at its position 0 "
              "(or at the limit next to 0); if it is elsewhere, " +
              how_to_hold(line),
          names});
   }
 
-  // Warns of a gripper joint between joints of an arm's group: its position changes the geometry
-  // that the group's motions are checked against.
+  // Warns of a gripper joint between joints of an arm's group: its position changes the poses of
+  // the arm's links.
   void warn_of_gaps() {
     for (const ArmBuild& build : robot_.arms) {
       std::set<std::string> skipped;

@@ -33,7 +33,8 @@ std::string scalar_of(const YAML::Node& node) {
   return node.IsScalar() ? node.Scalar() : node.IsNull() ? "nothing" : "no single value";
 }
 
-// Reads the keys of one joint. Reports duplicates, of which YAML silently uses the first.
+// Reads the keys of one joint. Reports duplicate keys, because the YAML library silently uses the
+// first.
 class JointReader {
  public:
   JointReader(const YAML::Node& node, const std::string& file, const std::string& name,
@@ -97,7 +98,8 @@ class JointReader {
     }
   }
 
-  // A key similar to a known key was probably meant as a limit.
+  // Reports an unknown key. If it resembles a known key, it was probably meant as a limit, so it is
+  // a fault; otherwise it is a warning.
   void unknown(const std::string& place, const std::string& key) {
     const auto meant = nearest_name(key, kKnown);
     if (meant) {
@@ -114,7 +116,8 @@ class JointReader {
     return at_line(file_, mark) + ": joint " + name_;
   }
 
-  // Returns true if the limit is present and its has_... is not false, or if its has_... is true.
+  // Returns true if the limit applies: has_... is true, or has_... is missing and the limit is
+  // present.
   [[nodiscard]] bool counts(const std::optional<bool>& has, const char* limit) const {
     return has ? *has : static_cast<bool>(node_[limit]);
   }
@@ -151,7 +154,7 @@ class JointReader {
     return in_radians(key, value, *read);
   }
 
-  // ROS has tags for angles: !degrees 90.
+  // Returns the value in radians. ROS marks angles in degrees with a tag: !degrees 90.
   std::optional<double> in_radians(const char* key, const YAML::Node& value, double read) {
     const std::string& tag = value.Tag();
     if (tag == "!degrees") return read * std::numbers::pi / 180.0;
@@ -171,7 +174,7 @@ class JointReader {
     return std::nullopt;
   }
 
-  // MoveIt's Pilz planner uses negative numbers.
+  // Returns the deceleration as a positive number. MoveIt's Pilz planner uses negative numbers.
   std::optional<double> deceleration() {
     const auto read = number("max_deceleration", "has_deceleration_limits");
     if (!read || *read != 0.0) return read ? std::optional(std::abs(*read)) : std::nullopt;
@@ -200,7 +203,8 @@ void check_scaling(const YAML::Node& root, const std::string& file, Diagnostics&
   }
 }
 
-// Returns the map with `joint_limits`: the root, or nested as by ROS 2.
+// Returns the YAML map that contains `joint_limits`: the root, or a map nested as in ROS 2's
+// parameter files.
 YAML::Node holder_of_limits(YAML::Node node) {
   for (const char* key : {"/**", "move_group", "ros__parameters", "robot_description_planning"}) {
     if (node.IsMap() && !node["joint_limits"] && node[key]) node.reset(YAML::Node(node[key]));

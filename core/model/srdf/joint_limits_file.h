@@ -21,10 +21,10 @@ struct LimitsFile {
   std::map<std::string, Joint> joints;
 };
 
-// Reads a joint_limits.yaml that was loaded from `path`, also nested as in ROS 2's parameter files.
-// A limit applies unless its has_..._limits is false, as in MoveIt. Default scaling factors are
-// only checked: they affect MoveIt's planning. Returns nullopt, with the reasons in `diagnostics`,
-// if the text is not YAML or has no joint_limits.
+// Reads the text of a joint_limits.yaml that was loaded from `path`. The limits may be nested as in
+// ROS 2's parameter files. A limit applies unless its has_..._limits is false, as in MoveIt.
+// Default scaling factors are only checked, because they affect only MoveIt's planning. Returns
+// nullopt, with the reasons in `diagnostics`, if the text is not YAML or has no joint_limits.
 [[nodiscard]] std::optional<LimitsFile> read_limits_file(const std::string& text,
                                                          const std::filesystem::path& path,
                                                          Diagnostics& diagnostics);

@@ -112,7 +112,8 @@ class GroupReader {
     }
   }
 
-  // A group that is met while it is open contains itself.
+  // Returns the joints of the group and of its subgroups. A group that is reached while it is still
+  // open contains itself.
   const JointSet& joints_of(const std::string& name, Group& group) {
     if (group.mark != Group::Mark::fresh) return group.joints;
     group.mark = Group::Mark::open;
@@ -134,7 +135,7 @@ class GroupReader {
     return group.joints;
   }
 
-  // Reports a used group's faults and those of groups below, each once.
+  // Reports the faults of a used group and of its subgroups, each fault once.
   void tell_faults(const std::string& name) {
     const auto found = groups_.find(name);
     if (found == groups_.end() || !told_.insert(name).second) return;

@@ -13,7 +13,8 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Elements of one tag with links unknown to the URDF, reported together: an outdated SRDF has many.
+// Counts the elements of one tag that name links unknown to the URDF. They are reported together,
+// because an outdated SRDF has many.
 struct StaleElements {
   std::size_t stale = 0;
   std::size_t all = 0;
@@ -114,7 +115,7 @@ class SrdfReader {
       place.report("unknown-name", "joint " + name + " is not in " + tree_.file, name);
   }
 
-  // Faults make the state unusable as home and goal.
+  // Reads a group_state. A state with faults can be neither a home nor a goal.
   void read_state(const XMLElement& element, const std::set<std::string>& virtual_joints,
                   RobotSemantics& semantics) const {
     const std::string consequence = "the state is left out";

@@ -24,7 +24,7 @@ struct NamedState {
 struct RobotSemantics {
   using JointSet = std::set<std::size_t>;  // in tree order: from base to tip
 
-  std::string file;  // as used in places, without folder
+  std::string file;  // file name as in messages, without folder
   std::string text;
   std::map<std::string, JointSet> groups;                           // independent and held joints
   std::map<std::string, std::map<std::string, NamedState>> states;  // group -> state name -> values
@@ -35,9 +35,9 @@ struct RobotSemantics {
 
 // Reads an SRDF that was loaded from `path`: groups, group states and enabled or disabled
 // collisions. Virtual joints are ignored, because the cell file places the base. As in MoveIt,
-// elements with unknown names are left out with a warning; likewise faulty elements that the
-// `used_groups` do not need. Returns nullopt, with the reasons in `diagnostics`, if the text is not
-// XML.
+// elements with unknown names are left out with a warning. Faulty elements that the `used_groups`
+// do not need are also left out with a warning. Returns nullopt, with the reasons in `diagnostics`,
+// if the text is not XML.
 [[nodiscard]] std::optional<RobotSemantics> read_srdf(std::string text,
                                                       const std::filesystem::path& path,
                                                       const RobotTree& tree,

@@ -16,8 +16,8 @@ struct NamedTree {
   const RobotTree& tree;
 };
 
-// Returns the tree index of a joint that can be fixed, or nullopt with a report. Reports and clamps
-// a value beyond the limits.
+// Returns the tree index of the joint if it can be fixed. Otherwise reports the reason and returns
+// nullopt. A value beyond the limits is reported and clamped.
 std::optional<std::size_t> holdable(const std::string& name, double& value,
                                     const std::string& pointer, const NamedTree& of,
                                     Diagnostics& diagnostics) {
@@ -76,7 +76,7 @@ std::string text_of_vector(const Eigen::Vector3d& v) {
   return text_of(v.x()) + " " + text_of(v.y()) + " " + text_of(v.z());
 }
 
-// Returns fixed-axis roll, pitch, yaw; at gimbal lock, yaw is 0.
+// Returns roll, pitch and yaw about fixed axes, as in a URDF (rad). At gimbal lock, yaw is 0.
 Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
   const double level = std::hypot(R(0, 0), R(1, 0));
   const double pitch = std::atan2(-R(2, 0), level);
@@ -96,7 +96,8 @@ void fix_in_text(const TreeLink& link, tinyxml2::XMLElement& joint) {
   joint.InsertFirstChild(origin);
 }
 
-// Precondition: the text was parsed before.
+// Makes the held joints fixed in the URDF's text. Precondition: the text was parsed before without
+// an error.
 void fix_in_text(RobotTree& tree) {
   tinyxml2::XMLDocument document;
   if (document.Parse(tree.text.data(), tree.text.size()) != tinyxml2::XML_SUCCESS) return;
@@ -113,7 +114,8 @@ void fix_in_text(RobotTree& tree) {
   tree.text = printer.CStr();
 }
 
-// nullopt if the joint above links[index] moves.
+// Returns the position at which the joint above links[index] is fixed (rad or m), or nullopt if the
+// joint moves.
 std::optional<double> value_held_at(const TreeLink& link, std::size_t index,
                                     const std::map<std::size_t, double>& held) {
   if (link.joint.mimic && link.joint.mimic->multiplier == 0.0) return link.joint.mimic->offset;

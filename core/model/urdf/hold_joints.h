@@ -8,10 +8,11 @@
 
 namespace armloom {
 
-// Fixes joints at a value (rad or m), by name as in the cell file's "fixed", and mimic joints that
-// follow them or have multiplier 0. Names must be movable joints that are not mimics; values must
-// be finite and within the URDF's limits. Also changes the URDF's text, from which clients draw the
-// robot. `pointer` points to the robot in the cell file.
+// Fixes the joints that the cell file's "fixed" names at the given values (rad or m). Also fixes
+// mimic joints that follow them, and mimic joints with multiplier 0. Reports names that are not
+// movable joints or are mimic joints, and values that are not finite or beyond the URDF's limits.
+// Changes the URDF's text accordingly, because clients draw the robot from it. `pointer` is the
+// robot's JSON pointer in the cell file.
 void hold_joints(const std::map<std::string, double>& fixed, const std::string& pointer,
                  const std::string& robot, RobotTree& tree, Diagnostics& diagnostics);
 

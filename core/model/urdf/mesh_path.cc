@@ -42,8 +42,8 @@ std::string path_of_file_uri(std::string_view uri) {
   return path;
 }
 
-// Returns the folder that contains "meshes", else the mesh's folder. Uses only the name: the
-// location must not be read.
+// Returns the folder above "meshes" in the path or, if there is none, the mesh's own folder. Uses
+// only the text of the path, because the folder must not be read.
 fs::path package_folder_of(const fs::path& mesh) {
   fs::path above;
   for (const fs::path& part : mesh.parent_path()) {
@@ -53,7 +53,7 @@ fs::path package_folder_of(const fs::path& mesh) {
   return mesh.parent_path();
 }
 
-// Returns a hint if a file's name differs only in case.
+// Returns a hint if the folder contains a file whose name differs only in case.
 std::string spelt_otherwise(const fs::path& file) {
   const auto lower = [](std::string text) {
     std::ranges::transform(text, text.begin(),
@@ -73,15 +73,15 @@ std::string line_of_package(const std::string& name, const std::string& folder) 
   return "add to the robot \"packages\": {\"" + name + "\": \"" + folder + "\"}";
 }
 
-// Resolves an absolute path. Outside the permitted folders the answer does not reveal whether the
-// file exists.
+// Resolves an absolute path. If the path is outside of the permitted folders, the error does not
+// reveal whether the file exists.
 tl::expected<fs::path, std::string> resolve_absolute(
     const fs::path& file, const fs::path& urdf_folder,
     const std::map<std::string, std::string>& packages) {
   std::error_code error;
   if (!file.is_absolute()) return tl::unexpected<std::string>("names a file of another host");
   fs::path real_file = fs::weakly_canonical(file, error);
-  if (error) real_file = file.lexically_normal();  // must not be read
+  if (error) real_file = file.lexically_normal();  // its symbolic links cannot be read
   const auto found = [&]() -> tl::expected<fs::path, std::string> {
     if (!fs::exists(real_file, error))
       return tl::unexpected("does not exist: " + real_file.string() + spelt_otherwise(real_file));
@@ -162,7 +162,7 @@ tl::expected<fs::path, std::string> resolve_mesh(
 
   const fs::path lexical = inside.lexically_normal();
   const bool leaves = !lexical.empty() && *lexical.begin() == "..";
-  if (leaves && !uri.starts_with(kPackage)) {  // ../meshes, for an urdf folder next to it
+  if (leaves && !uri.starts_with(kPackage)) {  // for example ../meshes, next to the urdf folder
     return resolve_absolute(fs::absolute(folder / lexical, error), urdf_folder, packages);
   }
   if (inside.is_absolute() || lexical.empty() || leaves) {

@@ -13,7 +13,7 @@
 
 namespace armloom {
 
-// Joint limits in the URDF; the joint's role decides whether they suffice.
+// Joint limits in the URDF. The joint's role in the cell decides which limits it needs.
 struct UrdfLimits {
   std::optional<double> lower;  // rad or m; nullopt if not a number
   std::optional<double> upper;
@@ -25,7 +25,7 @@ struct UrdfLimits {
 // it moves.
 struct TreeJoint {
   struct Mimic {
-    std::size_t driver;  // link of the followed joint, which is movable and not a mimic
+    std::size_t driver;  // index of the followed joint, which is movable and not a mimic
     double multiplier;
     double offset;
   };
@@ -37,8 +37,8 @@ struct TreeJoint {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  // unit
   std::optional<Mimic> mimic;
   UrdfLimits limits;
-  // Value of a joint fixed by the cell file or a mimic multiplier of 0 (rad or m); included in
-  // X_PJ.
+  // Position of a joint that is fixed by the cell file or by a mimic multiplier of 0 (rad or m).
+  // X_PJ already includes it.
   std::optional<double> held;
   int line = 0;  // in the file
 
@@ -48,29 +48,32 @@ struct TreeJoint {
 struct TreeLink {
   std::string name;
   std::optional<std::size_t> parent;  // smaller than the own index; nullopt for the root
-  TreeJoint joint;                    // the one above
+  TreeJoint joint;                    // the joint that moves this link
   std::vector<PlacedShape> shapes;
   bool seen = false;   // it has a <visual>
   bool solid = false;  // it has a <collision>, which may be faulty
   int line = 0;        // in the file
 
-  [[nodiscard]] bool is_rigid() const { return !joint.motion.has_value(); }  // to its parent
+  // Returns true if the link is fixed to its parent.
+  [[nodiscard]] bool is_rigid() const { return !joint.motion.has_value(); }
 };
 
 struct RobotTree {
   std::string name;  // of the robot
-  std::string file;  // as used in places, without folder
+  std::string file;  // file name as in messages, without folder
   std::string text;
   std::vector<TreeLink> links;                  // depth first: parents before children
   std::map<std::string, std::size_t> by_link;   // link name -> index
   std::map<std::string, std::size_t> by_joint;  // joint name -> index
-  // The file's structure is faulty, as reported: links may be misplaced, so consequences need not
-  // be reported.
+  // True if the file's structure has faults, which were reported. Links may then be misplaced, so
+  // faults that may follow from this are not reported.
   bool patched = false;
-  // A link or joint has no name, so unknown names in other files may be its name.
+  // True if a link or joint has no name, or if the file could not be read. Unknown names in other
+  // files may then be its name.
   bool nameless = false;
 
-  // Return "arm.urdf:12: link forearm" and, for the joint above, "arm.urdf:17: joint elbow".
+  // Return the place of the link ("arm.urdf:12: link forearm") and of the joint that moves it
+  // ("arm.urdf:17: joint elbow").
   [[nodiscard]] std::string place_of_link(const TreeLink& link) const {
     return file + ":" + std::to_string(link.line) + ": link " + link.name;
   }

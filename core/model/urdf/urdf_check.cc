@@ -15,10 +15,10 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Rounding of axes to length 1.
+// An axis whose length deviates less from 1 is accepted, because its numbers were only rounded.
 constexpr double kUnitAxis = 0.01;
 
-// A <safety_controller> applies if narrower, as in MoveIt.
+// Narrows the limits to the soft limits of <safety_controller>, as MoveIt does.
 void narrow_to_soft_limits(const XMLElement& joint, double lower, double upper,
                            const XmlPlace& place, XMLElement& limit) {
   const auto* safety = joint.FirstChildElement("safety_controller");
@@ -39,7 +39,8 @@ void narrow_to_soft_limits(const XMLElement& joint, double lower, double upper,
   limit.SetAttribute("upper", text_of(to).c_str());
 }
 
-// Adds effort and velocity, which urdfdom requires.
+// Checks a <limit> and copies it. Adds effort and velocity if they are missing, because urdfdom
+// requires them.
 void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace& place,
                  UrdfNotes::Joint& notes, XMLElement& to) {
   XMLElement& copy = *to.InsertNewChildElement("limit");
@@ -61,7 +62,7 @@ void check_limit(const XMLElement& joint, std::string_view type, const XmlPlace&
     faults.at(*limit).report(
         "not-positive", "limit velocity is " + text_of(*velocity) + ", it must be greater than 0",
         *velocity);
-  if (type == "continuous") return;  // as in MoveIt
+  if (type == "continuous") return;  // without position limits, as in MoveIt
   const auto lower = number("lower");
   const auto upper = number("upper");
   const bool crossed = lower && upper && *lower > *upper;
@@ -97,7 +98,8 @@ void check_axis(const XMLElement& joint, const XmlPlace& place, XMLElement& to) 
                            norm);
 }
 
-// A floating or planar joint is fixed at its origin, as by default in MoveIt.
+// Returns the joint type for the mended robot. A floating or planar joint is fixed at its origin,
+// as MoveIt does by default.
 std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes::Joint& notes) {
   std::string type = place.name(joint, "type");
   if (type == "fixed" || type == "revolute" || type == "prismatic" || type == "continuous")
@@ -117,7 +119,7 @@ std::string check_type(const XMLElement& joint, const XmlPlace& place, UrdfNotes
         "joint type '" + type +
             "' is not known (known: revolute, continuous, prismatic, fixed, floating, planar)",
         type);
-  // Guess from the limits, to find other faults.
+  // Guess the type from the limits, so that other faults are still found.
   const auto* limit = joint.FirstChildElement("limit");
   if (limit == nullptr) return "continuous";
   return limit->Attribute("lower") || limit->Attribute("upper") ? "revolute" : "continuous";
@@ -162,7 +164,7 @@ XmlPlace place_of(const XMLElement& element, const std::string& file, Diagnostic
   return {file, element.GetLineNum(), element.Name() + named, diagnostics};
 }
 
-// urdfdom would ignore links and joints in other elements than <robot>.
+// Reports links and joints in elements other than <robot>, because urdfdom would ignore them.
 void refuse_what_holds_links(const XMLElement& robot, const std::string& file,
                              Diagnostics& diagnostics) {
   const auto has_part = [](const XMLElement& element) {

@@ -18,15 +18,17 @@ struct MeshFolders {
 
 // urdfdom reads all or nothing, reports no places, and drops or guesses what it does not
 // understand. So the URDF is checked first, and its valid parts are written into a second, mended
-// <robot> for urdfdom (urdf_model.h). These notes hold what the mended robot cannot express.
+// <robot> for urdfdom (urdf_model.h). These notes contain facts about the URDF that the mended
+// <robot> cannot express.
 struct UrdfNotes {
   struct Joint {
     bool many_values = false;  // floating or planar: mended to fixed
-    // Limits in the file; the mended <limit> also has placeholders for urdfdom.
+    // True for each limit that the file gives. The mended <limit> also has placeholders, which
+    // urdfdom requires.
     bool lower = false;
     bool upper = false;
     bool velocity = false;
-    Diagnostics faults;  // of the limits; the joint's role decides the severity
+    Diagnostics faults;  // of the limits; problems or warnings by the joint's role
   };
   std::map<std::string, Joint> joints;        // of the mended robot
   std::map<std::string, std::string> meshes;  // name in the file -> path
@@ -36,13 +38,13 @@ struct UrdfNotes {
   std::set<std::string> made;                 // links and joints added to form one tree
   bool patched = false;                       // see RobotTree
   bool nameless = false;                      // see RobotTree
-  std::map<std::string, std::map<std::string, int>> lines;  // "link", "joint": name -> line
+  std::map<std::string, std::map<std::string, int>> lines;  // "link" or "joint" -> name -> line
 };
 
-// Checks every <link> and <joint>, and writes valid parts to `mended`. Faults in what the model
-// uses are problems: names, poses, axes, collision shapes, mimics. Faults in unused parts (visuals,
-// masses, efforts, unknown elements) are warnings. Faults of limits go to UrdfNotes::Joint. `file`
-// begins each place.
+// Checks every <link> and <joint>, and writes valid parts to `mended`. Faults in used parts (names,
+// poses, axes, collision shapes, mimics) are problems. Faults in unused parts (visuals, masses,
+// efforts, unknown elements) are warnings. Faults of limits go to UrdfNotes::Joint. Each place in a
+// message begins with `file`.
 [[nodiscard]] UrdfNotes check_urdf_elements(const tinyxml2::XMLElement& robot,
                                             const std::string& file, const MeshFolders& folders,
                                             tinyxml2::XMLElement& mended, Diagnostics& diagnostics);
@@ -52,7 +54,7 @@ void check_link(const tinyxml2::XMLElement& link, const XmlPlace& place, const M
                 UrdfNotes& notes, tinyxml2::XMLElement& to);
 
 // Checks that all links form one tree and that mimic joints follow a movable joint, directly or
-// through other mimics. Patches faults in `mended`, which keeps every name, so that names in other
+// through other mimics. Repairs faults in `mended`, but keeps every name, so that names in other
 // files can be looked up.
 void check_urdf_tree(tinyxml2::XMLElement& mended, const std::string& file, UrdfNotes& notes,
                      Diagnostics& diagnostics);

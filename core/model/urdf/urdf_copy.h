@@ -9,7 +9,8 @@
 
 namespace armloom {
 
-// Copy parts of a URDF to the mended URDF (urdf_check.h); faults are reported at `place`.
+// These functions copy parts of a URDF to the mended URDF (urdf_check.h). They report faults at
+// `place`.
 
 // Copies `size` finite numbers, separated by spaces, as urdfdom requires. Returns nullopt if faulty
 // or missing.
@@ -22,11 +23,11 @@ std::optional<std::vector<double>> copy_numbers(const tinyxml2::XMLElement& from
                                                 const NumbersAttribute& attribute,
                                                 const XmlPlace& place, tinyxml2::XMLElement& to);
 
-// Returns true if the attribute is valid or missing.
+// Copies the attribute if it is present. Returns false if it has a fault.
 bool copy_if_there(const tinyxml2::XMLElement& from, const char* attribute, std::size_t size,
                    const XmlPlace& place, tinyxml2::XMLElement& to);
 
-// Returns true if the <origin> of `parent` is valid or missing.
+// Copies the <origin> of `parent` if it is present. Returns false if it has a fault.
 bool copy_origin(const tinyxml2::XMLElement& parent, const XmlPlace& place,
                  tinyxml2::XMLElement& to);
 

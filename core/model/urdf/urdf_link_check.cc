@@ -28,7 +28,7 @@ bool copy_lengths(const XMLElement& shape, const char* attribute, std::size_t si
   return true;
 }
 
-// The name stays unchanged; its path goes to the notes.
+// Copies a mesh without changing its name. Stores the path of its file in the notes.
 bool copy_mesh(const XMLElement& mesh, const XmlPlace& place, const MeshFolders& folders,
                UrdfNotes& notes, XMLElement& to) {
   place.only_attributes(mesh, {"filename", "scale"});
@@ -85,7 +85,7 @@ bool copy_collision(const XMLElement& collision, const XmlPlace& place, const Me
   return copy_shape(*shape, place, folders, notes, copy) && placed;
 }
 
-// Only the dashboard uses these numbers.
+// Checks a <visual>, whose numbers only the dashboard uses.
 void check_visual(const XMLElement& visual, const XmlPlace& place, XMLElement& unused) {
   copy_origin(visual, place, unused);
   const auto* geometry = visual.FirstChildElement("geometry");

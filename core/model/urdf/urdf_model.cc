@@ -16,7 +16,8 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-// Collects messages per thread: console_bridge has one handler for all threads.
+// Collects urdfdom's messages separately for each thread, because console_bridge has one handler
+// for all threads.
 class UrdfdomWords : public console_bridge::OutputHandler {
  public:
   static std::string& said() {
@@ -90,7 +91,7 @@ void take_joint(const urdf::Joint& joint, UrdfNotes::Joint notes, TreeJoint& tak
   taken.limits.faults = std::move(notes.faults);
 }
 
-// Mimics form no cycle (urdf_check.h).
+// Precondition: mimic joints form no cycle (check_urdf_tree).
 TreeJoint::Mimic mimic_of(const urdf::Joint& joint, const urdf::ModelInterface& model,
                           const RobotTree& tree) {
   const urdf::JointMimic& own = *joint.mimic;

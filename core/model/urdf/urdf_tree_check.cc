@@ -21,9 +21,9 @@ std::string listed(const std::set<std::string>& names) {
   return text;
 }
 
-// Connects the elements of a mended robot, whose names are unique. A joint gets a made link if its
-// child is missing, unknown or already moved by another joint. Other loose parts are attached to a
-// made root.
+// Connects the links and joints of a mended robot to one tree. Precondition: names are unique. If a
+// joint's child is missing, unknown or already moved by another joint, the joint gets a new child
+// link. Other parts without a parent are attached to a new root link.
 class TreeMender {
  public:
   TreeMender(XMLElement& robot, const std::string& file, UrdfNotes& notes, Diagnostics& diagnostics)
@@ -43,7 +43,7 @@ class TreeMender {
  private:
   struct Node {
     std::string name;
-    XMLElement* joint = nullptr;  // above it
+    XMLElement* joint = nullptr;  // the joint that moves the link
     std::vector<const Node*> children;
   };
 
@@ -186,7 +186,8 @@ class TreeMender {
     if (followed == name) return refuse("mimic-ring", "the joint mimics itself");
     if (driver->second->Attribute("type", "fixed") != nullptr)
       return refuse("mimic-fixed", "mimic joint " + followed + " is fixed");
-    // Faults farther along are reported with their joint.
+    // Follow the chain of mimics. Another fault in the chain is reported with the joint that has
+    // it.
     std::set<std::string> passed{name};
     for (auto next = driver; next != joints_.end() && !next->second->Attribute("type", "fixed");) {
       const auto* mimic = next->second->FirstChildElement("mimic");
@@ -208,7 +209,8 @@ class TreeMender {
     }
     for (const auto* some : {&links_, &childless_}) {
       for (const auto& [name, node] : *some) {
-        // Roots first: the remaining nodes hang in loops or have no parent.
+        // Roots come first. Nodes that they do not reach are in loops, or their joint has no
+        // parent.
         nodes.insert(node.joint == nullptr ? nodes.begin() : nodes.end(), &node);
         names.insert(node.name);
       }
@@ -250,7 +252,7 @@ class TreeMender {
   Diagnostics& diagnostics_;
   std::map<std::string, Node> links_;
   std::map<std::string, XMLElement*> joints_;
-  std::map<std::string, Node> childless_;  // by the joint that has no link of its own
+  std::map<std::string, Node> childless_;  // by name of the joint that has no child of its own
   bool all_children_known_ = true;
 };
 

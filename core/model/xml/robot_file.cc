@@ -8,7 +8,8 @@
 namespace armloom {
 namespace {
 
-// Returns the bytes of the UTF-8 character (RFC 3629) at `at`, or 0 if invalid.
+// Returns the number of bytes of the UTF-8 character (RFC 3629) at index `at`, or 0 if it is
+// invalid.
 std::size_t utf8_length(const std::string& text, std::size_t at) {
   const auto byte = [&](std::size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
@@ -28,7 +29,7 @@ std::size_t utf8_length(const std::string& text, std::size_t at) {
   return overlong || beyond ? 0 : length;
 }
 
-// Texts are also sent as JSON, which must be UTF-8.
+// Returns a problem if the text is not UTF-8, because it is also sent as JSON.
 std::optional<Problem> utf8_fault(const std::string& text, const std::string& path) {
   std::size_t line = 1;
   for (std::size_t at = 0; at < text.size();) {

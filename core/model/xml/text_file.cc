@@ -22,7 +22,7 @@ Result<std::string> read_text_file(const std::filesystem::path& path, const std:
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return refuse(ProblemKind::invalid, "file-unreadable", "it cannot be opened");
 
-  // One byte more than allowed detects a file that grows.
+  // Read one byte more than the size, to detect a file that grows meanwhile.
   const auto size = std::filesystem::file_size(path, error);
   const bool bounded = !error && size < kMaxRobotFileBytes;
   std::string text((bounded ? static_cast<std::size_t>(size) : kMaxRobotFileBytes) + 1, '\0');

@@ -80,7 +80,7 @@ Output read_both(const Pipe& out, const Pipe& err, std::chrono::seconds at_most)
   return output;
 }
 
-// Returns 0 or the error number.
+// Starts xacro with its output connected to the pipes. Returns 0 or an error number (errno).
 int start(const std::string& file, const Pipe& out, const Pipe& err, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -116,7 +116,7 @@ std::string in_one_line(const std::string& text) {
 tl::expected<ExpandedXacro, std::string> expand_xacro(const std::filesystem::path& file,
                                                       std::chrono::seconds at_most) {
   const auto refuse = [](std::string why) { return tl::unexpected(std::move(why)); };
-  // Use an absolute path: a name that begins with - would be an option.
+  // Use an absolute path, because xacro would read a name that begins with - as an option.
   const std::string path = std::filesystem::absolute(file).string();
   Pipe out;
   Pipe err;

@@ -15,8 +15,8 @@ struct ExpandedXacro {
 };
 
 // Runs `xacro` without a shell; kills it after `at_most` or kMaxRobotFileBytes of output. xacro
-// evaluates expressions and reads included files, so expand only files named by a cell. The error
-// continues the sentence "cannot expand <file>: ..." with xacro's message or a remedy.
+// evaluates expressions and reads included files, so expand only files that a cell file names. The
+// error text continues the sentence "cannot expand <file>: ..." with xacro's message or a remedy.
 [[nodiscard]] tl::expected<ExpandedXacro, std::string> expand_xacro(
     const std::filesystem::path& file, std::chrono::seconds at_most = kXacroTime);
 

@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-// Returns the first DOCTYPE, ENTITY or similar.
+// Returns the first declaration such as DOCTYPE or ENTITY, or nullptr.
 const tinyxml2::XMLUnknown* find_declaration(const tinyxml2::XMLNode& node) {
   for (const auto* child = node.FirstChild(); child != nullptr; child = child->NextSibling()) {
     if (const auto* unknown = child->ToUnknown()) return unknown;
@@ -20,7 +20,7 @@ const tinyxml2::XMLUnknown* find_declaration(const tinyxml2::XMLNode& node) {
   return nullptr;
 }
 
-// Returns the first element of the xacro namespace, at any depth.
+// Returns the first element of the xacro namespace at any depth, or nullptr.
 const tinyxml2::XMLElement* find_xacro(const tinyxml2::XMLElement& element) {
   for (const auto* child = element.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {

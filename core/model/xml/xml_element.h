@@ -28,20 +28,23 @@ enum class Presence { required, optional };
 
 [[nodiscard]] std::size_t count_children(const tinyxml2::XMLElement& element, const char* child);
 
-// Reads one element of a robot file and reports faults at its place, "panda.urdf:12: joint
-// panda_joint3". Faults of child elements have the child's line.
+// The place of an XML element in a robot file, such as "panda.urdf:12: joint panda_joint3". Reads
+// the element and reports faults with this place. Faults of a child element are reported with the
+// child's line.
 class XmlPlace {
  public:
-  // `line` 0: without line. `whose` may be empty.
+  // If `line` is 0, the place has no line number. `whose` ("joint panda_joint3") may be empty.
   XmlPlace(std::string file, int line, std::string whose, Diagnostics& diagnostics)
       : file_(std::move(file)), line_(line), whose_(std::move(whose)), diagnostics_(&diagnostics) {}
 
-  // Return this place with another element's line, for a part ("joint j1"), or for another list.
+  // Return a copy of this place. at() uses the line of another element, of() adds a part ("joint
+  // j1"), and telling() reports to other diagnostics.
   [[nodiscard]] XmlPlace at(const tinyxml2::XMLElement& element) const;
   [[nodiscard]] XmlPlace of(const std::string& part) const;
   [[nodiscard]] XmlPlace telling(Diagnostics& diagnostics) const;
 
-  // Returns this place for unused parts: faults become warnings with this consequence.
+  // Returns a copy of this place for parts that the cell does not use. Their faults become warnings
+  // that state the consequence.
   [[nodiscard]] XmlPlace only_warning(std::string consequence) const;
 
   [[nodiscard]] std::string text() const;
@@ -50,16 +53,18 @@ class XmlPlace {
   void warn(std::string slug, const std::string& sentence,
             decltype(Problem::value) value = {}) const;
 
-  // Returns one finite number, or nullopt with a report unless optional and missing.
+  // Returns one finite number. If it is faulty, or required but missing, reports this and returns
+  // nullopt. If it is optional and missing, returns nullopt.
   std::optional<double> number(const tinyxml2::XMLElement& element, const char* attribute,
                                Presence presence) const;
-  // Returns exactly `size` finite numbers, like number().
+  // Returns exactly `size` finite numbers. Faulty and missing numbers are treated as by number().
   std::optional<std::vector<double>> numbers(const tinyxml2::XMLElement& element,
                                              const char* attribute, std::size_t size,
                                              Presence presence) const;
   // Returns a non-empty attribute, or "" with a report.
   std::string name(const tinyxml2::XMLElement& element, const char* attribute) const;
-  // Reports a second child of that name, which libraries would ignore.
+  // Returns the first child of that name, or nullptr. Reports a second child, which libraries would
+  // ignore, and a missing child that is required.
   const tinyxml2::XMLElement* only_child(const tinyxml2::XMLElement& element, const char* child,
                                          Presence presence) const;
   // Reports a child that is ignored here. `where` is its proper place ("in a <link>").
@@ -72,7 +77,8 @@ class XmlPlace {
   // because <colision> would leave its link without a shape. Names in `unused` are accepted, and so
   // are other namespaces (drake:..., mujoco:...). Other names are warnings.
   void only_children(const tinyxml2::XMLElement& element, Names used, Names unused) const;
-  // Checks the names of attributes likewise: <origin xzy="..."> would be ignored.
+  // Checks the names of attributes in the same way, because libraries would ignore <origin
+  // xzy="...">.
   void only_attributes(const tinyxml2::XMLElement& element, Names used) const;
 
  private:

@@ -6,11 +6,11 @@
 
 namespace armloom {
 
-// Parse strictly. XML libraries accept "nan", "1e999", "0x10" and "1.5 metres", but a robot must
-// not move by a guess.
+// Strict parsers. XML libraries accept "nan", "1e999", "0x10" and "1.5 metres", but a robot must
+// not move to a guessed position.
 
-// Returns a finite decimal number, with an optional leading +. Returns nullopt for empty,
-// hexadecimal, nan, inf, overflow or trailing text.
+// Returns a finite decimal number, with an optional leading +. Returns nullopt if the token is
+// empty, hexadecimal, nan, inf, too large, or has other text after the number.
 [[nodiscard]] std::optional<double> parse_number(std::string_view token);
 
 // Returns numbers separated by white space, or nullopt if any is invalid.
