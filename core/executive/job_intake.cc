@@ -24,21 +24,23 @@ void find_bad_alternatives(const Cell& cell, const std::vector<TrajectoryPtr>& m
     const ArmId arm = motion.arms().front();
     const std::string& name = cell.arm(arm).name;
     if (motion.arms().size() > 1 || std::ranges::find(arms, arm) != arms.end()) {
-      problems.push_back({ProblemKind::invalid, "bad-alternative", place + "/joint_names",
-                          "each alternative moves one arm, that no other alternative moves", name});
+      problems.push_back(
+          {ProblemKind::invalid, "bad-alternative", place + "/joint_names",
+           "each alternative must move exactly one arm, and no two may move the same arm", name});
     }
     arms.push_back(arm);
     for (std::size_t j = 0; j < motion.joints().size(); ++j) {
       const auto index = static_cast<Eigen::Index>(j);
       const double off = motion.goal()[index] - motion.start()[index];
       if (std::abs(off) <= Places::kRounding) continue;
-      problems.push_back({ProblemKind::invalid, "alternative-ends-elsewhere",
-                          place + "/points/" + std::to_string(motion.segment_count()) +
-                              "/positions/" + std::to_string(j),
-                          cell.joint(motion.joints()[j]).name +
-                              ": an alternative has to end where it begins, as the next job of " +
-                              name + " cannot know whether it is taken",
-                          motion.goal()[index]});
+      problems.push_back(
+          {ProblemKind::invalid, "alternative-ends-elsewhere",
+           place + "/points/" + std::to_string(motion.segment_count()) + "/positions/" +
+               std::to_string(j),
+           cell.joint(motion.joints()[j]).name +
+               ": an alternative must end where it begins, because the next job of " + name +
+               " begins there whether or not this one is chosen",
+           motion.goal()[index]});
     }
   }
 }
@@ -78,10 +80,11 @@ Result<PreparedJob> JobIntake::prepare(JobRequest request, Ahead& ahead) const {
   std::vector<MotionGoal> goals;
   std::vector<TrajectoryPtr> motions;
   if (!request.move_to && (!request.arm.empty() || !request.arms.empty())) {
-    problems.push_back({ProblemKind::invalid, "unknown-field",
-                        request.arm.empty() ? "/arms" : "/arm",
-                        "an arm is named with move_to; a trajectory's joints say which arms move",
-                        request.arm.empty() ? request.arms.front() : request.arm});
+    problems.push_back(
+        {ProblemKind::invalid, "unknown-field", request.arm.empty() ? "/arms" : "/arm",
+         "\"arm\" and \"arms\" apply only to a job with \"move_to\": the joints of a trajectory "
+         "determine which arms move",
+         request.arm.empty() ? request.arms.front() : request.arm});
   }
   if (request.terms.move_to_start == MoveToStart::plan &&
       (request.move_to || request.motions().size() > 1)) {

@@ -39,7 +39,7 @@ class Motions {
   // Returns true if the arm progressed on its path in the last tick; false in a pause.
   [[nodiscard]] bool advances(ArmId arm) const { return advances_[arm.index()]; }
   [[nodiscard]] bool all_at_rest() const;
-  // Returns true if no arm's feedback changes until the next command.
+  // Returns true if all arms rest, and stay at rest until the next command.
   [[nodiscard]] bool all_settled() const;
   // Returns the largest distance of a measured joint from its path at the measured progress, rad or
   // m; zero without a motion.
