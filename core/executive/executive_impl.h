@@ -26,7 +26,7 @@ namespace armloom {
 // The modules of the executive and their connections.
 class Executive::Impl {
  public:
-  // What Executive::create() has checked or made; the arms are at home.
+  // Inputs that Executive::create() has checked or made; the arms are at home.
   struct Checked {
     CellPtr cell;
     PlanningScenePtr scene;

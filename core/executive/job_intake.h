@@ -39,7 +39,7 @@ class JobIntake {
   JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs, ActiveMax active_max)
       : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), active_max_(active_max) {}
 
-  // What a request is checked against: the state after all earlier jobs, also of the same batch.
+  // The state after all earlier jobs, also of the same batch. Requests are checked against it.
   struct Ahead {
     Configuration rest;
     std::unordered_set<std::string> keys;

@@ -23,7 +23,7 @@ namespace armloom {
 // (status_board.h). The board is updated before an event is published.
 class Publisher {
  public:
-  // What is published. All of these outlive the publisher.
+  // The objects whose state is published. All of them outlive the publisher.
   struct Shown {
     const Cell& cell;
     const Scheduler& scheduler;

@@ -57,7 +57,7 @@ class StatusBoard {
   [[nodiscard]] JobSheet::JobPtr job(const std::string& key) const;
   [[nodiscard]] std::vector<JobSheet::JobPtr> jobs(const std::vector<std::string>& keys) const;
 
-  // What the strand publishes. Positions and arms are copied into existing memory.
+  // A status as the strand publishes it. Positions and arms are copied into existing memory.
   struct Now {
     std::uint64_t seq;
     TimePoint time;

@@ -9,8 +9,7 @@
 
 namespace armloom {
 
-// What views need besides the objects themselves: the clients' names of jobs, by JobId, and the
-// state of arms.
+// Source of the clients' names of jobs, by JobId, and of the state of arms; used to make views.
 class JobNames {
  public:
   virtual ~JobNames() = default;

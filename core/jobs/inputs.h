@@ -55,7 +55,7 @@ struct Amend {
 struct Replan {
   JobId job;
 };
-// Answers the Judge effect whose question has the same version.
+// The answer to the open question with the same version.
 struct Judged {
   Verdict verdict;
 };

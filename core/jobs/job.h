@@ -27,7 +27,7 @@ struct Pause {
   // Since when it waits for an object or an arm that no job moves.
   std::optional<TimePoint> in_vain_since = {};
 };
-// What happens to a job when its braking arms have come to rest.
+// The next step of a job when its braking arms have come to rest.
 struct AfterStop {
   enum class Then { hold, cancel, fail };
   Then then = Then::hold;

@@ -50,8 +50,8 @@ struct Asking {
 
 // Moves to the job's start (approach.h).
 struct Approaches {
-  // Whether the job is free of self-collisions from its start. This is checked before any arm moves
-  // there.
+  // State of the check that the job, from its start, is free of self-collisions. It is checked
+  // before any arm moves there.
   enum class Feasibility { unknown, in_question, given };
   Feasibility feasibility = Feasibility::unknown;
   int tries = 0;

@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-// What is known about a motion besides its progress.
+// Knowledge about a motion in addition to its progress.
 struct Outlook {
   bool keeps_its_place = false;  // has waited so long that no other motion may overtake it any more
   // How long the motion's arms have rested although no order holds them back. They are predicted to
