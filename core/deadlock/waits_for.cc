@@ -196,7 +196,7 @@ std::vector<WaitCycle> find_wait_cycles(const WaitsFor& graph) {
 
 WaitCycle beginning_with(JobId first, WaitCycle ring) {
   const auto it = std::ranges::find(ring, first);
-  if (it == ring.end()) throw std::invalid_argument("beginning_with: the job is not in the ring");
+  if (it == ring.end()) throw std::invalid_argument("beginning_with: the job is not in the cycle");
   std::ranges::rotate(ring, it);
   return ring;
 }

@@ -10,8 +10,8 @@
 
 namespace armloom {
 
-// A waiting job that cannot start, or an arm at rest, which only moves with its next job. Jobs sort
-// before arms, smaller ids first.
+// A node of the waits-for graph: a waiting job, or an arm at rest, which moves only with its next
+// job. Jobs sort before arms, and smaller ids first.
 using Waiter = std::variant<JobId, ArmId>;
 
 // `waits` cannot move before `first` does.
@@ -21,8 +21,8 @@ struct WaitsForEdge {
   auto operator<=>(const WaitsForEdge&) const = default;
 };
 
-// The waits-for graph; immutable. An arm at rest without an outgoing edge has no job that would
-// move it. Waits are conjunctive: a node can move only after all nodes that it waits for.
+// The waits-for graph; immutable. A node can move only after all nodes that it waits for. An arm at
+// rest without an outgoing edge has no job that would move it.
 class WaitsFor {
  public:
   // Takes edges in any order; duplicates are ignored. O(n log n).
@@ -47,14 +47,15 @@ class WaitsFor {
   std::vector<std::size_t> targets_;
 };
 
-// A deadlock cycle: each job waits for the next one, or for an arm at rest that only the next one
-// will move; the last job waits for the first. None of them can move. Each job once, at least two.
+// A deadlock cycle of at least two different jobs, none of which can move. Each job waits for the
+// next one, or for an arm at rest that only the next one will move. The last job waits for the
+// first in the same way.
 using WaitCycle = std::vector<JobId>;
 
-// Returns one elementary cycle per strongly connected component (Tarjan 1972): the shortest cycle
-// through its smallest job, ties broken by ids, beginning with that job. The cycles are disjoint,
-// ascending by their first job. Cycles of a single job are ignored because an arm does not block
-// its own job. O(n log n).
+// Returns one elementary cycle for each strongly connected component (Tarjan 1972). It is the
+// shortest cycle through the component's smallest job and begins with that job; ties are broken by
+// ids. The cycles are disjoint, and ascending by their first job. Cycles of a single job are
+// ignored because an arm does not block its own job. O(n log n).
 [[nodiscard]] std::vector<WaitCycle> find_wait_cycles(const WaitsFor& graph);
 
 // Rotates the cycle so that `first` comes first. Throws std::invalid_argument if `first` is not in

@@ -6,14 +6,15 @@
 
 namespace armloom {
 
-// The policy in use. The executive outlives it.
+// Reads and changes the policy in use. The executive outlives this object.
 class Executive::ActivePolicy {
  public:
   explicit ActivePolicy(Impl& executive) : executive_(executive) {}
 
   [[nodiscard]] std::string name() const;
-  // Changes the policy until the next start. Problems: unknown-policy ("/policy"); conflict while a
-  // job is admitted, because its orders belong to the policy that chose them.
+  // Changes the policy, until the server starts again. Problems: unknown-policy ("/policy");
+  // conflict while a job is admitted, because its passing orders belong to the policy that chose
+  // them.
   [[nodiscard]] Result<void> change(const std::string& name);
 
  private:

@@ -18,7 +18,7 @@ struct FaultRequest {
   std::string arm;
   ArmFault::Kind kind = ArmFault::Kind::stall;
   std::optional<TimePoint> at;      // nullopt: now
-  std::optional<Duration> lasting;  // nullopt: until removed; a fault strikes once
+  std::optional<Duration> lasting;  // nullopt: until removed; `fault` strikes only once
   double value = 0.0;
 };
 
@@ -27,7 +27,7 @@ struct ExecutiveInput;
 // Injects faults into the simulated arms, and removes them.
 class ArmFaults {
  public:
-  // Called with each request, valid or not; returns the present time.
+  // Called with each request, also an invalid one. Returns the present time.
   using Asked = std::function<TimePoint(const ExecutiveInput&)>;
   // `arms`, by ArmId, outlive this object.
   ArmFaults(CellPtr cell, const std::vector<std::unique_ptr<FaultyArm>>& arms, Asked asked);

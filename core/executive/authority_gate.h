@@ -11,15 +11,17 @@
 
 namespace armloom {
 
-// The only way to the arms: starts, resumes and extends motions as far as the guard allows. Refused
-// authority is retried in each control cycle until it is allowed or the motion is braked. Requests
-// missing certificates.
+// All commands to the arms pass this gate. It starts, resumes and extends motions as far as the
+// guard allows, and requests missing certificates. Refused authority is tried again in each control
+// cycle until the guard allows it or the motion is braked.
 class AuthorityGate {
  public:
   struct Calls {
-    // Certificates are missing: pass those of the answer to certified().
+    // Certificates are missing: ask this question, and pass the certificates of the answer to
+    // certified().
     std::function<void(const Question&)> certify;
-    // The scheduler granted what it should not have granted. Called once per job.
+    // The guard refuses authority that the scheduler should not have granted. Called once per
+    // refusal.
     std::function<void(JobId, const GuardRefusal&)> refused;
     // A refusal reported by `refused` is now allowed.
     std::function<void(JobId)> allowed;
@@ -27,8 +29,7 @@ class AuthorityGate {
   // `cell` and `motions` outlive this object. All arms are at rest.
   AuthorityGate(CellPtr cell, Motions& motions, SceneFingerprint present, Calls calls);
 
-  // Without certificates (timed_discrete) the gate allows everything. Precondition: no arm has a
-  // motion.
+  // With false (timed_discrete) the gate allows everything. Precondition: no arm has a motion.
   void set_certified(bool certified) { is_certified_ = certified; }
 
   void take(const std::vector<Certificate>& certificates) { guard_.take(certificates); }
@@ -45,15 +46,16 @@ class AuthorityGate {
   // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs.
   [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now);
 
-  // Returns the refusal that holds the job back and that the scheduler did not expect; nullopt if
-  // there is none.
+  // Returns the refusal, reported by Calls::refused, that holds the job back; nullopt if there is
+  // none.
   [[nodiscard]] std::optional<GuardRefusal> refusal(JobId job) const;
   [[nodiscard]] bool is_idle() const { return kept_.empty(); }
   [[nodiscard]] std::optional<JobId> job_of(ArmId arm) const { return jobs_[arm.index()]; }
 
   // Shortest time between two requests for the missing certificates of one job.
   inline static constexpr Duration kAskAgain = std::chrono::milliseconds(100);
-  // Beyond both of these, a missing certificate is a defect of the scheduler.
+  // A certificate that is still missing after this time and this many answers is reported as a
+  // defect of the scheduler.
   inline static constexpr Duration kMissing = std::chrono::seconds(1);
   inline static constexpr int kAnswers = 2;
 
@@ -63,7 +65,7 @@ class AuthorityGate {
     Duration authority;
     GuardRefusal refusal;
     TimePoint since;
-    std::optional<Dispatch> start = {};  // not sent to the arms yet
+    std::optional<Dispatch> start = {};  // set: the motion is not sent to the arms yet
     bool is_braked = false;
     bool is_reported = false;
     TimePoint asks_from = {};  // time of the next request for its certificates

@@ -11,8 +11,8 @@
 namespace armloom {
 
 // A batch of jobs, submitted in chunks. An atomic batch is first checked as a whole, which is fast
-// if its motions are validated; then its jobs are accepted one after the other, and none can be
-// refused any more.
+// if its motions are already validated (validated.h). Then its jobs are accepted one after the
+// other, and none can be refused any more.
 class Executive::Batch {
  public:
   Batch(Impl& taker, std::vector<JobRequest> asked, bool all_or_none)

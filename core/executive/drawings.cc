@@ -56,12 +56,14 @@ void Drawings::draw(const Asked& asked, std::function<void(Result<DiagramView>)>
     done(failure(Problem{ProblemKind::invalid, slug, "?with", std::move(detail), asked.key_b}));
   };
   if (*a == *b)
-    return refuse("same-job", "a diagram is of two jobs, found \"" + asked.key_b + "\" twice");
+    return refuse("same-job",
+                  "a diagram needs two different jobs, found \"" + asked.key_b + "\" twice");
   const TrajectoryPtr motion_a = (*a)->trajectory;
   const TrajectoryPtr motion_b = (*b)->trajectory;
   if (share_no_space(*motion_a, *motion_b)) {
-    return refuse("same-arm", "both jobs move arm " + names_of(cell, motion_b->arms()) +
-                                  ": they run one after the other");
+    return refuse("same-arm",
+                  "both jobs move arm " + names_of(cell, motion_b->arms()) +
+                      ", so they run one after the other: choose jobs of different arms");
   }
   DiagramView view{
       .time = asked.now, .a = side_of(**a), .b = side_of(**b), .scene_version = scene_version};

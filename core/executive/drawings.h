@@ -10,15 +10,16 @@
 
 namespace armloom {
 
-// Draws coordination diagrams of two jobs, for users who want to see why one waits. Caches the last
-// ones, because a client that shows a diagram requests it repeatedly for the present progress.
+// Draws coordination diagrams of two jobs, for users who want to see why one job waits. Caches the
+// last diagrams, because a client that shows a diagram requests it again and again with the present
+// progress.
 class Drawings {
  public:
   // All arguments outlive this object.
   Drawings(const Scheduler& scheduler, const JobRegister& jobs, JudgementService& judges)
       : scheduler_(scheduler), jobs_(jobs), judges_(judges) {}
 
-  // As Executive::diagram().
+  // Two jobs by key, and the scene and time of the request (Executive::diagram()).
   struct Asked {
     std::string key_a, key_b;
     VersionedScene in;

@@ -13,17 +13,17 @@ struct CheckedJob {
 };
 
 // Checks jobs against each other without running them; results are in the given order. A job is
-// assumed to start at its time, or when the earlier jobs of its arms and those in `after` have
-// ended. It is checked then (Trial) against all jobs that have started, whatever their verdict, and
-// among equal start times against those listed earlier. `earliest_start_s` is relative to the job's
-// own time.
+// assumed to start at its time, or later when the earlier jobs of its arms and the jobs in `after`
+// have ended. It is checked at its start (Trial) against all jobs that have started by then,
+// whatever their verdict. Among jobs with the same start, the job listed first starts first.
+// `earliest_start_s` is relative to the job's own time.
 //
-// A goal (`move_to`) is planned from where the earlier jobs leave all arms; of several arms the
-// first to arrive takes it. Without a plan, its verdict and those of dependent jobs have a
-// `result`.
+// The path to a goal (`move_to`) is planned from where the earlier jobs leave all arms. Of several
+// candidate arms, the arm that arrives first takes the job. If there is no plan, the verdicts of
+// this job and of the jobs that name it in `after` have a `result`.
 //
-// Problems: an unknown policy; arms too close at home; those of submit(), with pointers below
-// "/<index>/job".
+// Problems: an unknown policy; arms that are too close at home; the problems of
+// Executive::submit(), with pointers below "/<index>/job".
 [[nodiscard]] Result<std::vector<CheckedJob>> check_jobs(CellPtr cell, const std::string& policy,
                                                          const std::vector<TimedJob>& jobs);
 

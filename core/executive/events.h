@@ -48,12 +48,12 @@ struct CheckView {
   std::optional<double> earliest_start_s;        // from now; nullopt: not known
   std::optional<double> clearance_bound_m;       // ClearanceBound; nullopt: not certified
   std::optional<double> self_clearance_bound_m;  // likewise
-  std::vector<WaitView> waits_on;                // free: until it starts
-  std::vector<WaitView> conflicts;               // not free: the same as waits_on
+  std::vector<WaitView> waits_on;                // free: what it waits for until it starts
+  std::vector<WaitView> conflicts;               // not free: what it waits for
   std::uint64_t evaluations = 0;
   std::uint64_t scene_version = 0;
-  std::optional<ChoiceView> choice;       // of a goal with several candidate arms
-  std::optional<double> move_to_start_s;  // time until its arms are at its start
+  std::optional<ChoiceView> choice;       // for a goal with several candidate arms
+  std::optional<double> move_to_start_s;  // time until the server has moved its arms to its start
   std::optional<JobResultView> result;    // set if the job would end at once
 };
 // See scheduler/ways/replanning.h.
@@ -67,9 +67,10 @@ struct AnotherWayView {
 struct DetourView {
   std::uint64_t candidates_evaluated = 0;
   bool is_selected = false;
-  std::optional<double> time_saved_s;  // nullopt: no detour, or the shortest path was not possible
+  // Nullopt if no detour was taken, or if the shortest path was not possible.
+  std::optional<double> time_saved_s;
 };
-// The alternatives that a client left open, and the decision.
+// The choices that a client left to the server, and the decisions.
 struct JobWaysView {
   std::vector<std::string> alternatives;  // candidate arms, by name
   std::optional<ChoiceView> choice;
@@ -138,7 +139,8 @@ struct ArmView {
   std::vector<std::string> joints;
   std::vector<double> q;  // measured, in the order of `joints`
   std::vector<double> home;
-  double deviation_rad = 0.0;  // measured distance from its own path, largest joint
+  // Measured distance from its path, of the joint with the largest distance (rad or m).
+  double deviation_rad = 0.0;
 };
 
 struct QueueView {
@@ -159,12 +161,13 @@ struct MonitorEvent {
   std::vector<std::string> arms;     // of the pair
   std::vector<std::string> stopped;  // names of the arms that were stopped
 };
-// The guard refused what the scheduler had granted: a defect, which moved no arm.
+// The guard refused authority that the scheduler had granted. This is a defect of the scheduler,
+// but no arm has moved.
 struct GuardEvent {
   GuardRefusal refusal;
   std::string arm;
   std::string job;        // key
-  std::string other_arm;  // empty if it is the scene or an arm of the same motion
+  std::string other_arm;  // empty if the refusal is about the scene or an arm of the same motion
   std::string other_job;  // present or last job of the other arm; may be empty
 };
 struct Alert {
@@ -201,8 +204,8 @@ struct ArmAuthority {
 // A sample of the measured state; may be dropped.
 struct StateFrame {
   TimePoint time;
-  Configuration q;                         // measured, all joints of the cell
-  std::vector<Proximity> clearance;        // closest pair of two arms, and of an arm with the scene
+  Configuration q;                   // measured, all joints of the cell
+  std::vector<Proximity> clearance;  // the closest pairs of two arms, and of an arm and the scene
   std::vector<ArmAuthority> motions = {};  // in the order of jobs
 };
 

@@ -13,7 +13,8 @@
 
 namespace armloom {
 
-// The arms' side: commands, withheld until the start is on disk and the guard allows them.
+// Carries out the scheduler's effects on the arms. A command is withheld until the job's start is
+// on disk and the guard allows the command.
 class Execution {
  public:
   struct Made {
@@ -33,8 +34,9 @@ class Execution {
   void brake_all() { motions_.brake_all(); }
   void forget(const Job& ended);
 
-  // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs.
-  // keeps_back() is true for reports that it must not get, because the job has not begun.
+  // Runs one control cycle of every arm. Returns the reports for the scheduler, in order of jobs. A
+  // report for which keeps_back() is true must not be passed on, because the job's start is not
+  // recorded.
   [[nodiscard]] const std::vector<MotionReport>& tick(TimePoint now) { return gate_.tick(now); }
   [[nodiscard]] bool keeps_back(const MotionReport& report) const;
   // Runs the arms only, as if the executive had stopped.

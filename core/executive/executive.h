@@ -26,14 +26,15 @@ namespace armloom {
 class StatusBoard;
 struct TimelineView;
 
-// Computes verdicts, plans and diagrams. Called on the strand; must call `done` exactly once, on
-// the strand.
+// Computes verdicts, plans and diagrams. Its functions are called on the strand, and must call
+// `done` exactly once, on the strand.
 class JudgementService {
  public:
   virtual ~JudgementService() = default;
   virtual void ask(Question question, PlanningScenePtr scene,
                    std::function<void(Verdict)> done) = 0;
-  // The open question of ask() is void: its answer may be an interrupted verdict.
+  // The answer to the open question of ask() is no longer needed: the verdict may be an interrupted
+  // verdict.
   virtual void interrupt() {}
   // Returns the progress of ask(), 0 to 1; nullopt if not known.
   [[nodiscard]] virtual std::optional<double> progress() const { return std::nullopt; }
@@ -67,10 +68,11 @@ class Observer {
   virtual void on_event(const Event& event) = 0;
   // Called in every control cycle; must be fast.
   virtual void on_tick(TimePoint now, const Configuration& measured) = 0;
-  // Called before on_tick() when no arm moves any more, or one does again. Initially arms are
-  // assumed to move.
+  // Called before on_tick() when the last moving arm has come to rest (true), or an arm moves again
+  // (false). Arms are assumed to move initially.
   virtual void on_rest(bool /*at_rest*/) {}
-  // Called when the set of stopped arms changes (initially none), but not for the final stop.
+  // Called when the set of stopped arms changes (initially none). Not called for the stop at
+  // shutdown.
   virtual void on_stops(const std::vector<ArmId>& /*stopped*/) {}
   // Called for each answered question of the scheduler.
   virtual void on_judged(std::uint64_t /*evaluations*/) {}
@@ -78,18 +80,18 @@ class Observer {
   virtual void on_state(const StateFrame& frame) = 0;
 };
 
-// Records that a job is about to move, so that after a crash no job runs twice. Called on the
+// Records that a job is about to move, so that no job runs twice after a crash. Called on the
 // strand; must not block.
 class StartLog {
  public:
   virtual ~StartLog() = default;
-  // Called once per client job, before its first motion. Its arms may not move until `written` is
-  // called, on the strand.
+  // Called once per client job, before its first motion. The job's arms do not move until the log
+  // calls `written`, on the strand.
   virtual void about_to_move(JobId job, std::function<void()> written) = 0;
 };
 
-// Records every external input (executive_input.h) before it takes effect. `ticks`: control cycles
-// begun. Called on the strand; must not block.
+// Records every external input (executive_input.h) before it takes effect. `ticks`: number of
+// control cycles begun so far. Called on the strand; must not block.
 struct ExecutiveInput;
 class InputLog {
  public:
@@ -100,7 +102,7 @@ class InputLog {
 struct RestoredJob {
   JobId id;
   JobRequest request;
-  TimePoint submitted_at;  // before this session: negative
+  TimePoint submitted_at;  // negative, because before this session
 };
 
 struct ExecutiveOptions {
@@ -109,14 +111,15 @@ struct ExecutiveOptions {
   std::uint64_t seed = 1;                         // for the noise of the simulated arms
   std::size_t ended_kept = 1000;
   std::size_t waiting_max = 10'000;  // active jobs
-  // Memory for trajectories of active jobs; beyond it jobs are refused.
+  // Largest memory for trajectories of active jobs. Jobs that would exceed it are refused.
   std::size_t active_bytes_max = std::size_t{256} << 20;
-  // Memory for trajectories of ended jobs; the oldest are forgotten first, but never the last.
+  // Largest memory for trajectories of ended jobs. The oldest jobs are forgotten first; the job
+  // that ended last is always kept.
   std::size_t ended_bytes_max = std::size_t{32} << 20;
   JobId first_job{1};          // the first client job of this session
   StartLog* starts = nullptr;  // outlives the executive; may be null
   InputLog* inputs = nullptr;  // likewise
-  // For tests: from then on only the controllers run, as after the death of the executive.
+  // For tests: from this time on only the controllers run, as if the executive had died.
   std::optional<TimePoint> dies_at = {};
 };
 
@@ -132,8 +135,9 @@ struct RunFigures {
   std::uint64_t guard_refusals = 0;  // unexpected (GuardEvent)
 };
 
-// A coordination diagram with a layer for each arm of A and each other arm of B, whose cells cover
-// the rectangle of both durations. Times of cells and sides are trajectory time.
+// A coordination diagram of two jobs A and B. It has a layer for each pair of an arm of A and a
+// different arm of B. The cells of a layer cover the rectangle of both durations. Times of cells
+// and sides are trajectory time.
 struct DiagramView {
   struct Side {
     std::string job;  // key
@@ -145,7 +149,7 @@ struct DiagramView {
     std::string arm_a;
     std::string arm_b;
     std::vector<DiagramCell> cells;
-    std::optional<DiagramContact> met;  // first contact if both go on from their progress
+    std::optional<DiagramContact> met;  // first contact if both jobs go on from their progress
   };
   TimePoint time;  // time of the request
   Side a;
@@ -155,8 +159,8 @@ struct DiagramView {
   std::uint64_t scene_version = 0;
 };
 
-// Runs clock, scheduler, checks, monitor and arms on one strand. Not thread-safe; owns no thread
-// and no clock: a driver (simulation, RealTimeLoop) calls tick() with growing cell time.
+// Runs clock, scheduler, checks, monitor and arms on one strand. Not thread-safe. It owns no thread
+// and no clock: a driver (Simulation, RealTimeLoop) calls tick() with growing cell time.
 class Executive {
  public:
   // Problems: arms in conflict at home, unknown policy, unknown controller type.
@@ -166,46 +170,51 @@ class Executive {
                                                                  Observer& observer);
   ~Executive();
 
-  // Validates the job and submits it at now(). Problems: those of validate() (pointers begin with
-  // "/trajectory"); a key in use (conflict); the queue is full (unavailable); a start away from
-  // where the arm will be; an `after` that is unknown, has failed, or is the job itself.
-  // Self-collisions (Reason::self_collision) and goals without a path (no_plan) are found later.
+  // Validates the job and submits it at now(). Self-collisions (Reason::self_collision) and goals
+  // without a path (no_plan) are found later. Problems:
+  // - those of validate() (pointers begin with "/trajectory")
+  // - the key is in use (conflict)
+  // - the queue is full (unavailable)
+  // - the trajectory does not begin where the arm will be
+  // - a job in `after` is unknown, has failed, or is the job itself
   [[nodiscard]] Result<JobView> submit(JobRequest request);
-  // Opens a batch, to be submitted in chunks (batch.h) that delay no control cycle. A job may name
-  // earlier ones in `after`. Atomic: all jobs or none; problems point to "/jobs/<index>/...".
-  // Otherwise each job has its own answer. Submit nothing else before the answers. The executive
-  // outlives the batch.
+  // Opens a batch, which is submitted in chunks (batch.h) that are short enough not to delay a
+  // control cycle. A job may name earlier jobs of the batch in `after`. With `atomic`, all jobs are
+  // accepted or none, and problems point to "/jobs/<index>/...". Otherwise each job has its own
+  // answer. Submit nothing else before the answers are there. The executive outlives the batch.
   class Batch;
   using BatchAnswers = Result<std::vector<Result<JobView>>>;
   [[nodiscard]] std::shared_ptr<Batch> open_batch(std::vector<JobRequest> requests, bool atomic);
-  // Restores waiting jobs of an earlier session, in order of their ids, before any new job. A wrong
-  // start is no problem here, but fails the job at its turn. Problems: those of submit().
+  // Restores waiting jobs of an earlier session, in order of their ids. Call before any new job is
+  // submitted. A job that begins elsewhere than its arm will be is accepted, but fails at its turn.
+  // Problems: those of submit().
   [[nodiscard]] std::vector<Result<JobView>> restore(std::vector<RestoredJob> jobs);
-  // Checks the job as if it started now and changes nothing. `done` is called on the strand, at
-  // once or later.
+  // Finds what would happen to the job if it were submitted now (Trial). Changes nothing. `done` is
+  // called on the strand, at once or later.
   void check(JobRequest request, std::function<void(Result<CheckView>)> done);
   // Plans a trajectory without executing it, around all other arms where they will be after all
-  // accepted jobs; of several arms the first to arrive. The outcome includes the result of check().
-  // `done` as for check(); soon if the client sets `cancelled`. Problems: names, sizes, limits
-  // (pointers "/arm", "/to/...", "/start/..."); unavailable: too many plans are open.
+  // accepted jobs. Of several candidate arms, plans for the arm that arrives first. The outcome
+  // includes the result of check(). `done` is called on the strand, at once or later; soon if the
+  // client sets `cancelled`. Problems: wrong names or sizes, broken limits (pointers "/arm",
+  // "/to/...", "/start/..."); unavailable: too many plans are open.
   void plan(PlanInquiry inquiry, std::shared_ptr<std::atomic<bool>> cancelled,
             std::function<void(Result<PlanOutcome>)> done);
-  // Draws the coordination diagram of two jobs, active or ended. `done` as for check(). Problems:
-  // not_found; invalid: they do not have two different arms; unavailable: too many drawings are
-  // open. Pointers: "?with" for B.
+  // Draws the coordination diagram of two jobs, active or ended. `done` is called on the strand, at
+  // once or later. Problems: not_found; invalid: the jobs do not have two different arms;
+  // unavailable: too many drawings are open. The pointer "?with" means `key_b`.
   void diagram(const std::string& key_a, const std::string& key_b,
                std::function<void(Result<DiagramView>)> done);
-  // Cancels the job now, or by the control cycle at `at`, unless a later call sets another time
-  // (hold_to_run.h). Problems: not_found; conflict if it has ended.
+  // Cancels the job, now or in the control cycle at `at`. A later call can set another time before
+  // that (hold_to_run.h). Problems: not_found; conflict if the job has ended.
   [[nodiscard]] Result<JobView> cancel(const std::string& key, std::optional<TimePoint> at = {});
-  // Rolls back a job whose acceptance was never acknowledged to the client, for example because it
-  // could not be stored. It is canceled, then forgotten, and its key can be reused. Event
-  // subscribers do see it created and canceled.
+  // Rolls back a job whose acceptance was never acknowledged to the client, for example because the
+  // job could not be stored. The job is canceled, then forgotten, and its key can be used again.
+  // Event subscribers still see the job created and canceled.
   void roll_back(const std::string& key);
   // Changes the job's terms at once (scheduler/amending.h). Problems: those of cancel().
   [[nodiscard]] Result<JobView> amend(const std::string& key, JobAmendment amendment);
   // Replans the job (scheduler/ways/replanning.h). A moving job is first brought to rest. Problems:
-  // not_found; conflict if it has ended or cannot be replanned.
+  // not_found; conflict if the job has ended or cannot be replanned.
   [[nodiscard]] Result<JobView> replan(const std::string& key);
 
   void alert(Alert alert);
@@ -214,9 +223,9 @@ class Executive {
   class ActivePolicy;
   [[nodiscard]] ActivePolicy policy();
 
-  // Graceful shutdown: stops all arms without an alert, then interrupts every job that has not
-  // ended, or with Waiting::is_kept every job that has begun, then calls `done` on the strand.
-  // Accepts no more jobs.
+  // Shuts down. Accepts no more jobs and stops all arms without an alert. When the arms are at
+  // rest, interrupts every job that has not ended, or with Waiting::is_kept only every job that has
+  // begun. Then calls `done` on the strand.
   enum class Waiting { ends, is_kept };
   void wind_down(const std::string& cause, Waiting waiting, std::function<void()> done);
 
@@ -225,24 +234,25 @@ class Executive {
   [[nodiscard]] ArmFaults& faults();
 
   [[nodiscard]] std::optional<JobView> job(const std::string& key) const;
-  // Returns the job's motion, or the likeliest if not decided yet; null if the job is unknown.
+  // Returns the job's motion; null if the job is unknown. If the arm is undecided, returns the
+  // motion of the likeliest arm.
   [[nodiscard]] TrajectoryPtr trajectory(const std::string& key) const;
   // The published status, for any thread (status_board.h).
   [[nodiscard]] std::shared_ptr<const StatusBoard> board() const;
-  // With at most the `ended_max` jobs that ended last.
+  // Returns the status with all active jobs and at most the `ended_max` jobs that ended last.
   [[nodiscard]] Snapshot snapshot(std::size_t ended_max = ~std::size_t{0}) const;
   [[nodiscard]] std::vector<ArmView> arms() const;
   [[nodiscard]] TimelineView timeline() const;
   [[nodiscard]] TimePoint now() const;
   [[nodiscard]] bool all_ended() const;
-  // Returns the time before which nothing changes without an input or an answer, because every arm
-  // rests and no timeout or planned start is due. TimePoint::max() if there is none; at most now()
-  // if anything is in progress.
+  // Returns the time until which nothing changes without an input or an answer, because every arm
+  // rests and no timeout or planned start is due before. TimePoint::max() if nothing is due at all;
+  // at most now() if anything is in progress.
   [[nodiscard]] TimePoint settled_until() const;
   [[nodiscard]] const RunFigures& figures() const;
 
-  // Runs one control cycle. `now` must grow by kControlPeriod per call, or by a multiple of it up
-  // to settled_until().
+  // Runs one control cycle. From call to call, `now` must grow by kControlPeriod, or by a multiple
+  // of kControlPeriod that does not pass settled_until().
   void tick(TimePoint now);
 
  private:

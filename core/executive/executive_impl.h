@@ -26,7 +26,7 @@ namespace armloom {
 // The modules of the executive and their connections.
 class Executive::Impl {
  public:
-  // The parts checked or made by create(); the arms are at home.
+  // Inputs that Executive::create() has checked or made; the arms are at home.
   struct Checked {
     CellPtr cell;
     PlanningScenePtr scene;
@@ -70,7 +70,7 @@ class Executive::Impl {
     bool quiet = false;  // in the last cycle all arms were settled and there was no report
     std::optional<TimePoint> dies_at = {};  // ExecutiveOptions
     std::uint64_t ticks = 0;
-    InputLog* inputs = nullptr;  // receives the inputs between them
+    InputLog* inputs = nullptr;  // receives the inputs between the ticks
     TimePoint shows_check_at{};  // next publication of a check's progress
   };
 

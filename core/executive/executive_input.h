@@ -10,11 +10,12 @@
 
 namespace armloom {
 
-// An external input that changes an executive, as recorded by InputLog. Together with the cell, the
-// options and the ticks, the inputs determine everything: arms are simulated from a seed, and
-// verdicts and plans follow from their questions; only their times are inputs.
+// An external input that changes an executive, as recorded by InputLog. The cell, the options, the
+// ticks and these inputs determine everything that the executive does. Arms are simulated from a
+// seed. The content of verdicts and plans follows from their questions, so only the times of their
+// arrival are inputs.
 struct ExecutiveInput {
-  // A job as requested: everything else is read from the body.
+  // A job as requested. Everything that is not here is read from `body`.
   struct AskedJob {
     std::vector<std::string> succeeded = {};       // JobRequest::known
     std::shared_ptr<const std::string> body = {};  // null if no log keeps it
@@ -34,7 +35,7 @@ struct ExecutiveInput {
     JobId id{0};
     std::string key;
     TimePoint submitted_at;
-    JobAmendment amended;  // all amendable terms, as they are now
+    JobAmendment amended;  // the present values of all terms that can be amended
     AskedJob asked;
   };
   struct Restored {
@@ -89,17 +90,17 @@ struct ExecutiveInput {
   struct Alerted {
     Alert alert;
   };
-  // The answer to the scheduler's open question; `evaluations` shows whether a replay gets the same
-  // answer.
+  // The answer to the scheduler's open question arrived. A replay compares `evaluations` to see
+  // whether it gets the same answer.
   struct Judged {
     std::uint64_t evaluations;
     bool interrupted = false;  // Verdict::interrupted
   };
-  // The answer to the guard's open question for certificates.
+  // The answer to the guard's open question for certificates arrived.
   struct Certified {
     std::uint64_t evaluations;
   };
-  // The answer to the open plan of this job.
+  // The answer to the open plan `question` of this job arrived.
   struct Planned {
     JobId job{0};
     std::uint64_t question;

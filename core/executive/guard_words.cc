@@ -16,14 +16,14 @@ std::string reason(const GuardRefusal& refusal, const Cell& cell) {
   const std::string other = refusal.other ? cell.arm(*refusal.other).name : "the scene";
   switch (refusal.why) {
     case GuardRefusal::Why::uncertified:
-      return "no certificate of the present scene covers it and " + other;
+      return "no certificate of the present scene covers this together with " + other;
     case GuardRefusal::Why::region:
-      return other + " is or may go " + stretch(refusal.asked.from_b, refusal.asked.to_b) +
+      return other + " is, or may go, " + stretch(refusal.asked.from_b, refusal.asked.to_b) +
              " of its motion, and these positions are in a conflict region";
     case GuardRefusal::Why::busy:
-      return "it is on another motion";
+      return "the arm is on another motion";
     case GuardRefusal::Why::out_of_step:
-      return "the arms of its motion are farther apart on it than is certified";
+      return "the arms of its motion are farther apart on the path than is certified";
   }
   return "";
 }

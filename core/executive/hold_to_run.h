@@ -8,12 +8,12 @@
 
 namespace armloom {
 
-// Leases of jog motions (hold-to-run). A job is canceled when its lease is over, unless the client
-// has renewed the lease. On the strand.
+// Leases of jog motions (hold-to-run): a job is canceled when its lease is over, unless the client
+// has renewed the lease before. Used on the strand.
 class HoldToRun {
  public:
   void hold(const std::string& job, TimePoint until) { leases_[job] = until; }
-  // Returns the jobs whose lease is over by `now`, and forgets them.
+  // Removes the leases that are over at `now`, and returns the keys of their jobs.
   [[nodiscard]] std::vector<std::string> let_go(TimePoint now);
   // Returns when the next lease is over; TimePoint::max() if there is none.
   [[nodiscard]] TimePoint next() const;

@@ -24,21 +24,23 @@ void find_bad_alternatives(const Cell& cell, const std::vector<TrajectoryPtr>& m
     const ArmId arm = motion.arms().front();
     const std::string& name = cell.arm(arm).name;
     if (motion.arms().size() > 1 || std::ranges::find(arms, arm) != arms.end()) {
-      problems.push_back({ProblemKind::invalid, "bad-alternative", place + "/joint_names",
-                          "each alternative moves one arm, that no other alternative moves", name});
+      problems.push_back(
+          {ProblemKind::invalid, "bad-alternative", place + "/joint_names",
+           "each alternative must move exactly one arm, and no two may move the same arm", name});
     }
     arms.push_back(arm);
     for (std::size_t j = 0; j < motion.joints().size(); ++j) {
       const auto index = static_cast<Eigen::Index>(j);
       const double off = motion.goal()[index] - motion.start()[index];
       if (std::abs(off) <= Places::kRounding) continue;
-      problems.push_back({ProblemKind::invalid, "alternative-ends-elsewhere",
-                          place + "/points/" + std::to_string(motion.segment_count()) +
-                              "/positions/" + std::to_string(j),
-                          cell.joint(motion.joints()[j]).name +
-                              ": an alternative has to end where it begins, as the next job of " +
-                              name + " cannot know whether it is taken",
-                          motion.goal()[index]});
+      problems.push_back(
+          {ProblemKind::invalid, "alternative-ends-elsewhere",
+           place + "/points/" + std::to_string(motion.segment_count()) + "/positions/" +
+               std::to_string(j),
+           cell.joint(motion.joints()[j]).name +
+               ": an alternative must end where it begins, because the next job of " + name +
+               " begins there whether or not this one is chosen",
+           motion.goal()[index]});
     }
   }
 }

@@ -17,11 +17,12 @@ namespace armloom {
 struct PreparedJob {
   std::string key;  // generated if empty
   std::string name;
-  std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first, mostly the only one
-  std::vector<MotionGoal> goals;            // one for each trajectory, which are then estimates
+  std::vector<TrajectoryPtr> alternatives;  // the job's trajectory first; usually the only one
+  std::vector<MotionGoal> goals;  // one for each of the trajectories, which are then estimates
   JobTerms terms;
   std::vector<std::string> after;
-  std::vector<TrajectoryPtr> returns;  // of its arms, to where the clients left them
+  // Motions of arms that have retreated, back to where the clients had left them.
+  std::vector<TrajectoryPtr> returns;
 };
 
 [[nodiscard]] std::size_t bytes_of(const std::vector<TrajectoryPtr>& trajectories);
@@ -38,26 +39,26 @@ class JobIntake {
   JobIntake(CellPtr cell, const Scheduler& scheduler, const JobRegister& jobs, ActiveMax active_max)
       : cell_(std::move(cell)), scheduler_(scheduler), jobs_(jobs), active_max_(active_max) {}
 
-  // Joint positions and used keys after all earlier jobs.
+  // The state after all earlier jobs, also of the same batch. Requests are checked against it.
   struct Ahead {
     Configuration rest;
     std::unordered_set<std::string> keys;
-    std::map<ArmId, TrajectoryPtr> ways_back;  // of arms that have retreated
-    std::vector<ArmId> open = {};              // whose position in `rest` is not known yet
+    std::map<ArmId, TrajectoryPtr> ways_back;  // by arm that has retreated: the motion back
+    std::vector<ArmId> open = {};              // arms whose position in `rest` is not known yet
     bool begins_anywhere = false;              // jobs need not begin at `rest`
-    std::size_t jobs = 0;                      // accepted together with it
-    std::size_t bytes = 0;                     // of their trajectories
+    std::size_t jobs = 0;                      // number of earlier jobs of the batch
+    std::size_t bytes = 0;                     // memory of their trajectories
   };
   [[nodiscard]] Ahead ahead() const;
-  // Checks a request completely, before anything is stored. Updates `ahead` for the next request of
-  // a batch.
+  // Checks a request completely; stores nothing. Updates `ahead` for the next request of a batch.
   [[nodiscard]] Result<PreparedJob> prepare(JobRequest request, Ahead& ahead) const;
   [[nodiscard]] Submit submission(PreparedJob prepared) const;
-  // Returns the job that brings an arm back after a retreat, before a job of this priority.
+  // Returns a job with this motion and priority that brings an arm back after a retreat.
   [[nodiscard]] Submit return_of(TrajectoryPtr back, int priority) const;
 
   void accepted(Ahead ahead) { ways_back_ = std::move(ahead.ways_back); }
-  // The arm retreats: remembers where its clients left it, however often it retreats.
+  // Call when the arm retreats along `way`. Remembers the motion back to where the clients had left
+  // the arm, also if the arm retreats several times.
   void remember_way_back(ArmId arm, const Trajectory& way);
   void forget_way_back(ArmId arm) { ways_back_.erase(arm); }
   // The server is ending: refuses all further jobs.

@@ -16,7 +16,7 @@
 
 namespace armloom {
 
-// Server-initiated jobs; part of their keys.
+// Kinds of server-initiated jobs. The kind is part of the job's key.
 enum class OwnJob { retreat, move_to_start };
 
 struct JobLabel {
@@ -28,7 +28,7 @@ struct JobLabel {
 
 class JobRegister final : public JobNames {
  public:
-  // Limits for ended jobs; beyond them the oldest are forgotten.
+  // Limits for ended jobs. If a limit is exceeded, the oldest ended jobs are forgotten.
   struct EndedMax {
     std::size_t jobs;
     std::size_t bytes;  // of trajectories; the job that ended last always stays
@@ -40,8 +40,8 @@ class JobRegister final : public JobNames {
   // Precondition: the key is not taken.
   void add(JobId id, JobLabel label);
   void rename(JobId id, std::string name);  // precondition: the job is known
-  // Returns the oldest ended jobs beyond the limits, now removed, so that the caller can forget
-  // them too.
+  // The job has ended. Removes the oldest ended jobs beyond the limits, and returns them so that
+  // the caller can forget them too.
   struct Forgotten {
     JobId id;
     std::string key;

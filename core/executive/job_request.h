@@ -19,11 +19,11 @@ struct JobRequest {
   std::string key;  // generated if empty ("job-17")
   std::string name;
   TrajectoryRequest trajectory;  // ignored if there are alternatives or a goal
-  // The same work by one of several arms: each moves one arm and ends where it begins. Empty, or at
-  // least two.
+  // Trajectories by which different arms can do the same work. Each moves one arm and ends where it
+  // begins. Empty, or at least two.
   std::vector<TrajectoryRequest> alternatives = {};
-  // Instead of a trajectory: a goal for this arm, or for whichever of `arms` arrives first, and the
-  // speed factor (nullopt: the cell's).
+  // A goal instead of a trajectory, for `arm`, or for the one of `arms` that arrives first.
+  // `speed`: share of the joints' maximum speeds; nullopt: the cell's value.
   std::optional<PlanGoal> move_to = {};
   std::string arm = {};
   std::vector<std::string> arms = {};
@@ -31,16 +31,17 @@ struct JobRequest {
   JobTerms terms = {};
   std::vector<std::string> after;  // keys of jobs that must succeed first
   struct Known {
-    // Jobs of `after` that have succeeded, in an earlier session or long ago.
+    // Jobs of `after` that have succeeded, although the executive may not know them any more.
     std::vector<std::string> succeeded = {};
-    // Results of validate() for each of motions() (validated.h), which takes too long for the
-    // strand. Empty: not validated yet.
+    // The result of validate() for each of motions(), computed in advance because it takes too long
+    // for the strand (validated.h). Empty: not validated yet.
     std::vector<Result<TrajectoryPtr>> validated = {};
   } known = {};
   // The request as received; null if no log keeps it.
   std::shared_ptr<const std::string> body = {};
 
-  // Returns the trajectory, or the alternatives, each with its JSON pointer ("/alternatives/0").
+  // Returns the trajectory, or the alternatives if there are any, each with its JSON pointer
+  // ("/alternatives/0").
   struct PlacedMotion {
     std::string place;
     const TrajectoryRequest& motion;
@@ -48,7 +49,7 @@ struct JobRequest {
   [[nodiscard]] std::vector<PlacedMotion> motions() const;
 };
 
-// nullopt: unchanged.
+// A client's change of a job; nullopt: unchanged.
 struct JobAmendment {
   std::optional<std::string> name = {};
   AmendedTerms terms = {};

@@ -10,8 +10,8 @@
 
 namespace armloom {
 
-// The jobs as clients see them, in order of ids. An immutable value: a copy costs one pointer,
-// whatever the number of jobs.
+// The jobs as clients see them, in order of ids. An immutable value: a copy copies only one
+// pointer, however many jobs there are.
 class JobSheet {
  public:
   using JobPtr = std::shared_ptr<const JobView>;
@@ -55,8 +55,8 @@ class JobSheet {
   std::shared_ptr<const Slots> slots_ = std::make_shared<const Slots>();
 };
 
-// The strand's master copy. A change copies at most one page; sheets shared before stay unchanged
-// and share all other pages.
+// The strand's own copy of the jobs, which can change. A change copies at most one page of jobs.
+// Sheets that were shared before stay unchanged, and share all other pages.
 class JobLedger {
  public:
   void put(JobSheet::JobPtr job);  // replaces the job with its id

@@ -19,14 +19,16 @@ struct VersionedScene {
   std::uint64_t version = 1;
 };
 
-// The present planning scene, with changes of its objects by clients. On the strand.
+// The present planning scene, whose objects clients can change. Used on the strand.
 class LiveScene {
  public:
   // Returns the present measured positions.
   using Measured = std::function<const Configuration&()>;
   struct Told {
-    std::function<void(const ExecutiveInput&)> asked;  // a client's request, valid or not
-    std::function<void(ClearanceQuery)> changed;       // the monitor's query in the new scene
+    // Called with each request of a client, also an invalid one.
+    std::function<void(const ExecutiveInput&)> asked;
+    // Called after a change, with the monitor's query in the new scene.
+    std::function<void(ClearanceQuery)> changed;
   };
   LiveScene(PlanningScenePtr scene, Measured measured, Told told)
       : now_{std::move(scene)}, measured_(std::move(measured)), told_(std::move(told)) {}
@@ -38,9 +40,9 @@ class LiveScene {
     return now_.scene->objects();
   }
 
-  // Change the objects; every motion under way and every waiting job is checked again. Problems: a
-  // name in use (of an object, a link or a robot) or unknown; a shape closer to a measured arm than
-  // the monitor's stop_clearance.
+  // Change the objects. Every motion under way and every waiting job is then checked again.
+  // Problems: a name that is in use (of an object, a link or a robot) or unknown; a shape that is
+  // closer to the measured position of an arm than the monitor's stop_clearance.
   [[nodiscard]] Result<void> add(CollisionObject object);
   [[nodiscard]] Result<void> replace(CollisionObject object);
   [[nodiscard]] Result<void> remove(const std::string& name);

@@ -11,11 +11,11 @@
 
 namespace armloom {
 
-// Hands a job's trajectory to the controllers of its arms and joins their feedback into one report
-// (the last arm's progress, one end). If one arm faults, the others are braked. Arms that lead by
-// more than kOutOfStep wait on the path. No arm gets authority farther ahead of the last known
-// position of the others than kOutOfStep plus the stopping reach, so the arms stay together even if
-// feedback is lost.
+// Sends a job's trajectory to the controllers of its arms and joins their feedback into one report:
+// the progress of the last arm, and one end. If one arm faults, the other arms of the motion are
+// braked. An arm that leads by more than kOutOfStep waits on the path. Authority never exceeds the
+// last known progress of the last arm by more than kOutOfStep plus the stopping reach, so the arms
+// stay together even if feedback is lost.
 class Motions {
  public:
   Motions(CellPtr cell, std::vector<std::unique_ptr<ArmController>> controllers,
@@ -32,19 +32,20 @@ class Motions {
   // Runs the arms' part of a cycle only, as if the executive had stopped.
   void tick_arms(TimePoint now);
 
-  // As of the last tick; all joints of the cell.
+  // Returns the positions measured in the last tick, of all joints of the cell (rad, m).
   [[nodiscard]] const Configuration& measured() const { return measured_; }
   [[nodiscard]] const ArmFeedback& feedback(ArmId arm) const { return feedback_[arm.index()]; }
   [[nodiscard]] bool moving(ArmId arm) const;
   // Returns true if the arm progressed on its path in the last tick; false in a pause.
   [[nodiscard]] bool advances(ArmId arm) const { return advances_[arm.index()]; }
   [[nodiscard]] bool all_at_rest() const;
-  // Until the next command.
+  // Returns true if all arms rest, and stay at rest until the next command.
   [[nodiscard]] bool all_settled() const;
   // Returns the largest distance of a measured joint from its path at the measured progress, rad or
   // m; zero without a motion.
   [[nodiscard]] double deviation(ArmId arm) const;
-  // In order of jobs. Trajectory time.
+  // An arm of a motion under way; times are trajectory time. under_way() returns them in order of
+  // jobs.
   struct UnderWay {
     ArmId arm;
     JobId job;
@@ -58,7 +59,8 @@ class Motions {
     TrajectoryPtr trajectory;
     std::map<ArmId, Duration> stands_at{};  // measured, after a brake
     Duration authority{};
-    Duration ahead_max{};  // limit of lead over the last arm; motions of several arms
+    // For motions of several arms: largest lead of an arm's authority over the last arm.
+    Duration ahead_max{};
     Duration handed_on{};
     bool resting = false;  // its end was reported
     bool braking = false;

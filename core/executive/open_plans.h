@@ -12,6 +12,7 @@
 
 namespace armloom {
 
+// Returns the scheduler's input for the answer.
 [[nodiscard]] PlanMade made_of(const PlanMotion& asked, PlanAnswer answer);
 
 // The open plans of jobs.
@@ -21,7 +22,7 @@ class OpenPlans {
 
   // `done` is called later, on the strand.
   void ask(const PlanMotion& asked, PlanningScenePtr scene, std::function<void(PlanMade)> done);
-  // The job no longer needs its plans.
+  // Cancels the open plans of a job that no longer needs them.
   void give_up(JobId job);
   // Returns the open plans, by job.
   [[nodiscard]] std::vector<PlanMotion> open() const;

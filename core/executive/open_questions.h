@@ -30,7 +30,7 @@ class OpenQuestions {
   void give_up(JobId job) {
     if (asks_about(job)) service_.interrupt();
   }
-  // Adds a wait of kind `check`; returns false if the job is not being checked.
+  // If the job is being checked, adds a wait of kind `check` with the progress and returns true.
   [[nodiscard]] bool tell_check(JobView& job) const {
     const auto progress = asks_about(job.id) ? service_.progress() : std::nullopt;
     if (!progress) return false;

@@ -6,7 +6,8 @@
 
 namespace armloom {
 
-// The checker of one thread, created at the first call, in the scene of the present question.
+// The motion checker of one thread. in() creates it at the first call, and then sets the scene of
+// the present question.
 class OwnChecker {
  public:
   [[nodiscard]] MotionChecker& in(const PlanningScenePtr& scene) {

@@ -15,7 +15,8 @@
 
 namespace armloom {
 
-// A requested plan. Any thread may set `cancelled`: the requester, or the pool when it ends.
+// A requested plan. `cancelled` may be set by any thread: by the requester, or by the worker pool
+// when it ends.
 struct PlanTask {
   PlanQuestion question;
   PlanningScenePtr scene;
@@ -31,19 +32,20 @@ struct PlanTask {
 
 struct PlanInquiry {
   std::string arm;
-  std::vector<std::string> arms;  // instead of `arm`: whichever arrives first
+  // Instead of `arm`: candidate arms, of which the first to arrive is taken.
+  std::vector<std::string> arms;
   PlanGoal to;
   std::optional<PlanGoal> from;  // nullopt: where the arm will be after all admitted jobs
   std::uint64_t seed = 1;
   std::optional<double> speed = {};  // MotionGoal::speed; nullopt: the cell's
   std::optional<int> budget = {};    // PlanQuestion::budget, from 1 to kPlanBudgetMax
 };
-// A larger budget would keep a worker busy for minutes.
+// Largest budget that a client may request: a larger one would keep a worker busy for minutes.
 inline constexpr int kPlanBudgetMax = 10 * static_cast<int>(PlanRequest::kDefaultBudget);
 
 struct OtherArm {
   std::string arm;
-  std::optional<double> arrives_s;  // from now, as a job
+  std::optional<double> arrives_s;  // from now, if it were submitted as a job now
   std::string detail;
 };
 
@@ -53,13 +55,13 @@ struct PlanView {
   PlannedMotion motion;
   double length;                // in joint space (rad, m), ...
   double straight_line_length;  // ... and of the straight line
-  // Result of check() for this motion, or why it was not checked (its start is not where the arm
-  // will be).
+  // The result of check() for this motion, or the problem that prevents a check (its start is not
+  // where the arm will be).
   Result<CheckView> verdict;
 };
 
-// Why there is no plan (of several arms: the first arm's kind and place), and the offending member
-// of the inquiry.
+// Why there is no plan, and which member of the inquiry causes this. For several arms, kind and
+// place are those of the first arm.
 struct RefusedInquiry {
   PlanRefusal why;
   std::string pointer = {};  // JSON pointer; empty if the cause is not in the inquiry

@@ -19,11 +19,11 @@
 
 namespace armloom {
 
-// Publishes changes as events, and the present status on a board that other threads read. The board
-// is updated before the event is published.
+// Publishes changes as events, and the present status on a board that other threads read
+// (status_board.h). The board is updated before an event is published.
 class Publisher {
  public:
-  // All of it outlives the publisher.
+  // The objects whose state is published. All of them outlive the publisher.
   struct Shown {
     const Cell& cell;
     const Scheduler& scheduler;
@@ -39,27 +39,27 @@ class Publisher {
       std::variant<JobView, ArmView, QueueView, SceneView, MonitorEvent, GuardEvent, Alert>;
   void tell(Body body, TimePoint now);
   void tell_scene(TimePoint now);
-  // With an alert if it failed.
+  // Publishes the job, and an alert if it failed or expired.
   void tell_job(JobView view, TimePoint now);
   // Publish only what changed since the last publication:
   void tell_arms(TimePoint now);
   void tell_stops();
   void tell_judged(std::uint64_t evaluations) { observer_.on_judged(evaluations); }
-  // Publishes the queue lists, rarely if they are long. A change of "all arms are stopped" is
-  // published at once.
+  // Publishes the queue lists if they have changed. Long lists are published less often, but a
+  // change of "all arms are stopped" always at once.
   void queue_may_have_changed(TimePoint now);
   void tell_queue(TimePoint now);
   [[nodiscard]] bool is_behind() const { return queue_is_old_; }
   void tell_tick(TimePoint now);
   void tell_state(const std::vector<Proximity>& near, TimePoint now);
 
-  // After each scheduler step: also publishes changes without an event.
+  // Call after each step of the scheduler: updates the board, also with changes that have no event.
   void publish_step(TimePoint now);
   void show(JobView view, TimePoint now);  // on the board only, without an event
   void forget(JobId job, const std::string& key);
   [[nodiscard]] std::shared_ptr<const StatusBoard> board() const { return board_; }
 
-  // Returns the view of a job; times of an earlier session are kept.
+  // Returns the view of a job. A job of an earlier session keeps its time of submission.
   [[nodiscard]] JobView view(JobId job) const;
   [[nodiscard]] std::vector<ArmView> arms() const;
 
@@ -86,8 +86,8 @@ class Publisher {
   JobLedger jobs_;
   std::vector<StatusBoard::KeyOfJob> gone_;  // forgotten since the board was published
   QueueLists lists_;
-  std::set<JobId> explained_;         // jobs whose wait texts may change by themselves
-  std::vector<ArmStatus> arms_;       // ArmId; as published
+  std::set<JobId> explained_;    // jobs whose wait texts may change without a change of the job
+  std::vector<ArmStatus> arms_;  // ArmId; as published
   std::vector<ArmStatus> told_arms_;  // ArmId
   std::vector<ArmId> told_stops_;
   QueueView told_queue_;

@@ -13,12 +13,12 @@ namespace armloom {
 // list `running`.
 [[nodiscard]] std::vector<std::string> QueueView::*queue_list_of(JobState state);
 
-// Keeps the queue lists, in order of submission. Uses the published job states, so lists and jobs
-// always agree.
+// Keeps the four queue lists, in order of job ids. They are made from the published job states, so
+// lists and jobs always agree.
 class QueueLists {
  public:
   void put(const JobView& job);
-  // The four lists; the caller fills in the rest.
+  // Returns the view with the four lists. The caller fills in its other members.
   [[nodiscard]] const QueueView& view() const { return view_; }
   [[nodiscard]] QueueView& view() { return view_; }
 

@@ -20,15 +20,15 @@ class RealTimeLoop {
                                                                    Observer& observer);
   ~RealTimeLoop();  // stops the threads; the arms stay where they are
 
-  // Runs `command` on the strand, between two control cycles as time permits. Commands run in the
-  // order posted.
+  // Runs `command` on the strand, between two control cycles, when time permits. Commands run in
+  // the order in which they are posted.
   void post(std::function<void(Executive&)> command);
-  // Runs a long command in parts: calls it again until it returns true. Later commands wait for it,
-  // control cycles do not.
+  // Runs a long command in parts: calls `task` again and again until it returns true. Later
+  // commands wait for its end, but control cycles run in between.
   using Task = std::function<bool(Executive&)>;
   void post_in_parts(Task task);
-  // Runs before all other commands, in the order posted: stops, resumes, and answers that jobs wait
-  // for.
+  // Runs `command` before all commands that are not urgent, in the order posted. For stops,
+  // resumes, and answers that jobs wait for.
   void post_urgent(std::function<void(Executive&)> command);
   [[nodiscard]] const StatusBoard& board() const;
   [[nodiscard]] double speed() const;

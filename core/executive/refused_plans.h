@@ -8,13 +8,13 @@
 
 namespace armloom {
 
-// Caches failed planning queries. A query is repeated only when the scene, its start, its goal, or
-// the position of an arm that it had to avoid has changed. The seed is ignored.
+// Caches failed planning queries. A query is answered from the cache unless the scene, the start,
+// the goal, or the position of an arm that the query had to avoid has changed. The seed is ignored.
 class RefusedPlans {
  public:
   // Sets PlanTask::known if the answer is cached.
   void tell(PlanTask& task);
-  // Stores the answer to a query in this scene that was not canceled.
+  // Stores the answer to a query in this scene if the planner found no path and was not canceled.
   void learn(const PlanQuestion& question, const PlanningScenePtr& scene, const PlanAnswer& answer);
 
   inline static constexpr std::size_t kMax = 64;  // the oldest are dropped

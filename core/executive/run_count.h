@@ -7,7 +7,7 @@
 
 namespace armloom {
 
-// Collects the results of a session.
+// Collects the figures of a session (RunFigures).
 class RunCount {
  public:
   explicit RunCount(std::size_t arms);

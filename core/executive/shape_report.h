@@ -12,9 +12,9 @@ namespace armloom {
 // The collision shapes of one link or object.
 struct ShapeReport {
   std::string body;               // the link's or object's name
-  std::size_t convex_shapes = 0;  // exact shapes; a mesh has one per convex piece
-  std::size_t capsules = 0;       // around them, for the conservative filter
-  double excess_m = 0.0;          // measured gap by which the capsules exceed the shapes
+  std::size_t convex_shapes = 0;  // number of exact shapes; a mesh has one per convex piece
+  std::size_t capsules = 0;  // number of capsules around the shapes, for the first, coarse check
+  double excess_m = 0.0;     // by how much the capsules stand off the shapes, measured
 };
 
 // Returns a report of every link that has a shape, in the cell's order, then of every object.

@@ -11,13 +11,12 @@
 
 namespace armloom {
 
-// Simulated duration of a check, whatever its real duration.
+// Durations of a check and of a plan in simulated time, however long they really take.
 inline constexpr Duration kSimulatedJudgement = std::chrono::milliseconds(2);
 
 inline constexpr Duration kSimulatedPlanning = std::chrono::milliseconds(20);
 
-// Cost of the checks: their number, collision evaluations and real time. Only `wall` differs
-// between equal runs.
+// The cost of all checks. Only `wall` (real time) differs between equal runs.
 struct Judging {
   std::uint64_t judgements = 0;
   std::uint64_t evaluations = 0;
@@ -29,8 +28,8 @@ struct Planning {
   Duration wall{};
 };
 
-// Runs the executive on simulated time, driven by the caller. Deterministic for a seed.
-// Single-threaded.
+// Runs the executive on simulated time, cycle by cycle as the caller requests. Deterministic for a
+// seed. Single-threaded.
 class Simulation {
  public:
   // Problems: those of Executive::create. `observer` outlives the simulation.
@@ -49,7 +48,7 @@ class Simulation {
 
   // Runs one control cycle; the first is at time zero.
   void tick();
-  // Skips cycles in which nothing would happen, up to `until` or the next event.
+  // Skips cycles in which nothing would happen, at most up to `until`.
   void pass_over_rest(TimePoint until);
   void run_until(TimePoint time);
 
@@ -86,16 +85,16 @@ struct SimulationResult {
     Problems problems;
   };
   std::vector<Refused> refused;
-  bool all_ended = false;  // otherwise it is blocked, or reached `time_limit`
-  bool settled = false;    // false: reached `time_limit`, unless all have ended
+  bool all_ended = false;  // if false, the run was blocked, reached `time_limit` or was given up
+  bool settled = false;    // nothing can happen any more
   bool given_up = false;
   TimePoint ended_at{};
   Duration wall{};  // real time; differs between equal runs
 };
 
-// Submits the jobs at their times and runs until all have ended, until nothing can happen any more
-// (for example, stopped arms that no operator resumes), or until the time limit. Problems: those of
-// Executive::create; a fault of an unknown arm.
+// Submits the jobs at their times. Runs until all have ended, until nothing can happen any more
+// (for example, because no operator resumes stopped arms), or until the time limit. Problems: those
+// of Executive::create; a fault of an unknown arm.
 [[nodiscard]] Result<SimulationResult> simulate(CellPtr cell, ExecutiveOptions options,
                                                 Scenario scenario, Observer& observer);
 

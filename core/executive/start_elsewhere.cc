@@ -17,11 +17,12 @@ void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const 
     const double stands = rest[static_cast<Eigen::Index>(trajectory.joints()[j].index())];
     if (std::abs(begins - stands) <= cell.execution.start_tolerance_rad) continue;
     char text[256];
-    std::snprintf(text, sizeof text,
-                  "waypoint 0, %s: begins at %.6g %s, but will be at %.6g %s after the jobs "
-                  "accepted for the arm",
-                  joint.name.c_str(), without_rounding_noise(begins), joint.unit().c_str(),
-                  without_rounding_noise(stands), joint.unit().c_str());
+    std::snprintf(
+        text, sizeof text,
+        "waypoint 0, %s: begins at %.6g %s, but the joint will be at %.6g %s after the jobs "
+        "accepted for the arm",
+        joint.name.c_str(), without_rounding_noise(begins), joint.unit().c_str(),
+        without_rounding_noise(stands), joint.unit().c_str());
     std::string detail = text;
     if (joint.kind != JointKind::prismatic)
       detail += whole_turns_apart(stands, begins, cell.execution.start_tolerance_rad);

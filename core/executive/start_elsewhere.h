@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// Adds a problem for each joint of the motion whose start differs from `rest` by more than the
-// tolerance. Pointers begin below the trajectory.
+// Adds a problem for each joint of the motion whose start differs from `rest` by more than
+// execution.start_tolerance_rad. Pointers are relative to the trajectory.
 void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const Configuration& rest,
                           Problems& problems);
 

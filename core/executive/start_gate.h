@@ -12,15 +12,15 @@ namespace armloom {
 
 class StartLog;
 
-// Withholds a job's authority until the start log has recorded that it is about to move. Without a
-// log everything passes.
+// Withholds a client job's authority until the start log has recorded that the job is about to
+// move. Without a log everything passes.
 class StartGate {
  public:
   // `log` outlives this object; may be null.
   explicit StartGate(StartLog* log) : log_(log) {}
 
-  // Returns the part of a client job's dispatch that the arms may get. At the job's first dispatch,
-  // passes `written` to the log.
+  // Returns the dispatch of a client job with the authority that the arms may get now. At the job's
+  // first dispatch, asks the log to record the start; the log calls `written` when that is done.
   [[nodiscard]] Dispatch pass(Dispatch dispatch, std::function<void()> written);
   // Returns true if the grant must wait; the gate then keeps it.
   [[nodiscard]] bool keeps(const Grant& grant);
@@ -36,7 +36,7 @@ class StartGate {
  private:
   struct Start {
     bool is_written = false;
-    std::optional<Duration> withheld = {};  // authority kept until then
+    std::optional<Duration> withheld = {};  // authority kept until the start is recorded
   };
   StartLog* log_;
   std::unordered_map<JobId, Start> starts_;  // dispatched jobs

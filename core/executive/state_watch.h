@@ -10,16 +10,17 @@ namespace armloom {
 // Runs the monitor on the measured state, at the monitor's rate.
 class StateWatch {
  public:
-  // Pairs farther apart are not reported as near.
+  // Pairs of links that are farther apart are not in near().
   inline static constexpr double kHorizon_m = 2.0;
 
   explicit StateWatch(const PlanningScenePtr& scene);
   [[nodiscard]] static ClearanceQuery query_of(const PlanningScenePtr& scene);
-  // For a changed scene: the next check runs even if no arm has moved.
+  // Call when the scene has changed: the next check then runs even if no arm has moved.
   void follow(ClearanceQuery query);
 
   [[nodiscard]] bool is_due(TimePoint now);
-  // Returns false if `measured` is unchanged since the previous call. `moving`: by ArmId.
+  // Checks `measured`, and returns true. Does nothing and returns false if `measured` has not
+  // changed since the previous call. `moving`: by ArmId.
   bool look(const Configuration& measured, const std::vector<bool>& moving, TimePoint now);
   // Results of the last check of a changed state.
   [[nodiscard]] const std::vector<Proximity>& near() const { return near_; }

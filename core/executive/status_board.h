@@ -24,9 +24,9 @@ struct ArmStatus {
   double deviation_rad = 0.0;     // ArmView
 };
 
-// Everything that clients see, at one instant. A copy shares the jobs and the scene.
+// Everything that clients see, at one instant. Copies share the jobs and the scene.
 struct Status {
-  std::uint64_t seq = 0;  // of the last event that it includes; the next may be included too
+  std::uint64_t seq = 0;  // of the last event that is certainly included; the next may be, too
   TimePoint time{};
   std::string policy;
   bool stopped = false;  // every arm is stopped
@@ -35,7 +35,8 @@ struct Status {
   Configuration q;              // measured, all joints of the cell
   std::vector<ArmStatus> arms;  // ArmId
 
-  // Returns the job with its progress at this instant; copies the view only if it changed.
+  // Returns the job with its progress at this instant. Copies the job's view only if the progress
+  // has changed.
   [[nodiscard]] JobSheet::JobPtr with_progress(const JobSheet::JobPtr& job) const;
   // In order of ids.
   [[nodiscard]] std::vector<JobSheet::JobPtr> jobs_with_ended(std::size_t ended_max) const;
@@ -46,9 +47,9 @@ struct Status {
 [[nodiscard]] QueueView queue_of(const Status& status);
 [[nodiscard]] Snapshot snapshot_of(const Status& status, const Cell& cell, std::size_t ended_max);
 
-// Publishes the status from the strand to any thread. Neither waits for the other: a reader copies
-// under the lock and works on the copy. Updated before an event is published and before a command
-// is answered.
+// Publishes the status from the strand to any thread. A reader copies the status under a short lock
+// and works on the copy, so reader and strand hardly wait for each other. The status is updated
+// before an event is published and before a command is answered.
 class StatusBoard {
  public:
   [[nodiscard]] Status read() const;
@@ -56,7 +57,7 @@ class StatusBoard {
   [[nodiscard]] JobSheet::JobPtr job(const std::string& key) const;
   [[nodiscard]] std::vector<JobSheet::JobPtr> jobs(const std::vector<std::string>& keys) const;
 
-  // The strand's arguments. Arms and poses are copied into existing memory.
+  // A status as the strand publishes it. Positions and arms are copied into existing memory.
   struct Now {
     std::uint64_t seq;
     TimePoint time;
@@ -66,8 +67,8 @@ class StatusBoard {
     const Configuration& q;
     const std::vector<ArmStatus>& arms;
   };
-  // `gone`: keys of jobs that are no longer in `now.jobs`. A key can be looked up as long as the
-  // job is in a list.
+  // Replaces the status. `gone`: the jobs that are no longer in `now.jobs`; their keys are no
+  // longer found.
   using KeyOfJob = std::pair<std::string, JobId>;
   void publish(const Now& now, const std::vector<KeyOfJob>& gone);
   void publish_scene(std::shared_ptr<const SceneView> scene);

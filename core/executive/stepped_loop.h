@@ -8,8 +8,8 @@
 
 namespace armloom {
 
-// Drives an executive by hand: control cycles, and the times of answers. Verdicts and plans are
-// computed on demand. Single-threaded.
+// Drives an executive by hand: the caller decides when a control cycle runs and when an answer
+// arrives. Verdicts and plans are computed when they are requested here. Single-threaded.
 class SteppedLoop {
  public:
   // Sets `options.starts`. Problems: those of Executive::create(). `observer` outlives the loop.
@@ -22,7 +22,7 @@ class SteppedLoop {
   void tick();
   [[nodiscard]] std::uint64_t ticks() const;
   [[nodiscard]] TimePoint next() const;
-  // No effect if nothing is open.
+  // Compute and deliver the answer to an open question. No effect if none is open.
   void answer_question(bool interrupted = false);
   void answer_certify();
   void answer_plan();           // the oldest open plan

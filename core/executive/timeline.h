@@ -18,8 +18,9 @@ struct TimelineView {
   Status status;
 };
 
-// The timeline for clients, by arm. A motion of several arms is in the lane of each. Every active
-// job is a leg or waiting, in the lanes of its `arms`. Times are cell time.
+// The timeline for clients, with one lane per arm. A motion of several arms is in the lanes of all
+// its arms. Every active job is either a leg in `steps` or included in `waiting`, in the lanes of
+// its `arms`. Times are cell time.
 struct TimelineLanes {
   struct Pause {
     TimePoint from;

@@ -4,8 +4,8 @@
 
 namespace armloom {
 
-// Fills JobRequest::known.validated, the slow part of a submission, before the request reaches the
-// strand. Thread-safe.
+// Validates the motions of a request and stores the results in JobRequest::known.validated. This is
+// the slow part of a submission, done before the request reaches the strand. Thread-safe.
 void validate_ahead(JobRequest& request, const Cell& cell);
 
 }  // namespace armloom

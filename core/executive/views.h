@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-// The clients' names of jobs, by JobId, and the state of arms.
+// Source of the clients' names of jobs, by JobId, and of the state of arms; used to make views.
 class JobNames {
  public:
   virtual ~JobNames() = default;
@@ -21,14 +21,15 @@ class JobNames {
   [[nodiscard]] virtual bool is_stopped(ArmId arm) const = 0;
 };
 
-// Returns the view of a wait. `in_vain`: the job has given up waiting.
+// Returns the view of a wait, with a remedy as detail. `in_vain`: the job has ended, so the detail
+// says what would have helped.
 [[nodiscard]] WaitView view_of(const Wait& wait, const Cell& cell, const JobNames& names,
                                bool in_vain = false);
 
 // Returns the scheduler's job with names instead of ids.
 [[nodiscard]] JobView view_of(const Job& job, const Cell& cell, const JobNames& names);
 
-// Returns the check result, without the scene version.
+// Returns the view of a check's outcome, without the scene version.
 [[nodiscard]] CheckView view_of(const Trial::Outcome& outcome, const Cell& cell,
                                 const JobNames& names);
 

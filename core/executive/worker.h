@@ -9,9 +9,9 @@
 
 namespace armloom {
 
-// A thread for tasks that would block the control loop or the connection thread. Tasks run one
-// after the other, in order. Tasks that have not begun at the end are dropped. The caller must
-// bound the number of waiting tasks.
+// A thread for tasks that would block the control loop or a connection thread. Tasks run one after
+// the other, in the order posted. When the thread ends, tasks that have not begun are dropped. The
+// caller must limit the number of waiting tasks.
 class Worker {
  public:
   void post(std::function<void()> task) {
@@ -21,7 +21,7 @@ class Worker {
     }
     arrived_.notify_one();
   }
-  // Waits for the present task, then ends the thread. So does the destructor.
+  // Waits for the present task, then ends the thread. The destructor does the same.
   void end() {
     if (!thread_.joinable()) return;
     thread_.request_stop();

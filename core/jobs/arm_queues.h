@@ -8,7 +8,8 @@
 
 namespace armloom {
 
-// The arm queues: for each arm its active jobs, in running order, and their work.
+// The arm queues: for each arm its jobs that have not ended, in running order, and the sum of their
+// durations (work).
 class ArmQueues {
  public:
   using Queue = std::deque<JobId>;
@@ -19,23 +20,24 @@ class ArmQueues {
   [[nodiscard]] auto begin() const { return queues_.begin(); }  // by ArmId
   [[nodiscard]] auto end() const { return queues_.end(); }
 
-  [[nodiscard]] bool is_first(const Job& job) const;  // of all its arms
+  [[nodiscard]] bool is_first(const Job& job) const;  // in the queues of all its arms
   // Return the neighbor in that arm's queue, if any.
   [[nodiscard]] std::optional<JobId> before(const Job& job, ArmId arm) const;
   [[nodiscard]] std::optional<JobId> behind(const Job& job, ArmId arm) const;
 
-  // At the end of its arms' queues, or before `before` where present.
+  // Inserts the job at the end of its arms' queues, or before the job `before` in queues that
+  // contain it.
   void insert(const Job& job, std::optional<JobId> before);
   void insert_at(const Job& job, std::size_t place);
   void erase(const Job& job);
-  // Reorders jobs that are consecutive on the same arms.
+  // Puts these jobs, which occupy consecutive places on the same arms, into the given order.
   void put_in_order(const Job& any_of_them, const std::vector<JobId>& jobs);
 
   // Add or remove the job's duration as work. A job with several candidate arms is shared equally
   // between them. To change a job, remove its work first and add it again.
   void add_work(const Job& job);
   void remove_work(const Job& job);
-  // By ArmId, without these jobs.
+  // Returns the work of each arm, by ArmId, without these jobs.
   [[nodiscard]] std::vector<Duration> work_but(const std::vector<const Job*>& in_front) const;
 
  private:

@@ -42,7 +42,8 @@ ArmRests::ArmRests(const Cell& cell, Configuration rest)
       came_by_(cell.arms.size()),
       places_at_(cell.arms.size()) {
   if (rest_.size() != static_cast<Eigen::Index>(cell.joints.size())) {
-    throw std::invalid_argument("Scheduler: rest has another size than the cell has joints");
+    throw std::invalid_argument(
+        "Scheduler: the size of rest differs from the number of joints of the cell");
   }
   for (std::uint32_t arm = 0; arm < places_at_.size(); ++arm) {
     places_at_[arm] = places_.of(ArmId{arm}, part_of(cell.arm(ArmId{arm}), rest_));
@@ -101,7 +102,7 @@ std::optional<std::string> ArmRests::start_mismatch(const Cell& cell,
   const double stands = rest_[static_cast<Eigen::Index>(joint->index())];
   const double begins = trajectory.start()[j];
   char text[256];
-  std::snprintf(text, sizeof text, "%s stands at %.6g, the trajectory begins at %.6g",
+  std::snprintf(text, sizeof text, "%s is at %.6g, but the trajectory begins at %.6g",
                 cell.joint(*joint).name.c_str(), without_rounding_noise(stands),
                 without_rounding_noise(begins));
   const bool turns_round = cell.joint(*joint).kind != JointKind::prismatic;

@@ -16,16 +16,19 @@ class ArmRests {
   // Throws std::invalid_argument unless `rest` has a value for every joint of the cell.
   ArmRests(const Cell& cell, Configuration rest);
 
-  // Returns the rest of every joint; of a moving joint, its start.
+  // Returns the rest position of every joint (rad, m); for a moving joint, the position where it
+  // started.
   [[nodiscard]] const Configuration& rest() const { return rest_; }
   [[nodiscard]] const PlacePtr& place(ArmId arm) const { return places_at_[arm.index()]; }
   [[nodiscard]] const std::vector<PlacePtr>& places() const { return places_at_; }
-  // Returns the motion that ended at this rest; null if there is none or it moved several arms.
+  // Returns the motion that brought the arm to its rest; null if there is none or if it moved
+  // several arms.
   [[nodiscard]] const TrajectoryPtr& came_by(ArmId arm) const { return came_by_[arm.index()]; }
 
-  // `position`: of the trajectory's joints, in its order.
+  // Stores that the motion's arms rest at `position` (of the trajectory's joints, in its order).
   void come_to_rest(const Cell& cell, const TrajectoryPtr& motion, const Eigen::VectorXd& position);
-  // Ignores small deviations from the goal.
+  // Stores the leg's end as the place of its arms, although they may rest a little off the goal.
+  // Does not change rest().
   void rest_at_goal(const WaitingLeg& leg);
 
   void stop(ArmId arm, std::string cause) { stopped_[arm.index()] = std::move(cause); }
@@ -37,8 +40,8 @@ class ArmRests {
   [[nodiscard]] std::optional<Wait> stop_of(const Job& job) const;
 
   [[nodiscard]] WaitingLeg leg_of(const Cell& cell, JobId job, const Trajectory& motion);
-  // Returns the first joint that rests off the trajectory's start by more than
-  // execution.start_tolerance_rad. With `arm`, only its joints are compared.
+  // Returns the first joint whose rest differs from the trajectory's start by more than
+  // execution.start_tolerance_rad. With `arm`, compares only the joints of that arm.
   [[nodiscard]] std::optional<JointId> begins_elsewhere(const Cell& cell,
                                                         const Trajectory& trajectory,
                                                         std::optional<ArmId> arm = {}) const;
@@ -51,7 +54,7 @@ class ArmRests {
   std::vector<std::optional<std::string>> stopped_;  // per arm: the cause
   std::vector<TrajectoryPtr> came_by_;
   Places places_;
-  std::vector<PlacePtr> places_at_;  // per arm: its rest or start
+  std::vector<PlacePtr> places_at_;  // per arm: its rest, or its start while it moves
 };
 
 // Returns true if `place` is the motion's start, within execution.start_tolerance_rad.

@@ -11,13 +11,13 @@
 
 namespace armloom {
 
-// Expected progress of all admitted motions, as predicted when their orders were last chosen. Pure.
+// The progress of all admitted motions that was predicted when their orders were last chosen. Pure.
 class Expectation {
  public:
   // Stores a prediction for these motions.
   void renew(const std::vector<CoordinatedMotion>& motions, const Prediction& prediction,
              TimePoint now);
-  // Marks the expectation as void because a motion was abandoned.
+  // A motion was abandoned: the expectation is void until the next renew().
   void spoil() { is_spoilt_ = true; }
   // Returns true if a motion's progress is more than 0.4 s off its expectation, or if the
   // expectation is void.

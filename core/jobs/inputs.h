@@ -28,17 +28,18 @@ struct Submit {
   JobId job;
   TrajectoryPtr trajectory;
   JobTerms terms = {};
-  // The same work by one of several arms, `trajectory` first: empty, or at least two. Each moves
-  // exactly one arm, all different, and ends where it begins unless `goals` are given.
+  // Trajectories by which different arms can do the same work, `trajectory` first. Empty, or at
+  // least two. Each moves exactly one arm, which no other one moves. Each ends where it begins
+  // unless `goals` are given.
   std::vector<TrajectoryPtr> alternatives = {};
-  // Goals that must be planned first (PlanMotion); `trajectory` is an estimate. If there are
-  // several, one for each of `alternatives`, which are estimates.
+  // Goals to which paths must be planned first (PlanMotion): `trajectory` is then an estimate.
+  // Several goals: one for each of `alternatives`, which are then estimates.
   std::vector<MotionGoal> goals = {};
   // Active jobs that must succeed first; their ids are smaller.
   std::vector<JobId> after = {};
   bool system_job = false;  // initiated by the server: fails before client jobs in a deadlock cycle
-  // The job waited when an earlier session ended (or Interrupt keeps it). Its start is not compared
-  // with its arms' position while one of them is stopped.
+  // The job was left over from an earlier session. Its start is not compared with the position of
+  // its arms while one of them is stopped.
   bool is_held_over = false;
 };
 struct Cancel {
@@ -54,19 +55,20 @@ struct Amend {
 struct Replan {
   JobId job;
 };
-// Answers the Judge effect with the same version.
+// The answer to the open question with the same version.
 struct Judged {
   Verdict verdict;
 };
-// Answers the PlanMotion effect with this number.
+// Answers the PlanMotion effect whose `number` is `question`.
 struct PlanMade {
   JobId job;
   std::uint64_t question;
-  TrajectoryPtr trajectory;  // from question.at to the goal; null if there is none
-  std::string why = {};      // one sentence, if there is no trajectory
-  // There is no trajectory because the arm is too close to this object, which no job moves.
+  TrajectoryPtr trajectory;  // from PlanQuestion::at to the goal; null if no path was found
+  std::string why = {};      // why no path was found; one sentence
+  // Set if no path was found because the arm is too close to this object, which no job moves.
   std::optional<Proximity> stands_in = {};
-  bool goes_through = false;  // passes other arms: no path around all of them was found
+  // The path crosses positions of other arms, because no path around all of them was found.
+  bool goes_through = false;
 };
 // Measured progress of a job's motion. Sent for every moving job in every relevant tick; `kind`
 // says what changed.
@@ -83,8 +85,8 @@ struct MotionReport {
   Eigen::VectorXd rest_position = {};  // stopped, finished, faulted: measured positions of the
                                        // trajectory's joints, in its order
   std::string detail = {};             // faulted: the reason
-  // stopped, faulted: progress of the foremost arm (`progress` is that of the last one). Zero if
-  // equal.
+  // stopped, faulted: progress of the arm that is farthest on the trajectory, while `progress` is
+  // that of the last arm. May be zero if both are equal.
   Duration farthest{};
 };
 // Stops these arms and starts nothing on them until Resume.
@@ -95,22 +97,22 @@ struct Stop {
 struct Resume {
   std::vector<ArmId> arms;
 };
-// The planning scene changed: waiting jobs are checked again, and so are the motions under way of
-// `arms` (arms_in_question).
+// The planning scene changed. All waiting jobs are checked again. Admitted motions are checked
+// again if they move one of `arms` (arms_in_question).
 struct SceneChanged {
   std::vector<ArmId> arms;
 };
-// Sets the policy, not null. Ignored while a motion is admitted, because its orders belong to the
-// policy that chose them.
+// Sets the policy (not null). Ignored while a motion is admitted, because its passing orders belong
+// to the policy that chose them.
 struct ChangePolicy {
   std::shared_ptr<const Policy> policy;
 };
-// The server ends and the arms are at rest: interrupts every job that has not ended; with
-// `keeps_waiting` only jobs that have begun.
+// The server ends and the arms are at rest. Interrupts every job that has not ended, or with
+// `keeps_waiting` only the jobs that have begun.
 struct Interrupt {
   bool keeps_waiting = false;
 };
-// A time requested by WakeAt has come. Every other input does the same work as well.
+// The time requested by WakeAt has come. Every other input also does the work that is due.
 struct Wake {};
 
 using Input = std::variant<Submit, Cancel, Amend, Replan, Judged, PlanMade, MotionReport, Stop,
@@ -128,27 +130,30 @@ struct PlanMotion {
   std::uint64_t number;
   PlanQuestion question;
 };
-// Start (zero progress) or continue (a stopped job) this job's motion at `start_at`.
+// At `start_at`, start this job's motion (`from_progress` is zero) or continue it after a stop.
 struct Dispatch {
   JobId job;
   TimePoint start_at;
   Duration from_progress;
   Duration authority;  // trajectory time that the motion may not pass until more is granted
 };
-// Extends the job's authority: its arms rest there unless more is granted in time. Never decreases.
+// Extends the job's authority, which never decreases. The job's arms come to rest at it unless more
+// is granted in time.
 struct Grant {
   JobId job;
   Duration authority;
 };
-// Brake the job's arms to rest on their path, or keep them at the start. The controller always
-// answers with MotionReport::stopped.
+// Brake the job's arms to rest on their path, or keep them at the start. The answer is a
+// MotionReport of kind stopped, finished or faulted.
 struct Brake {
   JobId job;
 };
-// The scheduler has added a retreat `job` because `arm` rests in `blocked_job`'s path. If the arm
-// has a job, both are in a deadlock cycle (`in_ring`): the retreat goes before the arm's job,
-// followed by a second job (`returns`) that brings the arm back after `blocked_job` has passed.
-// With `to_start` it is a move-to-start instead: a planned path to the start of `blocked_job`.
+// The scheduler has added `job`, a job of its own for `arm`, which helps `blocked_job`. It is one
+// of:
+// - a retreat, because `arm` rests in the path of `blocked_job`; with `in_ring`, the arm has a job
+//   in the same deadlock cycle, and the retreat goes before that job
+// - a return (`returns`), which brings the arm back after `blocked_job` has passed
+// - a move-to-start (`to_start`) along a planned path to the start of `blocked_job`
 // Reported before the first JobChanged of `job`.
 struct YieldMove {
   JobId job;

@@ -14,18 +14,18 @@ std::string at(Duration progress) { return std::to_string(to_seconds(progress)) 
 Broken of_job(const State& state, const Job& job) {
   const bool occupies =
       job.in<Moving>() != nullptr || job.in<Braking>() != nullptr || job.in<Held>() != nullptr;
-  if (job.has_ended()) return name(job.id) + " has ended and is in a queue";
+  if (job.has_ended()) return name(job.id) + " has ended but is in a queue";
   if (occupies && !state.jobs.queues().is_first(job)) {
-    return name(job.id) + " has an arm, and another job comes before it";
+    return name(job.id) + " occupies an arm, but another job precedes it in the queue";
   }
   if (!job.has_authority() || state.graph.holds(job.id)) return std::nullopt;
-  return name(job.id) + " moves or is about to, and is not admitted";
+  return name(job.id) + " moves or is about to move, but is not admitted";
 }
 
 Broken of_motion(const State& state, const CoordinatedMotion& motion) {
-  if (!state.jobs.is_active(motion.job)) return name(motion.job) + " has ended and is admitted";
+  if (!state.jobs.is_active(motion.job)) return name(motion.job) + " has ended but is admitted";
   if (state.jobs.at(motion.job).job.in<Queued>() != nullptr) {
-    return name(motion.job) + " waits in the queue and is admitted";
+    return name(motion.job) + " waits in the queue but is admitted";
   }
   const bool in_order = Duration{} <= motion.progress && motion.progress <= motion.authority &&
                         motion.authority <= motion.duration;
@@ -39,7 +39,7 @@ Broken of_order(const State& state, const Precedence& order) {
   const CoordinatedMotion* second = state.graph.find(order.second());
   if (first == nullptr || second == nullptr) {
     return "an order of " + name(order.first()) + " and " + name(order.second()) +
-           " outlives a motion";
+           " refers to a motion that is no longer admitted";
   }
   for (const ProgressBox& box : order.region().boxes) {
     const bool meets = first->progress < box.to_a && box.from_a < first->authority &&

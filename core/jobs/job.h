@@ -15,17 +15,19 @@
 
 namespace armloom {
 
-// The waits of a waiting job, from its last check.
+// The result of a waiting job's last check: what the job waits for.
 struct Judgement {
   Version at = 0;  // zero: not checked yet
   std::vector<Wait> found = {};
-  std::optional<JobId> in_turn_after = {};  // applies while that job is ahead in the sequence
+  // The result is void once that job no longer precedes this job in the safe sequence.
+  std::optional<JobId> in_turn_after = {};
 };
-// A pause on the path until other motions have passed.
+// A rest on the path: after a stop, or until other motions have passed.
 struct Pause {
-  std::optional<TimePoint> in_vain_since = {};  // waits for something that no job moves
+  // Since when it waits for an object or an arm that no job moves.
+  std::optional<TimePoint> in_vain_since = {};
 };
-// How a job continues when its braking arms have come to rest.
+// The next step of a job when its braking arms have come to rest.
 struct AfterStop {
   enum class Then { hold, cancel, fail };
   Then then = Then::hold;
@@ -49,13 +51,16 @@ struct Admitted {
   std::optional<Pause> pause = {};  // if it was stopped on its path
 };
 struct Moving {
-  TimePoint overrun_at;  // unless it moves before
-  TimePoint moved_at;    // the last time
-  // Start (time, progress) of the present stretch without a rest or being near its limit.
+  // Earliest time of an overrun; later if the motion still moves (deadlines.h).
+  TimePoint overrun_at;
+  TimePoint moved_at;  // the last time
+  // Time and progress since which the motion has neither rested nor been near the limit of its
+  // authority. Its pace is measured from here.
   TimePoint goes_since = {};
   Duration goes_from = {};
   bool is_under_way = false;  // has been measured to move; until then it is `scheduled`
-  bool was_compared = false;  // compared again since it came to rest (without_orders.h)
+  // Since it came to rest, motions were compared again (without_orders.h).
+  bool was_compared = false;
   std::optional<Pause> pause = {};
 };
 struct Braking {
@@ -70,7 +75,7 @@ struct Held {
 struct Ended {
   JobState state;  // a terminal state
   Reason reason;
-  std::string detail = {};  // one sentence; empty for deadlock, because Job::ring has the jobs
+  std::string detail = {};  // one sentence; empty for a deadlock, whose jobs are in Job::ring
   TimePoint at = {};
 };
 using JobPhase = std::variant<Queued, Admitted, Moving, Braking, Held, Ended>;
@@ -84,19 +89,21 @@ struct JobTimes {
   TimePoint measured_at{};                     // time of the last progress
 };
 
-// The choice of this job among several jobs, or of its arm among several arms, and the gain.
+// A choice that was made: this job among several jobs, or its arm among several arms; and what the
+// choice gains.
 struct Choice {
-  // One of the two is empty. The first entry is the default.
+  // The candidates, as jobs or as arms; the other list is empty. The first candidate is the
+  // default.
   std::vector<JobId> jobs = {};  // candidate jobs, this job included
   std::vector<ArmId> arms = {};  // candidate arms
-  // Arms that could not do the job at all, with the reason.
+  // An arm that could not do the job at all, and why.
   struct Without {
     ArmId arm;
     std::string why;
   };
   std::vector<Without> without = {};
-  // Reduction of the plan's cost compared with the default, or of the arrival time for a goal;
-  // nullopt if the default was not possible.
+  // How much the choice reduces the plan's cost (for a goal: the arrival time) compared with the
+  // default; nullopt if the default was not possible.
   std::optional<Duration> saves = {};
 };
 
@@ -105,12 +112,12 @@ struct GoalWay {
   MotionGoal goal;
   bool is_planned = false;                     // the job's trajectory is the plan, not an estimate
   std::optional<std::uint64_t> question = {};  // number of the open question
-  int tries = 0;                               // since the last plan that was up to date
+  int tries = 0;                               // requests since the last plan that was up to date
   Configuration beside = {};                   // positions of all arms in the last question, ...
   Version asked_at = 0;                        // ... and its version
   std::optional<std::string> refusal = {};     // the planner's reason, if there is no plan
   std::optional<Proximity> stands_in = {};     // ... because the arm is too close to this object
-  bool goes_through = false;                   // passes positions of other arms (PlanMade)
+  bool goes_through = false;  // the plan crosses positions of other arms (PlanMade)
 };
 // Detours of a goal's path around positions that other arms occupy (detour.h).
 struct Detour {
@@ -118,17 +125,18 @@ struct Detour {
   Configuration beside = {};                   // positions of all arms in the last question, ...
   Version asked_at = 0;                        // ... and its version
   int tries = 0;
-  bool is_weighed = false;       // the job temporarily has another path, to be checked with it
-  TrajectoryPtr best = nullptr;  // the best candidate so far, including the job's own path, ...
+  bool is_weighed = false;       // the job temporarily has a candidate path, and is checked with it
+  TrajectoryPtr best = nullptr;  // the best path so far (a candidate, or the job's own), ...
   TimePoint arrives{};           // ... and its predicted arrival
   bool is_taken = false;         // the selected path is a detour
   Duration saves{};              // time saved; zero if the shortest path was not possible
   TimePoint soon_enough{};       // a candidate that arrives by then is taken at once
 };
 struct JobGoal {
-  std::vector<GoalWay> ways;  // several: parallel to Job::alternatives, until the job is admitted
-  std::size_t taken = 0;      // index of the entry that belongs to Job::trajectory
-  bool is_planned = false;    // all remaining entries are answered, and that of `taken` is planned
+  // One for each of Job::alternatives until the arm is decided; else one.
+  std::vector<GoalWay> ways;
+  std::size_t taken = 0;    // index of the entry that belongs to Job::trajectory
+  bool is_planned = false;  // all remaining entries are answered, and the one at `taken` has a plan
   std::optional<Detour> detour = {};
 
   [[nodiscard]] const GoalWay& way() const { return ways[taken]; }
@@ -140,7 +148,7 @@ struct AnotherWay {
   enum class Cause {
     client,   // requested by a client
     timeout,  // after the backlog timeout
-    blocked,  // by an arm that no job moves, or in a deadlock cycle
+    blocked,  // the job is blocked by an arm that no job moves, or is in a deadlock cycle
   };
   Cause cause = Cause::client;
   bool is_open = false;                        // requested and not answered
@@ -170,14 +178,15 @@ struct Job {
   std::vector<JobId> after = {};  // jobs of Submit::after that have not ended yet
   bool system_job = false;        // as in Submit
   bool is_held_over = false;
-  // `trajectory` is one of them, and may change until admission.
+  // As in Submit. `trajectory` is one of them, and may change to another until admission. Empty
+  // once the arm is decided.
   std::vector<TrajectoryPtr> alternatives = {};
   JobPhase phase = Queued{};
   JobTimes times = {};
   Duration progress{};  // trajectory time, last measured
   std::vector<Wait> waits_on = {};
-  // The deadlock cycle that contains the job, this job first: each waits for the next one, the last
-  // for the first. Empty if there is none. Kept by a job that fails for it.
+  // The deadlock cycle that contains the job, this job first; empty if there is none. Each job
+  // waits for the next one, and the last for the first. Not cleared if the job fails because of it.
   std::vector<JobId> ring = {};
   // Rare members are last because every step reads the members above.
   std::optional<Choice> choice = {};
@@ -191,10 +200,10 @@ struct Job {
   [[nodiscard]] JobState state() const;
   // True if the path must be planned (again) before the job can be checked.
   [[nodiscard]] bool is_unplanned() const { return goal && !goal->is_planned; }
-  // Returns the goal (of several arms the first) that cannot be planned because of an object near
-  // its arm; null if there is none.
+  // Returns the job's goal that cannot be planned because an object is too close to its arm; with
+  // several candidate arms, the first such goal. Null if there is none.
   [[nodiscard]] const GoalWay* stands_in() const;
-  // True if the job's end is known: planned, or a joint goal of one arm.
+  // True if the job's end is known: its path is planned, or its goal is a joint goal of one arm.
   [[nodiscard]] bool knows_its_end() const {
     if (!is_unplanned()) return true;
     return !has_open_arm() && std::holds_alternative<Eigen::VectorXd>(goal->way().goal.to);
@@ -203,21 +212,21 @@ struct Job {
   [[nodiscard]] bool is_detour_asked() const {
     return goal && goal->detour && goal->detour->question;
   }
-  // True if the job has a goal and several candidate arms, not decided yet.
+  // True if the job has a goal and the choice among its candidate arms is still open.
   [[nodiscard]] bool has_open_arm() const { return goal && !alternatives.empty(); }
-  // True if the alternative is possible (goals: planned).
+  // True if the job could take this alternative. For goals, its path must be planned.
   [[nodiscard]] bool may_go_by(std::size_t alternative) const {
     return !goal || goal->ways[alternative].is_planned;
   }
   // True while a replan is open; the job then stays at rest.
   [[nodiscard]] bool is_replanned_now() const { return another_way && another_way->is_open; }
   [[nodiscard]] bool has_ended() const { return in<Ended>() != nullptr; }
-  // On its present path.
+  // True if the job has moved on its present path.
   [[nodiscard]] bool has_started() const { return times.motion_started_at.has_value(); }
   void note_start(TimePoint now);
-  // True if braking: it will be canceled, paused or failed.
+  // True if the job is braking. At rest it will be canceled, failed or paused.
   [[nodiscard]] bool stopping() const { return in<Braking>() != nullptr; }
-  // True if at rest on its path until others have passed.
+  // True if the job rests on its path until others have passed.
   [[nodiscard]] bool pausing() const;
   // True if the job must be checked (again) before it moves.
   [[nodiscard]] bool is_waiting() const { return in<Queued>() != nullptr || in<Held>() != nullptr; }

@@ -137,7 +137,7 @@ void JobBook::explain_with_next(const Job& job) {
 void JobBook::enter(Record& record, JobPhase phase) {
   Job& job = record.job;
   if (!leads_to(job.phase, phase)) {
-    throw std::logic_error("job " + std::to_string(job.id.value()) + ": no way from phase " +
+    throw std::logic_error("job " + std::to_string(job.id.value()) + ": no transition from phase " +
                            std::to_string(job.phase.index()) + " to " +
                            std::to_string(phase.index()));
   }

@@ -22,24 +22,25 @@ struct YieldsTried {
     bool is_answered = false;
     TrajectoryPtr way = nullptr;  // null if no path was found
   };
-  std::size_t total = 0;  // all tries, for a job that it helps too
-  std::size_t next = 0;   // index into the candidate paths from the rest after `from`
-  TrajectoryPtr from;
-  Planned planned = {};                  // the last candidate from there (planned_aside.h)
-  std::vector<Eigen::VectorXd> went_to;  // ends, for a job that it helps too
+  std::size_t total = 0;  // number of tries for this job and for the server's jobs that help it
+  std::size_t next = 0;   // index of the next candidate path from where `from` brought the arm
+  TrajectoryPtr from;     // the motion that had brought the arm to its rest
+  Planned planned = {};   // the planned retreat from there, tried last (planned_aside.h)
+  // Ends of retreats made for this job and for the server's jobs that help it.
+  std::vector<Eigen::VectorXd> went_to;
 };
 
 // The purpose of a server-initiated job.
 struct Errand {
-  JobId on_behalf_of{0};             // the client job that it helps; its own id for a client's job
-  std::optional<JobId> before = {};  // the job of the same arm that it precedes
-  std::optional<JobId> lets_pass = {};  // it does not begin while this job waits
+  JobId on_behalf_of{0};  // the client job that this job helps; a client's job helps itself
+  std::optional<JobId> before = {};     // the job of the same arm that this job must precede
+  std::optional<JobId> lets_pass = {};  // this job does not begin while that job waits
 };
 
 // Questions about a job.
 struct Asking {
-  // For admitted jobs: the version of the last check that found the motion free, and true if the
-  // motion must be checked again before it starts.
+  // For admitted jobs: the version of the last check that found the motion free, and whether the
+  // motion must be checked again.
   Version found_free_at = 0;
   bool is_in_question = false;
   std::uint64_t effort = 1;  // Question::effort of the next check
@@ -49,15 +50,17 @@ struct Asking {
 
 // Moves to the job's start (approach.h).
 struct Approaches {
-  // Is the job feasible from its start? Checked before any arm moves there.
+  // State of the check that the job, from its start, is free of self-collisions. It is checked
+  // before any arm moves there.
   enum class Feasibility { unknown, in_question, given };
   Feasibility feasibility = Feasibility::unknown;
   int tries = 0;
-  std::optional<std::string> refusal = {};
-  // Earlier jobs with an undecided arm (may_go_first()) that wait for this job: it precedes them.
+  std::optional<std::string> refusal = {};  // why the last move failed
+  // Jobs submitted before this job, with an undecided arm (may_go_first()), that wait for this job.
+  // They come after it.
   std::set<JobId> ahead_of = {};
-  // The job before it failed with Reason::deadlock: its arms are moved to its start without a
-  // request by its client.
+  // A job before this one failed with Reason::deadlock. So the server moves the arms to this job's
+  // start although its client did not ask for that.
   bool after_deadlock = false;
 
   [[nodiscard]] bool are_in_question() const { return feasibility == Feasibility::in_question; }
@@ -67,24 +70,25 @@ struct Approaches {
 struct Record {
   Job job;
   WaitingLeg leg;
-  JobId turn;  // its rank in submission order: its own id, unless jobs were reordered
-  std::optional<TimePoint> overtaken_at = {};  // when another job first took its turn
+  JobId turn;  // rank among jobs: the job's own id, unless jobs were reordered
+  std::optional<TimePoint> overtaken_at = {};  // when another job first took this job's turn
   Errand errand = {};
-  std::optional<TimePoint> ages_from = {};  // when it was first in conflict or without a place
-  Duration farthest{};                      // MotionReport::farthest at the last rest
-  double off_path = 0.0;                    // Motion::off_path at its last start
+  // Its age: since it was first refused, or had its turn to move.
+  std::optional<TimePoint> ages_from = {};
+  Duration farthest{};    // MotionReport::farthest at the last rest
+  double off_path = 0.0;  // Motion::off_path at its last start
   Asking asking = {};
-  std::map<ArmId, YieldsTried> yields = {};  // arms that could retreat for it
+  std::map<ArmId, YieldsTried> yields = {};  // by arm that could retreat for this job
   Approaches approaches = {};
 
-  // True if its arms are moved to its start, in case they rest elsewhere at its turn.
+  // True if the server moves the job's arms to its start when they rest elsewhere at its turn.
   [[nodiscard]] bool is_brought_to_start() const {
     return job.terms.move_to_start == MoveToStart::plan || approaches.after_deadlock;
   }
 };
 
-// Checks job ids: they grow from `first`; smaller ids belong to jobs of earlier sessions, which may
-// arrive at any time and grow by themselves.
+// Checks that job ids grow, from `first` on. Smaller ids belong to jobs of earlier sessions. These
+// may arrive at any time, and must grow among themselves.
 class JobIds {
  public:
   explicit JobIds(JobId first) : first_(first.value()), last_(first_ - 1) {}
@@ -113,7 +117,8 @@ class JobBook {
   [[nodiscard]] const Record* find(JobId job) const;
   [[nodiscard]] Record& at(JobId job) { return records_.at(job); }
   [[nodiscard]] const Record& at(JobId job) const { return records_.at(job); }
-  // Active jobs: all; those whose state is not `queued`. In order of submission.
+  // Return the jobs that have not ended: all, or only those whose state is no longer `queued`.
+  // Ascending ids.
   [[nodiscard]] const std::set<JobId>& active() const { return active_; }
   [[nodiscard]] const std::vector<JobId>& past_queue() const { return past_queue_; }
   [[nodiscard]] const ArmQueues& queues() const { return queues_; }
@@ -125,15 +130,16 @@ class JobBook {
   void set_motion(Record& record, TrajectoryPtr trajectory, WaitingLeg leg);
   // Precondition: the job has not ended.
   void set_priority(Record& record, int priority);
-  // For any alternative, also the present one.
+  // Replaces one of the job's alternatives. If the job has this one now, its motion changes too.
   void set_alternative(Record& record, std::size_t which, TrajectoryPtr trajectory, WaitingLeg leg);
-  // Assigns the job to its present arm. Precondition: the job is waiting.
+  // Assigns the job to its present arm for good. Precondition: the job is waiting.
   void decide_arm(Record& record);
   [[nodiscard]] bool has_goals() const { return goals_ > 0; }
-  // Waiting jobs that could still run on other arms.
+  // Returns the queued jobs that could still run on other arms.
   [[nodiscard]] const std::set<JobId>& undecided() const { return undecided_; }
-  // Jobs that were being replanned when inserted; some may have ended.
+  // The jobs whose replanning has begun. A reader removes those that are no longer replanned.
   [[nodiscard]] std::set<JobId>& being_replanned() { return being_replanned_; }
+  // Returns true if all active jobs have the same priority.
   [[nodiscard]] bool all_as_urgent() const { return priorities_.size() <= 1; }
 
   // Throws std::logic_error for transitions that are not in the table of job.h.
@@ -150,7 +156,7 @@ class JobBook {
     std::set<JobId> changed = {};
     std::set<JobId> unexplained = {};
   };
-  // The publisher takes the news out.
+  // The changes since the publisher last took them out.
   [[nodiscard]] News& news() { return news_; }
 
  private:
@@ -171,11 +177,12 @@ class JobBook {
 
 // Returns the jobs that are admitted, braking or held.
 [[nodiscard]] std::vector<const Job*> occupying(const JobBook& book);
-// Returns true if the job is the first of its arms, all jobs in `after` have ended, and it lets no
-// other job pass.
+// Returns true if the job is the first in the queues of its arms, no job in `after` remains, and it
+// lets no other job pass first.
 [[nodiscard]] bool is_at_head(const JobBook& book, const Record& record);
 [[nodiscard]] bool lets_another_pass(const JobBook& book, const Record& record);
-// Returns the same jobs sorted by turn, but in the order of each arm's queue.
+// Returns these jobs sorted by Record::turn, except that jobs of the same arm keep the order of its
+// queue.
 [[nodiscard]] std::vector<JobId> in_turn(const JobBook& book, const std::set<JobId>& jobs);
 
 }  // namespace armloom

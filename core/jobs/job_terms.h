@@ -43,15 +43,16 @@ struct JobTerms {
   std::optional<Duration> backlog_timeout = {};
   OnTimeout on_timeout = OnTimeout::abort;
   MoveToStart move_to_start = MoveToStart::none;
-  // The job may change places with other reorderable jobs of its arm that begin and end where it
-  // does.
+  // The job may change places with another reorderable job of its arm. Both must begin and end at
+  // the same position.
   bool reorderable = false;
 };
 
 // The terms that can change while the job has not ended; nullopt: unchanged.
 struct AmendedTerms {
   std::optional<int> priority = {};
-  // Measured from the time of the first conflict, so it may be over at once.
+  // Measured from the time at which the job entered the backlog, so a shorter timeout may be over
+  // at once.
   std::optional<Duration> backlog_timeout = {};
   std::optional<OnTimeout> on_timeout = {};
 };

@@ -15,8 +15,8 @@ namespace armloom {
 
 // A job's published state; follows from its phase (job.h).
 enum class JobState {
-  queued,      // not checked yet: new, or behind another job of its arm
-  backlogged,  // checked, in conflict: `waits_on` names with what
+  queued,      // not checked yet, or not its turn
+  backlogged,  // checked and in conflict; `waits_on` names the other job, arm or object
   scheduled,   // admitted, starts at scheduled_at
   running,
   paused,  // on its path, at rest or braking
@@ -62,14 +62,15 @@ struct Wait {
   Kind kind;
   std::optional<JobId> job;            // job, predecessor, capacity
   std::optional<ArmId> arm;            // arm, stop; job: the other arm that comes too close
-  std::optional<Proximity> proximity;  // job, arm, object: evidence
+  std::optional<Proximity> proximity;  // job, arm, object: the pair of links that comes too close
   Duration own_time{};                 // with proximity: time in this job's trajectory
   Duration other_time{};               // and in the other trajectory
   std::string detail = {};             // stop: its cause
-  bool has_no_way_aside = false;       // arm: no candidate retreat is left to be tried
+  bool has_no_way_aside = false;       // arm: all retreats of that arm were tried
 
   bool operator==(const Wait&) const = default;
-  // Returns true for the same obstacle, whatever the numbers: avoids repeated events.
+  // Returns true if both waits name the same cause; times and distances may differ. Used to publish
+  // no event if only these have changed.
   [[nodiscard]] bool same_cause(const Wait& other) const {
     return kind == other.kind && job == other.job && arm == other.arm && detail == other.detail &&
            has_no_way_aside == other.has_no_way_aside;
@@ -108,10 +109,10 @@ enum class Reason {
   self_collision,      // the job's arms would hit themselves or each other: it can never run
   predecessor_failed,  // a job named in `after` ended without success
   arm_fault,
-  overrun,  // took longer than execution.duration_scaling and _margin allow, and is at rest
+  overrun,  // has exceeded duration x duration_scaling + duration_margin, and does not move
   server_restart,
   deadlock,  // it was in a deadlock cycle and was submitted last
-  no_plan,   // no path to its goal was found, or every plan was out of date when it arrived
+  no_plan,   // no path to the goal was found, or every plan was out of date when it arrived
 };
 [[nodiscard]] constexpr const char* to_string(Reason reason) {
   switch (reason) {

@@ -9,35 +9,39 @@
 
 namespace armloom {
 
-// Keeps the safe sequence of waiting jobs up to date. Queued jobs are its legs; admitted and held
-// jobs are assumed to reach their ends, whether stopped or not; jobs that ended elsewhere leave
-// their arms there.
+// Keeps the safe sequence (safe_sequence.h) of the waiting jobs up to date. Its legs are the queued
+// jobs. Admitted, braking and held jobs are assumed to reach their ends, even if they are stopped
+// now. An arm whose job ended elsewhere is assumed to stay there.
 class Lanes {
  public:
   explicit Lanes(double start_tolerance) : sequence_(start_tolerance) {}
 
-  // Update the sequence: a new job; a job that left phase `before`; any other change.
+  // Update the sequence after a new job, after a job that left phase `before`, and after any other
+  // change.
   void add(const Record& record);
   void follow(const Job& job, const JobPhase& before);
   void renew_later() { is_stale_ = true; }
+  // Records that the jobs of the last after() call were admitted.
   void admitted(const std::vector<JobId>& jobs) { sequence_.admitted(jobs); }
 
-  // Returns what remains of the sequence if these jobs are admitted now. No objection if one of
-  // them is not queued, because jobs on their path are admitted already.
+  // Returns what remains of the sequence if these jobs are admitted now. There is no objection if
+  // one of them is not queued: the sequence already counts with the end of a job on its path.
   [[nodiscard]] SafeSequence::Outlook after(const std::vector<JobId>& jobs, const JobBook& book,
                                             const ArmRests& arms);
-  // According to the last after(); true if the sequence must be renewed.
+  // Returns true if `first` precedes `other` in the sequence, or if the sequence must be renewed
+  // first.
   [[nodiscard]] bool goes_before(JobId first, JobId other) const {
     return is_stale_ || sequence_.goes_before(first, other);
   }
-  // True also if not known.
+  // Returns true if the job is in the sequence, or is none of its legs.
   [[nodiscard]] bool has_place(JobId job, const JobBook& book, const ArmRests& arms);
-  // The job begins where the jobs before it leave its arms.
+  // Returns true if the job begins where the jobs before it leave its arms.
   [[nodiscard]] bool follows_on(JobId job) const { return sequence_.follows_on(job); }
   void renew(const JobBook& book, const ArmRests& arms);
 
   void learn(const std::vector<Passage>& asked, const Verdict& verdict, const JobBook& book);
-  // The resting `arm`, without an admitted job, blocks the job's path.
+  // A check found that `arm` at its rest blocks the job's path. Ignored if the arm has a job that
+  // is admitted or on its path.
   void learn_in_the_way(JobId job, ArmId arm, const JobBook& book, const ArmRests& arms);
   void forget_passages() { sequence_.forget_passages(); }
 

@@ -8,18 +8,21 @@ namespace armloom {
 
 // Measured speed of motions.
 
-// A starting or braking arm may be measured at one position for this long.
+// An arm is at rest if it has not moved for this long. A starting or braking arm may be measured at
+// one position for a shorter time.
 inline constexpr Duration kStandsFrom = std::chrono::milliseconds(250);
 
 // Returns true if the motion has not moved for kStandsFrom.
 [[nodiscard]] bool is_standing(const Moving& moving, TimePoint now);
 
-// Returns since when the job's arms rest although no order holds them (late, stalled, stopped).
+// Returns since when the job's arms have not moved although no passing order holds them (late,
+// stalled, stopped). For a moving job: the time of its last movement.
 [[nodiscard]] std::optional<TimePoint> stands_since(const Job& job);
-// Returns how long they have rested so; zero below kStandsFrom.
+// Returns the time since stands_since(); zero if it is less than kStandsFrom.
 [[nodiscard]] Duration stood_for(const Job& job, TimePoint now);
 
-// Returns cell time per trajectory time since the last rest; 1 if about as planned, or not known.
+// Returns the cell time that the motion has taken per trajectory time since its last rest; 1 if it
+// goes about as planned, or if this is not known.
 [[nodiscard]] double pace_of(const Job& job, TimePoint now);
 
 }  // namespace armloom

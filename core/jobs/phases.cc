@@ -148,8 +148,8 @@ void interrupt(State& state, bool keeps_waiting) {
   for (JobId id : ids) {
     Record& record = state.jobs.at(id);
     end(state, record, JobState::interrupted, Reason::server_restart,
-        has_begun(record.job) ? "the server ended while it was under way"
-                              : "the server ended before it began");
+        has_begun(record.job) ? "the server ended while the job was under way"
+                              : "the server ended before the job began");
   }
 }
 

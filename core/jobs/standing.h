@@ -6,23 +6,24 @@
 
 namespace armloom {
 
+// A motion within this trajectory time of its limit is treated as held there.
 inline constexpr Duration kAtLimit = std::chrono::milliseconds(2);
 
-// Returns what holds back an admitted job; nullopt if it moves or is about to.
+// Returns what an admitted job at its limit waits for; nullopt if it moves or is about to.
 [[nodiscard]] std::optional<Wait> held_where_it_stands(const State& state, const Record& record);
-// Returns true if an arm of the job rests in the path of a motion ahead of it on another of its
-// arms.
+// Returns true if one of the job's arms rests in the path of an admitted motion that precedes the
+// job in an arm queue.
 [[nodiscard]] bool holds_one_ahead(const State& state, const Record& record);
 // Returns true if the job cannot move before other jobs have moved.
 [[nodiscard]] bool stands(const State& state, const Record& record);
 
-// Returns the earlier job with an undecided arm that may yet bring an arm to this job's start;
-// nullopt if there is none or the arms are there.
+// Returns an earlier job with an undecided arm that may yet bring an arm to this job's start.
+// nullopt if there is none, or if the arms are already there.
 [[nodiscard]] std::optional<JobId> may_go_first(const State& state, const Record& record);
 
-// Returns the waits of the last check or the present pause; null if not known.
+// Returns what the job waits for, from its last check or in its present pause; null if not known.
 [[nodiscard]] const std::vector<Wait>* known_waits(const State& state, const Job& job);
-// Returns true if the wait is for an arm without jobs.
+// Returns true if the job waits for an arm at rest that has no job.
 [[nodiscard]] bool is_idle_arm(const State& state, const Wait& wait);
 
 }  // namespace armloom

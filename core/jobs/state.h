@@ -23,22 +23,22 @@ struct Round {
 };
 
 struct Decided {
-  std::vector<YieldMove> sent_aside = {};
+  std::vector<YieldMove> sent_aside = {};  // jobs that the scheduler has added
   std::vector<Effect> effects = {};
 };
 
-// The state that the scheduler's modules share, with the decisions of the present step. A copy is
-// independent of the original (Trial).
+// The state that all modules of the scheduler share, with the decisions of the present step. A copy
+// is independent of the original; Trial works on such a copy.
 struct State {
   CellPtr cell;
   std::shared_ptr<const Policy> policy;
   JobBook jobs;
   ArmRests arms;
   Lanes lanes;
-  PrecedenceGraph graph;      // all that is admitted
-  Expectation expected = {};  // of what is admitted
+  PrecedenceGraph graph;      // all admitted motions, with their orders
+  Expectation expected = {};  // of the admitted motions
   Round round = {};
-  Version version = 1;      // of the admitted motions and of the arms' rests
+  Version version = 1;      // grows when the admitted motions, the arms' rests or the scene change
   Version scene_epoch = 0;  // the version since which the scene is unchanged
   TimePoint now{};          // of the present step
   Decided decided = {};     // in the present step
@@ -51,8 +51,7 @@ struct State {
         lanes(cell->execution.start_tolerance_rad),
         graph(cell->arms.size()) {}
 
-  // Returns true if the last check of a waiting job still applies. Precondition: the job is
-  // waiting.
+  // Returns true if the job's last check still applies. Precondition: the job is waiting.
   [[nodiscard]] bool is_judged(const Job& job) const {
     const Judgement& found = job.judgement();
     if (found.at != version) return false;

@@ -7,7 +7,7 @@
 
 namespace armloom {
 
-// A motion rests at its start or on its path.
+// A pause: a motion rests at its start or on its path.
 struct PredictedPause {
   TimePoint from;
   std::optional<TimePoint> to;   // nullopt: no end predicted; only for the last pause
@@ -15,7 +15,8 @@ struct PredictedPause {
   std::optional<Wait> waits_on;  // nullopt if the arm rests without being held back by orders
 };
 
-// An admitted motion. Waiting for the previous motion of its arms is not a pause.
+// The prediction for an admitted motion. Time in which it waits for earlier motions of its own arms
+// is not a pause.
 struct PredictedLeg {
   JobId job;
   std::optional<TimePoint> starts;  // when it leaves, or has left, its start; nullopt: never
@@ -28,10 +29,12 @@ struct PredictedTimeline {
   std::vector<PredictedLeg> legs;  // of one arm: in running order
 };
 
-// Predicts from the precedence graph when each admitted motion moves and what it waits for, if
-// every motion keeps its speed. A pause on the path adds kPauseLoss to the wait. An arm that is
-// late or stalled is predicted to rest for as long again as it has rested. Stopped arms, and arms
-// that rest in another's path, are predicted to stay there. Pure. Precondition: `now` >= state.now.
+// Predicts from the precedence graph when each admitted motion moves and what it waits for.
+// Assumptions:
+// - Every motion keeps its speed; a pause on the path costs kPauseLoss in addition.
+// - An arm that is late or stalled rests for as long again as it has rested.
+// - Stopped arms, and arms that rest in another arm's path, stay there.
+// Pure. Precondition: `now` >= state.now.
 [[nodiscard]] PredictedTimeline predicted_timeline(const State& state, TimePoint now);
 
 }  // namespace armloom

@@ -17,7 +17,7 @@ struct MonitorFinding {
   TimePoint time;
   Proximity proximity;       // which links, how close
   double limit_m;            // the required distance: Proximity::limit_m of this pair
-  std::vector<ArmId> stops;  // arms of the pair that are moving
+  std::vector<ArmId> stops;  // the arms of the pair that are moving
 };
 [[nodiscard]] constexpr const char* to_string(MonitorFinding::Kind kind) {
   switch (kind) {
@@ -33,17 +33,18 @@ struct MonitorFinding {
 // caller finds the pairs that are too close.
 class Monitor {
  public:
-  // Returns the new findings. `too_close`: every pair below its own limit_m in the measured state
-  // at `now`; `moving`: by ArmId. A pair is reported once. While it stays below the limit, it is
-  // reported again only if one of its arms moves and the pair has come closer by more than
-  // kCloserBy_m since, so that arms can be moved apart after a stop. A pair without a moving arm
-  // stops no arm.
+  // Returns the new findings. `too_close`: every pair whose distance is below its limit_m in the
+  // measured state at `now`; `moving`: by ArmId. A pair is reported when it falls below its limit.
+  // While it stays below, it is reported again only if one of its arms moves and the distance has
+  // shrunk by more than kCloserBy_m. So arms can be moved apart after a stop. A pair without a
+  // moving arm stops no arm.
   inline static constexpr double kCloserBy_m = 0.0005;
   [[nodiscard]] std::vector<MonitorFinding> observe(const std::vector<Proximity>& too_close,
                                                     const std::vector<bool>& moving, TimePoint now);
 
  private:
-  std::map<std::pair<std::string, std::string>, double> known_;  // pair -> closest so far
+  // Pair -> smallest distance reported (m).
+  std::map<std::pair<std::string, std::string>, double> known_;
 };
 
 }  // namespace armloom

@@ -13,36 +13,36 @@
 
 namespace armloom {
 
-// A rule for sharing the workspace. Pure. To add a policy, write one file in core/policies, its
-// name in policy_names.h and a case in make_policy().
+// A rule for sharing the workspace. Pure. A new policy needs one file in core/policies, its name in
+// policy_names.h and a case in make_policy().
 class Policy {
  public:
   virtual ~Policy() = default;
 
   [[nodiscard]] virtual std::string_view name() const = 0;
 
-  // How candidates are checked.
+  // Returns how geometry checks candidates.
   [[nodiscard]] virtual CheckMethod method() const = 0;
   // Decides the passing orders between candidates and admitted motions, or returns the blockers.
   [[nodiscard]] virtual PassingOrders decide(const OrderQuestion& question) const = 0;
 
-  // Returns the jobs of the present round, given the previous one in state.round. For policies with
-  // rounds.
+  // For policies with rounds: returns the jobs of the present round. state.round is the previous
+  // round.
   [[nodiscard]] virtual Round next_round(const State& /*state*/) const { return {}; }
-  // Returns the job that the waiting `job` must wait for before it is checked; nullopt if there is
-  // none.
+  // For policies that limit how many jobs run at once: returns a job that must end before the
+  // waiting `job` is checked; nullopt if there is none.
   [[nodiscard]] virtual std::optional<JobId> place_taken_by(const State& /*state*/,
                                                             const Record& /*job*/) const {
     return std::nullopt;
   }
-  // True if a place becomes free as soon as all jobs that have a place wait only for jobs without
-  // one.
+  // True if another job gets a place although none is free, when all jobs that have a place wait
+  // for jobs without a place.
   [[nodiscard]] virtual bool opens_places() const { return false; }
-  // True if an aged job holds other jobs back.
+  // True if an aged job holds other jobs back (scheduler/README.md, Aging).
   [[nodiscard]] virtual bool lets_jobs_age() const { return true; }
   // Largest number of jobs per arm that are admitted together, including the running one.
   [[nodiscard]] virtual std::size_t horizon() const { return 1; }
-  // True if orders are chosen again when motions deviate from the prediction.
+  // True if passing orders are chosen again when motions deviate from the prediction.
   [[nodiscard]] virtual bool weighs_again() const { return false; }
   // True if a job that cannot be admitted alone is tried together with other waiting jobs.
   [[nodiscard]] virtual bool admits_groups() const { return false; }

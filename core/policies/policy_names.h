@@ -9,7 +9,7 @@
 
 namespace armloom {
 
-// In order of ambition; make_policy() (policy.h) makes each.
+// All policies, the simplest first. make_policy() (policy.h) creates them.
 enum class PolicyName {
   sequential,
   lockstep,

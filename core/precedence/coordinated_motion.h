@@ -9,29 +9,30 @@
 
 namespace armloom {
 
-// Knowledge about a motion besides its progress.
+// Knowledge about a motion in addition to its progress.
 struct Outlook {
-  bool keeps_its_place = false;  // was overtaken long enough
-  // How long its arms have rested without being held back by orders; they are predicted to rest for
-  // as long again.
+  bool keeps_its_place = false;  // has waited so long that no other motion may overtake it any more
+  // How long the motion's arms have rested although no order holds them back. They are predicted to
+  // rest for as long again.
   Duration stands_for{};
   double pace = 1.0;  // cell time per trajectory time, as measured and predicted
 };
 
-// A motion that is admitted, or a candidate. In a list of motions, those of one arm are in running
-// order; each begins where the previous one ends.
+// An admitted motion, or a candidate for admission. In a list, the motions of one arm are in
+// running order, and each begins where the previous one ends.
 struct CoordinatedMotion {
   JobId job;
   std::vector<ArmId> arms;
   Duration duration;
   Duration progress{};                   // as measured
   Duration authority{};                  // granted so far; never reduced
-  std::optional<Duration> held_at = {};  // limit set by an arm at rest in its path
+  std::optional<Duration> held_at = {};  // progress at which an arm at rest in the path holds it
   int priority = 0;
-  Duration horizon{};  // how far its authority may exceed its progress
+  Duration horizon{};  // largest lead of its authority over its progress
   Outlook outlook = {};
 
-  // Returns true if the motion has passed an interval that ends at `to`; never for its goal.
+  // Returns true if the motion has passed an interval of progress that ends at `to`. An interval
+  // that includes the motion's end is never passed.
   [[nodiscard]] bool is_beyond(Duration to) const { return to < progress && to < duration; }
 };
 

@@ -9,18 +9,19 @@
 
 namespace armloom {
 
-// Which motions follow each other on shared arms, in list order. Motions are indices into the list.
+// Tells which motions follow each other on shared arms, in list order. Motions are given as indices
+// into the list.
 class MotionChains {
  public:
   explicit MotionChains(const std::vector<CoordinatedMotion>& motions);
 
-  // Returns the motions directly before it on its arms, each once.
+  // Returns the motions that directly precede this motion on its arms, each once.
   [[nodiscard]] const std::vector<std::size_t>& before(std::size_t motion) const {
     return before_[motion];
   }
-  // Returns true if one of its arms rests at its start now.
+  // Returns true if one of the motion's arms has no earlier motion, so that it is at the start now.
   [[nodiscard]] bool stands(std::size_t motion) const { return stands_[motion]; }
-  // Returns true if each of its arms has a later motion.
+  // Returns true if each of the motion's arms has a later motion.
   [[nodiscard]] bool moves_on(std::size_t motion) const { return moves_on_[motion]; }
 
  private:

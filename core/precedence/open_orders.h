@@ -10,35 +10,37 @@
 
 namespace armloom {
 
-// A conflict region of two motions (indices), and which may pass first.
+// A conflict region of two motions A and B (`a`, `b`: indices into motions()), and which of them
+// may pass first.
 struct OpenOrder {
   std::size_t a;
   std::size_t b;
-  ConflictRegion region;  // only the part still ahead
+  ConflictRegion region;  // new orders: without boxes that a motion has passed
   bool a_may = true;
   bool b_may = true;
   bool prefers_a = true;
   bool a_first = true;                                 // the present setting
-  bool at_start = false;                               // the second waits at its start
-  bool is_open = false;                                // undecided: delays no motion
+  bool at_start = false;                               // the second motion waits at its start
+  bool is_open = false;                                // undecided: delays no motion in predictions
   std::array<std::optional<Precedence>, 4> made = {};  // cache, by a_first and at_start
 };
 
-// Orders that are decided together, with equal or `turned` sides. For example, the regions before
-// and after an arm's rest that the same other motion passes.
+// Orders that are decided together (order_ties.h): with one value of "a first", or with the
+// opposite value for members that are `turned`.
 struct OrderChoice {
   struct Member {
     std::size_t order;
     bool turned;
   };
   std::vector<Member> members;
-  std::vector<bool> options = {};  // values of "a first" of the first member, preferred first
-  bool at_start = false;           // the present setting
+  // Possible values of "a first" for the first member; the preferred value is first.
+  std::vector<bool> options = {};
+  bool at_start = false;  // the present setting
 };
 
-// The open decisions in all regions of admitted motions and candidates. An order can be reversed
-// until the motion that would have to wait has authority in the region, because no motion is made
-// to go back.
+// The open decisions in all regions of admitted motions and candidates. No motion is made to go
+// back: an order can be reversed only while the motion that would then have to wait has no
+// authority in the region.
 class OpenOrders {
  public:
   explicit OpenOrders(const OrderQuestion& question);
@@ -47,26 +49,30 @@ class OpenOrders {
   [[nodiscard]] std::size_t first_candidate() const { return first_candidate_; }
   // Returns true if no other motion of its arms precedes it.
   [[nodiscard]] bool leads(std::size_t motion) const { return chains_.before(motion).empty(); }
-  // Existing orders first, `decided` of them.
+  // Returns all orders. The first decided() of them exist already between admitted motions.
   [[nodiscard]] const std::vector<OpenOrder>& orders() const { return orders_; }
   [[nodiscard]] std::size_t decided() const { return decided_; }
-  // Unless blocked, each choice has an option, and its first option is set.
+  // Returns the decisions to be made. Unless blocked(), each has an option, and the first option is
+  // set.
   [[nodiscard]] std::vector<OrderChoice>& choices() { return choices_; }
   [[nodiscard]] bool blocked() const { return !answer_.blockers.empty(); }
 
-  // `at_start`: the second motion waits at its start, if still there, instead of on its path.
+  // Sets the choice. With `at_start`, the second motion waits at its start instead of on its path,
+  // if it is still there.
   void set(OrderChoice& choice, bool value, bool at_start = false);
   // Makes the choice delay no motion in predictions.
   void leave_open(const OrderChoice& choice);
-  // Returns when the prediction first violates this side of the choice: the second motion enters a
-  // region before the first has left it; nullopt if never.
+  // Returns when the prediction first violates the choice with this value: when a second motion
+  // enters a region before the first motion has left it. nullopt if that never happens.
   [[nodiscard]] std::optional<Duration> broken_at(const OrderChoice& choice, bool value,
                                                   const Prediction& prediction);
-  // Predict with the orders as set, or only with existing ones among admitted motions.
+  // Predict all motions with the orders as set, or only the admitted motions with their existing
+  // orders.
   [[nodiscard]] Prediction predicted();
   [[nodiscard]] Prediction predicted_before();
 
-  // The answers: admitted as set; refused because of these orders; stuck in a cycle.
+  // Return the answer to the question: the candidates are admitted with the orders as set; they are
+  // refused because of these orders; or they would be stuck in a cycle of waits.
   [[nodiscard]] PassingOrders admitted(Prediction prediction);
   [[nodiscard]] PassingOrders refused(const std::vector<std::size_t>& because);
   [[nodiscard]] PassingOrders stuck(const Prediction& prediction);

@@ -8,46 +8,46 @@
 
 namespace armloom {
 
-// Finds the orders with the least cost, by branch and bound over predictions. Relaxation: undecided
-// orders impose no waits, so the predicted cost is a lower bound. Branching: on the first undecided
-// order that the prediction violates. Orders that are not violated need no decision. (Similar to
-// conflict-based search for paths, Sharon et al. 2015; on the disjunctive graph of job shops,
-// Carlier and Pinson 1989.)
+// Finds the orders with the least cost, by branch and bound over predictions. Bound: undecided
+// orders impose no waits, so the predicted cost is a lower bound. Branching: the undecided order
+// that the prediction violates first is decided in both ways. Orders that are not violated need no
+// decision. (Similar to conflict-based search for paths, Sharon et al. 2015. The graph is the
+// disjunctive graph of job shops, Carlier and Pinson 1989.)
 //
-// A budget of predictions bounds the search; the best orders found by then are taken.
+// A budget of predictions limits the search, which then returns the best orders found.
 // Deterministic.
 //
 // The cost is the sum of
 // - the time at which the last arm has done its work, including work_behind,
 // - the sum of the arms' ends, times weight_of_sum(), and
-// - for each motion that is the first of its arms, kWeightOfPriority times its end for each smaller
-//   priority of another motion. So of two equal motions the urgent one passes first, but not at any
-//   price.
-// If work is known behind the motions, it shows which arm finishes last, and the sum has the
-// smaller weight kWeightOfSumBeforeMore. If not, the next job may need any arm, and the weight is
-// kWeightOfSum.
+// - for each motion that is the first of its arms, its end, times kWeightOfPriority, times the
+//   number of smaller priorities among the motions. So of two equal motions the urgent one passes
+//   first, but not at any price. The weight of the sum is kWeightOfSumBeforeMore if there is work
+//   behind the motions, because this shows which arm finishes last. Otherwise the next job may need
+//   any arm, and the weight is the larger kWeightOfSum.
 class OrderSearch {
  public:
   inline static constexpr double kWeightOfSum = 0.25;
   inline static constexpr double kWeightOfSumBeforeMore = 0.1;
   inline static constexpr double kWeightOfPriority = 0.2;
   inline static constexpr std::size_t kPredictionsMax = 300;
-  // Bounds predictions x orders of a search: a prediction takes time proportional to the orders, of
-  // which long horizons have thousands.
+  // Largest number of predictions times orders in a search. A prediction takes time proportional to
+  // the number of orders, and long horizons have thousands of them.
   inline static constexpr std::size_t kOrdersFollowedMax = 100'000;
   inline static constexpr std::size_t kPredictionsLeast = 20;
 
-  // `work_behind`: by ArmId, of jobs that are not among the motions.
+  // `work_behind`: duration of the jobs that are not among the motions, by ArmId.
   OrderSearch(OpenOrders& open, const std::vector<Duration>& work_behind);
 
   [[nodiscard]] static double weight_of_sum(const std::vector<Duration>& work_behind);
 
-  // Sets the choices and returns the prediction with them. If `stuck` is not empty, no orders were
-  // found with which all motions reach their ends.
+  // Sets the choices and returns the prediction with them. If its `stuck` is not empty, the search
+  // found no orders with which all motions reach their ends.
   [[nodiscard]] Prediction run();
 
  private:
-  // Index into OrderChoice::options, or open; the second waits on its path or at its start.
+  // The state of a choice: open, or one of OrderChoice::options. With `at_start`, the second motion
+  // waits at its start, else on its path.
   struct Side {
     enum : signed char { open, first, other } side = open;
     bool at_start = false;

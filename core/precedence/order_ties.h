@@ -7,8 +7,9 @@
 
 namespace armloom {
 
-// For each order, the orders that are decided together with it: one region ends at an arm's rest,
-// the other begins there, and the same other motion passes both.
+// For each order, the orders that must be decided together with it. Two orders are tied if an arm
+// rests between two of its motions, one region ends at this rest, the other begins there, and the
+// same motion of another arm passes both regions.
 class OrderTies {
  public:
   OrderTies(const std::vector<OpenOrder>& orders, const std::vector<CoordinatedMotion>& motions,

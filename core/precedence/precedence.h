@@ -9,24 +9,27 @@
 
 namespace armloom {
 
-// Distance at which a waiting motion stops before a region, so that regions with other motions of
-// that arm, which have slightly different outlines, begin no earlier than its position.
+// Trajectory time by which a waiting motion stops before a region. Regions with other motions of
+// the same other arm have slightly different outlines. With this distance they do not begin before
+// the position of the waiting motion.
 inline constexpr Duration kShortOf = std::chrono::milliseconds(20);
 
 // The passing order in one conflict region of two motions: `first` leaves every box before `second`
-// enters it. Compares progress (trajectory time), never clocks, so it holds however late either
-// motion is (an action dependency between two plans: Hoenig et al. 2019).
+// enters it. The order compares progress (trajectory time), never clocks, so it holds however late
+// either motion is. (An action dependency between two plans: Hoenig et al. 2019.)
 class Precedence {
  public:
-  // `region` is of motions A and B in this order. `waits_at_start`: the second leaves its start
-  // only when it can pass without a stop, if both then go on by the clock.
+  // `region`: of the motions A and B, in this order. With `waits_at_start`, the second motion
+  // leaves its start only when it can pass without a stop, if both motions then keep their planned
+  // speed.
   Precedence(JobId a, JobId b, const ConflictRegion& region, bool a_first,
              bool waits_at_start = false);
 
   [[nodiscard]] JobId first() const { return first_; }
   [[nodiscard]] JobId second() const { return second_; }
   [[nodiscard]] bool waits_at_start() const { return waits_at_start_; }
-  // Times of `first` are A's; body_a of the evidence belongs to `first`.
+  // Returns the region with `first` as A: times with suffix _a, and body_a of the evidence, belong
+  // to `first`.
   [[nodiscard]] const ConflictRegion& region() const { return region_; }
 
   // While the progress of `first` is less than `until`, the authority of `second` is at most
@@ -36,7 +39,8 @@ class Precedence {
     Duration limit;
   };
   [[nodiscard]] const std::vector<Step>& steps() const { return steps_; }
-  // Returns the largest authority of `second`; nullopt if it is no longer limited.
+  // Returns the largest authority that `second` may have; nullopt if this order no longer limits
+  // it.
   [[nodiscard]] std::optional<Duration> limit(Duration progress_of_first) const;
 
  private:

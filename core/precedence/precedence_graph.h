@@ -7,10 +7,10 @@
 
 namespace armloom {
 
-// The admitted motions of a cell with their passing orders, and the resulting limits. Invariant:
-// for any two motions with progress s and authority alpha, the rectangle [s_A, alpha_A] x [s_B,
-// alpha_B] is certified free. So each motion may be late, slow or stopped, in any combination. The
-// graph is acyclic after every admission, so every motion can reach its end. Pure.
+// The admitted motions of a cell with their passing orders, and the limits that follow from these.
+// Invariant: for any two motions A and B with progress s and authority alpha, the rectangle [s_A,
+// alpha_A] x [s_B, alpha_B] is certified free. So each motion may be late, slow or stopped, in any
+// combination. The graph is acyclic after every admission, so every motion can reach its end. Pure.
 class PrecedenceGraph {
  public:
   explicit PrecedenceGraph(std::size_t arms) : work_behind_(arms) {}
@@ -22,10 +22,12 @@ class PrecedenceGraph {
   // Precondition: holds(job).
   [[nodiscard]] Duration horizon(JobId job) const { return find(job)->horizon; }
 
-  // By ArmId: the work of jobs that are not admitted; affects only the choice of orders.
+  // Sets the duration of the jobs that are not admitted, by ArmId. This affects only the choice of
+  // orders.
   void set_work_behind(std::vector<Duration> work) { work_behind_ = std::move(work); }
 
-  // Returns the question for Policy::decide(). It refers to all arguments and to this graph.
+  // Returns the question for Policy::decide(). The question holds references to all arguments and
+  // to this graph.
   [[nodiscard]] OrderQuestion question(const std::vector<CoordinatedMotion>& candidates,
                                        const std::vector<PairRegions>& regions) const {
     return {motions_, precedences_, candidates, regions, work_behind_};
@@ -34,41 +36,44 @@ class PrecedenceGraph {
 
   // Sets the measured progress; never decreases.
   void progress(JobId job, Duration progress);
-  // Returns how far the motion may go now: at most its duration; zero while another motion of its
-  // arms precedes it.
+  // Returns the progress up to which the motion may go now, at most its duration. Zero while
+  // another motion of its arms precedes it.
   [[nodiscard]] Duration limit(JobId job) const;
-  // Returns what holds the motion at its limit; nullopt if it may go to its end or waits for its
-  // own arm.
+  // Returns what holds the motion at its limit; nullopt if it may go to its end, or if it only
+  // waits for an earlier motion of its own arm.
   [[nodiscard]] std::optional<Blocker> held_back(JobId job) const;
-  // Returns the arm at rest at the motion's held_at, which stays there as planned; nullopt if there
-  // is none.
+  // Returns the arm at rest that holds the motion at its held_at; nullopt if there is none. No
+  // admitted motion will move that arm.
   [[nodiscard]] std::optional<Blocker> rests_ahead(JobId job) const;
-  // Returns the precedences between indices of motions(), for predict().
+  // Returns the precedences, with motions as indices into motions(), for predict().
   [[nodiscard]] std::vector<Dependency> dependencies() const;
-  // Returns true if one of the arms rests in the motion's path.
+  // Returns true if one of the arms rests, or will rest, in the motion's path.
   [[nodiscard]] bool is_held_by(JobId job, const std::vector<ArmId>& arms) const;
-  // Returns true if all motions reach their ends, not considering arms at rest in their paths.
+  // Returns true if the orders let all motions reach their ends. Ignores arms at rest in their
+  // paths.
   [[nodiscard]] bool is_acyclic() const;
   // Records the authority sent to the arms. Throws std::logic_error if it exceeds limit().
   void granted(JobId job, Duration authority);
   // Sets the knowledge about a motion. Precondition: holds(job).
   void set_outlook(JobId job, const Outlook& outlook);
-  void set_priority(JobId job, int priority);  // precondition: as above
+  void set_priority(JobId job, int priority);  // precondition: holds(job)
 
-  // The motion has ended: at its goal (finish), or where it rests instead (abandon). After
-  // abandon(), motions that would pass there stay before it until its arm moves again. The arms of
-  // one motion may rest at different progress, up to `farthest`.
+  // Remove a motion that has ended: at its goal (finish), or at another progress `rests_at`
+  // (abandon). Motions that would pass an arm that now rests in their path stop before it until
+  // that arm moves again. The arms of one motion may rest at different progress, from `rests_at` up
+  // to `farthest`.
   void finish(JobId job);
   void abandon(JobId job, Duration rests_at, Duration farthest = {});
 
  private:
-  // Arms that came to rest in the path of an admitted motion, until all of them have left.
+  // Arms that came to rest, or will, in the path of the admitted motion `job`. The blockade ends
+  // when all of them have left.
   struct Blockade {
     std::vector<ArmId> arms;
-    std::optional<JobId> goal_of;  // they will rest there when this motion has ended
+    std::optional<JobId> goal_of;  // if set: the arms will rest there when this motion has ended
     JobId job;
     Duration limit;
-    Duration until;    // progress at which the motion has passed them
+    Duration until;    // progress at which `job` has passed the arms
     Blocker evidence;  // names one of these arms
 
     void leave(const std::vector<ArmId>& left);
@@ -77,10 +82,10 @@ class PrecedenceGraph {
   [[nodiscard]] bool waits_for_own_arm(std::size_t index) const;
   struct Rest {
     std::vector<ArmId> arms;
-    Duration at, farthest;  // the arms of one motion may rest apart on it
-    // Set when the arms rest at this motion's start, having been moved there by `brought_by`. The
-    // motion has no regions with later motions of those arms; the blockade is then derived from its
-    // own regions with motions that share an arm with `brought_by`.
+    Duration at, farthest;  // progress of the last and of the foremost arm
+    // Set if the arms rest at the motion's start because `brought_by`, their motion before it,
+    // brings them there. Only motions that share an arm with `brought_by` are then blocked: they
+    // have no regions with `brought_by` itself.
     const CoordinatedMotion* brought_by = nullptr;
   };
   [[nodiscard]] const Blockade* nearest_blockade(const CoordinatedMotion& motion) const;
@@ -94,7 +99,7 @@ class PrecedenceGraph {
   std::vector<Duration> work_behind_;
 };
 
-// Returns the blocker for the second motion, which waits for the first.
+// Returns the blocker that says that the second motion waits for the first.
 [[nodiscard]] Blocker blocker_of(const Precedence& precedence);
 
 }  // namespace armloom

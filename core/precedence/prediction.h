@@ -10,53 +10,58 @@
 
 namespace armloom {
 
-// A motion as input of the prediction.
+// A motion, as input of predict().
 struct MotionAhead {
-  Duration progress;                        // its present progress
-  Duration duration;                        // of its trajectory
-  std::span<const std::size_t> after = {};  // motions of the same arms that end before it begins
-  std::optional<Duration> held_at = {};     // does not go beyond this progress
-  Duration stands_for{};                    // rests for so long before it goes on
-  double pace = 1.0;                        // cell time per trajectory time
+  Duration progress;  // its present progress
+  Duration duration;  // of its trajectory
+  // Indices of motions of the same arms that must end first.
+  std::span<const std::size_t> after = {};
+  std::optional<Duration> held_at = {};  // the motion does not go beyond this progress
+  Duration stands_for{};                 // the motion rests for this long before it goes on
+  double pace = 1.0;                     // cell time per trajectory time
 };
 
-// `second` may pass, as Precedence says, when `first` has progressed far enough. Indices of
-// motions.
+// A precedence as input of predict(): `second` may pass when `first` has progressed far enough.
+// Both are indices of motions.
 struct Dependency {
   std::size_t first;
   std::size_t second;
   const Precedence* precedence;
 };
 
+// Returns the cell time that `way` of trajectory time takes at this pace.
 [[nodiscard]] inline Duration paced(Duration way, double pace) {
   return pace == 1.0 ? way : from_seconds(to_seconds(way) * pace);
 }
 
-// The predicted times if every motion keeps its pace and waits where it must. Times are relative to
-// now.
+// Predicted times, relative to now, if every motion keeps its pace and waits only where it must.
 class Prediction {
  public:
-  // A motion is at `progress` at `time`, and continues at its pace to the next entry.
+  // A motion is at `progress` at `time`, and continues at its pace to the progress of the next
+  // stage.
   struct Stage {
     Duration progress;
     Duration time;
   };
-  // Returns the time that the motion takes for `way` of trajectory time.
+  // Returns the cell time that the motion takes for `way` of trajectory time.
   [[nodiscard]] Duration time_for(std::size_t motion, Duration way) const {
     return paced(way, pace_[motion]);
   }
-  // Up to where it gets; empty if it never begins.
+  // Returns the motion's stages, up to its end or to where it is stuck; empty if it never begins.
   [[nodiscard]] std::span<const Stage> stages(std::size_t motion) const {
     return {stages_.data() + first_[motion], count_[motion]};
   }
-  // Return when the motion reaches `progress`, and when it continues from there; nullopt: never.
+  // Return when the motion reaches `progress`, and when it continues from there; nullopt if it
+  // never does.
   [[nodiscard]] std::optional<Duration> comes_to(std::size_t motion, Duration progress) const;
   [[nodiscard]] std::optional<Duration> goes_beyond(std::size_t motion, Duration progress) const;
 
-  std::vector<Duration> begins = {};    // when it leaves its start; zero if it has begun
-  std::vector<Duration> ends = {};      // of motions that reach their end
+  std::vector<Duration> begins = {};    // when each motion leaves its start; zero if it has begun
+  std::vector<Duration> ends = {};      // when each motion ends; valid only if it is not in `stuck`
   std::vector<std::size_t> stuck = {};  // ascending: motions that never end
-  std::vector<std::size_t> ring = {};   // a cycle of waits, or one motion at its held_at
+  // If any is stuck: motions that wait for each other, or one motion at its held_at.
+  std::vector<std::size_t> ring = {};
+
  private:
   friend class Race;
   std::vector<Stage> stages_ = {};
@@ -68,8 +73,9 @@ class Prediction {
 // Time added by a stop on the path and the start after it.
 inline constexpr Duration kPauseLoss = std::chrono::milliseconds(300);
 
-// Predicts from the precedences and running orders, one graph over progress: it is acyclic exactly
-// if `stuck` is empty. Linear in the steps of all precedences, except for sorting them.
+// Predicts the motions from the precedences and the running orders of the arms. These form a graph
+// over progress; unless a held_at stops a motion, it is acyclic exactly if `stuck` is empty. Takes
+// time linear in the steps of all precedences, except for sorting them.
 [[nodiscard]] Prediction predict(const std::vector<MotionAhead>& motions,
                                  const std::vector<Dependency>& dependencies);
 

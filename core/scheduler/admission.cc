@@ -124,7 +124,7 @@ bool Admission::ask_next(State& state, const Turns& turns, const WaitCycles& cyc
   std::size_t times_put_off = 0;
   for (; turn; turn = Turns(state).next()) {
     if (++times_put_off > kPutOffMax * (state.jobs.active().size() + kPutOffMax)) {
-      throw std::logic_error("endless loop: one step put jobs off " +
+      throw std::logic_error("endless loop: one step deferred jobs " +
                              std::to_string(times_put_off) + " times, last job " +
                              std::to_string(turn->value()));
     }

@@ -11,25 +11,30 @@
 
 namespace armloom {
 
-// Asks geometry one question at a time and handles the answer: jobs are admitted with passing
-// orders, more is asked, or jobs wait. Admission and the resulting orders are one step.
+// Asks geometry one question at a time and handles the answer: admits jobs with passing orders,
+// asks a further question, or lets jobs wait. A job is admitted together with its orders, in one
+// step.
 class Admission {
  public:
-  // Asks the next question if none is open, in this order: motions that a changed scene may
-  // endanger; jobs to be moved to their start (are they feasible from there?); retreats that could
-  // open a deadlock cycle; jobs whose turn it is; other retreats. Returns true if jobs were
-  // deferred meanwhile, because this changes the waits. `turns` must be current.
+  // Asks the next question if none is open. `turns` must be current. Returns true if jobs were
+  // deferred or replanned meanwhile: the waits have then changed. The first of these questions is
+  // asked:
+  // - Is a motion still free after a change of the scene?
+  // - Is a job that is to be moved to its start feasible from there?
+  // - Can an arm retreat to open a deadlock cycle?
+  // - Can the job whose turn it is be admitted?
+  // - Can an idle arm retreat?
   [[nodiscard]] bool ask_next(State& state, const Turns& turns, const WaitCycles& cycles);
-  // Handles the answer to the open question. An answer for an older version is void; the question
-  // is asked again.
+  // Handles the answer to the open question. If the version has changed since, the answer is void
+  // and the question is asked again.
   void on(const Judged& input, State& state, WaitCycles& cycles);
 
  private:
   enum class Purpose {
-    start,    // of a waiting job
-    option,   // the same, for one of several options of a turn
-    itself,   // a job alone, from its start, although its arms are elsewhere
-    recheck,  // a motion that is under way or scheduled
+    start,    // can this waiting job be admitted?
+    option,   // the same, for one of several options (waiting/options.h)
+    itself,   // is a job free by itself from its start, although its arms are elsewhere?
+    recheck,  // is an admitted motion still free?
     yield,    // can an arm retreat, and does the job then pass?
   };
   struct OpenQuestion {
@@ -40,8 +45,8 @@ class Admission {
     std::vector<Passage> passages = {};  // Question::passages
     bool is_only_option = false;         // no other option could take the turn
   };
-  // For policies that admit groups: all waiting jobs are tried as one group; if that fails,
-  // `alone`.
+  // For policies that admit groups: all waiting jobs are tried as one group. If that fails, only
+  // the jobs of `alone` are tried.
   struct Together {
     Version version;
     std::vector<JobId> alone;

@@ -5,9 +5,9 @@
 
 namespace armloom {
 
-// Changes the terms of a job that has not ended. A new priority makes open answers void; all
-// waiting jobs are checked again, and the policy may re-optimize passing orders. Jobs that the
-// server has added for this job get the same priority.
+// Changes the terms of a job that has not ended. After a change of the priority, all waiting jobs
+// are checked again, the answer to an open question is void, and the policy may choose passing
+// orders again. Jobs that the server has added for this job get the same priority.
 void amend(State& state, const Amend& input);
 
 }  // namespace armloom

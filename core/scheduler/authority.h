@@ -4,14 +4,15 @@
 
 namespace armloom {
 
-// Movement authority of admitted motions, as far as passing orders allow.
+// Gives admitted motions authority to move, as far as their passing orders allow.
 
-// Dispatches admitted motions that precedence lets leave, and extends the authority of motions
-// under way.
+// Dispatches admitted motions whose orders let them leave their start, and extends the authority of
+// motions under way.
 void dispatch_ready(State& state);
-// Does the same for the motion that moved and for motions that wait for it.
+// Does the same, but only for the motion that moved and for the motions that pass after it.
 void extend_authority(State& state, JobId moved);
-// Notes when a motion pauses at its limit; time lost there is no overrun.
+// Records that a motion pauses at its limit or continues. Time that it loses there does not count
+// as overrun.
 void see_pauses(State& state, Record& record, Duration progress_before);
 
 }  // namespace armloom

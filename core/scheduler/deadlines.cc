@@ -51,7 +51,8 @@ void fail_overdue(State& state, Record& record) {
   give_up(state, record,
           {AfterStop::Then::fail, Reason::overrun,
            "has not moved for " + seconds_text(stood) +
-               ", and has exceeded its duration with duration_scaling and duration_margin"});
+               ", and has exceeded the time that it may take "
+               "(duration x duration_scaling + duration_margin_s)"});
 }
 
 std::optional<TimePoint> deadline_of(const Job& job) {

@@ -6,17 +6,20 @@
 
 namespace armloom {
 
-// A motion beyond execution.duration_scaling and _margin overruns only after it has not moved for
-// this long. Ending a slow or late motion earlier would clear no path.
+// A motion that has taken longer than duration x execution.duration_scaling + duration_margin
+// overruns only when it has also not moved for this long. To end a slow motion earlier would clear
+// no path.
 inline constexpr Duration kStandstill = std::chrono::seconds(10);
 
-// Returns when the job expires, if nothing changes.
+// Returns when the job's backlog timeout is over if nothing changes; nullopt if the timeout is not
+// running.
 [[nodiscard]] std::optional<TimePoint> expiry_of(const Job& job);
 
-// Ends motions that overrun, and jobs whose timeout is over in the backlog or on their path.
+// Ends motions that overrun, and jobs whose timeout is over. With OnTimeout::replan, a job is
+// replanned first.
 void expire_and_overrun(State& state);
-// Returns when expire_and_overrun() has to act next. Also starts the timeout of jobs that are now
-// blocked on their path by an idle arm or an object.
+// Returns when expire_and_overrun() must be called next. Also starts the timeout of jobs that an
+// idle arm or an object now blocks on their path.
 [[nodiscard]] std::optional<TimePoint> next_deadline(State& state);
 
 }  // namespace armloom

@@ -10,14 +10,15 @@ namespace armloom {
 // Returns the question to geometry about these jobs, against all admitted motions at their present
 // progress.
 [[nodiscard]] Question question_now(const State& state, const std::vector<JobId>& candidates);
-// Returns a question about this job alone, with its arms at its start.
+// Returns a question about this job without any other motion, as if its arms were at its start.
 [[nodiscard]] Question question_by_itself(const State& state, const Job& job);
-// Returns the distance of the job's arms from the start of its path: Motion::off_path.
+// Returns the job's Motion::off_path: how far its arms are off the start of its path (largest
+// joint, rad or m). Zero within the tracking error.
 [[nodiscard]] double off_path_of(const State& state, const Record& record);
 // Returns the job's motion as a candidate for passing orders.
 [[nodiscard]] CoordinatedMotion as_candidate(const Job& job);
-// Returns the positions of all arms after all admitted jobs, and, with `job`, after the jobs before
-// it on its arm.
+// Returns where all joints will be after all admitted jobs. With `job`, the joints of its arm are
+// where the jobs before it leave them.
 [[nodiscard]] Configuration rest_after_admitted(const State& state, const Job* job = nullptr);
 // Adds passages to the question.
 void add_passages(Question& question, const std::vector<Passage>& unknown, const State& state);

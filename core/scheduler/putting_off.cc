@@ -12,7 +12,7 @@ namespace armloom {
 namespace {
 
 // What a job waits for that is treated as a conflict without being proven one.
-constexpr const char* kUndecided = "undecided within the budget of evaluations";
+constexpr const char* kUndecided = "undecided: the check exceeded its budget of evaluations";
 // So often is the budget of one job's questions raised.
 constexpr int kRaisedMax = 12;
 

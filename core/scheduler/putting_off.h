@@ -8,27 +8,28 @@ namespace armloom {
 
 // Defers or fails a job that was checked and not admitted.
 
-// Precondition of all functions but hold_back(): the job waits.
+// Precondition of all functions except hold_back(): the job waits.
+// Stores what the job was found to wait for, but does not publish it.
 void note_found(Record& record, std::vector<Wait> waits);
-// Moves the job to the backlog if it is the first of its arms.
+// Defers the job because of these waits. Moves it to the backlog if it is the first of its arms.
 void put_off(State& state, Record& record, std::vector<Wait> waits);
-// Defers a job that cannot be planned because of an object (Job::stands_in). Returns false for
-// other jobs.
+// Defers the job if its path cannot be planned because of an object (Job::stands_in). Otherwise
+// returns false.
 [[nodiscard]] bool put_off_where_it_stands(State& state, Record& record);
-// Keeps the job queued: it is blocked only by jobs that must go first.
+// Keeps the job out of the backlog: it waits only for `first`, which must go before it.
 void wait_behind(State& state, Record& record, JobId first);
-// The same, until `first` no longer precedes it in the safe sequence.
+// Does the same, but only while `first` precedes the job in the safe sequence.
 void wait_in_turn(State& state, Record& record, JobId first);
-// Fails a job that has not begun if the verdict has a self-collision. Returns true if so.
+// If the verdict has a self-collision and the job has not begun, fails the job and returns true.
 [[nodiscard]] bool fails_by_itself(State& state, Record& record, const Verdict& verdict);
-// Defers the job with the verdict's conflicts, or fails it.
+// Defers the job because of the verdict's conflicts, or fails it (fails_by_itself()).
 void refuse(State& state, Record& record, const Verdict& verdict);
-// Brakes an admitted job that the changed scene blocks.
+// Brakes an admitted job that is in conflict after a change of the scene.
 void hold_back(State& state, Record& record, const Verdict& verdict);
 
-// Returns true if the evaluation budget was exhausted and the job will be checked again with a
-// larger one, after jobs with smaller budgets. Limited, so that an undecidable job does not take
-// time from others after every change.
+// Returns true if the check exceeded its budget of evaluations and will be repeated with a larger
+// budget, after the jobs with smaller budgets. The number of repetitions is limited, so that an
+// undecidable job does not delay others after every change.
 [[nodiscard]] bool is_asked_again(Record& record, const Verdict& verdict);
 
 }  // namespace armloom

@@ -16,55 +16,57 @@
 
 namespace armloom {
 
-// The core of Armloom: queue, backlog, arm queues, passing orders, stops. A deterministic state
-// machine without threads, clock, sockets or geometry. README.md lists its modules.
+// The core of Armloom: queue, backlog, arm queues, passing orders, stops. It is a deterministic
+// state machine without threads, clock, sockets or geometry. README.md lists its modules.
 //
-// Under every policy an admitted job is a motion in the precedence graph (precedence_graph.h): it
-// gets authority as far as the orders allow, and otherwise waits at its start or pauses on its
-// path. The policy chooses the orders (none under timed_discrete). Motions do not rely on times, so
-// late arms disturb no other arm.
+// Under every policy an admitted job is a motion in the precedence graph (precedence_graph.h). It
+// gets authority as far as the passing orders allow, and otherwise waits at its start or pauses on
+// its path. The policy chooses the orders (none under timed_discrete). Orders do not depend on
+// times, so they also hold if an arm is late.
 //
-// Every change of the admitted motions, or of an arm's rest, makes a new version: a verdict for an
-// older version is void, and every waiting job is checked again.
+// Every change of the admitted motions, of an arm's rest or of the scene makes a new version. A
+// verdict for an older version is void, and every waiting job is checked again.
 //
-// An arm that rests elsewhere than planned (canceled, faulted) blocks the motions that would pass
-// there. After a scene change, admitted motions are checked again and stopped if in conflict.
+// An arm that comes to rest elsewhere than planned (canceled, faulted) blocks the motions that
+// would pass there. After a change of the scene, admitted motions are checked again and braked if
+// they are in conflict.
 class Scheduler {
  public:
   // `rest`: the initial position of every joint. The policy is not null. Jobs of earlier sessions
   // have ids below `first`.
   Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
             JobId first = JobId{1});
-  // The state at `now` with motions under way, each at its progress, without orders between them:
-  // for questions about further jobs (Trial). At most one motion per arm; their ids grow. `rest`:
-  // the positions where these motions started.
+  // Creates a scheduler for questions about further jobs (Trial): at `now`, the motions `under_way`
+  // are at their progress, without orders between them. Preconditions: at most one motion per arm;
+  // their ids grow. `rest`: where these motions started.
   Scheduler(CellPtr cell, std::shared_ptr<const Policy> policy, Configuration rest,
             const std::vector<Motion>& under_way, TimePoint now);
 
-  // Handles one input and returns the effects, to be carried out in order. Throws
-  // std::invalid_argument if `now` decreases, and std::logic_error if an invariant (invariants.h)
-  // is broken: then nothing that it returned is reliable. Inputs for unknown or ended jobs are
-  // ignored.
+  // Handles one input and returns the effects, which must be carried out in order. Ignores inputs
+  // for unknown or ended jobs. Throws std::invalid_argument if `now` decreases. Throws
+  // std::logic_error if an invariant (invariants.h) is broken: then earlier effects are not
+  // reliable either.
   [[nodiscard]] std::vector<Effect> step(const Input& input, TimePoint now);
 
   // Returns the rest position of every joint; for a moving joint the position where it started.
   [[nodiscard]] const Configuration& rest() const { return state_.arms.rest(); }
-  // Returns where every joint will be when all accepted jobs have succeeded. A new job must begin
-  // there.
+  // Returns where every joint will be when all accepted jobs have succeeded (rad, m). A new job
+  // must begin there.
   [[nodiscard]] Configuration predicted_rest() const;
-  // Returns the arms for which predicted_rest() is an estimate: the last goal is an unplanned pose,
-  // or a goal may still go to this or another arm.
+  // Returns the arms for which predicted_rest() is an estimate, because the arm's last goal is a
+  // pose without a plan, or because a job may still go to this arm or to another one.
   [[nodiscard]] std::vector<ArmId> open_ends() const;
 
-  // Returns the id of the next job. Effects may use it up for the scheduler's own jobs.
+  // Returns the id for the next job to be submitted. Call again after each step(): the scheduler
+  // may have used the id for a job of its own.
   [[nodiscard]] JobId next_job() const { return state_.jobs.next_id(); }
   // Returns the time of the last WakeAt.
   [[nodiscard]] std::optional<TimePoint> wakes_at() const { return wake_at_; }
   [[nodiscard]] const Policy& policy() const { return *state_.policy; }
-  // Returns true if no motion is admitted, so that ChangePolicy has an effect.
+  // Returns true if no motion is admitted; otherwise ChangePolicy is ignored.
   [[nodiscard]] bool may_change_policy() const { return state_.graph.motions().empty(); }
-  // Returns the earliest start by the clock, from now, of the single candidate of an open question;
-  // nullopt if there is none.
+  // `question` has a single candidate, and `verdict` is its answer. Returns the candidate's
+  // earliest start by the clock, from now; nullopt if none is found.
   [[nodiscard]] std::optional<Duration> earliest_start(const Question& question,
                                                        const Verdict& verdict) const;
 
@@ -74,7 +76,7 @@ class Scheduler {
 
   [[nodiscard]] const Job* find(JobId job) const;   // null if unknown or forgotten
   [[nodiscard]] std::vector<JobId> active() const;  // all not ended, in order of submission
-  // Returns true if a job that has not ended moves the arm, or will.
+  // Returns true if the arm's queue has a job.
   [[nodiscard]] bool has_job(ArmId arm) const { return !state_.jobs.queues()[arm].empty(); }
   [[nodiscard]] bool stopped(ArmId arm) const { return state_.arms.is_stopped(arm); }
   // Returns nullopt if the arm is not stopped.
@@ -103,7 +105,7 @@ class Scheduler {
   WaitCycles cycles_;
   Admission admission_;
   std::optional<TimePoint> deadline_;   // of jobs and deadlock cycles
-  std::optional<TimePoint> weighs_at_;  // when to compare with the prediction
+  std::optional<TimePoint> weighs_at_;  // when to compare motions with their prediction
   std::optional<TimePoint> wake_at_;    // the earlier of both
 };
 

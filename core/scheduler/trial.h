@@ -7,9 +7,10 @@
 
 namespace armloom {
 
-// Finds the outcome of a job if it were submitted now: runs a copy of the scheduler with real
-// answers, at constant time, until the job has had its turn and any deadlock cycle that it closes
-// is resolved. So the result is exactly what the scheduler would do. Pure.
+// Finds the outcome of a job if it were submitted now. Runs a copy of the scheduler, at constant
+// time and with real answers to its questions. The trial ends when the job has had its turn and any
+// deadlock cycle that it closes is resolved. So the outcome is what the scheduler itself would
+// decide. Pure.
 //
 //   while (true) {
 //     if (auto question = trial.next()) trial.answer(verdict);
@@ -18,12 +19,13 @@ namespace armloom {
 //   }
 class Trial {
  public:
-  // The scheduler's open questions.
+  // The scheduler's questions that are open when the trial begins.
   struct Open {
     std::optional<Question> question = {};
     std::vector<PlanMotion> plans = {};
   };
-  // `asked`: one of `jobs`, which are submitted in this order.
+  // Submits `jobs` to the copy in this order. The trial is about the job `asked`, which is one of
+  // them.
   Trial(Scheduler scheduler, Open open, const std::vector<Submit>& jobs, JobId asked,
         TimePoint now);
 
@@ -37,19 +39,22 @@ class Trial {
 
   struct Outcome {
     Verdict::Kind kind;
-    std::optional<Duration> starts_in;  // from now; not free: the earliest start by the clock
-    std::vector<Wait> waits;            // free: until it starts
+    // From now; if the job is not admitted: the earliest start by the clock.
+    std::optional<Duration> starts_in;
+    std::vector<Wait> waits;  // of an admitted job: what it waits for until it starts
     std::optional<ClearanceBound> clearance_bound;
-    std::uint64_t evaluations = 0;                      // for questions about the job
-    std::optional<Duration> approach = {};              // time until its arms are at its start
+    std::uint64_t evaluations = 0;  // of all questions about the job
+    // If its arms are moved to its start: time until they are there.
+    std::optional<Duration> approach = {};
     Job job = {.id = JobId{0}, .trajectory = nullptr};  // its final state in the trial
   };
   // Returns the outcome. Precondition: next() and next_plan() return nullopt. If the arms must
-  // first be moved to the job's start and the job is not admitted together with that motion, the
-  // outcome describes that motion; the job itself is checked when its turn comes.
+  // first be moved to the job's start, the job may not be admitted together with that motion. The
+  // outcome then describes that motion, because the job itself is checked at its turn.
   [[nodiscard]] Outcome outcome() const;
 
-  // Limits of a trial. A job that waits behind more checks gets the waits found so far.
+  // Limits of a trial. If the job would wait for more checks or plans, the outcome has the waits
+  // found so far.
   static constexpr int kJudgementsMax = 500;
   static constexpr int kPlansMax = 20;
 
@@ -69,7 +74,7 @@ class Trial {
   int judgements_ = 0;
   int plans_ = 0;
   std::optional<Verdict> last_;       // about the job, alone or with others
-  std::optional<Duration> by_clock_;  // its earliest start, as last found
+  std::optional<Duration> by_clock_;  // its earliest start by the clock, as last found
   std::vector<Wait> waits_;           // as last published
   std::uint64_t evaluations_ = 0;
 };

@@ -7,18 +7,20 @@
 
 namespace armloom {
 
-// Re-optimizes the orders of all admitted motions if one deviates from its prediction: late, early,
-// stopped, abandoned. Granted authority is not taken back; a late motion may lose its turn.
+// Chooses the orders of all admitted motions again if one of them deviates from its prediction
+// (late, early, stopped, abandoned). A late motion may then lose its turn, but granted authority is
+// not taken back.
 void weigh_again(State& state);
 
 // Returns true if any admitted motion deviates from its prediction.
 [[nodiscard]] bool is_off_course(const State& state);
 
-// Returns when to check for deviations without another input; nullopt: never.
+// Returns when to check for deviations if no input comes before; nullopt if this is not needed.
 [[nodiscard]] std::optional<TimePoint> weighs_next(const State& state);
 
-// Updates the precedence graph before orders are chosen for the admitted motions and these jobs:
-// the work behind them, predicted rests and paces, and motions that may not be overtaken again.
+// Updates the precedence graph before orders are chosen for the admitted motions and for `jobs`.
+// Sets the work behind all of these, predicted rests and paces, and which motions may not be
+// overtaken any more.
 void prepare_choice(State& state, const std::vector<JobId>& jobs);
 
 }  // namespace armloom

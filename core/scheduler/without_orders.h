@@ -8,12 +8,12 @@ namespace armloom {
 
 // For policies without passing orders (timed_discrete).
 
-// When an arm brakes or rests off its goal: compares all motions under way again, and returns jobs
-// that a stop keeps at their start to the queue.
+// Call when an arm brakes, or rests off its goal. All motions under way will be checked again.
+// Scheduled jobs whose arms are stopped return to the queue.
 void compare_again(State& state);
-// The same when an arm under way is found at rest: late, stalled.
+// Does the same if an arm under way has newly come to rest (late, stalled).
 void see_standing(State& state);
-// Returns when that is due next.
+// Returns when see_standing() must be called next.
 [[nodiscard]] std::optional<TimePoint> stands_next(const State& state);
 
 }  // namespace armloom

@@ -11,9 +11,10 @@
 
 namespace armloom {
 
-// The rest position of an arm. While a place exists, equal requests return the same pointer, so
-// places are compared by pointer. Knowledge about a place is stored by its id, which does not
-// depend on the lifetime of the object: a dry run that holds places affects no other caller.
+// A rest position of an arm. While a place exists, Places returns the same pointer for an equal
+// position, so places are compared by pointer. Answers about a place are stored by its id, which
+// does not depend on the lifetime of the object. So a dry run that keeps places alive affects no
+// other caller.
 struct Place {
   std::uint64_t id;  // hash of arm and rounded q; collisions have probability 2^-64
   ArmId arm;
@@ -21,7 +22,8 @@ struct Place {
 };
 using PlacePtr = std::shared_ptr<const Place>;
 
-// Returns shared places. Two positions that differ by rounding only give, mostly, the same place.
+// Creates and shares places. Two positions that differ only by rounding give the same place in most
+// cases.
 class Places {
  public:
   inline static constexpr double kRounding = 1e-6;  // rad, m

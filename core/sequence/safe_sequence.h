@@ -13,42 +13,47 @@
 
 namespace armloom {
 
-// A waiting job as a leg of the sequence: from rest to rest.
+// A leg of the sequence: the motion of a waiting job, from rest to rest.
 struct WaitingLeg {
   JobId job;
   std::vector<ArmId> arms;
   std::vector<PlacePtr> from;  // by arm, as in `arms`
   std::vector<PlacePtr> to;
-  std::vector<JobId> after = {};  // does not begin before these waiting jobs
-  // Revision of the job's motion; cached answers for other revisions do not apply.
+  std::vector<JobId> after = {};  // waiting jobs that must be done before it
+  // Revision of the job's motion. Cached answers apply only to the revision for which they were
+  // given.
   std::uint64_t motion = 0;
-  // The path is still to be planned, around all other arms when the legs before it are done: it is
-  // assumed to pass those. For other places the estimate is checked.
+  // The path is still to be planned, around all other arms where they are when the legs before it
+  // are done. So the leg is assumed to pass those places. For other places the estimated path is
+  // checked.
   bool is_estimate = false;
-  // Its arms are moved to its start from wherever they are, on estimated paths.
+  // The job's arms are first moved to its start from wherever they are, on estimated paths.
   bool is_approached = false;
 };
 
-// Is the leg's path free while an arm that it does not move rests at `place`?
+// The question whether the leg's path is free while an arm that the leg does not move rests at
+// `place`.
 struct Passage {
   JobId leg;
   PlacePtr place;
   std::uint64_t motion = 0;  // WaitingLeg::motion
-  PlacePtr from = nullptr;   // if set: asks about the move from there to the leg's start
+  PlacePtr from = nullptr;   // if set: the question is about the move from there to the leg's start
 };
 
-// Dijkstra's banker's algorithm (1965) with places instead of money: when all admitted jobs have
-// ended, can all waiting jobs still be done, at least one after the other? The order of submission
-// is the first witness. If an admission breaks it, another order of the first legs is searched.
+// Keeps an order in which all waiting jobs can be done, at least one after the other, when all
+// admitted jobs have ended. This is Dijkstra's banker's algorithm (1965) with places instead of
+// money. The first such order is the order of submission. If an admission breaks the order, another
+// order of the first legs is searched.
 //
 // Geometry is queried only about the first kKnownAhead legs and about legs that an admission
-// overtakes. Until then an unknown passage is assumed free. Answers are cached by leg and place.
+// overtakes. Other unknown passages are assumed to be free. Answers are cached by leg and place.
 //
-// A leg without a known sequence, and all that follows it, is in none; no job waits for it. Pure.
+// A leg for which no order is found, and all legs that depend on it, are not in the sequence, and
+// no job waits for them. Pure.
 class SafeSequence {
  public:
-  // `start_tolerance`: largest distance between a leg's start and its arm's position for the leg to
-  // follow on.
+  // `start_tolerance`: largest distance per joint (rad, m) between a leg's start and the position
+  // where the legs before it leave the arm.
   explicit SafeSequence(double start_tolerance) : tolerance_(start_tolerance) {}
   SafeSequence(const SafeSequence& other);
   SafeSequence(SafeSequence&&) = default;
@@ -62,39 +67,43 @@ class SafeSequence {
 
   // Adds a leg at the end of its arm queues. Precondition: renew() has been called once.
   void append(WaitingLeg leg);
-  // Removes a leg that was not admitted. Returns false if later legs may no longer follow on; then
-  // call renew().
+  // Removes a leg that was not admitted. Returns false if later legs may no longer begin where
+  // their arms will be; then call renew().
   [[nodiscard]] bool remove(JobId job);
-  // Records the admission that after() was last asked about: the arms will be at these legs' ends.
+  // Records that the group of the last after() call was admitted. Its arms will be at the ends of
+  // these legs.
   void admitted(const std::vector<JobId>& group);
-  // Rebuilds the sequence from the arms' places after all admitted jobs and the waiting legs, in an
-  // order that every arm queue allows. Keeps cached answers and the order of known legs.
+  // Rebuilds the sequence. `stands`: the place of each arm when all admitted jobs have ended.
+  // `legs`: all waiting legs, in an order that every arm queue allows. Keeps cached answers and, if
+  // possible, the previous order of the legs.
   void renew(std::vector<PlacePtr> stands, const std::vector<WaitingLeg>& legs);
 
-  // Store answers: for a passage; for two arms that never meet at any position.
+  // Store that a passage is free or blocked, or that two arms cannot meet at any position.
   void learn(const Passage& passage, bool free);
   void learn_apart(ArmId a, ArmId b) {
     apart_[a.index()][b.index()] = apart_[b.index()][a.index()] = true;
   }
   void forget_passages();
 
-  // Returns true if `first` precedes `other`; legs in no sequence come last. False if `first` is in
-  // no sequence. Linear in its position.
+  // Returns true if `first` is in the sequence, and `other` comes later or is not in it. Takes time
+  // linear in the position of the earlier one.
   [[nodiscard]] bool goes_before(JobId first, JobId other) const;
-  // Returns true if the job is in the sequence, or unknown.
+  // Returns true if the job is in the sequence, or if it is not a waiting leg.
   [[nodiscard]] bool has_place(JobId job) const;
-  // Returns true if the job begins where the legs before it leave its arms, or is unknown.
+  // Returns true if the job begins where the legs before it leave its arms, or if it is not a
+  // waiting leg.
   [[nodiscard]] bool follows_on(JobId job) const;
 
   struct Outlook {
-    std::vector<Passage> unknown;  // must be learned first; then call after() again
-    std::vector<Passage> ahead;    // useful to learn ahead of time, to see dead ends early
-    std::optional<JobId> first;    // must be done before the group
-    bool all = true;               // false if some legs remain in no sequence
+    std::vector<Passage> unknown;  // must be learned before an answer; then call after() again
+    // Not needed for this answer; learned early, they show dead ends early.
+    std::vector<Passage> ahead;
+    std::optional<JobId> first;  // if set: this leg must be done before the group
+    bool all = true;             // false if some legs would be in no sequence
   };
-  // Returns what remains if these legs are admitted now: a sequence exists if `unknown` and `first`
-  // are empty. Precondition: each is the first of its arm queues, except for members of the group
-  // named before it.
+  // Returns what remains of the sequence if these legs are admitted now. A sequence exists if
+  // `unknown` and `first` are empty. Precondition: each leg is the first in its arm queues, except
+  // for legs named before it in the group.
   [[nodiscard]] Outlook after(const std::vector<JobId>& group);
 
  private:
@@ -106,9 +115,10 @@ class SafeSequence {
   struct Leg : WaitingLeg {
     Free free = {};
     std::vector<Approach> approaches = {};  // moves of arms to its start
-    std::vector<std::uint64_t> seen = {};   // Place::id by arm for which it is known to pass
-    bool placed = false;                    // in sequence_, else in unplaced_
-    bool cut = false;                       // does not begin where its arm queues lead
+    // By ArmId: Place::id of each arm in the last state that the leg passed.
+    std::vector<std::uint64_t> seen = {};
+    bool placed = false;  // in sequence_, else in unplaced_
+    bool cut = false;     // does not begin where the legs before it leave its arms
   };
   using Legs = std::list<Leg>;
   using Order = std::vector<Leg*>;
@@ -120,7 +130,7 @@ class SafeSequence {
   };
   struct Concerned {
     Order legs;
-    std::size_t overtaken = 0;  // the first `overtaken` legs would have been done before the group
+    std::size_t overtaken = 0;  // number of first legs that the group overtakes
   };
   class Search;
 
@@ -143,13 +153,13 @@ class SafeSequence {
   State stands_;  // when all admitted jobs have ended
   State ends_;    // when all jobs have ended
   Legs sequence_;
-  Legs unplaced_;  // in no sequence; none precedes a leg that it depends on
+  Legs unplaced_;  // legs in no sequence; each comes after the legs that it depends on
   std::vector<std::size_t> unplaced_legs_;  // by ArmId: number of legs
   std::unordered_map<JobId, Legs::iterator> index_;
   std::vector<std::vector<bool>> apart_;  // by ArmId, ArmId
-  bool tried_ = false;                    // placing more legs failed, and nothing has changed since
-  std::vector<JobId> asked_;              // the group of the last after() call
-  Order found_;                           // the new front of the sequence for it
+  bool tried_ = false;        // no more legs could be placed, and nothing has changed since
+  std::vector<JobId> asked_;  // the group of the last after() call
+  Order found_;               // the new front of the sequence if that group is admitted
 };
 
 }  // namespace armloom

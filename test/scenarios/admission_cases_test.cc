@@ -63,8 +63,8 @@ TEST(StaleStart, IsRefusedWithPlaceAndValue) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().front().pointer, "/trajectory/points/0/positions/0");
   EXPECT_EQ(refused.error().front().detail,
-            "waypoint 0, x_slide: begins at -1 m, but will be at 1 m after the jobs accepted for "
-            "the arm");
+            "waypoint 0, x_slide: begins at -1 m, but the joint will be at 1 m after the jobs "
+            "accepted for the arm");
   EXPECT_FALSE(cell.simulation->executive().job("again"));
 }
 

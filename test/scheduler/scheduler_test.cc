@@ -93,7 +93,7 @@ TEST(Order, JobWithAnotherStartFailsAtItsTurn) {  // T11
   bench.finished(first, at(2s));
   EXPECT_EQ(bench.state(same_start), JobState::failed);
   EXPECT_EQ(bench.job(same_start).reason(), Reason::start_mismatch);
-  EXPECT_EQ(bench.job(same_start).detail(), "a_joint stands at 1, the trajectory begins at 0");
+  EXPECT_EQ(bench.job(same_start).detail(), "a_joint is at 1, but the trajectory begins at 0");
   EXPECT_EQ(bench.terminal_events[same_start], 1);
 }
 
@@ -106,7 +106,7 @@ TEST(Order, StartMismatchReportsWholeTurns) {
   bench.finished(first, at(2s));
   EXPECT_EQ(bench.job(turned).reason(), Reason::start_mismatch);
   EXPECT_EQ(bench.job(turned).detail(),
-            "a_joint stands at 1, the trajectory begins at -11.5664, 2 whole turns away: positions "
+            "a_joint is at 1, but the trajectory begins at -11.5664, 2 whole turns away: positions "
             "are not taken modulo 2 pi");
 }
 

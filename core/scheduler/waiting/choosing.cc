@@ -87,7 +87,7 @@ std::optional<double> cost_behind_others(State& state, JobId job) {
 std::string refusal_of(const State& state, const Job& job, std::size_t alternative) {
   if (!job.may_go_by(alternative)) return job.goal->ways[alternative].refusal.value_or("");
   const ArmId arm = job.alternatives[alternative]->arms().front();
-  return state.arms.is_stopped(arm) ? "it is stopped" : "it will not be where the job begins";
+  return state.arms.is_stopped(arm) ? "it is stopped" : "the arm will not be where the job begins";
 }
 
 // By which arms it cannot go as things stand: those of none of its options.

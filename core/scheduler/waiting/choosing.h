@@ -9,23 +9,27 @@
 
 namespace armloom {
 
-// Chooses among options for a turn: each gets the turn temporarily and is checked as if there were
-// no other; the cheapest keeps it. An option other than the first must be better by more than
-// kWorthwhile. Cost: for a goal its arrival; otherwise the time when the last arm has done all its
-// work plus OrderSearch::weight_of_sum times the sum over all arms.
+// Chooses among the options for a turn (options.h). Each option gets the turn temporarily and is
+// checked as if there were no other. The cheapest option then keeps the turn; another option than
+// the first must be cheaper by more than kWorthwhile. The cost is
+// - for a goal, the arrival time;
+// - otherwise, the time when the last arm has done all its work, plus OrderSearch::weight_of_sum
+//   times the sum of these times over all arms.
 class Choosing {
  public:
   inline static constexpr Duration kWorthwhile = std::chrono::milliseconds(50);
 
-  // Returns false if there is only one option; otherwise job() must be checked.
+  // Begins to choose. If there are several options, returns true, and job() must be checked.
+  // Otherwise returns false.
   [[nodiscard]] bool begin(State& state, JobId turn);
   [[nodiscard]] JobId job() const { return options_[at_].job; }
-  // False if a candidate no longer waits; then call begin() again.
+  // Returns false if an option no longer waits; then call begin() again.
   [[nodiscard]] bool stands(const State& state) const { return stand(state, options_); }
-  // Takes the verdict for job(). Returns true if job(), now another candidate, must be checked.
+  // Takes the verdict for job(). Returns true if there is a further option: job() is then that
+  // option, and must be checked.
   [[nodiscard]] bool rate(State& state, Verdict verdict);
-  // After all ratings: gives the turn to the best option and returns its verdict; nullopt if it
-  // waits behind other jobs.
+  // Call when rate() has returned false. Gives the turn to the best option and returns its verdict;
+  // nullopt if that option waits behind other jobs.
   [[nodiscard]] std::optional<Verdict> decide(State& state);
 
  private:
@@ -36,8 +40,8 @@ class Choosing {
   void note_only_arm(State& state) const;
 
   struct Rating {
-    std::optional<double> cost;      // s; nullopt if it cannot go
-    std::optional<Verdict> verdict;  // if it can go now
+    std::optional<double> cost;      // s; nullopt if the option cannot go
+    std::optional<Verdict> verdict;  // set if the option was checked
   };
   std::vector<Option> options_;
   std::vector<Rating> rated_;

@@ -10,21 +10,22 @@
 
 namespace armloom {
 
-// The blocking conditions, in the order of checks. Selection, published waits, aging and the
-// waits-for graph all read the list in gates.cc: a new condition is one entry of it.
+// The blocking conditions, in the order in which they are checked. The choice of the next job,
+// published waits, aging and the waits-for graph all use the one list in gates.cc. A new condition
+// is a new entry of that list.
 enum class GateKind {
   behind,     // another job of its arm precedes it
   open_arm,   // a job with an undecided arm could bring this job's arm to its start
   after,      // a job in `after` has not ended
-  plan,       // its path, its move-to-start or another path is being planned or checked
-  lets_pass,  // an arm that has retreated lets another job pass
+  plan,       // a path of the job is being planned, or its move-to-start is being checked
+  lets_pass,  // its arm has retreated and first lets another job pass
   stop,       // one of its arms is stopped
-  place,      // the policy has no place for it
+  place,      // the policy runs no more jobs at once
   conflict,   // checked and not admitted
   aging,      // an aged job goes first
 };
 
-// A wait of its own, or a view of the waits found by the last check.
+// Either one wait, stored here, or a view of the waits that the last check found.
 class FoundWaits {
  public:
   FoundWaits() = default;
@@ -47,16 +48,17 @@ struct ClosedGate {
 
 // Returns the waits-for graph of all jobs and arms at rest.
 [[nodiscard]] WaitsFor waits_for(const State& state);
-// The same for these jobs and all that they wait for; costs only that part.
+// Returns the part of the graph with these jobs and all that they wait for. Takes time only for
+// that part.
 [[nodiscard]] WaitsFor waits_for(const State& state, std::vector<JobId> jobs);
 
-// Returns the waits of the last check, if it still applies; for an admitted job, what holds it
+// Returns what the job's last check found, if it still applies; for an admitted job, what holds it
 // back.
 [[nodiscard]] FoundWaits found_in_the_way(const State& state, const Record& record);
-// Returns true if the job was found in conflict with what only `first` will move.
+// Returns true if the job is in conflict with a job or arm that moves only when `first` moves.
 [[nodiscard]] bool is_found_in_the_way(const State& state, const Record& record, JobId first);
-// Returns the job that must move before the wait can change; nullopt if it is moving, or never
-// will.
+// Returns the waiting job that must move before the wait can end. nullopt if that job is already
+// moving, or if there is no such job.
 [[nodiscard]] std::optional<JobId> has_to_move_first(const State& state, const Wait& wait);
 
 }  // namespace armloom

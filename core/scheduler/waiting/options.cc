@@ -181,7 +181,8 @@ bool leaves_by_other_arm(State& state, const WaitCycle& ring) {
     Record& record = state.jobs.at(id);
     auto* queued = std::get_if<Queued>(&record.job.phase);
     if (queued == nullptr || record.job.alternatives.empty()) continue;
-    if (!takes_arm_that_remains(state, record, "it would wait forever")) continue;
+    if (!takes_arm_that_remains(state, record, "the job would wait forever in a deadlock cycle"))
+      continue;
     queued->judgement = {};
     ++state.version;
     return true;

@@ -8,52 +8,59 @@
 
 namespace armloom {
 
-// An option for a turn: the job whose turn it is; a later job of its arm with equal priority, start
-// and end, if both are reorderable (JobTerms::reorderable); or the job on another arm
-// (Submit::alternatives). All options leave every arm where it was, so all other jobs remain
-// possible.
+// An option for a turn. It is one of:
+// - the job whose turn it is
+// - a later job of its arm with the same priority, start and end, if both are reorderable
+//   (JobTerms::reorderable)
+// - the job on another arm (Submit::alternatives)
+// Options of a job without a goal leave every arm where it was, so all other jobs remain possible.
 struct Option {
   JobId job;
   std::size_t alternative = 0;  // index into Job::alternatives, if there are any
-  bool goes_now = true;         // false if other jobs of that arm precede it
+  bool goes_now = true;         // false if other jobs of that arm must go first
 
   bool operator==(const Option&) const = default;
 };
 
 // Largest number of options among the jobs of one arm.
 inline constexpr std::size_t kOptionsMax = 6;
-// Number of undecided jobs that are considered although other jobs precede them.
+// Largest number of jobs with an undecided arm that are considered before they are the first of an
+// arm.
 inline constexpr std::size_t kUndecidedMax = 16;
 [[nodiscard]] std::vector<JobId> first_undecided(const State& state);
 
-// Returns the options, the default first. A job that was overtaken for scheduling.aging is not
-// overtaken again.
+// Returns the options for the turn, the default first. A job that was first overtaken longer than
+// scheduling.aging ago is not overtaken again.
 [[nodiscard]] std::vector<Option> options_of(State& state, JobId turn);
-// Returns true if another job of its arm could take the job's turn.
+// Returns true if another job of the same arm could take this job's turn.
 [[nodiscard]] bool others_may_take_its_turn(const State& state, const Record& turn);
-// Returns true if the job is queued, has alternatives, and has its turn on the arm of one of them.
+// Returns true if the job is queued and it is its turn on the arm of one of its alternatives.
 [[nodiscard]] bool has_turn_on_some_arm(const State& state, const Record& record);
 
-// Returns the number of jobs in the arm's queue up to the last one that precedes this waiting job:
-// an admitted job, one with an earlier turn, or a server-initiated job for such a job.
+// Returns the place of this waiting job in the arm's queue: behind the last job that is admitted or
+// has an earlier turn. A job of the server has the turn of the job that it helps.
 [[nodiscard]] std::size_t place_on(const State& state, const Record& record, ArmId arm);
-// Gives the job this alternative, at place_on() in the queue of its arm.
+// Gives the job this alternative, and moves it to place_on() in the queue of that arm.
 void take_alternative(State& state, Record& record, std::size_t which);
 
-// Before `go` are admitted: assigns each job that could then be done by one other arm only, because
-// its own arm would be blocked, to that arm for good. Returns true if there were any.
+// Call before the jobs `go` are admitted. Some undecided jobs might then no longer be possible on
+// the arm that they have. Assigns each of these to another arm for good, and returns true if there
+// was one.
 [[nodiscard]] bool take_arms_that_remain(State& state, const std::vector<JobId>& go);
 
-// Assigns a job of the cycle to another arm that can do it. Returns true if there was any.
+// Assigns one job of the cycle for good to another arm that can do it. Returns false if there is no
+// such job.
 [[nodiscard]] bool leaves_by_other_arm(State& state, const WaitCycle& ring);
 
-// Makes the order permanent: option `first` goes first, then the others as they were.
+// Gives the turn to the option with index `first`. The other jobs follow in their previous order.
 void give_turn(State& state, const std::vector<Option>& options, std::size_t first);
-// After a new job: lets the job that it could replace be checked again, if that was deferred.
+// Call after a job was added. If the new job could take the turn of a deferred job, that job is
+// checked again.
 void reopen_turn(State& state, const Record& added);
 // Returns true if all options still wait.
 [[nodiscard]] bool stand(const State& state, const std::vector<Option>& options);
-// Gives the job an alternative whose arm rests at its start. Returns false if there is none.
+// Gives the queued job an alternative that begins where its arm is, or will be at the job's turn.
+// Returns false if there is none.
 [[nodiscard]] bool begins_on_other_arm(State& state, Record& record);
 
 }  // namespace armloom

@@ -11,18 +11,21 @@
 namespace armloom {
 
 // Decides whose turn it is: paused jobs first, then the larger effective priority
-// (priority_inheritance.h), then the earlier job. An aged job, which has waited for
-// scheduling.aging since it was first in conflict or without a place, holds back all other jobs
-// except those that must precede it, unless it waits for an arm that no job moves, an object or a
-// stop (README.md, Aging). Refers to the state.
+// (priority_inheritance.h), then the earlier job. A job is aged when it has waited for
+// scheduling.aging since it was first in conflict or without a place. An aged job holds back other
+// jobs (README.md, Aging). It does not hold back jobs that must precede it or earlier jobs with a
+// larger priority. It holds back none while it waits for an arm that no job moves, for an object or
+// for a stop. The state must outlive this object.
 class Turns {
  public:
   explicit Turns(const State& state);
 
   [[nodiscard]] const State& state() const { return state_; }
-  // Returns the next job to be checked: no blocking condition applies to it.
+  // Returns the next job to be checked: the first one, in the order above, without a blocking
+  // condition (gates.h).
   [[nodiscard]] std::optional<JobId> next() const;
-  // Returns the first aged job that holds this job back, or nullopt.
+  // Returns the aged job that holds this job back; if there are several, the one that aged first.
+  // nullopt if there is none.
   [[nodiscard]] std::optional<JobId> held_back_by(const Record& record) const;
   // Caches whether the job is blocked.
   void has_found(JobId job, bool is_closed) { found_.emplace_back(job, is_closed); }
@@ -45,8 +48,8 @@ class Turns {
 // Returns true if the first job of an arm is aged.
 [[nodiscard]] bool any_is_aged(const State& state);
 
-// Sets each job's waits to its first blocking condition. Returns the turns, valid until something
-// changes.
+// Updates the published waits of all jobs for which they may have changed, to the first blocking
+// condition. Returns the turns, which are valid until the state changes.
 Turns explain_waits(State& state);
 
 }  // namespace armloom

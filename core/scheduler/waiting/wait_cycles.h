@@ -10,20 +10,23 @@
 
 namespace armloom {
 
-// Delay between the publication of a deadlock cycle and its resolution, which is a separate step.
+// Delay between the step that publishes a deadlock cycle and the step that resolves it.
 inline constexpr Duration kAfterRingWasTold(1);
 
-// Publishes and resolves deadlock cycles. Each job in a cycle reports it in the step that finds it.
-// In a later step, the first possible remedy is taken:
-// - a job that is moved to its start precedes a job with an undecided arm that it waits for
-// - a job takes another arm or another path, or an arm retreats and returns
-// - the job that was submitted last fails, among jobs whose arms have lost none since they moved
-// - none, if a job of the cycle expires in time
-// - the job that was submitted last fails
+// Publishes and resolves deadlock cycles. In the step that finds a cycle, each of its jobs reports
+// it. In a later step, the first of these remedies that is possible is taken:
+// - a job that is moved to its start no longer waits for a job with an undecided arm
+// - a job takes another arm or another path, or an arm retreats
+// - an arm that has retreated for a job of the cycle returns
+// - a job fails: a retreat that no client job needs, else the client job that was submitted last;
+//   jobs whose arm has already lost a job and has not moved since are left out
+// - if only such jobs are left: nothing is done if a job of the cycle will expire
+// - otherwise one of them fails, chosen in the same way
 // So a deadlock costs each arm at most one job, and the jobs behind it are kept (ways/approach.h).
 class WaitCycles {
  public:
-  // Publishes new cycles in their jobs. They are resolved in a later step so that clients see them.
+  // Finds new cycles and publishes them in their jobs. They are resolved in a later step, so that
+  // clients see them.
   void name(State& state);
   // Resolves the cycles published in earlier steps.
   void settle(State& state);
@@ -31,17 +34,19 @@ class WaitCycles {
 
   // Returns the first possible retreat of an arm in one of the cycles.
   [[nodiscard]] std::optional<YieldTrial> next_yield(const State& state) const;
-  // An arm retreats before this job of its queue: drops the cycles that contain the job.
+  // Call when an arm retreats before the job `before` of its queue. The cycles that contain this
+  // job are open, and are dropped.
   void has_opened(State& state, JobId before);
 
  private:
   struct Named {
     WaitCycle ring;
     Version epoch;               // State::scene_epoch when found
-    std::vector<JobId> in_turn;  // wait for the next job, but not because of a conflict
+    std::vector<JobId> in_turn;  // jobs that wait for the next job, but not because of a conflict
     bool way_out = false;        // a retreat or replan is being tried, or a job expires
   };
-  // An arm whose job failed for a cycle, until the arm has moved or the scene has changed.
+  // An arm whose job failed because of a deadlock cycle. Kept until the arm has moved or the scene
+  // has changed.
   struct Lost {
     TrajectoryPtr came_by;
     Version epoch;

@@ -7,21 +7,24 @@
 
 namespace armloom {
 
-// Moves arms to the start of their next job, if its client wants that (MoveToStart::plan): by the
-// scheduler's own slow jobs with a goal (goals.h), each in front of that job. If one ends elsewhere
-// (stopped, failed), another one follows, up to kApproachesMax. Before anything moves, the job is
-// checked for self-collisions (Admission).
+// Moves arms to the start of their next job if its client wants that (MoveToStart::plan). Each such
+// move-to-start is a slow job of the scheduler with a goal (goals.h), placed before that job in the
+// arm queue. If it ends elsewhere (stopped, failed), another one follows, up to kApproachesMax.
+// Before any arm moves, the client's job is checked for self-collisions (Admission).
 inline constexpr int kApproachesMax = 3;
-// Share of the joints' speeds; the cell's share if that is less.
+// Speed of a move-to-start, as a share of the joints' maximum speeds. The cell's
+// velocity_scaling_factor is used if it is smaller.
 inline constexpr double kApproachSpeed = 0.25;
 
-// Ends waiting jobs at the front of their queues that cannot begin where their arms rest, unless
-// the arms are moved there.
+// Handles jobs at the front of their queues whose arms do not rest at their start: adds a
+// move-to-start, changes to an alternative that begins there, or fails the job.
 void fail_impossible_starts(State& state);
-// The job fails with Reason::deadlock, or because of such a job: the next jobs of its arms are
-// moved to their start, as with MoveToStart::plan, instead of failing.
+// Call when the job fails with Reason::deadlock, or fails because an earlier job did. The arms are
+// then moved to the start of their next jobs, as with MoveToStart::plan, so that these do not fail
+// too.
 void keep_those_behind(State& state, const Record& record);
-// Returns the first job at the front of its queues whose feasibility is to be checked, or nullopt.
+// Returns the first job at the front of its queues that must be checked for self-collisions before
+// its arms are moved to its start; nullopt if there is none.
 [[nodiscard]] std::optional<JobId> next_in_question(const State& state);
 // Returns the job's moves-to-start that have not ended.
 [[nodiscard]] std::vector<JobId> approaches_of(const State& state, const Record& record);

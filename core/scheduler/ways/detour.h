@@ -5,26 +5,29 @@
 
 namespace armloom {
 
-// Detours for a goal whose shortest path has to wait for other motions: is there a path around the
-// positions that they occupy by which the arm arrives sooner? At the job's turn several are
-// planned, each within kDetourBudget. The job gets each temporarily and is checked with it as if
-// there were no other. It takes the path with the earliest predicted arrival, or the first one that
-// hardly waits. The same occupied positions are not avoided twice.
+// Detours for a goal whose shortest path has to wait for other motions. A detour leads around the
+// positions that these motions occupy, so that the arm may arrive sooner. At the job's turn,
+// detours are planned one after the other, each within kDetourBudget. The job gets each detour
+// temporarily and is checked with it as if there were no other path. It takes the path with the
+// earliest predicted arrival, or the first path that hardly waits. Detours around the same occupied
+// positions are not planned twice.
 
-// Shorter waits are not worth a query.
+// For shorter waits no detour is planned.
 inline constexpr Duration kWaitWorthADetour = std::chrono::milliseconds(500);
 inline constexpr std::uint64_t kDetourBudget = 40'000;  // evaluations
 inline constexpr int kDetoursMax = 4;                   // for one plan of a job
 
-// Takes the policy's answer about the job, and its regions. Returns true if the job must be checked
-// once more: with another path, which is requested (PlanMotion), or with its own again.
+// Takes the job's conflict regions and the policy's answer, `orders`. Returns true if the job must
+// be checked once more: with another path, which was requested (PlanMotion), or with the best path
+// so far.
 [[nodiscard]] bool weighs_detour(State& state, Record& record,
                                  const std::vector<PairRegions>& regions,
                                  const PassingOrders& orders);
-// The job would be deferred: gives it its own path again. Returns true if it must be checked with
-// that. A detour is for an immediate start; later it may block others, or they may block it.
+// Call when the job would be deferred: drops its detour, because a detour is only good for an
+// immediate start. Returns true if the job must be checked again with another path, or planned
+// again.
 [[nodiscard]] bool gives_detour_up(State& state, Record& record);
-// Takes the answer to a PlanMotion if it is for a detour.
+// Handles the answer to a PlanMotion; ignores it if it is not for a detour.
 void take_detour(State& state, const PlanMade& answer);
 
 }  // namespace armloom

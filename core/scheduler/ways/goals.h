@@ -6,27 +6,29 @@
 
 namespace armloom {
 
-// Jobs with goals (Submit::goals). Each has the blocking condition `plan` until its trajectory is
-// planned from where its arm will be after the jobs before it, with all other arms where those jobs
-// leave them; then it is a job like any other. Until then its trajectory is an estimate. If the arm
-// is undecided, a path is planned for each candidate; the one that arrives first is chosen at its
-// turn (waiting/choosing.h). Until then the jobs behind it are planned as if it took another arm.
+// Jobs with goals (Submit::goals). Such a job has an estimated trajectory and the blocking
+// condition `plan` until its path is planned. The path begins where the jobs before it leave its
+// arm, and leads around the other arms where those jobs leave them. Then it is a job like any
+// other. If the arm is undecided, a path is planned for each candidate arm, and the arm that
+// arrives first is chosen at the job's turn (waiting/choosing.h). Until then the jobs behind it are
+// planned as if it took another arm.
 
-// A job whose arm is too close to an object has no plan until the object is gone. At its turn it
-// waits for the object in the backlog, until its timeout.
+// If the arm is too close to an object, no path is planned until the scene has changed. At its turn
+// the job waits for the object in the backlog, until its timeout.
 
-// Requests a plan (PlanMotion) for each goal job that has none, or whose plan is stale because its
-// start or the scene changed. A job fails after kPlansMax consecutive stale plans. Returns true if
-// a job failed, since that changes where later jobs start.
+// Requests a plan (PlanMotion) for each job with a goal that has none, or whose plan is out of date
+// because its start or the scene has changed. A job fails if kPlansMax plans in succession are out
+// of date. Returns true if a job failed, because later jobs then begin elsewhere.
 [[nodiscard]] bool plan_goals(State& state);
 inline constexpr int kPlansMax = 5;
-// Number of jobs per arm that are considered.
+// Number of jobs per arm queue for which paths are planned.
 inline constexpr std::size_t kPlannedAhead = 16;
 
 // Discards a valid plan, so that the job is planned again.
 void forget_plan(State& state, Record& record);
 
-// Takes a planner's answer. A stale plan is left to plan_goals().
+// Handles the planner's answer for a goal. If the plan is out of date, plan_goals() requests
+// another.
 void take_plan(State& state, const PlanMade& answer);
 
 }  // namespace armloom

@@ -5,13 +5,14 @@
 
 namespace armloom {
 
-// Planned retreats, if none of the straight ones is free (yield_moves.cc) and the cell wants
-// planned paths (on_idle_blocker "replan"): to any position that clears the blocked job's path.
-// Planned once from where the arm came to rest; then tried like any other retreat.
+// Planned retreats, to any position that clears the blocked job's path. One is planned if no
+// retreat along a known path is possible (yield_moves.cc) and the cell's on_idle_blocker is
+// "replan". It is planned once for each place where the arm comes to rest, and then tried like any
+// other retreat.
 
-// Requests the plan (PlanMotion) unless it is open. Precondition: the trial has no path.
+// Requests the plan (PlanMotion), unless a request is open. Precondition: the trial has no path.
 void ask_for_way_aside(State& state, const YieldTrial& move);
-// Takes the answer to a PlanMotion if it is for a retreat.
+// Handles the answer to a PlanMotion; ignores it if it is not for a retreat.
 void take_way_aside(State& state, const PlanMade& answer);
 
 }  // namespace armloom

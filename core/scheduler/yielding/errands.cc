@@ -53,7 +53,7 @@ void pass_errands_on(State& state) {
   for (JobId id : needless) {
     Record& own = state.jobs.at(id);
     end(state, own, JobState::canceled, Reason::canceled_by_client,
-        "the job that it was added for has ended");
+        "the job that it was to help has ended");
   }
 }
 

@@ -4,9 +4,9 @@
 
 namespace armloom {
 
-// Handles waiting retreats, returns and moves-to-start whose client job has ended: each is passed
-// on to the next client job of its arm that relies on it, so that it keeps priority and retreats of
-// others; otherwise it ends, so that no job waits for it.
+// Handles the server's own waiting jobs (retreats, returns, moves-to-start) whose client job has
+// ended. If the next client job of the arm relies on such a job, it now helps that job. Otherwise
+// it is canceled, so that no job waits for it.
 void pass_errands_on(State& state);
 
 }  // namespace armloom

@@ -8,34 +8,39 @@
 
 namespace armloom {
 
-// Retreats of arms without a job, or in a deadlock cycle (scheduling.on_idle_blocker). Each
-// candidate is checked first: is its path free, and would the blocked job then pass?
+// Retreats of arms that have no job or are in a deadlock cycle (scheduling.on_idle_blocker). Each
+// candidate is checked first: is its path free, and could the blocked job then pass?
 struct YieldTrial {
   JobId blocked_job;
   ArmId arm;
-  TrajectoryPtr way;                 // null if to be planned (planned_aside.h)
-  std::optional<JobId> before = {};  // the arm's job that it precedes
+  TrajectoryPtr way;                 // null if it must be planned first (planned_aside.h)
+  std::optional<JobId> before = {};  // in a deadlock cycle: the arm's job that it precedes
   bool is_free = false;              // `way` is known to be free
   std::size_t index = 0;             // into the candidates from the arm's present rest
 };
 
-// Returns the first untried retreat for a job that waits for an idle arm. Marks waits without
-// candidates.
+// Returns the first untried retreat of an idle arm for which a job waits. If none is left, marks
+// the wait (Wait::has_no_way_aside).
 [[nodiscard]] std::optional<YieldTrial> next_yield(State& state);
-// Returns a retreat of an arm in the cycle that could move before its job, or nullopt. Tries the
-// arm first whose job would otherwise fail. None if the cycle contains a dispensable retreat.
+// Returns an untried retreat of an arm in the cycle, before that arm's job; nullopt if there is
+// none. Tries the arm first whose job was submitted last and would fail otherwise. Returns nullopt
+// if the cycle contains a retreat that no client job needs, because that retreat fails instead.
 [[nodiscard]] std::optional<YieldTrial> yield_in(const State& state, const WaitCycle& ring);
 
-// Asks whether the path is free or, if known, whether the job would pass.
+// Returns the question whether the retreat's path is free. If that is known already, returns the
+// question whether the blocked job could then pass.
 [[nodiscard]] Question question_about(const State& state, const YieldTrial& move);
-// Returns true if the job is active and the arm still has no job, or the same first job.
+// Returns true if the trial still applies: the blocked job has not ended, and the arm still has no
+// job, or still the same first job.
 [[nodiscard]] bool is_as_asked(const State& state, const YieldTrial& move);
-// Returns true if nothing that stays blocks the retreat (an object, the arm itself, an arm of the
-// cycle) or, if `is_free`, the job.
+// Returns true if the verdict lets the retreat pass; with `is_free`, the blocked job. Conflicts
+// with arms that may still move away do not matter.
 [[nodiscard]] bool lets_through(const State& state, const Verdict& verdict, const YieldTrial& move);
+// Records that the retreat was tried, and if `goes` that it is made.
 void note_tried(State& state, const YieldTrial& move, bool goes);
 
-// Returns true if the arm's next client job begins where the own job leaves the arm.
+// Returns true if the arm's next client job relies on `own`, a job of the server: the job begins
+// where `own` brings the arm. False for a job with a goal, which begins anywhere.
 [[nodiscard]] bool is_counted_on(const State& state, const Record& own);
 
 }  // namespace armloom
