@@ -34,7 +34,7 @@ inline auto into(ErrorCode& ec) {
   return asio::redirect_error(asio::use_awaitable_t<Executor>(), ec);
 }
 
-// Starts `task` on the executor's thread, after this call. Exceptions that leave `task` are
+// Returns at once. `task` then starts on the executor's thread. Exceptions that leave `task` are
 // dropped.
 void spawn(const Executor& executor, Awaitable<void> task);
 

@@ -6,8 +6,8 @@
 
 namespace armloom {
 
-// Headers of every response. Other sites may not frame or embed anything (by clickjacking, pages
-// stopped cells), and browsers may not guess content types.
+// Headers of every response. Other sites may not frame or embed anything: by clickjacking, their
+// pages could stop a cell. Browsers may not guess content types.
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kSecurityHeaders{{
     {"X-Content-Type-Options", "nosniff"},
     {"X-Frame-Options", "DENY"},
