@@ -43,7 +43,7 @@ class Statement {
     return *this;
   }
 
-  // Moves to the next row. Returns false after the last; the statement can then run again.
+  // Moves to the next row. Returns false after the last row; the statement can then run again.
   [[nodiscard]] bool step();
   void run();
   void reset();
@@ -66,11 +66,11 @@ class Statement {
 class Database {
  public:
   enum class Access { read, write, make };  // make: write a new file
-  // `vfs`: name of SQLite's file system; "" for the system's.
+  // `vfs`: name of an SQLite VFS (file system layer); "" for the default.
   Database(const std::filesystem::path& file, Access access, const std::string& vfs = {});
 
-  // Sets whether closing the last connection keeps the log. By default, closing writes the log into
-  // the file and deletes it.
+  // Sets whether closing the last connection keeps the write-ahead log. By default, closing writes
+  // the log into the database file and deletes the log.
   void keep_log(bool is_kept);
   // Returns true if the system prevents writing to a database opened for writing.
   [[nodiscard]] bool is_read_only() const;
