@@ -17,9 +17,9 @@ struct Caller {
   Role role = Role::viewer;
 };
 
-// The tokens of a server. Changes of their file apply at once. An invalid file is ignored and the
-// previous tokens stay valid, so that an editing mistake locks no operator out of Stop. Without a
-// file there are no tokens. One thread.
+// The tokens of a server. Changes of the token file apply at once. An invalid file is ignored and
+// the previous tokens stay valid, so that an editing mistake locks no operator out of Stop. If the
+// file is missing, no token is valid. Use on one thread.
 class TokenBook {
  public:
   using Told = std::function<void(const std::string&)>;

@@ -18,8 +18,8 @@ struct KeptToken {
   std::string made_at;  // RFC 3339
 };
 
-// The token file of a server: lines of "name role digest made_at". A change replaces the whole
-// file, by one process at a time.
+// The token file of a server: lines of "name role digest made_at". Each change replaces the whole
+// file. Only one process at a time can change it.
 class TokenFile {
  public:
   explicit TokenFile(std::filesystem::path file) : file_(std::move(file)) {}

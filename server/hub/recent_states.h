@@ -28,7 +28,7 @@ class RecentStates {
   // Precondition: `now` (wall time) and `time` do not decrease between calls.
   void take(TimePoint time, const Configuration& q, Clock::time_point now);
 
-  // Oldest first. Immutable, so other threads may read them.
+  // Oldest first. The frames are immutable, so other threads may read them.
   [[nodiscard]] const std::deque<FramePtr>& frames() const { return frames_; }
 
  private:
