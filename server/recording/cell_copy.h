@@ -16,8 +16,9 @@ struct CellFile {
   std::string text;
 };
 
-// Copies the files. Returns the cell file's text for `folder`, without comments. Precondition: the
-// cell was built from it. Problem (unavailable): a file cannot be copied.
+// Copies all files that the cell file names into `folder`. Returns the cell file's text with the
+// paths of the copies, without comments. Precondition: the cell was built from `source`. Problem
+// (unavailable): a file cannot be copied.
 [[nodiscard]] Result<std::string> copy_cell(const CellFile& source,
                                             const std::filesystem::path& folder);
 

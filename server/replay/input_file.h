@@ -18,8 +18,9 @@ class InputFile final : public InputLog {
  public:
   static constexpr const char* kName = "inputs.jsonl";
 
-  // `post` runs a task on the thread that writes events, in order. `alarm` is called there, once,
-  // if the file can no longer be written. Problem (unavailable): the file cannot be created.
+  // `post` runs a task on the thread that writes events, in order. `alarm` is called on that
+  // thread, once, if the file can no longer be written. Problem (unavailable): the file cannot be
+  // created.
   struct Parts {
     std::function<void(std::function<void()>)> post;
     std::function<void(const std::string&)> alarm;  // may be null
