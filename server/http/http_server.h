@@ -17,7 +17,8 @@ struct TlsFiles {
   std::string key;
 };
 
-// Clients that can reach a listener on the address; `nobody` if the address is not an IP address.
+// Clients that can reach a listener on the address. The first value means that the address is not
+// an IP address.
 enum class Reach { nobody, this_machine, others };
 [[nodiscard]] Reach reach_of(const std::string& address);
 

@@ -10,7 +10,7 @@ namespace armloom {
 // the budget is exhausted. Use on the server's thread. Must outlive its charges.
 class MemoryBudget {
  public:
-  inline static constexpr std::size_t kFree = 16 * 1024;  // of each charge
+  inline static constexpr std::size_t kFree = 16 * 1024;  // bytes of each charge
 
   explicit MemoryBudget(std::size_t max) : max_(max) {}
 

@@ -54,7 +54,7 @@ Response within_memory(Response response, MemoryBudget::Charge& charge, const Si
   if (response.shared || charge.grow_to(held)) return response;
   return site.refuse({503,
                       "server-busy",
-                      "too many large answers are being read at once",
+                      "too many large responses are being sent at once",
                       std::nullopt,
                       std::nullopt,
                       {{"Retry-After", "1"}}});

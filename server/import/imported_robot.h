@@ -25,7 +25,7 @@ struct ImportedRobot {
   std::vector<std::string> arms;      // groups, in SRDF order
   std::vector<GroupChoice> left_out;  // groups that are not arms
   std::vector<HeldJoint> held;        // joints above arms, in no arm or in several
-  // Guesses of missing limits for each of `arms`, by moving joint.
+  // For each arm in `arms`: guesses of missing limits, by name of the moving joint.
   std::vector<std::map<std::string, JointLimitsDescription>> guesses;
   Packages packages;
 };

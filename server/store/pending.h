@@ -34,7 +34,7 @@ class PendingAudit {
 
  private:
   std::vector<AuditEntry> entries_;
-  std::size_t refusals_ = 0;  // of these
+  std::size_t refusals_ = 0;  // number of refusals in entries_
 };
 
 // Unwritten changes: all changes since the last write.
