@@ -18,7 +18,7 @@ namespace armloom {
 // keeper stores them on disk. Use on the server's thread.
 class AlertBook {
  public:
-  // `keeper` may be null: the alerts are then lost when the server ends. `keeper` and `clock` must
+  // If `keeper` is null, the alerts are lost when the server ends. `keeper` and `clock` must
   // outlive the AlertBook.
   AlertBook(std::string stream, const WallClock& clock, JobKeeper* keeper);
 
