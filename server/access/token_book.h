@@ -24,7 +24,7 @@ class TokenBook {
  public:
   using Told = std::function<void(const std::string&)>;
 
-  // `told` is called with each new fault of the file; may be null.
+  // `told` is called with each new fault of the token file. `told` may be null.
   TokenBook(TokenFile file, Told told) : file_(std::move(file)), told_(std::move(told)) {}
 
   [[nodiscard]] std::optional<Caller> caller(std::string_view token);

@@ -32,7 +32,8 @@ class Control {
     std::string key;                  // the secret
     std::optional<Move> interrupted;  // jog of the previous holder; must be canceled
   };
-  // Problem (conflict): another client has control, and `from_another` is false.
+  // Gives control to the client `who`. Problem (conflict): another client has control, and
+  // `from_another` is false.
   [[nodiscard]] Result<Taken> take(const std::string& who, bool from_another,
                                    std::optional<std::string> token = {});
   // Ends the client's control. Returns its last jog, if any, which the caller must cancel. Problem

@@ -24,7 +24,7 @@ class AcceptedRequests {
   explicit AcceptedRequests(std::size_t kept_max = 20'000) : kept_max_(kept_max) {}
 
   // Registers a request in progress, until end(). Returns false if another request in progress has
-  // one of its names; `again` is called when that request was answered.
+  // one of its names. `again` is then called when the other request has been answered.
   [[nodiscard]] bool begin(const Names& names, std::function<void()> again);
   void end(const Names& names);
 

@@ -17,8 +17,8 @@
 
 namespace armloom {
 
-// Makes jobs outlive the process: passes the executive's changes to the store. Call on the server's
-// thread; StartLog's functions on the strand.
+// Passes the executive's changes to the store, so that jobs outlive the process. Call on the
+// server's thread, but StartLog's functions on the strand.
 class JobKeeper final : public StartLog {
  public:
   // Problems: those of JobStore::open().
@@ -35,7 +35,7 @@ class JobKeeper final : public StartLog {
   // Checks a request before acceptance. Problem: its id belongs to a job that has ended. Adds to
   // the request the predecessors that have succeeded according to the store.
   [[nodiscard]] Result<void> look_up(JobRequest& job) const;
-  // Records the job's state as published by the executive now.
+  // Stores the job's state as the executive has just published it.
   void see(const JobView& job);
   struct AcceptedJob {
     JobView job;

@@ -21,7 +21,8 @@ namespace armloom {
 
 namespace asio = boost::asio;
 
-// Asio types with the concrete executor of io_context: any_io_executor takes longer to compile.
+// Asio types with the concrete executor of io_context, because any_io_executor takes longer to
+// compile.
 using Executor = asio::io_context::executor_type;
 using Timer = asio::basic_waitable_timer<std::chrono::steady_clock,
                                          asio::wait_traits<std::chrono::steady_clock>, Executor>;

@@ -85,7 +85,8 @@ class HttpServer::Impl {
     if (until_signal) {
       signals_.add(SIGINT);
       signals_.add(SIGTERM);
-      // SIGHUP means that the terminal was closed. Under nohup it is ignored.
+      // SIGHUP means that the terminal was closed. Under nohup, SIGHUP is ignored and must stay
+      // ignored.
       struct sigaction hangup {};
       if (sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN) {
         signals_.add(SIGHUP);

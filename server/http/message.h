@@ -104,7 +104,7 @@ struct EventStream {
   std::function<bool()> permitted = {};  // returns false if the token was revoked; may be null
 };
 
-// A body too large for memory, read in pieces.
+// A response body that is too large for memory. It is read in pieces while it is sent.
 struct PiecedBody {
   std::uintmax_t size = 0;  // in bytes
   // Passes `count` bytes starting at `from` to `then`, once, on the server's thread. Passes nullopt
@@ -155,7 +155,8 @@ struct Site {
   // Returns a refusal that does not depend on the body, or nullopt if `handle` must answer.
   std::function<std::optional<Response>(const Request&)> refuse_unread;
   WriteRefusal refuse;  // formats errors of HTTP itself: framing, limits, targets
-  // Returns true if the request is exempt from connection limits and does not wait for its body.
+  // Returns true if the request is exempt from connection limits and is handled without waiting for
+  // its body.
   std::function<bool(const Request&)> is_never_limited;
   // Graceful shutdown: brings all arms to rest, then calls `done` (from any thread).
   std::function<void(std::function<void()> done)> wind_down;

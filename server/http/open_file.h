@@ -33,8 +33,8 @@ class OpenFile {
   [[nodiscard]] const std::string& stamp() const { return stamp_; }
   [[nodiscard]] std::size_t size() const { return size_; }  // when opened
   [[nodiscard]] tl::expected<std::string, NoFile> read() const { return read(0, size_); }
-  // Returns exactly `size` bytes starting at `from`, even if the file grows; absent if it has
-  // shrunk.
+  // Returns exactly `size` bytes starting at `from`, even if the file has grown. Returns
+  // NoFile::absent if the file has shrunk.
   [[nodiscard]] tl::expected<std::string, NoFile> read(std::size_t from, std::size_t size) const;
 
  private:

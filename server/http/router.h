@@ -43,7 +43,8 @@ class Router {
   // `parameters`: allowed query parameters.
   void add(std::string method, std::string_view pattern, Rights rights, Answer answer,
            std::vector<std::string> parameters = {});
-  // Called for every response of dispatch() with method, pattern (or ""), status and duration.
+  // Called for every response of dispatch(), with the method, the route's pattern ("" without a
+  // route), the status and the duration.
   using Watch =
       std::function<void(const std::string&, const std::string&, int, std::chrono::nanoseconds)>;
   void watch(Watch watch) { watch_ = std::move(watch); }

@@ -18,7 +18,7 @@ namespace armloom {
 // also compressed if that is smaller, 64 MiB at most.
 class StaticFiles {
  public:
-  // Reads the folder. A missing folder is tried again at each request.
+  // Reads the folder. If the folder is missing, each request looks for it again.
   StaticFiles(std::filesystem::path folder, WriteRefusal refuse);
   [[nodiscard]] Response answer(const Request& request);
 

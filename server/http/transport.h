@@ -21,7 +21,8 @@ namespace armloom {
 struct TlsFiles;
 using TlsContextPtr = std::shared_ptr<asio::ssl::context>;
 
-// Problem (invalid): a file cannot be read, or key and certificate do not match.
+// Returns the TLS settings with this certificate and key. Problem (invalid): a file cannot be read,
+// or key and certificate do not match.
 [[nodiscard]] Result<TlsContextPtr> tls_context(const TlsFiles& files);
 
 // A type-erased completion handler, so that operations are compiled only once.

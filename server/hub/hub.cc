@@ -36,7 +36,7 @@ class Hub::Reader final : public Subscription {
 
   // Replaces the frame to send next. Returns true if the previous frame had been sent.
   bool offer(const Text& frame) { return std::exchange(frame_, frame) == nullptr; }
-  // Returns true once when the subscriber has fallen too far behind.
+  // Returns true on the first call after the subscriber has fallen too far behind.
   bool falls_behind() { return is_too_slow() && !std::exchange(fallen_, true); }
   void tell() {
     if (news_) news_();

@@ -26,7 +26,8 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-// The candidate to drop, and why. weigh() returns nullopt if both can be arms.
+// Result of weigh(): which of two groups cannot be an arm, and why. weigh() returns nullopt if both
+// can be arms.
 struct Loser {
   bool is_first;
   std::string why;

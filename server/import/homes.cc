@@ -15,7 +15,7 @@ constexpr double kMadeUpClearance_m = 0.1;  // room to leave the home
 
 double zero_of(const Joint& joint) { return std::clamp(0.0, joint.lower, joint.upper); }
 
-// Returns the n-th van der Corput number to a base: evenly spread over 0..1.
+// Returns the n-th van der Corput number to a base. These numbers are evenly spread over 0..1.
 double van_der_corput(std::size_t n, std::size_t base) {
   double number = 0.0;
   double digit = 1.0;

@@ -30,7 +30,7 @@ struct ImportedRobot {
   Packages packages;
 };
 
-// Problems: faults of the files, or no group is an arm.
+// Reads a robot's files and selects its arms. Problems: faults of the files, or no group is an arm.
 [[nodiscard]] Result<ImportedRobot> read_imported_robot(
     const RobotFiles& files, const std::map<std::string, std::string>& packages);
 

@@ -9,7 +9,7 @@ namespace armloom {
 
 // Copies the files that a cell file names, so that a recording stays complete on another machine.
 // Robots' files and meshes go to the folder "files"; equal names get numbers ("arm.stl",
-// "arm-2.stl"). A copied URDF names the copied meshes.
+// "arm-2.stl"). Mesh names in a copied URDF lead to the copied meshes.
 
 struct CellFile {
   std::filesystem::path file;

@@ -39,7 +39,7 @@ struct KeptRecording {
 // Returns true for the name of a recording's own file: "events.jsonl", "states.csv", ...
 [[nodiscard]] bool is_file_of_recording(std::string_view name);
 
-// Returns a recording's files, including copies; the events are last.
+// Returns the paths of a recording's files, including copies. The file of events is last.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_recording(
     const std::filesystem::path& folder);
 

@@ -36,7 +36,7 @@ struct RemovedRecording {
     const std::filesystem::path& data, const RecordingBounds& bounds,
     const std::vector<std::filesystem::path>& in_use, std::filesystem::file_time_type now);
 
-// Removes old recordings periodically on its own thread, from construction on.
+// Removes old recordings periodically. Has its own thread, which starts on construction.
 class OldRecordings {
  public:
   struct Place {

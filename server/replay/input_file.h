@@ -13,7 +13,8 @@
 
 namespace armloom {
 
-// Writes inputs.jsonl of a recording. An input is written before the events that follow from it.
+// Writes inputs.jsonl of a recording. Each input is written before the events that the input
+// causes.
 class InputFile final : public InputLog {
  public:
   static constexpr const char* kName = "inputs.jsonl";

@@ -26,8 +26,7 @@ class Replay {
   [[nodiscard]] Result<void> take(std::string_view line);
   // Runs all cycles until `time`, without inputs.
   void run_until(TimePoint time);
-  // Returns the time of the cycle before which the line's input arrived, or nullopt if the line is
-  // invalid.
+  // Returns the time of the first cycle after the line's input, or nullopt if the line is invalid.
   [[nodiscard]] static std::optional<TimePoint> time_of(std::string_view line);
 
   [[nodiscard]] const Executive& executive() const;

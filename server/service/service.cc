@@ -191,7 +191,7 @@ class Service::Impl {
     keeper_->runs_on(*loop_);
     loop_is_there_ = true;
     look_for_damage();
-    // Waits, so that clients see the cell only with the previous session restored.
+    // Waits, so that clients do not see the cell before the previous session is restored.
     std::promise<void> restored;
     loop_->post_urgent([&](Executive& executive) {
       restart.go_on(executive, *cell, *keeper_);

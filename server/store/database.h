@@ -13,7 +13,8 @@ struct sqlite3_stmt;
 
 namespace armloom {
 
-// An SQLite error. Thrown within this folder only: callers of the store get values.
+// An SQLite error. Thrown within this folder only: callers of the store get errors as return
+// values.
 class SqlFault : public std::runtime_error {
  public:
   static constexpr int kNoAccess = 8;  // SQLITE_READONLY

@@ -58,12 +58,12 @@ struct Damage {
 // that is on disk when the call starts. Use on one thread at a time.
 class JobHistory {
  public:
-  // Problem: there is no store, or it cannot be read.
+  // Problem: the folder has no store, or the store cannot be read.
   [[nodiscard]] static Result<std::unique_ptr<JobHistory>> open(
       const std::filesystem::path& folder);
   ~JobHistory();
 
-  // Returns the last job accepted under this id. Problem: it is damaged.
+  // Returns the last job accepted under this id. Problem: the job is damaged.
   [[nodiscard]] Result<std::optional<StoredJob>> find(const std::string& id) const;
   // Returns the jobs that a request with this Idempotency-Key created or was answered with. Their
   // `origin` is that request.

@@ -18,7 +18,7 @@ class StoreMark {
  public:
   inline static constexpr const char* kFile = "armloom.mark";  // in the data folder
 
-  // The claim of the previous session, compared with the store.
+  // Differences between the mark of the previous session and the store.
   struct Found {
     bool is_missing = false;  // missing or unreadable
     bool store_is_behind = false;
@@ -32,8 +32,8 @@ class StoreMark {
 
   [[nodiscard]] const Found& found() const { return found_; }
 
-  // Announces a change of the set of stopped arms, before it is stored. Returns its sequence
-  // number.
+  // Announces a change of the set of stopped arms. Call before the change is stored. Returns the
+  // sequence number of the change.
   [[nodiscard]] std::uint64_t stops_come();
   // Records that the store now has `commits` transactions. `stops`, if given, is the sequence
   // number of the change of stopped arms that the store now contains.
