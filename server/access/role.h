@@ -5,7 +5,7 @@
 
 namespace armloom {
 
-// What a client may do. Each role includes the roles before it.
+// Role of a client: its permissions. Each role includes the roles before it.
 enum class Role {
   viewer,   // read
   operate,  // move and stop arms, change the scene

@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Changes whenever the file or its permissions change.
+// Returns a text that changes whenever the file or its permissions change.
 std::string stamp_of(const std::filesystem::path& file) {
   struct stat status {};
   if (stat(file.c_str(), &status) != 0) return "";

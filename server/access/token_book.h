@@ -17,14 +17,14 @@ struct Caller {
   Role role = Role::viewer;
 };
 
-// The tokens of a server. Changes of their file apply at once. An invalid file is ignored and the
-// previous tokens stay valid, so that an editing mistake locks no operator out of Stop. Without a
-// file there are no tokens. One thread.
+// The tokens of a server. Changes of the token file apply at once. An invalid file is ignored and
+// the previous tokens stay valid, so that an editing mistake locks no operator out of Stop. If the
+// file is missing, no token is valid. Use on one thread.
 class TokenBook {
  public:
   using Told = std::function<void(const std::string&)>;
 
-  // `told` is called with each new fault of the file; may be null.
+  // `told` is called with each new fault of the token file. `told` may be null.
   TokenBook(TokenFile file, Told told) : file_(std::move(file)), told_(std::move(told)) {}
 
   [[nodiscard]] std::optional<Caller> caller(std::string_view token);

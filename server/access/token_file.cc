@@ -49,15 +49,15 @@ tl::unexpected<Problems> cannot_write(const std::filesystem::path& file, int err
               file.string()});
 }
 
-// Gives the new file owner and mode of the replaced file, because root edits files that a service's
-// user must read.
+// Gives the new file the owner and mode of the file `of`, which it replaces. Otherwise, after a
+// change by root, the service's user could not read it.
 bool takes_owner_and_mode(int fd, const std::filesystem::path& of) {
   struct stat kept {};
   if (stat(of.c_str(), &kept) != 0) return errno == ENOENT;
   return fchown(fd, kept.st_uid, kept.st_gid) == 0 && fchmod(fd, kept.st_mode & 0777U) == 0;
 }
 
-// Makes other processes that change the file wait.
+// While this object exists, other processes that want to change the file wait.
 class Locked {
  public:
   explicit Locked(const std::filesystem::path& file) {

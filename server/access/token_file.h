@@ -18,13 +18,14 @@ struct KeptToken {
   std::string made_at;  // RFC 3339
 };
 
-// The token file of a server: lines of "name role digest made_at". A change replaces the whole
-// file, by one process at a time.
+// The token file of a server: lines of "name role digest made_at". Each change replaces the whole
+// file. Only one process at a time can change it.
 class TokenFile {
  public:
   explicit TokenFile(std::filesystem::path file) : file_(std::move(file)) {}
 
-  // Problems: the file is missing or unreadable (not_found), or a line is invalid (invalid).
+  // Returns all tokens. Problems: the file is missing or unreadable (not_found), or a line is
+  // invalid (invalid).
   [[nodiscard]] Result<std::vector<KeptToken>> read() const;
   // Returns a new token, which cannot be shown again. Creates a missing file, readable only by its
   // owner. Problems: the name is invalid or in use (conflict); the file cannot be written

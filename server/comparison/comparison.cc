@@ -18,7 +18,7 @@
 namespace armloom {
 namespace {
 
-// Gives the lowest priority to the calling thread; on Linux, to no other thread.
+// Gives the calling thread the lowest priority. On Linux, this does not change other threads.
 void give_way() {
   constexpr int kNicest = 19;
   static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNicest));
@@ -31,7 +31,8 @@ class Nobody final : public Observer {
   void on_state(const StateFrame&) override {}
 };
 
-// Predecessors outside of these jobs are taken as succeeded.
+// Returns the jobs for the simulation. A predecessor that is not among these jobs is taken as
+// succeeded.
 std::vector<TimedJob> timed_jobs(const std::vector<JobsAtHand::Job>& jobs, const Cell& cell) {
   std::vector<TimedJob> timed;
   std::set<std::string> keys;
@@ -50,8 +51,8 @@ std::vector<TimedJob> timed_jobs(const std::vector<JobsAtHand::Job>& jobs, const
   return timed;
 }
 
-// Returns the cell as the jobs found it: with the question's objects and, if earlier jobs are left
-// out, each arm at the start of its first trajectory.
+// Returns the cell as the jobs found it, with the question's objects. If earlier jobs are left out,
+// each arm is at the start of its first trajectory.
 CellPtr cell_of(const Cell& cell, const Comparison::Question& question,
                 const std::vector<TimedJob>& jobs) {
   const auto as_found = std::make_shared<Cell>(cell);

@@ -16,14 +16,15 @@
 
 namespace armloom {
 
-// Results of the same jobs under other policies: simulated in sequence on a thread of lowest
-// priority. One comparison at a time; the latest is kept. Use on the server's thread.
+// Compares scheduling policies: simulates the same jobs under each policy, one after the other, on
+// a thread of lowest priority. Runs one comparison at a time and keeps the latest. Use on the
+// server's thread.
 class Comparison {
  public:
-  // Limit for each simulation: some minutes on one core.
+  // Number of collision evaluations after which a simulation gives up: some minutes on one core.
   inline static constexpr std::uint64_t kEvaluationsMax = 50'000'000;
 
-  // `post` runs a task on the server's thread, which outlives this.
+  // `post` runs a task on the server's thread, which must outlive the Comparison.
   Comparison(CellPtr cell, std::function<void(std::function<void()>)> post);
   ~Comparison();  // waits for the thread
 
@@ -31,12 +32,12 @@ class Comparison {
     ComparisonInquiry inquiry;
     JobsAtHand::Taken taken;
     std::vector<CollisionObject> objects;  // of the present scene
-    std::string in_force;                  // policy
+    std::string in_force;                  // present policy
   };
   // Problem (conflict): a comparison is under way, or there are no jobs.
   [[nodiscard]] Result<ComparisonView> start(Question question);
   [[nodiscard]] const std::optional<ComparisonView>& latest() const { return latest_; }
-  // Ends a comparison under way as canceled, with its finished runs.
+  // Cancels a comparison under way. Its finished runs are kept.
   void cancel();
 
  private:

@@ -11,14 +11,14 @@
 
 namespace armloom {
 
-// Jobs that clients submitted in this session, oldest first. Beyond the bounds, the oldest are
-// dropped. Use on the server's thread.
+// Jobs that clients submitted in this session, oldest first. If they exceed the bounds, the oldest
+// jobs are dropped. Use on the server's thread.
 class JobsAtHand {
  public:
   struct Job {
     std::string key;
     TimePoint submitted_at;
-    std::shared_ptr<const std::string> body;  // of POST /jobs; shared by threads
+    std::shared_ptr<const std::string> body;  // body of POST /jobs; other threads may read it
   };
   struct Bounds {
     std::size_t jobs = 500;
@@ -29,8 +29,8 @@ class JobsAtHand {
 
   void note(Job job);
 
-  // The jobs since `from`, or all without `from`. `whole`: there were no earlier jobs, so the first
-  // job found all arms at home.
+  // Result of since(): the jobs submitted at or after `from`, or all jobs if `from` is nullopt.
+  // `whole`: there were no earlier jobs, so the first job found all arms at home.
   struct Taken {
     std::vector<Job> jobs;
     bool whole = true;

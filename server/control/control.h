@@ -14,12 +14,13 @@ namespace armloom {
 // thread.
 class Control {
  public:
-  // A machine clock, because the cell's clock stops with the process.
+  // Time of the machine's clock, because the cell's clock stands still while the process is
+  // stopped.
   using Time = std::chrono::steady_clock::time_point;
   struct Move {
     std::string arm;
     std::string job;  // its key
-    Time held_at{};   // last report that the button is held
+    Time held_at{};   // time of the last report that the button is held
   };
   struct Holder {
     std::string who;                   // display name
@@ -31,12 +32,15 @@ class Control {
     std::string key;                  // the secret
     std::optional<Move> interrupted;  // jog of the previous holder; must be canceled
   };
-  // Problem (conflict): another client has control, and `from_another` is false.
+  // Gives control to the client `who`. Problem (conflict): another client has control, and
+  // `from_another` is false.
   [[nodiscard]] Result<Taken> take(const std::string& who, bool from_another,
                                    std::optional<std::string> token = {});
-  // Returns the client's last jog. Problem: as check().
+  // Ends the client's control. Returns its last jog, if any, which the caller must cancel. Problem
+  // (conflict): the key does not belong to the client in control.
   [[nodiscard]] Result<std::optional<Move>> give_back(const std::string& key);
-  // Revokes control and returns the last jog. Precondition: a client has control.
+  // Revokes control. Returns the last jog, if any, which the caller must cancel. Precondition: a
+  // client has control.
   std::optional<Move> end();
   // Problem (conflict): the key does not belong to the client in control.
   [[nodiscard]] Result<void> check(const std::string& key) const;

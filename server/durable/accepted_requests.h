@@ -13,8 +13,8 @@
 namespace armloom {
 
 // Requests for jobs, which clients may repeat. A request's names are its Idempotency-Key and its
-// client-given job ids. Knows requests in progress and, without a store, accepted requests
-// (`kept_max` names). Use on the server's thread.
+// client-given job ids. Remembers the requests in progress and, if the server has no store, the
+// accepted requests (the last `kept_max` names). Use on the server's thread.
 class AcceptedRequests {
  public:
   using Names = std::vector<std::string>;
@@ -24,7 +24,7 @@ class AcceptedRequests {
   explicit AcceptedRequests(std::size_t kept_max = 20'000) : kept_max_(kept_max) {}
 
   // Registers a request in progress, until end(). Returns false if another request in progress has
-  // one of its names; `again` is called when that request was answered.
+  // one of its names. `again` is then called when the other request has been answered.
   [[nodiscard]] bool begin(const Names& names, std::function<void()> again);
   void end(const Names& names);
 
@@ -32,16 +32,17 @@ class AcceptedRequests {
     std::string digest;                       // of the body
     std::map<std::size_t, std::string> jobs;  // ids, by index in the request
   };
-  // Adds to the jobs known of the same request (same digest).
+  // Remembers an accepted request. If the name is known with the same digest, adds the jobs to the
+  // known jobs. A request with another digest replaces the known request.
   void remember(const std::string& name, Accepted accepted);
   [[nodiscard]] const Accepted* find(const std::string& name) const;
 
  private:
   std::size_t kept_max_;
-  // callbacks that wait
+  // by name: callbacks to call when the request has been answered
   std::unordered_map<std::string, std::vector<std::function<void()>>> under_way_;
   std::unordered_map<std::string, Accepted> accepted_;
-  std::deque<std::string> in_order_;  // of accepted_
+  std::deque<std::string> in_order_;  // names in accepted_, oldest first
 };
 
 }  // namespace armloom

@@ -15,18 +15,20 @@
 namespace armloom {
 
 // The last kAlertsKept warnings and errors. Acknowledged alerts are dropped first, errors last. A
-// keeper persists them. Use on the server's thread.
+// keeper stores them on disk. Use on the server's thread.
 class AlertBook {
  public:
-  // `keeper` may be null; alerts then end with the server. `keeper` and `clock` outlive this.
+  // If `keeper` is null, the alerts are lost when the server ends. `keeper` and `clock` must
+  // outlive the AlertBook.
   AlertBook(std::string stream, const WallClock& clock, JobKeeper* keeper);
 
   void happened(const Event& event);
   [[nodiscard]] const std::deque<StoredAlert>& alerts() const { return alerts_; }  // oldest first
   [[nodiscard]] const StoredAlert* find(const std::string& id) const;
 
-  // The first acknowledgement stays. `then` is called when it is on disk, or with the reason why
-  // not yet. Precondition: find() knows all ids.
+  // Records that `who` acknowledged the alerts; an earlier acknowledgement stays. Calls `then` with
+  // nullopt when this is on disk, or with the reason why it is not on disk yet. Precondition:
+  // find() knows all ids.
   void acknowledge(const std::vector<std::string>& ids, const std::string& who,
                    std::function<void(std::optional<Refusal>)> then);
 

@@ -42,7 +42,7 @@ Alert alert_of(const Damage& damage) {
   if (damage.lost_jobs > 0) {
     found.push_back("for " + std::to_string(damage.lost_jobs) +
                     (damage.lost_jobs == 1 ? " job" : " jobs") +
-                    " only the client's request could be recovered; not started");
+                    " only the client's request could be recovered; these are not started");
   }
   if (!damage.jobs.empty()) found.push_back(sentence_of_jobs(damage.jobs));
   if (damage.alerts + damage.audit > 0) {

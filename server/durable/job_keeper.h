@@ -17,24 +17,25 @@
 
 namespace armloom {
 
-// Makes jobs outlive the process: passes the executive's changes to the store. Call on the server's
-// thread; StartLog's functions on the strand.
+// Passes the executive's changes to the store, so that jobs outlive the process. Call on the
+// server's thread, but StartLog's functions on the strand.
 class JobKeeper final : public StartLog {
  public:
   // Problems: those of JobStore::open().
   [[nodiscard]] static Result<std::unique_ptr<JobKeeper>> open(const std::filesystem::path& folder,
                                                                StoreOptions options);
-  // Call first. Both outlive the keeper's callers. `post` runs a task on the server's thread.
+  // Call first. `clock` must outlive all calls of the keeper. `post` runs a task on the server's
+  // thread.
   void serve(const WallClock& clock, std::function<void(std::function<void()>)> post) {
     clock_ = &clock;
     post_ = std::move(post);
   }
   void runs_on(RealTimeLoop& loop) { loop_ = &loop; }
 
-  // Checks a request before acceptance. Problem: its id is an ended job's. Adds to the request
-  // which predecessors succeeded long ago or in an earlier session.
+  // Checks a request before acceptance. Problem: its id belongs to a job that has ended. Adds to
+  // the request the predecessors that have succeeded according to the store.
   [[nodiscard]] Result<void> look_up(JobRequest& job) const;
-  // Records the job's state as published by the executive now.
+  // Stores the job's state as the executive has just published it.
   void see(const JobView& job);
   struct AcceptedJob {
     JobView job;
@@ -42,17 +43,19 @@ class JobKeeper final : public StartLog {
     RequestOrigin origin;
     std::optional<StoredJob> row = {};  // row_of(job), if already made
   };
-  // Persists accepted jobs. Calls `then` when they are on disk, or with the reason why not; then
-  // they are rolled back.
+  // Persists accepted jobs. Calls `then` with nullopt when they are on disk. If they cannot be
+  // stored, rolls them back and calls `then` with the reason.
   void accept(std::vector<AcceptedJob> jobs, std::function<void(std::optional<Refusal>)> then);
-  // Persists a job's amendments. Calls `then` when they are on disk, or with the reason why not
-  // yet.
+  // Persists a job's amendments. Calls `then` with nullopt when they are on disk, or with the
+  // reason why they are not on disk yet.
   void amend(const JobView& job, std::function<void(std::optional<Refusal>)> then);
-  // Persists a change of a scene object; `then` as in amend().
+  // Persists a change of a scene object. Calls `then` in the same way as amend().
   void change(StoredObject object, std::function<void(std::optional<Refusal>)> then);
-  // Calls `then` when all earlier changes are on disk, or with the reason why not yet.
+  // Calls `then` with nullopt when all earlier changes are on disk, or with the reason why they are
+  // not on disk yet.
   void when_written(std::function<void(std::optional<Refusal>)> then);
-  // Returns why no job can be accepted and no arm may start at present, or nullopt.
+  // Returns a refusal while no job can be stored, so that none is accepted and no arm may start.
+  // Returns nullopt otherwise.
   [[nodiscard]] std::optional<Refusal> refusal() const;
   void stopped(std::vector<std::string> arms) { store_->stopped(std::move(arms)); }
 
@@ -60,7 +63,8 @@ class JobKeeper final : public StartLog {
 
   [[nodiscard]] JobStore& store() { return *store_; }
   [[nodiscard]] const JobHistory& history() const { return *history_; }
-  [[nodiscard]] const JobHistory& lists() const { return *lists_; }  // for one other thread
+  // a second reader, for one other thread
+  [[nodiscard]] const JobHistory& lists() const { return *lists_; }
   [[nodiscard]] const WallClock& clock() const { return *clock_; }
   void post(std::function<void()> task) const { post_(std::move(task)); }
 

@@ -15,7 +15,8 @@ namespace armloom {
 // server's thread.
 class RequestTrail {
  public:
-  // `keeper` may be null; then there is no audit trail. It outlives what follow() returns.
+  // If `keeper` is null, there is no audit trail. It must outlive the callbacks that follow()
+  // returns.
   RequestTrail(JobKeeper* keeper, Log log, LoggedRequests logged)
       : keeper_(keeper), log_(std::move(log)), logged_(logged) {}
 

@@ -49,7 +49,8 @@ std::vector<ObjectNotPutBack> put_back(const std::vector<LeftObject>& objects, L
   return not_done;
 }
 
-// A damaged view may not be JSON. Then only the job's id is published.
+// Returns the job's last published view. If the stored view is damaged and no longer JSON, returns
+// a view that contains only the job's id.
 nlohmann::ordered_json view_of(const StoredJob& job, const WallClock& clock) {
   auto view = nlohmann::ordered_json::parse(job.view, nullptr, false);
   if (view.is_object()) return view;
@@ -133,7 +134,7 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
   if (left.may_have_moved) {
     return write_off(job, kInterrupted, kRestart, "the server ended while it was under way");
   }
-  // A server-initiated job, or a job whose client got no answer.
+  // A job of the server itself, or a job whose client got no answer: there is no request to run.
   if (!left.body) return write_off(job, kInterrupted, kRestart, "the server ended before it began");
   auto read = read_job_submission(*left.body);
   if (!read) {
@@ -157,7 +158,7 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
   }
   for (const std::string& before : request.after) {
     if (ids_waiting_.contains(before)) continue;
-    const auto found = keeper.history().find(before);  // nullopt: deleted long after its end
+    const auto found = keeper.history().find(before);  // nullopt if the store has deleted the job
     const bool has_succeeded =
         found && (!*found || (*found)->state == to_string(JobState::succeeded));
     if (!has_succeeded) {
@@ -188,7 +189,8 @@ void Restart::go_on(Executive& executive, const Cell& cell, JobKeeper& keeper) {
   const auto not_put_back = put_back(objects_, executive.scene());
   for (const ObjectNotPutBack& one : not_put_back) {
     executive.alert({Alert::Level::error, one.why});
-    // Forgets the change. The alert reports it once; the next session starts without it.
+    // Deletes the change from the store. The alert reports it once; the next session starts without
+    // it.
     keeper.store().change({.name = one.name}, [](bool) {});
   }
   const bool asks = cell.scheduling.on_restart == OnRestart::ask;

@@ -12,19 +12,20 @@ namespace armloom {
 
 // Restores the jobs that the previous session left.
 // - Jobs that had not begun are submitted again, with their ids, order and conditions.
-// - Jobs that had or may have begun become `interrupted`; jobs `after` them fail.
+// - Jobs that had or may have begun become `interrupted`; jobs that must run `after` them fail.
 // - Jobs that no longer fit the cell become `interrupted`, too.
 class Restart {
  public:
-  // Ends the jobs that cannot be restored; this is on disk on return. Problem (unavailable): the
-  // store cannot be written.
+  // Ends the jobs that cannot be restored, and returns when this is on disk. Problem (unavailable):
+  // the store cannot be written.
   [[nodiscard]] static Result<Restart> prepare(JobKeeper& keeper);
 
-  // The executive's first task. Restores the scene, then stops
-  // - all arms, if the cell says `ask` and jobs were left, if the scene could not be restored
-  //   completely, or if it is unknown which arms were stopped at the end of the previous session;
-  // - otherwise the arms that were stopped then.
-  // `keeper` outlives the executive's tasks.
+  // The executive's first task. Restores the scene, then stops all arms in three cases:
+  // - The cell's `on_restart` is `ask`, and jobs were left.
+  // - The scene could not be restored completely.
+  // - It is unknown which arms were stopped when the previous session ended.
+  // Otherwise stops only the arms that were stopped then. Then restores the jobs. `keeper` must
+  // outlive the executive's tasks.
   void go_on(Executive& executive, const Cell& cell, JobKeeper& keeper);
 
  private:

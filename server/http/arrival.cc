@@ -58,7 +58,7 @@ Awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection
   if (const auto why = terms.refusal ? terms.refusal(*request) : std::nullopt) {
     co_return tl::unexpected<NotArrived>(site.refuse(*why));
   }
-  // Copied before the body is read, because the parser adds trailers to the header.
+  // Copies the header before the body is read, because the parser adds trailers to it.
   RequestHeader header = parser.get().base();
   // A stop does not wait for its body.
   if (site.is_never_limited(*request) && !is_all_here(connection, parser)) {

@@ -15,7 +15,8 @@ struct Arrived {
   Delivery delivery;
   MemoryBudget::Charge charge;  // of the body
 };
-// The response to send if no request was read; nullopt if no client is left to answer.
+// Result of read_request() if no request can be handled: the response to send, or nullopt if the
+// client disconnected or sent nothing.
 using NotArrived = std::optional<Response>;
 
 struct Terms {
@@ -24,8 +25,8 @@ struct Terms {
   std::function<std::optional<Refusal>(const Request&)> refusal = {};
 };
 
-// Reads the next request. Releases a refused request's memory before sending the refusal, which
-// takes time.
+// Reads the next request. Does not send a refusal itself: it returns the refusal, so that the
+// refused request's memory is released before the caller sends it.
 Awaitable<tl::expected<Arrived, NotArrived>> read_request(Connection& connection, const Site& site,
                                                           const Terms& terms);
 

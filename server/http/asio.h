@@ -21,7 +21,8 @@ namespace armloom {
 
 namespace asio = boost::asio;
 
-// Asio types with the concrete executor of io_context: any_io_executor takes longer to compile.
+// Asio types with the concrete executor of io_context, because any_io_executor takes longer to
+// compile.
 using Executor = asio::io_context::executor_type;
 using Timer = asio::basic_waitable_timer<std::chrono::steady_clock,
                                          asio::wait_traits<std::chrono::steady_clock>, Executor>;
@@ -34,7 +35,7 @@ inline auto into(ErrorCode& ec) {
   return asio::redirect_error(asio::use_awaitable_t<Executor>(), ec);
 }
 
-// Starts `task` on the executor's thread, after this call. Exceptions that leave `task` are
+// Returns at once. `task` then starts on the executor's thread. Exceptions that leave `task` are
 // dropped.
 void spawn(const Executor& executor, Awaitable<void> task);
 

@@ -56,7 +56,7 @@ ClientLimits::Client& ClientLimits::client(const std::string& name, Time now) {
   return clients_.try_emplace(name, made).first->second;
 }
 
-// A client whose buckets are full is equivalent to a new one.
+// Forgets clients whose buckets are full: they are equivalent to new clients.
 void ClientLimits::forget_idle(Time now) {
   if (now - forgot_at_ < kForgetEvery) return;
   forgot_at_ = now;

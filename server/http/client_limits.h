@@ -10,7 +10,7 @@
 
 namespace armloom {
 
-// Sustained rate, and burst after an idle time.
+// A rate limit: the sustained rate, and the burst that is allowed after an idle time.
 struct Rate {
   double per_second;
   double burst;
@@ -22,8 +22,8 @@ class Allowance {
   using Time = std::chrono::steady_clock::time_point;
   Allowance(Rate rate, Time now) : rate_(rate), left_(rate.burst), at_(now) {}
 
-  // Returns the time until `count` tokens are available; zero if they are now. A count above the
-  // burst waits for a full bucket.
+  // Returns the time until `count` tokens are available; zero if they are available now. For a
+  // count above the burst, a full bucket is enough.
   [[nodiscard]] std::chrono::duration<double> wait_for(double count, Time now);
   // Precondition: wait_for(count) is zero.
   void take(double count) { left_ -= count; }
@@ -36,8 +36,9 @@ class Allowance {
   Time at_;
 };
 
-// Rate limits of each client and of all together, so that a runaway client leaves others their
-// share. A token identifies a client, or else its address. Use on the server's thread.
+// Rate limits for each client and for all clients together, so that a runaway client leaves others
+// their share. A client is identified by its access token, or by its address if it has no token.
+// Use on the server's thread.
 class ClientLimits {
  public:
   using Time = Allowance::Time;
@@ -49,9 +50,10 @@ class ClientLimits {
   };
   explicit ClientLimits(Options options, Time now = std::chrono::steady_clock::now());
 
-  // Takes one request. Returns a refusal (429, with Retry-After) if it exceeds a limit.
+  // Counts one request. Returns a refusal (429, with Retry-After) if it exceeds a limit.
   [[nodiscard]] std::optional<Refusal> request(const std::string& client, Time now);
-  // Takes `count` jobs of one request. A full bucket admits even a batch above the burst.
+  // Counts `count` jobs of one request. Returns a refusal like request(). If the buckets are full,
+  // even a batch above the burst is admitted.
   [[nodiscard]] std::optional<Refusal> jobs(const std::string& client, std::size_t count, Time now);
   // Returns the number of remembered clients. Clients with full buckets are forgotten.
   [[nodiscard]] std::size_t clients() const { return clients_.size(); }

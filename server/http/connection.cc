@@ -70,7 +70,8 @@ Awaitable<void> send(Connection& connection, Response response, Delivery deliver
   co_await send_pieces(connection.stream, *response.pieces, kWriteTime, ec);
 }
 
-// Reads unread input first: closing the socket before would reset the connection.
+// Discards unread input before the socket is closed. Otherwise, closing would reset the connection,
+// and the client could lose the response.
 Awaitable<void> linger(Connection& connection) {
   static constexpr std::size_t kDrainMax = 2 * kBodyMax;
   ErrorCode ec;

@@ -10,8 +10,8 @@
 
 namespace armloom {
 
-// Read buffer: a whole header, or a piece of a body with its chunk line or trailers, which must not
-// be longer.
+// Size of the read buffer in bytes. A whole header, a chunk line and all trailers must each fit
+// into it.
 inline constexpr std::size_t kBufferMax = 32 * 1024;
 
 struct Connection {

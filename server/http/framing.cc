@@ -102,7 +102,8 @@ std::optional<AbsoluteTarget> split_absolute_target(std::string_view target) {
   return split;
 }
 
-// 128 bits are 22 base64 digits, the last with four spare bits, and two padding characters.
+// Sixteen bytes are 22 base64 digits and two padding characters. The four spare bits of the last
+// digit must be zero.
 bool is_websocket_key(std::string_view key) {
   static constexpr std::string_view kDigits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

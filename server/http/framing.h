@@ -23,8 +23,9 @@ struct FramingFault {
 };
 
 // Returns why the request must be refused with 400 and its connection closed (RFC 9112, 3.2 and
-// 6.3); nullopt if its framing is sound. Beast's parser does not check Host, and accepts any
-// Transfer-Encoding, so that it would read the body as a second request (request smuggling).
+// 6.3); nullopt if its framing is sound. Beast's parser alone is not enough: it does not check
+// Host, and it accepts any Transfer-Encoding. It would then read the body as a second request
+// (request smuggling).
 [[nodiscard]] std::optional<FramingFault> framing_fault(const FramingFields& fields);
 
 // Checks a Host, or the authority of an Origin: a name, IPv4 or [IPv6], with an optional port.
@@ -40,7 +41,7 @@ struct FramingFault {
 [[nodiscard]] std::string host_of(std::string_view authority);
 
 // An absolute-form target ("http://host:port/path?query"), split; an empty path becomes "/".
-// split_absolute_target() returns nullopt for another form or an invalid authority.
+// split_absolute_target() returns nullopt for any other form of target or an invalid authority.
 struct AbsoluteTarget {
   std::string authority;
   std::string rest;
@@ -50,7 +51,7 @@ struct AbsoluteTarget {
 // Checks that `key` is sixteen bytes in base64 (RFC 6455, 4.1).
 [[nodiscard]] bool is_websocket_key(std::string_view key);
 
-// Checks a host name (of host_of()) of any request against the allow-list.
+// Checks the host that a request addresses (from host_of()) against the allow-list.
 [[nodiscard]] bool is_allowed_host(const std::string& host, const HostRule& rule);
 
 }  // namespace armloom

@@ -22,8 +22,8 @@ namespace {
 using Acceptor = asio::basic_socket_acceptor<asio::ip::tcp, Executor>;
 
 constexpr std::chrono::milliseconds kReadToTheEnd{500};  // for clients to read the close reason
-constexpr std::size_t kReservedMax = 64;                 // slots beyond connections_max
-// Connections accepted before other tasks get a turn.
+constexpr std::size_t kReservedMax = 64;                 // reserve slots
+// Number of connections accepted in a row before other tasks get a turn.
 constexpr int kTakenAtOnce = 16;
 // Time for arms to come to rest. The whole shutdown takes two seconds at most.
 constexpr std::chrono::milliseconds kWindDownMax{1200};
@@ -85,7 +85,8 @@ class HttpServer::Impl {
     if (until_signal) {
       signals_.add(SIGINT);
       signals_.add(SIGTERM);
-      // SIGHUP means that the terminal was closed. Under nohup it is ignored.
+      // SIGHUP means that the terminal was closed. Under nohup, SIGHUP is ignored and must stay
+      // ignored.
       struct sigaction hangup {};
       if (sigaction(SIGHUP, nullptr, &hangup) == 0 && hangup.sa_handler != SIG_IGN) {
         signals_.add(SIGHUP);
@@ -183,7 +184,7 @@ class HttpServer::Impl {
     spawn(io_.get_executor(), serve(std::move(socket), client));
   }
 
-  // Accepts with a descriptor of the reserve.
+  // Accepts one connection in the reserve, with a file descriptor that the reserve frees.
   ErrorCode take_in_reserve() {
     ErrorCode ec = asio::error::no_descriptors;
     if (!reserve_.make_room()) return ec;
@@ -197,7 +198,8 @@ class HttpServer::Impl {
     return ec;
   }
 
-  // Returns the error that ended accepting.
+  // Accepts at most kTakenAtOnce waiting connections. Returns the error that ended this early, if
+  // any.
   ErrorCode take_some() {
     ErrorCode ec;
     for (int taken = 0; !ec && taken < kTakenAtOnce; ++taken) {

@@ -17,7 +17,8 @@ struct TlsFiles {
   std::string key;
 };
 
-// Clients that can reach a listener on the address; `nobody` if it is not an IP address.
+// Clients that can reach a listener on the address. The first value means that the address is not
+// an IP address.
 enum class Reach { nobody, this_machine, others };
 [[nodiscard]] Reach reach_of(const std::string& address);
 
@@ -26,9 +27,10 @@ class HttpServer {
  public:
   // Binds and listens; accepts no connection before run(). Port zero takes any free port. When
   // `connections_max` connections are open, or the system has no free file descriptor, a new
-  // connection is served in the reserve (session.h): a stop is served, any other request answered
-  // 503 ("too-many-connections"). A full reserve drops connections without an answer. Problem
-  // (unavailable, "cannot-listen"): the address is not an IP address, or the port is in use.
+  // connection is served in the reserve (session.h). There, a stop is served, and any other request
+  // is answered with 503 ("too-many-connections"). If the reserve is full, connections are dropped
+  // without an answer. Problem (unavailable, "cannot-listen"): the address is not an IP address, or
+  // the port is in use.
   [[nodiscard]] static Result<std::unique_ptr<HttpServer>> listen(const std::string& address,
                                                                   std::uint16_t port,
                                                                   std::size_t connections_max);
@@ -41,12 +43,15 @@ class HttpServer {
   [[nodiscard]] std::uint16_t port() const;
 
   // Serves `site` on the calling thread until stop() or, with `until_signal`, until SIGINT, SIGTERM
-  // or SIGHUP, after which every subscription gets the reason. Then closes all connections.
+  // or SIGHUP. A signal brings all arms to rest, and then sends the close reason to every
+  // subscriber. Then closes all connections.
   void run(Site site, bool until_signal);
 
-  // Thread-safe. Runs `task` soon on the server's thread, in order. Sockets are served in between.
+  // Thread-safe. Runs `task` soon on the server's thread, in order. Sockets are served between the
+  // tasks.
   void post(std::function<void()> task);
-  // Like post(), but ahead of the queue of post().
+  // Thread-safe. Runs `task` soon on the server's thread, before the tasks that wait in the queue
+  // of post().
   void post_urgent(std::function<void()> task);
   void stop();  // thread-safe
 

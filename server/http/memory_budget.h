@@ -5,12 +5,12 @@
 
 namespace armloom {
 
-// Limits the memory of request and response bodies of all connections together. Small charges are
-// free, so that a stop always gets through; larger ones are refused when the budget is exhausted.
-// Use on the server's thread. Outlives its charges.
+// Limits the memory of request and response bodies of all connections together. The first kFree
+// bytes of each charge are free, so that a stop always gets through. Further bytes are refused when
+// the budget is exhausted. Use on the server's thread. Must outlive its charges.
 class MemoryBudget {
  public:
-  inline static constexpr std::size_t kFree = 16 * 1024;  // of each charge
+  inline static constexpr std::size_t kFree = 16 * 1024;  // bytes of each charge
 
   explicit MemoryBudget(std::size_t max) : max_(max) {}
 
@@ -29,8 +29,8 @@ class MemoryBudget {
       if (budget_ != nullptr) budget_->used_ -= held_;
     }
 
-    // Grows the charge to `bytes`, free ones included. Returns false, without change, if there is
-    // no room.
+    // Grows the charge to `bytes` in total, including the free bytes. Returns false and changes
+    // nothing if the budget has no room.
     [[nodiscard]] bool grow_to(std::size_t bytes) {
       const std::size_t wanted = bytes > kFree ? bytes - kFree : 0;
       if (budget_ == nullptr || wanted <= held_) return true;

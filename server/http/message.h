@@ -26,8 +26,8 @@ struct Target {
     return it == query.end() ? std::nullopt : std::optional(it->second);
   }
 };
-// Problem (malformed): not an absolute path, a fragment, a broken or forbidden escape, or a
-// parameter that occurs twice.
+// Splits and decodes a request target. Problem (malformed): the target is not an absolute path, or
+// has a fragment, a broken or forbidden escape, or a parameter twice.
 [[nodiscard]] Result<Target> parse_target(std::string_view text);
 
 // Returns a problem (malformed) that names a query parameter not in `known`, or nullopt.
@@ -50,7 +50,7 @@ struct Refusal {
 
 // A whole request with checked framing. Handlers do not see sockets.
 struct Request {
-  std::string method;  // "GET" for HEAD, too; its body is dropped when sent
+  std::string method;  // "GET" for HEAD, too: its response is sent without the body
   Target target;
   std::optional<std::string> content_type = {};
   std::optional<std::string> content_encoding = {};
@@ -62,9 +62,9 @@ struct Request {
   std::string id = {};                              // for X-Request-Id: the client's, or generated
   std::optional<std::string> idempotency_key = {};  // identifies a repeated request
   std::string accept_encoding = {};                 // all values, comma-separated
-  std::optional<Refusal> stranger = {};             // if set, the client may not even read
+  std::optional<Refusal> stranger = {};             // refuses every request (Host not allowed)
   std::optional<std::string> cross_origin = {};     // allowed Origin of another site
-  std::optional<Refusal> foreign = {};              // if set, the client may only read
+  std::optional<Refusal> foreign = {};              // refuses commands (page of another site)
   bool upgrade = false;                             // wants a WebSocket
   // True once no client waits for the response: it disconnected, or the response took too long.
   std::shared_ptr<std::atomic<bool>> gone = std::make_shared<std::atomic<bool>>(false);
@@ -78,7 +78,8 @@ struct CloseReason {
   std::string text;
 };
 
-// One subscriber of events, as WebSocket and SSE use it. Call on the server's thread.
+// One subscriber of events, connected by WebSocket or Server-Sent Events. Call on the server's
+// thread.
 class Subscription {
  public:
   struct Message {
@@ -88,9 +89,9 @@ class Subscription {
   virtual ~Subscription() = default;
   // Returns the next message to send, or nullopt if there is none yet.
   virtual std::optional<Message> next() = 0;
-  // Returns nullopt while the subscriber may stay.
+  // Returns why the subscriber must be disconnected, or nullopt while it may stay.
   [[nodiscard]] virtual std::optional<CloseReason> close_reason() const = 0;
-  // `call` is called when the results of next() or close_reason() may have changed.
+  // Sets the function that is called when the results of next() or close_reason() may have changed.
   virtual void on_news(std::function<void()> call) = 0;
 };
 using SubscriptionPtr = std::shared_ptr<Subscription>;
@@ -100,14 +101,14 @@ struct EventStream {
   SubscriptionPtr subscription;
   std::string id;                        // prefix of event ids: "<id>:<seq>"
   bool frames = true;                    // also send messages without seq
-  std::function<bool()> permitted = {};  // may the subscriber stay? May be null.
+  std::function<bool()> permitted = {};  // returns false if the token was revoked; may be null
 };
 
-// A body too large for memory, read in pieces.
+// A response body that is too large for memory. It is read in pieces while it is sent.
 struct PiecedBody {
   std::uintmax_t size = 0;  // in bytes
-  // Passes `count` bytes starting at `from` to `then`, once, on the server's thread; nullopt if
-  // they are unreadable, which cuts the connection.
+  // Passes `count` bytes starting at `from` to `then`, once, on the server's thread. Passes nullopt
+  // if the bytes cannot be read; the connection is then cut.
   using Then = std::function<void(std::optional<std::string>)>;
   std::function<void(std::uintmax_t from, std::size_t count, Then then)> read = {};
 };
@@ -124,7 +125,7 @@ struct Response {
   bool is_routine = false;                // a frequent command that leaves no audit entry
 };
 
-// Call exactly once, on the server's thread.
+// Sends the response. Call exactly once, on the server's thread.
 using Respond = std::function<void(Response)>;
 using WriteRefusal = std::function<Response(const Refusal&)>;
 
@@ -134,14 +135,14 @@ void answer_across_origins(const Request& request, Response& response);
 // Turns the response into a 304 if If-None-Match lists its ETag (RFC 9110, 13.1.2).
 void answer_conditionally(const Request& request, Response& response);
 
-// Host allow-list against DNS rebinding: a page whose DNS name resolves to this server is
-// same-origin to the browser; only the Host header gives it away. IP addresses and localhost are
-// always allowed.
+// Host allow-list against DNS rebinding. If an attacker lets the DNS name of a page resolve to this
+// server, the browser treats page and server as one site. Only the Host header shows the attacker's
+// name. IP addresses and localhost are always allowed.
 struct HostRule {
   std::vector<std::string> names;    // further allowed names
   std::vector<std::string> origins;  // of other sites whose pages may command: "https://a.example"
   bool any_plain = false;            // also allow names without a dot, which no internet site has
-  bool is_sealed = false;            // TLS is used: own pages are https
+  bool is_sealed = false;            // TLS is used, so own pages are https
 };
 
 // The cookie that stores a browser's token.
@@ -151,22 +152,26 @@ inline constexpr std::string_view kTokenCookie = "armloom_token";
 // may answer later, but its request is only valid during the call.
 struct Site {
   std::function<void(const Request&, Respond)> handle;
-  // Returns the refusal if it does not depend on the body; nullopt if `handle` must answer.
+  // Returns a refusal that does not depend on the body, or nullopt if `handle` must answer.
   std::function<std::optional<Response>(const Request&)> refuse_unread;
   WriteRefusal refuse;  // formats errors of HTTP itself: framing, limits, targets
-  // Returns true if the request is exempt from connection limits and does not wait for its body.
+  // Returns true if the request is exempt from connection limits and is handled without waiting for
+  // its body.
   std::function<bool(const Request&)> is_never_limited;
   // Graceful shutdown: brings all arms to rest, then calls `done` (from any thread).
   std::function<void(std::function<void()> done)> wind_down;
   std::function<void()> end;  // shutdown: gives every subscription its close reason
   HostRule hosts;             // allowed hosts
   std::chrono::milliseconds keep_alive{15'000};  // silence before a keep-alive comment line
-  std::chrono::milliseconds send_time{30'000};   // for one message of a stream, which is then cut
-  int send_buffer = 128 * 1024;                  // of a stream: limits the age of received poses
-  std::chrono::milliseconds read_time{10'000};   // for a whole header, and for a whole body
-  std::size_t memory_max = std::size_t{64} << 20U;  // of large bodies and responses together
-  std::size_t connections_per_client_max = ~std::size_t{0};  // of one address; beyond: 429
-  std::function<void()> on_limited_connection = {};          // called for each beyond
+  // for one message of a stream; then the stream is cut
+  std::chrono::milliseconds send_time{30'000};
+  // bytes, of a stream; small, so that a slow reader receives recent poses
+  int send_buffer = 128 * 1024;
+  std::chrono::milliseconds read_time{10'000};      // for a whole header, and for a whole body
+  std::size_t memory_max = std::size_t{64} << 20U;  // bytes of large bodies and responses together
+  // from one address; further connections are answered with 429
+  std::size_t connections_per_client_max = ~std::size_t{0};
+  std::function<void()> on_limited_connection = {};  // called for each connection beyond this limit
 };
 
 }  // namespace armloom

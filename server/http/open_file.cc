@@ -27,7 +27,7 @@ tl::expected<OpenFile, NoFile> OpenFile::open(const fs::path& path, std::size_t 
   if (fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) return tl::unexpected(NoFile::absent);
   file.size_ = static_cast<std::size_t>(status.st_size);
   if (file.size_ > size_max) return tl::unexpected(NoFile::absent);
-  // The kernel's path of the open file, which avoids a race between check and open.
+  // Asks the kernel for the path of the open file. `path` may lead to another file by now.
   std::error_code ec;
   file.place_ = fs::read_symlink("/proc/self/fd/" + std::to_string(fd), ec);
   if (ec) return tl::unexpected(NoFile::absent);

@@ -9,10 +9,11 @@
 
 namespace armloom {
 
-inline constexpr std::size_t kPieceSize = 64 * 1024;  // in memory at a time
+inline constexpr std::size_t kPieceSize = 64 * 1024;  // bytes of a body in memory at a time
 
-// Sends the whole body, after the header. `time` limits each piece. After an error, also if a piece
-// cannot be read, the response is incomplete and the connection unusable.
+// Sends the whole body; the header has already been sent. `time` is the limit for each piece. Sets
+// `ec` if sending fails or a piece cannot be read. The response is then incomplete and the
+// connection unusable.
 Awaitable<void> send_pieces(Transport& stream, const PiecedBody& body,
                             std::chrono::milliseconds time, ErrorCode& ec);
 

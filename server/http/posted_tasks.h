@@ -12,8 +12,8 @@
 namespace armloom {
 
 // Tasks of other threads for the server's thread. Runs them in order, about a millisecond at a
-// time: asio polls sockets only when all ready handlers have run, so thousands of events would
-// delay a stop. Callers must limit the queue.
+// time: asio polls sockets only when all ready handlers have run, so thousands of tasks in a row
+// would delay a stop. Callers must limit the queue.
 class PostedTasks {
  public:
   using Task = std::function<void()>;

@@ -5,7 +5,7 @@
 namespace armloom {
 namespace {
 
-// The reader may start another read just after cancel(), which must be canceled, too.
+// Interval at which cancel() is repeated: the reader may start another read just after cancel().
 constexpr std::chrono::milliseconds kAgain{50};
 
 }  // namespace

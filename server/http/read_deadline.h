@@ -9,11 +9,11 @@ namespace armloom {
 
 class Transport;
 
-// Cancels reads that do not finish in time, repeatedly, while this object lives. The connection
-// stays open, so that the client can be answered.
+// Cancels the stream's reads after a given time, again and again while this object lives. The
+// connection stays open, so that the client can be answered.
 class ReadDeadline {
  public:
-  // `stream` outlives it. Replaces the stream's own deadline.
+  // `stream` must outlive this object. Replaces the stream's own deadline.
   ReadDeadline(Transport& stream, std::chrono::milliseconds time);
   ~ReadDeadline();
   ReadDeadline(const ReadDeadline&) = delete;
@@ -24,7 +24,7 @@ class ReadDeadline {
  private:
   struct Watch {
     Timer timer;
-    Transport* stream;  // null after destruction
+    Transport* stream;  // null after the ReadDeadline is destroyed
     bool is_over = false;
   };
   static void wait(const std::shared_ptr<Watch>& watch, std::chrono::milliseconds time);

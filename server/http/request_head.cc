@@ -28,7 +28,7 @@ std::optional<std::string> one_of(const RequestHeader& header, beast::string_vie
   return it == header.end() ? std::nullopt : std::optional(std::string(it->value()));
 }
 
-// Returns a refusal, even to read, for a host that is not allowed (DNS rebinding).
+// Returns the refusal of every request, even to read, if its host is not allowed (DNS rebinding).
 std::optional<Refusal> foreign_host(const std::string& authority, const HostRule& hosts) {
   const std::string host = host_of(authority);
   if (authority.empty() || is_allowed_host(host, hosts)) return std::nullopt;
@@ -39,7 +39,8 @@ std::optional<Refusal> foreign_host(const std::string& authority, const HostRule
                  std::nullopt, host};
 }
 
-// Returns a refusal to command or subscribe for a page of another site.
+// Returns the refusal of commands and subscriptions if the request comes from a page of another
+// site.
 std::optional<Refusal> foreign_origin(const RequestHeader& header, const std::string& authority,
                                       const HostRule& hosts) {
   const auto origin = header.find(http::field::origin);
@@ -50,7 +51,8 @@ std::optional<Refusal> foreign_origin(const RequestHeader& header, const std::st
                  std::nullopt, std::string(origin->value())};
 }
 
-// Returns the token of "Bearer <token>", or else of the first cookie of that name.
+// Returns the token of the Authorization header ("Bearer <token>"), or else of the first cookie
+// named kTokenCookie.
 std::optional<std::string> token_of(const RequestHeader& header) {
   static constexpr std::string_view kScheme = "bearer ";
   const std::string authorization = one_of(header, "Authorization").value_or("");
@@ -71,7 +73,7 @@ std::optional<std::string> token_of(const RequestHeader& header) {
   return std::nullopt;
 }
 
-// Returns the Origin if its pages may command, or nullopt.
+// Returns the Origin header if pages of that origin may command, or nullopt.
 std::optional<std::string> allowed_origin(const RequestHeader& header, const HostRule& hosts) {
   auto origin = one_of(header, "Origin");
   const bool may =

@@ -16,10 +16,11 @@ using RequestHeader = boost::beast::http::request_header<>;
 [[nodiscard]] std::optional<Refusal> header_refusal(const RequestHeader& header);
 
 // Adapts the version in a request line for Beast (RFC 9112, 2.3, and RFC 9110, 2.5). A higher minor
-// version becomes 1.1 in place; another major version is refused.
+// version is overwritten with 1.1. Returns a refusal if the major version is not 1.
 [[nodiscard]] std::optional<Refusal> settle_version(char* line, std::size_t size);
 
-// Returns true for a WebSocket upgrade; handshake_fault() returns its fault (RFC 6455, 4.2.1).
+// Returns true if the request asks for a WebSocket upgrade. handshake_fault() returns a refusal if
+// the upgrade is invalid (RFC 6455, 4.2.1).
 [[nodiscard]] bool is_handshake(const RequestHeader& header);
 [[nodiscard]] std::optional<Refusal> handshake_fault(const RequestHeader& header);
 

@@ -25,7 +25,8 @@ NoRequest too_late(const char* what) {
 
 Refusal bad_request(std::string detail) { return {400, "bad-request", std::move(detail)}; }
 
-// Maps an error of the parser or the socket; `buffered` shows which limit was exceeded.
+// Returns the answer to an error of the parser or the socket. `buffered`, the input not yet parsed,
+// shows which limit was exceeded.
 NoRequest stopped_by(ErrorCode ec, std::string_view buffered) {
   if (ec == boost::system::errc::not_enough_memory) {
     return {Refusal{503,
@@ -63,7 +64,7 @@ Awaitable<void> read_some(Connection& connection, std::size_t max, ErrorCode& ec
   connection.buffer.commit(size);
 }
 
-// Reads until `is_read` is true.
+// Reads and parses until `is_read` returns true.
 Awaitable<void> parse(Connection& connection, RequestParser& parser,
                       bool (RequestParser::*is_read)() const, ErrorCode& ec) {
   while (!ec && !(parser.*is_read)()) {
@@ -99,7 +100,7 @@ Awaitable<std::optional<NoRequest>> read_first_line(Connection& connection) {
       co_return NoRequest{
           Refusal{414, "target-too-long", "a request line may have at most 16 KiB"}};
     }
-    // The parser needs a whole line, because settle_version() may change it.
+    // The parser gets the line only when it is complete, because settle_version() may change it.
     co_await read_some(connection, 4096, ec);
     if (ec) co_return NoRequest{};
   }

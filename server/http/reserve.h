@@ -12,9 +12,10 @@
 namespace armloom {
 
 // Extra connection slots, in which a stop is served when no regular connection is left. Each free
-// slot keeps a file descriptor, in case the system has none. When all slots are taken, a new
-// connection evicts the oldest of the client with most, so that no client locks out others. A
-// connection being answered is never evicted. Use on the server's thread.
+// slot keeps a spare file descriptor open, in case the system runs out of descriptors. When all
+// slots are taken, a new connection evicts the oldest connection of the client that has the most.
+// So no client can lock out others. A connection that is being answered is never evicted. Use on
+// the server's thread.
 class Reserve {
  public:
   explicit Reserve(std::size_t places) : places_(places) {}
@@ -22,14 +23,15 @@ class Reserve {
   Reserve(const Reserve&) = delete;
   Reserve& operator=(const Reserve&) = delete;
 
-  // Takes missing descriptors, as far as available. Call at the start and after each reserve
-  // connection.
+  // Opens the missing spare descriptors, as many as the system grants. Call at the start and after
+  // each reserve connection.
   void fill();
-  // Frees a descriptor for another connection, if necessary by eviction. Returns false on failure.
+  // Frees a descriptor for another connection, if necessary by eviction. Returns false if no
+  // connection can be evicted.
   bool make_room();
 
-  // A connection's slot. Precondition: make_room() returned true. The reserve and `socket` outlive
-  // it; eviction closes `socket`.
+  // A connection's slot. Precondition: make_room() returned true. The reserve and `socket` must
+  // outlive the slot. Eviction closes `socket`.
   class Place {
    public:
     Place(Reserve& reserve, Socket& socket, std::string client)
@@ -40,7 +42,8 @@ class Reserve {
     Place(const Place&) = delete;
     Place& operator=(const Place&) = delete;
 
-    // Prevents eviction while the request is answered. Returns false if already evicted.
+    // Prevents eviction (true) or permits it again (false). Returns false if the connection was
+    // already evicted.
     bool keep(bool is_kept);
 
    private:

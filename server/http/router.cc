@@ -52,8 +52,8 @@ void Router::add(std::string method, std::string_view pattern, Rights rights, An
                           std::move(answer), std::move(parameters)});
 }
 
-// Returns the methods served at the path ("*": at any path). HEAD goes with GET, and OPTIONS with
-// all.
+// Returns the methods served at the path, or at any path for "*". GET implies HEAD, and any method
+// implies OPTIONS. Returns "" if there are none.
 std::string Router::allowed_at(const std::string& path) const {
   std::set<std::string> methods;
   const bool everywhere = path == "*";

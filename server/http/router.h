@@ -19,7 +19,8 @@ namespace armloom {
 // - commander: an allowed Host, and no Origin of another site unless it is allowed.
 enum class Who { anyone, reader, commander };
 
-// Clients of a route, and the role that their token needs; nullopt if no token is needed.
+// The clients that a route serves, and the role that their token must have. `role` is nullopt if no
+// token is needed.
 struct Rights {
   Who who = Who::reader;
   std::optional<Role> role = Role::viewer;
@@ -42,26 +43,32 @@ class Router {
   // `parameters`: allowed query parameters.
   void add(std::string method, std::string_view pattern, Rights rights, Answer answer,
            std::vector<std::string> parameters = {});
-  // Called for every response of dispatch() with method, pattern (or ""), status and duration.
+  // Called for every response of dispatch(), with the method, the route's pattern ("" without a
+  // route), the status and the duration.
   using Watch =
       std::function<void(const std::string&, const std::string&, int, std::chrono::nanoseconds)>;
   void watch(Watch watch) { watch_ = std::move(watch); }
-  // Returns why the client lacks the role, or nullopt. Without a guard, every client has every
-  // role.
+  // Returns a refusal if the client lacks the role, else nullopt. Without a guard, every client has
+  // every role.
   using Guard = std::function<std::optional<Refusal>(const Request&, Role)>;
   void guard(Guard guard) { guard_ = std::move(guard); }
-  // Returns why the request exceeds a limit, or nullopt. Called before any other check.
+  // Returns a refusal if the request exceeds a limit, else nullopt. Called before any other check.
   using Limit = std::function<std::optional<Refusal>(const Request&)>;
   void limit(Limit limit) { limit_ = std::move(limit); }
-  // Answers requests whose path matches no pattern (the dashboard's files), without their bodies.
+  // Sets the function that answers requests whose path matches no pattern (the dashboard's files).
+  // It may be called before the body is read.
   void otherwise(std::function<Response(const Request&)> answer) { otherwise_ = std::move(answer); }
 
-  // Answers with the first that applies: the limit's refusal, 403 (Host or Origin not allowed), the
-  // guard's refusal, 400 (a route's unknown query parameter), 405 with Allow (another method would
-  // match), 204 with Allow for OPTIONS, the route's function, otherwise(), 404.
+  // Answers with the first of these that applies:
+  // - the refusal of the limit
+  // - 403 if Host or Origin is not allowed
+  // - the refusal of the guard
+  // - if a route matches: 400 if it does not know a query parameter, else the route's answer
+  // - if routes with other methods match: 204 with Allow for OPTIONS, else 405 with Allow
+  // - the answer of otherwise(), or 404 if it is not set
   void dispatch(const Request& request, Respond respond) const;
-  // Returns the response of dispatch(), apart from its limit, if independent of the body, else
-  // nullopt.
+  // Returns the response of dispatch() if it does not depend on the body, else nullopt. Does not
+  // apply the limit.
   [[nodiscard]] std::optional<Response> refuse_unread(const Request& request) const;
   [[nodiscard]] bool is_never_limited(const Request& request) const {
     return is_never_limited(find(request));

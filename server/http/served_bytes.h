@@ -8,13 +8,14 @@
 
 namespace armloom {
 
-// Bytes for many clients: stored once, with an entity tag and, if smaller, compressed by gzip.
+// Bytes for many clients, stored once with their entity tag. Also stored compressed by gzip if that
+// is smaller.
 struct ServedBytes {
   std::shared_ptr<const std::string> plain;
   std::shared_ptr<const std::string> packed;  // null if not smaller
   std::string tag;                            // of `plain`, without quotes
 };
-// `text`: tries compression.
+// Compresses the bytes if `text` is true and they become smaller.
 [[nodiscard]] ServedBytes served(std::string bytes, bool text);
 
 // Returns true if the client accepts gzip (RFC 9110, 12.5.3).

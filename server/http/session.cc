@@ -12,7 +12,8 @@
 namespace armloom {
 namespace {
 
-// Sets `gone` if the client disconnects before the response. Other input is its next request.
+// Sets `gone` if the client disconnects before the response. Any other input belongs to the
+// client's next request.
 void watch_peer(Socket& socket, std::shared_ptr<std::atomic<bool>> gone) {
   socket.async_wait(Socket::wait_read, [&socket, gone = std::move(gone)](ErrorCode over) {
     if (over) return;
@@ -46,13 +47,14 @@ Awaitable<Response> answer(const Site& site, const Request& request, Socket& soc
   co_return site.refuse({503, "no-answer", "the server did not answer in time"});
 }
 
-// Charges the response to the memory budget unless its bytes are shared.
+// Charges the response to the memory budget unless its bytes are shared. Returns a refusal instead
+// if the budget is exhausted.
 Response within_memory(Response response, MemoryBudget::Charge& charge, const Site& site) {
   const std::size_t held = response.pieces ? kPieceSize : response.body.size();
   if (response.shared || charge.grow_to(held)) return response;
   return site.refuse({503,
                       "server-busy",
-                      "too many large answers are being read at once",
+                      "too many large responses are being sent at once",
                       std::nullopt,
                       std::nullopt,
                       {{"Retry-After", "1"}}});
@@ -124,7 +126,7 @@ Awaitable<void> serve_in_reserve(Transport transport, Reserve::Place& place, Ref
   Response response = co_await answer(site, arrived->request, connection.stream.socket());
   answer_across_origins(arrived->request, response);
   arrived->delivery.keep_alive = false;
-  place.keep(false);  // may be evicted: the response is short and written at once
+  place.keep(false);  // may be evicted now: the response is short and written at once
   co_await deliver(connection, std::move(response), arrived->delivery, site);
 }
 

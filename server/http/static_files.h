@@ -12,13 +12,13 @@
 
 namespace armloom {
 
-// The dashboard's folder: GET only, "/" is index.html. Files under /assets have hashed names and
-// are cached forever; others are revalidated by ETag. Hidden files, and files outside the folder
-// (by ".." or a link), are not served. Unchanged files stay in memory, compressed if smaller, 64
-// MiB at most.
+// Serves the files of the dashboard's folder, by GET only; "/" is index.html. Files under /assets
+// have hashed names and are cached forever; others are revalidated by ETag. Hidden files, and files
+// outside the folder (by ".." or a link), are not served. Files stay in memory until they change,
+// also compressed if that is smaller, 64 MiB at most.
 class StaticFiles {
  public:
-  // Reads the folder. A missing folder is tried again at each request.
+  // Reads the folder. If the folder is missing, each request looks for it again.
   StaticFiles(std::filesystem::path folder, WriteRefusal refuse);
   [[nodiscard]] Response answer(const Request& request);
 

@@ -9,7 +9,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Time for a slow subscriber's current message, before it is sent the reason.
+// Time limit for the current message of a subscriber that is too slow. Then the close reason is
+// sent.
 constexpr std::chrono::seconds kLastMessage{2};
 // Interval at which an idle subscriber's permission is checked.
 constexpr std::chrono::seconds kLooksAgain{1};
@@ -46,8 +47,8 @@ class Session : public std::enable_shared_from_this<Session> {
   bool closed = false;
 
  private:
-  // Not reset for each message: with thousands of subscribers that cost more than sending. On
-  // expiry, the timer checks the current message.
+  // Does not restart the timer for each message: with thousands of subscribers, this cost more than
+  // sending. When the timer expires, it checks the deadline of the current message.
   void watch_deadline() {
     if (is_watched_ && deadline_.expiry() <= cut_at_) return;
     is_watched_ = true;
@@ -91,7 +92,7 @@ Awaitable<void> carry(EventStream events, std::shared_ptr<StreamCarrier> carrier
   spawn(carrier->executor(), watch(session));
   ErrorCode ec;
   const auto is_permitted = [&events] { return !events.permitted || events.permitted(); };
-  // Counted from the last byte sent, because skipped frames wake this, too.
+  // Counted from the last message sent: a skipped frame wakes this loop, too, but sends nothing.
   auto keep_alive_at = after(times.keep_alive);
   while (!ec && !session->closed) {
     auto reason = session->subscription->close_reason();

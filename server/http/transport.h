@@ -21,7 +21,8 @@ namespace armloom {
 struct TlsFiles;
 using TlsContextPtr = std::shared_ptr<asio::ssl::context>;
 
-// Problem (invalid): a file cannot be read, or key and certificate do not match.
+// Returns the TLS settings with this certificate and key. Problem (invalid): a file cannot be read,
+// or key and certificate do not match.
 [[nodiscard]] Result<TlsContextPtr> tls_context(const TlsFiles& files);
 
 // A type-erased completion handler, so that operations are compiled only once.
@@ -44,7 +45,7 @@ class Completion {
  private:
   struct Erased {
     virtual ~Erased() = default;
-    // Frees `self` first: the handler may start the next operation.
+    // Frees `self` before it calls the handler, because the handler may start the next operation.
     virtual void complete(std::unique_ptr<Erased> self, ErrorCode ec, std::size_t size) = 0;
   };
   template <class Handler>
@@ -73,7 +74,7 @@ class Transport {
   ~Transport();
 
   executor_type get_executor() noexcept { return socket().get_executor(); }
-  Socket& socket();  // stays where it is when this is moved
+  Socket& socket();  // the socket's address does not change on a move
   // Sets the deadline of later reads and writes; when it passes, the connection is closed.
   void expires_after(std::chrono::milliseconds time);
   void expires_never();
@@ -82,7 +83,8 @@ class Transport {
   // Returns the IP address of the other end, or "" if it is unknown.
   [[nodiscard]] std::string peer() const;
 
-  // Call it first. Returns false if the TLS handshake fails or takes longer than `time`.
+  // Does the TLS handshake, if any. Call it before reading. Returns false if the handshake fails or
+  // takes longer than `time`.
   Awaitable<bool> shake_hands(std::chrono::milliseconds time);
   Awaitable<std::size_t> read_some(asio::mutable_buffer to, ErrorCode& ec);
   Awaitable<void> write(asio::const_buffer first, asio::const_buffer second, ErrorCode& ec);

@@ -17,8 +17,8 @@ namespace {
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 
-constexpr std::chrono::seconds kIdle{30};  // then ping; drop if silent
-constexpr std::size_t kMessageMax = 4096;  // of a client
+constexpr std::chrono::seconds kIdle{30};  // then a ping is sent; disconnects if unanswered
+constexpr std::size_t kMessageMax = 4096;  // bytes of a client's message
 
 constexpr std::uint16_t kCloseCodeMax = 4999;
 
@@ -93,7 +93,7 @@ class WebSocket final : public StreamCarrier, public std::enable_shared_from_thi
 
  private:
   // Beast echoes close codes and rejects reserved codes (RFC 6455, 7.4), but accepts codes beyond
-  // the last valid code. For these, sends protocol_error before Beast answers.
+  // the last valid code. For these, closes with protocol_error before Beast answers.
   void answer_close() {
     if (socket_.reason().code <= kCloseCodeMax) return;
     start_close(websocket::close_code::protocol_error, [self = shared_from_this()](ErrorCode) {});

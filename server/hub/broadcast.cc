@@ -56,7 +56,8 @@ void Broadcast::on_stops(const std::vector<ArmId>& stopped) {
   if (parts_.keeper == nullptr) return;
   std::vector<std::string> names;
   for (ArmId arm : stopped) names.push_back(parts_.cell->arm(arm).name);
-  // The urgent queue also carries the reply to the requester, so the stop is recorded before.
+  // The reply to the stop request goes through the same urgent queue, so the stop is recorded
+  // before the reply.
   parts_.post_urgent([this, names = std::move(names)] { parts_.keeper->stopped(names); });
 }
 

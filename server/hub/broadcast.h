@@ -18,19 +18,21 @@
 
 namespace armloom {
 
-// Carries the executive's events and states from its strand to the server's thread, which writes
-// each event as JSON once, keeps it in the hub and records it. On the strand, only copies.
+// Carries the executive's events and states from its strand to the server's thread. On the strand,
+// it only copies them. On the server's thread, it writes each event as JSON once, passes the event
+// to the hub and records it.
 class Broadcast final : public Observer {
  public:
-  inline static constexpr std::chrono::milliseconds kFramePeriod{33};  // minimum, in wall time
-  // Limit for all subscribers together: with more subscribers, each gets fewer frames, so that the
-  // server can still answer requests.
+  // shortest time between frames, in wall time
+  inline static constexpr std::chrono::milliseconds kFramePeriod{33};
+  // Limit for the pose frames to all subscribers together. With more subscribers, each gets fewer
+  // frames, so that the server can still answer requests.
   inline static constexpr std::size_t kFramesPerSecond = 20'000;
 
   struct Parts {
     CellPtr cell;
     std::string stream;
-    WallClock& clock;  // of the server's thread
+    WallClock& clock;  // used on the server's thread
     Hub& hub;
     RecentStates& states;
     Recording* recording;  // may be null
@@ -56,7 +58,7 @@ class Broadcast final : public Observer {
 
   Parts parts_;
   bool said_lost_ = false;
-  std::chrono::steady_clock::time_point next_frame_{};  // of the strand
+  std::chrono::steady_clock::time_point next_frame_{};  // used on the strand
   std::atomic<std::size_t> readers_{0};
 };
 

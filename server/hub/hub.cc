@@ -34,9 +34,9 @@ class Hub::Reader final : public Subscription {
 
   void on_news(std::function<void()> call) override { news_ = std::move(call); }
 
-  // Returns true if the previous frame had been read.
+  // Replaces the frame to send next. Returns true if the previous frame had been sent.
   bool offer(const Text& frame) { return std::exchange(frame_, frame) == nullptr; }
-  // Returns true once when the subscriber has fallen too far behind.
+  // Returns true on the first call after the subscriber has fallen too far behind.
   bool falls_behind() { return is_too_slow() && !std::exchange(fallen_, true); }
   void tell() {
     if (news_) news_();
@@ -46,7 +46,7 @@ class Hub::Reader final : public Subscription {
   bool is_too_slow() const { return !first_ && behind() > hub_.ring_.size(); }
   std::size_t behind() const { return static_cast<std::size_t>(hub_.last_seq_ - read_); }
 
-  const Hub& hub_;  // the hub outlives calls, but not every subscriber
+  const Hub& hub_;  // the hub exists during each call, but a subscriber may outlive it
   std::uint64_t read_;
   Text first_;
   Text frame_;

@@ -13,9 +13,9 @@
 namespace armloom {
 
 // Distributes events to many subscribers. Keeps the latest events, limited in number and bytes;
-// each subscriber reads them at its own pace and can resume. A subscriber that falls farther behind
-// is disconnected with the reason: no event is skipped silently. Pose frames are not kept: a
-// subscriber that has read all events gets the newest frame. Use on the server's thread.
+// each subscriber reads them at its own pace and can resume. A subscriber whose next event is no
+// longer kept is disconnected with the reason: no event is skipped silently. Pose frames are not
+// kept: a subscriber that has read all events gets the newest frame. Use on the server's thread.
 class Hub {
  public:
   using Text = std::shared_ptr<const std::string>;
@@ -33,7 +33,7 @@ class Hub {
   // events are not all kept, or `since` has not happened yet.
   [[nodiscard]] SubscriptionPtr resume(std::uint64_t since, Text first = nullptr);
 
-  // Disconnects present and future subscribers, each after its last event.
+  // Disconnects present and future subscribers, each after it has got all events.
   void end();
 
   [[nodiscard]] std::size_t readers();

@@ -10,9 +10,9 @@
 
 namespace armloom {
 
-// Measured positions of all joints in the last five minutes, for clients that connect later:
-// kFramesMax frames, at most one per kPeriod of wall time. Takes about 250 kB and 24 kB per joint.
-// Use on the server's thread.
+// Measured positions of all joints in the last five minutes, for clients that connect later. Keeps
+// kFramesMax frames, at most one per kPeriod of wall time. This takes about 250 kB, plus 24 kB for
+// each joint. Use on the server's thread.
 class RecentStates {
  public:
   using Clock = std::chrono::steady_clock;
@@ -28,7 +28,7 @@ class RecentStates {
   // Precondition: `now` (wall time) and `time` do not decrease between calls.
   void take(TimePoint time, const Configuration& q, Clock::time_point now);
 
-  // Oldest first. Immutable, so other threads may read them.
+  // Oldest first. The frames are immutable, so other threads may read them.
   [[nodiscard]] const std::deque<FramePtr>& frames() const { return frames_; }
 
  private:

@@ -26,7 +26,8 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-// The candidate to drop, and why. weigh() returns nullopt if both can be arms.
+// Result of weigh(): which of two groups cannot be an arm, and why. weigh() returns nullopt if both
+// can be arms.
 struct Loser {
   bool is_first;
   std::string why;
@@ -59,7 +60,8 @@ void leave_out(GroupChoice& choice, std::string why) {
   choice.why = std::move(why);
 }
 
-// Returns candidates that satisfy `is_part` and are side by side, preferring larger groups.
+// Returns candidates that satisfy `is_part` and are side by side: none moves another. Prefers
+// larger groups.
 template <class IsPart>
 std::vector<const GroupChoice*> side_by_side(const RobotTree& tree, const RobotSemantics& semantics,
                                              const std::vector<GroupChoice>& choices,
@@ -90,7 +92,7 @@ std::string listed(const std::vector<const GroupChoice*>& choices) {
   return listed(names);
 }
 
-// Drops groups that move two others, each at least as large.
+// Drops groups that move two other groups side by side, each at least as large.
 void leave_out_torsos(const RobotTree& tree, const RobotSemantics& semantics,
                       std::vector<GroupChoice>& choices) {
   for (GroupChoice& torso : choices) {
@@ -103,7 +105,8 @@ void leave_out_torsos(const RobotTree& tree, const RobotSemantics& semantics,
   }
 }
 
-// Drops groups that consist of two others by their joints, of which an arm may be a small part.
+// Drops groups that contain two or more other groups side by side, if these have at least half of
+// the joints.
 void leave_out_unions(const RobotTree& tree, const RobotSemantics& semantics,
                       std::vector<GroupChoice>& choices) {
   for (GroupChoice& whole : choices) {
@@ -118,7 +121,8 @@ void leave_out_unions(const RobotTree& tree, const RobotSemantics& semantics,
   }
 }
 
-// Keeps arms that consist of groups, and drops these parts. Drops other groups made of subgroups.
+// Keeps a group whose parts are one arm only together (is_one_arm()), and drops the parts. Drops
+// any other group that names subgroups.
 void put_pieces_together(const RobotTree& tree, const RobotSemantics& semantics,
                          const GroupNames& names, std::vector<GroupChoice>& choices) {
   std::vector<GroupChoice*> smallest_first;

@@ -24,21 +24,23 @@ struct GroupChoice {
   bool is_arm = false;
   std::string why;  // reason if not an arm: "it is made of left_arm, right_arm"
 };
-// Selects the groups that become arms, in file order. A group is an arm if it
-// - is not an end effector,
-// - is not made of arms (by name, or by joints side by side), or of an arm and a gripper,
-// - shares joints with another arm only in a torso at its base,
-// - is neither above nor below a larger arm, nor above two (a torso, a gripper), and
-// - has at least three joints, if any group has.
-// A chain of groups, none of which is an arm by itself (upper arm, forearm), forms one arm. Of two
-// groups with equal joints the first is taken; of two nested groups the smaller, unless it has less
-// than half the joints (a wrist).
+// Selects the groups that become arms, in file order. A group is an arm if all of these are true:
+// - It is not an end effector.
+// - It does not consist of arms (subgroups by name, or groups whose joints are side by side), nor
+//   of an arm and a gripper.
+// - If it shares joints with another arm, these joints are a torso at the base of both.
+// - It does not move a larger arm or two arms (a torso). It is not moved by a larger arm (a
+// gripper).
+// - It has at least three joints, if any group has.
+// Groups in a chain that are an arm only together (upper arm, forearm) form one arm. Of two groups
+// with the same joints, the first is taken. If one group contains the other, the smaller group is
+// taken, unless it has less than half of the joints (a wrist).
 [[nodiscard]] std::vector<GroupChoice> choose_arm_groups(const RobotTree& tree,
                                                          const RobotSemantics& semantics,
                                                          const GroupNames& names);
 
-// Returns movable joints above an arm that are in no arm or in several (a torso), by index in the
-// tree.
+// Returns the movable joints that move an arm, but belong to no arm or to several arms (a torso).
+// The result contains their indices in the tree.
 [[nodiscard]] std::set<std::size_t> joints_above_arms(const RobotTree& tree,
                                                       const RobotSemantics& semantics,
                                                       const std::vector<GroupChoice>& choices);

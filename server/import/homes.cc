@@ -15,7 +15,7 @@ constexpr double kMadeUpClearance_m = 0.1;  // room to leave the home
 
 double zero_of(const Joint& joint) { return std::clamp(0.0, joint.lower, joint.upper); }
 
-// Returns the n-th van der Corput number to a base: evenly spread over 0..1.
+// Returns the n-th van der Corput number to a base. These numbers are evenly spread over 0..1.
 double van_der_corput(std::size_t n, std::size_t base) {
   double number = 0.0;
   double digit = 1.0;
@@ -26,8 +26,9 @@ double van_der_corput(std::size_t n, std::size_t base) {
   return number;
 }
 
-// Returns Halton's n-th point in a box around zero that grows to the joint limits. Rounded to
-// milliradians for readability.
+// Returns the n-th generated configuration: a point of the Halton sequence in a box around zero.
+// The box grows with n up to the joint limits. Values are rounded to 0.001 rad (or m) for
+// readability.
 Eigen::VectorXd made_up(const Cell& cell, const Arm& arm, std::size_t n) {
   static constexpr std::array<std::size_t, 12> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
   const double share = static_cast<double>(n) / static_cast<double>(kMadeUp);

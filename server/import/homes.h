@@ -18,14 +18,14 @@ struct HomeCandidate {
 [[nodiscard]] std::size_t home_rank(std::string name);
 
 // Returns an arm's candidates, best first: states with names for homes, other states, zero,
-// generated configurations ever farther from zero. Deterministic.
+// generated configurations at growing distance from zero. Deterministic.
 [[nodiscard]] std::vector<HomeCandidate> home_candidates(const Cell& cell, const Arm& arm);
 
-// Homes at which all arms keep their clearance. If none are found, `is_free` is false and each arm
-// has its best candidate.
+// A home for each arm, at which all arms keep their clearance. If none are found, `is_free` is
+// false and each arm has its best candidate.
 struct Homes {
   std::vector<HomeCandidate> of_arm;
-  std::vector<HomeCandidate> wanted;  // first choices
+  std::vector<HomeCandidate> wanted;  // the best candidate of each arm
   bool is_free = false;
 };
 // Problems: those of find_free_homes.

@@ -65,7 +65,8 @@ class CellImport {
     return sources_.size() == 1 ? sources_.front() : sources_[robot];
   }
 
-  // Adds a sentence about a place in the file, to the file's comments and to stderr.
+  // Adds a sentence about the place `pointer` in the cell file. It appears in the file's comments
+  // and on stderr.
   void remark(const std::string& pointer, const std::string& sentence) {
     notes_[pointer].push_back(sentence);
     remarks_.push_back(pointer + ": " + sentence);
@@ -147,7 +148,7 @@ class CellImport {
     }
   }
 
-  // If the cell cannot be built, sets no homes; loading the cell will report why.
+  // Sets no homes if the cell cannot be built. Loading the cell will report why.
   void set_homes() {
     const auto cell = build_cell(cell_);
     if (!cell) return;

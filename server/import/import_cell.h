@@ -23,8 +23,8 @@ struct ImportRequest {
   std::string cell;               // name; if empty, made from the robots' names
   std::vector<RobotFiles> files;  // one for all robots, or one for each
   std::vector<Placement> robots;  // if empty: one for each of `files`, named by its URDF
-  std::string prefix;             // of a single robot; several use their names
-  std::map<std::string, std::string> packages;  // package -> folder; others are searched
+  std::string prefix;  // for the names of a single robot; several robots use their own names
+  std::map<std::string, std::string> packages;  // folder by package; others are searched
   // Paths in the cell file are relative to this folder; absolute if nullopt.
   std::optional<std::filesystem::path> folder;
 };
@@ -35,9 +35,9 @@ struct ImportedCell {
 };
 
 // Returns a cell file for robots with URDF and SRDF: arms (choose_arm_groups), homes
-// (choose_homes), fixed joints, package folders and default settings. load_cell may still refuse
-// it. Problems: the files cannot be read; no group is an arm; prefixes or file counts do not fit
-// together (at the command-line option).
+// (choose_homes), fixed joints, package folders and default settings. load_cell() may still refuse
+// the file. Problems: the files cannot be read; no group is an arm; prefixes or numbers of files do
+// not fit together (the problem names the command-line option).
 [[nodiscard]] Result<ImportedCell> import_cell(const ImportRequest& request);
 
 }  // namespace armloom

@@ -17,7 +17,7 @@
 namespace armloom {
 namespace {
 
-// Cautious limits, within those of any real robot.
+// Cautious guesses, within the limits of any real robot.
 constexpr double kAngle_rad = 1.0;
 constexpr double kSpeed_rad_s = 0.5;
 constexpr double kLength_m = 0.1;
@@ -61,8 +61,8 @@ std::string name_in(const std::string& urdf_text) {
   return name == nullptr || *name == '\0' ? "robot" : name;
 }
 
-// Returns the joint's value in an SRDF state, preferring names for homes; else zero, or the nearest
-// limit.
+// Returns the joint with its value in an SRDF state, preferably a state that is named like a home.
+// If no state contains the joint, its value is zero, or the limit nearest to zero.
 HeldJoint hold(const RobotTree& tree, const RobotSemantics& semantics, std::size_t joint) {
   const TreeLink& link = tree.links[joint];
   double nearest_to_zero = std::max(0.0, link.joint.limits.lower.value_or(0.0));
@@ -82,7 +82,8 @@ HeldJoint hold(const RobotTree& tree, const RobotSemantics& semantics, std::size
   return held;
 }
 
-// Adds SRDF names that the URDF lacks, the most frequent cause.
+// Returns the problem that no group is an arm. Adds warnings about SRDF names that the URDF lacks,
+// which are the most frequent cause.
 tl::unexpected<Problems> no_arm(const RobotSemantics& semantics,
                                 const std::vector<GroupChoice>& choices, const Problems& warnings) {
   std::string why;

@@ -25,12 +25,12 @@ struct ImportedRobot {
   std::vector<std::string> arms;      // groups, in SRDF order
   std::vector<GroupChoice> left_out;  // groups that are not arms
   std::vector<HeldJoint> held;        // joints above arms, in no arm or in several
-  // Guesses of missing limits for each of `arms`, by moving joint.
+  // For each arm in `arms`: guesses of missing limits, by name of the moving joint.
   std::vector<std::map<std::string, JointLimitsDescription>> guesses;
   Packages packages;
 };
 
-// Problems: faults of the files, or no group is an arm.
+// Reads a robot's files and selects its arms. Problems: faults of the files, or no group is an arm.
 [[nodiscard]] Result<ImportedRobot> read_imported_robot(
     const RobotFiles& files, const std::map<std::string, std::string>& packages);
 

@@ -5,7 +5,8 @@
 
 namespace armloom {
 
-// Relations of groups' joints in the tree. Conditions on all joints hold for an empty set.
+// Relations between the joints of groups in the tree. A condition on every joint is true for an
+// empty set.
 using JointSet = RobotSemantics::JointSet;
 
 [[nodiscard]] bool share_a_joint(const JointSet& a, const JointSet& b);
@@ -19,7 +20,8 @@ using JointSet = RobotSemantics::JointSet;
 
 [[nodiscard]] bool stand_side_by_side(const RobotTree& tree, const JointSet& a, const JointSet& b);
 
-// Returns true if two chains share only a torso at their base, no larger than the rest of either.
+// Returns true if the two sets share only a torso at their base. The torso must not have more
+// joints than the rest of either set.
 [[nodiscard]] bool share_a_torso(const RobotTree& tree, const JointSet& a, const JointSet& b);
 
 }  // namespace armloom

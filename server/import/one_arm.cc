@@ -7,14 +7,16 @@
 namespace armloom {
 namespace {
 
-// Returns the largest piece of a chain that contains the joint.
+// Returns the largest piece that contains the joint. A piece is a set of joints in a chain
+// (pieces_of()).
 const JointSet& piece_with(const std::vector<JointSet>& pieces, std::size_t joint) {
   return *std::ranges::max_element(
       pieces, {}, [&](const JointSet& piece) { return piece.contains(joint) ? piece.size() : 0; });
 }
 
-// Returns the pieces of a group: candidates within it and, if it names subgroups, its other joints.
-// Empty if other joints remain, or are in another group (an end effector, a torso).
+// Returns the pieces of a group: the candidates that it contains and, if the SRDF names subgroups
+// of it, the set of its other joints. Returns no piece if it names none but has other joints, or if
+// these belong to a group that is no arm (an end effector, a torso).
 std::vector<JointSet> pieces_of(const GroupChoice& whole, const RobotSemantics& semantics,
                                 const GroupNames& names, const std::vector<GroupChoice>& choices) {
   const JointSet& joints = semantics.groups.at(whole.group);
@@ -47,7 +49,8 @@ bool is_one_arm(const GroupChoice& whole, const RobotTree& tree, const RobotSema
   const auto largest = std::ranges::max(pieces, {}, &JointSet::size).size();
   const auto is_small = [&](const JointSet& piece) { return 2 * piece.size() < largest; };
   const JointSet& last = piece_with(pieces, *joints.rbegin());
-  // A one-joint wrist moves a gripper; a gripper moves no other group.
+  // A small last piece may be a wrist or a gripper. A wrist moves another group (the gripper); a
+  // gripper moves none.
   const bool moves_others = std::ranges::any_of(semantics.groups, [&](const auto& group) {
     return !group.second.empty() && !share_a_joint(joints, group.second) &&
            is_above(tree, last, group.second);

@@ -23,7 +23,8 @@ std::map<std::string, std::set<std::string>> named_files(const std::string& urdf
   return files;
 }
 
-// Requires one file only, because a URDF often names missing files (omitted visuals).
+// Returns true if the folder contains at least one of the files. Does not require all files,
+// because a URDF often names missing files (omitted visuals).
 bool holds_one(const fs::path& folder, const std::set<std::string>& files) {
   std::error_code error;
   return std::ranges::any_of(

@@ -8,12 +8,13 @@
 
 namespace armloom {
 
-// Folders of the packages named by package://name/... in a URDF, in addition to `given`. A package
-// is where its files are: in a folder above the URDF, in a subfolder of it with the package's name,
-// or in `installed` (ROS share/ folders).
+// Folders of the packages that a URDF names by package://name/... The caller may give folders in
+// `given`. A package that is not in `given` is found by its files: in a folder above the URDF, in a
+// subfolder of such a folder with the package's name, or in a folder of `installed` (ROS share/
+// folders).
 struct Packages {
   std::map<std::string, std::string> folders;  // absolute
-  std::map<std::string, std::string> guessed;  // whose folder has another name
+  std::map<std::string, std::string> guessed;  // packages whose folder has another name
   std::set<std::string> missing;               // packages not found
 };
 [[nodiscard]] Packages find_packages(const std::string& urdf_text,

@@ -13,8 +13,9 @@ struct Placement {
   PoseWords base;
 };
 
-// Reads "right:x=0.75,yaw_deg=180" or a name alone: x, y, z in meters; roll_deg, pitch_deg, yaw_deg
-// in degrees about fixed axes; zero by default. Problem: at "--robot", with all faults.
+// Reads "right:x=0.75,yaw_deg=180" or a name alone. Keys are x, y, z in meters, and roll_deg,
+// pitch_deg, yaw_deg in degrees about fixed axes. Each is zero by default. The problem is at
+// "--robot" and names all faults.
 [[nodiscard]] Result<Placement> read_placement(const std::string& text);
 
 }  // namespace armloom

@@ -13,7 +13,7 @@ namespace {
 
 using Value = decltype(LogLine::fields)::value_type::second_type;
 
-// Returns JSON text, with the quotes.
+// Returns `text` as a JSON string, with the quotes.
 std::string in_quotes(std::string_view text) {
   JsonWriter out;
   out.value(text);

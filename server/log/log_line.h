@@ -32,8 +32,8 @@ struct LogLine {
 
 using Log = std::function<void(const LogLine&)>;
 
-// Returns "the sentence key=value key="a value"". Escapes control characters and invalid UTF-8, so
-// that client input stays on the line and does not control a terminal.
+// Returns the line as text: "the sentence key=value key="a value"". Escapes control characters and
+// invalid UTF-8, so that client input stays on the line and does not control a terminal.
 [[nodiscard]] std::string text_of(const LogLine& line);
 // Returns one JSON object: at (RFC 3339, UTC), level, message, then the fields.
 [[nodiscard]] std::string json_of(const LogLine& line, std::chrono::system_clock::time_point at);

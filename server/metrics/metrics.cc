@@ -30,7 +30,8 @@ double seconds(std::chrono::nanoseconds time) {
 const Buckets kPeriods{0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5, 1.0};
 const Buckets kLatencies{0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.5, 1.0, 5.0};
 
-// Object names are chosen by clients and unbounded, so all objects are "scene".
+// Returns the label of one side of a pair. All objects share the label "scene", because clients may
+// choose any number of object names.
 std::string side(const std::optional<ArmId>& arm, const Cell& cell) {
   return arm ? cell.arms[arm->index()].name : "scene";
 }
@@ -41,7 +42,7 @@ class Metrics::Impl {
  public:
   Impl(CellPtr cell, double speed) : cell_(std::move(cell)) {
     set_speed(speed);
-    // Makes rates correct from the first event on.
+    // Creates the counters at zero, so that Prometheus computes rates from the first event on.
     for (const JobState state : kJobEnds) {
       jobs_.Add({{"outcome", to_string(state)}});
     }
@@ -93,7 +94,7 @@ class Metrics::Impl {
   void answered(const std::string& method, const std::string& route, int status,
                 std::chrono::nanoseconds after) {
     const std::string where = route.empty() ? "other" : route;
-    // Clients may send any method; only a route's methods are few.
+    // Clients may send any method. Only routes have a limited number of methods.
     const std::string how = route.empty() ? "any" : method;
     answers_.Add({{"method", how}, {"route", where}, {"status", std::to_string(status)}})
         .Increment();
@@ -140,7 +141,8 @@ class Metrics::Impl {
     return {periods_.Add(labels, kPeriods), overruns_.Add(labels), worst_.Add(labels)};
   }
 
-  // On the strand. Pairs are few and permanent.
+  // Returns the gauges of a pair, which are created at its first appearance. Call on the strand.
+  // Pairs are few and permanent.
   Nearest& nearest_of(const Proximity& near) {
     std::pair<std::string, std::string> pair{side(near.arm_a, *cell_), side(near.arm_b, *cell_)};
     if (pair.second < pair.first) std::swap(pair.first, pair.second);
@@ -152,7 +154,7 @@ class Metrics::Impl {
     return nearest_.emplace(std::move(pair), nearest).first->second;
   }
 
-  // Counts what is new in a published job.
+  // Counts the first decision, new kinds of waits and the end of a published job.
   void follow(const JobView& job) {
     const auto now = std::chrono::steady_clock::now();
     if (job.state == JobState::queued) {
@@ -206,7 +208,8 @@ class Metrics::Impl {
   Family<Histogram>& periods_ =
       histograms("armloom_period_seconds", "Time between two cycles of a loop");
   Family<Counter>& overruns_ =
-      counters("armloom_overruns_total", "Cycles that began later than five periods");
+      counters("armloom_overruns_total",
+               "Cycles that began more than five periods after the previous cycle");
   Family<Gauge>& worst_ = gauges("armloom_period_worst_seconds", "Longest period since the start");
   PeriodWatch control_{watch_parts("control"), kControlPeriod, kOverrunPeriods};
   PeriodWatch monitor_{watch_parts("monitor"),
@@ -223,12 +226,13 @@ class Metrics::Impl {
       counters("armloom_limited_total", "Requests, jobs and connections refused by a limit");
   Family<Histogram>& took_ =
       histograms("armloom_http_seconds", "Time from a whole request to its response");
-  Gauge& readers_ = gauges("armloom_event_subscribers", "Readers of events and poses").Add({});
+  Gauge& readers_ = gauges("armloom_event_subscribers", "Subscribers of events and poses").Add({});
   Counter& frames_dropped_ =
-      counters("armloom_frames_dropped_total", "Pose frames that slow readers did not get").Add({});
-  Counter& sent_away_ =
-      counters("armloom_subscribers_disconnected_total", "Readers that fell too far behind")
+      counters("armloom_frames_dropped_total", "Pose frames that slow subscribers did not get")
           .Add({});
+  Counter& sent_away_ = counters("armloom_subscribers_disconnected_total",
+                                 "Subscribers disconnected because they fell too far behind")
+                            .Add({});
   Gauge& recording_lost_ =
       gauges("armloom_recording_lost", "1 if the recording is incomplete").Add({});
   Gauge& storage_failed_ =

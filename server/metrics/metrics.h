@@ -10,28 +10,30 @@
 
 namespace armloom {
 
-// Prometheus metrics of a server session (text format 0.0.4), called "armloom_...", shown by
-// config/grafana/armloom.json. Names and labels are part of the interface.
+// Prometheus metrics of a server session (text format 0.0.4). Their names begin with "armloom_";
+// config/grafana/armloom.json displays them. Names and labels are part of the interface.
 class Metrics {
  public:
-  // `speed`: cell seconds per wall second. Below 1, periods may be longer accordingly.
+  // `speed`: cell seconds per wall second. If it is below 1, the loops may take longer periods in
+  // proportion.
   Metrics(CellPtr cell, double speed);
   ~Metrics();
 
-  // On the executive's strand, at every control tick and every monitor period.
+  // Call on the executive's strand: ticked() at every control tick, watched() at every monitor
+  // period.
   void ticked();
   void watched(const StateFrame& frame);
-  void judged(std::uint64_t evaluations);  // for one question of a decision
+  void judged(std::uint64_t evaluations);  // collision evaluations for one question
   // Thread-safe.
   void set_speed(double speed);
-  void stop_taken(std::chrono::nanoseconds after);  // from the request to the strand
-  void stored(std::chrono::nanoseconds within);     // a transaction, until it was synced
+  void stop_taken(std::chrono::nanoseconds after);  // time from the request to the strand
+  void stored(std::chrono::nanoseconds within);     // duration of a transaction, with its sync
 
   // On the server's thread.
   void happened(const Event& event);
-  // Refused by a client limit: "requests", "jobs", "connections".
+  // Counts a refusal by a client limit. `what`: "requests", "jobs" or "connections".
   void limited(const char* what);
-  // `route`: the matching pattern, or "".
+  // Counts an answered request. `route`: the matching pattern, or "".
   void answered(const std::string& method, const std::string& route, int status,
                 std::chrono::nanoseconds after);
 

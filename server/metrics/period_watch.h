@@ -12,7 +12,8 @@
 
 namespace armloom {
 
-// Measures how regular a periodic event is. Called by one thread; read by any.
+// Measures how regular a periodic event is. happened() is called on one thread; any thread may read
+// the metrics.
 class PeriodWatch {
  public:
   struct Parts {
@@ -20,11 +21,11 @@ class PeriodWatch {
     prometheus::Counter& overruns;
     prometheus::Gauge& worst;
   };
-  // A gap of more than `overrun_periods` is an overrun.
+  // A time of more than `overrun_periods` periods between two events is an overrun.
   PeriodWatch(Parts parts, std::chrono::duration<double> period, double overrun_periods)
       : parts_(parts), overrun_s_(period.count() * overrun_periods) {}
 
-  // `scale`: factor on the period at present.
+  // Call at each event. `scale`: present factor on the period.
   void happened(double scale) {
     const auto now = std::chrono::steady_clock::now();
     if (last_) {

@@ -64,7 +64,7 @@ class Copies {
   void copy(const fs::path& file, const std::string& name) {
     make_folder();
     std::error_code error;
-    if (fs::equivalent(file, folder_ / name, error)) return;  // the cell is such a copy
+    if (fs::equivalent(file, folder_ / name, error)) return;  // the file is the copy itself
     fs::copy_file(file, folder_ / name, fs::copy_options::overwrite_existing, error);
     if (error) note(file, "to " + (folder_ / name).string() + ": " + error.message());
   }

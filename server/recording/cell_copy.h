@@ -9,15 +9,16 @@ namespace armloom {
 
 // Copies the files that a cell file names, so that a recording stays complete on another machine.
 // Robots' files and meshes go to the folder "files"; equal names get numbers ("arm.stl",
-// "arm-2.stl"). A copied URDF names the copied meshes.
+// "arm-2.stl"). Mesh names in a copied URDF lead to the copied meshes.
 
 struct CellFile {
   std::filesystem::path file;
   std::string text;
 };
 
-// Copies the files. Returns the cell file's text for `folder`, without comments. Precondition: the
-// cell was built from it. Problem (unavailable): a file cannot be copied.
+// Copies all files that the cell file names into `folder`. Returns the cell file's text with the
+// paths of the copies, without comments. Precondition: the cell was built from `source`. Problem
+// (unavailable): a file cannot be copied.
 [[nodiscard]] Result<std::string> copy_cell(const CellFile& source,
                                             const std::filesystem::path& folder);
 

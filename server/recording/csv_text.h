@@ -12,7 +12,8 @@ namespace armloom {
 
 // Appends `billionths` as a decimal fraction, truncated to `decimals` (3 or 9) places.
 void append_fraction(std::string& out, std::int64_t billionths, int decimals);
-// Appends seconds with 3 decimals if these are whole milliseconds, else with 9.
+// Appends the time in seconds, with 3 decimals if it is a whole number of milliseconds, else with
+// 9.
 void append_seconds(std::string& out, TimePoint time);
 
 [[nodiscard]] std::vector<std::string_view> split_fields(std::string_view line);

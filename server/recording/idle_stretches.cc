@@ -33,7 +33,7 @@ IdleWriter::IdleWriter(std::filesystem::path file) : file_(std::move(file)) {
   std::filesystem::remove(file_, ec);
 }
 
-// Flushes at once, so that a stretch is in its file before the next row can be.
+// Flushes at once, so that a stretch is on disk before the next row of states.csv.
 void IdleWriter::write(const IdleStretch& stretch) {
   std::string line;
   if (!out_.is_open()) {

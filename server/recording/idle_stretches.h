@@ -9,8 +9,9 @@
 
 namespace armloom {
 
-// A time in which no arm moves: states.csv has its first and last row only. states_idle.csv lists
-// these times (header `from_s,to_s`, times as in the rows), to tell omitted rows from lost rows.
+// A time in which no arm moves. states.csv contains only the first and the last row of the stretch.
+// states_idle.csv lists the times of these two rows (header `from_s,to_s`), so that a reader can
+// tell omitted rows from lost rows.
 struct IdleStretch {
   TimePoint from;
   TimePoint to;
@@ -20,7 +21,8 @@ struct IdleStretch {
 // Returns "states_idle.csv" for "states.csv".
 [[nodiscard]] std::filesystem::path idle_file_of(const std::filesystem::path& states_file);
 
-// Creates the file with the first stretch. Removes a file of an earlier recording.
+// Writes states_idle.csv. The constructor removes the file of an earlier recording; the first
+// stretch creates the new file.
 class IdleWriter {
  public:
   explicit IdleWriter(std::filesystem::path file);
@@ -32,7 +34,7 @@ class IdleWriter {
   std::ofstream out_;
 };
 
-// Returns the stretches in order of time, none if the file is missing. Problems name
+// Returns the stretches in order of time, or an empty list if the file is missing. Problems name
 // "states_idle.csv:LINE".
 [[nodiscard]] Result<std::vector<IdleStretch>> read_idle_stretches(
     const std::filesystem::path& file);

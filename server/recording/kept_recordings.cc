@@ -58,7 +58,8 @@ bool is_file_of_recording(std::string_view name) {
   return std::ranges::find(kFiles, name) != kFiles.end();
 }
 
-// Events are last, so that an incompletely removed recording remains a recording.
+// The events are last, so that recordings_in() still finds a recording whose removal failed
+// halfway.
 std::vector<fs::path> files_of_recording(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code ec;

@@ -9,9 +9,9 @@
 
 namespace armloom {
 
-// The recordings in a data folder, searched at each call; any thread. A recording is in a folder
-// named after its start (Recording::unused_folder), or in the data folder itself, among other
-// files. Links are not followed.
+// Finds the recordings in a data folder; each call searches the folder again. Thread-safe. A
+// recording is in a folder named after its start (Recording::unused_folder), or in the data folder
+// itself, among other files. Links are not followed.
 
 // Name of the recording in the data folder itself.
 inline constexpr std::string_view kInDataFolder = "data";
@@ -23,8 +23,8 @@ struct KeptRecording {
   };
   std::string name;
   std::filesystem::path folder;
-  std::vector<File> files;                                    // its own, without copies
-  std::uintmax_t bytes = 0;                                   // with copies
+  std::vector<File> files;   // the recording's own files, without copies
+  std::uintmax_t bytes = 0;  // with copies
   std::optional<std::filesystem::file_time_type> begun = {};  // modification time of cell.json
   std::filesystem::file_time_type written = std::filesystem::file_time_type::min();  // last write
 };
@@ -39,7 +39,7 @@ struct KeptRecording {
 // Returns true for the name of a recording's own file: "events.jsonl", "states.csv", ...
 [[nodiscard]] bool is_file_of_recording(std::string_view name);
 
-// Returns a recording's files, including copies; the events are last.
+// Returns the paths of a recording's files, including copies. The file of events is last.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_recording(
     const std::filesystem::path& folder);
 

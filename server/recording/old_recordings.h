@@ -24,9 +24,9 @@ struct RecordingBounds {
   [[nodiscard]] bool is_any() const { return count || age || bytes; }
 };
 
-// Removes recordings, least recently written first, until the limits hold, except in folders in
-// use. Touches only files that Recording makes, in the data folder and in subfolders named by
-// Recording.
+// Removes recordings, least recently written first, until the limits hold. Keeps recordings in the
+// folders `in_use`. Removes only files that Recording creates, in the data folder and in subfolders
+// named by Recording.
 struct RemovedRecording {
   std::filesystem::path folder;
   std::uintmax_t bytes;
@@ -36,7 +36,7 @@ struct RemovedRecording {
     const std::filesystem::path& data, const RecordingBounds& bounds,
     const std::vector<std::filesystem::path>& in_use, std::filesystem::file_time_type now);
 
-// Removes old recordings periodically on its own thread, from construction on.
+// Removes old recordings periodically. Has its own thread, which starts on construction.
 class OldRecordings {
  public:
   struct Place {
@@ -45,7 +45,7 @@ class OldRecordings {
     std::vector<std::filesystem::path> in_use;
   };
   OldRecordings(Place place, RecordingBounds bounds, std::chrono::milliseconds period,
-                std::function<void(const RemovedRecording&)> tell);  // on that thread
+                std::function<void(const RemovedRecording&)> tell);  // called on that thread
 
  private:
   std::mutex mutex_;

@@ -74,7 +74,7 @@ std::optional<std::string> Recording::fault() const {
          (why == 0 ? "cannot be written" : std::generic_category().message(why));
 }
 
-// A recording with a gap could not be replayed, so it ends for this session.
+// A recording with a gap could not be replayed, so recording ends for this session.
 std::string said_of_lost_recording(const std::string& fault) {
   return "the recording is incomplete: " + fault +
          "; the cell continues without recording until the server is restarted and can write";

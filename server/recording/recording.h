@@ -16,17 +16,18 @@
 
 namespace armloom {
 
-// A recording folder being written: events.jsonl, states.csv (if wanted), cell.json with copies of
-// its files (cell_copy.h), jobs.json. Replaces an earlier recording. A full disk does not stop the
-// session; fault() reports it soon, because events and jobs are flushed individually. Not
-// thread-safe, but another thread may write states.
+// Writes a recording: events.jsonl, states.csv (if wanted), jobs.json, and cell.json with copies of
+// the cell's files (cell_copy.h). Replaces an earlier recording in the folder. A full disk does not
+// stop the session. fault() reports it soon, because each event and job is flushed at once. Not
+// thread-safe, except that another thread may write states.
 class Recording {
  public:
-  // Returns `folder`, or if that holds a recording, a new folder in it named after the present time
-  // ("2026-11-21T09-33-00Z"), so that a restarted server overwrites nothing.
+  // Returns `folder` or, if it contains a recording, a new folder in it that is named after the
+  // present time ("2026-11-21T09-33-00Z"), so that a restarted server overwrites nothing.
   [[nodiscard]] static std::filesystem::path unused_folder(const std::filesystem::path& folder);
 
-  // Creates the folder. Problem (unavailable): it cannot be written.
+  // Creates the folder. Problem (unavailable): the folder cannot be written, or a file of the cell
+  // cannot be copied.
   [[nodiscard]] static Result<std::unique_ptr<Recording>> create(
       const std::filesystem::path& folder, const CellFile& source, const Cell& cell,
       bool with_states);
@@ -38,8 +39,8 @@ class Recording {
     states_->write(time, q);
     if (!states_->good()) note_fault("states.csv");
   }
-  // Writes all states measured until now to states.csv, for readers. Call on the thread that writes
-  // states.
+  // Writes all states measured until now to states.csv, so that readers find them. Call on the
+  // thread that writes states.
   void catch_up_states() {
     if (!states_) return;
     errno = 0;
@@ -50,10 +51,11 @@ class Recording {
   void at_rest(bool at_rest) {
     if (states_) states_->at_rest(at_rest);
   }
-  // Either the whole jobs file, or each job when it is accepted.
+  // Both write jobs.json: call either jobs_file() with the whole text, or job() for each accepted
+  // job.
   void jobs_file(std::string_view text);
   void job(TimePoint at, std::string_view body);
-  // Ends the files. Precondition: no other thread writes states any more.
+  // Completes and closes the files. Precondition: no other thread writes states any more.
   void close();
   // Returns the first file that could not be written and why: "events.jsonl: No space left on
   // device". Thread-safe.
@@ -63,12 +65,12 @@ class Recording {
 
  private:
   Recording() = default;
-  void note_fault(const char* file);  // with the reason in errno
+  void note_fault(const char* file);  // takes the reason from errno
   std::filesystem::path folder_;
   std::ofstream events_;
   std::optional<StatesWriter> states_;
   std::ofstream jobs_;
-  bool jobs_open_ = false;  // the array must be closed
+  bool jobs_open_ = false;  // the JSON array in jobs.json must be closed
   bool closed_ = false;
   std::atomic<const char*> faulty_{nullptr};  // the first file that could not be written
   std::atomic<int> fault_errno_{0};

@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::size_t kBuffer = 1U << 20U;
 
-// A recording has one row per control tick in which an arm moves. Motion in a longer gap is
-// unknown.
+// While an arm moves, a recording has one row per control tick. If the gap between two rows is
+// longer than kGapMax, the motion in the gap is unknown.
 constexpr std::size_t kWarningsMax = 10;
 constexpr Duration kGapMax = std::chrono::milliseconds(50);
 
-// Tolerated motion of resting arms while no arm is commanded to move.
+// Returns the joint motion (rad or m) that is tolerated in an idle stretch.
 double rest_tolerance(const Cell& cell) { return cell.checking.tracking_error_rad; }
 
-// Reads line by line and keeps the place for problems.
+// Reads states.csv line by line. Counts the lines, because problems name the line.
 class StatesReader {
  public:
   StatesReader(const std::filesystem::path& file, const Cell& cell,
@@ -53,7 +53,7 @@ class StatesReader {
       if (!states.empty()) look_between(states.back(), state);
       states.push_back(std::move(state));
     }
-    if (states.empty()) return fault("", "there is no row of states", {});
+    if (states.empty()) return fault("", "the file has a header but no rows", {});
     if (idle_next_ < idle_.size()) {
       warn("rows are missing: " + idle_file_.filename().string() + " continues");
     }
@@ -158,7 +158,7 @@ class StatesReader {
   std::string line_;
   std::size_t line_number_ = 0;
   std::vector<std::string> columns_;
-  std::vector<JointId> joints_;  // of columns 1..
+  std::vector<JointId> joints_;  // joints of columns 1, 2, ...
 };
 
 }  // namespace

@@ -17,8 +17,8 @@ namespace armloom {
 
 // Writes states.csv: header `time_s,<joint>,...` in the order of the cell's joints, one row per
 // control tick in which an arm moves. An idle stretch has only its first and last row
-// (idle_stretches.h). Times in seconds, positions in rad or m, rounded to nine decimals. Equal runs
-// give equal bytes.
+// (idle_stretches.h). Times in seconds, positions in rad or m, rounded to nine decimals. Equal
+// motions give equal bytes.
 class StatesWriter {
  public:
   StatesWriter(const std::filesystem::path& file, const Cell& cell);
@@ -26,8 +26,9 @@ class StatesWriter {
   StatesWriter(const StatesWriter&) = delete;
   StatesWriter& operator=(const StatesWriter&) = delete;
 
-  // True if no arm is commanded to move in the following rows; initially false. Rows in which a
-  // joint is farther from its rest position than checking.tracking_error are written all the same.
+  // Call with true if no arm is commanded to move in the following rows; initially false. A row in
+  // which a joint is farther than checking.tracking_error from its rest position is written all the
+  // same.
   void at_rest(bool at_rest) { at_rest_ = at_rest; }
   // Precondition: |q| < 9e8. Takes about 20 ns per joint.
   void write(TimePoint time, const Configuration& q);
@@ -47,17 +48,17 @@ class StatesWriter {
   IdleWriter idle_;
   double tolerance_;
   bool at_rest_ = false;
-  std::optional<TimePoint> rest_from_;  // first row of the stretch
+  std::optional<TimePoint> rest_from_;  // time of the first row of the idle stretch
   Configuration rest_q_;
-  std::size_t rows_held_ = 0;  // since then; the last is written later
+  std::size_t rows_held_ = 0;  // rows since then; only the last of them is written, later
   TimePoint held_at_{};
   Configuration held_q_;
 };
 
 // Reads states.csv strictly: a column for each joint of the cell (in any order, no others), finite
 // numbers, increasing times. Problems name "states.csv:LINE" and the column. `warnings`, if given,
-// gets up to ten sentences on gaps that are not idle stretches, and on a last row without line end,
-// which is ignored.
+// gets up to ten sentences: on gaps that are not idle stretches, on motion or missing rows in idle
+// stretches, and on a last row without line end (this row is ignored).
 [[nodiscard]] Result<std::vector<RecordedState>> read_states(
     const std::filesystem::path& file, const Cell& cell,
     std::vector<std::string>* warnings = nullptr);

@@ -19,7 +19,7 @@ void InputFile::came(std::uint64_t ticks, const ExecutiveInput& input) {
   parts_.post([this, line = text_of(*logged_input_format(), {ticks, input})] { write(line); });
 }
 
-// Stops at the first failure, because a log with a gap cannot be replayed.
+// Writes nothing more after the first failure, because a log with a gap cannot be replayed.
 void InputFile::write(const std::string& line) {
   if (said_lost_) return;
   file_ << line << '\n' << std::flush;

@@ -13,13 +13,15 @@
 
 namespace armloom {
 
-// Writes inputs.jsonl of a recording. An input is written before the events that follow from it.
+// Writes inputs.jsonl of a recording. Each input is written before the events that the input
+// causes.
 class InputFile final : public InputLog {
  public:
   static constexpr const char* kName = "inputs.jsonl";
 
-  // `post` runs a task on the thread that writes events, in order. `alarm` is called there, once,
-  // if the file can no longer be written. Problem (unavailable): the file cannot be created.
+  // `post` runs a task on the thread that writes events, in order. `alarm` is called on that
+  // thread, once, if the file can no longer be written. Problem (unavailable): the file cannot be
+  // created.
   struct Parts {
     std::function<void(std::function<void()>)> post;
     std::function<void(const std::string&)> alarm;  // may be null

@@ -25,7 +25,8 @@ namespace {
 
 using In = ExecutiveInput;
 
-// All values of T, while count() only allows values for clients.
+// An integer with any value of T. The format count() is not enough: it only allows the values that
+// clients may send.
 template <class T>
 class WholeFormat final : public CustomFormat<T> {
  public:
@@ -45,7 +46,7 @@ FormatPtr<T> whole() {
   return make_format<WholeFormat<T>>();
 }
 
-// The client's text, which is validated again.
+// A job's body as the client sent it. A replay validates it again.
 class BodyFormat final : public CustomFormat<std::shared_ptr<const std::string>> {
  public:
   using Body = std::shared_ptr<const std::string>;
@@ -95,7 +96,8 @@ FormatPtr<In::FormerJob> former_job_format() {
   });
 }
 
-// Angles do not read back to the same matrix, so the matrix is stored, too, row by row.
+// The object's format stores the rotation as angles, which do not read back to exactly the same
+// matrix. So the matrix X_WO is stored, too, row by row.
 template <class Input>
 PartPtr<Input> object_part() {
   using Rows = std::array<double, 12>;
@@ -230,7 +232,7 @@ class LoggedInputFormat final : public CustomFormat<LoggedInput> {
                                      inlined(&LoggedInput::input, of_it),
                                  })});
   }
-  std::vector<Line> lines_;  // by the index of the alternative
+  std::vector<Line> lines_;  // by index of the alternative in the variant
 };
 
 }  // namespace

@@ -8,14 +8,15 @@
 
 namespace armloom {
 
-// The input log (inputs.jsonl of a recording): first a line with InputLogHead, then the inputs,
-// each with the number of control cycles begun before it: {"ticks": 1204, "input": "cancel", "job":
-// "a"}. Values read back the same to the last bit (replay.h).
+// The input log (inputs.jsonl of a recording). The first line is an InputLogHead. Each further line
+// is an input, with the number of control cycles that began before it: {"ticks": 1204, "input":
+// "cancel", "job": "a"}. A replay needs exact values, so all values read back the same to the last
+// bit (replay.h).
 struct InputLogHead {
-  static constexpr int kVersion = 2;  // 1: armloom 0.1
-  std::string policy;           // at the start
-  std::uint64_t seed = 1;       // of the simulated arms
-  std::uint64_t first_job = 1;  // ExecutiveOptions::first_job
+  static constexpr int kVersion = 2;  // version 1: armloom 0.1
+  std::string policy;                 // at the start
+  std::uint64_t seed = 1;             // of the simulated arms
+  std::uint64_t first_job = 1;        // ExecutiveOptions::first_job
   int version = kVersion;
 };
 [[nodiscard]] FormatPtr<InputLogHead> input_log_head_format();

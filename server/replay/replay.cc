@@ -22,7 +22,8 @@ namespace {
 
 using In = ExecutiveInput;
 
-// A line further ahead is damaged. Running there would take an hour or more.
+// Largest accepted number of cycles between two lines. A line further ahead is taken as damaged: to
+// run the cycles up to it would take an hour or more.
 constexpr std::uint64_t kLongestPause = std::chrono::days(31) / kControlPeriod;
 constexpr std::uint64_t kCyclesMax = TimePoint::max().time_since_epoch() / kControlPeriod;
 
@@ -30,7 +31,7 @@ Problem unreadable(const std::string& what) {
   return {ProblemKind::invalid, "bad-input-log", "", what};
 }
 
-// Returns the problem with its place in the line.
+// Returns the problem as a sentence, with its place in the line.
 std::string sentence(const Problem& problem) {
   return (problem.pointer.empty() ? "" : problem.pointer + ": ") + problem.detail;
 }
@@ -113,7 +114,7 @@ class Replay::Impl final : public InputLog {
     return arms;
   }
 
-  // Repeat what the executive did when the input arrived.
+  // Each comes() repeats what the executive did when this input arrived.
   void comes(const In::Submitted& in) { (void)executive().submit(request_of(in.jobs.front())); }
   void comes(const In::BatchOpened& in) {
     batch_ = executive().open_batch(requests_of(in.jobs), false);

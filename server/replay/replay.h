@@ -12,22 +12,21 @@ namespace armloom {
 
 // Runs an executive again from its input log (input_format.h): applies each input at its control
 // cycle and computes verdicts and plans again. Reaches the same state and passes the same events to
-// `observer`. One thread.
+// `observer`. Use on one thread.
 class Replay {
  public:
-  // `head`: first line of the log. Problems: it is invalid or of another version; those of
-  // Executive::create(). The observer outlives this.
+  // `head`: first line of the log. Problems: the head is invalid or of another version; those of
+  // Executive::create(). The observer must outlive the Replay.
   [[nodiscard]] static Result<std::unique_ptr<Replay>> begin(CellPtr cell, std::string_view head,
                                                              Observer& observer);
   ~Replay();
 
-  // Runs all cycles before the next line, then applies the line. Problems: it is invalid;
+  // Runs all cycles up to the line's cycle, then applies the line. Problems: the line is invalid;
   // `diverged`: this executive behaves differently (another program or cell).
   [[nodiscard]] Result<void> take(std::string_view line);
-  // Runs cycles without inputs.
+  // Runs all cycles until `time`, without inputs.
   void run_until(TimePoint time);
-  // Returns the time of the cycle before which the line's input arrived, or nullopt if the line is
-  // invalid.
+  // Returns the time of the first cycle after the line's input, or nullopt if the line is invalid.
   [[nodiscard]] static std::optional<TimePoint> time_of(std::string_view line);
 
   [[nodiscard]] const Executive& executive() const;

@@ -176,7 +176,8 @@ class Service::Impl {
     return std::nullopt;
   }
 
-  // On the store's thread. Stops all arms, because an arm may start only if that can be stored.
+  // Called on the store's thread if writing fails, and with null when it works again. After a
+  // failure, stops all arms, because an arm may start only if the start can be stored.
   void store_fails(const StoreFault* fault) {
     const std::string text = fault != nullptr
                                  ? "jobs cannot be stored: " + fault->text
@@ -190,7 +191,7 @@ class Service::Impl {
     keeper_->runs_on(*loop_);
     loop_is_there_ = true;
     look_for_damage();
-    // Waits, so that clients see the cell only with the previous session restored.
+    // Waits, so that clients do not see the cell before the previous session is restored.
     std::promise<void> restored;
     loop_->post_urgent([&](Executive& executive) {
       restart.go_on(executive, *cell, *keeper_);
@@ -199,12 +200,13 @@ class Service::Impl {
     restored.get_future().wait();
   }
 
-  // Raises the alert on the executive, as its own alerts.
+  // Raises the alert on the executive, in order with the executive's own alerts.
   void tell(Alert alert) {
     loop_->post([alert = std::move(alert)](Executive& executive) { executive.alert(alert); });
   }
 
-  // On the worker: 100,000 jobs take a tenth of a second.
+  // Searches the store for damage, on the worker: with 100,000 jobs, this takes a tenth of a
+  // second.
   void look_for_damage() {
     worker_.post([this] {
       const auto damage = keeper_->lists().damage();

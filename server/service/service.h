@@ -25,7 +25,7 @@ struct ServiceOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 8080;                    // zero: any free port
   double speed = 1.0;                           // cell seconds per wall second
-  std::string policy;                           // if empty, the cell's
+  std::string policy;                           // if empty, the policy of the cell
   std::vector<std::string> allowed_origins;     // of other sites (HostRule)
   std::vector<std::string> allowed_hosts;       // allowed Host names, for every request (HostRule)
   std::optional<std::filesystem::path> tokens;  // token file; without it, all requests are allowed
@@ -38,7 +38,7 @@ struct ServiceOptions {
   std::size_t connections_max = 4096;             // beyond: 503
   std::size_t connections_per_client_max = 4096;  // of one address; beyond: 429
   ClientLimits::Options limits = {};
-  std::chrono::milliseconds keep_alive{15'000};  // silence of /events before a comment
+  std::chrono::milliseconds keep_alive{15'000};  // silence on /events before a keep-alive comment
   std::chrono::milliseconds send_time{30'000};   // for one event of /events, or message of /ws
   int send_buffer = 128 * 1024;                  // of a subscriber's socket
   std::chrono::milliseconds read_time{10'000};   // for a request's header, and for its body
@@ -46,16 +46,16 @@ struct ServiceOptions {
   // null.
   Log log = {};
   LoggedRequests logged_requests = LoggedRequests::none;
-  RecordingBounds kept_recordings = {};             // in `data`
+  RecordingBounds kept_recordings = {};             // for those in `data`
   std::chrono::milliseconds jog_lease{500};         // ApiParts
   std::size_t memory_max = std::size_t{64} << 20U;  // see Site
 };
 
-// The server: executive in real time, HTTP, WebSocket, dashboard. The caller of run() serves all
-// connections; the executive and collision checks have their own threads.
+// The whole server: an executive in real time, HTTP, WebSocket and dashboard. All connections are
+// served on the thread that calls run(). The executive and collision checks have their own threads.
 class Service {
  public:
-  // Listens and starts the executive. Problems: those of Executive::create, the port is in use, the
+  // Listens and starts the executive. Problems: those of Executive::create; the port is in use; the
   // data folder is not writable.
   [[nodiscard]] static Result<std::unique_ptr<Service>> start(CellPtr cell, const CellFile& source,
                                                               ServiceOptions options);

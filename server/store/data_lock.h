@@ -8,11 +8,12 @@
 namespace armloom {
 
 // Exclusive use of a data folder by this process (a lock on kFile). Released on destruction, or
-// with the process, however it ends.
+// when the process ends in any way.
 class DataLock {
  public:
   static constexpr const char* kFile = "armloom.lock";
-  // Creates the folder. Problem: another process uses it, or it cannot be written.
+  // Creates the folder if needed, and locks it. Problem: another process uses the folder, or the
+  // folder cannot be written.
   [[nodiscard]] static Result<std::unique_ptr<DataLock>> take(const std::filesystem::path& folder);
   ~DataLock();
   DataLock(const DataLock&) = delete;

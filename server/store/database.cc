@@ -11,7 +11,7 @@
 namespace armloom {
 namespace {
 
-constexpr int kBusy_ms = 5000;  // another process reads, such as `armloom history`
+constexpr int kBusy_ms = 5000;  // time limit while another process reads, such as `armloom history`
 
 SqlFault fault_of(sqlite3* database, int code) {
   std::string text = database != nullptr ? sqlite3_errmsg(database) : sqlite3_errstr(code);
@@ -21,7 +21,8 @@ SqlFault fault_of(sqlite3* database, int code) {
   return {code, text};
 }
 
-// CRC-32 over each value's type and bytes, numbers as decimal digits.
+// Computes the CRC-32 over the type and the bytes of each value. Numbers are taken as decimal
+// digits.
 void checksum(sqlite3_context* context, int count, sqlite3_value** values) {
   uLong sum = crc32(0, nullptr, 0);
   for (int i = 0; i < count; ++i) {
@@ -34,9 +35,9 @@ void checksum(sqlite3_context* context, int count, sqlite3_value** values) {
   sqlite3_result_int64(context, static_cast<sqlite3_int64>(sum));
 }
 
-// Returns an SQLite URI for reading (https://sqlite.org/uri.html). A WAL reader must create files
-// in the folder. If the folder is read-only (a copy, a mount) and has no log, no process writes the
-// file, which is then opened as immutable.
+// Returns an SQLite URI for reading (https://sqlite.org/uri.html). A reader of a WAL database
+// normally creates files in the folder. If the folder is read-only (a copy, a mount) and has no
+// log, no process writes the file. The file is then opened as immutable.
 std::string uri_to_read(const std::filesystem::path& file) {
   std::string uri = "file:";
   for (const char c : std::filesystem::absolute(file).string()) {
@@ -192,7 +193,7 @@ Transaction::~Transaction() {
   if (!is_open_) return;
   try {
     database_.run("ROLLBACK");
-  } catch (const SqlFault&) {  // SQLite has rolled back, for example on a full disk
+  } catch (const SqlFault&) {  // SQLite has already rolled back, for example on a full disk
   }
 }
 

@@ -13,7 +13,8 @@ struct sqlite3_stmt;
 
 namespace armloom {
 
-// An SQLite error. Thrown within this folder only: callers of the store get values.
+// An SQLite error. Thrown within this folder only: callers of the store get errors as return
+// values.
 class SqlFault : public std::runtime_error {
  public:
   static constexpr int kNoAccess = 8;  // SQLITE_READONLY
@@ -43,7 +44,7 @@ class Statement {
     return *this;
   }
 
-  // Moves to the next row. Returns false after the last; the statement can then run again.
+  // Moves to the next row. Returns false after the last row; the statement can then run again.
   [[nodiscard]] bool step();
   void run();
   void reset();
@@ -66,11 +67,11 @@ class Statement {
 class Database {
  public:
   enum class Access { read, write, make };  // make: write a new file
-  // `vfs`: name of SQLite's file system; "" for the system's.
+  // `vfs`: name of an SQLite VFS (file system layer); "" for the default.
   Database(const std::filesystem::path& file, Access access, const std::string& vfs = {});
 
-  // Sets whether closing the last connection keeps the log. By default, closing writes the log into
-  // the file and deletes it.
+  // Sets whether closing the last connection keeps the write-ahead log. By default, closing writes
+  // the log into the database file and deletes the log.
   void keep_log(bool is_kept);
   // Returns true if the system prevents writing to a database opened for writing.
   [[nodiscard]] bool is_read_only() const;

@@ -45,7 +45,7 @@ class JobHistory::Impl {
       : file_(file), database_(file, Database::Access::read) {
     check_version(database_);
     database_.know_checksum();
-    // throws if it is not a store
+    // throws if the file is not a store
     (void)database_.number("SELECT count(*) FROM job WHERE number = 0");
   }
 
@@ -130,7 +130,8 @@ class JobHistory::Impl {
     return found;
   }
 
-  // Returns the number of damaged jobs passed over.
+  // Passes the selected jobs to `take` until `take` returns false. Skips damaged jobs and returns
+  // their number.
   std::size_t each(const HistoryFilter& filter, const char* order,
                    const std::function<bool(StoredJob)>& take) const {
     Statement rows = database_.prepare(

@@ -18,8 +18,8 @@ namespace armloom {
 struct HistoryFilter {
   std::string state = {};
   std::string arm = {};
-  std::optional<std::uint64_t> before = {};   // number: accepted earlier
-  std::optional<std::int64_t> since_ms = {};  // submitted then or later
+  std::optional<std::uint64_t> before = {};   // job number: selects jobs accepted earlier
+  std::optional<std::int64_t> since_ms = {};  // selects jobs submitted then or later
 };
 
 // Selects audit entries. An empty member matches any.
@@ -31,49 +31,51 @@ struct AuditFilter {
   std::optional<int> status = {};
   std::optional<std::int64_t> since_ms = {};  // then or later
   std::optional<std::int64_t> before_ms = {};
-  std::optional<std::uint64_t> below = {};  // number: recorded earlier
+  std::optional<std::uint64_t> below = {};  // entry number: selects entries recorded earlier
 };
 
 struct AuditEntries {
   std::vector<AuditEntry> entries = {};  // newest first
-  std::size_t damaged = 0;               // skipped, whatever the filter
+  std::size_t damaged = 0;               // damaged entries, which are skipped, whatever the filter
 };
 
 // Damaged contents of a data folder.
 struct Damage {
   std::vector<std::string> jobs = {};  // their ids
-  std::size_t lost_jobs = 0;           // their ids are lost, too
+  std::size_t lost_jobs = 0;           // damaged jobs whose ids are lost, too
   std::size_t alerts = 0;
   std::size_t audit = 0;     // entries
-  bool stops = false;        // list of stopped arms
+  bool stops = false;        // the list of stopped arms is damaged
   bool is_behind = false;    // some data is lost
-  bool is_unmarked = false;  // some may be lost
+  bool is_unmarked = false;  // the mark is missing: some data may be lost
 
   [[nodiscard]] bool is_none() const {
     return jobs.empty() && lost_jobs + alerts + audit == 0 && !stops && !is_behind && !is_unmarked;
   }
 };
 
-// Reads what a JobStore has written, also while it writes. Each call sees the state on disk at its
-// start. One thread at a time.
+// Reads what a JobStore has written, even while the store is writing. Each call reads the state
+// that is on disk when the call starts. Use on one thread at a time.
 class JobHistory {
  public:
-  // Problem: there is no store, or it cannot be read.
+  // Problem: the folder has no store, or the store cannot be read.
   [[nodiscard]] static Result<std::unique_ptr<JobHistory>> open(
       const std::filesystem::path& folder);
   ~JobHistory();
 
-  // Returns the last job accepted under this id. Problem: it is damaged.
+  // Returns the last job accepted under this id. Problem: the job is damaged.
   [[nodiscard]] Result<std::optional<StoredJob>> find(const std::string& id) const;
-  // Returns the jobs created by, or given in answer to, a request with this Idempotency-Key. Their
-  // origin is that request.
+  // Returns the jobs that a request with this Idempotency-Key created or was answered with. Their
+  // `origin` is that request.
   [[nodiscard]] Result<std::vector<StoredJob>> of_request(const std::string& key) const;
   // Returns at most `most` audit entries.
   [[nodiscard]] Result<AuditEntries> audit(const AuditFilter& filter, std::size_t most) const;
-  // Newest first, until `take` returns false. Skips damaged jobs (see damage()).
+  // Passes the jobs to `take`, newest first, until `take` returns false. Skips damaged jobs (see
+  // damage()).
   [[nodiscard]] Result<void> newest_first(const HistoryFilter& filter,
                                           const std::function<bool(StoredJob)>& take) const;
-  // Oldest first. Problem, after all others were taken: some jobs are damaged.
+  // Passes the jobs to `take`, oldest first. Skips damaged jobs, and returns a problem at the end
+  // if there are any.
   [[nodiscard]] Result<void> oldest_first(const HistoryFilter& filter,
                                           const std::function<void(StoredJob)>& take) const;
   [[nodiscard]] Result<Damage> damage() const;

@@ -116,7 +116,7 @@ class JobStore::Impl {
                             [this] { return !pending_.is_empty(); });
       }
       if (write_pending()) {
-        // Also under constant load.
+        // Cleans up here, too, because changes may always be pending.
         if (Wall::now() >= cleaned_at_ + kCleaned) clean_up();
         continue;
       }

@@ -27,13 +27,13 @@ struct StoreFault {
 struct Retention {
   std::size_t jobs_max = 100'000;
   std::optional<std::chrono::hours> age_max = {};
-  std::size_t audit_max = 100'000;  // of changes, and as many of refusals
+  std::size_t audit_max = 100'000;  // entries of changes, and as many of refusals
 };
 
 struct StoreOptions {
   Retention retention = {};
-  std::chrono::milliseconds retry{1000};  // after a failed write
-  std::string vfs = {};                   // SQLite's file system; "": the system's
+  std::chrono::milliseconds retry{1000};  // pause after a failed write, before the next try
+  std::string vfs = {};                   // name of an SQLite VFS; "": the default
   // Called on the store's thread when writing fails, and with null when it works again.
   std::function<void(const StoreFault*)> on_fault = {};
   // Called on the store's thread with the duration of each synced transaction.
@@ -42,29 +42,30 @@ struct StoreOptions {
 
 // Contents of a data folder when it was opened.
 struct Leftover {
-  std::uint64_t last_number = 0;  // of any job ever
-  std::vector<LeftJob> jobs;      // by number
+  std::uint64_t last_number = 0;  // highest number of all jobs ever stored
+  std::vector<LeftJob> jobs;      // ordered by number
   std::size_t lost_jobs = 0;      // only their requests are left
   std::vector<std::string> stopped_arms;
-  bool stops_are_damaged = false;    // unknown further arms
-  bool stops_are_unwritten = false;  // later changes may be lost
+  bool stops_are_damaged = false;    // further arms may have been stopped
+  bool stops_are_unwritten = false;  // the last changes of the set may be lost
   bool is_behind = false;            // some data is lost
-  bool is_unmarked = false;          // some may be lost: no mark (StoreMark)
+  bool is_unmarked = false;          // some data may be lost: the mark is missing (StoreMark)
   std::vector<LeftObject> objects;   // in order of arrival
   std::vector<StoredAlert> alerts;   // oldest first
 };
 
-// The jobs of a data folder on disk (SQLite, write-ahead log, synced). One thread writes: all
-// changes since its last write share one transaction and one sync (group commit); changes of one
-// job are merged. Only flush() and close() wait for the disk. Changes that cannot be written are
-// kept, at most one entry for each job, and retried. Thread-safe.
+// Stores the jobs of a data folder on disk (SQLite with a write-ahead log, synced). One thread
+// writes. All changes since its last write share one transaction and one sync (group commit).
+// Changes of the same job are merged. Only flush() and close() wait for the disk. If changes cannot
+// be written, the store keeps them, merged for each job, and tries again. Thread-safe.
 class JobStore {
  public:
-  // Called with true once the change is durable. On the store's thread; not after close().
+  // Called on the store's thread, with true once the change is durable. Never called for changes
+  // that come after close().
   using Done = std::function<void(bool is_written)>;
 
-  // Problems name the file and the remedy: it is in use by another process, corrupt, unreadable,
-  // not writable, or of a newer version. Then nothing is changed.
+  // Problem: the store is in use by another process, corrupt, unreadable, not writable, or of
+  // another version. The problem names the file and the remedy, and nothing is changed.
   [[nodiscard]] static Result<std::unique_ptr<JobStore>> open(const std::filesystem::path& folder,
                                                               StoreOptions options);
   ~JobStore();
@@ -75,36 +76,37 @@ class JobStore {
     StoredJob job;
     std::string body;
   };
-  // Stores jobs to be acknowledged, all or none. `done` gets false if they are not stored; then
-  // they never will be, and later changes of them are ignored.
+  // Stores jobs to be acknowledged, all or none. `done` gets false if they could not be stored.
+  // They are then never stored, and later changes of these jobs are ignored.
   void accept(std::vector<Accepted> jobs, Done done);
   // Stores a job's present state.
   void see(StoredJob job);
-  // Stores all amendments of an acknowledged job that has not ended. If they cannot be written,
-  // `done` gets false, but they are kept and retried.
+  // Stores the amendments of an acknowledged job that has not ended. `amended` holds all of them.
+  // If they cannot be written, `done` gets false, but the store keeps them and tries again.
   void amend(std::uint64_t number, std::string amended, Done done);
-  // Stores that a job is about to move, so that the next session does not run it. `done` is only
-  // called with true.
+  // Stores that a job is about to move, so that the next session does not run the job again. `done`
+  // is only called with true.
   void about_to_move(std::uint64_t number, Done done);
-  // Stores all stopped arms. Once this returns, the next session knows that the set changed, even
-  // if the process or the disk fails.
+  // Stores the set of all stopped arms. Once this returns, the next session knows that the set
+  // changed, even if the process or the disk fails.
   void stopped(std::vector<std::string> arms);
-  // `done` as in amend().
+  // Stores a change of a scene object. If it cannot be written, `done` gets false, but the store
+  // keeps it and tries again.
   void change(StoredObject object, Done done);
 
-  // Stored soon, without a callback. answered_with(): another request, with a key, was answered
-  // with the job.
+  // The next three functions store soon, and report nothing. answered_with() stores that another
+  // request, with an Idempotency-Key, was answered with the job.
   void answered_with(std::uint64_t job, RequestOrigin request);
   void note(AuditEntry entry);
-  void keep(StoredAlert alert);  // its present state
+  void keep(StoredAlert alert);  // the alert's present state
 
   // Waits until earlier changes are on disk. Returns false if they could not be written.
   [[nodiscard]] bool flush();
 
-  // Returns the fault of the last write, or nullopt.
+  // Returns the fault of the last write, or nullopt if the write succeeded.
   [[nodiscard]] std::optional<StoreFault> fault() const;
 
-  // Writes pending changes and drops later ones. Returns the fault if writing failed.
+  // Writes the pending changes. Later changes are dropped. Returns the fault if writing failed.
   std::optional<StoreFault> close();
 
  private:

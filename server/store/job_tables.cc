@@ -10,13 +10,13 @@ namespace {
 constexpr std::int64_t kCleanedAtOnce = 1000;
 
 Database opened(const std::filesystem::path& file, const std::string& vfs) {
-  // Not even opened, because SQLite would delete an empty file's log, which may hold jobs.
+  // Does not even open an empty file: SQLite would delete its log, which may hold jobs.
   if (std::filesystem::file_size(file) == 0) {
     throw std::runtime_error("it is corrupt: it is empty, but a store never is");
   }
   Database database(file, Database::Access::write, vfs);
   if (database.is_read_only()) throw SqlFault(SqlFault::kNoAccess, "it is read-only");
-  database.keep_log(true);  // keeps the log if the file is unusable
+  database.keep_log(true);  // until all checks have passed: the log of an unusable file is kept
   check_store(database);
   database.know_checksum();
   if (database.text("PRAGMA journal_mode = WAL") != "wal") {
@@ -28,15 +28,16 @@ Database opened(const std::filesystem::path& file, const std::string& vfs) {
   return database;
 }
 
-// Requests whose jobs are lost.
+// Counts the requests whose jobs are lost.
 constexpr const char* kLostJobs =
     "SELECT count(*) FROM body WHERE number NOT IN (SELECT number FROM job)";
 constexpr const char* kForgetLostJobs =
     "DELETE FROM body WHERE number NOT IN (SELECT number FROM job)";
-// Order of alerts, most needed first, as in AlertBook.
+// Order of alerts, most needed first: open errors, open warnings, acknowledged alerts; the newest
+// of each first. AlertBook uses the same order.
 constexpr const char* kNeededFirst =
     "who IS NULL DESC, (who IS NULL AND level = 'error') DESC, number DESC";
-// As was_refused().
+// SQL condition for an audit entry that was_refused().
 constexpr const char* kIsRefusal = "(status BETWEEN 400 AND 499)";
 
 std::int64_t as_stored(std::uint64_t number) { return static_cast<std::int64_t>(number); }
@@ -230,7 +231,7 @@ bool JobTables::clean_up(const Retention& retention, std::chrono::system_clock::
   const auto remove = [&](const char* which, std::int64_t bound) {
     Statement statement =
         database_.prepare(std::string("DELETE FROM job WHERE number IN (") + which +
-                          // keeps the last number, so that none is reused
+                          // keeps the job with the last number, so that no number is reused
                           ") AND number < (SELECT max(number) FROM job)");
     statement.bind_all(bound, kCleanedAtOnce).run();
     deleted = std::max(deleted, database_.number("SELECT changes()"));

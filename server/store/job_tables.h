@@ -11,23 +11,24 @@
 
 namespace armloom {
 
-// The statements of a store. All throw SqlFault. One thread.
+// The SQL statements of a store. All functions throw SqlFault. Use on one thread.
 class JobTables {
  public:
-  // The log is not truncated below this size.
+  // The write-ahead log is never truncated below this size, in bytes.
   static constexpr std::uintmax_t kLogKept = std::uintmax_t{16} << 20U;
 
   // Opens the file, and checks its version and integrity.
   JobTables(const std::filesystem::path& file, const std::string& vfs);
 
-  [[nodiscard]] Leftover leftover() const;  // without what StoreMark knows
-  // Returns the commits of all sessions.
+  [[nodiscard]] Leftover leftover() const;  // without the members known to StoreMark
+  // Returns the number of commits over all sessions.
   [[nodiscard]] std::uint64_t commits() const { return commits_; }
   // Writes and syncs all changes, or none.
   void write(const Pending& changes);
-  // Keeps the log out of the file at the end, because it is not what was written.
+  // Call if the log was cut off. Its contents are then not copied into the database file at the
+  // end.
   void leave_log();
-  // Deletes some of the oldest rows beyond the limits. Returns true if there are more.
+  // Deletes some of the oldest rows beyond the limits. Returns true if there may be more.
   bool clean_up(const Retention& retention, std::chrono::system_clock::time_point now);
 
  private:

@@ -23,8 +23,8 @@ struct JobChange {
   bool may_have_moved = false;
 };
 
-// Unwritten audit entries, in order. Keeps the first kMax of each kind, so that refusals, which any
-// client can cause, do not displace changes.
+// Unwritten audit entries, in order. Keeps the first kMax changes and the first kMax refusals. So
+// refusals, which any client can cause, do not displace changes.
 class PendingAudit {
  public:
   inline static constexpr std::size_t kMax = 10'000;  // of each kind; later entries are dropped
@@ -34,10 +34,10 @@ class PendingAudit {
 
  private:
   std::vector<AuditEntry> entries_;
-  std::size_t refusals_ = 0;  // of these
+  std::size_t refusals_ = 0;  // number of refusals in entries_
 };
 
-// Changes since the last write.
+// Unwritten changes: all changes since the last write.
 struct Pending {
   using Done = std::function<void(bool)>;
   std::map<std::uint64_t, JobChange> jobs = {};  // by number
@@ -77,11 +77,13 @@ struct Pending {
   void join(Pending later);
 };
 
-// Jobs that were not accepted, as their clients know. Nothing of them is ever written.
+// Jobs that could not be stored. Their clients were told so, and none of their changes is ever
+// written.
 class GivenUpJobs {
  public:
   void add(const std::vector<std::uint64_t>& jobs) { jobs_.insert(jobs.begin(), jobs.end()); }
-  // Removes changes of these jobs. A change that ends a job is its last.
+  // Removes the changes of these jobs. Forgets a job after the change that ends it, because no
+  // change follows.
   void pass_over(Pending& changes);
 
  private:

@@ -21,7 +21,7 @@ struct Claim {
   bool stops_are_ahead = false;
 };
 
-constexpr std::size_t kSize = 33;  // of the text: overwritten in place
+constexpr std::size_t kSize = 33;  // bytes of the text, which is overwritten in place
 using Text = std::array<char, kSize + 1>;
 
 Text text_of(const Claim& claim) {
@@ -93,7 +93,7 @@ void StoreMark::written(std::uint64_t commits, std::optional<std::uint64_t> stop
   write();
 }
 
-// If this fails, the mark claims less than the store has.
+// Ignores a failed write: the mark then claims less than it should.
 void StoreMark::write() {
   const bool are_left_unknown =
       found_.is_missing || found_.store_is_behind || found_.stops_are_ahead;

@@ -7,10 +7,10 @@
 
 namespace armloom {
 
-// Alerts kept (AlertBook says which).
+// Number of alerts that are kept (AlertBook decides which).
 inline constexpr std::size_t kAlertsKept = 1'000;
 
-// An alert until and after an operator acknowledges it. Times are wall times since 1970.
+// An alert, open or acknowledged by an operator. Times are wall times since 1970.
 struct StoredAlert {
   struct Acknowledgement {
     std::string who;

@@ -7,12 +7,13 @@
 
 namespace armloom {
 
-// The request that created a job, to recognize it when repeated. Digests are of canonical JSON.
+// The request that created a job. It serves to recognize a repetition of the request. Digests are
+// of canonical JSON.
 struct RequestOrigin {
   std::string digest;           // of the job's body; "" for jobs of the server
   std::string key = {};         // Idempotency-Key, or empty
   std::string key_digest = {};  // of the whole request's body
-  std::size_t place = 0;        // in a batch
+  std::size_t place = 0;        // index of the job in a batch
 };
 
 // A job as stored. The store does not read its JSON texts.
@@ -23,7 +24,7 @@ struct StoredJob {
   bool has_ended = false;
   std::optional<std::int64_t> submitted_ms = {};  // wall time since 1970
   std::optional<std::int64_t> ended_ms = {};
-  std::string arms;           // an array of names
+  std::string arms;           // a JSON array of names
   std::string view;           // the job as last published
   RequestOrigin origin = {};  // stored on acceptance only
 };
@@ -38,8 +39,8 @@ struct AuditEntry {
   std::string path;
   int status = 0;  // of the response
 };
-// Returns true if the request was refused and changed nothing. Any client can cause refusals
-// without limit, so they have their own limit.
+// Returns true if the request was refused and changed nothing. The number of stored refusals has
+// its own limit, because any client can cause any number of refusals.
 [[nodiscard]] inline bool was_refused(const AuditEntry& entry) {
   return entry.status >= 400 && entry.status < 500;
 }

@@ -9,7 +9,7 @@ namespace armloom {
 struct StoredObject {
   std::string name;
   std::optional<std::string> text = {};  // as requested (JSON); nullopt if removed
-  // The cell file has an object of this name, so a removal must be kept.
+  // The cell file has an object of this name, so that its removal must be stored, too.
   bool is_of_cell = false;
 };
 

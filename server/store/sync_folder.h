@@ -4,7 +4,7 @@
 
 namespace armloom {
 
-// Makes new names in the folder survive a power cut. Throws std::system_error.
+// Syncs the folder, so that new files in it survive a power cut. Throws std::system_error.
 void sync_folder(const std::filesystem::path& folder);
 
 }  // namespace armloom

@@ -10,11 +10,15 @@ namespace {
 
 constexpr int kApplication = 0x41726d6c;  // "Arml"
 
-// `number` of a job is the order of acceptance over all sessions; `view` is its last published view
-// (JSON). `may_have_moved` is set before the job moves. `body`, the client's request, is needed to
-// run the job and deleted when it has ended; `amended` is what was changed since (JSON). The
-// columns request_* name the request that created the job, and the table `request` the other
-// requests that were answered with it (RequestOrigin). `sum` detects damaged rows (kSumOf...).
+// Tables and columns:
+// - job.number: order of acceptance over all sessions
+// - job.view: the job as last published (JSON)
+// - job.may_have_moved: set before the job moves
+// - job.request_*: the request that created the job (RequestOrigin)
+// - request: other requests that were answered with the job (RequestOrigin)
+// - body: the client's request, which is needed to run the job; deleted when the job has ended
+// - body.amended: later changes of the request (JSON)
+// - sum: detects damaged rows (kSumOf...)
 constexpr const char* kTables = R"(
     CREATE TABLE job(
       number INTEGER PRIMARY KEY,
@@ -85,8 +89,8 @@ constexpr const char* kTables = R"(
     INSERT INTO written VALUES(0);
 )";
 
-// Versions 1 to 10 were of armloom 0.1. A later version that adds to these tables upgrades them
-// here.
+// Version of the tables. Versions 1 to 10 belong to armloom 0.1. If a later version extends the
+// tables, upgrade older files here.
 constexpr std::int64_t kVersion = 11;
 
 void check_whole(const Database& database) {

@@ -10,7 +10,7 @@ namespace armloom {
 
 inline constexpr const char* kStoreFile = "armloom.db";  // in the data folder
 
-// The value of `sum` in an intact row (Database::know_checksum).
+// SQL expressions for the value of `sum` in an intact row of each table (Database::know_checksum).
 inline constexpr const char* kSumOfJob =
     "checksum(job.number, job.id, job.state, job.has_ended, job.may_have_moved, job.submitted_ms, "
     "job.ended_ms, job.arms, job.view, job.digest, job.request_key, job.request_digest, "
@@ -28,14 +28,16 @@ inline constexpr const char* kSumOfObject =
 inline constexpr const char* kSumOfRequest =
     "checksum(request.key, request.place, request.digest, request.job)";
 
-// Creates a store with empty tables under another name, then renames it: thus a file in this place,
-// even an empty file, has held jobs. `vfs` as in Database. Throws SqlFault, std::system_error.
+// Creates a store with empty tables under another name, then renames it to `file`. So a file at
+// this path was once a complete store, even if it is empty now. `vfs`: see Database. Throws
+// SqlFault, std::system_error.
 void make_store(const std::filesystem::path& file, const std::string& vfs);
 
-// Checks that this version of Armloom wrote the file. Throws SqlFault, or std::runtime_error if the
-// file is another program's, an older or newer version's, or has lost its tables.
+// Checks that this version of Armloom wrote the file. Throws SqlFault, or std::runtime_error if
+// another program or another version of Armloom wrote the file, or if its tables are lost.
 void check_version(const Database& database);
-// Checks the version and the integrity of the whole file. Throws like check_version.
+// Checks the version and the integrity of the whole file. Throws the same exceptions as
+// check_version().
 void check_store(const Database& database);
 
 }  // namespace armloom

@@ -12,8 +12,9 @@
 
 namespace armloom {
 
-// Detects that a file was removed, replaced or truncated since construction. A process that has the
-// old file open then writes to an unlinked file. Precondition: the file exists.
+// Detects that a file was removed, replaced or truncated since construction. If it was, this
+// process still has the old file open, and writes to a file that no other process can find.
+// Precondition: the file exists.
 class PlacedFile {
  public:
   explicit PlacedFile(std::filesystem::path path) : path_(std::move(path)) {
@@ -26,7 +27,7 @@ class PlacedFile {
     return stat(path_.c_str(), &now) == 0 && now.st_dev == was_.st_dev && now.st_ino == was_.st_ino;
   }
 
-  // Sets the least length of the file: its present length, at most `most`.
+  // Sets the length below which the file is cut off: its present length, but at most `most` bytes.
   void has_grown(std::uintmax_t most) {
     struct stat now {};
     if (stat(path_.c_str(), &now) == 0)
@@ -46,8 +47,8 @@ class PlacedFile {
 // Returns the path of SQLite's log of a store.
 [[nodiscard]] std::filesystem::path log_of(const std::filesystem::path& folder);
 
-// The files by which a running server holds its data folder. If a file is gone, a second server
-// finds neither the data nor that the folder is in use. One thread.
+// Watches the files by which a running server holds its data folder. If a file is gone, a second
+// server does not find the data, or not that the folder is in use. Use on one thread.
 class WatchedFiles {
  public:
   // Precondition: all files exist.
@@ -59,7 +60,7 @@ class WatchedFiles {
     std::string text;
     bool is_log_cut_off = false;
   };
-  // Returns the first file that is not as it was, or nullopt.
+  // Returns a description of the first file that is not as it was, or nullopt.
   [[nodiscard]] std::optional<Lost> lost() const;
 
  private:
