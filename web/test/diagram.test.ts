@@ -8,7 +8,8 @@ import { diagram_json, job_json, wait_json } from './samples';
 
 type Cells = Parameters<typeof diagram_json>[0];
 
-// A conflict where left is past 2 s and right past 1 s; the corner before it is undecided.
+// The jobs conflict where left is past 2 s and right is past 1 s. The cell before this corner is
+// undecided.
 const kCells: Cells = [
   ['free', 0, 2, 0, 3], ['free', 2, 4, 0, 0.5], ['undecided', 2, 4, 0.5, 1], ['conflict', 2, 4, 1, 3],
 ];
@@ -75,7 +76,7 @@ describe('Diagram prediction', () => {
     expect(ahead({ a_s: 1, b_s: 1 }, null)).toBe('waits');
     expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 3 })).toBe('allowed');
     expect(ahead_of(null, { a_s: 1, b_s: 1 }, null, diagram())).toEqual({ kind: 'free' });
-    // At the end of a job nothing lies beyond.
+    // At the end of a job, authority up to its end is enough: nothing lies beyond.
     expect(ahead_of({ ...contact, a_s: 4 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }, diagram())?.kind).toBe('allowed');
   });
   it('states the remaining time, and nothing once the contact has passed', () => {

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Fence } from '../src/view/fence';
 
-/** A graphics card whose commands complete when the test says so. */
+/** Returns a graphics card whose commands complete when the test says so. */
 function card() {
   const state = { done: false, open: 0 };
   const gl = {
