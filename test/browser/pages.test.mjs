@@ -183,7 +183,7 @@ test('Scene page adds, moves and removes objects', { timeout: 300_000 }, async (
   await fill({ x: '0.3' });
   await page.locator('[data-test=object-save]').click();
   await page.waitForFunction(() => window.armloom.objects().some((object) => object.name === 'can' && object.xyz[0] === 0.3));
-  // What the user typed stays while the object changes; the other fields follow the object.
+  // Typed input stays while the object changes. The other fields follow the object.
   await fill({ length: '-1' });
   await ask(page, 'PUT', '/scene/objects/can', { cylinder: [0.08, 0.3], xyz: [0.35, 0.9, 0.4], rpy: [Math.PI / 2, 0, 0] });
   await page.waitForFunction(() => document.querySelector('[data-test=object-x]').value === '0.35');

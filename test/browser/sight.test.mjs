@@ -26,7 +26,7 @@ const told = () => {
 
 const kPages = ['#/', '#/new', '#/scene', '#/scene/table', '#/history', '#/settings', '#/alerts', '#/recovery', '#/recordings', '#/policies', '#/job/done', '#/arm/left', '#/pair/left/right', '#/pair/done/other'];
 
-test('A page opened by its address shows the same as when returned to', { timeout: 600_000 }, async () => {
+test('A page opened by its address shows the same as when a user returns to it', { timeout: 600_000 }, async () => {
   await send_through(page, 'left', 'done', [kMiddle, null], 3);
   await send_through(page, 'right', 'other', [kMiddle, null], 3);
   for (const id of ['done', 'other']) await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();

@@ -87,17 +87,17 @@ describe('Diagram prediction', () => {
   it('is described, as an alarm only if nothing makes a job wait', () => {
     const conflict: DiagramContact = { state: 'conflict', in_s: 2, a_s: 2, b_s: 2 };
     const undecided: DiagramContact = { state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 };
-    expect(plan_in_words({ kind: 'waits', contact: conflict }, 'right')).toEqual({ tone: 'calm', words: 'If right started now, they would reach a conflict in 2.00 s. One of them has no authority to go that far and waits before it.' });
+    expect(plan_in_words({ kind: 'waits', contact: conflict }, 'right')).toEqual({ tone: 'calm', words: 'If right started now, they would reach a conflict in 2.00 s. One of the jobs has no authority to go that far and waits before it.' });
     expect(plan_in_words({ kind: 'waits', contact: undecided }, null)).toMatchObject({ tone: 'calm', words: expect.stringMatching(/^If both continued from here, they would reach an area that is not certified free in 0.25 s\./) as unknown });
     expect(plan_in_words({ kind: 'allowed', contact: undecided }, null).tone).toBe('calm');
-    expect(plan_in_words({ kind: 'allowed', contact: conflict }, null)).toMatchObject({ tone: 'alarm', words: expect.stringMatching(/nothing makes one of them wait/) as unknown });
+    expect(plan_in_words({ kind: 'allowed', contact: conflict }, null)).toMatchObject({ tone: 'alarm', words: expect.stringMatching(/Nothing makes one of the jobs wait/) as unknown });
     expect(plan_in_words({ kind: 'free' }, null, 'left').words).toBe('While left rests at its end, the path of the other job is free.');
     expect(plan_in_words({ kind: 'free' }, null)).toMatchObject({ tone: 'free', words: expect.stringMatching(/without a conflict/) as unknown });
   });
 });
 
 describe('Diagram that is still being computed', () => {
-  it('leaves the last diagram, with its time', () => {
+  it('leaves the last diagram visible, with its time', () => {
     const jobs = [job('left', { state: 'succeeded', ended_s: 73.2 }), job('right')];
     expect(kept_in_words(diagram(), jobs, { a: 'next', b: 'right' })).toBe('As of 0:01:13.2: left and right. next and right are being drawn…');
     expect(kept_in_words(diagram(), [null, null], null)).toBe('Earlier diagram: left and right.');

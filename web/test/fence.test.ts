@@ -37,7 +37,7 @@ describe('Fence', () => {
     expect([fence.is_up, state.open]).toEqual([false, 0]);
   });
 
-  it('is not awaited without limit', () => {
+  it('gives up after a time limit', () => {
     const { state, fence } = card();
     const told: number[] = [];
     fence.put(performance.now(), (took_ms) => told.push(took_ms));

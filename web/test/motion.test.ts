@@ -36,7 +36,7 @@ describe('Pasted text', () => {
     expect(motion(body('a', ['x'], [[0], [2]], false))?.q_at(0.5)['x']).toBeCloseTo(0.5);
   });
 
-  it('moves one arm sequentially and two arms together', () => {
+  it('moves one arm through its jobs one after the other, and two arms together', () => {
     const shown = motion([body('a', ['x'], [[0], [1]]), body('b', ['x'], [[1], [5]]), body('c', ['z'], [[3], [4]])]);
     expect(shown?.duration_s).toBe(4);
     expect(shown?.q_at(1)).toEqual({ x: 0.5, z: 3.5 });

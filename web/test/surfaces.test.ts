@@ -57,7 +57,7 @@ describe('Surface', () => {
     warn.mockRestore();
   });
 
-  it('is never fetched from elsewhere', async () => {
+  it('is never fetched from another server', async () => {
     const warn = vi.spyOn(console, 'warn').mockImplementation(() => {});
     const fetched = vi.spyOn(globalThis, 'fetch');
     expect((await new SurfaceShelf().load(['https://example.org/a.stl'])).get('https://example.org/a.stl')).toBeNull();
@@ -135,7 +135,7 @@ describe('Link', () => {
     expect(drawn(link([], [true]), link([true], []))[0]).toHaveLength(0);
   });
 
-  it('is a marker if nothing was read, and nothing if it has no shape', () => {
+  it('is drawn as a marker if no shape was read, and not at all if it has no shape', () => {
     const [lost, bare] = drawn(link([false], [false]), link([], []));
     expect(lost?.map((mesh) => mesh.geometry.type)).toEqual(['OctahedronGeometry']);
     expect(bare).toHaveLength(0);

@@ -11,7 +11,7 @@ import { characters_of, shown_name } from '../names';
 import { kText } from '../strings';
 
 /**
- * What is highlighted. If jobs or arms are selected, all others are dimmed. `shown_s` is the shown
+ * The highlighted parts. If jobs or arms are selected, all others are dimmed. `shown_s` is the shown
  * time if it is a past time, else null.
  */
 export interface Lit {

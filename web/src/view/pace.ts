@@ -19,7 +19,7 @@ export const kLevels: readonly [Level, ...Level[]] = [
 // By level: if drawings take longer than this for a while, the next level with less detail is used.
 const kMost_ms = [28, 28, 45, 120, Infinity];
 // By level: if drawings take less than this for a while, the next level with more detail is used.
-// That level may take twice as long, or half as long again if it only adds ghosts.
+// More detail may take twice as long; adding ghosts alone takes half as long again.
 const kLeast_ms = [0, 12, 20, 20, 40];
 /** The first level for software rendering, which draws fine frames only at rest. */
 export const kFirstInSoftware = 1;
