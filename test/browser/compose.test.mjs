@@ -1,5 +1,5 @@
-// Composing jobs as a user does: check and preview before sending, drop files, copy for programs,
-// plan goals by form and in the 3D view, cancel.
+// Composing jobs as a user does. Checks and previews jobs before sending them, drops files, copies
+// jobs for programs, plans goals by form and in the 3D view, and cancels jobs.
 //
 //   node --test test/browser/compose.test.mjs      (after building the server and web/dist; see harness.mjs)
 

@@ -1,5 +1,5 @@
-// The dashboard in a real browser with a real server: both arms are drawn; a pasted job appears,
-// moves its arm and finishes; refusal, stop and lost server are shown.
+// The dashboard in a real browser with a real server. Checks that both arms are drawn, and that a
+// pasted job appears, moves its arm and finishes. Refusals, a stop and a lost server must be shown.
 //
 //   node --test test/browser/dashboard.test.mjs      (after building the server and web/dist; see harness.mjs)
 
@@ -16,7 +16,8 @@ const kLeastObject_px = 1500;
 const kConflict = [0xe0, 0x45, 0x4e];
 const kFree = [0xc3, 0xcf, 0xdb];
 const kLeastArea_px = 2000;
-// Joints of a Panda that reaches into the middle; not possible for both arms at once.
+// Joint positions with which a Panda reaches into the middle of the cell. Both arms cannot be there
+// at once.
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
 let browser;
@@ -53,7 +54,7 @@ test('A pasted job appears, moves the arm, and finishes', { timeout: 300_000 }, 
   const finished = page.locator('[data-test=list-finished] [data-test="job-browser-1"]');
   await finished.waitFor();
   assert.equal(await finished.getAttribute('data-state'), 'succeeded');
-  assert.match(await finished.textContent(), /succeeded/);  // it may be scrolled out of view
+  assert.match(await finished.textContent(), /succeeded/);  // textContent, because the row may be scrolled out of view
   const end = (await left_arm()).q;
   assert.ok(Math.abs(end[0] - (q[0] + 0.9)) < 0.02, `joint 1 ended at ${end[0]}, not at ${q[0] + 0.9}`);
   await page.screenshot(path_for('page'));

@@ -1,5 +1,6 @@
-// Recordings in the dashboard: opened from the server or from files and scrubbed; past times with
-// data from before the page was loaded; MCAP export, read back by the MCAP reader and by the page.
+// Recordings in the dashboard. They are opened from the server or from files, and scrubbed. Past
+// times have data from before the page was loaded. The MCAP export is read back by the MCAP reader
+// and by the page.
 //
 //   node --test test/browser/recordings.test.mjs      (after building the server and web/dist; see harness.mjs)
 

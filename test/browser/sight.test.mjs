@@ -1,5 +1,5 @@
-// Visibility: each page opened by its address, Stop next to any header content, buttons in all
-// states, answers of forms, names and numbers in narrow windows.
+// Visibility: each page when it is opened by its address, Stop next to any content of the
+// header, buttons in all states, answers of forms, and names and numbers in narrow windows.
 //
 //   node --test test/browser/sight.test.mjs      (after building the server and web/dist; see harness.mjs)
 

@@ -1,7 +1,7 @@
 // Writes wall-clock times so that they cannot be misread: year first, 24 hours, local time with its
 // offset from UTC. Pure.
 
-/** 2026-11-26 14:03:07 +01:00 */
+/** Returns the time in the form 2026-11-26 14:03:07 +01:00. */
 export function wall_time(at: string | number): string {
   const date = new Date(at);
   return Number.isNaN(date.getTime()) ? String(at) : `${day(date)} ${time(date)} ${offset(date)}`;

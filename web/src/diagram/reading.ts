@@ -48,7 +48,10 @@ export function shares(layer: DiagramLayer): Record<CellState, number> {
 
 export interface Evidence extends Point { wait: WaitsOn }
 
-/** Returns where the server found a conflict, if one of the jobs waits for the other. */
+/**
+ * If one of the jobs waits for the other, returns the times of their conflict, as the server found
+ * them. Else returns null.
+ */
 export function evidence_of(a: Job | null, b: Job | null): Evidence | null {
   if (!a || !b) return null;
   for (const [waiting, other] of [[a, b], [b, a]] as const) {

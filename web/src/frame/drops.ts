@@ -8,7 +8,7 @@ import { kText } from '../strings';
 
 /** True while files are dragged over the page. */
 export const files_over = signal(false);
-/** Why the dropped files were not accepted, until dismissed. */
+/** Says why the dropped files were not accepted, until the user dismisses the message. */
 export const drop_fault = signal<string | null>(null);
 
 /** The files that were dropped. `folder` is the name of the dropped folder, or null. */

@@ -1,9 +1,9 @@
 // The types of the server's messages, and the only place that parses them. Types and schemas are
 // generated from the server's OpenAPI description (src/contract, `npm run contract`).
 //
-// WebSocket messages are a union discriminated by `type`. `parse_message` never throws: it returns
-// the message, or an unknown type (a newer server), or where the message is malformed. Times are
-// cell time in seconds, angles rad, lengths m.
+// WebSocket messages are a union discriminated by `type`. `parse_message` never throws. It returns
+// the message, the unknown type (of a newer server), or the fault of a malformed message. Times are
+// cell time in seconds, angles are in rad, lengths in m.
 
 import { check, type Parsed, type Schemas } from './check';
 import shapes from '../contract/schemas.json';

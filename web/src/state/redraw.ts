@@ -7,9 +7,9 @@ const kBurst_ms = 30;
 const kLongestRest_ms = 500;
 
 export class Redraw {
-  /** Something has changed since the last redraw. */
+  /** True if something has changed since the last redraw. */
   private asked_ = false;
-  /** A timer for the next redraw is set, or a redraw is in progress. */
+  /** True while a timer for the next redraw is set, or a redraw is in progress. */
   private waits_ = false;
 
   constructor(private readonly draw_: () => void, private readonly timers_: Timers, private readonly now_ms_: () => number) {}

@@ -115,7 +115,7 @@ export class CellView {
     this.stage_.invalidate(true);
   }
 
-  /** Moves the camera; null leaves it unchanged. */
+  /** Moves the camera to this position and target. Null leaves the camera unchanged. */
   show_camera(camera: Camera | null): void { this.stage_.show_camera(camera); }
 
   /** Moves the camera by one step, for a button or a key. */

@@ -88,7 +88,10 @@ void main() {
   gl_FragColor = vec4(vShade, opacity);
 }`;
 
-/** Returns the quick version of a fine material; it shares the colors and follows their changes. */
+/**
+ * Returns the quick version of a fine material. Both share their colors, so a later change of a
+ * color applies to both.
+ */
 export function quick_material(fine: THREE.MeshStandardMaterial): THREE.ShaderMaterial {
   const quick = new THREE.ShaderMaterial({
     vertexShader: kVertexShader, fragmentShader: kFragmentShader, lights: true,

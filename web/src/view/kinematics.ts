@@ -40,7 +40,7 @@ export class Kinematics {
     return tool_of(this.root, this.prefix_, this.arms_.find((one) => one.name === arm));
   }
 
-  /** Returns every link with its name in the cell. */
+  /** Returns each link of the robot with its name in the cell, which is the prefix and the URDF name. */
   links(): [name: string, link: THREE.Object3D][] {
     return Object.entries(this.root.links).map(([name, link]) => [this.prefix_ + name, link]);
   }

@@ -100,7 +100,7 @@ export class Stage {
     this.resize();
   }
 
-  /** Moves the camera; null leaves it unchanged. */
+  /** Moves the camera to this position and target. Null leaves the camera unchanged. */
   show_camera(camera: Camera | null): void {
     if (camera && this.viewpoint_.show(camera)) this.invalidate();
   }

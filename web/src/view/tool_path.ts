@@ -21,7 +21,7 @@ export class ToolPath {
     this.line.frustumCulled = false;
   }
 
-  /** Clears the line, because a different past time is shown. */
+  /** Removes the line, because another time or another cell is shown. */
   clear(): void {
     this.passed_.length = 0;
     this.line.geometry.setDrawRange(0, 0);
