@@ -4,8 +4,8 @@ import { defineConfig } from 'vitest/config';
 // `npm run dev` serves the page from source and forwards API requests to a running server.
 const server = process.env['ARMLOOM_SERVER'] ?? 'http://127.0.0.1:8080';
 
-// The content security policy: the browser loads only the page's own files. `npm run dev` omits the
-// policy, because Vite injects styles.
+// The content security policy: only the page's own files. `npm run dev` omits it, because Vite
+// injects styles.
 const policy = [
   "default-src 'none'", "script-src 'self'", "style-src 'self'", "font-src 'self'", "img-src 'self'", "connect-src 'self'",
   "base-uri 'none'", "form-action 'none'",
@@ -28,6 +28,6 @@ export default defineConfig({
     host: '127.0.0.1',
     proxy: { '/api': { target: server, ws: true } },
   },
-  // `css`: tests check the colors in the style sheets. `testTimeout`: a busy machine is slow.
+  // Tests check the colors in the style sheets; the timeout allows for a busy machine.
   test: { include: ['test/**/*.test.ts'], environment: 'node', css: true, testTimeout: 60_000 },
 });
