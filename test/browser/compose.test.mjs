@@ -1,5 +1,5 @@
-// Composing jobs as a user does: check and preview before sending, drop files, copy for programs,
-// plan goals by form and in the 3D view, cancel.
+// Composing jobs as a user does. Checks and previews jobs before sending them, drops files, copies
+// jobs for programs, plans goals by form and in the 3D view, and cancels jobs.
 //
 //   node --test test/browser/compose.test.mjs      (after building the server and web/dist; see harness.mjs)
 
@@ -13,7 +13,7 @@ import { arm_now, ask, copied_by, drop_files, eventually, finished, go_to, job_t
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 const kLeastShown_px = 1500;
 const kLeastGhost_px = 800;
-// A name that a shell or a page could misinterpret.
+// A job name that a shell or a page would misinterpret if it were not quoted.
 const kHostile = `<img src=x onerror="window.was_html=1"><b>&amp;'$(exit 3)`;
 
 const folder = mkdtempSync(join(tmpdir(), 'armloom-compose-'));
@@ -35,7 +35,7 @@ test('New job page checks a job before sending, and accepts a batch as a whole',
   await reads(page.locator('[data-test=check-results]'), /free\s+It would start now/);
   assert.equal((await ask(page, 'GET', '/jobs/judged')).status, 404);
 
-  // The preview shows a ghost of the arm, also at the conflict.
+  // The preview shows a ghost of the arm, also at the time of the conflict.
   const without = await view_picture(page);
   await page.locator('[data-test=preview-time]').fill('4');
   await looks_different(page, without, kLeastShown_px);
@@ -63,7 +63,7 @@ test('A job file dropped anywhere on the page is shown and can be sent', { timeo
   const way = [q, q.map((v, k) => v + (k === 0 ? -0.3 : 0))];
   const { trajectory } = job_through('', names, way, 1);
   const file = join(folder, 'trajectory.json');
-  writeFileSync(file, JSON.stringify(trajectory));  // as from a ROS tool: without a job around it
+  writeFileSync(file, JSON.stringify(trajectory));  // a bare trajectory, as ROS tools write it, without a job around it
   await drop_files(page, [file], '.view canvas');
   await page.locator('[data-test=page-new]').waitFor();
   await eventually(async () => assert.equal(await page.locator('[data-test=job-text]').inputValue(), JSON.stringify(trajectory)));
@@ -94,12 +94,12 @@ test('Copied curl and Python snippets of requests and jobs work', { timeout: 400
 });
 
 test('Cancel asks for confirmation', { timeout: 300_000 }, async () => {
-  await ask(page, 'PUT', '/sim/speed', { speed: 0.1 });  // gives a busy machine time
+  await ask(page, 'PUT', '/sim/speed', { speed: 0.1 });  // slow, so that a busy machine keeps up
   await send('left', 'unwanted', [kMiddle, null], 5);
   const row = page.locator('[data-test="job-unwanted"]');
   await row.getByRole('button', { name: 'Cancel unwanted' }).click();
   await row.getByRole('button', { name: 'Keep' }).click();
-  // Keeping the job returns the focus.
+  // The button Keep returns the focus to the button that asked.
   const focused = () => page.evaluate(() => document.activeElement?.getAttribute('aria-label'));
   await eventually(async () => assert.equal(await focused(), 'Cancel unwanted'));
   await page.keyboard.press('Enter');

@@ -1,5 +1,5 @@
-// The dashboard in a real browser with a real server: both arms are drawn; a pasted job appears,
-// moves its arm and finishes; refusal, stop and lost server are shown.
+// The dashboard in a real browser with a real server. Checks that both arms are drawn, and that a
+// pasted job appears, moves its arm and finishes. Refusals, a stop and a lost server must be shown.
 //
 //   node --test test/browser/dashboard.test.mjs      (after building the server and web/dist; see harness.mjs)
 
@@ -9,19 +9,21 @@ import { test } from 'node:test';
 import { arm_now as arm_of, ask as ask_server, eventually, job_through, path_for, reads, resume, with_dashboard } from './harness.mjs';
 import { difference, pixels_like } from './pictures.mjs';
 
-// A robot covers several thousand pixels of the view; labels and text far fewer.
+// A robot covers several thousand pixels of the view. Labels and text cover far fewer.
 const kLeastRobot_px = 3000;
 const kLeastObject_px = 1500;
 // The diagram's colors of conflicting and free cells (web/src/state/palette.ts).
 const kConflict = [0xe0, 0x45, 0x4e];
 const kFree = [0xc3, 0xcf, 0xdb];
 const kLeastArea_px = 2000;
-// Joints of a Panda that reaches into the middle; not possible for both arms at once.
+// Joint positions with which a Panda reaches into the middle of the cell. Both arms cannot be there
+// at once.
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
 let browser;
 let page;
-// Under `certified` the second of two crossing jobs is backlogged; the default would schedule it.
+// Under the policy `certified` the second of two crossing jobs is backlogged. The default policy
+// would schedule it.
 const { server, chromium } = with_dashboard('config/two_pandas.json', 'certified', { colorScheme: 'light' }, (opened) => {
   ({ page } = opened);
   browser = opened.chromium.context;
@@ -52,7 +54,7 @@ test('A pasted job appears, moves the arm, and finishes', { timeout: 300_000 }, 
   const finished = page.locator('[data-test=list-finished] [data-test="job-browser-1"]');
   await finished.waitFor();
   assert.equal(await finished.getAttribute('data-state'), 'succeeded');
-  assert.match(await finished.textContent(), /succeeded/);  // it may be scrolled out of view
+  assert.match(await finished.textContent(), /succeeded/);  // textContent, because the row may be scrolled out of view
   const end = (await left_arm()).q;
   assert.ok(Math.abs(end[0] - (q[0] + 0.9)) < 0.02, `joint 1 ended at ${end[0]}, not at ${q[0] + 0.9}`);
   await page.screenshot(path_for('page'));
@@ -69,7 +71,7 @@ test('The example job moves an idle arm and returns it', { timeout: 300_000 }, a
 });
 
 test('The page of a running job shows its progress', { timeout: 300_000 }, async () => {
-  await ask_server(page, 'PUT', '/sim/speed', { speed: 0.25 });  // gives a busy machine time
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 0.25 });  // slow, so that a busy machine keeps up
   await open_form();
   await page.locator('[data-test=example-right]').click();
   await page.locator('[data-test=send]').click();
@@ -86,13 +88,14 @@ test('The page of a running job shows its progress', { timeout: 300_000 }, async
   await page.getByRole('button', { name: 'Close', exact: true }).click();
 });
 
-// Both jobs want the middle: one runs, the other waits. A click on the reason opens the diagram.
+// The paths of both jobs cross in the middle: one job runs, the other waits. A click on the reason
+// for the wait opens the diagram.
 test('The diagram of two crossing jobs is red where they conflict', { timeout: 300_000 }, async () => {
   const reach = async (id, arm, seconds) => {
     const { names, q } = await arm_now(arm);
     await post(job_through(id, names, [q, kMiddle, q], seconds));
   };
-  await ask_server(page, 'PUT', '/sim/speed', { speed: 0.25 });  // gives a busy machine time
+  await ask_server(page, 'PUT', '/sim/speed', { speed: 0.25 });  // slow, so that a busy machine keeps up
   await reach('cross-left', 'left', 10);
   await page.locator('[data-test=list-running] [data-test="job-cross-left"]').waitFor();
   await reach('cross-right', 'right', 10);
@@ -116,7 +119,7 @@ test('The diagram of two crossing jobs is red where they conflict', { timeout: 3
   });
 
   await ask_server(page, 'PUT', '/sim/speed', { speed: 2 });
-  // The path is free once the first arm is home: the second starts by itself.
+  // Once the first arm is home, the path is free and the second job starts without a command.
   await page.locator('[data-test=list-running] [data-test="job-cross-right"]').waitFor();
   await page.screenshot(path_for('diagram-later'));
   await ask_server(page, 'PUT', '/sim/speed', { speed: 1 });
@@ -155,8 +158,8 @@ test('A refused job shows the JSON pointer of its fault', { timeout: 180_000 }, 
   await page.screenshot(path_for('refused'));
 });
 
-// Two busy programs take both cores while moving arms are rendered in software: the view must
-// yield.
+// Two busy programs take both cores while the moving arms are rendered in software. The 3D view
+// must leave time for the click.
 test('Stop is confirmed within a second on a busy machine', { timeout: 400_000 }, async () => {
   const { names, q } = await left_arm();
   const others = [1, 2].map(() => spawn(process.execPath, ['-e', 'for (;;);']));
@@ -166,7 +169,7 @@ test('Stop is confirmed within a second on a busy machine', { timeout: 400_000 }
     // Waits until the view has had some slow frames.
     const seen = await page.evaluate(() => window.armloom.pictures());
     await page.waitForFunction((from) => window.armloom.pictures() >= from + 6, seen, { timeout: 240_000 });
-    // Three tries, because the machine may be busy otherwise.
+    // Three tries, because other programs may load the machine as well.
     let took_ms = Infinity;
     for (let tries = 0; tries < 3 && took_ms >= 1000; tries++) {
       if (tries > 0) {
@@ -221,7 +224,7 @@ async function post(job) {
 
 const ask_status = async (method, path) => (await ask_server(page, method, path)).status;
 
-/** Sends a change of the scene and waits until the page knows this many objects. */
+/** Sends a change of the scene and waits until the page has `count` objects. */
 async function ask(method, path, body, count) {
   const { status } = await ask_server(page, method, path, body);
   assert.ok(status < 300, `${method} ${path}: ${status}`);
@@ -234,7 +237,7 @@ async function ask(method, path, body, count) {
 const arm_now = (arm) => arm_of(page, arm);
 const left_arm = () => arm_now('left');
 
-/** Turns the first joint by `angle` in `seconds`, at rest at both ends. */
+/** Returns a job that turns the first joint by `angle` in `seconds`, at rest at both ends. */
 function swing_job(id, names, q, angle, seconds) {
   const there = q.map((value, i) => (i === 0 ? value + angle : value));
   return job_through(id, names, [q, there], seconds, { name: 'swing' });
@@ -247,11 +250,11 @@ async function picture(name) {
   return page.locator('.view canvas').screenshot(path ? { path } : {});
 }
 
-/** Returns the time from the click to the page's stopped mark. */
+/** Returns the time from the click on Stop until the page marks the arms as stopped. */
 async function time_of_stop() {
   const button = await page.getByRole('button', { name: 'Stop all: controlled, drives stay powered' }).boundingBox();
-  // Measured in the browser's own time, from the click event to the mark. It listens before the
-  // click, because on a busy machine later requests may arrive first.
+  // The time is measured in the browser, from the click event to the mark. The listeners are
+  // installed before the click: on a busy machine a later request could come too late.
   await page.evaluate(() => { window.answered_ms = new Promise((done) => {
     let clicked_ms = 0;
     window.addEventListener('click', (event) => { clicked_ms = event.timeStamp; }, { capture: true, once: true });
@@ -277,7 +280,7 @@ async function settled_picture(name) {
   throw new Error(`${name}: the view never comes to rest`);
 }
 
-/** Returns a robot's pixels: those that change when it is hidden. */
+/** Returns the robot's pixels: the pixels that change when the robot is hidden. */
 async function pixels_of(robot, whole) {
   await page.evaluate((name) => window.armloom.set_robot_visible(name, false), robot);
   const without = await picture(`without-${robot}`);

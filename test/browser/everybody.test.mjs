@@ -119,7 +119,8 @@ test('Timeline marks events; keys and clicks go to their times', { timeout: 300_
     const found = await Promise.all([[0xff, 0x70, 0x78], [0xf0, 0xb5, 0x41]].map((rgb) => pixels_like(desk.context, strip, rgb, 12)));
     assert.ok(Math.max(...found) > kLeastEvent_px, `${found} pixels of marks`);
   });
-  // Keys that come faster than frames: shown, closed, and shown again.
+  // Keys that arrive faster than frames: the first opens the tooltip, Escape closes it, the third
+  // opens it again.
   const told_after = await page.evaluate(async () => {
     const canvas = document.querySelector('[data-test=lanes]');
     canvas.focus();
@@ -132,13 +133,13 @@ test('Timeline marks events; keys and clicks go to their times', { timeout: 300_
     return told;
   });
   assert.deepEqual(told_after, [true, false, true]);
-  // By keys: shown, closed, and opened as the shown time.
+  // The same by real keys. Enter then shows the time of the event in all views.
   const [tip, canvas] = [page.locator('.timeline .tip'), page.locator('[data-test=lanes]')];
   const kTold = /^Warning at 0:\d\d:\d\d\.\d, (\d+ min )?[\d.]+ s ago: stopped: left, right \(operator\)/m;
   const to_the_stop = async () => {
     await canvas.focus();
-    await page.keyboard.press('Escape');  // then it starts with the newest
-    // The server may also report delays of a busy machine.
+    await page.keyboard.press('Escape');  // the next Page Up then shows the newest event
+    // On a busy machine the server may also report delays, which are skipped here.
     for (let i = 0; i < kMostEvents; i++) {
       await page.keyboard.press('PageUp');
       if (kTold.test(await tip.innerText())) return;
@@ -186,7 +187,7 @@ test('Touch alone suffices on a tablet', { timeout: 500_000 }, async () => {
     .map(({ element, box }) => `${element.outerHTML.slice(0, 90)} ${box.width.toFixed(0)} x ${box.height.toFixed(0)}`), kFinger_px - 0.5);
   assert.deepEqual(small, []);
   await finger.screenshot(path_for('tablet-light'));
-  // Nothing requires hovering: the priority buttons are visible.
+  // The priority buttons are visible without hovering, which a finger cannot do.
   await finger.locator('[data-test="job-waits-3"]').getByRole('button', { name: 'More urgent: waits-3' }).tap();
   await finger.locator('[data-test="job-waits-3"]').getByText('+1', { exact: true }).waitFor();
   // A finger turns the view, and selects an arm.

@@ -15,7 +15,7 @@ const kLeastWay_px = 60;
 const kLeastGhost_px = 800;
 const kFirstView_kB = 250;
 
-// Under `certified` a conflicting job is blocked.
+// Under the policy `certified` a conflicting job is blocked.
 let page;
 const { chromium } = with_dashboard('config/two_pandas.json', 'certified', {}, (opened) => { ({ page } = opened); });
 
@@ -25,7 +25,10 @@ const ended = (id) => finished(page, id);
 
 const send = (...job) => send_through(page, ...job);
 
-/** A button hides more than `least_px` pixels of the view. */
+/**
+ * Checks that a click on the button hides more than `least_px` pixels of the view, then shows them
+ * again.
+ */
 async function puts_away(test, least_px, what) {
   const shown = await view_picture(page);
   await page.locator(`[data-test=${test}]`).click();
@@ -34,7 +37,7 @@ async function puts_away(test, least_px, what) {
 }
 
 test('3D view shows tool paths, ghosts of end positions, and closest pairs', { timeout: 400_000 }, async () => {
-  await speed(0.02);  // keeps the compared pictures nearly still
+  await speed(0.02);  // slow, so that the compared pictures hardly differ by motion
   await send('left', 'ahead', [kMiddle, null], 6, { name: 'there and back' });
   await page.locator('[data-test=list-running] [data-test="job-ahead"]').waitFor();
   await page.waitForFunction(() => window.armloom.ahead() > 0);
@@ -100,7 +103,7 @@ test('Pointing at a diagram shows both arms as ghosts', { timeout: 300_000 }, as
 });
 
 test('Job page plots planned and measured joints', { timeout: 300_000 }, async () => {
-  await ask(page, 'DELETE', '/jobs/blocked');  // if it has started, it brakes first
+  await ask(page, 'DELETE', '/jobs/blocked');  // if the job has started, it brakes first
   await ended('blocked');
   await speed(2);
   await send('right', 'measured', [kMiddle.map((angle, i) => (i === 0 ? 1 : angle)), null], 3);
@@ -108,7 +111,7 @@ test('Job page plots planned and measured joints', { timeout: 300_000 }, async (
   await page.locator('[data-test=page-job] h3', { hasText: /Planned/ }).waitFor();
   await ended('measured');
   await page.locator('[data-test=page-job] h3', { hasText: 'Planned and measured' }).waitFor();
-  // Time, and each joint twice.
+  // The plot has 15 series: time, and each of seven joints as planned and as measured.
   await page.waitForFunction(() => document.querySelectorAll('[data-test=page-job] .u-series').length === 15);
   await page.screenshot(path_for('planned-dark'));
 });
@@ -118,7 +121,7 @@ test('Recovery page states the cause of a stop and resumes the arms', { timeout:
   await send('left', 'interrupted', [kMiddle.map((angle, i) => (i === 0 ? 0.5 : angle))], 20);
   await page.locator('[data-test=list-running] [data-test="job-interrupted"]').waitFor();
   await page.keyboard.press('F8');
-  // It is shown as stopped everywhere, without a predicted end.
+  // The arm is shown as stopped everywhere, without a predicted end.
   await page.locator('[data-test=arm-left] [data-test=arm-state]', { hasText: 'stopped' }).waitFor();
   await label_of(page, 'left').filter({ hasText: 'stopped' }).waitFor();
   await page.locator('[data-test="job-interrupted"] [data-test=figure]', { hasText: 'stopped' }).waitFor();
@@ -206,7 +209,7 @@ test('Settings page changes the policy only while no job is admitted', { timeout
   await send('right', 'keeps-its-policy', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);
   await choose('certified');
   await page.locator('[data-test=no-change]', { hasText: 'Only possible while no job is admitted; admitted now: 1' }).waitFor();
-  await page.locator('[data-test=change-policy]:disabled').waitFor();  // a change that would be refused is disabled
+  await page.locator('[data-test=change-policy]:disabled').waitFor();  // the button is disabled because the server would refuse the change
   await page.screenshot(path_for('policy-dark'));
   await speed(10);
   await go('#/');
@@ -238,7 +241,7 @@ test('No event is missed or doubled after a broken connection', { timeout: 300_0
   await page.evaluate(() => window.armloom.break_connection());
   await page.locator('[data-test=lost]').waitFor();
   await chromium.context.setOffline(false);
-  await page.getByRole('button', { name: 'Reconnect now' }).click().catch(() => {});  // it may be connected already
+  await page.getByRole('button', { name: 'Reconnect now' }).click().catch(() => {});  // the page may be connected already
   await page.locator('[data-test=link].open').waitFor();
   await speed(4);
   await send('right', 'after-the-break', [kMiddle.map((angle, i) => (i === 0 ? 0.3 : angle)), null], 4);
@@ -260,6 +263,6 @@ test('The first view is small without the parts loaded later', () => {
 });
 
 test('The console has no errors', () => {
-  // A canceled job may have ended just before.
+  // The job `blocked` may have ended just before it was canceled, which is answered with 409.
   assert.deepEqual(chromium.errors.filter((text) => !/ERR_INTERNET_DISCONNECTED|ERR_NETWORK|409 \(Conflict\).*\/jobs\/blocked$/.test(text)), []);
 });

@@ -8,8 +8,8 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { ask, Browser, job_through, kRoot, Server } from './harness.mjs';
 
-const kFrame_s = 0.2;   // cell time from frame to frame, shown at this pace
-const kSpeed = 0.1;     // of the cell, so that each frame has two seconds to be drawn
+const kFrame_s = 0.2;   // time between two frames, in the cell and in the picture
+const kSpeed = 0.1;  // speed of the cell, so that each frame has two seconds to be drawn
 const kMost = 70;       // frames
 const kBytesMax = 3 << 20;
 

@@ -21,7 +21,7 @@ let page;
 const { chromium } = with_dashboard(join(folder, 'hall.json'), 'coordinated', { more: ['--speed', '0.25'] }, (opened) => { ({ page } = opened); });
 after(() => rmSync(folder, { recursive: true, force: true }));
 
-/** Neighbors 0.8 m apart, whose workspaces overlap. */
+/** Returns a cell of eight arms. Neighbors are 0.8 m apart, so their workspaces overlap. */
 function hall() {
   const robots = Array.from({ length: kArms }, (_, i) => ({
     name: `arm${i}`, urdf: join(kRoot, 'models/panda.urdf'), srdf: join(kRoot, 'models/panda.srdf'), prefix: `arm${i}_`,
@@ -34,7 +34,7 @@ function hall() {
   return { name: 'hall', robots, objects: [table], clearance_m: 0.02, scheduling };
 }
 
-/** Back and forth repeatedly, alternating sides. */
+/** Returns jobs that move the arm back and forth, alternating sides. */
 function jobs_of(arm) {
   const names = Array.from({ length: 7 }, (_, i) => `arm${arm}_panda_joint${i + 1}`);
   const there = (k) => [((k / 2 + arm) % 2 < 1 ? -1 : 1) * 1.2, 0.2, 0, -1.9, 0, 2.1, 0.785];

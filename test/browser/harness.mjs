@@ -23,17 +23,19 @@ const { chromium } = web_require('playwright-core');
 export const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kRoot, 'build/armloom'));
 const kChromium = process.env.ARMLOOM_CHROMIUM ?? '/usr/bin/chromium';
 const kPictures = process.env.ARMLOOM_SCREENSHOT_DIR;
-// The defaults of Chromium without a graphics card: software WebGL, but no software GPU for the
-// page itself. (`--use-angle=swiftshader` uses it for both, at 15 ms per change.)
+// The defaults of Chromium without a graphics card: WebGL is rendered in software, the page itself
+// without a GPU. With `--use-angle=swiftshader` both would use the software GPU, at 15 ms per
+// change of the page.
 const kFlags = [
   '--use-angle=swiftshader-webgl', '--enable-unsafe-swiftshader', '--no-sandbox', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
 ];
-// A busy machine may take ten times as long as an idle one; only failures wait this long.
+// Time limit for an expected change. A busy machine may take ten times as long as an idle one. Only
+// a failing test waits this long.
 export const kPatience_ms = 60_000;
 const kAgain_ms = 50;
 
-/** A server of one cell; it can be stopped and restarted at the same address. */
+/** A server process for one cell. It can be stopped and restarted at the same address. */
 export class Server {
   constructor(cell, policy, more = []) {
     this.arguments_ = ['serve', '--cell', cell, '--policy', policy, ...more];
@@ -62,7 +64,7 @@ export class Server {
     });
   }
 
-  /** Freezes the server like a hang: it keeps its connections and stays silent. */
+  /** Suspends the server process: its connections stay open, but it sends nothing. */
   freeze() { this.process_.kill('SIGSTOP'); }
   thaw() { this.process_.kill('SIGCONT'); }
 
@@ -107,9 +109,9 @@ export class Browser {
 }
 
 /**
- * Starts a server and a browser before a suite's tests and stops them after; passes `page` and
- * `url` to `opened`. `more` are server arguments; `visits` is false if the page requires a login;
- * other options go to the browser.
+ * Starts a server and a browser before the tests of a suite, and stops them afterwards. Calls
+ * `opened` with both, the page and its address. `more` are arguments for the server. `visits` must
+ * be false if the page requires a login. Other options go to the browser.
  */
 export function with_dashboard(cell, policy, { more = [], visits = true, ...options } = {}, opened = () => undefined) {
   const dashboard = { server: new Server(cell, policy, more), chromium: new Browser(), page: null, url: null };
@@ -121,7 +123,7 @@ export function with_dashboard(cell, policy, { more = [], visits = true, ...opti
   }, { timeout: 300_000 });
   afterEach(async ({ name, passed }) => {
     const picture = path_for(`failed-${name.replaceAll(/[^a-z0-9]+/gi, '-')}`);
-    if (passed === false && picture.path) await dashboard.page?.screenshot(picture).catch(() => undefined);  // it may be closed
+    if (passed === false && picture.path) await dashboard.page?.screenshot(picture).catch(() => undefined);  // the page may be closed
   }, { timeout: 120_000 });
   after(async () => {
     await dashboard.chromium.close();
@@ -131,8 +133,9 @@ export function with_dashboard(cell, policy, { more = [], visits = true, ...opti
 }
 
 /**
- * Retries until `claim` throws no assertion error, and returns its result: on a busy machine the
- * page follows the server seconds later. Other errors are thrown at once.
+ * Retries until `claim` throws no assertion error, and returns the result of `claim`. Retries are
+ * needed because on a busy machine the page follows the server seconds later. Other errors are
+ * thrown at once.
  */
 export async function eventually(claim, patience_ms = kPatience_ms) {
   for (const until_ms = Date.now() + patience_ms; ;) {
@@ -145,22 +148,28 @@ export async function eventually(claim, patience_ms = kPatience_ms) {
   }
 }
 
-/** Waits until the visible text matches. */
+/** Waits until the visible text of the element matches. */
 export function reads(locator, pattern) {
   return eventually(async () => assert.match(await locator.innerText(), pattern));
 }
 
-/** Returns the label of an arm in the view. (Its words can contain another arm's name.) */
+/**
+ * Returns the label of an arm in the view. Looks for the exact name, because the words of a label
+ * can contain another arm's name.
+ */
 export function label_of(page, arm) {
   return page.locator('.arm-label').filter({ has: page.locator('b').getByText(arm, { exact: true }) });
 }
 
-/** Waits until there are this many. */
+/** Waits until there are `count` such elements. */
 export function counts(locator, count, words) {
   return eventually(async () => assert.equal(await locator.count(), count, words));
 }
 
-/** Waits until the page's address matches, and returns it. (Playwright's own address is later.) */
+/**
+ * Waits until the page's address matches, and returns the address. Asks the page, because
+ * Playwright's own copy of the address is late.
+ */
 export function address_like(page, pattern) {
   return eventually(async () => {
     const address = await page.evaluate(() => location.href).catch(() => 'none: it is being left');
@@ -198,7 +207,7 @@ export function finished(page, id) {
   return page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();
 }
 
-/** Returns playwright's path option for a screenshot. */
+/** Returns Playwright's path option for a screenshot, or no option if screenshots are not kept. */
 export function path_for(name) {
   if (!kPictures) return {};
   mkdirSync(kPictures, { recursive: true });
@@ -216,7 +225,9 @@ export function ask(page, method, path, body) {
   }, [method, path, body]);
 }
 
-/** Confirms the checklist and resumes all arms, as a user does; then returns to the page before. */
+/**
+ * Confirms the checklist and resumes all arms, as a user does. Then returns to the previous page.
+ */
 export async function resume(page, press = (locator) => locator.click()) {
   const hash = await page.evaluate(() => location.hash);
   await press(page.locator('[data-test=to-resume]'));
@@ -250,7 +261,7 @@ export async function run(program, words, env = {}) {
   return stdout;
 }
 
-/** Returns a job through these configurations, `seconds` apart, at rest at each. */
+/** Returns a job through these configurations, `seconds` apart. The arm is at rest at each. */
 export function job_through(id, joint_names, configurations, seconds, over = {}) {
   const rest = joint_names.map(() => 0);
   const points = configurations.map((positions, i) => ({
@@ -259,7 +270,9 @@ export function job_through(id, joint_names, configurations, seconds, over = {})
   return { id, trajectory: { joint_names, points }, ...over };
 }
 
-/** Returns an arm's joints and positions from the server; the page's data may be older. */
+/**
+ * Returns an arm's joint names and positions from the server, because the page's data may be older.
+ */
 export async function arm_now(page, arm) {
   const { status, value } = await ask(page, 'GET', `/arms/${arm}`);
   assert.equal(status, 200, JSON.stringify(value));
@@ -267,7 +280,8 @@ export async function arm_now(page, arm) {
 }
 
 /**
- * Sends a job from the arm's position through joint configurations; null means the start position.
+ * Sends a job from the arm's position through the joint configurations `way`. Null in `way` means
+ * the start position.
  */
 export async function send_through(page, arm, id, way, seconds, over = {}) {
   const { names, q } = await arm_now(page, arm);

@@ -32,7 +32,7 @@ test('Jobs of a previous session are in the history and have pages', { timeout: 
   assert.equal(await server.start(), url);
   await page.locator('[data-test=link].open').waitFor();
   await page.getByText('The server was restarted').first().waitFor();
-  // Without and with a reload.
+  // Checks the history without a reload of the page, then with a reload.
   for (const reload of [false, true]) {
     if (reload) await page.reload();
     await page.locator('[data-test=link].open').waitFor();
@@ -42,7 +42,7 @@ test('Jobs of a previous session are in the history and have pages', { timeout: 
     await reads(page.locator('[data-test=list-finished] .none'), /No job has ended in this server session/);
     await counts(page.locator('[data-test=loaded]'), 0, 'the number is of all');
   }
-  // Wall-clock times, because the cell's clock has restarted.
+  // The table shows wall-clock times, because the clock of the cell has restarted.
   await reads(history.locator('tbody tr').first(), /^\s*(\d{4}-\d\d-\d\d )?\d\d:\d\d:\d\d\s/);
   await page.screenshot(path_for('history-former-dark'));
   await history.getByRole('link', { name: 'picked long ago' }).click();
@@ -50,7 +50,7 @@ test('Jobs of a previous session are in the history and have pages', { timeout: 
   await reads(page.locator('[data-test=job-state]'), /^succeeded$/);
   await reads(page.locator('[data-test=states]'), /\d\d:\d\d:\d\d/);
   await page.screenshot(path_for('job-former-dark'));
-  // Also opened by its address.
+  // The page of such a job can also be opened by its address.
   await page.reload();
   await page.locator('[data-test=page-job] h2', { hasText: 'picked long ago' }).waitFor();
   assert.ok(since > 0);

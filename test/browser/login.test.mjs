@@ -67,7 +67,7 @@ test('Logging out returns to the login page', { timeout: 300_000 }, async () => 
   await address_like(page, /\/login#\/arm\/right$/);
   await log_in(token);
   await connected();
-  await address_like(page, /\/#\/arm\/right$/);  // the requested page
+  await address_like(page, /\/#\/arm\/right$/);  // the page requested before the login
 });
 
 test('Revoking a token sends its page to the login page', { timeout: 300_000 }, async () => {
@@ -95,7 +95,7 @@ test('Commands are disabled for a viewer, with the reason', { timeout: 300_000 }
   await go_to(page, '#/new');
   await page.locator('[data-test=job-text]').fill('{"arm": "left", "move_to": {"named": "home"}}');
   await off('send');
-  await page.locator('[data-test=check-job]').click();  // which changes nothing
+  await page.locator('[data-test=check-job]').click();  // a check, because it changes nothing
   await page.locator('[data-test=check-results]').waitFor();
   await page.screenshot(path_for('viewer-dark'));
 });

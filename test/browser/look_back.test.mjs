@@ -1,4 +1,5 @@
-// While a past time is shown, every page shows that time, or says which parts show the present.
+// While a past time is shown, every page shows that time, or says which of its parts show the
+// present.
 //
 //   node --test test/browser/look_back.test.mjs      (after building the server and web/dist; see harness.mjs)
 
@@ -9,14 +10,16 @@ import { ask, counts, eventually, finished, go_to, path_for, reads, resume, send
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
 const dashboard = with_dashboard('config/two_pandas.json', 'coordinated');
-/** Cell times: before all jobs, while the first of two jobs ran, while all was stopped. */
+/**
+ * Cell times: before all jobs, while the first of two jobs ran, and while all arms were stopped.
+ */
 const at = {};
 
 const now_s = async () => {
   const [hours, minutes, seconds] = (await dashboard.page.locator('[data-test=clock]').innerText()).split(':').map(Number);
   return 3600 * hours + 60 * minutes + seconds;
 };
-/** Waits until the clock is later than this, and returns it. */
+/** Waits until the cell's clock is later than `t_s`, and returns the clock. */
 const clock_beyond = (t_s) => eventually(async () => {
   const s = await now_s();
   assert.ok(s > t_s, `${s} s, not yet beyond ${t_s} s`);

@@ -14,7 +14,7 @@ import { arm_now, Browser, job_through, kRoot, Server } from './harness.mjs';
 
 const kLooks = 6;
 const kClicks = 12;
-const kBatch = 200;  // a multiple of four: each arm ends at its start
+const kBatch = 200;  // a multiple of four, so that each arm ends at its start
 const kHaste = 20;
 const kSwing_rad = 0.2;
 const kDragged_px = 400;
@@ -54,7 +54,7 @@ try {
   await server.end();
 }
 
-/** Runs short jobs of both arms, back and forth. */
+/** Runs `count` short jobs, alternating between both arms and back and forth. */
 async function fill_history(page, url, count) {
   const arms = await Promise.all(['left', 'right'].map((arm) => arm_now(page, arm)));
   const call = async (method, path, body) => {
@@ -69,7 +69,8 @@ async function fill_history(page, url, count) {
       return job_through(`past-${from + i}`, names, (i >> 1) % 2 === 0 ? [q, away] : [away, q], 1);
     });
     await call('POST', '/batches', { atomic: true, jobs: batch });
-    // A page that falls behind gets a new snapshot, with the last jobs only.
+    // Waits for the page. If the page falls behind, it gets a new snapshot, which has only the last
+    // jobs.
     await page.waitForFunction((count) => window.armloom.jobs().filter(({ result }) => result !== null).length >= count, from + batch.length, { timeout: 600_000, polling: 200 });
   }
   await call('PUT', '/sim/speed', { speed: 1 });
@@ -103,7 +104,7 @@ async function count_pictures(page) {
   }
 }
 
-/** Measures from each click until its page is shown. */
+/** Clicks on links and measures the time from each click until its page is shown. */
 async function click_about(page) {
   const places = ['#/history', '#/settings', '#/recordings', '#/'];
   const took = [];
@@ -126,8 +127,8 @@ async function click_about(page) {
 }
 
 /**
- * Drags and zooms the timeline at its default length and at full length; measures from each event
- * until it is drawn.
+ * Drags and zooms the timeline, at its default length and at its full length. Measures from each
+ * event until it is drawn.
  */
 async function use_timeline(page) {
   for (const what of ['a minute', 'all that was']) {
@@ -159,8 +160,8 @@ async function use_timeline(page) {
 }
 
 /**
- * Prints the memory in use after a garbage collection, each minute. The slope is of the last two
- * thirds, when the page's buffers are full.
+ * Prints the used memory each minute, after a garbage collection. The slope is computed from the
+ * last two thirds of the time, when the page's buffers are full.
  */
 async function watch_memory(page) {
   await page.setViewportSize(kSmall);

@@ -8,7 +8,7 @@ import { arm_now, ask, counts, eventually, finished, go_to, job_through, path_fo
 
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 
-// A long lease, for a busy machine.
+// The lease of jogging is long, so that renewals on a busy machine are in time.
 let page;
 const { server, chromium } = with_dashboard('config/two_pandas.json', 'certified', { more: ['--jog-lease', '3'] }, (opened) => { ({ page } = opened); });
 
@@ -17,7 +17,7 @@ const speed = (value) => ask(page, 'PUT', '/sim/speed', { speed: value });
 const ended = (id) => finished(page, id);
 
 test('Jogging lasts while a button is held: by mouse, key and finger', { timeout: 400_000 }, async () => {
-  await speed(0.2);  // lets a busy machine release before the goal
+  await speed(0.2);  // slow, so that even on a busy machine the button is released before the goal
   await go('#/arm/left');
   await page.locator('[data-test=control-person]').fill('Ada');
   await page.locator('[data-test=take-control]').click();
@@ -108,7 +108,7 @@ test('Policies page compares the policies and activates another one', { timeout:
   await page.locator('[data-test=compared-certified]').getByText('active', { exact: true }).waitFor();
 });
 
-// The connection stays open, but no data arrives.
+// The connection stays open, but the server sends no data.
 test('Old data is marked with its age until new data arrives', { timeout: 300_000 }, async () => {
   const age_s = async (locator) => Number((await locator.textContent()).match(/([\d.]+) s/)[1]);
   const saturation = () => page.evaluate(() => getComputedStyle(document.querySelector('.view')).filter);
@@ -130,6 +130,6 @@ test('Old data is marked with its age until new data arrives', { timeout: 300_00
 });
 
 test('The console has no errors', () => {
-  // After another user took control, a renewal may have been late.
+  // After another user took control, the server may have refused a renewal that was on its way.
   assert.deepEqual(chromium.errors.filter((text) => !/409 \(Conflict\).*\/jog$/.test(text)), []);
 });

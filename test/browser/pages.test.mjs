@@ -1,5 +1,5 @@
-// The dashboard's pages as a user sees them: addresses, predicted timeline, keys, past times,
-// themes, axe-core, names that try to be HTML, server restart.
+// The dashboard's pages as a user sees them. Covers addresses, the predicted timeline, keys, past
+// times, themes, axe-core, names that contain HTML, and a server restart.
 //
 //   node --test test/browser/pages.test.mjs      (after building the server and web/dist; see harness.mjs)
 
@@ -11,7 +11,7 @@ import { address_like, arm_now, ask, counts, eventually, go_to, job_through, lab
 const kStop = 'Stop all: controlled, drives stay powered';
 const kMiddle = [0, -0.7, 0, -1.8, 0, 2.6, 0];
 const kAxe = readFileSync(web_require.resolve('axe-core/axe.min.js'), 'utf8');
-// A name that would run a script if used as HTML.
+// A name that would run a script if the page used it as HTML.
 const kHostile = '<img src=x onerror="window.was_html=1"><b>&amp;';
 
 let page;
@@ -22,10 +22,10 @@ const send = (...job) => send_through(page, ...job);
 
 const go = (hash) => go_to(page, hash);
 
-// Both jobs want the middle: the right job is admitted behind the left one, and pauses or waits for
-// it.
+// The paths of both jobs cross in the middle. The right job is admitted behind the left job, and
+// pauses or waits for it.
 test('Timeline shows predicted motions and waits with their blockers', { timeout: 300_000 }, async () => {
-  await ask(page, 'PUT', '/sim/speed', { speed: 0.05 });  // gives a busy machine time
+  await ask(page, 'PUT', '/sim/speed', { speed: 0.05 });  // slow, so that a busy machine keeps up
   await send('left', 'first', [kMiddle, null], 6, { name: 'to the middle' });
   await send('right', 'second', [kMiddle, null], 6, { name: 'behind it' });
   await page.waitForFunction(() => window.armloom.lanes().find((lane) => lane.arm === 'right')
@@ -35,7 +35,7 @@ test('Timeline shows predicted motions and waits with their blockers', { timeout
   await reads(row.locator('[data-test=when]'), /starts in about|ends in about|about to start/);
   await page.screenshot(path_for('timeline-dark'));
 
-  // A predicted bar of the right arm opens its job.
+  // A click on a predicted bar of the right arm opens the page of its job.
   const canvas = page.locator('.timeline canvas');
   const { width, height } = await canvas.boundingBox();
   const lane = Math.min(54, (height - 18) / 2);
@@ -86,7 +86,7 @@ test('An address reproduces job, time and camera in another tab', { timeout: 300
   await scrub.focus();
   for (let i = 0; i < 12; i++) await page.keyboard.press('ArrowLeft');
   await page.locator('[data-test=instant]').waitFor();
-  // A time at which the job existed.
+  // Moves forward to a time at which the job existed.
   const { submitted_s } = (await ask(page, 'GET', '/jobs/second')).value;
   const instant_s = async () => Number(/[?&]t=([\d.]+)/.exec(await address_like(page, /[?&]t=\d/))[1]);
   for (let i = 0; i < 12 && await instant_s() < submitted_s + 0.1; i++) await page.keyboard.press('ArrowRight');
@@ -94,21 +94,21 @@ test('An address reproduces job, time and camera in another tab', { timeout: 300
 
   const other = await chromium.context.newPage();
   await other.goto(address);
-  // The job's name is known after the server's snapshot.
+  // The new page knows the job's name once it has the server's snapshot.
   await other.locator('[data-test=page-job] h2', { hasText: 'behind it' }).waitFor();
   assert.equal(await other.evaluate(() => location.href), address);
-  // The new page has the earlier data from the server.
+  // The new page has loaded the earlier data from the server.
   await other.locator('[data-test=instant]').waitFor();
   const middle_s = () => other.locator('[data-test=lanes]').evaluate(({ dataset }) => Number(dataset.from) + Number(dataset.length) / 2);
   const held_s = Number(/[?&]t=([\d.]+)/.exec(address)[1]);
   assert.ok(Math.abs(await middle_s() - held_s) < 0.01, 'its timeline stands around that instant');
-  // The address is parsed before the page knows the current time: an early time must not be taken
-  // for the future.
+  // The address is parsed before the page knows the current time. The page must not clamp such a
+  // time, even if it seems to be in the future.
   await go_to(other, '#/?t=7200');
   await other.reload();
   await other.locator('[data-test=lanes]').waitFor();
   assert.equal(await middle_s(), 7200);
-  // Without data it shows no pose, nor that of another time.
+  // For a time without data the page shows no pose, not even the pose of another time.
   await go_to(other, '#/?t=3&run=00000000');
   await other.locator('[data-test=unheard]', { hasText: 'another server session' }).waitFor();
   await other.locator('[data-test=instant]').waitFor({ state: 'detached' });
@@ -166,7 +166,7 @@ test('Scene page adds, moves and removes objects', { timeout: 300_000 }, async (
   await page.locator('[data-test=go-scene]').click();
   const fill = async (values) => { for (const [key, value] of Object.entries(values)) await page.locator(`[data-test=object-${key}]`).fill(value); };
   await fill({ name: 'can' });
-  // A comma is not dropped silently: 0,15 m would become 15.
+  // The page must not drop a comma silently: 0,15 m would become 15 m.
   await page.locator('[data-test=object-size_x]').fill('');
   await page.locator('[data-test=object-size_x]').pressSequentially('0,15');
   await page.locator('[data-test=object-save]').click();
@@ -183,7 +183,7 @@ test('Scene page adds, moves and removes objects', { timeout: 300_000 }, async (
   await fill({ x: '0.3' });
   await page.locator('[data-test=object-save]').click();
   await page.waitForFunction(() => window.armloom.objects().some((object) => object.name === 'can' && object.xyz[0] === 0.3));
-  // Typed input stays while the object changes; other fields follow it.
+  // Typed input stays while the object changes. The other fields follow the object.
   await fill({ length: '-1' });
   await ask(page, 'PUT', '/scene/objects/can', { cylinder: [0.08, 0.3], xyz: [0.35, 0.9, 0.4], rpy: [Math.PI / 2, 0, 0] });
   await page.waitForFunction(() => document.querySelector('[data-test=object-x]').value === '0.35');
@@ -197,7 +197,7 @@ test('Scene page adds, moves and removes objects', { timeout: 300_000 }, async (
 });
 
 test('Names never become HTML', { timeout: 300_000 }, async () => {
-  await page.locator('[data-test=list-finished] [data-test="job-second"]').waitFor();  // its arm is at rest
+  await page.locator('[data-test=list-finished] [data-test="job-second"]').waitFor();  // then the right arm is at rest
   await page.evaluate(() => { window.was_html = 0; });
   const { names, q } = await arm_now(page, 'right');
   const job = job_through('hostile', names, [q, q.map((v, k) => v + (k === 0 ? 0.2 : 0)), q], 2, { name: kHostile });
@@ -212,13 +212,13 @@ test('Names never become HTML', { timeout: 300_000 }, async () => {
   }
   await page.locator('[data-test=list-finished] [data-test="job-hostile"]').waitFor();
   assert.equal(await page.evaluate(() => window.was_html), 0);
-  // Names cannot pass for others or break a line: blank, reversed, very long, stacked marks.
+  // Blank, reversed, very long and piled-up names: none may pass for another name or break a line.
   const strange = { blank: '   ', turned: '\u202edeeccus', long: 'W'.repeat(256), piled: `a${'\u0301'.repeat(200)}`, hebrew: '\u05e9\u05dc\u05d5\u05dd 7' };
   for (const [id, name] of Object.entries(strange)) {
     const { names, q } = await arm_now(page, 'right');
     assert.equal((await ask(page, 'POST', '/jobs', job_through(`name-${id}`, names, [q, q], 1, { name }))).status, 202);
   }
-  // Rows move between lists until their jobs have ended.
+  // Waits until the jobs have ended, because their rows move between the lists until then.
   const row = (id) => page.locator(`[data-test=list-finished] [data-test="job-name-${id}"]`);
   for (const id of Object.keys(strange)) await row(id).waitFor();
   await row('blank').getByText('(blank)').first().waitFor({ state: 'attached' });
@@ -233,14 +233,14 @@ test('Names never become HTML', { timeout: 300_000 }, async () => {
       await eventually(async () => assert.deepEqual(await wide(), [], `${hash} at ${width} px`));
       assert.doesNotMatch(await page.title(), /\u202e/);
     }
-    // Ids stay visible next to long names. (Elements out of view have no layout.)
+    // Ids stay visible next to long names. Scrolls first, because rows out of view have no layout.
     await row('long').scrollIntoViewIfNeeded();
     await eventually(async () => assert.ok(await row('long').locator('.id').evaluate((id) => id.checkVisibility() && id.clientWidth > 30), `${width} px`));
     await page.screenshot(path_for(`names-${width}`));
   }
   await page.setViewportSize(before);
   await go('#/');
-  // Even as HTML, the content security policy would block the script.
+  // Even if a name were used as HTML, the content security policy would block its script.
   const stopped = await page.evaluate((html) => new Promise((done) => {
     document.addEventListener('securitypolicyviolation', (event) => done(event.violatedDirective), { once: true });
     const place = document.createElement('div');
@@ -260,7 +260,7 @@ for (const theme of ['Dark', 'Light']) {
     await go('#/settings');
     await page.getByLabel(theme, { exact: true }).check();
     await page.waitForFunction((theme) => document.documentElement.dataset.theme === theme, theme.toLowerCase());
-    // axe is injected by the debugger, which works under any content security policy.
+    // The debugger injects axe, which works under any content security policy.
     await page.evaluate(kAxe);
     const all = [];
     for (const hash of kPages) {
@@ -268,7 +268,7 @@ for (const theme of ['Dark', 'Light']) {
       await page.locator(hash === '#/' ? 'main' : '.pane h2').first().waitFor();
       if (/arm|job/.test(hash)) await page.locator('.uplot').waitFor();
       if (/pair/.test(hash)) await page.locator('[data-test=diagram] canvas').first().waitFor();
-      await page.waitForFunction(() => document.getAnimations().every(({ playState }) => playState !== 'running'));  // colors in transition
+      await page.waitForFunction(() => document.getAnimations().every(({ playState }) => playState !== 'running'));  // waits for color transitions
       const found = await page.evaluate(() => window.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'] })
         .then(({ violations }) => violations.map(({ id, nodes }) => `${id}: ${nodes.slice(0, 4).map((node) => `${node.html.slice(0, 120)} ${node.any[0]?.message ?? ''}`).join(' | ')}`)));
       await page.screenshot(path_for(`page-${theme.toLowerCase()}-${hash.replaceAll(/[^a-z]+/g, '-').replaceAll(/^-|-$/g, '') || 'cell'}`));
@@ -282,7 +282,8 @@ test('Targets measure 24 px and the focus is visible', { timeout: 180_000 }, asy
   await go('#/job/first');
   const small = await page.evaluate(() => [...document.querySelectorAll('button, a, input, select, canvas[tabindex]')]
     .map((element) => ({ element, box: element.getBoundingClientRect() }))
-    // Links within sentences may be small; checkboxes have their labels.
+    // Links within sentences may be small. Radio buttons and checkboxes can be clicked on their
+    // labels.
     .filter(({ element, box }) => box.width > 1 && !element.matches('.link, input[type=radio], input[type=checkbox]') && (box.height < 23.5 || box.width < 23.5))
     .map(({ element, box }) => `${element.outerHTML.slice(0, 90)} ${box.width.toFixed(0)} x ${box.height.toFixed(0)}`));
   assert.deepEqual(small, []);
@@ -327,7 +328,8 @@ test('Navigation reaches every page by mouse and by keys', { timeout: 300_000 },
     await counts(page.locator('.more-pages[open]'), 0, 'it closes');
   }
   await reads(page.locator('[data-test=more-pages]'), /^\s*Settings▾\s*$/);
-  // By keys alone: open, step through, close without leaving the page.
+  // The menu works by keys alone: it opens, steps through its entries, and closes without leaving
+  // the page.
   await page.locator('[data-test=more-pages]').focus();
   await page.keyboard.press('Enter');
   await page.keyboard.press('Tab');

@@ -1,9 +1,10 @@
 // Compares two PNGs of the same size in a browser page that decodes them.
 
-// Antialiasing and soft shadows stay below this; a robot against the background far above.
+// Smallest sum of channel differences (0 to 765) of a changed pixel. Antialiasing and soft shadows
+// stay below; a robot against the background is far above.
 const kLeastDifference = 40;
 
-/** Returns the number of pixels of this color, each channel within `off`. */
+/** Returns the number of pixels of this color. Each channel may differ by up to `off`. */
 export async function pixels_like(browser, png, rgb, off) {
   const page = await browser.newPage();
   try {
@@ -27,7 +28,8 @@ async function count_like([base64, rgb, off]) {
 }
 
 /**
- * Returns the number of clearly different pixels, and their center as shares of width and height.
+ * Returns the number of clearly different pixels, and the center of these pixels as shares of width
+ * and height.
  */
 export async function difference(browser, a, b) {
   const page = await browser.newPage();

@@ -1,5 +1,6 @@
-// Recordings in the dashboard: opened from the server or from files and scrubbed; past times with
-// data from before the page was loaded; MCAP export, read back by the MCAP reader and by the page.
+// Recordings in the dashboard. They are opened from the server or from files, and scrubbed. Past
+// times have data from before the page was loaded. The MCAP export is read back by the MCAP reader
+// and by the page.
 //
 //   node --test test/browser/recordings.test.mjs      (after building the server and web/dist; see harness.mjs)
 
@@ -22,7 +23,7 @@ let page;
 const { server, chromium } = with_dashboard('config/two_pandas.json', 'coordinated', { acceptDownloads: true, more: ['--data', data, '--record'] }, (opened) => { ({ page } = opened); });
 after(() => rmSync(folder, { recursive: true, force: true }));
 
-// Closes what a failed test left open.
+// Closes a recording that a failed test left open.
 beforeEach(async () => {
   if (await page.locator('[data-test=link].recording').count() === 0) return;
   await go_to(page, '#/recordings');
@@ -30,7 +31,7 @@ beforeEach(async () => {
   await page.locator('[data-test=link].open').waitFor();
 }, { timeout: 60_000 });
 
-/** Simulates and records these jobs. */
+/** Simulates two jobs and records them into the folder `run`. */
 function record() {
   const q = [0, -1.2, 0, -2.6, 0, 1.6, 0.785];
   const names = ['left', 'right'].map((arm) => Array.from({ length: 7 }, (_, i) => `${arm}_panda_joint${i + 1}`));
@@ -52,7 +53,7 @@ test('A recording opens from files, can be scrubbed, and closes', { timeout: 400
   await files.setInputFiles(['states.csv', 'events.jsonl'].map((name) => join(folder, 'run', name)));
   await page.locator('[data-test=opened]').waitFor();
   await page.locator('[data-test=recording]').waitFor();
-  // At its beginning no job has ended.
+  // At the beginning of the recording no job has ended.
   await page.locator('[data-test=count-finished]', { hasText: /^0$/ }).waitFor();
   await reads(page.locator('[data-test=arm-right] [data-test=arm-state]'), /^○\s+idle$/);
   await page.locator('[data-test=lane-text-left]', { hasText: 'nothing is planned' }).waitFor({ state: 'attached' });
@@ -94,7 +95,7 @@ test('After a reload, past times have states, events and poses', { timeout: 400_
   const then = await view_picture(page);
   await page.screenshot(path_for('reload-looks-back'));
   await eventually(async () => assert.ok(Number(await page.locator('[data-test=scrub]').getAttribute('min')) < started_s, 'what is looked back at begins with what the server kept'));
-  // A time without data has no pose.
+  // The page shows no pose for a time without data.
   await go_to(page, `#/arm/left?t=${(ended_s + 3600).toFixed(2)}`);
   await page.locator('[data-test=unheard]').waitFor();
   await no_arm_is_labelled();
@@ -105,13 +106,16 @@ test('After a reload, past times have states, events and poses', { timeout: 400_
 
 const no_arm_is_labelled = () => counts(page.locator('.arm-label:visible'), 0, 'a label of an arm that is not drawn');
 
-/** Sets the scrub bar to its nearest step. */
+/** Moves the scrub bar to the step nearest to `t_s`. */
 const scrub_to = (t_s) => page.locator('[data-test=scrub]').evaluate((bar, t_s) => {
   bar.value = String(t_s);
   bar.dispatchEvent(new Event('input', { bubbles: true }));
 }, t_s);
 
-/** Returns a recording by its folder name, or the one being written. */
+/**
+ * Returns the list entry of a recording by its folder name, or the entry of the recording being
+ * written.
+ */
 const kept = (name) => page.locator(name === 'running' ? '[data-test^=recording-]:has-text("Being written")' : `[data-test="recording-${name}"]`);
 
 test('Recordings of previous and present sessions open from the server list', { timeout: 500_000 }, async () => {
@@ -201,7 +205,7 @@ test('A camera in an address shows the same in another tab, also next to a pane'
   await page.setViewportSize({ width: 1024, height: 768 });
   await go_to(page, '#/arm/right');
   await page.locator('[data-test=page-arm]').waitFor();
-  // The legend is behind a button at this width.
+  // In a window of this width the legend is behind a button.
   const legend = page.locator('.timeline .legend');
   await legend.locator('summary').click();
   await legend.getByText('stopped').waitFor();
@@ -267,7 +271,7 @@ test('The MCAP export is readable by the MCAP reader and by the page', { timeout
   assert.ok(Math.max(...hand.map(({ y }) => y)) - Math.min(...hand.map(({ y }) => y)) > 0.1, 'and its hand with it');
   assert.equal(messages.get('/scene')[0].entities[0].id, 'table');
   assert.ok(messages.get('/jobs').some(({ id, state }) => id === 'exported' && state === 'succeeded'));
-  // The page opens the file as a recording.
+  // The page can open the exported file as a recording.
   const file = join(folder, 'taken.mcap');
   await download.saveAs(file);
   await drop_files(page, [file], 'nav');

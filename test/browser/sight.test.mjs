@@ -1,5 +1,5 @@
-// Visibility: each page opened by its address, Stop next to any header content, buttons in all
-// states, answers of forms, names and numbers in narrow windows.
+// Visibility: each page when it is opened by its address, Stop next to any content of the
+// header, buttons in all states, answers of forms, and names and numbers in narrow windows.
 //
 //   node --test test/browser/sight.test.mjs      (after building the server and web/dist; see harness.mjs)
 
@@ -15,7 +15,10 @@ const { server, chromium } = with_dashboard('config/two_pandas.json', 'coordinat
 
 const go = (hash) => go_to(page, hash);
 
-/** Returns texts, links and controls of header and pane, without changing numbers. */
+/**
+ * Returns the texts, links and controls of header and pane. Each number is replaced by 0, because
+ * numbers change all the time.
+ */
 const told = () => {
   const of = (root) => [root.innerText, ...[...root.querySelectorAll('a, button, input, select, option')].map((one) => `${one.tagName} ${one.textContent} ${one.getAttribute('href')} ${one.disabled} ${one.title}`)].join('\n');
   return [...document.querySelectorAll('header, .pane')].map(of).join('\n').replace(/\d+/g, '0');
@@ -23,13 +26,13 @@ const told = () => {
 
 const kPages = ['#/', '#/new', '#/scene', '#/scene/table', '#/history', '#/settings', '#/alerts', '#/recovery', '#/recordings', '#/policies', '#/job/done', '#/arm/left', '#/pair/left/right', '#/pair/done/other'];
 
-test('A page opened by its address shows the same as when returned to', { timeout: 600_000 }, async () => {
+test('A page opened by its address shows the same as when a user returns to it', { timeout: 600_000 }, async () => {
   await send_through(page, 'left', 'done', [kMiddle, null], 3);
   await send_through(page, 'right', 'other', [kMiddle, null], 3);
   for (const id of ['done', 'other']) await page.locator(`[data-test=list-finished] [data-test="job-${id}"]`).waitFor();
   for (const hash of kPages) {
     const other = await chromium.context.newPage();
-    await other.setViewportSize({ width: 800, height: 450 });  // small, because the view is drawn fourteen times
+    await other.setViewportSize({ width: 800, height: 450 });  // small, because the view is drawn for each of fourteen pages
     await other.goto(`${url}${hash}`);
     await other.locator('[data-test=link].open').waitFor();
     await other.waitForFunction(() => window.armloom?.is_drawn());
@@ -99,7 +102,7 @@ test('Stop stays completely visible in the same place for any header content', {
     }
   };
   await look('alert and control', ['link', 'open-alerts', 'in-control', 'go-policies']);
-  // Hidden parts are reached by keys, and then visible.
+  // Facts that do not fit are hidden. They are reached by Tab, and become visible with the focus.
   await page.setViewportSize({ width: 920, height: 720 });
   await page.locator('[data-test=open-alerts]').focus();
   await page.keyboard.press('Tab');
@@ -130,8 +133,8 @@ test('Stop stays completely visible in the same place for any header content', {
 });
 
 /**
- * Returns the contrast of a button's text to its background (WCAG), with translucent backgrounds
- * blended.
+ * Returns the contrast ratio (WCAG) of a button's text to its background. Translucent backgrounds
+ * are blended with what is behind them.
  */
 const contrast = (button) => {
   const parts = (text) => { const [r, g, b, a = 1] = (text.match(/[\d.]+/g) ?? [0, 0, 0, 0]).map(Number); return [r, g, b, a]; };
@@ -166,7 +169,7 @@ test('Buttons have sufficient contrast in all states and both themes', { timeout
         await read(button, `pointed at, ${theme}`);
         await page.mouse.down();
         await read(button, `pressed, ${theme}`);
-        await page.mouse.move(2, 2);  // released elsewhere: no action
+        await page.mouse.move(2, 2);  // moves away before the release, so that the button does nothing
         await page.mouse.up();
         await button.focus();
         await read(button, `with the focus, ${theme}`);
@@ -182,7 +185,7 @@ test('Buttons have sufficient contrast in all states and both themes', { timeout
   assert.ok(looked > 40, `${looked} were looked at`);
 });
 
-/** Returns true if the element is in the pane, completely or as far as it fits. */
+/** Returns true if the pane shows the whole element, or as much of it as fits. */
 const in_pane = (element) => {
   const box = element.getBoundingClientRect();
   const pane = document.querySelector('.pane-body').getBoundingClientRect();

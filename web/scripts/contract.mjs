@@ -13,12 +13,12 @@ import openapi_types, { astToString } from 'openapi-typescript';
 const kWeb = resolve(dirname(fileURLToPath(import.meta.url)), '..');
 const kBinary = resolve(process.env.ARMLOOM_BINARY ?? join(kWeb, '../build/armloom'));
 const kHead = '// Written by `npm run contract`: change the descriptions in server/messages, not this file.\n';
-// The schemas that the page reads; referenced schemas are added.
+// The schemas of the messages that the page reads. Schemas to which they refer are added.
 const kRead = ['Message', 'Cell', 'Job', 'Diagram', 'Timeline', 'Problem', 'Verdict', 'JobMotion', 'Plan', 'AlertList', 'Session', 'Comparison', 'Control', 'ControlTaken', 'Jog', 'JobPage', 'MeasuredStates', 'RecordingList'];
-// Keywords that are not checked, so that a newer server may send more than this page knows.
+// Keywords that the page does not check, so that a newer server may send more than this page knows.
 const kDropped = new Set(['description', 'additionalProperties', 'minimum', 'maximum', 'exclusiveMinimum', 'exclusiveMaximum', 'pattern', 'format', 'dependentRequired']);
-// Large arrays, validated where they are used (src/motion, src/state/trace): a second check here
-// would delay the page.
+// Large arrays. They are validated where they are used (src/motion, src/state/trace), because a
+// second check would delay the page.
 const kReadWhereUsed = { JobMotion: 'trajectory', MeasuredStates: 'q' };
 
 const document = JSON.parse(execFileSync(kBinary, ['schema', '--openapi'], { encoding: 'utf8', maxBuffer: 1 << 26 }));
@@ -42,7 +42,7 @@ function shape_of(schema, names, in_properties = false) {
   return out;
 }
 
-const names = new Set(kRead);  // schemas_text() adds the referenced names
+const names = new Set(kRead);  // schemas_text() adds the schemas to which these refer
 
 function schemas_text() {
   const shapes = {};
@@ -55,8 +55,8 @@ function schemas_text() {
   return `{\n${lines.join(',\n')}\n}\n`;
 }
 
-// Removes minItems and maxItems of variable length: the generator supports only arrays of fixed
-// length.
+// Removes minItems and maxItems unless they are equal, because the generator supports only arrays
+// of fixed length.
 function without_ranges(schema) {
   if (typeof schema !== 'object' || schema === null) return schema;
   if (Array.isArray(schema)) return schema.map(without_ranges);

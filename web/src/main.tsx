@@ -64,8 +64,8 @@ const connection = new Connection({
     store.take(message);
     if (is_new_run) void look_before(message.stream, message.seq);
     if (message.type === 'snapshot' || message.type === 'alert' || message.type === 'monitor') alerts.refresh_soon();
-    if (message.type === 'snapshot' || message.type === 'alert') void jogging.look();  // control changes are published as alerts
-    // A snapshot has fewer ended jobs than the page knew.
+    if (message.type === 'snapshot' || message.type === 'alert') void jogging.look();  // the server publishes changes of control as alerts
+    // A snapshot contains only the last ended jobs. The archive starts again to find the others.
     if (message.type === 'snapshot') archive.reopen();
     if (other_run) {
       motions.clear();
@@ -98,7 +98,7 @@ function shelf(): Storage | null {
   try {
     return window.localStorage;
   } catch {
-    return null;  // some browsers forbid access
+    return null;  // some browsers forbid access to the storage
   }
 }
 
@@ -115,7 +115,10 @@ async function look_before(stream: string, seq: number): Promise<void> {
   store.take_earlier(await earlier_events(kApi, (url, init) => fetch(url, init), stream, seq));
 }
 
-/** Loads positions from before the page was connected, or while it was not. */
+/**
+ * Loads positions that the page did not receive, because it was not connected yet or the connection
+ * was lost.
+ */
 async function look_at_states(): Promise<void> {
   const answer = await api.states();
   if (answer.ok) store.take_earlier_states(answer.value);

@@ -1,13 +1,16 @@
-// Wall-clock times without ambiguity: year first, 24 hours, local time with its offset from UTC.
-// Pure.
+// Writes wall-clock times so that they cannot be misread: year first, 24 hours, local time with its
+// offset from UTC. Pure.
 
-/** 2026-11-26 14:03:07 +01:00 */
+/** Returns the time in the form 2026-11-26 14:03:07 +01:00. */
 export function wall_time(at: string | number): string {
   const date = new Date(at);
   return Number.isNaN(date.getTime()) ? String(at) : `${day(date)} ${time(date)} ${offset(date)}`;
 }
 
-/** Short form for tables: without today's date and without the offset, which the title has. */
+/**
+ * Returns the short form for tables, without today's date and without the offset. The title of the
+ * element has the full form.
+ */
 export function short_wall_time(at: string | number, now_ms: number): string {
   const date = new Date(at);
   if (Number.isNaN(date.getTime())) return String(at);

@@ -9,7 +9,10 @@ import { kText } from './strings';
 
 const kLongestId = 24;
 
-/** Returns an id short enough for a list: a UUID by its beginning, another id cut if it is long. */
+/**
+ * Returns an id that is short enough for a list. A UUID is shown by its beginning. Another id is
+ * cut if it is long.
+ */
 export function short_id(id: string): string {
   if (/^[0-9a-f]{8}-[0-9a-f]{4}-/i.test(id)) return id.slice(0, 8);
   return cut_text(id, kLongestId);
@@ -48,7 +51,7 @@ export function clock(t_s: number): string {
   return `${Math.floor(whole / 3600)}:${pad(Math.floor(whole / 60) % 60)}:${pad(whole % 60)}.${tenths % 10}`;
 }
 
-/** Returns why a job waits, in one sentence; empty if it waits for nothing. */
+/** Returns in one sentence why a job waits. Empty if the job waits for nothing. */
 export function reason_in_words(job: Job): string {
   if (job.cycle.length) return kText.wait.deadlock([...job.cycle, ...job.cycle.slice(0, 1)].map(short_id).join(' -> '));
   const [first, ...rest] = job.waits_on;
@@ -96,7 +99,7 @@ function conflict_of(w: WaitsOn): string {
   const links = pair_of(w.links);
   if (!links) return '';
   const [own, other] = [shown_name(links[0]), shown_name(links[1])];
-  // The job has not started: its time counts from its own start.
+  // The time counts from the start of the job's own motion, because the job has not started.
   const when = w.own_time_s === null ? '' : kText.wait.time_in_motion(w.own_time_s.toFixed(2));
   if (w.clearance_m === null || w.clearance_m <= 0) return kText.wait.touches(own, other, when);
   return kText.wait.comes_within(own, other, millimeters(w.clearance_m), when);
@@ -105,8 +108,8 @@ function conflict_of(w: WaitsOn): string {
 export interface Figure { text: string; title: string }
 
 /**
- * Returns the most relevant number at this stage of a job, with its meaning. `ends_s` is the
- * predicted end.
+ * Returns the number that is most relevant at this stage of the job, with its meaning. `ends_s` is
+ * the predicted end.
  */
 export function figure_in_words(job: Job, now_s: number, progress: number, ends_s: number | null = null): Figure {
   const words = kText.figure;
@@ -122,13 +125,16 @@ export function figure_in_words(job: Job, now_s: number, progress: number, ends_
   return { text: words.ran(seconds(job.ended_s - job.started_s)), title: words.ran_title };
 }
 
-/** Rephrases a figure as past, because the data is old. */
+/** Rephrases a figure in the past tense, because the data is old. */
 export function as_last_heard(figure: string): string {
   if (figure === '') return '';
   return /^waited|left$/.test(figure) ? kText.figure.had(figure) : kText.figure.was(figure);
 }
 
-/** Returns the object that the job waits for first. */
+/**
+ * Returns the object that the job waits for, if this is the first thing that it waits for. Else
+ * returns null.
+ */
 export function object_of({ waits_on: [first] }: Pick<Job, 'waits_on'>): string | null {
   return first?.kind === 'object' ? first.id ?? first.links[1] ?? null : null;
 }
@@ -161,7 +167,7 @@ function waited(job: Job, until_s: number | null): Figure {
   return { text: kText.figure.waited(seconds(Math.max(0, until_s - job.submitted_s))), title: kText.figure.waited_title };
 }
 
-/** Rounds away digits of binary representation: 0.30000001192 becomes 0.3. */
+/** Rounds away the digits that come from binary numbers: 0.30000001192 becomes 0.3. */
 export function number_in_words(value: number): string {
   return String(Number(value.toPrecision(kDigits)));
 }
@@ -169,17 +175,19 @@ export function number_in_words(value: number): string {
 const kDigits = 6;
 const kLongestValue = 200;
 
-/** Returns the value found at the fault of a refused request; empty if the server gives none. */
+/**
+ * Returns the words for the value that was found at a fault. Empty if the server gives no value.
+ */
 export function found_in_words(value: unknown): string {
   return value === undefined || value === null || value === '' ? '' : kText.compose.found(cut_text(JSON.stringify(value, (_, part: unknown) => (typeof part === 'number' ? Number(number_in_words(part)) : part)), kLongestValue));
 }
 
-/** Returns the kinds of bodies that a clearance is between. */
+/** Returns which kinds of bodies the clearance is between: two arms, or an arm and an object. */
 export function clearance_in_words(clearance: Clearance): string {
   return clearance.arms.length > 1 ? kText.view.arm_to_arm : kText.view.arm_to_object;
 }
 
-/** Returns why the server cannot be reached for requests now, or null. */
+/** Returns why requests cannot reach the server now, or null if they can. */
 export function why_not_connected(link: Link): string | null {
   switch (link.status) {
     case 'open': return null;
@@ -195,8 +203,8 @@ const kSaidByState: ReadonlySet<string> = new Set(['completed', 'succeeded', 'ca
 const kMostNamed = 6;
 
 /**
- * Returns what is unknown after a restart; `since` is the time of the first message of the new
- * session.
+ * Returns what is unknown after a restart of the server. `since` is the time of the first message
+ * of the new session.
  */
 export function restart_in_words({ lost }: Pick<Restart, 'lost'>, since: string): string {
   const named = lost.slice(0, kMostNamed).map((job) => title_of(job)).join(', ');
@@ -204,10 +212,10 @@ export function restart_in_words({ lost }: Pick<Restart, 'lost'>, since: string)
   return kText.server.restarted(since, lost.length === 0 ? kText.server.all_known : kText.server.unknown_status(lost.length, names));
 }
 
-/** Returns how a job ended: the reason from the closed list, with the server's detail. */
+/** Returns how a job ended: the reason, which is one of a fixed list, and the server's detail. */
 export function result_in_words(job: Job): string {
   if (!job.result) return '';
-  // The state already says this.
+  // The state already says how the job ended.
   const words = kSaidByState.has(job.result.reason) ? '' : job.result.reason.replaceAll('_', ' ');
   return [words, shown_text(job.result.detail)].filter((part) => part !== '').join(': ');
 }

@@ -10,7 +10,7 @@ const ended = (number: number) => job_json(`j${number}`, {
   state: 'succeeded', ended_s: number, ended_at: new Date(1.8e12 + 1000 * number).toISOString(), result: { reason: 'completed', detail: '' },
 }) as Job;
 
-/** A server with this many jobs, the newest with the highest number. */
+/** Returns a server with `count` jobs. The newest job has the highest number. */
 function server(count: number) {
   const asked: string[] = [];
   const api = {

@@ -25,7 +25,10 @@ const arm_at = (t_s: number, name = 'left') => {
 };
 const finished_at = (t_s: number) => at(t_s).jobs('finished').map(({ id }) => id);
 
-/** Each event's number is its time: a job from 10 to 20, an alert at 25. */
+/**
+ * Each event's number is its time in seconds. A job runs from 10 to 20, and an alert is raised at
+ * 25.
+ */
 const kStory = [
   envelope('job', 9, job_json('a', { submitted_s: 9 })),
   envelope('job', 10, job_json('a', { submitted_s: 9, state: 'running', started_s: 10 })),
@@ -94,7 +97,7 @@ describe('Past state', () => {
     router.show_time(12);
     const then = seen.store.value;
     expect(then.jobs('running')).toHaveLength(1);
-    router.show_time(13);  // no event lies between
+    router.show_time(13);  // no event lies between this time and the last
     expect(seen.store.value).toBe(then);
     expect(then.t_s).toBe(13);
     router.show_time(22);
@@ -122,7 +125,7 @@ describe('Events from before the page was loaded', () => {
     expect([...at(12).arms.keys()]).toEqual(['left', 'right']);
   });
 
-  it('leave arms unknown before the first event that names them', () => {  // they do not begin with the session
+  it('leave arms unknown before the first event that names them', () => {  // the events do not begin with the session
     expect(arm_at(9)?.[0]).toBe('not known');
   });
 

@@ -37,7 +37,7 @@ describe('Recovery checklist', () => {
     expect(checklist.left).toBe(0);
     take(envelope('arm', 7, arm_json('right', { state: 'idle' })));
     expect(checklist.left).toBe(4);
-    // Ticks made while no arm is stopped do not count for a later stop.
+    // Ticks made while no arm is stopped must not count for a later stop.
     tick_all();
     stop(8, 'left');
     expect(checklist.left).toBe(4);

@@ -4,15 +4,16 @@ import css from '../src/style/tokens.css?raw';
 type Triple = [number, number, number];
 type Eye = 'all' | 'no red' | 'no green' | 'no blue';
 
-// Machado, Oliveira, Fernandes 2009, severity 1, on linear sRGB.
+// How eyes without one of the three cones see linear sRGB. From Machado, Oliveira, Fernandes 2009,
+// severity 1.
 const kEyes: Record<Eye, readonly [Triple, Triple, Triple]> = {
   'all': [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
   'no red': [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]],
   'no green': [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.01182, 0.04294, 0.968881]],
   'no blue': [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.3039]],
 };
-// In CIELAB a distance of 2 is just visible side by side; marks apart from each other need several
-// times that.
+// A distance of 2 in CIELAB is just visible if two colors are side by side. Marks that are apart
+// from each other need several times that.
 const kLeastOfTwo = 20;
 const kLeastOfFour = 12;
 

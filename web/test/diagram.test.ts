@@ -8,7 +8,8 @@ import { diagram_json, job_json, wait_json } from './samples';
 
 type Cells = Parameters<typeof diagram_json>[0];
 
-// A conflict where left is past 2 s and right past 1 s; the corner before it is undecided.
+// The jobs conflict where left is past 2 s and right is past 1 s. The cell before this corner is
+// undecided.
 const kCells: Cells = [
   ['free', 0, 2, 0, 3], ['free', 2, 4, 0, 0.5], ['undecided', 2, 4, 0.5, 1], ['conflict', 2, 4, 1, 3],
 ];
@@ -75,7 +76,7 @@ describe('Diagram prediction', () => {
     expect(ahead({ a_s: 1, b_s: 1 }, null)).toBe('waits');
     expect(ahead({ a_s: 1, b_s: 1 }, { a_s: 4, b_s: 3 })).toBe('allowed');
     expect(ahead_of(null, { a_s: 1, b_s: 1 }, null, diagram())).toEqual({ kind: 'free' });
-    // At the end of a job nothing lies beyond.
+    // At the end of a job, authority up to its end is enough: nothing lies beyond.
     expect(ahead_of({ ...contact, a_s: 4 }, { a_s: 4, b_s: 0 }, { a_s: 4, b_s: 3 }, diagram())?.kind).toBe('allowed');
   });
   it('states the remaining time, and nothing once the contact has passed', () => {
@@ -86,17 +87,17 @@ describe('Diagram prediction', () => {
   it('is described, as an alarm only if nothing makes a job wait', () => {
     const conflict: DiagramContact = { state: 'conflict', in_s: 2, a_s: 2, b_s: 2 };
     const undecided: DiagramContact = { state: 'undecided', in_s: 0.25, a_s: 2, b_s: 0.75 };
-    expect(plan_in_words({ kind: 'waits', contact: conflict }, 'right')).toEqual({ tone: 'calm', words: 'If right started now, they would reach a conflict in 2.00 s. One of them has no authority to go that far and waits before it.' });
+    expect(plan_in_words({ kind: 'waits', contact: conflict }, 'right')).toEqual({ tone: 'calm', words: 'If right started now, they would reach a conflict in 2.00 s. One of the jobs has no authority to go that far and waits before it.' });
     expect(plan_in_words({ kind: 'waits', contact: undecided }, null)).toMatchObject({ tone: 'calm', words: expect.stringMatching(/^If both continued from here, they would reach an area that is not certified free in 0.25 s\./) as unknown });
     expect(plan_in_words({ kind: 'allowed', contact: undecided }, null).tone).toBe('calm');
-    expect(plan_in_words({ kind: 'allowed', contact: conflict }, null)).toMatchObject({ tone: 'alarm', words: expect.stringMatching(/nothing makes one of them wait/) as unknown });
+    expect(plan_in_words({ kind: 'allowed', contact: conflict }, null)).toMatchObject({ tone: 'alarm', words: expect.stringMatching(/Nothing makes one of the jobs wait/) as unknown });
     expect(plan_in_words({ kind: 'free' }, null, 'left').words).toBe('While left rests at its end, the path of the other job is free.');
     expect(plan_in_words({ kind: 'free' }, null)).toMatchObject({ tone: 'free', words: expect.stringMatching(/without a conflict/) as unknown });
   });
 });
 
 describe('Diagram that is still being computed', () => {
-  it('leaves the last diagram, with its time', () => {
+  it('leaves the last diagram visible, with its time', () => {
     const jobs = [job('left', { state: 'succeeded', ended_s: 73.2 }), job('right')];
     expect(kept_in_words(diagram(), jobs, { a: 'next', b: 'right' })).toBe('As of 0:01:13.2: left and right. next and right are being drawn…');
     expect(kept_in_words(diagram(), [null, null], null)).toBe('Earlier diagram: left and right.');

@@ -17,7 +17,9 @@ function page() {
   } as unknown as App;
   const window = new EventTarget();
   listen_to_drops(app, window as unknown as Window);
-  /** As browsers present a folder: an unreadable file, and a readable entry. */
+  /**
+   * Drops entries as browsers present a folder: a file that cannot be read, and an entry that can.
+   */
   const drop = async (entries: readonly object[], files: readonly object[]) => {
     const event = Object.assign(new Event('drop', { cancelable: true }), { dataTransfer: { files, items: entries.map((entry) => ({ webkitGetAsEntry: () => entry })) } });
     window.dispatchEvent(event);
@@ -29,7 +31,7 @@ function page() {
 
 const entry_of = (file: File) => ({ isFile: true, isDirectory: false, name: file.name, file: (done: (file: File) => void) => done(file) });
 const unreadable = { name: 'run', size: 4096, text: () => Promise.reject(new Error('NotFoundError')) };
-/** Returns two entries at a time. */
+/** Returns a folder whose reader returns two entries at a time. */
 function folder_of(entries: readonly object[]) {
   return {
     isFile: false, isDirectory: true, name: 'run',

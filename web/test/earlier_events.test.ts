@@ -4,7 +4,7 @@ import { envelope, kStream, snapshot } from './samples';
 
 const alert = (seq: number) => envelope('alert', seq, { level: 'info', text: `${seq}` });
 
-/** A server that sends these events, split anywhere, and then stays silent. */
+/** Returns a server that sends these events, split anywhere, and then stays silent. */
 function sending(texts: string[], asked: string[] = []) {
   return (url: string) => {
     asked.push(url);

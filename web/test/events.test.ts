@@ -6,7 +6,7 @@ const at = (key: number, t_s: number, over: Partial<EventMark> = {}): EventMark 
 
 // Newest first, as the page keeps them.
 const kEvents = [at(4, 30), at(3, 20), at(2, 20), at(1, 5)];
-// 10 px per second from 0 s.
+// 10 px per second; the left end of the axis is at 0 s.
 const sheet = sheet_of(72 + 10 + 500, 100, { length_s: 50, fixed_from_s: 0 }, 40);
 const foot = 100 - kAxis_px;
 

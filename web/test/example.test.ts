@@ -15,7 +15,9 @@ function joint(name: string, over: Partial<CellJoint> = {}): CellJoint {
 
 const joints = [joint('left_panda_joint1'), joint('left_panda_joint2', { lower: -1.3 })];
 
-/** Samples the largest velocity and acceleration of the quintic over d in T. */
+/**
+ * Samples the quintic over the distance d in time T. Returns its largest velocity and acceleration.
+ */
 function peaks(d: number, T: number): { velocity: number; acceleration: number } {
   let velocity = 0;
   let acceleration = 0;

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
 import { Fence } from '../src/view/fence';
 
-/** A graphics card whose commands complete when the test says so. */
+/** Returns a graphics card whose commands complete when the test says so. */
 function card() {
   const state = { done: false, open: 0 };
   const gl = {
@@ -37,7 +37,7 @@ describe('Fence', () => {
     expect([fence.is_up, state.open]).toEqual([false, 0]);
   });
 
-  it('is not awaited without limit', () => {
+  it('gives up after a time limit', () => {
     const { state, fence } = card();
     const told: number[] = [];
     fence.put(performance.now(), (took_ms) => told.push(took_ms));

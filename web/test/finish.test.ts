@@ -31,7 +31,7 @@ describe('Surface in two qualities', () => {
 
 describe('Hidden triangles', () => {
   it('are removed where a sphere lies in a cylinder', () => {
-    // The end of a capsule: half of the sphere is outside.
+    // The end of a capsule: half of the sphere is outside of the cylinder.
     const X_SL = new THREE.Matrix4().makeTranslation(0, 0.5, 0);  // the cylinder reaches from y = -1 to 0
     const sphere = without_hidden(new THREE.SphereGeometry(1, 20, 12), [{ X_SL, inside: inside_cylinder(0.99) }]);
     const all = triangles(new THREE.SphereGeometry(1, 20, 12));
@@ -39,7 +39,7 @@ describe('Hidden triangles', () => {
     expect(triangles(sphere)).toBeLessThan(0.9 * all);
     const places = sphere.getAttribute('position');
     const drawn = new Set(Array.from(sphere.index?.array ?? []));
-    // The cylinder's flat end is at y = -1: nothing below it is hidden.
+    // The pole of the sphere at y = 1 is outside of the cylinder, so it stays.
     expect([...drawn].some((i) => places.getY(i) > 0.99)).toBe(true);
   });
   it('stay where shapes only touch, or one corner is outside', () => {

@@ -24,7 +24,7 @@ function page() {
 describe('follow_timeline', () => {
   it('polls repeatedly, one request after the other', async () => {
     const { told, state, wait } = page();
-    expect(state.next).toBeNull();  // not before the answer
+    expect(state.next).toBeNull();  // no poll is planned before the answer arrives
     await settled();
     await wait();
     expect([state.asked, told]).toEqual([2, [kForecast, kForecast]]);

@@ -7,8 +7,8 @@ const v = (x: number, y: number, z: number) => new THREE.Vector3(x, y, z);
 const corners_of = ({ min, max }: THREE.Box3) => [0, 1, 2, 3, 4, 5, 6, 7].map((i) => v(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z));
 
 /**
- * Returns how far out the outermost corner is seen, as a share of the opening, at a camera
- * distance.
+ * Returns how far out the outermost corner of the box is seen at a camera distance. 1 is the border
+ * of the opening.
  */
 function outermost(box: THREE.Box3, direction: THREE.Vector3, opening: Opening, distance: number): number {
   const camera = new THREE.PerspectiveCamera();

@@ -23,7 +23,7 @@ describe('Goal form', () => {
     expect(body({ speed: '0' })).toMatch(/Speed/);
   });
 
-  it('converts a dragged pose and back', () => {
+  it('takes a dragged pose, and returns the same pose', () => {
     const texts = form_of_pose({ xyz: [0.12345, -0.2, 0.5], rpy: [Math.PI, 0, -Math.PI / 4] });
     expect(texts).toEqual({ xyz: '0.123, -0.2, 0.5', rpy: '180, 0, -45' });
     expect(pose_of_form(texts)?.rpy[2]).toBeCloseTo(-Math.PI / 4);

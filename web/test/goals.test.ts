@@ -10,7 +10,10 @@ const arms = new Map(['left', 'right'].map((name) => [name, arm_json(name) as Ar
 const cell = { robots: ['left', 'right'].map((name) => ({ arms: [{ name, named_states: { ready: [0.3, -1] } }] })) } as unknown as Cell;
 const known = { arms, cell };
 
-/** Plans a straight line from the given start, or from zero, to the requested joints. */
+/**
+ * Returns a server that plans a straight line to the requested joints. The line begins at the given
+ * start, or at zero.
+ */
 function planner() {
   const asked: Record<string, unknown>[] = [];
   const plan = async (text: string): Promise<Answer<Plan>> => {

@@ -43,7 +43,7 @@ describe('Shown time', () => {
     now_ms += 4000;
     hear(30, 31);
     expect(at('#/?t=28')).toEqual(['gap', null]);
-    now_ms += 4000;  // the page was busy: it receives all, late
+    now_ms += 4000;  // the page was busy: it receives all frames, late
     take(frame(31.1, { left_panda_joint1: 31.1 }));
     expect(at('#/?t=31.05')).toEqual(['kept', 31]);
   });

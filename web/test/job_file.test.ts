@@ -71,7 +71,7 @@ describe('Job text', () => {
     workers[1]?.onmessage?.({ data: composed('[1]') } as MessageEvent<Composed>);
     expect((await done).kind).toBe('batch');
     expect(workers.map(({ ended, got }) => [ended, got])).toEqual([[1, ['{}']], [1, ['[1]']]]);
-    expect(await composed_in_worker('[1]', new AbortController().signal, make)).toBe(await done);  // not read twice
+    expect(await composed_in_worker('[1]', new AbortController().signal, make)).toBe(await done);  // the text is not read twice
     expect(workers).toHaveLength(2);
   });
 

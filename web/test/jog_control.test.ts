@@ -27,7 +27,7 @@ function bench() {
   return { jogging, said, timers, server, accept: () => answer_jog({ ok: true, value: { job, lease_s: 0.5 } }) };
 }
 
-/** Presses the button; the server then refuses the renewal. */
+/** Presses the button. The server then refuses the renewal. */
 async function refuse_held({ jogging, timers, server, accept }: ReturnType<typeof bench>, refusal: string): Promise<void> {
   await jogging.take('Ada');
   void jogging.press('left', 'ready');
@@ -44,7 +44,7 @@ describe('Jogging', () => {
   it('continues only while renewed, and ends at once on release', async () => {
     const { jogging, said, timers, accept } = bench();
     await jogging.press('left', 'ready');
-    expect(said).toEqual([]);  // no request without control
+    expect(said).toEqual([]);  // the page sends no request without control
     await jogging.take('Ada');
     void jogging.press('left', 'ready');
     accept();

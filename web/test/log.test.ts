@@ -46,7 +46,7 @@ describe('Event log', () => {
     expect([folds, log.entries.length]).toEqual([[], 600]);
     log.push(told(602, 602));
     log.trim();
-    expect(folds).toEqual([302]);  // until 302 s: 300 s before the last
+    expect(folds).toEqual([302]);  // folded up to 302 s, which is 300 s before the last event
     expect([log.entries.length, log.entries[0]?.seq]).toEqual([300, 302]);
   });
 

@@ -36,7 +36,7 @@ describe('Pasted text', () => {
     expect(motion(body('a', ['x'], [[0], [2]], false))?.q_at(0.5)['x']).toBeCloseTo(0.5);
   });
 
-  it('moves one arm sequentially and two arms together', () => {
+  it('moves one arm through its jobs one after the other, and two arms together', () => {
     const shown = motion([body('a', ['x'], [[0], [1]]), body('b', ['x'], [[1], [5]]), body('c', ['z'], [[3], [4]])]);
     expect(shown?.duration_s).toBe(4);
     expect(shown?.q_at(1)).toEqual({ x: 0.5, z: 3.5 });
@@ -87,7 +87,7 @@ describe('Trajectory', () => {
     expect(asked).toHaveLength(6);
     expect(book.changes.value).toBe(before + 4);
     expect(book.of(job('j0'))?.q_at(1)).toEqual({ a: 0.5 });
-    expect(book.of(job('j0', 3))?.duration_s).toBe(2);  // the old motion, until the new one arrives
+    expect(book.of(job('j0', 3))?.duration_s).toBe(2);  // the old motion is returned until the new motion arrives
     for (const answer of answers.splice(0)) answer();
     await new Promise((done) => setTimeout(done));
     expect(asked.at(-1)).toBe('j0');
@@ -95,7 +95,8 @@ describe('Trajectory', () => {
 });
 
 describe('Longest trajectory that the server accepts', () => {
-  // Tasks above 0.1 s are noticed; this is besides parsing the JSON.
+  // Checking and reading may take this many times as long as parsing the JSON. Users notice a task
+  // above 0.1 s.
   const kMostTimesJson = 6;
 
   it('is read in about the time that parsing its JSON takes', () => {

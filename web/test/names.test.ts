@@ -53,7 +53,7 @@ describe('Names from users', () => {
 
   it('are cut quickly at any length', () => {
     expect(cut_text('x'.repeat(1_000_000), 4)).toBe('xxx…');
-    expect(cut_text(`a${'\u0301'.repeat(1_000_000)}`, 4)).toBe('…');  // one endless character: no part of it is complete
+    expect(cut_text(`a${'\u0301'.repeat(1_000_000)}`, 4)).toBe('…');  // one endless character, of which no part is complete
     expect(cut_text(`ab${'\u0301'.repeat(1_000_000)}`, 4)).toBe('a…');
   });
 

@@ -5,7 +5,7 @@ import type { SceneObject } from '../src/server/messages';
 const kCan: SceneObject = { name: 'can', cylinder: [0.08, 0.3], xyz: [0.3, 0.9, 0.4], rpy: [Math.PI / 2, 0, 0] };
 
 describe('Object form', () => {
-  it('returns the object that it was made of', () => {
+  it('returns the object from which it was filled', () => {
     expect(object_of(form_of(kCan))).toEqual(kCan);
   });
 
@@ -26,7 +26,7 @@ describe('Object form', () => {
     expect(form.name).toBe('can');
   });
 
-  it('keeps after saving what was typed since', () => {
+  it('keeps what the user typed while earlier input was being saved', () => {
     const sent = with_edits(blank_form(), { name: 'can ', kind: 'sphere', values: { x: '0.3', y: '1' } });
     expect(edits_since(sent, { name: 'can', kind: 'sphere', values: { x: '0.3', y: '2' } })).toEqual({ values: { y: '2' } });
     expect(edits_since(sent, { kind: 'box' })).toEqual({ kind: 'box', values: {} });

@@ -57,7 +57,7 @@ describe('Pace of the 3D view', () => {
   });
   it('retries a failed level less and less often', () => {
     const pace = new Pace(kFirstInSoftware);
-    // Software rendering: fine frames are slow, all others quick.
+    // As with software rendering: fine frames are slow, all others are quick.
     let fine = 0;
     for (let i = 0; i < 20_000; i++) {
       if (pace.level.fine) fine += 1;

@@ -18,7 +18,7 @@ async function all_of(source: Source, stop = new AbortController().signal) {
 
 describe('Recording source', () => {
   it('is read in small pieces, split anywhere', async () => {
-    const text = 'é'.repeat(100_001);  // two bytes each: pieces end within characters
+    const text = 'é'.repeat(100_001);  // two bytes for each character, so that pieces end within characters
     const { text: read, told, longest } = await all_of(of_blob(new Blob([text])));
     expect(read).toBe(text);
     expect(told.reduce((a, b) => a + b)).toBe(200_002);

@@ -7,14 +7,14 @@ import { kAxis_px, kLeft_px, kRight_px, sheet_of } from '../src/timeline/sheet';
 import { kFollowing, kNowAt, type Span } from '../src/timeline/span';
 
 const kNow_s = 100;
-const kWidth = kLeft_px + kRight_px + 500;  // ten pixels per second
+const kWidth = kLeft_px + kRight_px + 500;  // 10 px per second
 const kHeight = 2 * 54 + kAxis_px;
 const kLane_px = 20;
 
 const motion: Mark = { kind: 'motion', expected: false, job: 'pick', label: 'pick', state: 'running', from_s: 70, to_s: 90, waits_on: null, stopped: false };
 const stop: EventMark = { key: 1, t_s: 95, level: 'warning', text: 'stopped', arms: [] };
 
-/** A timeline of fifty seconds that follows now, with the page that a pointer opens. */
+/** Returns a timeline of 50 s that follows now, and the page that a click opens. */
 function timeline() {
   const drawing: Drawing = {
     span: kFollowing, lanes: [{ arm: 'left', marks: [motion], waiting: 0 }, { arm: 'right', marks: [], waiting: 0 }] as Lane[],
@@ -81,7 +81,7 @@ describe('Pointer on the timeline', () => {
     on.onWheel(at(80, kLane_px, { deltaY: -1 }));
     const [near] = seen.spans;
     expect(near?.length_s).toBeCloseTo(50 / 1.2, 9);
-    expect((near?.fixed_from_s ?? 0) + 0.35 * (near?.length_s ?? 0)).toBeCloseTo(80, 9);  // its place: 17.5 of 50 s
+    expect((near?.fixed_from_s ?? 0) + 0.35 * (near?.length_s ?? 0)).toBeCloseTo(80, 9);  // the pointed time stays in its place, at 17.5 of 50 s
     on.onWheel(at(80, kLane_px, { deltaY: 1 }));
     expect(seen.spans.at(-1)?.length_s).toBeCloseTo(60, 9);
   });

@@ -25,7 +25,7 @@ describe('Recovery', () => {
     const stopped = job_json('pick', { waits_on: [wait_json({ kind: 'stop', id: null, arm: 'left', links: [] })] }) as Job;
     const waiting = (state: string) => waiting_arms({ arms: new Map([['left', arm({ state, job: 'pick' })]]), job: () => stopped }).map(({ name }) => name);
     expect(waiting('stopped')).toEqual(['left']);
-    expect(waiting('moving')).toEqual(['left']);  // it brakes
+    expect(waiting('moving')).toEqual(['left']);  // the arm is braking
     const next = job_json('place', { name: 'place 3' }) as Job;
     expect(need_of(arm({ state: 'stopped' }), null, pose(0, -1.2), next).words).toMatch(/^Resume: place 3 starts as soon as/);
     expect(need_of(arm({ state: 'stopped' }), job, pose(0, -1.2), next).words).toMatch(/^Resume: pick 7 continues/);

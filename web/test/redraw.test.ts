@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { Redraw } from '../src/state/redraw';
 
-/** A page with this drawing time and a change every millisecond. */
+/** Simulates a page whose drawing takes `took_ms` and whose state changes every millisecond. */
 function drawn_in(second_ms: number, took_ms: number): { drawings: number; busy_ms: number } {
   let now_ms = 0;
   let drawings = 0;

@@ -46,7 +46,7 @@ export function frame(t_s: number, q: Record<string, number>, over: object = {})
 
 type Ranges = [state: string, a0: number, a1: number, b0: number, b1: number];
 
-/** A diagram of `left` (4 s) and `right` (3 s) with these cells. */
+/** Returns a diagram of the jobs `left` (4 s) and `right` (3 s) with these cells. */
 export function diagram_json(cells: Ranges[], over: object = {}): Record<string, unknown> {
   return {
     t_s: 7, a: { id: 'left', state: 'running', duration_s: 4, progress_s: 1 },

@@ -10,7 +10,7 @@ describe('Seen store', () => {
   it('redraws its readers after a change, once per burst, and nothing else', () => {
     const store = new Store();
     const drawn: string[] = [];
-    // Components are drawn like effects are run.
+    // An effect stands for a component: both run again when a signal that they read changes.
     const end = effect(() => { drawn.push(seen(store).link.status); });
     let aside = 0;
     const end_aside = effect(() => { aside += 1; });

@@ -8,7 +8,7 @@ import { job_json, wait_json } from './samples';
 
 const job = (id: string, arm: string, over: object = {}) => job_json(id, { arms: [arm], ...over }) as unknown as Job;
 
-/** The part of a store that is used here. */
+/** Returns a store with only the parts that these tests use. */
 function store_of(lists: Partial<Record<JobList, Job[]>>, arms: string[] = ['left', 'right']): Store {
   const jobs = (list: JobList) => lists[list] ?? [];
   const all = Object.values(lists).flat();

@@ -5,7 +5,7 @@ function shelf_of(kept: Record<string, string> = {}): Shelf & { kept: Record<str
   return { kept, getItem: (key) => kept[key] ?? null, setItem: (key, value) => { kept[key] = value; } };
 }
 
-/** A system's theme preference, which may change. */
+/** Returns a system whose preferred theme may change. */
 function system_of(light: boolean) {
   const listeners: (() => void)[] = [];
   const query = { matches: light, addEventListener: (_: string, listener: () => void) => listeners.push(listener) };

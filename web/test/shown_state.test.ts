@@ -26,7 +26,7 @@ describe('Stopped arm', () => {
     expect(figure_in_words(stopped_job({ waits_on: [wait_json()] }), 9, 0.25).text).toBe('paused');
     expect(need_of(arm({ state: 'stopped' }), stopped_job(), null)).toMatchObject({ resume: true });
     expect(need_of(arm({ state: 'moving' }), stopped_job(), null).words).toBe('Brakes on its path.');
-    // Only one arm of a common motion was stopped: the others pause with it.
+    // Only one arm of a job of two arms was stopped. The other arm pauses with it.
     expect(need_of(arm({ name: 'right' }), stopped_job({ arms: ['left', 'right'] }), null)).toMatchObject({ resume: false });
   });
 
@@ -54,7 +54,7 @@ describe('Stopped arm', () => {
   });
 });
 
-// The server's prediction after a stop: no end is known.
+// As the server predicts after a stop: no end is known.
 const forecast = (now_s: number) => {
   const pauses = (at_s: number, waits_on: unknown) => [{ from_s: now_s, to_s: null, at_s, waits_on }];
   return {

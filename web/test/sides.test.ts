@@ -26,7 +26,7 @@ describe('Side of a diagram', () => {
     expect(why_no_pair('left', 'front', store)).toMatch(/front has had no job yet/);
     expect(why_no_pair('old', 'older', store)).toMatch(/same arm/);
     expect(why_no_pair('left', 'left', store)).toMatch(/choose another/);
-    // The server may know a job that the page does not know.
+    // The server may know a job that the page does not.
     expect(why_no_pair('left', 'forgotten', store)).toBeNull();
   });
 
@@ -40,7 +40,8 @@ describe('Side of a diagram', () => {
 describe('Measured path of two jobs', () => {
   it('is the progress of both, rests included, since both were observed', () => {
     const book = new ProgressBook();
-    // A runs for 4 s. B waits until 2 s, runs, pauses from 3 to 5 s at 1 s, and continues.
+    // A runs for 4 s. B waits until 2 s and runs. From 3 to 5 s B pauses at a progress of 1 s, then
+    // it continues.
     for (let i = 0; i <= 240; i++) {
       const t_s = i / 30;
       const b = t_s < 2 ? 0 : t_s < 3 ? t_s - 2 : t_s < 5 ? 1 : t_s - 4;
@@ -50,11 +51,11 @@ describe('Measured path of two jobs', () => {
     expect(way[0]).toEqual({ a_s: 0, b_s: 0 });
     const near = (a_s: number, b_s: number) => way.some((point) => Math.hypot(point.a_s - a_s, point.b_s - b_s) < 0.11);
     for (const [a_s, b_s] of [[1, 0], [2, 0], [3, 1], [4, 1], [4, 2.5], [4, 4]] as const) expect(near(a_s, b_s), `${a_s} ${b_s}`).toBe(true);
-    // The path never cuts the corner.
+    // The measured path never cuts the corner: B moves only after A has reached 2 s.
     expect(way.every(({ a_s, b_s }) => b_s < 0.05 || a_s > 1.9)).toBe(true);
     expect(way.every((point, i) => i === 0 || (point.a_s >= (way[i - 1]?.a_s ?? 0) && point.b_s >= (way[i - 1]?.b_s ?? 0)))).toBe(true);
     expect(measured_path(book.of('a'), book.of('c'))).toEqual([]);
-    // A past time shows nothing later.
+    // For a past time, the path has no later points.
     expect(measured_path(book.of('a'), book.of('b'), 2.5).every(({ a_s, b_s }) => a_s <= 2.5 && b_s <= 2.5)).toBe(true);
   });
 

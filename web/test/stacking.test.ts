@@ -8,7 +8,8 @@ describe('Labels close to each other', () => {
     expect(stacked([at(100, 50), at(110, 55), at(400, 52), at(120, 60)], 22, 4)).toEqual([50, 72, 52, 94]);
   });
 
-  // 256 lies between 241.9 and 241.9 + 22: the rounded sum is less than 22 away.
+  // Finds a y whose sum with 22 is rounded down, so that the sum is less than 22 away from y. The
+  // sum is above 256, where floating-point numbers are coarser.
   it('are placed in finite time despite rounding', () => {
     const rounded = Array.from({ length: 20_000 }, (_, i) => 234 + i * 0.0011).find((y) => y + 22 - y < 22);
     expect(rounded).toBeDefined();

@@ -106,7 +106,7 @@ describe('Store', () => {
     take(frame(10, {}, { speed: 2 }));
     const forecast = (now_s: number) => store.set_forecast({ now_s, arms: [] } as unknown as Forecast);
     forecast(19);
-    expect(store.age_ms()).toBe(0);  // 4.5 s of wall time: a busy page
+    expect(store.age_ms()).toBe(0);  // 4.5 s of wall time, which a busy page may be late
     forecast(22);
     expect(store.age_ms()).toBe(6000);
     now_ms = 7000;
@@ -172,7 +172,7 @@ describe('Store', () => {
     const seen = [[crate], [{ ...crate, xyz: [1, 0, 0] }], []].map((objects, i) => {
       const before = store.objects;
       take(envelope('scene', 2 + i, { version: 2 + i, objects }));
-      expect(store.objects).not.toBe(before);  // tells the view to draw the objects again
+      expect(store.objects).not.toBe(before);  // a new array tells the view to draw the objects again
       return store.objects.map(({ name, xyz }) => [name, ...xyz]);
     });
     expect(seen).toEqual([[['crate', 0, 0.75, 0.45]], [['crate', 1, 0, 0]], []]);

@@ -11,7 +11,7 @@ function bytes(text: string): ArrayBuffer {
   return new TextEncoder().encode(text).buffer as ArrayBuffer;
 }
 
-/** A binary STL of one triangle. */
+/** Returns a binary STL file of one triangle. */
 function stl(): ArrayBuffer {
   const view = new DataView(new ArrayBuffer(84 + 50));
   view.setUint32(80, 1, true);
@@ -57,7 +57,7 @@ describe('Surface', () => {
     warn.mockRestore();
   });
 
-  it('is never fetched from elsewhere', async () => {
+  it('is never fetched from another server', async () => {
     const warn = vi.spyOn(console, 'warn').mockImplementation(() => {});
     const fetched = vi.spyOn(globalThis, 'fetch');
     expect((await new SurfaceShelf().load(['https://example.org/a.stl'])).get('https://example.org/a.stl')).toBeNull();
@@ -81,7 +81,7 @@ describe('Object with a mesh', () => {
     const p = mesh.geometry.getAttribute('position');
     const at = (i: number) => new THREE.Vector3().fromBufferAttribute(p as THREE.BufferAttribute, i);
     const normal = at(1).sub(at(0)).cross(at(2).sub(at(0)));
-    expect(normal.z).toBeLessThan(0);  // it faced up before mirroring along z
+    expect(normal.z).toBeLessThan(0);  // the normal pointed up before the mirroring along z
     expect(size(surface)).toEqual([1, 2, 0]);  // the cached surface is unchanged
   });
 
@@ -95,7 +95,7 @@ describe('Object with a mesh', () => {
 describe('Link', () => {
   const yellow = new THREE.MeshPhongMaterial({ color: 0xffcc00 });
 
-  /** Meshes that were read or are missing, below visuals and colliders. */
+  /** Returns a link with visuals and collision shapes. Each flag says whether the mesh was read. */
   function link(visuals: boolean[], colliders: boolean[]): URDFLink {
     const made = new THREE.Group();
     const add = (kind: string, read: boolean) => {
@@ -135,7 +135,7 @@ describe('Link', () => {
     expect(drawn(link([], [true]), link([true], []))[0]).toHaveLength(0);
   });
 
-  it('is a marker if nothing was read, and nothing if it has no shape', () => {
+  it('is drawn as a marker if no shape was read, and not at all if it has no shape', () => {
     const [lost, bare] = drawn(link([false], [false]), link([], []));
     expect(lost?.map((mesh) => mesh.geometry.type)).toEqual(['OctahedronGeometry']);
     expect(bare).toHaveLength(0);

@@ -114,7 +114,7 @@ describe('Drawn marks of a lane', () => {
     const drawn = drawn_of(marks, 0, 3000, 3);
     expect(drawn.length).toBeLessThan(1100);
     expect(drawn.filter(({ state }) => state === 'failed')).toHaveLength(10);
-    // Every pixel with a mark shows one.
+    // Every pixel with a motion shows a mark.
     for (let s = 0; s < 2990; s += 3) expect(drawn.some(({ from_s }) => from_s >= s - 3 && from_s < s + 3)).toBe(true);
   });
   it('are all if there is room, and none outside of the range', () => {

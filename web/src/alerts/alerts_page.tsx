@@ -1,4 +1,4 @@
-// The Alerts page: each alert until it is acknowledged, with who acknowledged it and when.
+// The Alerts page: each alert until it is acknowledged, then who acknowledged it and when.
 
 import type { App } from '../state/app';
 import { why_not_permitted } from '../state/permission';

@@ -41,8 +41,8 @@ export function NoticeList({ app }: { app: App }) {
 }
 
 /**
- * Reports from before the page was connected, or from a previous session, are only on the Alerts
- * page.
+ * Returns the text of an empty event list. Says if older alerts, from before the page was connected
+ * or from a previous session, are on the Alerts page.
  */
 function nothing_in_words({ store, alerts }: App): string {
   const [first] = store.log.entries;
@@ -62,7 +62,7 @@ function Line({ notice, app }: { notice: Notice; app: App }) {
   );
 }
 
-/** The cell time of an event; a click shows this time in all views. */
+/** The cell time of an event. A click makes all views show this time. */
 export function Then({ notice, app }: { notice: Notice; app: App }) {
   const at = notice.at === null ? '' : wall_time(notice.at);
   if (!is_kept(notice, app)) return <span class="mono" title={at}>{clock(notice.t_s)}</span>;

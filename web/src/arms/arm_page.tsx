@@ -1,5 +1,5 @@
-// The page of one arm: current and next jobs, joints with limits and deviation, and a plot of the
-// last seconds.
+// The page of one arm: current and next jobs, joints with limits and deviation from the path, and a
+// plot of the last seconds.
 
 import { useState } from 'preact/hooks';
 import { arm_of, states_of } from '../compose/goal';

@@ -1,4 +1,4 @@
-// One card per arm with state, job and progress; it links to the arm's page.
+// One card for each arm, with its state, job and progress. The card links to the arm's page.
 
 import { Link } from '../route/link';
 import { selection_of } from '../route/selection';

@@ -1,5 +1,5 @@
-// Splits pasted text into one job or a batch of jobs. Pure. The server validates the jobs; this
-// file only counts them.
+// Splits pasted text into one job or a batch of jobs. Pure. Does not validate the jobs; the server
+// does.
 
 import { shown_name } from '../names';
 import { kText } from '../strings';
@@ -9,8 +9,8 @@ export type Batch =
   | { kind: 'batch'; jobs: unknown[] };
 
 /**
- * Accepts a list of jobs, a list of {"at", "job"} as in a jobs file, or {"jobs": […]}. A bare
- * trajectory becomes a job. Any other text is one job.
+ * Reads a batch from a list of jobs, a list of {"at", "job"} as in a jobs file, or {"jobs": […]}. A
+ * bare trajectory is put into a job. Any other text is taken as one job.
  */
 export function read_batch(text: string): Batch {
   let value: unknown;
@@ -31,7 +31,7 @@ function is_trajectory(value: unknown): boolean {
   return Array.isArray(joint_names) && Array.isArray(points);
 }
 
-/** The body of one request, with a title for people. */
+/** The body of one request, with a title that the page shows. */
 export interface Body { title: string; body: Blob }
 
 export function bodies_of(batch: Batch): Body[] {

@@ -1,4 +1,4 @@
-// The verdicts of POST /check, each as if its job were submitted now.
+// The verdicts of POST /check: each says what would happen if its job were submitted now.
 
 import type { Api } from '../server/api';
 import type { Problem, Verdict } from '../server/messages';
@@ -13,7 +13,10 @@ export type CheckResult = { title: string } & ({ ok: true; verdict: Verdict } | 
 
 const kMost = 50;
 
-/** Checks the jobs one after the other, because each costs the server some work. */
+/**
+ * Checks the jobs one after the other, because each check costs the server some work. Jobs after
+ * the first `kMost` are not checked.
+ */
 export async function check_all(bodies: readonly Body[], api: Pick<Api, 'check'>): Promise<CheckResult[]> {
   const results: CheckResult[] = [];
   for (const { title, body } of bodies.slice(0, kMost)) {
@@ -23,7 +26,7 @@ export async function check_all(bodies: readonly Body[], api: Pick<Api, 'check'>
   return results;
 }
 
-/** `show` displays the motion at a time from its start. */
+/** `show` previews the motion at a time, in seconds from the start of the motion. */
 export function CheckResults({ results, show }: { results: CheckResult[]; show: ((t_s: number) => void) | null }) {
   return (
     <ul class="check-results" role="status" data-test="check-results">

@@ -1,4 +1,4 @@
-// Web worker that reads a long text (long_text.ts).
+// The web worker of long_text.ts: reads a long text without blocking the page.
 
 import { composed } from './composed';
 

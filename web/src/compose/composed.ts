@@ -1,6 +1,6 @@
 // Prepares pasted text, or the text of a file, for checking and sending. Pure. Long texts are read
-// in a worker (long_text.ts). Request bodies are blobs, because blobs are passed to the page at
-// once, whatever their length.
+// in a web worker (long_text.ts). Request bodies are blobs, because a worker passes a blob to the
+// page at once, whatever its length.
 
 import { cut_text } from '../names';
 import { parts_of, thinned, type Part } from '../motion/pasted';
@@ -14,11 +14,14 @@ export interface Composed {
   request: { path: '/batches' | '/jobs'; body: Blob };
   /** The motions to preview. */
   parts: Part[];
-  /** Why the text is not a job, or null if no fault was found here. */
+  /** Says why the text is not a job; null if no fault was found before sending. */
   fault: string | null;
 }
 
-/** More points take long to pass to the page, and a preview does not need them. */
+/**
+ * Largest number of points of a preview. More points would take long to pass from the worker to the
+ * page, and a preview does not need them.
+ */
 const kMostShown = 10_000;
 
 export function composed(text: string): Composed {
@@ -29,7 +32,10 @@ export function composed(text: string): Composed {
   };
 }
 
-/** Returns why a text is not the JSON of a job, or null. The result follows the file name. */
+/**
+ * Returns why a text is not the JSON of a job, or null. The caller puts the file name before the
+ * reason.
+ */
 function fault_in(text: string): string | null {
   if (text.trim() === '') return kText.compose.empty;
   if (!/^\s*[[{]/.test(text)) return kText.compose.not_json(cut_text(text.trim().split('\n', 1)[0] ?? '', 40));

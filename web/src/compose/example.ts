@@ -1,8 +1,8 @@
-// A valid job for an arm at rest: a small motion from its current position and back.
+// An example job for an arm at rest: a small motion from its current position and back.
 //
-// A rest-to-rest quintic s(u) = 10u³ - 15u⁴ + 6u⁵ over a distance d in time T has maximum velocity
-// 1.875 d/T, acceleration 5.7735 d/T² (10/√3) and jerk 60 d/T³. T keeps each below half of its
-// limit.
+// The motion follows the rest-to-rest quintic s(u) = 10u³ - 15u⁴ + 6u⁵. Over a distance d in time T
+// its maximum velocity is 1.875 d/T, its acceleration 5.7735 d/T² (10/√3) and its jerk 60 d/T³. T
+// keeps each below half of its limit.
 
 import { kText } from '../strings';
 import { range_of, type Arm, type CellJoint } from '../server/messages';
@@ -24,8 +24,8 @@ export interface ExampleJob {
 }
 
 /**
- * Returns the duration of a rest-to-rest quintic over d that stays within half of the joint's
- * limits.
+ * Returns the duration with which a rest-to-rest quintic over the distance `d` stays within half of
+ * the joint's limits.
  */
 export function quintic_duration_s(d: number, joint: CellJoint): number {
   const share = kShareOfLimit;
@@ -35,7 +35,10 @@ export function quintic_duration_s(d: number, joint: CellJoint): number {
   return Math.max(by_velocity, by_acceleration, by_jerk);
 }
 
-/** Moves the first joint and the last but one, away from a near limit. */
+/**
+ * Returns a job that moves the first joint and the last but one. Each moves up, or down if its
+ * upper limit is near.
+ */
 export function example_job(arm: Arm, q: readonly number[], joints: readonly CellJoint[]): ExampleJob {
   const start = q.map((angle) => Number(angle.toFixed(6)));
   const there = [...start];

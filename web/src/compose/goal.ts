@@ -1,4 +1,4 @@
-// The plan form's goal. Numbers stay text until the request is made. Pure.
+// The goal in the plan form. Numbers stay text until the request is made. Pure.
 
 import { no_number, number_in } from '../frame/number_text';
 import type { Cell, CellArm } from '../server/messages';
@@ -43,7 +43,9 @@ function goal_of(form: GoalForm): object | string {
   return { pose: { ...(form.link.trim() === '' ? {} : { link: form.link.trim() }), xyz, rpy: radians } };
 }
 
-/** Formats a pose for the form, rounded to millimeters and tenths of a degree. */
+/**
+ * Formats a pose for the form. Lengths are rounded to millimeters, angles to tenths of a degree.
+ */
 export function form_of_pose({ xyz, rpy }: ToolPose): Pick<GoalForm, 'xyz' | 'rpy'> {
   const text = (numbers: readonly number[], digits: number) => numbers.map((n) => String(Number(n.toFixed(digits)))).join(', ');
   return { xyz: text(xyz, 3), rpy: text(rpy.map((angle) => (angle * 180) / Math.PI), 1) };

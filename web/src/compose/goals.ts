@@ -1,5 +1,5 @@
-// Plans the goals of pasted jobs for a preview. Nothing is stored, and the server plans again when
-// a job's turn comes.
+// Plans paths to the goals of pasted jobs, for a preview. The server stores nothing, and plans
+// again when a job's turn comes.
 
 import { child, read_trajectory } from '../motion/motion';
 import type { Api } from '../server/api';
@@ -7,13 +7,15 @@ import type { Arm, Cell, Problem } from '../server/messages';
 import { read_batch, type Batch } from './batch';
 import { arm_of, states_of } from './goal';
 
-const kMost = 12;  // planning takes the server time
+const kMost = 12;  // most goals that are planned, because each costs the server time
 
 export interface GoalPaths {
-  /** The same jobs, each goal with its planned trajectory. */
+  /** The given jobs. Each job with a goal also has its planned trajectory. */
   batch: Batch;
   planned: number;
-  /** The number of goals beyond the limit of this page. */
+  /**
+   * The number of goals that were not planned, because of the limit or after a goal without a path.
+   */
   left_out: number;
   /** The problem of the first goal without a path. */
   problem: Problem | null;
@@ -22,12 +24,15 @@ export interface GoalPaths {
 type Known = { arms: ReadonlyMap<string, Pick<Arm, 'joints'>>; cell: Cell | null };
 type Body = Record<string, unknown>;
 
-/** Returns true if the server can be asked to plan a goal. Incomplete goals are skipped. */
+/**
+ * Returns true if a job has a complete goal, which the server can plan. Incomplete goals are
+ * skipped.
+ */
 export function has_goal(batch: Batch, known: Known): boolean {
   return bodies(batch).some((body) => goal_in(body, known) !== null);
 }
 
-/** Plans one goal after the other; each starts where the previous job leaves its arm. */
+/** Plans one goal after the other. Each path starts where the previous job leaves its arm. */
 export async function paths_to_goals(batch: Batch, known: Known, api: Pick<Api, 'plan'>): Promise<GoalPaths> {
   const ends = new Map<string, number>();  // joint positions at the end of the previous jobs
   const paths: GoalPaths = { batch, planned: 0, left_out: 0, problem: null };
@@ -61,8 +66,8 @@ function bodies(batch: Batch): readonly unknown[] {
 }
 
 /**
- * Returns the goal as POST /plan expects it, or null if there is none or the server would refuse
- * it.
+ * Returns the goal as POST /plan expects it. Null if the job has no goal, or a goal that the server
+ * would refuse.
  */
 function goal_in(body: unknown, { arms, cell }: Known): Body | null {
   const [to, arm, choice] = [child(body, 'move_to'), child(body, 'arm'), child(body, 'arms')];
@@ -84,7 +89,10 @@ function is_place(xyz: unknown): boolean {
   return Array.isArray(xyz) && xyz.length === 3 && xyz.every((m) => typeof m === 'number');
 }
 
-/** Returns the start state, or nothing if the arm starts where its accepted jobs end. */
+/**
+ * Returns the start state for the request. Returns {} if no previous job moves the arm: the server
+ * then starts where the arm's accepted jobs end.
+ */
 function start_of(goal: Body, ends: ReadonlyMap<string, number>, { arms }: Known): { start?: { joints: number[] } } {
   const joints = typeof goal['arm'] === 'string' ? arms.get(goal['arm'])?.joints ?? [] : [];
   const at = joints.flatMap((joint) => ends.get(joint) ?? []);

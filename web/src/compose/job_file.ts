@@ -1,5 +1,5 @@
-// Reads jobs from a file. Files above the server's limit are not read; a file without a job is
-// refused at once, by name.
+// Reads jobs from a file. A file above the server's limit is not read. A file without a job is
+// refused at once, with its name.
 
 import { shown_name } from '../names';
 import { bytes_in_words } from '../wording';
@@ -12,7 +12,7 @@ export const kBodyMax_bytes = 8 * 1024 * 1024;
 
 export type JobFile = { ok: true; text: string } | { ok: false; fault: string };
 
-/** Returns why a text of this length cannot be sent, or null. */
+/** Returns why a text of this length cannot be sent, or null if it can. */
 export function too_large(what: string, bytes: number): string | null {
   return bytes <= kBodyMax_bytes ? null : kText.compose.too_large(what, bytes_in_words(bytes), bytes_in_words(kBodyMax_bytes));
 }

@@ -3,11 +3,12 @@
 import { composed, type Composed } from './composed';
 
 /**
- * Texts longer than this are not shown in the text field: browsers take seconds for their layout.
+ * Texts longer than this, in characters, are not shown in the text field, because browsers take
+ * seconds for their layout.
  */
 export const kLong = 200_000;
 
-/** The part of a Worker that is used. */
+/** The members of a Worker that are used here. */
 export interface WorkerLike {
   postMessage(text: string): void;
   terminate(): void;
@@ -17,12 +18,15 @@ export interface WorkerLike {
 
 const kMake = (): WorkerLike => new Worker(new URL('./compose_worker.ts', import.meta.url), { type: 'module' });
 
-/** The last result. A file is read before its text is shown, so its text would be read twice. */
+/**
+ * The last text and its result. A file is read when it is chosen, and again when its text is shown;
+ * the second reading uses this result.
+ */
 let last: { of: string; made: Composed } | null = null;
 
 /**
- * Does the same as composed() in a worker; rejects if `stop` aborts it. If the worker cannot load,
- * for example after an update of the server's files, the page reads the text itself.
+ * Returns composed(text), computed in a web worker. Rejects if `stop` is aborted. If the worker
+ * cannot load, for example after an update of the server's files, the page reads the text itself.
  */
 export async function composed_in_worker(text: string, stop: AbortSignal, make: () => WorkerLike = kMake): Promise<Composed> {
   if (last?.of === text) return last.made;

@@ -30,7 +30,7 @@ type Outcome =
   | { kind: 'none' } | { kind: 'busy'; what: string } | { kind: 'accepted'; ids: string[] }
   | { kind: 'refused'; problem: Problem } | { kind: 'checked'; results: CheckResult[] };
 
-/** Results for one text: the outcome and the previewed time. They do not apply to another text. */
+/** The outcome and the previewed time for the text `of`. They are not shown for another text. */
 interface Found { of: string; outcome: Outcome; chosen: Chosen | null }
 
 const kTyped_ms = 500;
@@ -45,7 +45,7 @@ export function NewJob({ app }: { app: App }) {
   const change = (next: string) => { app.draft.value = next.replace(/^\uFEFF/, ''); };  // some editors write a byte order mark
   const show_end = (next: string) => set_found({ of: next, outcome: { kind: 'none' }, chosen: { t_s: motion_of(read_batch(next))?.duration_s ?? 0 } });
   const made = use_composed(text);
-  const batch = useMemo(() => read_batch(text.length > kLong ? '' : text), [text]);  // only goals of short texts are previewed
+  const batch = useMemo(() => read_batch(text.length > kLong ? '' : text), [text]);  // goals are planned only if the text is short
   const paths = use_goal_paths(batch, app);
   const motion = useMemo(() => (paths.kind === 'planned' ? motion_of(paths.paths.batch) : motion_of_parts(made?.parts ?? [])), [made, paths]);
   // Shows the end of the path once a goal is planned.
@@ -106,7 +106,7 @@ function use_composed(text: string): Composed | null {
   useEffect(() => {
     if (!is_long) return;
     const stop = new AbortController();
-    composed_in_worker(text, stop.signal).then((made) => set_read({ of: text, made }), () => undefined /* given up */);
+    composed_in_worker(text, stop.signal).then((made) => set_read({ of: text, made }), () => undefined /* the reading was canceled */);
     return () => stop.abort();
   }, [text, is_long]);
   return useMemo(() => (!is_long ? composed(text) : read?.of === text ? read.made : null), [text, is_long, read]);
@@ -167,7 +167,7 @@ function Examples({ app, change }: { app: App; change(text: string): void }) {
   );
 }
 
-/** The same request as a command or program. */
+/** Copies the same request as a curl command or a Python program. */
 function Copies({ made: { request: { path, body } }, app }: { made: Composed; app: App }) {
   const with_it = (make: typeof curl_to_post) => async () => make(path, await body.text(), asked_of(app));
   return (

@@ -1,4 +1,5 @@
-// The plan form: the server plans a path to a goal, to be previewed, checked and sent as a job.
+// The plan form: the server plans a path to a goal. The user can preview, check and send this path
+// as a job.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Plan, Problem } from '../server/messages';
@@ -20,7 +21,7 @@ type Outcome = { kind: 'none' } | { kind: 'busy' } | { kind: 'planned'; plan: Pl
 const kAlready_s = 0.05;
 const kKinds: readonly [GoalKind, string][] = [['named', kWords.named], ['joints', kWords.joints], ['pose', kWords.pose]];
 
-// The last input outlives the form.
+// The last input. It stays when the form is closed, and is shown when the form is opened again.
 let last: GoalForm | null = null;
 
 /** `change` receives the planned job as text. */
@@ -33,7 +34,7 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
   const first = cell.robots.flatMap((robot) => robot.arms)[0]?.name ?? '';
   const shown = form ?? { arm: first, kind: 'named', named: 'home', joints: '', xyz: '', rpy: '180, 0, 0', link: '', speed: '50' };
   const set = (part: Partial<GoalForm>) => {
-    last = { ...(last ?? shown), ...part };  // drag callbacks hold an older form
+    last = { ...(last ?? shown), ...part };  // not from `form`: a drag calls the function of an older drawing
     set_form(last);
     set_outcome({ kind: 'none' });
   };
@@ -44,7 +45,7 @@ export function PlanForm({ app, change }: { app: App; change(text: string): void
     app.ghost.value = null;
     const turn = ++turn_.current;
     const answer = await app.api.plan(asked.text);
-    if (turn !== turn_.current) return;  // the goal has changed meanwhile
+    if (turn !== turn_.current) return;  // another path was requested meanwhile
     if (!answer.ok) {
       show_nearest(answer.problem, form.arm, app);
       return set_outcome({ kind: 'refused', problem: answer.problem });
@@ -113,7 +114,10 @@ function Goal({ form, app, set }: { form: GoalForm; app: App; set(part: Partial<
   return <div class="line wrap goal">{text('xyz', kWords.position_label, kWords.position_hint)}{text('rpy', kWords.rotation_label, kWords.rotation_hint)}{text('link', kWords.link_label, kWords.link_hint)}</div>;
 }
 
-/** Sets the goal in the 3D view; plans on each release with the same form. */
+/**
+ * Lets the user drag the goal in the 3D view. On each release the new goal is entered in the form
+ * and planned.
+ */
 function Drag({ form, app, drag }: { form: GoalForm; app: App; drag(part: Partial<GoalForm>): void }) {
   const [grip, set_grip] = useState<Grip | null>(null);
   const { arm, link, xyz, rpy } = form;
@@ -157,7 +161,7 @@ function Unplanned({ problem }: { problem: Problem }) {
   );
 }
 
-/** Shows the nearest configuration as a ghost. */
+/** If planning failed, shows the nearest configuration as a ghost. */
 function show_nearest(problem: Problem, arm: string, app: App): void {
   const joints = app.store.arms.get(arm)?.joints ?? [];
   if (problem.nearest?.length !== joints.length) return;

@@ -1,4 +1,4 @@
-// Previews a motion as a ghost in the 3D view, played or at a chosen time.
+// Previews a motion as a ghost in the 3D view. The motion is played, or shown at a chosen time.
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
@@ -7,7 +7,10 @@ import { kText } from '../strings';
 
 const kStep_ms = 66;
 
-/** A time chosen elsewhere, such as a conflict; a new object for each choice. */
+/**
+ * A time to show, chosen elsewhere on the page, such as the time of a conflict. Each choice is a
+ * new object.
+ */
 export interface Chosen { t_s: number }
 
 export function Preview({ motion, app, chosen }: { motion: Motion; app: App; chosen: Chosen | null }) {

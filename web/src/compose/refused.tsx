@@ -1,4 +1,4 @@
-// A problem of the server: each fault with its JSON pointer and value.
+// A problem that the server answered: each fault with its JSON pointer and the value found.
 
 import type { Problem } from '../server/messages';
 import { found_in_words } from '../wording';

@@ -1,5 +1,5 @@
-// The field for a job's text: typed, pasted or from a file. Of a long text only the beginning is
-// shown; it is checked and sent unchanged.
+// The field for a job's text, which is typed, pasted or read from a file. If the text is long, only
+// its beginning is shown. The whole text is checked and sent.
 
 import { useState } from 'preact/hooks';
 import { bytes_in_words } from '../wording';
@@ -18,7 +18,7 @@ export function TextField({ text, change, send }: Props) {
   const paste = (event: ClipboardEvent) => {
     const pasted = event.clipboardData?.getData('text') ?? '';
     if (pasted.length <= kLong) return;
-    event.preventDefault();  // layout of the field would take seconds
+    event.preventDefault();  // a text field would take seconds for the layout of so long a text
     const large = too_large(kWords.pasted_text, pasted.length);
     set_fault(large);
     if (large === null) change(pasted);
@@ -57,7 +57,7 @@ function FileButton({ change, report }: { change(text: string): void; report(fau
     if (!file) return;
     report(null);
     const read = await read_job_file(file);
-    input.value = '';  // allows choosing the same, corrected file again
+    input.value = '';  // lets the user choose the same file again, after correcting it
     if (read.ok) change(read.text);
     else report(read.fault);
   };

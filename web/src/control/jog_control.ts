@@ -1,6 +1,6 @@
 // Jogging (hold-to-run): who has control, and the motion that lasts while a button is held. The
 // server stops the arm if it receives no renewal within the lease (half a second). The page renews
-// several times per lease, and cancels at once on release.
+// several times per lease. When the button is released, the page cancels the motion at once.
 
 import { signal } from '@preact/signals';
 import { shown_name } from '../names';
@@ -9,12 +9,15 @@ import type { Answer, Api } from '../server/api';
 import type { Timers } from '../server/connection';
 import type { ControlHolder, Jog } from '../server/messages';
 
-const kBeats = 4;  // renewals per lease
+const kBeats = 4;  // renewals in the duration of a lease
 const kFirst_ms = 100;
 
 type JogApi = Pick<Api, 'control' | 'take_control' | 'release_control' | 'jog' | 'renew_jog' | 'cancel_job'>;
 
-/** The pressed button, from the press until the release or the end of the motion. */
+/**
+ * The button that is held, from the press until the release or the end of the motion. `job` is null
+ * until the server answers.
+ */
 export interface Pressed { arm: string; state: string; job: string | null }
 
 export class JogControl {
@@ -23,12 +26,13 @@ export class JogControl {
   readonly key = signal<string | null>(null);
   readonly pressed = signal<Pressed | null>(null);
   readonly refusal = signal<string | null>(null);
-  /** The holder as of this page's last take of control. */
+  /** The control holder that the server returned when this page last took control. */
   private taken_: ControlHolder | null = null;
-  private asked_ = 0;  // numbers the presses, so that late answers are recognized
+  private asked_ = 0;  // counts the presses and releases: a late answer belongs to an older number
 
   /**
-   * `has_ended` returns true if the page knows that a job has ended; then its lease is not renewed.
+   * `has_ended` returns true if the page knows that a job has ended. The lease of an ended job is
+   * not renewed.
    */
   constructor(private readonly api_: JogApi, private readonly timers_: Timers, private readonly has_ended_: (job: string) => boolean = () => false) {}
 
@@ -39,14 +43,14 @@ export class JogControl {
     this.holder.value = holder;
     const own = this.taken_;
     if (this.key.value === null || (own && holder?.who === own.who && holder.since_at === own.since_at)) return;
-    // The server stops the motion.
+    // This page no longer has control. The server stops the motion, so no cancel is sent.
     this.key.value = null;
     this.pressed.value = null;
     ++this.asked_;
     if (holder) this.refusal.value = kText.jog.lost_control(shown_name(holder.who));
   }
 
-  /** Takes control, also from another holder. */
+  /** Takes control, even if another user has it. */
   async take(who: string): Promise<void> {
     const answer = await this.api_.take_control(who);
     if (!this.accepted(answer)) return;
@@ -76,7 +80,7 @@ export class JogControl {
       return this.lose_control(answer);
     }
     const { job, lease_s } = answer.value;
-    if (!is_pressed) return void this.api_.cancel_job(job.id);  // released before the answer
+    if (!is_pressed) return void this.api_.cancel_job(job.id);  // the button was released before the server answered
     this.pressed.value = { arm, state, job: job.id };
     this.beat(asked, lease_s);
   }
@@ -96,12 +100,12 @@ export class JogControl {
       const key = this.key.value;
       if (!pressed || key === null || this.asked_ !== asked) return;
       if (pressed.job !== null && this.has_ended_(pressed.job)) {
-        this.pressed.value = null;  // it is there
+        this.pressed.value = null;  // the arm is at the goal
         return;
       }
       void this.api_.renew_jog(pressed.arm, key).then((answer) => {
         if (answer.ok || this.asked_ !== asked) return;
-        this.pressed.value = null;  // goal reached, renewed too late, or control taken
+        this.pressed.value = null;  // the goal was reached, the renewal was too late, or control was taken
         if (answer.problem.type.endsWith('jog-lease-expired')) this.refusal.value = `${kText.jog.lease_expired} ${answer.problem.detail ?? ''}`.trim();
         this.lose_control(answer);
       });

@@ -1,23 +1,26 @@
-// Predicts what two jobs meet in their diagram if both continue, and whether their authority lets
-// them. Pure.
+// Predicts which contact two jobs meet in their diagram if both continue, and whether their
+// authority lets them reach it. A contact is the first cell that is not free. Pure.
 //
-// A controller does not pass its authority, and the server extends authority only where both
-// motions are certified free. So a contact beyond the authority of one job does not happen as
-// scheduled.
+// An arm's controller never passes its authority. The server extends authority only where both
+// motions are certified free. So if one job lacks authority for a contact, that job will wait
+// before it.
 
 import type { Diagram, DiagramContact } from '../server/messages';
 import type { Point } from './reading';
 
-/** `allowed`: both jobs have authority to reach and pass the contact. `waits`: one has not. */
+/**
+ * `free`: there is no contact ahead. `allowed`: both jobs have authority to reach and pass the
+ * contact. `waits`: at least one job does not.
+ */
 export type Ahead = { kind: 'free' } | { kind: 'allowed' | 'waits'; contact: DiagramContact };
 
-// Cells are as fine as 10 ms; an arm that waits at a conflict rests slightly before or behind its
-// border.
+// Tolerance at the border of a contact. Diagram cells are as fine as 10 ms, and an arm that waits
+// at a conflict rests slightly before or behind its border.
 const kBorder_s = 0.05;
 
 /**
- * `contact` is the server's last answer, or null if there is none ahead. `authority` is null if no
- * authority is known. Returns null if the contact has been passed meanwhile.
+ * Returns the prediction. `contact` is the server's last answer; null if no contact is ahead.
+ * `authority` is null if unknown. Returns null if the jobs have passed the contact meanwhile.
  */
 export function ahead_of(contact: DiagramContact | null, now: Point, authority: Point | null, { a, b }: Pick<Diagram, 'a' | 'b'>): Ahead | null {
   if (!contact) return { kind: 'free' };

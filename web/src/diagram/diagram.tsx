@@ -1,5 +1,5 @@
-// The coordination diagram of two jobs: free and conflicting pairs of progress, the current
-// progress, and the prediction.
+// The coordination diagram of two jobs. Shows which pairs of progress are free or in conflict, the
+// current progress, and the prediction.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import {
@@ -29,7 +29,9 @@ const kShownOpen = 100;
 
 interface Props { a: string; b: string; app: App }
 
-/** The diagram of two jobs or arms; an arm stands for its job at the shown time. */
+/**
+ * The diagram of two jobs or arms. If a side is an arm, the arm's job at the shown time is drawn.
+ */
 export function DiagramPanel({ a, b, app }: Props) {
   const { store } = seen_app(app);
   return (
@@ -47,7 +49,7 @@ export function DiagramPanel({ a, b, app }: Props) {
   );
 }
 
-/** Looks up the jobs of both sides with every beat. */
+/** Looks up the jobs of both sides, again with every beat (state/pulse.ts). */
 function Sides({ a, b, app }: Props) {
   const { store } = seen_app(app);
   use_beats(store);
@@ -93,7 +95,7 @@ function is_followed(id: string, store: Store): boolean {
   return job !== null && !store.is_terminal(job);
 }
 
-/** Selects an arm (its current job) or a job. */
+/** Lets the user select a job, or an arm and thereby its current job. */
 function Pick({ what, side, store, on_pick }: { what: string; side: string; store: Store; on_pick(side: string): void }) {
   const jobs = (['running', 'scheduled', 'backlog', 'queued'] as const).flatMap((list) => store.jobs(list)).slice(0, kShownOpen).concat(store.jobs('finished').slice(0, kShownFinished));
   const chosen = job_of_side(side, store);
@@ -119,7 +121,7 @@ function Pick({ what, side, store, on_pick }: { what: string; side: string; stor
 
 interface DrawnProps {
   diagram: Diagram; layer: number; jobs: { a: Job | null; b: Job | null }; app: App;
-  /** True if the arms meanwhile execute other jobs. */
+  /** True if a previous diagram stays, although the arms already execute other jobs. */
   is_kept: boolean;
 }
 
@@ -139,7 +141,7 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
   useEffect(() => () => { app.ghost.value = null; }, [app]);
   const measured = () => measured_path(store.courses.of(diagram.a.id), store.courses.of(diagram.b.id), shown_s ?? Infinity);
   const now_point = () => ({ a_s: progress_of(diagram.a, store, shown_s), b_s: progress_of(diagram.b, store, shown_s) });
-  // Past predictions are not kept.
+  // The page keeps no predictions of the past.
   const plans = is_open(jobs, store) && shown_s === null && !is_kept;
   const authority = () => (shown_s === null && !is_kept ? authority_of(store, diagram) : null);
   const latest = use_latest(diagram, plans, app.api);
@@ -153,7 +155,7 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
     const path = measured();
     return {
       authority: authority(), pointed: pointed.current,
-      diagram, layer, now: at, prediction: plans ? plan_from(at, diagram) : [], trail: path.length === 0 ? [] : [...path, at] /* ends at the current progress, not at the last sample */, contact: lies && 'contact' in lies ? lies.contact : null, evidence,
+      diagram, layer, now: at, prediction: plans ? plan_from(at, diagram) : [], trail: path.length === 0 ? [] : [...path, at] /* the trail ends at the current progress, which is later than the last sample */, contact: lies && 'contact' in lies ? lies.contact : null, evidence,
       colors: { a: ink(arm_color(names, layer.arms[0])), b: ink(arm_color(names, layer.arms[1])) },
     };
   };
@@ -193,7 +195,10 @@ function Drawn({ diagram, layer: index, jobs, is_kept, app }: DrawnProps) {
   );
 }
 
-/** Returns the progress from the last frame, else from the last event, extrapolated to now. */
+/**
+ * Returns the progress in trajectory seconds: from the last frame, else from the last event,
+ * extrapolated to now.
+ */
 function progress_of(side: Diagram['a'], store: Store, shown_s: number | null): number {
   const measured_s = shown_s === null ? motion_of(store, side)?.progress_s : measured_at(store, side, shown_s);
   if (measured_s != null) return Math.min(measured_s, side.duration_s);
@@ -201,7 +206,10 @@ function progress_of(side: Diagram['a'], store: Store, shown_s: number | null): 
   return job ? store.progress(job) * side.duration_s : shown_s === null ? side.progress_s : 0;
 }
 
-/** Returns true if a prediction exists: a job is unfinished, and none ended without success. */
+/**
+ * Returns true if a prediction exists: at least one job is unfinished, and no job has ended without
+ * success.
+ */
 function is_open({ a, b }: DrawnProps['jobs'], store: Store): boolean {
   const both = [a, b];
   return both.every((job) => job !== null && (!store.is_terminal(job) || job.state === 'succeeded')) && both.some((job) => job !== null && !store.is_terminal(job));
@@ -214,7 +222,7 @@ function PlanWords({ ahead, jobs, store }: { ahead: Ahead; jobs: readonly (Job |
   return <p class={`plan-words ${tone}`} data-test="plan">{words}</p>;
 }
 
-/** Shows both arms as ghosts at the pointed times. */
+/** Shows both arms as ghosts, each at its job's time at the pointed place. */
 function show_both(place: Point | null, { a, b }: DrawnProps['jobs'], { motions, ghost }: App): void {
   if (!place || !a || !b) {
     ghost.value = null;
@@ -223,7 +231,7 @@ function show_both(place: Point | null, { a, b }: DrawnProps['jobs'], { motions,
   ghost.value = { ...motions.of(a)?.q_at(place.a_s), ...motions.of(b)?.q_at(place.b_s) };
 }
 
-/** The same without a mouse: a slider for each job. */
+/** Selects these times without a mouse: one slider for each job. */
 function Instant({ diagram, jobs, app, show }: { diagram: Diagram; jobs: DrawnProps['jobs']; app: App; show(place: Point): void }) {
   const [place, set_place] = useState<Point>({ a_s: 0, b_s: 0 });
   app.motions.changes.value;

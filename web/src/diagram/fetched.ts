@@ -1,4 +1,5 @@
-// Fetches diagrams: complete when the jobs or the scene change, then predictions only.
+// Fetches diagrams. The complete diagram is fetched when the jobs or the scene change; between
+// changes only the prediction is fetched.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { Answer, Api } from '../server/api';
@@ -8,13 +9,14 @@ import { OneAtATime } from './one_at_a_time';
 const kAheadEvery_ms = 500;
 
 /**
- * `diagram` is the last one received, perhaps of other jobs than requested. `refused` is the
- * problem of the last request.
+ * `diagram` is the last diagram received; it may be of other jobs than requested. `refused` is the
+ * problem if the last request was refused.
  */
 export interface Fetched { diagram: Diagram | null; refused: { a: string; b: string; problem: Problem } | null }
 
 /**
- * Short jobs change faster than diagrams arrive: the last diagram stays until the next one is here.
+ * Fetches the diagram of two jobs. Short jobs change faster than diagrams arrive, so the last
+ * diagram stays until the next arrives.
  */
 export function use_fetched(api: Pick<Api, 'diagram'>, a: string, b: string, scene: unknown, connected: boolean): Fetched {
   const [fetched, set_fetched] = useState<Fetched>({ diagram: null, refused: null });
@@ -31,7 +33,7 @@ export function use_fetched(api: Pick<Api, 'diagram'>, a: string, b: string, sce
   return fetched;
 }
 
-/** Fetches the diagram without its cells repeatedly, for its prediction. */
+/** Fetches the diagram without its cells every half second, because only its prediction changes. */
 export function use_latest(diagram: Diagram, is_open: boolean, api: Api): Diagram {
   const [latest, set_latest] = useState(diagram);
   useEffect(() => {

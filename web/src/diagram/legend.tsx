@@ -7,7 +7,7 @@ import { shares } from './reading';
 
 const kWords = kText.diagram;
 
-/** `of_now` adds the entries of the prediction; `is_measured` the measured path. */
+/** `of_now` adds the entries of the prediction, `is_measured` the entry of the measured path. */
 export function Legend({ layer, of_now, is_measured }: { layer: DiagramLayer; of_now: boolean; is_measured: boolean }) {
   const share = shares(layer);
   return (

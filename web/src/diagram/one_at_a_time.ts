@@ -1,5 +1,5 @@
-// Runs one request at a time; of requests made meanwhile only the last is kept. Every answer is
-// delivered, so results appear however fast the requests change.
+// Runs one request at a time. While a request runs, only the last new request is kept. Every answer
+// is delivered, so results appear even if requests change faster than the answers arrive.
 
 export class OneAtATime<Question, Answer> {
   private asks_ = false;

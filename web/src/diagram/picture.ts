@@ -1,5 +1,5 @@
-// Draws a diagram on two stacked canvases: static cells below, moving parts above. A runs across, B
-// up, in seconds of each trajectory.
+// Draws a diagram on two stacked canvases: static cells below, moving parts above. The progress of
+// job A runs across, of job B up, in seconds of each trajectory.
 
 import type { Evidence, Point } from './reading';
 import type { Diagram, DiagramLayer, DiagramContact } from '../server/messages';
@@ -11,12 +11,12 @@ export interface Scene {
   diagram: Diagram;
   layer: DiagramLayer;
   now: Point;
-  /** Empty without a prediction. */
+  /** The predicted progress of both jobs. Empty if there is no prediction. */
   prediction: Point[];
   trail: Point[];
   contact: DiagramContact | null;
   evidence: Evidence | null;
-  /** How far each job may go, whatever the other does; null if neither has been told to move. */
+  /** How far each job may go, whatever the other job does. Null if no job has been told to move. */
   authority: Point | null;
   /** The point under the pointer. */
   pointed: Point | null;
@@ -28,11 +28,11 @@ const kBottom_px = 36;
 const kTop_px = 10;
 const kRight_px = 12;
 const kTick_px = 56;
-const kNarrowest = 3;  // longer rectangles use two scales
+const kNarrowest = 3;  // if one job is this many times longer than the other, each axis has its own scale
 const kStripes_px = 6;
 const kInk = '#0c1118';
 const kPlan = '#10161f';
-// Dash patterns, px: up to the first contact, and beyond.
+// Dash patterns of the prediction, px: before the first contact, and beyond it.
 const kGoesOn = [7, 6];
 const kBeyond = [1, 12];
 
@@ -57,8 +57,8 @@ export class DiagramPicture {
   }
 
   /**
-   * Returns the times at a point of the picture (px from its top left), or null outside of the
-   * diagram.
+   * Returns the times of both jobs at a point of the picture. The point is in px from the top left.
+   * Null if the point is outside of the diagram.
    */
   at(x_px: number, y_px: number): Point | null {
     const scene = this.scene_();
@@ -90,8 +90,8 @@ export class DiagramPicture {
 }
 
 /**
- * Uses one scale for both axes, so that equal progress is a line of 45 degrees, unless one job is
- * much longer.
+ * Returns the geometry of the picture. Both axes have one scale, so that equal progress is a line
+ * of 45 degrees. If one job is much longer, each axis has its own scale.
  */
 function sheet_of({ a, b }: Diagram, width: number, height: number): Sheet {
   const room = { x: width - kLeft_px - kRight_px, y: height - kTop_px - kBottom_px };
@@ -128,7 +128,7 @@ function draw_cells(g: CanvasRenderingContext2D, sheet: Sheet, { layer }: Scene)
     const width = sheet.x(a_s[1]) - left;
     const height = sheet.y(b_s[0]) - top;
     g.fillStyle = kCellColors[state];
-    // Overlaps slightly, so that no gaps show between cells.
+    // Neighbors overlap slightly, so that no gaps show between cells.
     g.fillRect(left, top, width + 0.4, height + 0.4);
     if (state === 'undecided') undecided.rect(left, top, width + 0.4, height + 0.4);
     if (width > 3 && height > 3) edges.rect(left, top, width, height);
@@ -197,7 +197,7 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   g.lineCap = 'round';
   g.setLineDash([]);
   const [x, y] = [sheet.x(now.a_s), sheet.y(now.b_s)];
-  // Guides to both axes.
+  // Lines from the current progress to both axes.
   guide(g, [x, y], [x, sheet.y(0)], colors.a);
   guide(g, [x, y], [sheet.x(0), y], colors.b);
   draw_authority(g, sheet, scene);
@@ -222,7 +222,7 @@ function draw_moving(g: CanvasRenderingContext2D, sheet: Sheet, scene: Scene): v
   g.stroke();
 }
 
-/** The rectangle of both authorities: it contains no conflict. */
+/** Draws the rectangle up to which both jobs have authority. It contains no conflict. */
 function draw_authority(g: CanvasRenderingContext2D, sheet: Sheet, { now, authority }: Scene): void {
   if (!authority) return;
   const [left, bottom] = [sheet.x(now.a_s), sheet.y(now.b_s)];
@@ -254,7 +254,7 @@ function polyline(g: CanvasRenderingContext2D, sheet: Sheet, points: Point[], co
   g.stroke();
 }
 
-/** Marks the conflict that the server named, with its clearance. */
+/** Marks the place of the conflict that the server named, with its clearance. */
 function mark(g: CanvasRenderingContext2D, sheet: Sheet, evidence: Evidence): void {
   const [x, y] = [sheet.x(evidence.a_s), sheet.y(evidence.b_s)];
   g.beginPath();

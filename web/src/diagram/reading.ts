@@ -1,5 +1,5 @@
 // Reads a coordination diagram at the current progress of two jobs. Pure. Times are seconds of each
-// trajectory, A across and B up.
+// job's trajectory. Job A runs across, B up.
 
 import { pair_of, type CellState, type Diagram, type DiagramLayer, type DiagramContact, type Job, type WaitsOn } from '../server/messages';
 import { progress_at, type Course } from '../state/progress_book';
@@ -12,8 +12,8 @@ const kWords = kText.diagram;
 export interface Point { a_s: number; b_s: number }
 
 /**
- * Returns the prediction from `now`: both advance equally (45 degrees); the first to end rests at
- * its goal, along the border, until the other ends.
+ * Returns the predicted progress from `now`. Both jobs advance equally (45 degrees). The job that
+ * ends first then rests at its goal, along the border, until the other job ends.
  */
 export function plan_from(now: Point, diagram: Diagram): Point[] {
   const { a, b } = diagram;
@@ -23,8 +23,8 @@ export function plan_from(now: Point, diagram: Diagram): Point[] {
 }
 
 /**
- * Returns the measured progress of both jobs up to a time, or an empty list if one was not
- * observed.
+ * Returns the measured progress of both jobs up to a time. Empty if the page has not observed one
+ * of the jobs.
  */
 export function measured_path(a: Course | null, b: Course | null, until_s = Infinity): Point[] {
   if (!a || !b) return [];
@@ -38,7 +38,7 @@ export function measured_path(a: Course | null, b: Course | null, until_s = Infi
   return path;
 }
 
-/** Returns the shares of the area; they add up to one. */
+/** Returns the share of the diagram's area in each state. The shares add up to one. */
 export function shares(layer: DiagramLayer): Record<CellState, number> {
   const area: Record<CellState, number> = { free: 0, conflict: 0, undecided: 0 };
   for (const { state, a_s, b_s } of layer.cells ?? []) area[state] += (a_s[1] - a_s[0]) * (b_s[1] - b_s[0]);
@@ -48,7 +48,10 @@ export function shares(layer: DiagramLayer): Record<CellState, number> {
 
 export interface Evidence extends Point { wait: WaitsOn }
 
-/** Returns where the server found a conflict, if one of the jobs waits for the other. */
+/**
+ * If one of the jobs waits for the other, returns the times of their conflict, as the server found
+ * them. Else returns null.
+ */
 export function evidence_of(a: Job | null, b: Job | null): Evidence | null {
   if (!a || !b) return null;
   for (const [waiting, other] of [[a, b], [b, a]] as const) {
@@ -71,12 +74,15 @@ export function evidence_in_words(evidence: Evidence, diagram: Diagram): string 
   return `${how}, ${when.map(([id, at_s]) => kWords.time_in(at_s.toFixed(2), short_id(id))).join(kText.server.and)}.`;
 }
 
-/** `calm`: handled by the scheduler; `alarm`: nothing known prevents the conflict. */
+/**
+ * `free`: no conflict is ahead. `calm`: the scheduler handles it, or it may be no conflict.
+ * `alarm`: nothing known prevents the conflict.
+ */
 export interface PlanWords { tone: 'free' | 'calm' | 'alarm'; words: string }
 
 /**
- * Describes the prediction. `waiting` is the job that has not started, `resting` the job that has
- * ended, if any.
+ * Describes the prediction. `waiting` is the job that has not started, or null. `resting` is the
+ * job that has ended, or null.
  */
 export function plan_in_words(ahead: Ahead, waiting: string | null, resting: string | null = null): PlanWords {
   const begin = waiting !== null ? kWords.if_started(short_id(waiting))
@@ -100,8 +106,8 @@ export function drawn_in_words({ a, b }: Diagram): string {
 }
 
 /**
- * Describes a diagram that is shown until the diagram of the `wanted` jobs arrives; `wanted` is
- * null if it cannot be computed.
+ * Describes the previous diagram, which is shown until the diagram of the `wanted` jobs arrives.
+ * `wanted` is null if there is no such diagram.
  */
 export function kept_in_words({ a, b }: Diagram, jobs: readonly (Job | null)[], wanted: { a: string; b: string } | null): string {
   const ends_s = jobs.flatMap((job) => job?.ended_s ?? []);

@@ -1,5 +1,5 @@
-// Finds the job for one side of a diagram. A side names a job, or an arm that stands for its
-// current, else its next, else its last job. Pure.
+// Finds the job for one side of a diagram. The side names a job or an arm. If it names an arm, the
+// arm's current job is used, else its next, else its last job. Pure.
 
 import type { Job } from '../server/messages';
 import type { JobList } from '../state/job_book';
@@ -9,7 +9,10 @@ interface Known { job(id: string): Job | null; jobs(list: JobList): readonly Job
 
 const kInTurn: readonly JobList[] = ['running', 'scheduled', 'backlog', 'queued', 'finished'];
 
-/** Returns null if the page does not know the job; the server may know it. */
+/**
+ * Returns the job of a side. Returns null if the page does not know the job; the server may still
+ * know it.
+ */
 export function job_of_side(name: string, store: Known): Job | null {
   return store.job(name) ?? (is_arm(name, store) ? job_of_arm(name, store) : null);
 }
@@ -19,7 +22,10 @@ export function is_arm(name: string, store: Known): boolean {
   return store.job(name) === null && store.arms.has(name);
 }
 
-/** Lists are in the server's order; ended jobs come newest first. */
+/**
+ * Returns the current, next or last job of an arm. Relies on the order of the lists: the server's
+ * order, and ended jobs newest first.
+ */
 function job_of_arm(arm: string, store: Known): Job | null {
   for (const list of kInTurn) {
     const job = store.jobs(list).find(({ arms }) => arms.includes(arm));
@@ -28,7 +34,7 @@ function job_of_arm(arm: string, store: Known): Job | null {
   return null;
 }
 
-/** Returns why two sides make no diagram, or null. */
+/** Returns why two sides have no diagram, or null if they have one. */
 export function why_no_pair(a: string, b: string, store: Known): string | null {
   const [job_a, job_b] = [job_of_side(a, store), job_of_side(b, store)];
   const idle = [[a, job_a], [b, job_b]].find(([name, job]) => job === null && is_arm(name as string, store));

@@ -1,5 +1,5 @@
-// States the shown past time above a page, and which parts of the page show the present all the
-// same.
+// A line above a page while a past time is shown. It states this time, and which parts of the page
+// show the present all the same.
 
 import type { ComponentChildren } from 'preact';
 import type { App } from '../state/app';

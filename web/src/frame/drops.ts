@@ -1,5 +1,5 @@
-// Handles files dropped anywhere on the page, for which a browser would leave it. Jobs open the New
-// job page; a recording (files or folder) is opened.
+// Handles files dropped anywhere on the page; otherwise the browser would leave the page and show
+// the file. Jobs open the New job page. A recording (files or folder) is opened.
 
 import { signal } from '@preact/signals';
 import { read_job_file } from '../compose/job_file';
@@ -8,17 +8,17 @@ import { kText } from '../strings';
 
 /** True while files are dragged over the page. */
 export const files_over = signal(false);
-/** Why the dropped files were not accepted, until dismissed. */
+/** Says why the dropped files were not accepted, until the user dismisses the message. */
 export const drop_fault = signal<string | null>(null);
 
-/** `folder` is the name of a dropped folder. */
+/** The files that were dropped. `folder` is the name of the dropped folder, or null. */
 interface Dropped { files: readonly File[]; folder: string | null }
 
 const kRecorded = /\.(csv|jsonl|mcap)$/;
 
 export function listen_to_drops(app: App, window: Pick<Window, 'addEventListener'>): void {
   window.addEventListener('dragover', (event) => {
-    if (!event.dataTransfer?.types.includes('Files')) return;  // text is dropped into its field
+    if (!event.dataTransfer?.types.includes('Files')) return;  // dragged text is left to the field under it
     event.preventDefault();
     files_over.value = true;
   });
@@ -29,7 +29,7 @@ export function listen_to_drops(app: App, window: Pick<Window, 'addEventListener
     if (!dataTransfer || dataTransfer.files.length === 0) return;
     event.preventDefault();
     drop_fault.value = null;
-    // The browser forgets the files after this event.
+    // The files are read from the event now, because the browser forgets them after this event.
     void what_of(dataTransfer).then((dropped) => take(dropped, app)).catch((error: unknown) => { drop_fault.value = kText.frame.drop_unreadable(String(error)); });
   });
 }
@@ -51,7 +51,10 @@ async function take({ files, folder }: Dropped, app: App): Promise<void> {
   if (files.length > 1) drop_fault.value = kText.frame.only_one_file(first.name);
 }
 
-/** Returns the dropped files; of a folder its recording files, without subfolders. */
+/**
+ * Returns the dropped files. If a folder was dropped, returns its recording files, without
+ * subfolders.
+ */
 function what_of({ items, files }: DataTransfer): Promise<Dropped> {
   const folder = [...items].map((item) => item.webkitGetAsEntry()).find((entry) => entry?.isDirectory);
   return folder ? in_folder(folder as FileSystemDirectoryEntry) : Promise.resolve({ files: [...files], folder: null });
@@ -60,7 +63,7 @@ function what_of({ items, files }: DataTransfer): Promise<Dropped> {
 async function in_folder(folder: FileSystemDirectoryEntry): Promise<Dropped> {
   const reader = folder.createReader();
   const files: File[] = [];
-  // The reader returns some entries at a time, and none at the end.
+  // The reader returns some entries at a time; an empty list is the end.
   for (let some = await next_of(reader); some.length > 0; some = await next_of(reader)) {
     for (const entry of some) if (entry.isFile && kRecorded.test(entry.name)) files.push(await file_of(entry as FileSystemFileEntry));
   }

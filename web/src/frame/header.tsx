@@ -41,7 +41,7 @@ export function Header({ app }: { app: App }) {
   );
 }
 
-/** States that the user is a viewer, before a command is refused. */
+/** States that the user is a viewer, before the user tries a command that would be refused. */
 function ViewOnly({ app }: { app: App }) {
   const session = app.session.value;
   if (!is_viewer(session)) return null;

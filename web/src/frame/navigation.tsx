@@ -1,4 +1,4 @@
-// Links to the pages: the main ones in the header, the others in a menu.
+// Links to the pages: the most used in the header, the others in the menu More.
 
 import { useEffect, useRef } from 'preact/hooks';
 import { Link } from '../route/link';
@@ -23,7 +23,7 @@ function Tab({ page: { place, title, key, test }, app }: { page: Page; app: App 
   );
 }
 
-/** The menu closes on a choice, on Escape, and on any action outside. */
+/** The menu More. It closes on a choice, on Escape, and on any action outside of it. */
 function More({ app }: { app: App }) {
   const menu = useRef<HTMLDetailsElement>(null);
   const pages = kPages.filter(({ more }) => more);

@@ -1,5 +1,5 @@
-// A text field for one number, since in number fields Chromium silently turns 0,15 into 015. Arrow
-// keys step the value.
+// A text field for one number. It is not a number field, because Chromium silently turns 0,15 into
+// 015 there. The up and down arrow keys change the number by one step.
 
 import { number_in, stepped } from './number_text';
 

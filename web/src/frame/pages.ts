@@ -1,4 +1,4 @@
-// The pages of the navigation with their keys; less used pages are in the menu More.
+// The pages of the navigation, with their keys. Less used pages are in the menu More.
 
 import type { Place } from '../route/address';
 import type { App } from '../state/app';
@@ -8,7 +8,7 @@ export interface Page { place(app: App): Place; title: string; key: string; test
 
 const plain = (page: 'cell' | 'new' | 'history' | 'recordings' | 'policies' | 'alerts' | 'recovery' | 'settings') => (): Place => ({ page });
 
-/** Links to the open diagram, or to that of the first two arms. */
+/** Returns the place of the open diagram, else of the diagram of the first two arms. */
 function diagram({ router, store }: App): Place {
   const here = router.place;
   if (here.page === 'pair') return here;

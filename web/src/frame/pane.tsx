@@ -1,4 +1,4 @@
-// The page that the address names, next to the cell or over it.
+// The pane: shows the page that the address names, next to the cell or over it.
 
 import type { ComponentChildren, RefObject } from 'preact';
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
@@ -44,7 +44,7 @@ export function Pane({ app }: { app: App }) {
   );
 }
 
-/** Focuses an opened page, and returns the focus when it closes. */
+/** Moves the focus to a page when it opens, and back when it closes. */
 function use_focus(pane: RefObject<HTMLElement>, page: Place['page']): void {
   const before = useRef<Element | null>(null);
   const last = useRef(page);

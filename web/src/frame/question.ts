@@ -1,15 +1,15 @@
-// A confirmation that replaces the button that asks for it.
+// A question for confirmation. It replaces the button that asks for it.
 
 import { useRef, useState } from 'preact/hooks';
 
 export interface Question {
   asked: boolean;
   ask(): void;
-  /** Closes the question and returns the focus to the button. */
+  /** Closes the question without an answer, and returns the focus to the button. */
   take_back(): void;
-  /** It is answered. */
+  /** Closes the question after it was answered. */
   end(): void;
-  /** The button's `ref`. */
+  /** The button must pass this as its `ref`, so that it can get the focus back. */
   button(element: HTMLButtonElement | null): void;
 }
 

@@ -1,5 +1,5 @@
-// Keys: F8 stops all arms from anywhere; Escape ends dragging or returns to the cell; single
-// letters open pages unless the user types or has turned them off.
+// Keys of the page. F8 stops all arms, from anywhere on the page. Escape ends dragging, else
+// returns to the cell. Single letters open pages, unless the user is typing or has turned them off.
 
 import type { App } from '../state/app';
 import { kPageOfKey } from './pages';

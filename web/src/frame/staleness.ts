@@ -1,4 +1,4 @@
-// Detects old data: the server has been silent for a while, or its data arrives late.
+// Detects old data: the server has sent nothing for 2.5 s, or its data arrives late.
 
 import { signal, type ReadonlySignal } from '@preact/signals';
 import type { Store } from '../state/store';
@@ -8,7 +8,7 @@ const kLook_ms = 500;
 
 const known = new WeakMap<Store, ReadonlySignal<number | null>>();
 
-/** Returns the age of the data in seconds, or null if it is fresh. */
+/** Returns the age of the data in whole seconds, or null if the data is fresh. */
 export function use_staleness(store: Store): number | null {
   let stale_s = known.get(store);
   if (!stale_s) {
@@ -18,12 +18,17 @@ export function use_staleness(store: Store): number | null {
   return stale_s.value;
 }
 
-/** Returns true if the server is silent, false if its data is late. */
+/**
+ * Returns true if the server is silent. If the data is old but this returns false, the data arrives
+ * late.
+ */
 export function is_silent(store: Store): boolean {
   return (store.silence_ms() ?? 0) >= kFresh_ms;
 }
 
-/** Returns true if the data is old or the connection lost, so that the present state is unknown. */
+/**
+ * Returns true if the present state is unknown, because the data is old or the connection is lost.
+ */
 export function use_stale(store: Store): boolean {
   return use_staleness(store) !== null || store.link.status === 'lost';
 }

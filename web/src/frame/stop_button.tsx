@@ -1,4 +1,5 @@
-// The Stop button. It is never disabled: a page that receives nothing can still send.
+// The Stop button. It is never disabled, because a page that receives nothing may still be able to
+// send.
 
 import type { App } from '../state/app';
 import { is_viewer } from '../state/permission';

@@ -1,23 +1,23 @@
-// Ended jobs that the page did not receive as events: those of previous sessions and old jobs of
-// this one. They are loaded page by page on request, newest first. Their cell times belong to their
-// own session, so only wall-clock times can be compared.
+// Ended jobs that the page did not receive as events: jobs of previous sessions, and old jobs of
+// this session. They are loaded page by page when the user asks, newest first. The cell times of
+// jobs of different sessions cannot be compared; only their wall-clock times can.
 
 import { signal } from '@preact/signals';
 import type { Answer, Api } from '../server/api';
 import type { Job, Problem } from '../server/messages';
 
-const kPage = 1000;  // the server's maximum, since a user waits for the page
+const kPage = 1000;  // jobs per request: the server's maximum, because the user waits for each answer
 
 export class Archive {
   private readonly jobs_ = signal<ReadonlyMap<string, Job>>(new Map());
   private readonly state_ = signal<'more' | 'asking' | 'all'>('more');
   private readonly fault_ = signal<Problem | null>(null);
   private cursor_: string | null = null;
-  /** Counts the sessions: answers of a previous session are dropped. */
+  /** Grows whenever loading starts again. Answers to earlier requests are then dropped. */
   private turn_ = 0;
   private readonly asked_ = new Map<string, Promise<Answer<Job>>>();
 
-  /** `knows` returns true for jobs that the page received as events. */
+  /** `knows` returns true for a job that the page received as an event. */
   constructor(private readonly api_: Pick<Api, 'jobs' | 'job'>, private readonly knows_: (id: string) => boolean) {}
 
   /** Says whether the server may have more jobs. */
@@ -33,7 +33,7 @@ export class Archive {
     return this.jobs_.value.get(id) ?? null;
   }
 
-  /** Loads pages until at least one job is new, or none is left. */
+  /** Loads pages until at least one job is new or no page is left. */
   async more(): Promise<void> {
     if (this.state_.peek() !== 'more') return;
     const turn = this.turn_;
@@ -49,7 +49,7 @@ export class Archive {
       }
       const { jobs, next_cursor } = answer.value;
       found = this.keep(jobs.filter((job) => job.result !== null && !this.knows_(job.id)));
-      // A page whose cursor does not advance is the last.
+      // The last page has no cursor, or the cursor of the page before.
       if (next_cursor === null || next_cursor === this.cursor_) {
         this.state_.value = 'all';
         return;
@@ -69,7 +69,9 @@ export class Archive {
     if (turn === this.turn_ && answer.ok) this.keep([answer.value]);
   }
 
-  /** Starts again from the newest job, because a snapshot dropped jobs that the page knew. */
+  /**
+   * Starts again from the newest job. Needed after a snapshot, which drops jobs that the page knew.
+   */
   reopen(): void {
     this.turn_ += 1;
     this.cursor_ = null;
@@ -77,7 +79,7 @@ export class Archive {
     this.fault_.value = null;
   }
 
-  /** Forgets everything: another server session has begun. */
+  /** Forgets everything, because another server session has begun. */
   forget(): void {
     this.reopen();
     this.asked_.clear();

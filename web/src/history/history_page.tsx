@@ -54,7 +54,10 @@ function none_in_words(all: number, may_be_more: boolean): string {
   return may_be_more ? kWords.none_in_session : kWords.none;
 }
 
-/** Loads older jobs, including those of previous sessions if the server stores jobs. */
+/**
+ * The button that loads older jobs. They include jobs of previous sessions if the server stores
+ * jobs.
+ */
 function More({ app: { archive, store }, show }: { app: App; show(): void }) {
   const why_disabled = why_not_connected(store.link);
   if (archive.state === 'all') return null;
@@ -65,7 +68,7 @@ function More({ app: { archive, store }, show }: { app: App; show(): void }) {
   );
 }
 
-/** The line at the end of the table. */
+/** The line below the table: the button for older jobs, and what has been loaded. */
 function Earlier({ app, show }: { app: App; show(): void }) {
   const { archive } = app;
   const status = archive.fault ? kWords.not_available(archive.fault.detail ?? archive.fault.title) : archive.state === 'all' ? kWords.all_loaded : kWords.with_data;
@@ -77,7 +80,10 @@ function Earlier({ app, show }: { app: App; show(): void }) {
   );
 }
 
-/** `before` is the row above. At the first job of a previous session the clock changes. */
+/**
+ * A row of the table. `before` is the row above. A divider above the first job of a previous
+ * session says that times are wall-clock times from here on.
+ */
 function Line({ job, app, before }: { job: Job; app: App; before: Job | null }) {
   const is_former = ({ id }: Job) => app.store.job(id) === null;
   const former = is_former(job);

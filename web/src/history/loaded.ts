@@ -1,13 +1,17 @@
-// Describes how far back the loaded jobs reach; null if all jobs of the server are loaded. Pure.
+// Describes how far back the loaded jobs reach. Returns null if all jobs of the server are loaded.
+// Pure.
 
 import { kText } from '../strings';
 import { clock } from '../wording';
 
 export interface Loaded {
-  /** Jobs received as events, complete since `ended_from_s`; null means since the session began. */
+  /**
+   * The number of jobs received as events. They are complete since `ended_from_s`; null means since
+   * the session began.
+   */
   received: number;
   ended_from_s: number | null;
-  /** Jobs loaded in addition, and whether these are all. */
+  /** The number of jobs loaded in addition. `is_all` is true if the server has no others. */
   fetched: number;
   is_all: boolean;
 }

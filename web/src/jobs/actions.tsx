@@ -1,4 +1,4 @@
-// Commands for an unfinished job, in its row and on its page.
+// Commands for an unfinished job. They are in the job's row and on its page.
 
 import { use_question } from '../frame/question';
 import { kCanReplan, type Job } from '../server/messages';
@@ -12,7 +12,7 @@ const kWords = kText.job;
 
 interface Props { job: Job; app: App }
 
-/** All commands, for the job's page. */
+/** All commands for a job, as shown on its page. */
 export function JobActions({ job, app }: Props) {
   if (is_terminal(job)) return null;
   return (
@@ -38,7 +38,7 @@ export function Urgency({ job, app }: Props) {
   return <div class="urgency" data-test="urgency">{step(1, '▲', kWords.more_urgent)}{step(-1, '▼', kWords.less_urgent)}</div>;
 }
 
-/** Asks for confirmation before it cancels. */
+/** The cancel button. It asks for confirmation first. */
 export function Cancel({ job, app, words }: Props & { words?: string }) {
   const question = use_question();
   const why_disabled = why_no_command(app);
@@ -59,8 +59,8 @@ export function Cancel({ job, app, words }: Props & { words?: string }) {
 }
 
 /**
- * Replans the job. A moving job needs confirmation, because the rest of its trajectory is
- * discarded.
+ * The button that replans the job. For a moving job it asks for confirmation, because the rest of
+ * the job's trajectory is discarded.
  */
 function Replan({ job, app }: Props) {
   const { asked, ...question } = use_question();

@@ -1,4 +1,4 @@
-// A button that copies text to the clipboard and reports the result.
+// A button that copies text to the clipboard and says if that worked.
 
 import { useState } from 'preact/hooks';
 import type { App } from '../state/app';
@@ -25,7 +25,11 @@ export function asked_of(app: App): Asked {
   return { origin: location.origin, with_token: app.session.value?.auth_required ?? false };
 }
 
-/** Browsers allow the clipboard API only in secure contexts; a panel at the cell often has none. */
+/**
+ * Copies a text; returns false if the browser forbids it. Browsers allow the clipboard API only on
+ * HTTPS pages or on localhost. A panel at the cell is often neither, so an older method is tried
+ * too.
+ */
 async function copied(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);

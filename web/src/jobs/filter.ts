@@ -4,7 +4,10 @@ import type { Job } from '../server/messages';
 
 const kFailed: ReadonlySet<Job['state']> = new Set(['failed', 'expired', 'interrupted', 'canceled'] as const);
 
-/** Returns true if each word occurs in the job's id, name, arms, state, result reason or waits. */
+/**
+ * Returns true if each of the words occurs in the job's id, name, arms, state, result reason or
+ * waits.
+ */
 export function matches(job: Job, words: string, only_failed: boolean): boolean {
   if (only_failed && !kFailed.has(job.state)) return false;
   const wanted = words.toLowerCase().split(/\s+/).filter((word) => word !== '');

@@ -1,4 +1,5 @@
-// Freezes the job lists while the pointer is on a row, so that a click hits the intended job. Pure.
+// Keeps job rows in place while the pointer is on a row, so that a click hits the intended job.
+// Pure.
 
 import type { Job } from '../server/messages';
 import type { JobList } from '../state/job_book';
@@ -6,8 +7,8 @@ import type { JobList } from '../state/job_book';
 export type Lists = ReadonlyMap<JobList, readonly Job[]>;
 
 /**
- * Keeps the pointed row and all rows above it in place. `order` names the lists from top to bottom.
- * Changes above the row appear when the pointer leaves.
+ * Keeps the row under the pointer and all rows above it in place. `order` names the lists from top
+ * to bottom. Rows are added, moved or removed there only after the pointer has left.
  */
 export function frozen_lists(order: readonly JobList[], now: Lists, before: Lists, pointed_at: string | null): Lists {
   const at = order.findIndex((list) => before.get(list)?.some(({ id }) => id === pointed_at));

@@ -1,5 +1,5 @@
-// The page of one job: states with times, reasons to wait with evidence, planned and measured
-// joints, and the job as JSON, curl and Python.
+// The page of one job. It shows the job's states with times, what it waits for with evidence,
+// planned and measured joints, and the job as JSON, curl and Python.
 
 import { useEffect } from 'preact/hooks';
 import { pretty } from '../compose/example';
@@ -37,7 +37,7 @@ export function JobPage({ id, app }: { id: string; app: App }) {
   useEffect(() => (goes_on ? app.actions.follow_job(id) : undefined), [app, id, goes_on]);
   if (!job) return <><h2 class="ellipsis">{shown_name(id)}</h2><p class="hint">{looks_back ? kWords.unknown_then : app.store.stream === null ? kText.common.not_connected : kWords.unknown}</p></>;
   const former = known === null;
-  // Waits are listed below with evidence, except for a deadlock cycle.
+  // Waits are listed below with evidence. A deadlock cycle is stated here.
   const words = job.result ? result_in_words(job) : job.cycle.length > 0 || job.waits_on.length === 0 ? reason_in_words(job) : '';
   const arms = [...app.store.arms.keys()];
   return (
@@ -88,13 +88,15 @@ function States({ job, app }: Props) {
   );
 }
 
-/** Why and for how long the job was paused, if known. */
+/** Says why and for how long the job was paused, if known. */
 function PauseReason({ pause }: { pause: Pause | null }) {
   const words = pause ? pause_in_words(pause) : '';
   return words === '' ? null : <span class="small" data-test="pause-reason">{words}</span>;
 }
 
-/** Jobs of a previous session have only wall-clock times. */
+/**
+ * Returns the wall-clock time of a state. Jobs of a previous session have only wall-clock times.
+ */
 function wall_of(job: Job, state: string): string {
   const at = state === kWords.submitted ? job.submitted_at : state === kWords.started ? job.started_at : job.ended_at;
   return at ?? '';
@@ -124,10 +126,10 @@ function Beside({ job, app }: Props) {
   return <p><Link app={app} to={{ page: 'pair', a: partner.id, b: job.id }} test="show-diagram">{kWords.diagram_with(short_id(partner.id))}</Link></p>;
 }
 
-/** The joints: planned as a pale band, measured as a line. */
+/** The plot of the joints: planned positions as a pale band, measured positions as a line. */
 function Moves({ job, app }: Props) {
   const { store, motions } = app;
-  motions.changes.value;  // redraws when the trajectory arrives
+  motions.changes.value;  // draws the plot again when the trajectory arrives
   const planned = motions.of(job);
   const joints = job.arms.flatMap((arm) => store.arms.get(arm)?.joints ?? []);
   const { first_s } = store.trace;

@@ -1,4 +1,4 @@
-// The job lists at the side, with one filter for all of them.
+// The job lists at the side of the page. One filter applies to all of them.
 
 import { useRef, useState } from 'preact/hooks';
 import type { Job } from '../server/messages';
@@ -59,7 +59,7 @@ export function Jobs({ app }: { app: App }) {
   );
 }
 
-/** The shown time of the lists, if it is not now. */
+/** States the time that the lists show, if it is not now. */
 function LookedAt({ app }: { app: App }) {
   const { t_s } = app.router.address.value;
   if (t_s === null || instant_of(app.router.address.value, app.store).kind === 'now') return null;
@@ -70,7 +70,7 @@ function LookedAt({ app }: { app: App }) {
   );
 }
 
-/** Since when the list of ended jobs is complete, if it is not complete for the session. */
+/** If the list of ended jobs is not complete for the session, states since when it is complete. */
 function EndedFrom({ app }: { app: App }) {
   const { ended_from_s } = app.store.book;
   if (ended_from_s === null) return null;

@@ -1,4 +1,4 @@
-// One job in a list: arms, name, the most relevant number, and why it waits.
+// One job in a list: its arms, its name, the most relevant number, and what it waits for.
 
 import { Bar } from '../arms/bar';
 import { use_stale } from '../frame/staleness';
@@ -61,8 +61,8 @@ export function Row({ job, app }: Props) {
 }
 
 /**
- * Returns the page that shows the reason: the diagram with the blocking job, or the blocking
- * object.
+ * Returns the page that explains the wait: the diagram with the blocking job, or the page of the
+ * blocking object. Null if neither exists.
  */
 function reason_place(job: Job): Extract<Place, { page: 'pair' | 'scene' }> | null {
   const blocker = job.waits_on.find((wait) => wait.kind === 'job' && wait.id !== null)?.id ?? null;
@@ -83,7 +83,7 @@ function Figure({ job, app }: Props) {
   return <span class="figure" title={title} data-test="figure">{stale ? as_last_heard(text) : text}</span>;
 }
 
-/** The reason "waits its turn" is shown together with the times, in one line. */
+/** Returns true if the job only waits its turn. This reason is shown in one line with the times. */
 function only_waits_its_turn(job: Job): boolean {
   return job.waits_on[0]?.kind === 'predecessor' && job.cycle.length === 0 && !job.result;
 }
@@ -94,7 +94,7 @@ function Reason({ job }: { job: Job }) {
   return words === '' ? null : <span class="words" data-test="reason">{words}</span>;
 }
 
-/** Shows how long the job is blocked, when it starts and when it expires. */
+/** Shows how long the job has been blocked, and when it will start and expire. */
 function When({ job, app }: Props) {
   use_beats(app.store);
   const first = only_waits_its_turn(job) ? job.waits_on[0]?.id ?? null : null;

@@ -1,11 +1,11 @@
-// A job, or its submission, as curl command and Python program. Pure. Texts from users are always
-// quoted, so that a copied command does nothing else. Tokens are read from the environment and
-// never shown.
+// A job, or its submission, as a curl command or a Python program. Pure. Texts from users are
+// always quoted, so that a copied command does nothing else. Tokens are read from the environment;
+// a snippet never contains one.
 
 import { kApi } from '../server/api';
 import type { Job } from '../server/messages';
 
-/** The origin of the server, and whether it requires a token. */
+/** `origin` is the server's address. `with_token` is true if the server requires a token. */
 export interface Asked { origin: string; with_token: boolean }
 
 const kVariable = 'ARMLOOM_TOKEN';
@@ -24,7 +24,10 @@ export function python_of(job: Pick<Job, 'id'>, asked: Asked): string {
   ].join('\n');
 }
 
-/** Submits the body on stdin, because a long body does not fit into an argument. */
+/**
+ * Returns a command that submits the body. The body is passed on stdin, because a long body does
+ * not fit into an argument.
+ */
 export function curl_to_post(path: string, body: string, asked: Asked): string {
   let end = 'END';
   while (body.includes(end)) end += '_';
@@ -59,12 +62,14 @@ function imports({ with_token }: Asked): string[] {
   return ['import json', ...with_token ? ['import os'] : [], 'import urllib.request', ''];
 }
 
-/** Quotes a text as a Python literal, keeping its lines. */
+/** Returns the text as a Python literal. Line breaks stay line breaks. */
 function python_text(text: string): string {
   return `'''${text.replaceAll('\\', '\\\\').replaceAll("'", "\\'")}'''`;
 }
 
-/** Single quotes protect all characters except themselves. */
+/**
+ * Quotes a text for the shell in single quotes, which protect all characters except single quotes.
+ */
 export function quoted_for_shell(text: string): string {
   return `'${text.replaceAll("'", "'\\''")}'`;
 }

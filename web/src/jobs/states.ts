@@ -1,14 +1,16 @@
-// The states of a job with their times, from events or else from the job itself. Pure.
+// The states of a job with their times. They are taken from events, else from the job itself. Pure.
 
 import type { Job } from '../server/messages';
 import { is_terminal, type Change, type Pause } from '../state/job_book';
 import { kText } from '../strings';
 import { seconds, wait_in_words } from '../wording';
 
-// Shorter states are transitions and are left out.
+// A state that lasted less than this is left out, because it was only a transition.
 const kLeast_s = 0.005;
 
-/** Cell time, or null if not reached yet. */
+/**
+ * A state and the cell time at which it began. The time is null if the state is not reached yet.
+ */
 export type StateAt = readonly [name: string, t_s: number | null];
 
 export function states_of(job: Job, heard: readonly Change[]): StateAt[] {

@@ -1,5 +1,5 @@
-// Describes since when a job is in its state, and when it is predicted to start, end and expire.
-// Pure. Times are cell time.
+// Describes since when a job is in its state, and when it is predicted to start and end, and when
+// it expires. Pure. Times are cell time.
 
 import type { Forecast, ForecastStep, Job } from '../server/messages';
 import { is_stopped } from '../state/shown_state';
@@ -9,7 +9,7 @@ import { seconds } from '../wording';
 
 const kWords = kText.figure;
 
-/** Returns the predicted step of a job, or null if there is none. */
+/** Returns the step of the predicted timeline that belongs to a job, or null if it has none. */
 export function step_of({ id }: Pick<Job, 'id'>, forecast: Forecast | null): ForecastStep | null {
   return forecast?.arms.flatMap((lane) => lane.steps).find((known) => known.id === id) ?? null;
 }
@@ -22,7 +22,7 @@ export function when_in_words(job: Job, store: Pick<Store, 't_s' | 'book' | 'for
   if (job.state === 'backlogged') parts.push(kWords.blocked_for(seconds(Math.max(0, now_s - (job.backlogged_s ?? since_s ?? now_s)))));
   if (job.state === 'paused' && since_s !== null) parts.push(kWords.paused_for(seconds(Math.max(0, now_s - since_s))));
   const starts_s = step ? step.starts_s : job.scheduled_s;
-  const stopped = is_stopped(job);  // its reason says this already
+  const stopped = is_stopped(job);  // the reason for the wait says this already
   if (!stopped && job.started_s === null && starts_s !== null) {
     parts.push(starts_s > now_s + 0.05 ? kWords.starts_in(seconds(starts_s - now_s)) : kWords.about_to_start);
   }

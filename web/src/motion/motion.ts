@@ -1,10 +1,13 @@
-// A timed motion of joints as waypoints joined by splines. Pure. Reads only what a preview needs;
-// the server validates the trajectory.
+// A timed motion of joints: waypoints joined by splines. Pure. Reads only what a preview needs. The
+// server validates the trajectory.
 
 export interface Motion {
   duration_s: number;
   names: readonly string[];
-  /** Returns all joints at a time, in rad or m. Joints that move later are at their start. */
+  /**
+   * Returns the positions of all joints at a time, in rad or m. A joint whose own motion begins
+   * later is at its start.
+   */
   q_at(t_s: number): Record<string, number>;
 }
 
@@ -12,8 +15,8 @@ export interface Waypoint { t_s: number; q: number[]; v: number[] | null; a: num
 export interface Piece { names: string[]; points: Waypoint[] }
 
 /**
- * Reads a JointTrajectory as ROS prints it, or nested as in MoveIt. Returns null if it cannot be
- * shown.
+ * Reads a JointTrajectory as ROS prints it, or nested in another message as MoveIt does. Returns
+ * null if it cannot be shown.
  */
 export function read_trajectory(value: unknown): Piece | null {
   const trajectory = child(value, 'joint_trajectory') ?? value;
@@ -40,7 +43,10 @@ export function motion_of_piece(piece: Piece): Motion {
   };
 }
 
-/** Interpolates like the server: quintic with accelerations, cubic with velocities, else linear. */
+/**
+ * Returns the positions at a time. Interpolates like the server: quintic if accelerations are
+ * given, cubic if only velocities are given, else linear.
+ */
 export function position(points: readonly Waypoint[], t_s: number): number[] {
   const next = after(points, t_s);
   const to = points[Math.min(next, points.length - 1)];
@@ -75,7 +81,10 @@ function cubic(u: number, h_s: number, [q0, v0]: readonly [number, number], [q1,
 
 type State = readonly [q: number, v: number, a: number];
 
-/** Evaluates the quintic in Bernstein form; the six control values follow from both ends. */
+/**
+ * Evaluates the quintic in Bernstein form. Its six control values follow from position, velocity
+ * and acceleration at both ends.
+ */
 function quintic(u: number, h_s: number, [q0, v0, a0]: State, [q1, v1, a1]: State): number {
   const control = [
     q0, q0 + (h_s * v0) / 5, q0 + (2 * h_s * v0) / 5 + (h_s ** 2 * a0) / 20,

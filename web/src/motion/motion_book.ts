@@ -1,5 +1,5 @@
-// Fetches the trajectories of jobs on first use and caches the last ones used. A replanned job is
-// fetched again.
+// Fetches the trajectory of a job when it is first needed. Caches the trajectories used last.
+// Fetches it again after the job was replanned.
 
 import { signal, untracked, type ReadonlySignal } from '@preact/signals';
 import type { Answer } from '../server/api';
@@ -22,19 +22,22 @@ export class MotionBook {
   /** Changes when a trajectory arrives. */
   get changes(): ReadonlySignal<number> { return this.changes_; }
 
-  /** Returns the motion, or null if it is not loaded yet or the server has forgotten it. */
+  /**
+   * Returns the job's motion, or null if it is not loaded yet or the server no longer has it. After
+   * a replan, returns the old motion until the new motion arrives.
+   */
   of(job: Pick<Job, 'id' | 'duration_s' | 'planned' | 'arms'>): Motion | null {
     const key = `${job.duration_s} ${job.planned ?? ''} ${job.arms.join(' ')}`;
     const known = this.known_.get(job.id);
     if (known?.key !== key) this.ask(job.id, key, known?.motion ?? null);
-    else {  // moves it to the end: last used
+    else {  // moves the entry to the end of the map, where the last used entries are
       this.known_.delete(job.id);
       this.known_.set(job.id, known);
     }
     return this.known_.get(job.id)?.motion ?? null;
   }
 
-  /** Clears the cache, because ids of another session are other jobs. */
+  /** Clears the cache, because another session may use the same ids for other jobs. */
   clear(): void {
     this.known_.clear();
     this.waiting_.length = 0;

@@ -3,10 +3,10 @@
 import type { Batch } from '../compose/batch';
 import { child, motion_of_piece, read_trajectory, type Motion, type Piece } from './motion';
 
-/** A trajectory that starts this long after the first. */
+/** A trajectory that starts `begins_s` after the beginning of the preview. */
 export interface Part { piece: Piece; begins_s: number }
 
-/** Chains the jobs of each arm one after the other. */
+/** Returns the trajectories of a batch. Jobs of the same arm follow one another. */
 export function parts_of(batch: Batch): Part[] {
   const bodies = batch.kind === 'batch' ? batch.jobs : [json_of(batch.text)];
   const ends_s = new Map<string, number>();
@@ -21,7 +21,10 @@ export function parts_of(batch: Batch): Part[] {
   return parts;
 }
 
-/** Thins the parts to about `most` points in total: every n-th point and the last of each part. */
+/**
+ * Reduces the trajectories to about `most` points in total. Keeps every n-th point and the last
+ * point of each trajectory.
+ */
 export function thinned(parts: readonly Part[], most: number): Part[] {
   const points = parts.reduce((sum, { piece }) => sum + piece.points.length, 0);
   const every = Math.ceil(points / most);
@@ -30,7 +33,7 @@ export function thinned(parts: readonly Part[], most: number): Part[] {
   }));
 }
 
-/** Returns the motion, or null if there are no parts. */
+/** Combines the trajectories into one motion. Returns null if there are none. */
 export function motion_of_parts(parts: readonly Part[]): Motion | null {
   if (parts.length === 0) return null;
   const motions = parts.map(({ piece, begins_s }) => ({ motion: motion_of_piece(piece), begins_s }));

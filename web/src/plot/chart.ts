@@ -1,5 +1,5 @@
-// A uPlot chart in the page's colors. Joints differ in color and in dash pattern, for readers who
-// do not see colors.
+// A uPlot chart in the page's colors. Joints differ in color and also in dash pattern, for readers
+// who do not see colors.
 
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
@@ -13,14 +13,17 @@ const kColors = 8;
 const kDashes: readonly number[][] = [[], [8, 3], [2, 3], [10, 3, 2, 3]];
 const kBorders = ['solid', 'dashed', 'dotted', 'double'];
 
-/** The planned positions; null outside of the plan. */
+/**
+ * The planned positions `q` of each joint at the times `t_s`. A position is null where there is no
+ * plan.
+ */
 export interface Planned { t_s: number[]; q: (number | null)[][] }
 
 export class Chart {
   private readonly plot_: uPlot;
   private readonly observer_: ResizeObserver;
 
-  /** `with_plan` draws the plan as a broad, pale band under the measured line. */
+  /** If `with_plan` is true, the plan is drawn as a broad, pale band under the measured line. */
   constructor(host: HTMLElement, joints: readonly string[], with_plan: boolean) {
     const series = with_plan ? 2 * joints.length : joints.length;
     this.plot_ = new uPlot(options_of(joints, host.clientWidth, with_plan), [[], ...Array.from({ length: series }, () => [])], host);
@@ -69,7 +72,7 @@ function options_of(joints: readonly string[], width: number, with_plan: boolean
         value: (_: uPlot, q: number | null) => (q === null ? '' : q.toFixed(3)),
       })),
     ],
-    // uPlot counts series from one; series 0 is time.
+    // uPlot's series 0 is time, so the joints begin at series 1.
     legend: { show: true, live: true, markers: { width: 2, dash: (_, i) => kBorders[(i - 1 - (with_plan ? joints.length : 0)) % kBorders.length] ?? 'solid' } },
     cursor: { drag: { setScale: false, x: false, y: false } },
   };

@@ -1,5 +1,5 @@
-// A plot of joints over time. uPlot is loaded on first use. Measured values come from the page's
-// trace.
+// A plot of joints over time. uPlot is loaded when the first plot is shown. Measured values come
+// from the page's trace (state/trace.ts).
 
 import { useEffect, useRef } from 'preact/hooks';
 import type { App } from '../state/app';
@@ -12,11 +12,11 @@ interface Props {
   app: App;
   joints: readonly string[];
   label: string;
-  /** The number of last seconds to show, instead of `stretch`. */
+  /** If given instead of `stretch`, the last `last_s` seconds are shown. */
   last_s?: number;
-  /** Begin and end in cell time; the end is null while it continues. */
+  /** The shown range in cell time. Its end is null while the motion continues. */
   stretch?: readonly [from_s: number, to_s: number | null];
-  /** The planned motion, from the beginning of `stretch`. */
+  /** The planned motion. It is drawn from the beginning of `stretch`. */
   planned?: Motion | null;
 }
 
@@ -28,7 +28,7 @@ function planned_of(motion: Motion, joints: readonly string[], from_s: number): 
   return { t_s: t_s.map((at_s) => from_s + at_s), q: joints.map((joint) => states.map((q) => q[joint] ?? null)) };
 }
 
-/** Returns the unit of the axis. */
+/** Returns the unit of the vertical axis. */
 export function units_of(joints: readonly string[], { store }: App): string {
   const units = store.cell?.joints.flatMap(({ name, unit }) => (joints.includes(name) ? [unit] : [])) ?? [];
   return [...new Set(units)].join(' and ') || 'rad';

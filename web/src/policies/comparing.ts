@@ -1,4 +1,4 @@
-// The comparison of policies: started on the server and polled while it runs.
+// The comparison of policies. The server runs it, and the page polls it while it runs.
 
 import { signal } from '@preact/signals';
 import type { Api } from '../server/api';
@@ -20,7 +20,7 @@ export class Comparing {
     private readonly timers_: Timers,
   ) {}
 
-  /** Fetches the comparison, also one that another page started. */
+  /** Fetches the comparison, even if another page started it. */
   async look(): Promise<void> {
     const answer = await this.api_.comparison();
     if (answer.ok) this.take(answer.value);
@@ -28,7 +28,7 @@ export class Comparing {
       this.latest.value = null;
       this.none_made.value = true;
     }
-    else if (this.latest.value?.state === 'running') this.again();  // the connection, perhaps
+    else if (this.latest.value?.state === 'running') this.again();  // tries again, because perhaps only the connection failed
   }
 
   async start(since_s: number | null): Promise<void> {

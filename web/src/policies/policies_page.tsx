@@ -16,7 +16,7 @@ const kWords = kText.policies;
 
 export function PoliciesPage({ app }: { app: App }) {
   const { comparing } = app;
-  // Polls a known comparison only; finding one takes a click.
+  // Polls only a comparison that the page knows. The user must click to look for one on the server.
   useEffect(() => { if (comparing.latest.peek() !== null) void comparing.look(); }, [comparing]);
   return (
     <div class="columns policies">

@@ -1,9 +1,9 @@
-// Describes the results of a compared policy. Pure.
+// Describes the results of the simulation under one policy. Pure.
 
 import type { PolicyRun } from '../server/messages';
 import { kText } from '../strings';
 
-/** Returns how jobs ended that did not succeed; empty if all succeeded. */
+/** Says how many jobs ended without success, and how. Empty if all jobs succeeded. */
 export function ends_in_words(run: PolicyRun): string {
   const ends = (['expired', 'failed', 'canceled', 'refused', 'unfinished'] as const)
     .flatMap((end) => (run[end] > 0 ? [`${run[end]} ${end}`] : []));

@@ -1,5 +1,5 @@
-// Converts scene objects to Foxglove primitives in the frame `world`. Meshes keep only their pose
-// and name. Pure.
+// Converts scene objects to Foxglove primitives in the frame `world`. Of a mesh only its pose and
+// name are exported. Pure.
 
 import { Euler, Quaternion } from 'three';
 import { shape_of, type SceneObject } from '../server/messages';

@@ -1,5 +1,5 @@
-// JSON schemas of an exported MCAP file. Foxglove recognizes them by name; members as in its
-// documentation.
+// JSON schemas of the messages in an exported MCAP file. Foxglove recognizes a schema by its name.
+// The members are those of Foxglove's documentation.
 
 const time = { type: 'object', title: 'time', properties: { sec: { type: 'integer', minimum: 0 }, nsec: { type: 'integer', minimum: 0, maximum: 999_999_999 } } };
 const duration = { type: 'object', title: 'duration', properties: { sec: { type: 'integer' }, nsec: { type: 'integer', minimum: 0, maximum: 999_999_999 } } };

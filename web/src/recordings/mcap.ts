@@ -1,6 +1,6 @@
-// Exports the page's data as an MCAP file with Foxglove schemas in JSON: joint states, link
-// transforms, scene, jobs, events; plus the raw server events, from which the page can replay
-// everything. Loaded on first use.
+// Exports the page's data as an MCAP file with Foxglove's JSON schemas: joint states, link
+// transforms, scene, jobs and events. The raw server events are exported too, so that the page can
+// replay the file. Loaded on first use.
 
 import { McapWriter, type IWritable } from '@mcap/core';
 import * as THREE from 'three';
@@ -12,7 +12,7 @@ import { kSchemas } from './foxglove_schemas';
 import { kMetadata, kTopics, kWallAtZero, wall_ns } from './mcap_layout';
 
 const kMostFrames = 9_000;
-// Lets the page answer clicks in between.
+// Frames written at a time. Between such groups the page can answer clicks.
 const kAtOnce = 60;
 
 class Bytes implements IWritable {
@@ -55,7 +55,9 @@ export async function write_mcap(store: Store, on_progress: (share: number) => v
 interface Stamp { sec: number; nsec: number }
 type Log = (topic: keyof typeof kTopics, t_s: number, message: (stamp: Stamp) => unknown) => Promise<void>;
 
-/** Registers all topics. `offset_s` is the wall time at cell time zero. */
+/**
+ * Registers all topics. `offset_s` is the wall-clock time, in seconds, at which cell time is zero.
+ */
 async function begin(writer: McapWriter, offset_s: number): Promise<Log> {
   const encoder = new TextEncoder();
   const channels = new Map<string, { id: number; sequence: number }>();
@@ -107,7 +109,7 @@ function kinematics_of(cell: Cell | null): Kinematics[] {
   return (cell?.robots ?? []).map((robot) => new Kinematics(robot));
 }
 
-/** Returns the transform of every link in the world frame. */
+/** Returns the pose of every link in the world frame. */
 function transforms_of(robots: readonly Kinematics[], q: Readonly<Record<string, number>>, timestamp: Stamp): unknown[] {
   const [place, turn, scale] = [new THREE.Vector3(), new THREE.Quaternion(), new THREE.Vector3()];
   return robots.flatMap((robot) => {

@@ -1,5 +1,5 @@
-// Shows a recording instead of the live cell: reads its files into the store, and reconnects when
-// it is closed.
+// Shows a recording instead of the live cell. Reads the recording's files into the store. When the
+// recording is closed, connects to the server again.
 
 import { signal } from '@preact/signals';
 import type { Connection } from '../server/connection';
@@ -16,7 +16,7 @@ const kWords = kText.recordings;
 /** `frames` is 0 if the recording has no positions. */
 export interface Opened { name: string; frames: number; events: number; unread: number; first_s: number; last_s: number }
 export interface Reading { name: string; bytes: number; of_bytes: number }
-/** The needed files of a recording. */
+/** The files of a recording that the page reads. Null if a file is missing. */
 export interface Sources { states: Source | null; events: Source | null }
 
 type Read = { ok: true; frames: Frames | null; events: Events } | { ok: false; fault: string };
@@ -49,7 +49,7 @@ export class Player {
     return this.show(name, of_bytes, (on_bytes, stop) => read_sources(name, sources, on_bytes, stop));
   }
 
-  /** Cancels reading. */
+  /** Cancels the reading of a recording. */
   stop(): void {
     this.stop_.abort();
     this.reading.value = null;
@@ -76,13 +76,13 @@ export class Player {
       if (!stop.signal.aborted && (bytes - (this.reading.peek()?.bytes ?? 0)) * kShownSteps >= of_bytes) this.reading.value = { name, bytes, of_bytes };
     };
     const got = await read(on_bytes, stop.signal).catch((error: unknown): Read => ({ ok: false, fault: kWords.incomplete(String(error)) }));
-    if (stop.signal.aborted) return;  // canceled
+    if (stop.signal.aborted) return;  // the user canceled the reading
     this.reading.value = null;
     const fault = got.ok ? this.look_at(name, got.frames, got.events) : got.fault;
     this.fault.value = fault === null || name === '' || fault.includes(shown_name(name)) ? fault : `${shown_name(name)}: ${fault}`;
   }
 
-  /** Shows the recording, or returns why it cannot be shown. */
+  /** Shows the recording and returns null, or returns why it cannot be shown. */
   private look_at(name: string, frames: Frames | null, { messages, unread }: Events): string | null {
     const strange = this.strange_in(frames, messages);
     if (strange !== null) return kWords.other_cell(strange);

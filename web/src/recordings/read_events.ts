@@ -8,7 +8,7 @@ export class EventsReader {
   private rest_ = '';
   private readonly events_: Events = { messages: [], unread: 0 };
 
-  /** Takes the next part of the file, split anywhere. */
+  /** Takes the next part of the file. Parts may be split anywhere. */
   take(text: string): void {
     const lines = (this.rest_ + text).split('\n');
     this.rest_ = lines.pop() ?? '';
@@ -16,7 +16,8 @@ export class EventsReader {
   }
 
   /**
-   * Returns the events. Unreadable lines (another server version, or cut at the end) are counted.
+   * Returns the events, and the number of unreadable lines. A line is unreadable if another server
+   * version wrote it or if it was cut at the end.
    */
   end(): Events {
     this.line(this.rest_);
@@ -32,7 +33,10 @@ export class EventsReader {
   }
 }
 
-/** Simulated runs have no wall times, so that their logs are reproducible; fills in empty ones. */
+/**
+ * Returns the line with empty wall times if it has none. Simulated runs have no wall times, so that
+ * their logs are reproducible.
+ */
 function with_wall_times(line: string): string {
   if (line.includes('"at":')) return line;
   try {

@@ -1,5 +1,5 @@
-// Reads an MCAP file that this page exported: joint positions and raw events. Of other files it
-// reads JSON joint states only. Loaded on first use.
+// Reads an MCAP file that this page exported: joint positions and raw events. From any other MCAP
+// file it reads only joint states in JSON. Loaded on first use.
 
 import { McapStreamReader, type McapTypes } from '@mcap/core';
 import { kMetadata, kTopics, kWallAtZero, wall_ns } from './mcap_layout';
@@ -8,7 +8,7 @@ import type { Frames } from './read_states';
 
 export interface Mcap { frames: Frames; /** One line per event, as in events.jsonl. */ events: string }
 
-// Lets the page answer clicks in between.
+// Reading pauses this often, so that the page can answer clicks.
 const kBreath_ms = 20;
 // The magic bytes of an MCAP file.
 const kMagic = [0x89, 0x4d, 0x43, 0x41, 0x50, 0x30, 0x0d, 0x0a];

@@ -1,5 +1,5 @@
-// Reads joint positions from a recording's states.csv and thins them: the file has one row per
-// control tick, the view needs 30 per second. Pure.
+// Reads joint positions from a recording's states.csv, and thins them. The file has one row per
+// control tick; the view needs 30 rows per second. Pure.
 
 import { cut_text } from '../names';
 import { kText } from '../strings';
@@ -9,7 +9,7 @@ const kWords = kText.recordings;
 export interface Frames { names: string[]; t_s: number[]; q: number[][] }
 
 const kStep_s = 1 / 30;
-// Longer recordings are thinned further.
+// Largest number of rows kept. A longer recording is thinned further.
 const kMost = 60_000;
 const kLongestLine = 1 << 20;
 
@@ -22,7 +22,7 @@ export class StatesReader {
   private q_: number[][] = [];
   private fault_: string | null = null;
 
-  /** Takes the next part of the file, split anywhere. */
+  /** Takes the next part of the file. Parts may be split anywhere. */
   take(text: string): void {
     if (this.fault_ !== null) return;
     const lines = (this.rest_ + text).split('\n');
@@ -31,13 +31,14 @@ export class StatesReader {
     if (this.rest_.length > kLongestLine) this.fault_ = kWords.long_line(this.row_);
   }
 
-  /** Returns true if the file cannot become valid any more. */
+  /** Returns true if a fault was found, so that the rest of the file need not be read. */
   get is_faulty(): boolean {
     return this.fault_ !== null;
   }
 
   /**
-   * Returns the frames. A last row without a newline is dropped: the recording was cut off there.
+   * Returns the frames. A last row without a newline is dropped, because the recording was cut off
+   * there.
    */
   end(): { ok: true; frames: Frames } | { ok: false; fault: string } {
     if (this.fault_ !== null) return { ok: false, fault: this.fault_ };

@@ -1,4 +1,4 @@
-// The Recordings page: opens recordings of the server or from files, and exports recent data as
+// The Recordings page. It opens recordings of the server or from files, and exports recent data as
 // MCAP.
 
 import { useState } from 'preact/hooks';
@@ -40,7 +40,7 @@ export function RecordingsPage({ app }: { app: App }) {
   );
 }
 
-/** The progress of reading. */
+/** Shows the progress while a recording is read. */
 function ReadingOn({ app: { player } }: { app: App }) {
   const reading = player.reading.value;
   if (!reading) return null;

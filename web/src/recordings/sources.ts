@@ -1,11 +1,11 @@
-// Sources of a recording: chosen files or files of the server. They are streamed piece by piece, so
-// large files need little memory.
+// Sources of a recording: files chosen by the user, or files of the server. They are streamed in
+// pieces, so that large files need little memory.
 
 import type { Fetch } from '../server/api';
 import { kText } from '../strings';
 
 export interface Source {
-  /** The expected size. */
+  /** The size that the browser or the server states. */
   bytes: number;
   open(stop: AbortSignal): Promise<ReadableStream<Uint8Array>>;
 }
@@ -26,12 +26,12 @@ export function of_server(address: string, bytes: number, fetch: Fetch): Source 
 }
 
 const kPiece = 1 << 16;
-// Lets the page answer clicks in between.
+// Reading pauses this often, so that the page can answer clicks.
 const kBreath_ms = 20;
 
 /**
- * Yields the text, split anywhere. `on_bytes` receives the number of bytes read. Throws if reading is
- * stopped or breaks off.
+ * Yields the text in parts that may be split anywhere. `on_bytes` receives the number of bytes of
+ * each part. Throws if reading is canceled or fails.
  */
 export async function* texts_of(source: Source, stop: AbortSignal, on_bytes: (bytes: number) => void): AsyncGenerator<string> {
   const reader = (await source.open(stop)).getReader();
@@ -52,6 +52,6 @@ export async function* texts_of(source: Source, stop: AbortSignal, on_bytes: (by
     }
     yield decoder.decode();
   } finally {
-    await reader.cancel().catch(() => undefined);  // already closed
+    await reader.cancel().catch(() => undefined);  // the reader may be closed already
   }
 }

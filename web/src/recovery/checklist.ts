@@ -1,5 +1,5 @@
-// The checklist that must be confirmed before stopped arms move again. Each stop clears it; the
-// page has no way around it.
+// The checklist that a user must confirm before stopped arms move again. Each stop clears it. The
+// page offers no way around it.
 
 import { computed, signal } from '@preact/signals';
 import type { Store } from '../state/store';
@@ -10,15 +10,15 @@ export const kChecks: readonly string[] = kText.recovery.checks;
 
 export class Checklist {
   private readonly ticked_ = signal<ReadonlySet<number>>(new Set());
-  /** The stop that the ticks are for, or null. */
+  /** Identifies the stop for which the items are ticked; null if no arm is stopped. */
   private of_: string | null = null;
   private readonly left_ = computed(() => kChecks.length - this.ticked_.value.size);
 
   constructor(private readonly store_: Pick<Store, 'arms' | 'job' | 'events' | 'stream'>) {}
 
   /**
-   * Clears the ticks after another stop, or when no arm is stopped any more. Called after each
-   * change of the store.
+   * Clears the ticks after another stop, or when no arm is stopped any more. Must be called after
+   * each change of the store.
    */
   follow(): void {
     const stop = waiting_arms(this.store_).length === 0 ? null : `${this.store_.stream} ${cause_of(this.store_.events)?.key ?? ''}`;

@@ -14,7 +14,10 @@ export function cause_of(notices: readonly Notice[]): Notice | null {
   return notices.find(({ text, source, level }) => /^stopped: /.test(text) || (source === 'monitor' && level === 'error') || /fault/.test(text)) ?? null;
 }
 
-/** Returns the arms that are stopped, or are braking to a stop, until they are resumed. */
+/**
+ * Returns the arms that must be resumed: arms that are stopped, have a fault, or are braking to a
+ * stop.
+ */
 export function waiting_arms(store: Pick<Store, 'arms' | 'job'>): Arm[] {
   return [...store.arms.values()].filter((arm) => arm.state === 'fault' || arm.state === 'stopped' || is_stopped(arm.job === null ? null : store.job(arm.job), arm.name));
 }
@@ -24,8 +27,8 @@ export interface Need { words: string; resume: boolean; home: boolean }
 const kAtHome_rad = 0.02;
 
 /**
- * Describes what an arm needs. `job` is its unfinished job, `pose` the joints (null if unknown),
- * `next` the job that follows.
+ * Describes what an arm needs. `job` is its unfinished job. `pose` are the joint positions, null if
+ * unknown. `next` is the job that follows.
  */
 export function need_of(arm: Arm, job: Job | null, pose: Readonly<Record<string, number>> | null, next: Job | null = null): Need {
   const name = job ? title_of(job) : '';

@@ -66,7 +66,10 @@ function Checks({ app, needed }: { app: App; needed: boolean }) {
   );
 }
 
-/** `guarded` disables all motion until the checklist is confirmed. */
+/**
+ * Shows what one arm needs. `guarded` disables the buttons that cause motion, until the checklist
+ * is confirmed.
+ */
 function Needs({ arm, app, guarded }: { arm: Arm; app: App; guarded: boolean }) {
   use_beats(app.store);
   const { store } = app;

@@ -26,10 +26,13 @@ export type Place =
 
 const kPlain = ['new', 'history', 'settings', 'alerts', 'recovery', 'recordings', 'policies'] as const;
 
-/** Position, then target. */
+/** x, y, z of the camera's position, then of its target, in meters in the world frame. */
 export type Camera = readonly [number, number, number, number, number, number];
 
-/** `run` is the session of `t_s`, or null for the present session. */
+/**
+ * `t_s` is the shown cell time; null means now. `run` is the server session of `t_s`; null means
+ * the present session.
+ */
 export interface Address { place: Place; t_s: number | null; run: string | null; camera: Camera | null }
 
 export const kHome: Address = { place: { page: 'cell' }, t_s: null, run: null, camera: null };

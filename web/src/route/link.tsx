@@ -1,4 +1,5 @@
-// A link to a page; a real one, so that it can be copied or opened in another window.
+// A link to a page of the dashboard. It is an HTML link, so that users can copy it or open it in
+// another window.
 
 import type { ComponentChildren } from 'preact';
 import type { App } from '../state/app';

@@ -3,7 +3,7 @@
 import { signal, type ReadonlySignal } from '@preact/signals';
 import { address_text, parse_address, type Address, type Camera, type Place } from './address';
 
-/** The part of a browser's window that is used here. */
+/** The members of a browser's window that are used here. */
 export interface AddressBar {
   read(): string;
   push(hash: string): void;
@@ -14,7 +14,7 @@ export interface AddressBar {
 export class Router {
   private readonly address_;
 
-  /** `run` returns the current session, or null before the first message. */
+  /** `run` returns the id of the current server session, or null before the first message. */
   constructor(private readonly bar_: AddressBar, private readonly run_: () => string | null = () => null) {
     this.address_ = signal<Address>(parse_address(bar_.read()));
     bar_.on_change(() => { this.address_.value = parse_address(bar_.read()); });
@@ -28,7 +28,7 @@ export class Router {
     return this.address_.value.place;
   }
 
-  /** Returns the address of a page with the same time and camera. */
+  /** Returns the address of a page, with the current time and camera. */
   href(place: Place): string {
     return address_text({ ...this.address_.value, place });
   }
@@ -38,7 +38,7 @@ export class Router {
     this.address_.value = { ...this.address_.value, place };
   }
 
-  /** Changes the time or camera without a new history entry. */
+  /** Changes the time in the address without a new entry in the browser's history. */
   show_time(t_s: number | null): void {
     this.see({ t_s, run: t_s === null ? null : this.run_()?.slice(0, 8) ?? null });
   }

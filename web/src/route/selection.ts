@@ -1,4 +1,4 @@
-// The selection of the address; all views highlight it.
+// Finds what the address selects (jobs, arms, an object). All views highlight the selection.
 
 import { job_of_side } from '../diagram/sides';
 import type { Store } from '../state/store';

@@ -1,4 +1,4 @@
-// A scene object as a form: texts, lengths in meters, angles in degrees. Pure.
+// The form of a scene object. Fields are texts. Lengths are in meters, angles in degrees. Pure.
 
 import { no_number, number_in } from '../frame/number_text';
 import { shape_of, type SceneObject } from '../server/messages';
@@ -24,7 +24,7 @@ export function fault_of_name(text: string): string | null {
 }
 
 export interface Form { name: string; kind: Kind; values: Record<string, string> }
-/** Unsaved input; the other fields of the form follow the object. */
+/** Input that is not saved yet. Fields without such input follow the object. */
 export type Edits = Partial<Form>;
 
 type Field = readonly [key: string, label: string, step: number];
@@ -65,7 +65,7 @@ export function with_edits(form: Form, edits: Edits): Form {
   return { ...form, ...edits, values: { ...form.values, ...edits.values } };
 }
 
-/** Returns the edits made after `sent`, which is saved now. */
+/** Returns the edits that the user made after `sent` was sent. `sent` is saved now. */
 export function edits_since(sent: Form, edits: Edits): Edits {
   const later: Edits = { values: {} };
   if (edits.name !== undefined && edits.name.trim() !== sent.name.trim()) later.name = edits.name;
@@ -78,7 +78,10 @@ function text_of(value: number): string {
   return String(Number(value.toFixed(6)));
 }
 
-/** Returns the object, or the faults of the form. The server checks the sizes. */
+/**
+ * Returns the object, or the faults of the form. Sizes are not checked here; the server checks
+ * them.
+ */
 export function object_of(form: Form): SceneObject | { fault: string } {
   const faults: string[] = [];
   const number_of = (key: string): number => {

@@ -44,7 +44,10 @@ export function ScenePage({ name, app }: { name: string | null; app: App }) {
   );
 }
 
-/** Dragging must be enabled first, because a moved object can pause motions. */
+/**
+ * Enables dragging of the object. Objects cannot be dragged without it, because a moved object can
+ * pause motions.
+ */
 function DragButton({ name, app }: { name: string; app: App }) {
   const is_dragged = app.dragged_object.value === name;
   useEffect(() => () => { app.dragged_object.value = null; }, [app, name]);

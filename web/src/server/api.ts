@@ -1,4 +1,4 @@
-// The HTTP requests of the page. Each answer is a value or a Problem.
+// The HTTP requests of the page. Each answer is a value or a problem.
 
 import { cut_text } from '../names';
 import { kText } from '../strings';
@@ -27,8 +27,8 @@ export class Api {
   }
 
   /**
-   * Returns a page of the job list, including previous sessions. A null cursor gives the newest
-   * page.
+   * Returns a page of the job list, which includes previous sessions. A null cursor gives the
+   * newest page.
    */
   async jobs(limit: number, cursor: string | null): Promise<Answer<JobPage>> {
     const from = cursor === null ? '' : `&cursor=${encodeURIComponent(cursor)}`;
@@ -43,13 +43,16 @@ export class Api {
     return checked(kAnswers.timeline, await this.ask('GET', '/timeline'), parse_forecast);
   }
 
-  /** With `cells` false only the prediction is fetched. */
+  /**
+   * Returns the diagram of two jobs. If `cells` is false, the server leaves out the cells, and only
+   * the prediction is of use.
+   */
   async diagram(a: string, b: string, cells = true): Promise<Answer<Diagram>> {
     const path = `/jobs/${encodeURIComponent(a)}/diagram?with=${encodeURIComponent(b)}${cells ? '' : '&cells=0'}`;
     return checked(kAnswers.diagram, await this.ask('GET', path), parse_diagram);
   }
 
-  /** Posts the body unchanged; the server validates it, including its JSON. */
+  /** Posts the body unchanged. The server validates it, including that it is JSON. */
   post_job(body: Blob | string): Promise<Answer<unknown>> {
     return this.ask('POST', '/jobs', body);
   }
@@ -92,7 +95,7 @@ export class Api {
     return this.ask('POST', `/jobs/${encodeURIComponent(id)}/replan`);
   }
 
-  /** Allowed only while no job is admitted. */
+  /** Changes the scheduling policy. The server refuses this while a job is admitted. */
   change_policy(policy: string): Promise<Answer<unknown>> {
     return this.ask('PUT', '/policy', JSON.stringify({ policy }));
   }
@@ -114,7 +117,7 @@ export class Api {
     return checked(kAnswers.control, await this.ask('GET', '/control'), parse_control);
   }
 
-  /** Without a name the server uses the client's address. */
+  /** Takes control for jogging. If `who` is empty, the server uses the client's address as name. */
   async take_control(who: string): Promise<Answer<ControlTaken>> {
     const asked = who === '' ? { take: true } : { who, take: true };
     return checked(kAnswers.control, await this.ask('POST', '/control', JSON.stringify(asked)), parse_control_taken);
@@ -124,7 +127,7 @@ export class Api {
     return checked(kAnswers.control, await this.ask('POST', '/control/release', JSON.stringify({ control: key })), parse_control);
   }
 
-  /** The motion lasts only while the lease is renewed. */
+  /** Starts a jog motion. The motion lasts only while its lease is renewed. */
   async jog(arm: string, state: string, key: string): Promise<Answer<Jog>> {
     const asked = { control: key, to: { named: state } };
     return checked(kAnswers.jog_motion, await this.ask('POST', `/arms/${encodeURIComponent(arm)}/jog`, JSON.stringify(asked)), parse_jog);
@@ -154,7 +157,7 @@ export class Api {
     return checked(kAnswers.alerts, await this.ask('GET', '/alerts'), parse_alerts);
   }
 
-  /** Without a name the server uses the client's address. */
+  /** Acknowledges alerts. If `who` is empty, the server uses the client's address as name. */
   acknowledge(ids: readonly string[], who: string): Promise<Answer<unknown>> {
     return this.ask('POST', '/alerts/acknowledge', JSON.stringify(who === '' ? { ids } : { ids, who }));
   }
@@ -212,7 +215,7 @@ function read_problem(text: string, response: Response): Problem {
     const problem = parse_problem(JSON.parse(text));
     if (problem.ok) return problem.value;
   } catch {
-    // Not JSON, for example from a proxy. Shown unchanged.
+    // The answer is not JSON; it comes from a proxy, for example. Its text is shown unchanged.
   }
   return { ...own_problem(response.statusText || kText.server.refused, cut_text(text, 300)), status: response.status };
 }

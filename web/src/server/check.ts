@@ -1,5 +1,5 @@
-// Validates the server's JSON against the schemas in src/contract. A fault names the place and the
-// value found.
+// Validates the server's JSON against the schemas in src/contract. Each fault states its place and
+// the value found.
 
 import { Validator } from '@cfworker/json-schema';
 import { cut_text } from '../names';
@@ -14,10 +14,10 @@ export type Parsed<T> = { ok: true; value: T } | { ok: false; fault: string };
 const validators = new Map<Checked, Validator>();
 
 export function check<Name extends Checked>(name: Name, value: unknown): Parsed<Schemas[Name]> {
-  if (value === undefined) return { ok: false, fault: '/: no value' };  // undefined is not JSON
+  if (value === undefined) return { ok: false, fault: '/: no value' };  // JSON cannot express undefined
   const { valid, errors } = validator_of(name).validate(value);
   if (valid) return { ok: true, value: value as Schemas[Name] };
-  // The innermost error says most; the outer errors only repeat that there is one.
+  // Takes the error at the deepest place. Outer errors only repeat that there is an inner error.
   const depth = (place: string) => place.split('/').length;
   const fault = errors.reduce((a, b) => (depth(b.instanceLocation) >= depth(a.instanceLocation) ? b : a));
   const pointer = fault.instanceLocation.slice(1);

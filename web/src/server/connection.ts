@@ -1,12 +1,13 @@
-// The WebSocket connection: reconnects when it is lost, and resumes the event stream.
+// The WebSocket connection. It reconnects when the connection is lost, and resumes the event
+// stream.
 //
-// Socket and timers are injected for tests. Retry delays double from 250 ms to 5 s and are reset by
-// a message. `stream` and `since` name the last event received; the server continues after it, or
-// sends a new snapshot.
+// Socket and timers are injected, so that tests can replace them. Delays between retries double
+// from 250 ms to 5 s; a message resets them. When connecting, `stream` and `since` name the last
+// event received. The server continues after that event, or sends a new snapshot.
 
 import { parse_message, type Message } from './messages';
 
-/** The part of a browser's WebSocket that is used here. */
+/** The members of a browser's WebSocket that are used here. */
 export interface SocketLike {
   onmessage: ((event: { data: unknown }) => void) | null;
   onclose: (() => void) | null;
@@ -21,8 +22,8 @@ export interface Timers {
 export type Link =
   | { status: 'connecting' }
   | { status: 'open' }
-  | { status: 'recording'; name: string }  // not connected: a recording is shown
-  | { status: 'past' }  // link of a past state: no requests
+  | { status: 'recording'; name: string }  // a recording is shown; the page is not connected
+  | { status: 'past' }  // the state of a past time, which sends no requests
   | { status: 'lost'; attempt: number; retry_in_ms: number };
 
 export interface ConnectionOptions {
@@ -62,7 +63,7 @@ export class Connection {
     this.release();
   }
 
-  /** Reconnects from scratch, with a snapshot. */
+  /** Connects again without resuming: the server sends a snapshot. */
   begin_anew(): void {
     this.stop();
     this.stream_ = null;
@@ -71,7 +72,9 @@ export class Connection {
     this.start();
   }
 
-  /** Retries at once (the banner's button, or the network came back). */
+  /**
+   * Retries at once, because the user clicked the button in the banner or the network came back.
+   */
   retry_now(): void {
     if (this.timer_ === null) return;
     this.options_.timers.clear(this.timer_);
@@ -79,7 +82,7 @@ export class Connection {
     this.open();
   }
 
-  /** Breaks the connection as a network failure would; it is retried later. */
+  /** Breaks the connection as a network failure would. The page reconnects later. */
   break(): void {
     if (this.socket_) this.lost();
   }

@@ -1,4 +1,4 @@
-// Reads the events from before the page was connected, as far as the server still has them.
+// Reads events from before the page was connected, if the server still has them.
 
 import { parse_message, type SequencedMessage } from './messages';
 import type { Fetch } from './api';
@@ -7,8 +7,8 @@ const kMost = 1000;
 const kPatience_ms = 15_000;
 
 /**
- * Returns the events up to number `until`, or none if the server has forgotten them or does not
- * answer.
+ * Returns the last thousand events up to number `until`. Returns none if the server no longer has
+ * them or does not answer.
  */
 export async function earlier_events(base: string, fetch: Fetch, stream: string, until: number): Promise<SequencedMessage[]> {
   if (until <= 0) return [];
@@ -20,14 +20,14 @@ export async function earlier_events(base: string, fetch: Fetch, stream: string,
     const response = await fetch(`${base}/events?stream=${encodeURIComponent(stream)}&since=${since}`, { headers: { accept: 'text/event-stream' }, signal: stop.signal });
     if (!response.ok || !response.body) return [];
     for await (const message of messages_of(response.body.getReader())) {
-      // A snapshot means that the server cannot resume there.
+      // The server sends a snapshot if it no longer has all events since the requested number.
       if (message.type === 'snapshot') return [];
       if (message.stream !== stream) return [];
       if (message.seq <= until) events.push(message);
       if (message.seq >= until) break;
     }
   } catch {
-    // An incomplete list would have a gap at its end.
+    // An incomplete list would have a gap before the page's own events.
     return [];
   } finally {
     clearTimeout(timer);

@@ -1,4 +1,4 @@
-// Polls one job while its details are shown: events do not report progress.
+// Polls one job while its details are shown, because events do not report progress.
 
 import type { Api } from './api';
 import type { Timers } from './connection';
@@ -17,7 +17,7 @@ export function follow_job(id: string, api: Pick<Api, 'job'>, store: Store, time
     if (store.link.status !== 'lost') {
       const answer = await api.job(id);
       if (closed) return;
-      // A refusal is ignored: the page still has the job from events.
+      // If the server refuses, the page keeps the job as it knows it from events.
       if (answer.ok) store.refresh_job(answer.value);
     }
     timer = timers.set(() => void ask(), kPeriod_ms);

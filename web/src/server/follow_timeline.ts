@@ -7,7 +7,8 @@ import type { Store } from '../state/store';
 const kPeriod_ms = 700;
 
 /**
- * Passes each answer to the store (null if there is none) until the returned function is called.
+ * Passes each answer to the store, until the returned function is called. Passes null if the server
+ * does not answer or the connection is lost.
  */
 export function follow_timeline(
   api: Pick<Api, 'timeline'>, store: Store, timers: Timers, is_visible: () => boolean,

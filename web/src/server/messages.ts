@@ -1,9 +1,9 @@
 // The types of the server's messages, and the only place that parses them. Types and schemas are
 // generated from the server's OpenAPI description (src/contract, `npm run contract`).
 //
-// WebSocket messages are a union discriminated by `type`. `parse_message` never throws: it returns
-// the message, or an unknown type (a newer server), or where the message is malformed. Times are
-// cell time in seconds, angles rad, lengths m.
+// WebSocket messages are a union discriminated by `type`. `parse_message` never throws. It returns
+// the message, the unknown type (of a newer server), or the fault of a malformed message. Times are
+// cell time in seconds, angles are in rad, lengths in m.
 
 import { check, type Parsed, type Schemas } from './check';
 import shapes from '../contract/schemas.json';
@@ -12,7 +12,7 @@ export type { Parsed };
 export type ArmState = Schemas['ArmState'];
 export type JobState = Schemas['JobState'];
 export type Arm = Schemas['Arm'];
-/** A reason to wait; times count from the start of each job's own trajectory. */
+/** A reason to wait. Each of its times counts from the start of that job's own trajectory. */
 export type WaitsOn = Schemas['Wait'];
 export type Job = Schemas['Job'];
 export type SceneObject = Schemas['Object'];
@@ -24,7 +24,7 @@ export type CellJoint = Schemas['CellJoint'];
 export type Diagram = Schemas['Diagram'];
 /** The conflicts between one arm of A and one arm of B. */
 export type DiagramLayer = Diagram['layers'][number];
-/** The first contact of the prediction. */
+/** The first point of the prediction that is not free. */
 export type DiagramContact = Schemas['DiagramContact'];
 export type CellState = Schemas['DiagramCell']['state'];
 /** The predicted motions of each arm. */
@@ -36,9 +36,9 @@ export type Verdict = Schemas['Verdict'];
 export type JobAmendment = Partial<Pick<Job, 'name' | 'priority' | 'backlog_timeout_s' | 'on_timeout'>>;
 /** The trajectory of a job. */
 export type JobMotion = Schemas['JobMotion'];
-/** A planned path to a goal; it is not executed. */
+/** A planned path to a goal. No arm executes it. */
 export type Plan = Schemas['Plan'];
-/** An alert, until it is acknowledged. */
+/** An alert that the server keeps, with its acknowledgement if there is one. */
 export type KeptAlert = Schemas['KeptAlert'];
 export type AlertList = Schemas['AlertList'];
 /** The user and role of this browser. */
@@ -61,36 +61,38 @@ export type RecordingList = Schemas['RecordingList'];
 export type KeptRecording = Schemas['Recording'];
 export type QueueData = Schemas['QueueIds'];
 export type MonitorData = Schemas['MonitorFinding'];
-/** RFC 9457, with a JSON pointer to the fault and the value found. */
+/** An error in the format of RFC 9457, with a JSON pointer to the fault and the value found. */
 export type Problem = Schemas['Problem'];
 export type Message = Schemas['Message'];
-/** A frame of poses; it has no sequence number and may be dropped. */
+/** A frame of joint positions. It has no sequence number, and the server may drop it. */
 export type StateMessage = Schemas['StateFrame'];
 export type SequencedMessage = Exclude<Message, StateMessage>;
 /** The clearance of a pair: two arms, or an arm and an object. */
 export type Clearance = StateMessage['clearance'][number];
-/** The progress and authority of an arm in a motion; trajectory time. */
+/** The progress and authority of an arm in its motion, in seconds of the trajectory. */
 export type ArmAuthority = Schemas['ArmAuthority'];
 
 export type Shape =
   | { kind: 'box'; size: [number, number, number] }
   | { kind: 'cylinder'; radius: number; length: number }
   | { kind: 'sphere'; radius: number }
-  /** Served at `address` by the same server; `scale` converts to meters. */
+  /**
+   * A mesh file, which the same server serves at `address`. `scale` converts its lengths to meters.
+   */
   | { kind: 'mesh'; address: string; scale: [number, number, number] };
 
-/** Returns two links, or null if there are none. */
+/** Returns the names of two links, or null if the list is empty. */
 export function pair_of(links: readonly string[]): [string, string] | null {
   const [a, b] = links;
   return a !== undefined && b !== undefined ? [a, b] : null;
 }
 
-/** Returns the range of a joint; infinite without limits, which JSON states as null. */
+/** Returns the range of a joint. A missing limit is null in JSON, and infinite here. */
 export function range_of(joint: CellJoint): [lower: number, upper: number] {
   return [joint.lower ?? -Infinity, joint.upper ?? Infinity];
 }
 
-/** Returns the shape, or null if the page does not know it. */
+/** Returns the shape of an object, or null if the page does not know its shape. */
 export function shape_of(object: SceneObject): Shape | null {
   const { box, cylinder, sphere, mesh, scale } = object;
   if (box) return { kind: 'box', size: box };
@@ -105,7 +107,7 @@ export type ParsedMessage =
   | { kind: 'unknown'; type: string; stream: string | null; seq: number | null }
   | { kind: 'malformed'; fault: string };
 
-/** True if the server supports replanning. */
+/** True if the schemas from which this page was built include replanning. */
 export const kCanReplan = 'replan' in shapes.Job.properties;
 
 // The schema of each message type.

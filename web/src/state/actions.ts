@@ -1,4 +1,4 @@
-// Commands to the server; refusals appear in a banner.
+// Commands to the server. If the server refuses a command, a banner says so.
 
 import { signal } from '@preact/signals';
 import { short_wall_time } from '../wall_time';
@@ -12,9 +12,9 @@ import type { Store } from './store';
 const kWords = kText.command;
 
 export class Actions {
-  /** The last refusal, until dismissed. */
+  /** The last refusal, until the user dismisses it. */
   readonly refusal = signal<string | null>(null);
-  /** A stop was sent and is not answered yet. */
+  /** True while a stop is sent and not answered yet. */
   readonly stopping = signal(false);
 
   constructor(
@@ -27,7 +27,10 @@ export class Actions {
     return follow_job(id, this.api_, this.store_, this.timers_);
   }
 
-  /** Sent even if the connection seems lost: perhaps only the page receives nothing. */
+  /**
+   * Stops all arms. The stop is sent even if the connection seems lost, because the page may only
+   * be unable to receive.
+   */
   async stop(): Promise<void> {
     this.stopping.value = true;
     if (await this.ask(kWords.stop_all, this.api_.stop())) this.store_.set_stopped(true);
@@ -50,7 +53,10 @@ export class Actions {
     await this.ask(kWords.policy(policy), this.api_.change_policy(policy));
   }
 
-  /** Sends the arm to a named state on a planned path, at this share of its speed. */
+  /**
+   * Sends the arm to a named state on a planned path. `speed` is the share of the arm's speed (0 to
+   * 1).
+   */
   async send_to(name: string, state: string, speed: number): Promise<void> {
     const job = { name: kWords.job_name(name, state), arm: name, move_to: { named: state }, velocity_scaling_factor: speed };
     await this.ask(kWords.send(name, state), this.api_.post_job(JSON.stringify(job)));
@@ -64,7 +70,7 @@ export class Actions {
     await this.ask(kWords.replan(id), this.api_.replan_job(id));
   }
 
-  /** Larger values go first; takes effect at once. */
+  /** Changes the priority of a job, at once. Jobs with larger priority go first. */
   async set_priority(id: string, priority: number): Promise<void> {
     await this.ask(kWords.priority(id, priority), this.api_.amend_job(id, { priority }));
   }
@@ -80,7 +86,10 @@ export class Actions {
   }
 }
 
-/** Status 0 means no answer, so it is unknown whether the server received the command. */
+/**
+ * Returns the text for a refused command. Status 0 means that no answer came, so the server may or
+ * may not have received the command.
+ */
 function why_not(what: string, problem: Problem): string {
   if (problem.status !== 0) return kText.server.was_refused(what, problem.detail ?? problem.title);
   return kText.server.was_not_answered(what, short_wall_time(Date.now(), Date.now()));

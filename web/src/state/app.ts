@@ -19,13 +19,13 @@ import type { Store } from './store';
 import type { Tool } from '../view/tool_goal';
 
 export interface App {
-  /** Components that read it are drawn again when it changes. */
+  /** The state. A component that reads this member is drawn again when the state changes. */
   readonly store: Store;
   api: Api;
   motions: MotionBook;
   actions: Actions;
   router: Router;
-  /** The state at the shown time. */
+  /** The state at the shown time, which may be a past time. */
   seen: Seen;
   player: Player;
   /** The recordings on the server. */
@@ -33,21 +33,21 @@ export interface App {
   settings: Settings;
   alerts: AlertList;
   comparing: Comparing;
-  /** Ended jobs that the page did not receive as events. */
+  /** Ended jobs that the page did not receive as events, such as jobs of previous sessions. */
   archive: Archive;
   jogging: JogControl;
-  /** The checklist before stopped arms move again. */
+  /** The checklist that a user must confirm before stopped arms move again. */
   checklist: Checklist;
-  /** The user of this browser if the server requires tokens; null until known. */
+  /** The user of this browser and the user's role. Null until the server has answered. */
   session: Signal<Session | null>;
-  /** The text of the job or batch being composed; it outlives the page's pane. */
+  /** The text of the job or batch being composed. It stays when the page New job is closed. */
   draft: Signal<string>;
-  /** Joints of the ghost in the 3D view, or null. */
+  /** Joint positions of the ghost in the 3D view, or null if no ghost is shown. */
   ghost: Signal<Readonly<Record<string, number>> | null>;
-  /** The object that can be dragged in the 3D view. */
+  /** The name of the object that can be dragged in the 3D view, or null. */
   dragged_object: Signal<string | null>;
   /** The tool goal that is dragged in the 3D view. */
   tool: Signal<Tool | null>;
-  /** The width of the pane that covers the left of the 3D view. */
+  /** The width of the pane, which covers the left part of the 3D view. */
   covered_px: Signal<number>;
 }

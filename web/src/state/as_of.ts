@@ -1,5 +1,5 @@
-// The state that the views show: the present, or a past state derived from the log of events.
-// Unknown parts of a past state are reported as unknown; the present never replaces them.
+// The state that the views show: the present, or a past state derived from the log of events. Parts
+// of a past state that are unknown are shown as unknown. The present state never replaces them.
 
 import { signal, type ReadonlySignal } from '@preact/signals';
 import type { Router } from '../route/router';
@@ -7,7 +7,10 @@ import { instant_of, is_of_this_run } from './instant';
 import type { App } from './app';
 import { Store } from './store';
 
-/** Returns the state after `count` events of the log; with none, nothing is known. Pure. */
+/**
+ * Returns the state after the first `count` events of the log. If `count` is 0, nothing is known.
+ * Pure.
+ */
 export function state_after(count: number, now: Store): Store {
   const then = new Store(() => 0, now);
   then.begin_past(now);
@@ -15,14 +18,17 @@ export function state_after(count: number, now: Store): Store {
   return then;
 }
 
-/** Returns the number of events up to a time, or 0 if the state is unknown. Pure. */
+/**
+ * Returns the number of events of the log up to a time, or 0 if the state at this time is unknown.
+ * Pure.
+ */
 export function events_until(t_s: number, run: string | null, now: Store): number {
   if (!is_of_this_run(run, now) || t_s > now.t_s + kRounding_s) return 0;
   const count = now.log.count_until(t_s + kRounding_s);
   const is_lost = now.log.is_torn_after(count) && instant_of({ t_s, run }, now).kind !== 'kept';
   return is_lost ? 0 : count;
 }
-// Addresses hold hundredths of a second.
+// The address of the page holds the shown time in hundredths of a second.
 const kRounding_s = 0.01;
 
 export class Seen {
@@ -35,7 +41,7 @@ export class Seen {
     now_.on_change(() => this.look());
   }
 
-  /** The shown store; a new one when the number of applied events changes. */
+  /** The store at the shown time. It is a new object when the number of applied events changes. */
   get store(): ReadonlySignal<Store> {
     return this.store_;
   }
@@ -60,7 +66,7 @@ export class Seen {
 
 const apps = new WeakMap<Store, App>();
 
-/** Returns the app with the store at the shown time. */
+/** Returns the app with its store replaced by the store at the shown time. */
 export function seen_app(app: App): App {
   const store = app.seen.store.value;
   if (store === app.store) return app;
@@ -72,7 +78,7 @@ export function seen_app(app: App): App {
   return then;
 }
 
-/** Returns true if anything is known about the shown state. */
+/** Returns true if any part of the shown state is known. */
 export function is_known({ stream, link }: Pick<Store, 'stream' | 'link'>): boolean {
   return stream !== null || link.status === 'connecting' || link.status === 'open' || link.status === 'lost';
 }

@@ -1,5 +1,5 @@
-// The state that events lead to, live or replayed: arms, jobs, objects, reports. Poses come from
-// snapshots only.
+// The state that follows from the server's events, which are live or replayed: arms, jobs, objects,
+// reports. Of the poses it has only those in snapshots.
 
 import type { Arm, Job, SceneObject, SequencedMessage } from '../server/messages';
 import { kText } from '../strings';
@@ -11,8 +11,8 @@ import { counted, kNoNumbers, type Numbers } from './numbers';
 import type { ShownState } from './shown_state';
 
 /**
- * `at` is the wall time of the new session's first message. `lost` are unfinished jobs that the new
- * session does not contain.
+ * A restart of the server. `at` is the wall time of the first message of the new session. `lost`
+ * are the unfinished jobs of the old session that the new session does not contain.
  */
 export interface Restart { at: string; lost: readonly Job[] }
 
@@ -24,15 +24,18 @@ export class Facts {
   speed = 1;
   stopped = false;
   t_s = 0;
-  /** A new array for each scene, so that the view redraws objects. */
+  /**
+   * The objects of the scene. Each change of the scene is a new array, which tells the 3D view to
+   * draw them again.
+   */
   objects: SceneObject[] = [];
   arms = new Map<string, Arm>();
   q: Record<string, number> = {};
-  /** The last restart since the page was opened, until dismissed. */
+  /** The last restart of the server since the page was opened, until the user dismisses it. */
   restart: Restart | null = null;
   numbers: Numbers = kNoNumbers;
   readonly book = new JobBook();
-  /** Arms whose state at the shown time is unknown; only for past states. */
+  /** Arms whose state at the shown time is unknown. Empty unless this is a past state. */
   protected readonly unknown_arms_ = new Set<string>();
   protected readonly notices_ = new Notices();
   protected readonly halts_ = new HaltBook();
@@ -98,7 +101,10 @@ export class Facts {
     return is_terminal(job);
   }
 
-  /** Returns the progress of a job: the last report, extrapolated while it runs. */
+  /**
+   * Returns the progress of a job (0 to 1): the last reported progress, extrapolated while the job
+   * runs.
+   */
   progress(job: Job): number {
     const heard_s = this.book.heard_at(job.id);
     const moves = job.state === 'running' && job.arms.every((arm) => !kAtRest.has(this.arms.get(arm)?.state ?? 'moving'));
@@ -107,7 +113,7 @@ export class Facts {
     return Math.min(1, job.progress + since_report / job.duration_s);
   }
 
-  /** Returns the arm's state as shown to people. */
+  /** Returns the state of the arm as the page shows it. */
   arm_state(arm: Arm): ShownState {
     if (this.unknown_arms_.has(arm.name)) return 'not known';
     return arm.state === 'idle' && this.waiting_of(arm.name) ? 'waiting' : arm.state;
@@ -128,7 +134,10 @@ export class Facts {
     return next && (next.state === 'backlogged' || next.waits_on.length > 0) ? next : null;
   }
 
-  /** Returns the measured configuration, in the order of the arm's joints. */
+  /**
+   * Returns the measured positions of the arm's joints, in the arm's order. A joint without a
+   * measurement has the position in the last arm event.
+   */
   q_of(arm: Arm): number[] {
     return arm.joints.map((joint, i) => this.q[joint] ?? arm.q[i] ?? 0);
   }
@@ -138,7 +147,7 @@ export class Facts {
     this.speed = data.speed;
     this.stopped = data.stopped;
     this.objects = data.objects;
-    // Arms not in the snapshot stay, as unknown arms.
+    // In a past state, arms that the snapshot does not contain stay, as unknown arms.
     this.arms = new Map([...(this.unknown_arms_.size > 0 ? this.arms : []), ...data.arms.map((arm) => [arm.name, arm] as const)]);
     for (const arm of data.arms) {
       this.unknown_arms_.delete(arm.name);

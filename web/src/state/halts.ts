@@ -1,4 +1,4 @@
-// The periods in which each arm was stopped or had a fault, with or without a job.
+// The periods in which each arm was stopped or had a fault, whether it had a job or not.
 
 import type { Arm, SequencedMessage } from '../server/messages';
 import { remember, type Pause as JobPause } from './job_book';

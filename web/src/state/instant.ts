@@ -1,5 +1,5 @@
-// Resolves the address's time. Pure. A time without data has no pose; another pose never replaces
-// it.
+// Resolves the time in the page's address. Pure. A time without data has no pose. The pose of
+// another time is never shown instead.
 
 import type { Address } from '../route/address';
 import { clock } from '../wording';
@@ -19,15 +19,18 @@ export function instant_of({ t_s, run }: Pick<Address, 't_s' | 'run'>, store: Kn
   return heard === 'kept' ? { kind: 'kept', t_s } : { kind: 'unheard', t_s, why: heard };
 }
 
-/** Cell time restarts with each server session. */
+/**
+ * Returns true if the time is of the present server session. Cell time starts again with each
+ * session.
+ */
 export function is_of_this_run(run: string | null, { stream }: Pick<Store, 'stream'>): boolean {
   return run === null || stream === null || stream.startsWith(run);
 }
 
-/** Returns all joints at the time, or null if unknown. */
+/** Returns the positions of all joints at the time, or null if they are unknown. */
 export function pose_at(instant: Instant, { q, trace }: Pick<Store, 'q' | 'trace'>): Readonly<Record<string, number>> | null {
   switch (instant.kind) {
-    case 'now': return Object.keys(q).length === 0 ? null : q;  // no data yet
+    case 'now': return Object.keys(q).length === 0 ? null : q;  // the page has received no data yet
     case 'kept': return trace.at(instant.t_s);
     case 'unheard': return null;
   }

@@ -1,5 +1,6 @@
-// The jobs that the page knows: last message, server order, time of the current state, pauses.
-// Ended jobs are kept sorted by their end, so that an update stays cheap with ten thousand of them.
+// The jobs that the page knows. For each job it has the last message, the time since when the job
+// is in its state, and the pauses; for all jobs the server's order. Ended jobs are kept sorted by
+// their end, so that an update is cheap even with ten thousand ended jobs.
 
 import type { Job, JobState, QueueData, WaitsOn } from '../server/messages';
 import { is_stopped, shown_state } from './shown_state';
@@ -11,11 +12,11 @@ const kListOfState: Record<JobState, JobList> = {
   succeeded: 'finished', canceled: 'finished', expired: 'finished', failed: 'finished', interrupted: 'finished',
 };
 const kMaxFinished = 10_000;
-// A snapshot has at most this many ended jobs (see its schema).
+// The largest number of ended jobs in a snapshot (see the schema of snapshots).
 const kTold = 200;
-// Ended jobs are dropped in blocks.
+// Ended jobs are dropped in blocks. A block is this share of the jobs that are kept.
 const kSlack = 0.05;
-// The number of pauses and changes kept for one job.
+// The largest number of pauses, and of changes, that are kept for one job.
 const kMostRemembered = 400;
 
 export function is_terminal(job: Pick<Job, 'state'>): boolean {
@@ -23,19 +24,21 @@ export function is_terminal(job: Pick<Job, 'state'>): boolean {
 }
 
 /**
- * Cell time; to_s is null while it lasts. `stopped` means until the arm is resumed. `why` is the
- * last known reason.
+ * A pause of a job, in cell time. `to_s` is null while the pause lasts. If `stopped`, the pause
+ * lasts until the arm is resumed. `why` is the last known reason.
  */
 export interface Pause { from_s: number; to_s: number | null; stopped: boolean; why: WaitsOn | null }
 
-/** `stopped` means at rest until the arm is resumed. */
+/** A change of a job's state. `stopped` means that the job is at rest until its arm is resumed. */
 export interface Change { state: JobState | 'stopped'; t_s: number }
 
 interface Heard {
   job: Job;
-  /** Cell time of the last message. */
+  /** Cell time of the last message about the job. */
   t_s: number;
-  /** Since when the job is in its state; null if before the page was connected. */
+  /**
+   * The time since when the job is in its state. Null if it was so before the page was connected.
+   */
   since_s: number | null;
   pauses: Pause[];
   /** The state changes since the page was connected. */
@@ -56,8 +59,8 @@ export class JobBook {
   constructor(private readonly most_finished_ = kMaxFinished) {}
 
   /**
-   * Replaces all jobs by a snapshot; the history of jobs in the same session stays. `ended_from_s`
-   * is given if known.
+   * Replaces all jobs by those of a snapshot. Pauses and changes of jobs in the same session are
+   * kept. `ended_from_s` is given by snapshots that the page made itself.
    */
   reset(jobs: readonly Job[], t_s: number, same_run: boolean, ended_from_s?: number | null): void {
     const before = same_run ? this.heard_ : new Map<string, Heard>();
@@ -92,7 +95,8 @@ export class JobBook {
   }
 
   /**
-   * Takes a polled job, which has its progress. Drops it if its state differs from the known state.
+   * Takes a polled job, because only a polled job has its present progress. Returns false and drops
+   * the job if its state differs from the known state.
    */
   refresh(job: Job, t_s: number): boolean {
     const known = this.heard_.get(job.id);
@@ -147,12 +151,15 @@ export class JobBook {
     return this.heard_.has(id) && !this.open_.has(id);
   }
 
-  /** Changes whenever the ended jobs change. */
+  /** A number that changes whenever the ended jobs change. */
   get endings(): number {
     return this.endings_;
   }
 
-  /** All jobs of the session that ended at this time or later are known; null means all. */
+  /**
+   * All jobs of the session that ended at this time or later are known. Null if all ended jobs of
+   * the session are known.
+   */
   get ended_from_s(): number | null {
     return this.ended_from_s_;
   }
@@ -168,7 +175,10 @@ export class JobBook {
     return jobs;
   }
 
-  /** Returns a list in the server's order, ended jobs newest first. Must not be modified. */
+  /**
+   * Returns the jobs of a list, in the server's order. Ended jobs are newest first. The caller must
+   * not change the list.
+   */
   list(list: JobList): readonly Job[] {
     this.lists_ ??= this.sorted();
     return this.lists_.get(list) ?? [];
@@ -191,7 +201,10 @@ export class JobBook {
     return lists;
   }
 
-  /** Jobs usually arrive in the order of their ends. */
+  /**
+   * Adds an ended job to the sorted list. The search begins at the end, because jobs usually arrive
+   * in the order of their ends.
+   */
   private end(job: Job): void {
     this.open_.delete(job.id);
     this.endings_ += 1;
@@ -204,13 +217,16 @@ export class JobBook {
   }
 }
 
-/** Returns since when the ended jobs of a server snapshot are complete; null means all. */
+/**
+ * Returns the time since when the ended jobs of a server snapshot are complete. Null if they are
+ * complete for the session.
+ */
 export function ended_from(jobs: readonly Job[]): number | null {
   const ended_s = jobs.filter(is_terminal).map(ended);
   return ended_s.length < kTold ? null : Math.min(...ended_s);
 }
 
-/** Records that a job pauses, continues, or pauses for another reason. */
+/** Records that a job pauses, continues, or pauses for a new reason. */
 function note_pause(pauses: Pause[], job: Job, t_s: number): void {
   const last = pauses.at(-1);
   const open = last && last.to_s === null ? last : null;

@@ -1,9 +1,9 @@
-// The log of the server's events, from which past states are derived. Entries older than some
-// minutes are folded into one snapshot, which bounds its size.
+// The log of the server's events, from which past states are derived. Its size is bounded: entries
+// that are some minutes old are folded into one snapshot.
 
 import type { SequencedMessage } from '../server/messages';
 
-/** The cell time that is kept at least. */
+/** Events of at least this much cell time stay in the log. */
 const kKept_s = 300;
 const kMost = 20_000;
 
@@ -12,22 +12,26 @@ export class Log {
   private turn_ = 0;
 
   /**
-   * `fold` combines entries into a snapshot. Above `most` entries about half of them are folded.
+   * `fold` combines entries into one snapshot. If there are more than `most` entries, about half of
+   * them are folded.
    */
   constructor(private readonly fold_: (entries: readonly SequencedMessage[]) => SequencedMessage | null, private readonly most_ = kMost) {}
 
   get entries(): readonly SequencedMessage[] { return this.entries_; }
 
-  /** Changes when entries are inserted before, or removed from, others. */
+  /**
+   * A number that changes when earlier entries are inserted or removed, so that counts of entries
+   * become invalid.
+   */
   get turn(): number { return this.turn_; }
 
-  /** Appends an event; another session clears the log. */
+  /** Appends an event. An event of another session clears the log first. */
   push(message: SequencedMessage): void {
     if (this.entries_.length > 0 && this.entries_[0]?.stream !== message.stream) this.clear();
     this.entries_.push(message);
   }
 
-  /** Inserts earlier events. */
+  /** Inserts events before all others. */
   put_before(messages: readonly SequencedMessage[]): void {
     this.entries_ = [...messages, ...this.entries_];
     this.turn_ += 1;
@@ -38,7 +42,7 @@ export class Log {
     this.turn_ += 1;
   }
 
-  /** Returns the number of events up to a time. */
+  /** Returns the number of events up to and including a time. */
   count_until(t_s: number): number {
     let [low, high] = [0, this.entries_.length];
     while (low < high) {
@@ -49,13 +53,13 @@ export class Log {
     return low;
   }
 
-  /** Returns true if events are missing after the first `count` entries. */
+  /** Returns true if events are missing between the first `count` entries and the next entry. */
   is_torn_after(count: number): boolean {
     const next = this.entries_[count];
     return count > 0 && next?.type === 'snapshot' && next.data.gap === true;
   }
 
-  /** Folds old or excess entries. Rarely, because folding is expensive. */
+  /** Folds old entries, or entries above the limit. This is expensive, so it is done rarely. */
   trim(): void {
     const { length } = this.entries_;
     const [first, last] = [this.entries_[0], this.entries_[length - 1]];

@@ -1,4 +1,5 @@
-// The last hundred reports, newest first: of the monitor, the server and this page.
+// The last hundred reports, newest first. They come from the monitor, from the server, or from this
+// page.
 
 import type { SequencedMessage } from '../server/messages';
 import { monitor_in_words } from '../wording';
@@ -26,7 +27,10 @@ export class Notices {
 
   get all(): readonly Notice[] { return this.all_; }
 
-  /** Returns the reports of a session; times of other sessions are not comparable. */
+  /**
+   * Returns the reports of a session, and of this page. Times of other sessions cannot be compared
+   * with them.
+   */
   of_run(stream: string | null): readonly Notice[] {
     return this.all_.filter((notice) => notice.stream === null || notice.stream === stream);
   }
@@ -41,7 +45,7 @@ export class Notices {
     this.keep({ key: this.next_key_++, stream, seq: null, t_s, at: null, level, source: 'alert', text, arms: [] });
   }
 
-  /** Adds reports from before the known ones. */
+  /** Adds reports that are older than the known reports. */
   take_earlier(messages: readonly SequencedMessage[]): void {
     const earlier = messages.flatMap((message) => this.of(message) ?? []).reverse();
     this.all_ = [...this.all_, ...earlier].sort((a, b) => (a.stream === b.stream ? b.t_s - a.t_s : 0)).slice(0, kMost);

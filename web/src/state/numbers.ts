@@ -1,4 +1,4 @@
-// Counts event numbers: the last number, missed and doubled events.
+// Counts the sequence numbers of events: the last number, missed events, and events received twice.
 
 import type { SequencedMessage } from '../server/messages';
 
@@ -6,7 +6,10 @@ export interface Numbers { readonly last: number; readonly missed: number; reado
 
 export const kNoNumbers: Numbers = { last: 0, missed: 0, doubled: 0 };
 
-/** A snapshot covers all events up to its number. */
+/**
+ * Returns the counts after an event. A snapshot restarts the counts, because it covers all events
+ * up to its number.
+ */
 export function counted({ last, missed, doubled }: Numbers, { type, seq }: Pick<SequencedMessage, 'type' | 'seq'>): Numbers {
   if (type === 'snapshot') return { last: seq, missed: 0, doubled: 0 };
   if (seq > last) return { last: seq, missed: missed + seq - last - 1, doubled };

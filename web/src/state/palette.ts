@@ -1,5 +1,5 @@
-// Colors with a meaning, defined as custom properties in style/tokens.css for both themes. Elements
-// use `var(--…)`; canvases and the 3D view read them with `ink`.
+// Colors that have a meaning. They are custom properties in style/tokens.css, one set for each
+// theme. Elements use `var(--…)`. Canvases and the 3D view read them with `ink`.
 
 import type { CellState } from '../server/messages';
 import type { ShownState } from './shown_state';
@@ -16,28 +16,31 @@ export const kStateColors: Record<ShownState, string> = {
   'not known': 'var(--dim)',
 };
 
-/** Glyphs, because color alone must not carry a state. */
+/** A glyph for each state, because states must be recognized without colors. */
 export const kStateGlyphs: Record<ShownState, string> = {
   idle: '○', moving: '▶', paused: '❚❚', waiting: '◔', stopped: '■', fault: '✕', 'not known': '?',
 };
 
-/** Returns the arm's color, by its position in the cell. */
+/** Returns the color of an arm. It depends on the place of the arm in the cell's list. */
 export function arm_color(arms: readonly string[], arm: string): string {
   return `var(--arm-${Math.max(0, arms.indexOf(arm)) % kArmColors})`;
 }
 
-/** The cells of a diagram, in both themes. */
+/** The fill colors of a diagram's cells. They are the same in both themes. */
 export const kCellColors: Record<CellState, string> = {
   free: '#c3cfdb',
   conflict: '#e0454e',
   undecided: '#f0b541',
 };
-/** Undecided cells are hatched, to be recognized without colors. */
+/** The color of the hatching on undecided cells, which are recognized by it without colors. */
 export const kUndecidedStripes = '#6e4c00';
 
 const known = new Map<string, string>();
 
-/** Returns the theme's value of `var(--name)` or `--name`; other colors unchanged. */
+/**
+ * Returns the present theme's value of `var(--name)` or `--name`. Other colors are returned
+ * unchanged.
+ */
 export function ink(color: string): string {
   const name = /--[\w-]+/.exec(color)?.[0];
   if (name === undefined) return color;
@@ -49,7 +52,7 @@ export function ink(color: string): string {
   return found;
 }
 
-/** Clears the cache after a change of theme. */
+/** Clears the cache of colors. Must be called after a change of the theme. */
 export function forget_inks(): void {
   known.clear();
 }

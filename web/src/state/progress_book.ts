@@ -1,21 +1,26 @@
-// The measured progress of jobs over time, for diagrams: ten points per second for the last jobs,
-// limited per job.
+// The measured progress of jobs over time, from which diagrams draw the measured path. Ten points
+// per second are kept for each of the last jobs, up to a limit per job.
 
 import type { ArmAuthority } from '../server/messages';
 
 const kStep_s = 0.1;
 const kMostJobs = 200;
 const kMostPoints = 1200;
-// Progress up to this counts as recorded from the beginning.
+// If the first recorded progress is at most this, the job counts as recorded from its beginning.
 const kBeginning_s = 0.3;
 
-/** Cell time and trajectory time; both only grow. */
+/**
+ * The progress of one job: trajectory time `progress_s` at each cell time `t_s`. Both only grow.
+ */
 export interface Course { t_s: number[]; progress_s: number[] }
 
 export class ProgressBook {
   private readonly courses_ = new Map<string, Course>();
 
-  /** For a job of several arms the first listed arm counts. */
+  /**
+   * Adds the progress of each job. A job of several arms is listed several times; its first entry
+   * is used.
+   */
   take(t_s: number, motions: readonly Pick<ArmAuthority, 'job' | 'progress_s'>[]): void {
     const seen = new Set<string>();
     for (const { job, progress_s } of motions) {
@@ -46,7 +51,7 @@ export class ProgressBook {
   }
 }
 
-/** Adds a point; a rest keeps only its first and last point. */
+/** Adds a point. While the job rests, only the first and the last point of the rest are kept. */
 function push({ t_s, progress_s }: Course, at_s: number, progress: number): void {
   const n = t_s.length;
   const [last, before] = [progress_s[n - 1], progress_s[n - 2]];
@@ -64,8 +69,8 @@ function push({ t_s, progress_s }: Course, at_s: number, progress: number): void
 }
 
 /**
- * Returns the progress at a time; null before the first point, unless recording began with the
- * motion.
+ * Returns the progress at a time. Before the first point it is null, or 0 if the job was recorded
+ * from its beginning.
  */
 export function progress_at({ t_s, progress_s }: Course, at_s: number): number | null {
   let [low, high] = [0, t_s.length];

@@ -1,6 +1,6 @@
-// Signals for redrawing: `changes` once per change, `frames` with each pose (30 per second),
-// `beats` a few times per second while poses arrive. Signals call a new listener at once; the
-// listeners here skip that call.
+// Signals that cause redrawing. `changes` fires once for each change, `frames` with each pose (30
+// per second), and `beats` a few times per second while poses arrive. A signal calls a new listener
+// at once; from_now() skips this first call.
 
 import { signal, untracked, type ReadonlySignal } from '@preact/signals';
 
@@ -37,7 +37,7 @@ export class Pulse {
     this.beats_.value += 1;
   }
 
-  /** Applies many changes as one change with one pose. */
+  /** Runs `changes`, and then fires each signal once, as for one change with one pose. */
   at_once(changes: () => void): void {
     this.quiet_ = true;
     changes();
@@ -48,7 +48,7 @@ export class Pulse {
   }
 }
 
-/** Calls the listener on later changes. Returns a function that ends it. */
+/** Calls the listener on later changes, not at once. The returned function removes the listener. */
 export function from_now(changes: ReadonlySignal<number>, listener: () => void): () => void {
   let first = true;
   return changes.subscribe(() => {

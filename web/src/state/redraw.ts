@@ -1,5 +1,5 @@
-// Throttles redrawing: combines bursts, and after a slow redraw waits as long again, so that clicks
-// and keys are handled in between.
+// Limits how often the page is redrawn. Changes in a burst are drawn together. After a slow redraw
+// the page waits as long again, so that clicks and keys are handled in between.
 
 import type { Timers } from '../server/connection';
 
@@ -7,14 +7,17 @@ const kBurst_ms = 30;
 const kLongestRest_ms = 500;
 
 export class Redraw {
-  /** Something has changed since the last redraw. */
+  /** True if something has changed since the last redraw. */
   private asked_ = false;
-  /** A timer runs for the next redraw, or a redraw is in progress. */
+  /** True while a timer for the next redraw is set, or a redraw is in progress. */
   private waits_ = false;
 
   constructor(private readonly draw_: () => void, private readonly timers_: Timers, private readonly now_ms_: () => number) {}
 
-  /** Uses a timer, because a browser busy with the 3D view has few animation frames. */
+  /**
+   * Requests a redraw. It is done by a timer, because a browser busy with the 3D view has few
+   * animation frames.
+   */
   ask(): void {
     this.asked_ = true;
     if (!this.waits_) this.wait(kBurst_ms);
@@ -29,11 +32,12 @@ export class Redraw {
     this.asked_ = false;
     const began_ms = this.now_ms_();
     this.draw_();
-    // Components are drawn after this function returns, before the next task.
+    // Measures in a new task, because components are drawn after this function returns and before
+    // the next task.
     this.timers_.set(() => this.wait(Math.max(kBurst_ms, Math.min(kLongestRest_ms, this.now_ms_() - began_ms))), 0);
   }
 
-  /** No change for a while. */
+  /** Called when nothing has changed for a while. The next change starts a new timer. */
   private rest(): void {
     this.waits_ = false;
   }

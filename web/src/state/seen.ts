@@ -1,6 +1,7 @@
-// The store as components see it: a component that reads it is drawn again when it changes. This is
-// automatic, because a forgotten subscription would go unnoticed: a component that reads another
-// signal, and has unchanged properties, is not drawn with its parent.
+// The store as components see it: a component that reads it is drawn again when the store changes.
+// No component subscribes by itself, because a forgotten subscription would go unnoticed. (A
+// component that reads any signal is not drawn together with its parent if its properties are
+// unchanged.)
 
 import { signal, type Signal } from '@preact/signals';
 import { Redraw } from './redraw';
@@ -8,15 +9,15 @@ import type { Store } from './store';
 
 const drawings = new WeakMap<Store, Signal<number>>();
 
-/** The same store. */
+/** Returns the same store, and notes that the calling component has read it. */
 export function seen(store: Store): Store {
   void drawings_of(store).value;
   return store;
 }
 
 /**
- * Also redraws the component a few times per second while poses arrive, for clocks and progress
- * bars.
+ * Redraws the calling component also a few times per second while poses arrive. Clocks and progress
+ * bars need this.
  */
 export function use_beats(store: Store): void {
   void store.beats.value;

@@ -1,4 +1,4 @@
-// The settings that this browser stores.
+// The settings of the dashboard. They are stored in the browser.
 
 import { signal } from '@preact/signals';
 import { forget_inks } from './palette';
@@ -6,7 +6,10 @@ import { forget_inks } from './palette';
 export type Theme = 'system' | 'dark' | 'light';
 export type ShownTheme = 'dark' | 'light';
 
-/** The optional parts of the 3D view: tool paths with authority, ghosts of end positions, closest pairs. */
+/**
+ * Which optional parts of the 3D view are shown: tool paths with authority, ghosts at the end
+ * positions, and distances of the closest pairs.
+ */
 export interface Shows { paths: boolean; ghosts: boolean; distances: boolean }
 
 const kShowsAll: Shows = { paths: true, ghosts: true, distances: true };
@@ -16,17 +19,17 @@ const kThemes: readonly Theme[] = ['system', 'dark', 'light'];
 const kThemeKey = 'armloom.theme';
 const kKeysKey = 'armloom.letter-keys';
 
-/** The storage; if the browser refuses it, settings last as long as the page. */
+/** The browser's storage. If the browser refuses it, settings last only as long as the page. */
 export interface Shelf { getItem(key: string): string | null; setItem(key: string, value: string): void }
 
 export class Settings {
   readonly theme = signal<Theme>('system');
   readonly shown_theme = signal<ShownTheme>('dark');
-  /** Enables single letters as page keys; F8 always stops. */
+  /** True if single letters open pages. F8 stops all arms in any case. */
   readonly letter_keys = signal(true);
-  /** The name of the user, for acknowledgements. */
+  /** The name that the user gives when acknowledging alerts. */
   readonly person = signal('');
-  /** The optional parts of the 3D view. */
+  /** Which optional parts of the 3D view are shown. */
   readonly shows = signal<Shows>(kShowsAll);
 
   constructor(
@@ -84,7 +87,7 @@ export class Settings {
     try {
       this.shelf_?.setItem(key, value);
     } catch {
-      // Without storage the setting lasts as long as the page.
+      // The browser refuses its storage, so the setting lasts only as long as the page.
     }
   }
 }

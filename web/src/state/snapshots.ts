@@ -1,16 +1,16 @@
-// Builds snapshots of a session at a time, in the server's format. Pure.
+// Builds snapshots of a session's state at a time, in the server's format. Pure.
 
 import type { Arm, SequencedMessage } from '../server/messages';
 import { Facts } from './facts';
 import { ended_from } from './job_book';
 
 type ToldSnapshot = Extract<SequencedMessage, { type: 'snapshot' }>;
-/** `ended_from_s` is only in the page's own snapshots (see JobBook). */
+/** A snapshot. Only snapshots that the page made itself have `ended_from_s` (see JobBook). */
 export type Snapshot = ToldSnapshot & { data: { ended_from_s?: number | null } };
 
 /**
- * Combines entries into one snapshot. Returns null if the first is not a snapshot, because the
- * state is then unknown.
+ * Combines entries of the log into one snapshot. Returns null if the first entry is not a snapshot,
+ * because the state is then unknown.
  */
 export function folded(entries: readonly SequencedMessage[]): Snapshot | null {
   const [first, last] = [entries[0], entries.at(-1)];
@@ -28,16 +28,17 @@ export function folded(entries: readonly SequencedMessage[]): Snapshot | null {
 }
 
 /**
- * Returns the state before the events `led`, which led to a snapshot: everything they do not
- * mention was as in the snapshot.
+ * Returns the state before the events `led`, whose last state is the given snapshot. Arms and jobs
+ * that the events do not mention are as in the snapshot.
  */
 export function before_all({ data, ...first }: ToldSnapshot, led: readonly SequencedMessage[]): Snapshot {
   const arms = new Set(led.flatMap((message) => (message.type === 'arm' ? [message.data.name] : [])));
   const jobs = new Set(led.flatMap((message) => (message.type === 'job' ? [message.data.id] : [])));
   const [next] = led;
-  // The events begin with the session, when every arm was idle.
+  // If the events begin with the session, every arm was idle before them.
   const is_whole = next?.seq === 1;
-  // The events contain all jobs that ended meanwhile; the snapshot the jobs before.
+  // The events contain all jobs that ended during them. The snapshot contains the jobs that ended
+  // before.
   const from_s = ended_from(data.jobs);
   const idle = data.arms.map((arm) => (arms.has(arm.name) ? at_rest(arm) : arm));
   return {
@@ -50,13 +51,13 @@ export function before_all({ data, ...first }: ToldSnapshot, led: readonly Seque
   };
 }
 
-/** Returns the first state of a session. */
+/** Returns the state at the beginning of a session, without jobs. */
 export function beginning_of({ stream, at }: Pick<SequencedMessage, 'stream' | 'at'>, t_s: number, cell: Pick<Snapshot['data'], 'cell' | 'policy' | 'speed' | 'arms' | 'objects'>): Snapshot {
   const queue = { stopped: false, queued: [], backlog: [], scheduled: [], running: [] };
   return { stream, at, seq: 0, type: 'snapshot', t_s, data: { ...cell, stopped: false, jobs: [], queue } };
 }
 
-/** Returns an arm before its first motion. */
+/** Returns the arm as it was before its first motion. */
 export function at_rest(arm: Arm): Arm {
   return { ...arm, state: 'idle', job: null, progress: 0 };
 }

@@ -1,5 +1,6 @@
 // All that the page knows: the state from events (Facts), poses, the history of both, and the
-// connection. Messages enter through methods; views read fields and redraw on the pulse.
+// connection. Messages enter through methods. Views read the members and are redrawn by the signals
+// of state/pulse.ts.
 
 import type { Link } from '../server/connection';
 import type { ArmAuthority, Cell, Clearance, Forecast, Job, MeasuredStates, Message, SequencedMessage, StateMessage } from '../server/messages';
@@ -13,7 +14,8 @@ import { Trace } from './trace';
 /** The joint positions of a recording. */
 export interface Frames { names: readonly string[]; t_s: readonly number[]; q: readonly (readonly number[])[] }
 
-// A busy page may be a few seconds late.
+// Data that arrives less late than this is not reported as old, because a busy page may be a few
+// seconds late.
 const kLate_ms = 5_000;
 const kSilent_ms = 1000;
 const kMissed_s = 0.5;
@@ -23,14 +25,14 @@ export class Store extends Facts {
   cell_fault: string | null = null;
   link: Link = { status: 'connecting' };
   clearance: Clearance[] = [];
-  /** The progress and authority of every arm that has been told to move. */
+  /** The progress and authority of every arm that has been told to move, in each of its motions. */
   motions: ArmAuthority[] = [];
   rejected = { unknown: 0, malformed: 0 };
-  /** The predicted timeline, or null if unknown. */
+  /** The timeline that the server predicts, or null if unknown. */
   forecast: Forecast | null = null;
   readonly trace: Trace;
   readonly courses: ProgressBook;
-  /** The source of past states. */
+  /** The log of events, from which past states are derived. */
   readonly log = new Log(folded);
 
   private readonly pulse_: Pulse;
@@ -38,7 +40,7 @@ export class Store extends Facts {
   private heard_at_ms_: number | null = null;
   private earlier_states_: MeasuredStates | null = null;
 
-  /** `measured` shares the trace of another store, for past states. */
+  /** `measured` are the trace and the progress of another store, which a past state shares. */
   constructor(private readonly now_ms_: () => number = () => performance.now(), measured: { trace: Trace; courses: ProgressBook } | null = null) {
     super();
     this.pulse_ = new Pulse(now_ms_);
@@ -50,7 +52,7 @@ export class Store extends Facts {
   get frames() { return this.pulse_.frames; }
   get beats() { return this.pulse_.beats; }
 
-  /** Call the listener on later changes. The returned function ends it. */
+  /** Calls the listener on each later change. The returned function removes the listener. */
   on_change(listener: () => void): () => void {
     return from_now(this.changes, listener);
   }
@@ -73,7 +75,7 @@ export class Store extends Facts {
     this.apply(message);
   }
 
-  /** Applies an event without logging it, for replays. */
+  /** Applies an event that is already in the log, for replays. */
   override apply(message: SequencedMessage): void {
     const before = this.stream;
     super.apply(message);
@@ -82,8 +84,8 @@ export class Store extends Facts {
   }
 
   /**
-   * Shows a recording instead of the live cell, until `forget_all`. Without frames it has no
-   * positions.
+   * Shows a recording instead of the live cell, until forget_all(). If `frames` is null, the
+   * recording has no positions.
    */
   show_recording(name: string, messages: readonly SequencedMessage[], frames: Frames | null): void {
     const arms = [...this.arms.values()].map(at_rest);
@@ -93,19 +95,19 @@ export class Store extends Facts {
     this.arms = new Map(arms.map((arm) => [arm.name, arm]));
     this.pulse_.at_once(() => {
       const [begin] = messages;
-      // The recording has all events of its session, which began with every arm idle.
+      // If the recording has all events of its session, it begins with every arm idle.
       if (begin?.seq === 1) this.log.push(beginning_of(begin, Math.min(begin.t_s, t_s[0] ?? 0), { cell: this.cell?.name ?? '', policy: this.policy, speed: this.speed, arms, objects: this.cell?.objects ?? this.objects }));
       for (const message of messages) this.take(message);
       this.trace.load(names, t_s, q);
       this.t_s = Math.max(this.t_s, t_s.at(-1) ?? 0);
       this.q = Object.fromEntries(names.map((joint, i) => [joint, q.at(-1)?.[i] ?? 0]));
-      this.heard_at_ms_ = null;  // recordings never count as old data
+      this.heard_at_ms_ = null;  // the data of a recording never counts as old
     });
   }
 
   /**
-   * The range of times that can be shown: that of the positions, or of the events of a recording
-   * without positions.
+   * The range of cell times that can be shown: the times of the positions. For a recording without
+   * positions it is the times of the events.
    */
   get span(): { first_s: number; last_s: number } | null {
     const { first_s, last_s } = this.trace;
@@ -114,7 +116,10 @@ export class Store extends Facts {
     return this.link.status === 'recording' && first && last ? { first_s: first.t_s, last_s: last.t_s } : null;
   }
 
-  /** Forgets everything but the cell. */
+  /**
+   * Forgets the session: jobs, events, the trace, and the state of the connection. Keeps the cell
+   * with its arms and objects.
+   */
   forget_all(): void {
     this.link = { status: 'connecting' };
     this.stream = null;
@@ -136,7 +141,7 @@ export class Store extends Facts {
     this.pulse_.change();
   }
 
-  /** Inserts events of this session from before the first snapshot, in order. */
+  /** Inserts events of this session from before the first snapshot. They must be in order. */
   take_earlier(messages: readonly SequencedMessage[]): void {
     const [first] = this.log.entries;
     const fresh = messages.filter(({ stream, seq, type }) => type !== 'snapshot' && stream === this.stream && first?.stream === stream && seq <= first.seq);
@@ -149,14 +154,18 @@ export class Store extends Facts {
   }
 
   /**
-   * Takes positions from before the page was connected, or while it was not. They are inserted
-   * before the next frame, which marks where the page's own data continues.
+   * Takes positions from before the page was connected, or from while the connection was lost. They
+   * are inserted when the next frame arrives, because that frame marks where the page's own data
+   * continues.
    */
   take_earlier_states(states: MeasuredStates): void {
     this.earlier_states_ = states;
   }
 
-  /** Makes this a past state of another store: no arm is known until events say more. */
+  /**
+   * Makes this store a past state of the store `now`. The state of every arm is unknown until an
+   * event mentions the arm.
+   */
   begin_past(now: Store): void {
     this.cell = now.cell;
     this.link = now.link.status === 'recording' ? now.link : { status: 'past' };
@@ -167,7 +176,7 @@ export class Store extends Facts {
     for (const name of this.arms.keys()) this.unknown_arms_.add(name);
   }
 
-  /** Sets the shown time; no event lies between it and the applied events. */
+  /** Sets the shown time. No event may lie between it and the last applied event. */
   look_at(t_s: number): void {
     this.t_s = t_s;
     this.pulse_.beat();
@@ -196,8 +205,8 @@ export class Store extends Facts {
   }
 
   /**
-   * Takes a polled job, which has its progress. An event may have arrived before the answer, so a
-   * job in another state than known is dropped.
+   * Takes a polled job, because only a polled job has its present progress. If an event has changed
+   * the state of the job before the answer arrived, the polled job is dropped.
    */
   refresh_job(job: Job): void {
     if (this.book.refresh(job, this.t_s)) this.pulse_.change();
@@ -205,7 +214,8 @@ export class Store extends Facts {
 
   set_forecast(forecast: Forecast | null): void {
     this.forecast = forecast;
-    // The forecast overtakes messages that are still on their way to the page.
+    // The forecast does not wait behind messages that are still on their way to the page. So it
+    // shows how late they are.
     this.late_ms_ = forecast === null ? 0 : Math.max(0, (1000 * (forecast.now_s - this.t_s)) / this.speed);
     this.pulse_.change();
   }
@@ -221,8 +231,8 @@ export class Store extends Facts {
   }
 
   /**
-   * Counts a rejected message. Returns true for the first of its kind, which is worth a warning in
-   * the console.
+   * Counts a rejected message. Returns true for the first message of its kind, which the caller
+   * reports in the console.
    */
   reject(kind: 'unknown' | 'malformed'): boolean {
     this.rejected = { ...this.rejected, [kind]: this.rejected[kind] + 1 };
@@ -230,7 +240,9 @@ export class Store extends Facts {
     return this.rejected[kind] === 1;
   }
 
-  /** Returns the age of the data (silence or delay), or null before the first message. */
+  /**
+   * Returns the age of the data, which is the silence or the delay. Null before the first message.
+   */
   age_ms(): number | null {
     const silent_ms = this.silence_ms();
     return silent_ms === null ? null : Math.max(silent_ms, this.late_ms_ > kLate_ms ? this.late_ms_ : 0);
@@ -249,7 +261,8 @@ export class Store extends Facts {
   }
 
   private take_frame(frame: StateMessage, silent_ms: number): void {
-    // Frames may be lost on the way. A page that was busy itself receives all of them, late.
+    // The trace has a gap only if frames were lost on the way. If the page itself was busy, it
+    // receives all frames, late.
     if (silent_ms > kSilent_ms && frame.t_s - (this.trace.last_s ?? frame.t_s) > kMissed_s) this.trace.break_off();
     this.t_s = frame.t_s;
     Object.assign(this.q, frame.q);

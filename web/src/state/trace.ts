@@ -1,26 +1,29 @@
-// The measured joint positions of the last minutes, for past poses and plots. A ring buffer of
-// fixed size.
+// The measured joint positions of the last minutes, for past poses and for plots. They are kept in
+// a ring buffer of fixed size.
 
 const kFrames = 9_000;  // five minutes at 30 Hz
 
-// Addresses hold hundredths of a second.
+// The address of the page holds the shown time in hundredths of a second.
 const kRounding_s = 0.01;
 
-// This many steps without a frame are a gap in data of steady rate.
+// If data of steady rate lacks at least this many frames in a row, there is a gap.
 const kHole = 5;
 
 interface Frame { t_s: number; row: readonly number[]; broken: boolean; fresh: boolean }
 
 export interface Curves { t_s: number[]; q: number[][] }
 
-/** Says if there is data for a time; if not, where the time lies. */
+/**
+ * Says if there is data for a time (`kept`). If not, says where the time lies: before or after all
+ * data, or in a gap.
+ */
 export type Heard = 'kept' | 'before' | 'after' | 'gap' | 'nothing';
 
 export class Trace {
   private names_: string[] = [];
   private t_s_ = new Float64Array(0);
   private q_ = new Float32Array(0);
-  /** 1 if there is a gap between this frame and the one before. */
+  /** 1 if there is a gap between this frame and the frame before. */
   private breaks_ = new Uint8Array(0);
   private broken_ = false;
   private count_ = 0;
@@ -34,7 +37,7 @@ export class Trace {
     this.broken_ = false;
   }
 
-  /** The next frame follows a gap. */
+  /** Notes that there is a gap before the next frame. */
   break_off(): void {
     this.broken_ = this.count_ > 0;
   }
@@ -50,8 +53,8 @@ export class Trace {
   }
 
   /**
-   * Merges frames of steady rate from elsewhere, in order: those before the first own frame, and
-   * those in gaps.
+   * Merges frames of steady rate from the server, ordered by time. Takes the frames before the
+   * page's first frame, and the frames in gaps.
    */
   fill(names: readonly string[], t_s: readonly number[], q: readonly (readonly number[])[]): void {
     if (this.count_ === 0) this.begin([...names]);
@@ -101,14 +104,17 @@ export class Trace {
     return typeof frame === 'number' ? 'kept' : frame;
   }
 
-  /** Returns all joints at the last frame up to a time, or null if there is no data. */
+  /**
+   * Returns the positions of all joints at the last frame up to a time. Null if there is no data
+   * for the time.
+   */
   at(t_s: number): Record<string, number> | null {
     const frame = this.frame_at(t_s);
     if (typeof frame !== 'number') return null;
     return Object.fromEntries(this.names_.map((name, joint) => [name, this.value(frame, joint)]));
   }
 
-  /** Returns some joints over a stretch of time, thinned to at most `most` frames. */
+  /** Returns the positions of some joints between two times, thinned to at most `most` frames. */
   between(names: readonly string[], from_s: number, to_s: number, most = 600): Curves {
     const columns = names.map((name) => this.names_.indexOf(name));
     const begin = Math.max(0, this.last_until(from_s));
@@ -139,7 +145,10 @@ export class Trace {
     this.clear();
   }
 
-  /** Returns the frame for a time; or, without data, where the time lies. */
+  /**
+   * Returns the index of the frame for a time. If there is no data for it, says where the time
+   * lies.
+   */
   private frame_at(t_s: number): number | Exclude<Heard, 'kept'> {
     const { first_s, last_s } = this;
     if (first_s === null || last_s === null) return 'nothing';

@@ -1,18 +1,20 @@
-// The timeline of the known jobs. Ended jobs are processed only when a job ends or an earlier time
-// is shown, because with ten thousand jobs this would dominate each redraw.
+// Builds the timeline of the jobs that the page knows. Ended jobs are processed again only when a
+// job ends or an earlier time is shown. With ten thousand ended jobs they would otherwise take most
+// of the time of each redraw.
 
 import type { App } from '../state/app';
 import type { Store } from '../state/store';
 import { lanes_of, pasts_of, type Lane, type Past } from './lanes';
 
-// A motion that ended before the shown range still determines since when its arm waits.
+// Ended jobs are read from this much before the shown range. The end of such a job can determine
+// since when its arm waits.
 const kBefore_s = 60;
 
 interface Kept { of: readonly unknown[]; from_s: number; pasts: ReadonlyMap<string, Past> }
 
 const kept = new WeakMap<Store, Kept>();
 
-/** Returns the lanes from a time on; they may contain earlier marks. */
+/** Returns the lanes for the times from `from_s` on. They may also contain earlier marks. */
 export function known_lanes({ store }: Pick<App, 'store'>, from_s = store.t_s): Lane[] {
   const { book } = store;
   const pauses = (id: string) => book.pauses(id);

@@ -1,34 +1,35 @@
-// The timeline of each arm as plain data: past motions by the jobs' own times, future motions by
-// the server's prediction. Pure. Times are cell time.
+// The timeline of each arm as plain data. A lane is the timeline of one arm; a mark is a motion, a
+// pause or a wait in it. Past motions have the times of their jobs, future motions the times that
+// the server predicts. Pure. Times are cell time.
 //
-// An arm waits from when its next job was submitted and the previous job had ended, until the next
-// job starts. Later jobs only wait their turn and are not shown.
+// An arm waits if its next job is submitted and its previous job has ended. The wait lasts until
+// the next job starts. Later jobs only wait their turn and are not shown.
 
 import type { Forecast, ForecastStep, Job, WaitsOn } from '../server/messages';
 import type { Pause } from '../state/job_book';
 
-/** The blocker of a wait. */
+/** The job or arm that a job waits for. */
 export interface WaitedFor { job: string | null; arm: string | null }
 
 export interface Mark {
-  /** A motion; a pause on the path; a wait before the start. */
+  /** A motion, a pause on the path, or a wait before the start. */
   kind: 'motion' | 'pause' | 'wait';
   expected: boolean;
   job: string;
   label: string;
   state: Job['state'];
   from_s: number;
-  /** Infinity if no end is predicted. */
+  /** The end of the mark. Infinity if no end is predicted. */
   to_s: number;
   waits_on: WaitsOn | null;
-  /** At rest until the arm is resumed. */
+  /** True if the arm is at rest until it is resumed. */
   stopped: boolean;
 }
 
 export interface Lane {
   arm: string;
   marks: Mark[];
-  /** The number of jobs without predicted times. */
+  /** The number of the arm's jobs that have no predicted times. */
   waiting: number;
 }
 
@@ -43,7 +44,10 @@ export interface Known {
   now_s: number;
 }
 
-/** The marks of an arm's ended jobs, which do not change, and the end of the last one. */
+/**
+ * The marks of an arm's ended jobs, which do not change. `free_from_s` is the end of the last of
+ * these jobs.
+ */
 export interface Past { marks: readonly Mark[]; free_from_s: number }
 
 const kNoPast: Past = { marks: [], free_from_s: 0 };
@@ -70,7 +74,10 @@ export function lanes_of(known: Known): Lane[] {
   });
 }
 
-/** Cuts the list after the first step without a predicted end: later steps have no times. */
+/**
+ * Cuts the list after the first step without a predicted end, because the steps after it have no
+ * times.
+ */
 function until_endless(steps: readonly ForecastStep[]): readonly ForecastStep[] {
   const endless = steps.findIndex(({ ends_s }) => ends_s === null);
   return endless < 0 ? steps : steps.slice(0, endless + 1);
@@ -82,7 +89,10 @@ function by_arm(arms: readonly string[], jobs: readonly Job[]): Map<string, Job[
   return of_arm;
 }
 
-/** Returns the marks of started jobs, each with the wait before it, appended to `past`. */
+/**
+ * Returns `past` with the marks of the started jobs added. Each started job has a mark for its
+ * motion and one for the wait before it.
+ */
 function done_of(jobs: readonly Job[], past: Past, now_s: number, pauses: Known['pauses']): Past {
   const marks: Mark[] = [...past.marks];
   const begun = jobs.filter((job) => job.started_s !== null).sort((a, b) => (a.started_s ?? 0) - (b.started_s ?? 0));
@@ -101,7 +111,7 @@ function done_of(jobs: readonly Job[], past: Past, now_s: number, pauses: Known[
   return { marks, free_from_s };
 }
 
-/** Returns the wait of the first job that has not started. */
+/** Returns the wait of the first job that has not started, if the arm waits for it. */
 function next_of(jobs: readonly Job[], free_from_s: number, now_s: number): Mark[] {
   const next = jobs.filter((job) => job.started_s === null).sort((a, b) => a.submitted_s - b.submitted_s)[0];
   if (!next) return [];
@@ -113,7 +123,10 @@ function mark(kind: Mark['kind'], job: Job, from_s: number, to_s: number, waits_
   return { kind, expected: false, job: job.id, label: job.name, state: job.state, from_s, to_s, waits_on, stopped: waits_on?.kind === 'stop' };
 }
 
-/** Returns the predicted marks of a step. Predicted times in the past are moved to now. */
+/**
+ * Returns the predicted marks of one step of the forecast. Times that have passed meanwhile are
+ * moved to now.
+ */
 function future_of(step: ForecastStep, now_s: number): Mark[] {
   const common = { expected: true, job: step.id, label: step.name, state: step.state };
   const marks: Mark[] = [];
@@ -121,7 +134,7 @@ function future_of(step: ForecastStep, now_s: number): Mark[] {
     if (to_s > now_s) marks.push({ ...common, kind, from_s: Math.max(now_s, from_s), to_s, waits_on, stopped: waits_on?.kind === 'stop' });
   };
   const [next] = step.pauses;
-  // The future of a stopped job is only its stop.
+  // A stopped job has no predicted motion, only its stop.
   const stopped = next?.waits_on?.kind === 'stop' && next.to_s === null && next.from_s <= now_s;
   if (step.starts_s !== null && !stopped) add('motion', step.starts_s, step.ends_s ?? Infinity, null);
   for (const pause of step.pauses) {
@@ -131,8 +144,9 @@ function future_of(step: ForecastStep, now_s: number): Mark[] {
 }
 
 /**
- * Returns the marks to draw between two times. `least_s` is the duration of a pixel: of motions
- * within one pixel only the first is drawn. Failed, running and predicted motions are always drawn.
+ * Returns the marks to draw between two times. `least_s` is the duration of a pixel. Of several
+ * short motions within one pixel, only the first is drawn. Failed, running and predicted motions
+ * are always drawn.
  */
 export function drawn_of(marks: readonly Mark[], from_s: number, to_s: number, least_s: number): Mark[] {
   const filled_to_s = new Map<Mark['kind'], number>();
@@ -146,7 +160,7 @@ export function drawn_of(marks: readonly Mark[], from_s: number, to_s: number, l
 }
 const kAlways: ReadonlySet<Mark['state']> = new Set(['failed', 'interrupted', 'expired', 'running', 'paused']);
 
-/** Returns the topmost mark at a time. */
+/** Returns the topmost mark at a time, or null. Pauses and waits are above motions. */
 export function mark_at(lane: Lane, t_s: number): Mark | null {
   const there = lane.marks.filter((mark) => mark.from_s <= t_s && t_s <= mark.to_s);
   return there.find((mark) => mark.kind !== 'motion') ?? there[0] ?? null;

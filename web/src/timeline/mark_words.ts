@@ -1,4 +1,4 @@
-// The timeline as text: for the tooltip, and for screen readers.
+// The timeline as text, for the tooltip and for screen readers.
 
 import { clock, seconds, short_id, wait_in_words } from '../wording';
 import type { Lane, Mark } from './lanes';
@@ -23,7 +23,7 @@ function expectation(mark: Mark): string {
   return mark.state === 'running' || mark.state === 'paused' ? kWords.running : kWords.expected;
 }
 
-/** Returns the predicted motions and waits of an arm, soonest first. */
+/** Returns the predicted motions and waits of an arm in words, soonest first. */
 export function lane_in_words(lane: Lane, now_s: number): string[] {
   const expected = lane.marks.filter((mark) => mark.expected).sort((a, b) => a.from_s - b.from_s);
   const words = expected.map((mark) => mark_in_words(mark, now_s));

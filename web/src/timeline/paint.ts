@@ -10,12 +10,15 @@ import { tick_of } from './span';
 import { characters_of, shown_name } from '../names';
 import { kText } from '../strings';
 
-/** The selection (everything else is dimmed) and the shown time, if it is in the past. */
+/**
+ * The highlighted parts. If jobs or arms are selected, all others are dimmed. `shown_s` is the shown
+ * time if it is a past time, else null.
+ */
 export interface Lit {
   jobs: readonly string[];
   arms: readonly string[];
   shown_s: number | null;
-  /** The data is old: the line marks the last data instead of now. */
+  /** True if the data is old. The line then marks the time of the last data, not now. */
   stale: boolean;
   events: readonly EventMark[];
   /** The periods in which arms were stopped. */
@@ -26,10 +29,13 @@ export interface Pointed { mark: Mark | null; events: readonly EventMark[] }
 
 const kFont = '"Inter Variable", system-ui, sans-serif';
 const kHatch_px = 5;
-// The least width of a bar.
+// The least width of a bar, px.
 const kLeast_px = 2;
 
-/** `covers`: where bars are hidden, under pauses and stops and outside of the sheet. */
+/**
+ * The geometry of one arm's lane, px. `covers` are the places where a bar is hidden: under pauses
+ * and stops, and outside of the timeline.
+ */
 interface Row { top: number; height: number; color: string; bar_top: number; bar_height: number; wait_top: number; wait_height: number; covers: readonly Stretch[] }
 
 export function paint(g: CanvasRenderingContext2D, sheet: Sheet, lanes: readonly Lane[], lit: Lit, pointed: Pointed): void {
@@ -77,7 +83,7 @@ function is_dim(mark: Mark, arm: string, lit: Lit): boolean {
   return lit.arms.length > 0 && !lit.arms.includes(arm);
 }
 
-// A limit for any sheet and times.
+// Largest number of labels on the axis, whatever the size of the timeline.
 const kTicksMax = 1000;
 
 function draw_axis(g: CanvasRenderingContext2D, sheet: Sheet): void {
@@ -104,7 +110,7 @@ function tick_label(t_s: number, step_s: number): string {
   return step_s < 1 ? `${clock}.${Math.round((t_s - whole) * 10)}` : clock;
 }
 
-/** Returns the label of the line that ends the known data. */
+/** Returns the label of the line between past and future. */
 export function now_in_words(stale: boolean): string {
   return stale ? kText.timeline.mark_last_data : kText.timeline.mark_now;
 }
@@ -163,7 +169,10 @@ function draw_mark(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, mark: Ma
   g.globalAlpha = 1;
 }
 
-/** Draws a stopped arm, with or without a job. While the stop lasts, its end is open. */
+/**
+ * Draws a period in which an arm was stopped, whether it had a job or not. A stop that still lasts
+ * has an open end.
+ */
 function draw_halt(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, { from_s, to_s }: Pick<Pause, 'from_s' | 'to_s'>, dim: boolean): void {
   const left = sheet.x(from_s);
   const right = sheet.x(to_s ?? sheet.now_s);
@@ -174,7 +183,7 @@ function draw_halt(g: CanvasRenderingContext2D, sheet: Sheet, row: Row, { from_s
   g.globalAlpha = 1;
 }
 
-/** A stop fades out, because its end is unknown. */
+/** Draws the end of a stop that still lasts: it fades out, because the end is unknown. */
 function draw_open_end(g: CanvasRenderingContext2D, row: Row, left: number): void {
   kFading.forEach((alpha, i) => {
     g.globalAlpha = alpha;
@@ -209,7 +218,7 @@ function draw_expected(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: 
   label(g, row, mark, left, width, ink('--text'));
 }
 
-/** Draws a pause or stop as an open bar. */
+/** Draws a pause or a stop as a hatched bar over the motion. */
 function draw_pause(g: CanvasRenderingContext2D, row: Row, left: number, width: number, stopped: boolean, hover: boolean): void {
   g.fillStyle = ink('--panel');
   g.fillRect(left, row.bar_top, width, row.bar_height);
@@ -222,7 +231,10 @@ function bar(g: CanvasRenderingContext2D, left: number, top: number, width: numb
   g.roundRect(left, top, wide, height, Math.min(3, wide / 2));
 }
 
-/** Draws the longest form of the name that fits the visible part of the bar; none is cut. */
+/**
+ * Writes the longest form of the job's name that fits the visible part of the bar. If no form fits,
+ * nothing is written.
+ */
 function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, width: number, color: string): void {
   if (row.bar_height < 11 || width < 16) return;
   g.font = `500 10.5px ${kFont}`;
@@ -238,7 +250,9 @@ function label(g: CanvasRenderingContext2D, row: Row, mark: Mark, left: number, 
   g.fillText(text, seen.from + 5, row.bar_top + row.bar_height / 2 + 0.5);
 }
 
-/** Draws a line from the end of each predicted wait to its blocker's lane. */
+/**
+ * Draws a line from the end of each predicted wait or pause to the lane of the arm that blocks it.
+ */
 function draw_threads(g: CanvasRenderingContext2D, sheet: Sheet, lane: Lane, i: number, rows: readonly Row[], arms: readonly string[], hover: Mark | null): void {
   const from = rows[i];
   if (!from) return;
@@ -261,7 +275,10 @@ function draw_threads(g: CanvasRenderingContext2D, sheet: Sheet, lane: Lane, i: 
   }
 }
 
-/** Rising stripes for waits, falling stripes for pauses, to be told apart without colors. */
+/**
+ * An area with stripes. Rising stripes are waits, falling stripes are pauses, so that they differ
+ * without colors.
+ */
 interface Stripes { left: number; top: number; width: number; height: number; falls?: boolean }
 
 function hatch(g: CanvasRenderingContext2D, { left, top, width, height, falls = false }: Stripes, color: string, strong: boolean): void {
@@ -272,7 +289,7 @@ function hatch(g: CanvasRenderingContext2D, { left, top, width, height, falls = 
   g.globalAlpha *= strong ? 1 : 0.7;
   g.strokeStyle = color;
   g.lineWidth = strong ? 1.8 : 1.2;
-  // Anchored to the bar's start, so that stripes move with it.
+  // The stripes are anchored to the start of the bar, so that they move with the bar.
   const shown = Math.max(left, 0);
   const first = shown - ((shown - left) % kHatch_px) - height - kHatch_px;
   const last = Math.min(left + width, g.canvas.width);

@@ -1,4 +1,5 @@
-// Pointer actions on the timeline: tooltip, drag, zoom, opening a job, going to an event.
+// Actions of the pointer on the timeline: show a tooltip, drag, zoom, open a job, go to the time of
+// an event.
 
 import type { App } from '../state/app';
 import { events_at, events_in_words, type EventMark } from './events';
@@ -8,10 +9,13 @@ import { kAxis_px, lane_at, type Sheet } from './sheet';
 import { moved, zoomed, type Span } from './span';
 import { mark_in_words } from './mark_words';
 
-/** The drawn state, which changes too often for component state. */
+/** The state of the drawing. It is not component state, because it changes too often. */
 export interface Drawing { span: Span; lanes: Lane[]; sheet: Sheet | null; pointed: Pointed; drag: Drag | null }
 
-/** The start of a drag; it survives redraws. */
+/**
+ * The place where a drag began, and the range at that time. It is kept when the timeline is drawn
+ * again.
+ */
 interface Drag { x: number; span: Span; travelled_px: number }
 
 export interface Tip { x: number; up: number; words: string }

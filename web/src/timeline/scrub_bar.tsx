@@ -1,4 +1,4 @@
-// The scrub bar sets the time that all views show; at its right end they follow now.
+// The scrub bar sets the time that all views show. At its right end the views follow now.
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';
@@ -17,7 +17,8 @@ export function ScrubBar({ app }: { app: App }) {
   const { span } = app.store;
   const shown_s = app.router.address.value.t_s;
   const is_recording = app.store.link.status === 'recording';
-  // A recording without positions has no poses, but its events can be scrubbed.
+  // A recording without positions has no pose at any time. The scrub bar then shows the times of
+  // its events.
   const unheard = !is_recording && instant_of(app.router.address.value, app.store).kind === 'unheard';
   if (!span || span.last_s - span.first_s < 1) return null;
   const { first_s, last_s } = span;

@@ -1,4 +1,4 @@
-// The timeline's geometry: times across, lanes down.
+// The geometry of the timeline: times run across, lanes are stacked downward. Lengths are in px.
 
 import { begin_of, type Span } from './span';
 
@@ -27,10 +27,13 @@ export function sheet_of(width: number, height: number, span: Span, now_s: numbe
   };
 }
 
-/** Across, px. */
+/** A horizontal range, px. */
 export interface Stretch { from: number; to: number }
 
-/** Returns the widest part that nothing covers, or null. */
+/**
+ * Returns the widest part of `whole` that no element of `covers` overlaps, or null if all of it is
+ * covered.
+ */
 export function widest_free(whole: Stretch, covers: readonly Stretch[]): Stretch | null {
   const free: Stretch[] = [];
   let from = whole.from;
@@ -51,7 +54,7 @@ export function lane_at(sheet: Sheet, lanes: number, y: number): number {
   return Math.floor(y / lane_height(sheet, lanes));
 }
 
-/** Fits the canvas to its element. Returns null if the element has no size. */
+/** Fits the canvas to the size of its element. Returns null if the element has no size. */
 export function fit(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
   const { clientWidth: width, clientHeight: height } = canvas;
   const g = canvas.getContext('2d');

@@ -1,4 +1,4 @@
-// The predicted timeline as text for screen readers, updated once per second.
+// The predicted timeline as text for screen readers. It is updated once per second.
 
 import { useEffect, useState } from 'preact/hooks';
 import type { App } from '../state/app';

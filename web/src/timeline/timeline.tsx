@@ -1,5 +1,5 @@
-// The timeline: one lane per arm, the past left of now, the prediction right of it. It follows now,
-// or is fixed by the address, the scrub bar, a drag or keys.
+// The timeline: one lane for each arm. The past is left of now, the prediction right of now. The
+// shown range follows now, or is fixed by the address, the scrub bar, a drag or keys.
 
 import { useEffect, useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { use_stale } from '../frame/staleness';
@@ -31,7 +31,7 @@ export function Timeline({ app }: { app: App }) {
     drawing.current.span = next;
     set_span(next);
   };
-  // A layout effect, so that it runs before the next key press.
+  // This is a layout effect, because it must run before the next key press.
   useLayoutEffect(() => {
     const { span: now } = drawing.current;
     change(shown_s === null ? { ...now, fixed_from_s: null } : is_shown(now, shown_s, store.t_s) ? now : around(now, shown_s));
@@ -50,14 +50,14 @@ export function Timeline({ app }: { app: App }) {
     set_tip(null);
     draw.current();
   };
-  // Escape closes the tooltip, whatever has the focus.
+  // Escape closes the tooltip, whichever element has the focus.
   useLayoutEffect(() => {
     if (!tip) return;
     const on_escape = (event: KeyboardEvent) => { if (event.key === 'Escape') clear_pointed(); };
     window.addEventListener('keydown', on_escape);
     return () => window.removeEventListener('keydown', on_escape);
   }, [tip !== null]);
-  /** Shows an event chosen by keys, and announces it. */
+  /** Shows the event that the user chose by keys, and announces it to screen readers. */
   const choose = (event: EventMark) => {
     const { span: now } = drawing.current;
     change(is_shown({ ...now, fixed_from_s: begin_of(now, store.t_s) }, event.t_s, store.t_s) ? moved(now, 0, store.t_s) : around(now, event.t_s));
@@ -67,7 +67,7 @@ export function Timeline({ app }: { app: App }) {
     if (sheet) set_tip(tip_of([event], sheet, store.t_s));
     set_chosen(events_in_words([event], store.t_s));
   };
-  /** Returns true if the key is one of the timeline. */
+  /** Handles a key. Returns false if the key has no meaning in the timeline. */
   const by_key = (key: string): boolean => {
     const [at = null] = drawing.current.pointed.events;
     if (key === 'PageUp' || key === 'PageDown') {
@@ -114,7 +114,7 @@ export function Timeline({ app }: { app: App }) {
   );
 }
 
-/** The legend: in the heading if there is room, else behind a button. */
+/** The legend. It is shown in the heading if there is room, else behind a button. */
 function Keys() {
   return (
     <>
@@ -129,7 +129,7 @@ function is_shown(span: Span, t_s: number, now_s: number): boolean {
   return span.fixed_from_s !== null && t_s >= sheet.from_s && t_s <= sheet.from_s + sheet.length_s;
 }
 
-/** Redraws at most ten times per second, and when the canvas is resized. */
+/** Redraws when the data changes, at most ten times per second, and when the canvas is resized. */
 function drive(canvas: { current: HTMLCanvasElement | null }, store: App['store'], draw: () => void): () => void {
   let last_ms = -Infinity;
   const tick = () => {

@@ -1,5 +1,5 @@
-// The future of the arms in the 3D view: tool paths of admitted motions with their authority, and a
-// ghost of each arm's next end position.
+// The future of the arms in the 3D view: the tool paths of admitted motions with the granted
+// authority, and a ghost where each arm comes to rest next.
 
 import * as THREE from 'three';
 import type { Motion } from '../motion/motion';
@@ -22,7 +22,7 @@ export class Ahead {
   private kinematics_: Kinematics[] = [];
   private readonly paths_ = new Map<string, Shown>();
   private cell_: Cell | null = null;
-  /** True while ghosts still have to be built, one for each call of follow(). */
+  /** True while ghosts still have to be built. Each call of follow() builds one. */
   lacks_ghosts = false;
   private ghosts_at_ = '';
   private seen_ = '';
@@ -31,7 +31,7 @@ export class Ahead {
     this.group.add(this.ghosts_.group);
   }
 
-  /** Discards everything after a change of cell or theme. */
+  /** Discards all paths and ghosts, because the cell or the theme has changed. */
   begin(cell: Cell | null): void {
     for (const key of [...this.paths_.keys()]) this.forget(key);
     this.ghosts_.clear();
@@ -44,7 +44,7 @@ export class Ahead {
       try {
         this.kinematics_.push(new Kinematics(robot));
       } catch {
-        // Robots reported this error already.
+        // The error was reported when the robots were drawn.
       }
     }
   }
@@ -54,8 +54,8 @@ export class Ahead {
   }
 
   /**
-   * Updates paths and ghosts. With `at_now` false a past time is shown, which has no prediction.
-   * Returns true if something visible changed.
+   * Updates paths and ghosts. If `at_now` is false, a past time is shown, and there is no
+   * prediction to draw. Returns true if a visible part changed.
    */
   follow(surfaces: Surfaces, at_now: boolean): boolean {
     const { settings, store } = this.app_;
@@ -75,7 +75,7 @@ export class Ahead {
     return changed;
   }
 
-  /** Updates progress and authority from the last frame. */
+  /** Moves the paths to the progress and authority in the last frame. */
   move(): void {
     for (const { path, arm, job, motion } of this.paths_.values()) {
       const authority = this.app_.store.motions.find((one) => one.arm === arm && one.job === job);
@@ -84,12 +84,12 @@ export class Ahead {
     }
   }
 
-  /** Hides the ghosts when drawing is slow. */
+  /** Shows the ghosts, or hides them because drawing is slow. */
   show_level(ghosts: boolean): void {
     this.ghosts_.group.visible = ghosts;
   }
 
-  /** Returns the admitted motions of each arm, the current one first. */
+  /** Returns up to two predicted jobs for each arm, the current job first. */
   private steps(): { arm: string; job: Job }[] {
     const { store } = this.app_;
     return (store.forecast?.arms ?? []).flatMap(({ name, steps }) => steps
@@ -121,7 +121,9 @@ export class Ahead {
     this.group.add(path.group);
   }
 
-  /** Shows where each arm's current or next motion ends. */
+  /**
+   * Shows a ghost where each arm's current motion ends, or its next motion if the arm is at rest.
+   */
   private show_ghosts(steps: readonly { arm: string; job: Job }[], surfaces: Surfaces): void {
     if (!this.cell_) return;
     const q: Record<string, number> = {};

@@ -1,5 +1,5 @@
-// The 3D view with its overlays: clearance, stop, shown time. The view is loaded after the rest of
-// the page.
+// The 3D view with what is shown over it: smallest clearance, stop, shown time. The 3D view is
+// loaded after the rest of the page.
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { waiting_arms } from '../recovery/needs';
@@ -63,7 +63,9 @@ export function CellPanel({ app, on_view }: Props) {
   );
 }
 
-/** No arm is drawn before its position is known. */
+/**
+ * States that the view waits for positions, because no arm is drawn before its position is known.
+ */
 function Waits({ app }: { app: App }) {
   use_beats(app.store);
   return waits_for_first(app) ? <p class="loading" role="status" data-test="no-pose-yet">{kWords.waiting_for_positions}</p> : null;
@@ -95,7 +97,7 @@ function InstantMark({ app }: { app: App }) {
   );
 }
 
-/** Overlay for a recording without positions. */
+/** States that the recording has no positions, so that no arm is drawn. */
 function WithoutPositions({ app }: { app: App }) {
   return (
     <div class="unheard" role="status" data-test="without-positions" style={{ '--covered': `${app.covered_px.value}px` }}>
@@ -141,7 +143,7 @@ const kSteps: readonly [step: CameraStep, sign: string, title: string][] = [
   ['nearer', '+', kWords.camera_nearer], ['farther', '−', kWords.camera_farther], ['whole', kWords.show_all_sign, kWords.show_all],
 ];
 
-/** Camera buttons, as an alternative to dragging. */
+/** Buttons that move the camera, for users who cannot drag. */
 function CameraBar({ view }: { view: CellView | null }) {
   return (
     <div class="camera-bar" role="group" aria-label={kWords.camera}>

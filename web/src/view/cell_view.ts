@@ -25,7 +25,8 @@ import { SurfaceShelf, type Surfaces } from './surfaces';
 import { ToolGoal } from './tool_goal';
 import { ToolPaths } from './tool_path';
 
-// With more arms, distance labels would cover the tools.
+// With more arms than this, only the closest pair and pairs near the limit are labeled, because
+// more labels would cover the tools.
 const kFewArms = 4;
 
 export class CellView {
@@ -44,17 +45,20 @@ export class CellView {
   private cell_: Cell | null = null;
   private readonly off_: (() => void)[];
 
-  /** The arm states as last drawn: drawing is expensive and done only after changes. */
+  /**
+   * The arm states at the last drawing. Arms are drawn again only after a change, because drawing
+   * is expensive.
+   */
   private states_ = '';
-  /** The shown time. */
+  /** The time that the view shows. */
   private at_: Pick<Address, 't_s' | 'run'>;
-  /** The frame request for building the next ghost; at most one is pending. */
+  /** The request for the animation frame that builds the next ghost. At most one is pending. */
   private builds_: number | null = null;
 
   constructor(host_: HTMLElement, private readonly app_: Pick<App, 'store' | 'router' | 'seen' | 'covered_px' | 'motions' | 'settings' | 'actions' | 'dragged_object' | 'tool'>) {
     const store_ = this.store_;
     this.at_ = app_.router.address.peek();
-    this.robots_.group.visible = this.paths_.group.visible = false;  // until a pose is known
+    this.robots_.group.visible = this.paths_.group.visible = false;  // hidden until a pose is known
     this.stage_ = new Stage(host_);
     this.labels_ = new ArmLabels(host_);
     this.objects_ = new SceneObjects(this.shelf_, () => this.stage_.invalidate(true));
@@ -94,7 +98,7 @@ export class CellView {
     this.stage_.invalidate();
   }
 
-  /** Shows the arms at a time, or no arms if their positions are unknown. */
+  /** Shows the arms as they were at a time. Shows no arms if their positions are unknown. */
   show_instant(at: Pick<Address, 't_s' | 'run'>): void {
     this.at_ = at;
     this.paths_.clear();
@@ -102,7 +106,7 @@ export class CellView {
     this.show_shows();
   }
 
-  /** Shows a ghost with these joints, or none if null. */
+  /** Shows a ghost with these joint positions, or no ghost if null. */
   show_ghost(q: Readonly<Record<string, number>> | null): void {
     if (!this.cell_) return;
     const names = [...this.store_.arms.keys()];
@@ -111,10 +115,10 @@ export class CellView {
     this.stage_.invalidate(true);
   }
 
-  /** Moves the camera; null leaves it unchanged. */
+  /** Moves the camera to this position and target. Null leaves the camera unchanged. */
   show_camera(camera: Camera | null): void { this.stage_.show_camera(camera); }
 
-  /** Moves the camera by a button or key. */
+  /** Moves the camera by one step, for a button or a key. */
   steer(step: CameraStep): void { this.stage_.steer(step); }
 
   show_theme(): void {
@@ -128,7 +132,7 @@ export class CellView {
   private get store_(): Store {
     return this.app_.store;
   }
-  /** The state at the shown time. */
+  /** The state at the time that the view shows. */
   private get seen_(): Store {
     return this.app_.seen.store.peek();
   }
@@ -149,7 +153,7 @@ export class CellView {
     const found = this.objects_.find(object);
     return found ? this.stage_.to_page(found.position) : null;
   }
-  /** Returns the same of the dragged tool goal. */
+  /** Returns the center of the dragged tool goal, px from the view's top left. */
   where_is_tool(): { x: number; y: number } | null {
     return this.tool_.position ? this.stage_.to_page(this.tool_.position) : null;
   }
@@ -160,7 +164,7 @@ export class CellView {
   pictures(): number { return this.stage_.pictures; }
   level(): Level { return this.stage_.level; }
 
-  /** Shows or hides a robot, for tests and debugging. */
+  /** Shows or hides a robot. For tests and debugging. */
   set_robot_visible(name: string, visible: boolean): void {
     this.robots_.set_visible(name, visible);
     this.stage_.invalidate(true);
@@ -207,7 +211,7 @@ export class CellView {
     });
   }
 
-  /** Updates the monitor's closest pairs. */
+  /** Updates the lines of the closest pairs that the monitor measured. */
   private measure(): void {
     const shown = this.app_.settings.shows.peek().distances && this.instant.kind === 'now';
     const changed = this.distances_.show(shown ? this.store_.clearance : [], this.store_.cell?.clearance_m ?? 0, this.store_.arms.size > kFewArms ? 1 : Infinity);
@@ -236,7 +240,7 @@ export class CellView {
     const addresses = cell.robots.flatMap((robot) => Object.values(robot.meshes));
     if (addresses.length === 0) return this.add_robots(cell, new Map());
     void this.shelf_.load(addresses).then((surfaces) => {
-      if (this.cell_ !== cell) return;  // another session has begun
+      if (this.cell_ !== cell) return;  // another cell is shown meanwhile
       this.add_robots(cell, surfaces);
       this.frame_robots(cell);
       this.follow();
@@ -251,8 +255,9 @@ export class CellView {
   }
 
   /**
-   * Frames the robots at their home positions, since meshes vary in size. An address's camera then
-   * shows the same, wherever the robots are now.
+   * Moves the camera so that all robots are visible at their home positions; their size is known
+   * only now, with their meshes. The home positions are used so that a camera in an address means
+   * the same wherever the robots are.
    */
   private frame_robots(cell: Cell): void {
     this.robots_.set_home(cell);
@@ -270,7 +275,8 @@ export class CellView {
     if (this.robots_.group.visible !== (q !== null)) {
       this.robots_.group.visible = this.paths_.group.visible = q !== null;
       this.stage_.invalidate(true);
-      // On a busy machine the next frame may be seconds away, and this one shows wrong positions.
+      // Draws at once: on a busy machine the next frame may be seconds away, and the visible frame
+      // shows wrong positions.
       this.stage_.hurry();
       if (q === null) this.labels_.hide();
     }

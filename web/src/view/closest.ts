@@ -1,5 +1,6 @@
-// The closest points of two triangle surfaces, by alternating projection. Exact for convex
-// surfaces, approximate for others: for drawing only, never as a proof.
+// Finds the closest points of two triangle surfaces, by alternating projection. The result is exact
+// for convex surfaces and approximate for others. It is for drawing only, never a proof of
+// clearance.
 
 import * as THREE from 'three';
 
@@ -7,10 +8,13 @@ const kMostTriangles = 3000;
 const kSteps = 24;
 const kStill_m = 1e-5;
 
-/** Three corners per triangle, in the frame of `X_W`. */
+/**
+ * A surface: nine numbers for each triangle (three corners), in the frame that `X_W` places in the
+ * world.
+ */
 export interface Surface { corners: Float32Array; X_W: THREE.Matrix4 }
 
-/** Returns a mesh's triangles; a sample if there are very many. */
+/** Returns the triangles of a mesh. If there are very many, returns every n-th triangle. */
 export function corners_of(geometry: THREE.BufferGeometry): Float32Array {
   const plain = geometry.index ? geometry.toNonIndexed() : geometry;
   const place = plain.getAttribute('position');
@@ -23,12 +27,14 @@ export function corners_of(geometry: THREE.BufferGeometry): Float32Array {
   return new Float32Array(corners);
 }
 
-/** Returns the points in the world, or null if a surface has no triangle. */
+/**
+ * Returns one point of each surface, in the world frame. Returns null if a surface has no triangle.
+ */
 export function closest_points(a: Surface, b: Surface): [THREE.Vector3, THREE.Vector3] | null {
   if (a.corners.length === 0 || b.corners.length === 0) return null;
   let best: [THREE.Vector3, THREE.Vector3] | null = null;
   let best_m = Infinity;
-  // Two start points, because one may end on the wrong side of a nonconvex link.
+  // Tries two start points, because one alone may end on the wrong side of a nonconvex link.
   for (const begin of [middle(b), corner(a)]) {
     let p = nearest(a, begin);
     let q = nearest(b, p);

@@ -1,5 +1,5 @@
-// The monitor's closest pairs, each as a line with its distance. The number is the monitor's
-// measurement; the line joins the closest drawn points.
+// Draws the monitor's closest pairs, each as a line with its distance. The distance is the
+// monitor's measurement. The line joins the closest points of the drawn meshes.
 
 import * as THREE from 'three';
 import type { Clearance } from '../server/messages';
@@ -10,10 +10,11 @@ import { closest_points, corners_of, type Surface } from './closest';
 import { stacked } from './stacking';
 
 const kShown_m = 0.4;
-// Objects on a table are always close to it, so pairs with objects are shown only near the limit.
+// Pairs with objects are shown only if their distance is below this multiple of the limit. Objects
+// on a table, for example, are always close to it.
 const kNear = 3;
 
-// As styled in layout.css.
+// The height of a label, as set in layout.css.
 const kLabel_px = 19;
 const kLabelGap_px = 2;
 
@@ -24,12 +25,12 @@ export class Distances {
   private readonly lines_: Line[] = [];
   private readonly corners_ = new WeakMap<THREE.BufferGeometry, Float32Array>();
 
-  /** `find` returns the drawn mesh of a link or object. */
+  /** `find` returns the drawn mesh of a link or an object, or null. */
   constructor(private readonly host_: HTMLElement, private readonly find_: (body: string) => THREE.Mesh | null) {}
 
   /**
-   * Shows the pairs that are close, at most `most` of them plus all near the limit. Bodies must be
-   * at their drawn positions. Returns true if other lines are visible.
+   * Shows the close pairs: the `most` closest, and all that are near the limit. Links and objects
+   * must already be at their drawn positions. Returns true if the visible lines changed.
    */
   show(pairs: readonly Clearance[], limit_m: number, most = Infinity): boolean {
     const before = this.seen();
@@ -41,8 +42,8 @@ export class Distances {
   }
 
   /**
-   * Places the labels at their lines, stacked where they would overlap. `to_page` returns a point's
-   * position, px from the view's top left.
+   * Places the labels at their lines. Labels that would overlap are stacked. `to_page` returns the
+   * position of a point of the world frame, px from the view's top left.
    */
   place(to_page: (p_W: THREE.Vector3) => { x: number; y: number } | null): void {
     const found = this.lines_.flatMap((shown) => {
@@ -73,7 +74,7 @@ export class Distances {
     (shown.line.material as THREE.LineBasicMaterial).color.set(ink(level === 'low' ? '--red' : level === 'near' ? '--amber' : '--text'));
     shown.middle.copy(points[0]).add(points[1]).multiplyScalar(0.5);
     const figure = millimeters(m);
-    if (figure.length !== shown.element.textContent?.length) shown.width_px = 0;  // measured by place()
+    if (figure.length !== shown.element.textContent?.length) shown.width_px = 0;  // place() then measures the label again
     shown.element.textContent = figure;
     shown.element.className = `distance-label ${level}`;
   }
@@ -90,7 +91,7 @@ export class Distances {
     line.renderOrder = 2;
     line.frustumCulled = false;
     const made = { line, element: document.createElement('div'), middle: new THREE.Vector3(), width_px: 0 };
-    hide(made);  // until placed
+    hide(made);  // hidden until placed
     this.group.add(line);
     this.host_.append(made.element);
     this.lines_.push(made);
@@ -100,7 +101,7 @@ export class Distances {
   private surface(body: string): Surface | null {
     const mesh = this.find_(body);
     if (!mesh) return null;
-    // The same line at every level of detail.
+    // Always the fine mesh, so that the line is the same at every level of detail.
     const geometry = mesh instanceof FinishedMesh ? mesh.fine.geometry : mesh.geometry;
     let corners = this.corners_.get(geometry);
     if (!corners) {

@@ -1,5 +1,5 @@
-// Handles to drag something in the 3D view: arrows along the world axes, or rings about its own
-// axes. The result goes to the server on release.
+// Handles to drag an object in the 3D view: arrows along the world's axes, or rings about the
+// object's own axes. The new pose is reported when the user releases the handle.
 
 import * as THREE from 'three';
 import { TransformControls } from 'three/addons/controls/TransformControls.js';
@@ -13,7 +13,7 @@ export class DragHandles {
   private readonly controls_: TransformControls;
   private object_: THREE.Object3D | null = null;
 
-  /** `moved` is called on release. */
+  /** `moved` is called when the user releases a handle. */
   constructor(stage: Stage, moved: (object: THREE.Object3D) => void) {
     this.controls_ = new TransformControls(stage.camera, stage.canvas);
     this.controls_.setSize(kSize);
@@ -26,20 +26,23 @@ export class DragHandles {
   }
 
   /**
-   * Attaches the handles to an object, or hides them if null. Returns true if the object changed.
+   * Attaches the handles to an object, or hides them if `object` is null. Returns true if this is
+   * another object than before.
    */
   show(object: THREE.Object3D | null, grip: Grip = 'move'): boolean {
     this.controls_.setMode(grip === 'move' ? 'translate' : 'rotate');
     this.controls_.setSpace(grip === 'move' ? 'world' : 'local');
     if (object === this.object_) return false;
-    if (this.controls_.dragging) this.controls_.reset();  // undoes a drag that was not released
+    if (this.controls_.dragging) this.controls_.reset();  // undoes a drag that the user has not finished
     this.object_ = object;
     if (object) this.controls_.attach(object);
     else this.controls_.detach();
     return true;
   }
 
-  /** True if the pointer is on a handle, so that a click is not meant for what is behind it. */
+  /**
+   * True if the pointer is on a handle. A click is then not meant for what is behind the handle.
+   */
   get is_touched(): boolean {
     return this.object_ !== null && this.controls_.axis !== null;
   }

@@ -1,4 +1,4 @@
-// Detects software rendering, and the address option for full quality.
+// Detects software rendering, and the option `?fine` in the address, which asks for full quality.
 
 export function wants_fine_picture(): boolean {
   return new URLSearchParams(window.location.search).has('fine');

@@ -1,9 +1,9 @@
-// Measures how long drawing takes: a GPU fence polled by a timer, because animation frames are too
-// rare.
+// Measures how long the graphics card takes for a drawing, by a GPU fence. A timer polls the fence,
+// because animation frames are too rare.
 
 const kLook_ms = 3;
-// The longest wait for a drawing. Drawings requested before the last one is done pile up on a busy
-// machine, and block the page until all are drawn.
+// After this time the fence no longer waits for a drawing. The limit is long: drawings started
+// before the last one is done pile up on a busy machine, and block the page until all are done.
 const kLongest_ms = 10_000;
 
 export class Fence {
@@ -17,7 +17,10 @@ export class Fence {
     return this.sync_ !== null;
   }
 
-  /** Sets a fence after all commands so far; `done` receives the time since `from_ms`. */
+  /**
+   * Sets a fence behind all drawing commands so far. Calls `done` when they are executed, with the
+   * time since `from_ms`.
+   */
   put(from_ms: number, done: (took_ms: number) => void): void {
     this.sync_ = this.gl_.fenceSync(this.gl_.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.gl_.flush();

@@ -1,23 +1,23 @@
-// A surface in two qualities: fine (lit per pixel, with shadows) and quick for software rendering
-// (lit per vertex, fewer vertices). With software rendering a fine frame of two arms takes about
-// 170 ms, a quick one a tenth of that.
+// A surface in two qualities. The fine quality is lit per pixel and has shadows. The quick quality
+// is for software rendering: it is lit per vertex and has fewer vertices. With software rendering a
+// fine frame of two arms takes about 170 ms, a quick frame a tenth of that.
 
 import * as THREE from 'three';
 
 export interface Finish { geometry: THREE.BufferGeometry; material: THREE.Material }
 
-/** Fine at first. */
+/** A mesh that can be drawn in either quality. It is fine at first. */
 export class FinishedMesh extends THREE.Mesh {
   constructor(readonly fine: Finish, readonly quick: Finish) {
     super(fine.geometry, fine.material);
   }
 
-  /** Shares shape and materials until painted. */
+  /** Returns a copy that shares shape and materials, until one of them is painted. */
   override clone(): this {
     return new FinishedMesh({ ...this.fine }, { ...this.quick }).copy(this) as this;
   }
 
-  /** Sets own materials instead of shared ones. */
+  /** Sets own materials. Does not dispose of the old materials, because other meshes share them. */
   wear(fine: THREE.Material, quick: THREE.Material): void {
     this.fine.material = fine;
     this.quick.material = quick;
@@ -44,12 +44,13 @@ export class FinishedMesh extends THREE.Mesh {
   }
 }
 
-/** Sets the quality of everything below `root`. */
+/** Sets the quality of all visible meshes below `root`. */
 export function show_finish(root: THREE.Object3D, fine: boolean): void {
   root.traverseVisible((node) => { if (node instanceof FinishedMesh) node.finish(fine); });
 }
 
-// Lighting, tone mapping and sRGB per vertex, with three's functions; fragments only interpolate.
+// Computes lighting, tone mapping and sRGB for each vertex, with three's functions. The fragment
+// shader only interpolates.
 const kVertexShader = /* glsl */ `
 uniform vec3 diffuse;
 uniform vec3 emissive;
@@ -87,7 +88,10 @@ void main() {
   gl_FragColor = vec4(vShade, opacity);
 }`;
 
-/** Returns the quick version of a fine material; it shares the colors and follows their changes. */
+/**
+ * Returns the quick version of a fine material. Both share their colors, so a later change of a
+ * color applies to both.
+ */
 export function quick_material(fine: THREE.MeshStandardMaterial): THREE.ShaderMaterial {
   const quick = new THREE.ShaderMaterial({
     vertexShader: kVertexShader, fragmentShader: kFragmentShader, lights: true,

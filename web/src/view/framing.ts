@@ -1,14 +1,17 @@
-// The camera distance from which a box is completely visible.
+// Finds how far away the camera must be to show a whole box.
 
 import * as THREE from 'three';
 import type { Cell } from '../server/messages';
 
-/** Tangents of the half angles of the uncovered part of the view. */
+/**
+ * The part of the view that the pane leaves free, as tangents of half its horizontal and vertical
+ * angle.
+ */
 export interface Opening { across: number; up: number }
 
 /**
- * Returns the least distance from the box's center along `direction`, a unit vector towards the
- * camera (z is up).
+ * Returns the least camera distance from the box's center at which the whole box is visible.
+ * `direction` is the unit vector from the center to the camera. z is up.
  */
 export function distance_for(box: THREE.Box3, direction: THREE.Vector3, opening: Opening): number {
   const middle = box.getCenter(new THREE.Vector3());
@@ -25,11 +28,12 @@ export function distance_for(box: THREE.Box3, direction: THREE.Vector3, opening:
   return distance;
 }
 
-// Margins around the bases: slightly less than an arm's reach, and the usual working height.
+// Margins around the bases: horizontally slightly less than an arm's reach, vertically the usual
+// working height.
 const kReach_m = 0.46;
 const kHeight_m = 0.85;
 
-/** Returns the box in which the arms work, or null without robots. */
+/** Returns the box in which the arms usually work, or null if the cell has no robots. */
 export function box_around_bases(cell: Cell): THREE.Box3 | null {
   const box = new THREE.Box3();
   for (const robot of cell.robots) box.expandByPoint(new THREE.Vector3(...robot.base.xyz));

@@ -1,4 +1,4 @@
-// Ghosts: translucent robots in their arms' colors, at planned positions.
+// Ghosts: translucent robots in the colors of their arms, at planned positions.
 
 import * as THREE from 'three';
 import type { Cell, CellRobot } from '../server/messages';
@@ -10,7 +10,10 @@ import type { Surfaces } from './surfaces';
 const kPreview = 0.42;
 
 type Model = Pick<RobotModel, 'set_q'> & { root: THREE.Object3D };
-/** Joints of the ghosts, and the measured joints. */
+/**
+ * `q` are the joint positions of the ghosts, or null. `now` are the measured positions, for all
+ * other joints.
+ */
 export interface Poses { q: Readonly<Record<string, number>> | null; now: Readonly<Record<string, number>> }
 
 export class Ghosts {
@@ -20,8 +23,9 @@ export class Ghosts {
   constructor(private readonly opacity_ = kPreview, private readonly build_: (robot: CellRobot, surfaces: Surfaces) => Model = (robot, surfaces) => new RobotModel(robot, surfaces)) {}
 
   /**
-   * Shows the robots of the given joints, or no ghost if null. Robots are built on first use, one
-   * per call, because building is slow. Returns false while robots are missing.
+   * Shows a ghost of each robot that has a joint in `q`. Shows none if `q` is null. A robot is
+   * built when it is first shown, one in each call, because building is slow. Returns false while
+   * robots are still to be built.
    */
   show({ q, now }: Poses, cell: Cell, surfaces: Surfaces, color: (arm: string) => string): boolean {
     for (const model of this.models_.values()) model.root.visible = false;
@@ -51,7 +55,7 @@ export class Ghosts {
     return model;
   }
 
-  /** Discards the robots of another cell. */
+  /** Discards all ghosts, because another cell or theme is shown. */
   clear(): void {
     dispose(this.group);
     this.group.clear();

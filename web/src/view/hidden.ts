@@ -1,18 +1,25 @@
-// Removes triangles that lie within another primitive of the same link, such as half of the end
-// spheres of capsules. Primitives are convex, so a triangle lies within one if its corners do.
+// Removes triangles that lie within another primitive of the same link. Half of each end sphere of
+// a capsule, for example, lies within its cylinder. Primitives are convex, so a triangle lies
+// within a primitive if its three corners do.
 
 import type * as THREE from 'three';
 import { Vector3 } from 'three';
 
-/** Returns true if a point, in the primitive's frame, lies within the primitive as drawn. */
+/**
+ * Returns true if a point lies within the primitive as it is drawn. The point is in the frame of
+ * the primitive.
+ */
 export type Inside = (p: THREE.Vector3) => boolean;
 
-/** Drawn round shapes are inscribed: only this share of the radius is filled. */
+/**
+ * Tests against a unit sphere. Drawn spheres and cylinders are inscribed in the exact shape, so
+ * only the share `filled` of the radius is inside.
+ */
 export function inside_sphere(filled: number): Inside {
   return (p) => p.lengthSq() < filled * filled;
 }
 
-/** Along y, unit height. */
+/** Tests against a cylinder of unit radius and unit height along y. */
 export function inside_cylinder(filled: number): Inside {
   return (p) => p.x * p.x + p.z * p.z < filled * filled && Math.abs(p.y) < kHalf;
 }
@@ -21,13 +28,18 @@ export function inside_box(p: THREE.Vector3): boolean {
   return Math.abs(p.x) < kHalf && Math.abs(p.y) < kHalf && Math.abs(p.z) < kHalf;
 }
 
-// Slightly less than half: touching faces are kept.
+// Half the size of a unit shape, slightly reduced so that faces that touch are kept.
 const kHalf = 0.499;
 
-/** A solid in frame L; X_SL maps points from L to the solid. */
+/**
+ * A primitive of a link. `X_SL` maps points from the link frame L to the frame S of the primitive.
+ */
 export interface Solid { X_SL: THREE.Matrix4; inside: Inside }
 
-/** Removes the triangles within one of the solids, in place. The geometry must have an index. */
+/**
+ * Removes the triangles that lie within one of the solids. Changes and returns `geometry`. A
+ * geometry without an index is returned unchanged.
+ */
 export function without_hidden(geometry: THREE.BufferGeometry, solids: readonly Solid[]): THREE.BufferGeometry {
   const index = geometry.index;
   if (!index || solids.length === 0) return geometry;

@@ -1,4 +1,4 @@
-// Forward kinematics of a robot without drawing, for predicted paths.
+// Computes the forward kinematics of a robot without drawing it. Used for predicted paths.
 
 import * as THREE from 'three';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
@@ -11,7 +11,7 @@ export class Kinematics {
   private readonly prefix_: string;
   private readonly arms_: readonly CellArm[];
 
-  /** Throws if the text is not a URDF. */
+  /** Throws if the robot's text is not a URDF. */
   constructor(robot: CellRobot) {
     const loader = new URDFLoader();
     loader.parseVisual = false;
@@ -32,12 +32,15 @@ export class Kinematics {
     this.root.updateMatrixWorld(true);
   }
 
-  /** Returns the tool's position in the world: between the fingers, else at the last joint. */
+  /**
+   * Returns the tool's position in the world frame: the middle between the fingers, or the last
+   * joint if the arm has no gripper.
+   */
   tool(arm: string): THREE.Vector3 | null {
     return tool_of(this.root, this.prefix_, this.arms_.find((one) => one.name === arm));
   }
 
-  /** Returns every link with its name in the cell. */
+  /** Returns each link of the robot with its name in the cell, which is the prefix and the URDF name. */
   links(): [name: string, link: THREE.Object3D][] {
     return Object.entries(this.root.links).map(([name, link]) => [this.prefix_ + name, link]);
   }

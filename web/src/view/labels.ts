@@ -1,4 +1,4 @@
-// A label under each arm with name and state, in words, glyph and color.
+// A label under each arm. It shows the arm's name and its state, in words, glyph and color.
 
 import { arm_color, kStateColors, kStateGlyphs } from '../state/palette';
 import type { ShownState } from '../state/shown_state';
@@ -7,12 +7,12 @@ import { shown_name } from '../names';
 
 const kHeight_px = 22;
 const kGap_px = 4;
-// The distance from the foot to the label's top.
+// The distance from the arm's base to the top of its label.
 const kBelow_px = 26;
 const kBelowShort_px = 8;
-// With more arms there is no room for words.
+// With more arms than this, labels have no room for words.
 const kMostInWords = 4;
-// A label farther below would seem to belong to another arm.
+// A label that was moved down by more than this would seem to belong to another arm.
 const kMostBelow_px = 30;
 
 interface Point { x: number; y: number }
@@ -51,8 +51,8 @@ export class ArmLabels {
   }
 
   /**
-   * Places each label at the given position (px from the view's top left), or below another label;
-   * null hides it.
+   * Places each label at the position that `where` returns (px from the view's top left), or below
+   * another label. Hides the label if `where` returns null.
    */
   place(where: (arm: string) => Point | null): void {
     const found = [...this.labels_].flatMap(([name, label]) => {
@@ -90,7 +90,7 @@ function make_label(): Label {
   const name = document.createElement('b');
   const state = document.createElement('span');
   element.className = 'arm-label';
-  element.hidden = true;  // until placed
+  element.hidden = true;  // hidden until placed
   const glyph = document.createElement('span');
   state.className = 'state-word';
   element.append(name, glyph, state);

@@ -1,34 +1,41 @@
-// Adapts frame rate and detail to the drawing time, so that the page answers clicks on a busy
-// machine. Pure: it is told each drawing time.
+// Adapts the frame rate and the level of detail to the time that drawing takes, so that the page
+// answers clicks on a busy machine. Pure: the caller reports each drawing time.
 
-/** The detail of a level: resolution, fine surfaces with shadows, ghosts. */
+/**
+ * A level of detail: the share of the full resolution, fine surfaces with shadows or quick
+ * surfaces, and whether ghosts are drawn.
+ */
 export interface Level { resolution: number; fine: boolean; ghosts: boolean }
 
 export const kLevels: readonly [Level, ...Level[]] = [
   { resolution: 1, fine: true, ghosts: true },
   { resolution: 1, fine: false, ghosts: true },
   { resolution: 1, fine: false, ghosts: false },
-  // Lower levels look poor and are hardly faster: only for machines busy otherwise.
+  // The next levels look poor and are only slightly faster. They are for machines that other
+  // programs keep busy.
   { resolution: 0.6, fine: false, ghosts: false },
   { resolution: 0.35, fine: false, ghosts: false },
 ];
-// A level is lowered if drawings take longer than this for a while.
+// By level: if drawings take longer than this for a while, the next level with less detail is used.
 const kMost_ms = [28, 28, 45, 120, Infinity];
-// A level is raised if drawings take less than this for a while. The higher level may take twice as
-// long, with ghosts half more.
+// By level: if drawings take less than this for a while, the next level with more detail is used.
+// More detail may take twice as long; adding ghosts alone takes half as long again.
 const kLeast_ms = [0, 12, 20, 20, 40];
-/** The first level for software rendering: fine frames only at rest. */
+/** The first level for software rendering, which draws fine frames only at rest. */
 export const kFirstInSoftware = 1;
 
-// Longer drawings disturb the page, so they leave it increasing pauses.
+// A drawing that takes longer disturbs the page. The longer it takes, the longer is the pause after
+// it.
 const kQuick_ms = 30;
 const kMostShare = 4;
 const kLongestPause_ms = 2_000;
-// Slightly above 30 frames per second; twice as many if drawing is cheap.
+// The period is slightly below that of 30 frames per second. If drawing is cheap, there are twice
+// as many frames.
 const kPeriod_ms = 28;
 const kLeastPeriod_ms = 15;
 const kRest = 2.5;
-// Required counts in a row, so that a single slow or quick drawing changes nothing.
+// How many drawings in a row must be long, very long or quick before the level changes. A single
+// slow or quick drawing changes nothing.
 const kLongInARow = 10;
 const kVeryLong_ms = 120;
 const kVeryLongInARow = 2;
@@ -49,12 +56,17 @@ export class Pace {
     return kLevels[this.level_] ?? kLevels[0];
   }
 
-  /** True if drawing should wait while the page has other work. */
+  /**
+   * True if the last drawing was so long that the next should wait while the page has other work.
+   */
   get disturbs(): boolean {
     return this.last_ms_ > kQuick_ms;
   }
 
-  /** Records a drawing time. Returns how long after its start the next drawing may begin. */
+  /**
+   * Records how long a drawing took. Returns the time from the start of this drawing to the
+   * earliest start of the next.
+   */
   took(took_ms: number): number {
     const most_ms = kMost_ms[this.level_] ?? Infinity;
     this.last_ms_ = took_ms;
@@ -71,7 +83,7 @@ export class Pace {
 
   private fall(): void {
     if (this.level_ + 1 >= kLevels.length) return;
-    // After a failed rise, wait longer before the next try.
+    // If the level was raised shortly before, that was too early: the next try comes later.
     this.wanted_ = this.since_rise_ < kQuickInARow ? Math.min(2 * this.wanted_, kMostQuickInARow) : kQuickInARow;
     this.change(1);
   }

@@ -1,5 +1,5 @@
-// The remaining tool path of an arm, with markers at equal time steps. Markers up to the granted
-// authority are bright, later ones faint; a ring marks the authority.
+// The rest of an arm's tool path, with markers at equal time steps. Markers up to the granted
+// authority are bright, later markers are faint. A ring marks the end of the authority.
 
 import * as THREE from 'three';
 
@@ -20,7 +20,10 @@ export class Path {
   private readonly beyond_: THREE.Points;
   private readonly mark_: THREE.Points;
 
-  /** `points` are tool positions at equal time steps over the whole motion. */
+  /**
+   * `points` are the positions of the tool in the world frame, at equal time steps over the whole
+   * motion.
+   */
   constructor(private readonly points_: readonly THREE.Vector3[], private readonly duration_s_: number) {
     this.geometry_.setFromPoints([...points_]);
     this.mark_geometry_.setFromPoints([points_[0] ?? new THREE.Vector3()]);
@@ -36,7 +39,10 @@ export class Path {
     for (const part of [this.line_, this.granted_, this.beyond_, this.mark_]) (part.material as THREE.PointsMaterial).color.set(color);
   }
 
-  /** Shows the rest of the path from `from_s`, bright up to `granted_s`. */
+  /**
+   * Shows the path from `from_s` to its end, bright up to `granted_s`. Both are in seconds of the
+   * trajectory.
+   */
   show({ from_s, granted_s }: Stretch): void {
     const count = this.points_.length;
     const index = (t_s: number) => Math.min(count, Math.max(0, Math.ceil((t_s / this.duration_s_) * (count - 1))));
@@ -46,7 +52,7 @@ export class Path {
     const within = granted > from;
     const is_limited = granted_s < this.duration_s_ - 1e-3 && within;
     this.granted_.visible = within;
-    // One buffer drawn in two parts: the range is set before each part.
+    // All parts share one buffer. The range to draw is set before each part is drawn.
     this.granted_.onBeforeRender = () => this.geometry_.setDrawRange(from, granted - from);
     this.beyond_.onBeforeRender = () => this.geometry_.setDrawRange(granted, count - granted);
     this.line_.onBeforeRender = () => this.geometry_.setDrawRange(from, count - from);
@@ -65,7 +71,7 @@ export class Path {
   }
 }
 
-/** Returns the number of samples of a motion. */
+/** Returns the number of markers on the path of a motion. */
 export function beads_of(duration_s: number): number {
   return Math.min(kMostBeads, Math.max(2, Math.ceil(duration_s / kBead_s) + 1));
 }

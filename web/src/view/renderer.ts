@@ -2,7 +2,7 @@
 
 import * as THREE from 'three';
 
-/** `fine` enables antialiasing. */
+/** Returns the renderer. If `fine` is true, it smooths edges (antialiasing). */
 export function make_renderer(fine: boolean): THREE.WebGLRenderer {
   const renderer = new THREE.WebGLRenderer({ antialias: fine, alpha: true, powerPreference: 'low-power' });
   renderer.toneMapping = THREE.ACESFilmicToneMapping;
@@ -10,6 +10,6 @@ export function make_renderer(fine: boolean): THREE.WebGLRenderer {
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
   renderer.shadowMap.autoUpdate = false;
-  renderer.debug.checkShaderErrors = false;  // the check would wait for compilation
+  renderer.debug.checkShaderErrors = false;  // the check would wait until the shaders are compiled
   return renderer;
 }

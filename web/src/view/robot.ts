@@ -1,8 +1,9 @@
 // A drawn robot, built from its URDF by urdf-loader.
 //
-// URDF names have no prefix; joint names outside are prefix + URDF name. A robot is drawn by its
-// visuals. Links without readable visual meshes, and robots without visuals, are drawn by their
-// collision shapes; a link with no readable shape is drawn as a marker.
+// Joint names in the URDF have no prefix. Outside of this file a joint's name is the prefix and the
+// URDF name. A robot is drawn by its visuals. A link whose visual meshes cannot be read is drawn by
+// its collision shapes, as are all links of a robot without visuals. A link with no readable shape
+// is drawn as a marker.
 
 import * as THREE from 'three';
 import URDFLoader, { type URDFRobot } from 'urdf-loader';
@@ -31,12 +32,12 @@ export class RobotModel {
   private readonly arms_: readonly CellArm[];
   private readonly prefix_: string;
 
-  /** `surfaces` are the robot's meshes by address. Throws if the text is not a URDF. */
+  /** `surfaces` are the robot's meshes by address. Throws if the robot's text is not a URDF. */
   constructor(robot: CellRobot, surfaces: Surfaces = new Map()) {
     this.arms_ = robot.arms;
     this.prefix_ = robot.prefix;
     this.root = pattern_of(robot, surfaces).clone();
-    // Measured positions are drawn even beyond limits.
+    // Measured positions are drawn even if they are beyond the joint limits.
     for (const joint of Object.values(this.root.joints)) joint.ignoreLimits = true;
     this.skin_ = give_skin(this.root);
     place(this.root, robot.base.xyz, robot.base.rpy);
@@ -44,7 +45,7 @@ export class RobotModel {
     for (const arm of robot.arms) this.marks_.set(arm.name, this.mark(arm, robot.prefix));
   }
 
-  /** Moves the joints. Returns true if any moved visibly. */
+  /** Moves the joints. Returns true if any joint moved visibly. */
   set_q(q: Readonly<Record<string, number>>): boolean {
     let moved = false;
     for (const joint of this.joints_) {
@@ -71,19 +72,24 @@ export class RobotModel {
     for (const [arm, mark] of this.marks_) mark.ring.scale.setScalar(arms.includes(arm) ? kLitRing : 1);
   }
 
-  /** Returns the arm's base point in the world, or null if the arm is not of this robot. */
+  /**
+   * Returns the arm's base point in the world frame. Null if the arm does not belong to this robot.
+   */
   foot(arm: string): THREE.Vector3 | null {
     return this.marks_.get(arm)?.foot.getWorldPosition(new THREE.Vector3()) ?? null;
   }
 
-  /** Returns the tool's position in the world: between the fingers, else at the last joint. */
+  /**
+   * Returns the tool's position in the world frame: the middle between the fingers, or the last
+   * joint if the arm has no gripper.
+   */
   tool(arm: string): THREE.Vector3 | null {
     return tool_of(this.root, this.prefix_, this.arms_.find((one) => one.name === arm));
   }
 
   /**
-   * Returns a link's frame in the world. `link` may have the prefix; empty means the link of the
-   * arm's last joint.
+   * Returns the pose of a link in the world frame, or null. `link` is the link's name with or
+   * without the prefix. An empty name means the link that the arm's last joint moves.
    */
   frame_of(arm: string, link: string): THREE.Matrix4 | null {
     const last = this.arms_.find((one) => one.name === arm)?.joints.at(-1);
@@ -93,14 +99,15 @@ export class RobotModel {
     return found?.matrixWorld.clone() ?? null;
   }
 
-  /** Returns the drawn mesh of a link, by its name in the cell. */
+  /** Returns the drawn mesh of a link. `link` is the link's name with the prefix. */
   skin_of(link: string): THREE.Mesh | null {
     const known = link.startsWith(this.prefix_) ? this.root.links[link.slice(this.prefix_.length)] : undefined;
     return known?.children.find((child): child is FinishedMesh => child instanceof FinishedMesh) ?? null;
   }
 
   /**
-   * Returns the arm of a drawn object. Parts that no joint moves belong to the robot's only arm.
+   * Returns the arm to which a drawn object belongs, or null. Parts that no arm's joint moves
+   * belong to the robot's arm if it has only one.
    */
   arm_of(node: THREE.Object3D): string | null {
     let inside = false;
@@ -126,8 +133,8 @@ export class RobotModel {
   }
 }
 
-// Parsing a URDF and merging its shapes is slow, so it is done once for equal robots and their
-// ghosts. The cache lives as long as the surfaces.
+// One parsed and merged robot for each URDF, because both steps are slow. Equal robots and their
+// ghosts are copies of it. The cache is kept as long as the surfaces.
 const patterns = new WeakMap<Surfaces, Map<string, URDFRobot>>();
 
 function pattern_of(robot: CellRobot, surfaces: Surfaces): URDFRobot {
@@ -143,7 +150,8 @@ function load(robot: CellRobot, surfaces: Surfaces): URDFRobot {
   const loader = new URDFLoader();
   loader.parseVisual = true;
   loader.parseCollision = true;
-  // The server's mesh table uses the names of the URDF.
+  // The server's table of meshes uses the mesh names of the URDF, so these names must stay
+  // unchanged.
   loader.packages = (name: string) => `package://${name}`;
   loader.loadMeshCb = (name, _manager, done) => {
     const surface = surfaces.get(robot.meshes[name] ?? '') ?? null;
@@ -157,7 +165,10 @@ function load(robot: CellRobot, surfaces: Surfaces): URDFRobot {
   return root;
 }
 
-/** Keeps only the shapes to draw in each link. Unreadable meshes are marked `missing`. */
+/**
+ * Removes the shapes that are not drawn, so that each link has either visuals or collision shapes.
+ * A mesh that cannot be read must be marked `missing`.
+ */
 export function choose_shapes(root: Pick<URDFRobot, 'links'>): void {
   const links = Object.values(root.links).map((link) => {
     const of_kind = (kind: string) => link.children.filter((child) => kind in child);

@@ -10,7 +10,10 @@ export class Robots {
   readonly group = new THREE.Group();
   private readonly models_ = new Map<string, RobotModel>();
 
-  /** Adds the robots of a cell. Robots that cannot be drawn are reported in the console. */
+  /**
+   * Adds the robots of a cell. A robot that cannot be drawn is reported in the console and left
+   * out.
+   */
   add(cell: Cell, surfaces: Surfaces): void {
     for (const robot of cell.robots) {
       try {
@@ -50,13 +53,13 @@ export class Robots {
     this.set_q(Object.fromEntries(arms.flatMap(({ joints, home }) => joints.map((joint, i) => [joint, home[i] ?? 0] as const))));
   }
 
-  /** Returns the arm's base point, or null if it is not drawn. */
+  /** Returns the arm's base point in the world frame, or null if the arm is not drawn. */
   foot_of(arm: Pick<Arm, 'name' | 'robot'> | undefined): THREE.Vector3 | null {
     const robot = this.get(arm?.robot);
     return arm && robot?.root.visible && this.group.visible ? robot.foot(arm.name) : null;
   }
 
-  /** Shows or hides a robot, for tests and debugging. */
+  /** Shows or hides a robot. For tests and debugging. */
   set_visible(name: string, visible: boolean): void {
     const robot = this.get(name);
     if (!robot) throw new Error(`no robot "${name}"`);
@@ -76,7 +79,7 @@ export class Robots {
     return null;
   }
 
-  /** Returns the arm of a drawn object. */
+  /** Returns the arm to which a drawn object belongs, or null. */
   arm_of(node: THREE.Object3D): string | null {
     for (const robot of this.models_.values()) {
       const arm = robot.arm_of(node);

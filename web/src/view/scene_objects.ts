@@ -14,7 +14,10 @@ export class SceneObjects {
   private shown_: readonly SceneObject[] | null = null;
   private lit_: string | null = null;
 
-  /** `drawn` is called after changes; meshes are loaded later. */
+  /**
+   * `drawn` is called after each change. After show() it may be called later, because meshes are
+   * loaded first.
+   */
   constructor(private readonly shelf_: SurfaceShelf, private readonly drawn_: () => void) {}
 
   show(objects: readonly SceneObject[]): void {
@@ -27,7 +30,7 @@ export class SceneObjects {
     });
   }
 
-  /** Draws the known objects again, which undoes a drag. */
+  /** Draws the objects again at their known poses. This undoes a drag. */
   renew(): void {
     const shown = this.shown_;
     this.shown_ = null;
@@ -38,7 +41,7 @@ export class SceneObjects {
     return this.group.children.find((child) => child.name === name) ?? null;
   }
 
-  /** Highlights the object of this name, or none. */
+  /** Highlights the object of this name, or no object if null. */
   light(name: string | null): void {
     this.lit_ = name;
     this.repaint();

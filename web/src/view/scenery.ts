@@ -20,7 +20,7 @@ export function add_lights(scene: THREE.Scene): THREE.DirectionalLight {
   return key;
 }
 
-/** Aims the light; shadows reach `reach_m` around the center. */
+/** Aims the light at `middle`. Shadows are cast within `reach_m` of this point. */
 export function light_up(light: THREE.DirectionalLight, middle: THREE.Vector3, reach_m: number): void {
   light.target.position.copy(middle);
   light.position.copy(middle).add(new THREE.Vector3(0.55, -0.85, 2.1).multiplyScalar(1.2 * reach_m));

@@ -1,5 +1,5 @@
-// Meshes of scene objects. Poses as in URDF: meters, and roll, pitch, yaw about the fixed axes x,
-// y, z.
+// Meshes of scene objects. Poses are as in URDF: meters, and roll, pitch, yaw about the fixed axes
+// x, y, z.
 
 import * as THREE from 'three';
 import { FinishedMesh, quick_material } from './finish';
@@ -7,13 +7,14 @@ import { shape_of, type SceneObject, type Shape } from '../server/messages';
 
 export function place(object: THREE.Object3D, xyz: readonly number[], rpy: readonly number[]): void {
   object.position.set(xyz[0] ?? 0, xyz[1] ?? 0, xyz[2] ?? 0);
-  // Rotations about fixed x, y, z equal moving z, y, x: three's order 'ZYX'.
+  // Rotations about the fixed axes x, y, z equal rotations about the moving axes z, y, x, which is
+  // three's order 'ZYX'.
   object.rotation.set(rpy[0] ?? 0, rpy[1] ?? 0, rpy[2] ?? 0, 'ZYX');
 }
 
 /**
- * Returns the object with its edges, or null if its shape cannot be drawn. `surface` is the content
- * of its mesh file; without it a marker is drawn.
+ * Returns the drawn object with its edges, or null if its shape cannot be drawn. `surface` is the
+ * content of the object's mesh file. If it is null, a mesh object is drawn as a marker.
  */
 export function object_mesh(object: SceneObject, surface: THREE.BufferGeometry | null = null): THREE.Object3D | null {
   const shape = shape_of(object);
@@ -35,7 +36,7 @@ export function object_mesh(object: SceneObject, surface: THREE.BufferGeometry |
   return mesh;
 }
 
-/** The marker for a mesh that cannot be read. */
+/** Returns the marker that is drawn in place of a mesh that cannot be read. */
 export function mark_geometry(): THREE.BufferGeometry {
   return new THREE.OctahedronGeometry(0.06);
 }
@@ -45,7 +46,9 @@ function scaled(geometry: THREE.BufferGeometry, [x, y, z]: readonly [number, num
   return x * y * z < 0 ? turned_inside_out(copy) : copy;
 }
 
-/** Reverses triangles that mirroring turned inside out. */
+/**
+ * Swaps two corners of each triangle. After a mirroring, the triangles would otherwise face inward.
+ */
 export function turned_inside_out(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
   const plain = geometry.index ? geometry.toNonIndexed() : geometry;
   for (const attribute of Object.values(plain.attributes)) {
@@ -65,7 +68,7 @@ export function turned_inside_out(geometry: THREE.BufferGeometry): THREE.BufferG
 function shape_geometry(shape: Exclude<Shape, { kind: 'mesh' }>): THREE.BufferGeometry {
   switch (shape.kind) {
     case 'box': return new THREE.BoxGeometry(...shape.size);
-    // three's cylinder is along y, ours along z.
+    // three's cylinder is along y. A cylinder of the scene is along z.
     case 'cylinder': return new THREE.CylinderGeometry(shape.radius, shape.radius, shape.length, 40).rotateX(Math.PI / 2);
     case 'sphere': return new THREE.SphereGeometry(shape.radius, 32, 20);
   }

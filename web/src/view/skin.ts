@@ -1,9 +1,9 @@
 // Merges the primitives of each URDF link into one mesh.
 //
-// A Panda has eighty primitives; drawn one by one with shadows they dominate the cost of the page,
-// above all without a graphics card. Colors go into the vertices, so that a link is one draw call.
-// Curved primitives get only as many triangles as needed, and none where another primitive hides
-// them.
+// A Panda has eighty primitives. Drawn one by one with shadows, they would take most of the page's
+// time, above all without a graphics card. Colors are stored in the vertices, so that a link is one
+// draw call. Curved primitives get only as many triangles as needed. Triangles hidden inside
+// another primitive are removed.
 
 import * as THREE from 'three';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
@@ -12,7 +12,7 @@ import { FinishedMesh, quick_material } from './finish';
 import { inside_box, inside_cylinder, inside_sphere, without_hidden, type Solid } from './hidden';
 import { turned_inside_out } from './shapes';
 
-// urdf-loader builds spheres and cylinders of unit size and scales the mesh.
+// urdf-loader builds spheres and cylinders of unit size, and scales the mesh.
 interface Rounds { sphere: THREE.SphereGeometry; cylinder: THREE.CylinderGeometry }
 const kFine: Rounds = { sphere: new THREE.SphereGeometry(1, 20, 12), cylinder: new THREE.CylinderGeometry(1, 1, 1, 24) };
 const kQuick: Rounds = { sphere: new THREE.SphereGeometry(1, 12, 8), cylinder: new THREE.CylinderGeometry(1, 1, 1, 14) };
@@ -34,7 +34,7 @@ export function merge_links(robot: URDFRobot): void {
   }
 }
 
-/** Gives the robot its own material, shared by all its links, and returns it. */
+/** Gives the robot its own material, which all its links share. Returns the material. */
 export function give_skin(robot: URDFRobot): THREE.MeshStandardMaterial {
   const skin = make_skin();
   const quick_skin = quick_material(skin);
@@ -46,7 +46,7 @@ function make_skin(): THREE.MeshStandardMaterial {
   return new THREE.MeshStandardMaterial({ vertexColors: true, roughness: 0.5, metalness: 0.05 });
 }
 
-/** Returns the visible surface of the parts, in the link's frame. */
+/** Returns the visible surface of a link's primitives, in the link's frame. */
 function merged(parts: readonly THREE.Mesh[], link: THREE.Object3D, rounds: Rounds): THREE.BufferGeometry | null {
   if (parts.length === 0) return null;
   const solids = parts.map((part) => solid_of(part, link, rounds));
@@ -54,7 +54,7 @@ function merged(parts: readonly THREE.Mesh[], link: THREE.Object3D, rounds: Roun
     without_hidden(painted(part, link, rounds), solids.flatMap((solid, k) => (solid && k !== i ? [solid] : []))))));
 }
 
-/** Returns the solid of a primitive, or null if the shape may be hollow. */
+/** Returns the solid of a primitive. Null if the primitive is a mesh, which may be hollow. */
 function solid_of(part: THREE.Mesh, link: THREE.Object3D, { sphere, cylinder }: Rounds): Solid | null {
   const inside = part.geometry instanceof THREE.SphereGeometry ? inside_sphere(filled(sphere.parameters.heightSegments) * filled(sphere.parameters.widthSegments / 2))
     : part.geometry instanceof THREE.CylinderGeometry ? inside_cylinder(filled(cylinder.parameters.radialSegments / 2))
@@ -62,12 +62,18 @@ function solid_of(part: THREE.Mesh, link: THREE.Object3D, { sphere, cylinder }: 
   return inside && { X_SL: part.matrixWorld.clone().invert().multiply(link.matrixWorld), inside };
 }
 
-/** Returns the filled share of the radius if half a turn has this many flat pieces. */
+/**
+ * Returns the share of the radius that a drawn circle fills, if half of the circle is drawn by this
+ * many straight pieces.
+ */
 function filled(pieces: number): number {
   return Math.cos(Math.PI / 2 / pieces);
 }
 
-/** Returns the meshes rigidly attached to a link, not those beyond its joints. */
+/**
+ * Returns the meshes that are rigidly attached to a link. Meshes beyond the link's joints are left
+ * out.
+ */
 function meshes_of(link: THREE.Object3D): THREE.Mesh[] {
   const found: THREE.Mesh[] = [];
   const visit = (node: THREE.Object3D) => {
@@ -95,7 +101,10 @@ function painted(mesh: THREE.Mesh, link: THREE.Object3D, rounds: Rounds): THREE.
   return X_LM.determinant() < 0 ? turned_inside_out(geometry) : geometry;
 }
 
-/** Geometries can be merged only if all or none have an index; meshes from files have none. */
+/**
+ * Returns the geometries in a form that can be merged: all with an index, or none. Meshes from
+ * files have no index.
+ */
 function alike(geometries: THREE.BufferGeometry[]): THREE.BufferGeometry[] {
   if (geometries.every((geometry) => geometry.index)) return geometries;
   return geometries.map((geometry) => (geometry.index ? geometry.toNonIndexed() : geometry));

@@ -3,9 +3,9 @@
 export interface Placed { x: number; y: number; width_px: number }
 
 /**
- * Returns the y of each label: its own, or below the placed labels that it would overlap, from left
- * to right. Each label checks the placed labels once, from the top, and only moves down, so this
- * always ends.
+ * Returns the y of each label, from left to right. A label that would overlap placed labels is
+ * moved below them. Each label checks the placed labels once, from the top, and only moves down, so
+ * the loop always ends.
  */
 export function stacked(labels: readonly Placed[], height_px: number, gap_px: number): number[] {
   const placed: Placed[] = [];
@@ -29,8 +29,8 @@ export function stacked(labels: readonly Placed[], height_px: number, gap_px: nu
 export interface Room { width_px: number; height_px: number }
 
 /**
- * Returns the center x and top y of each label within the room. Null if a label was moved down by
- * more than `most_px` and need not be visible.
+ * Returns the center x and the top y of each label, moved into the view. Null if the label was
+ * moved down by more than `most_px` or does not fit, unless it `must` be visible.
  */
 export function within_room(labels: readonly (Placed & { must: boolean })[], y: readonly number[], room: Room, height_px: number, most_px: number): ({ x: number; y: number } | null)[] {
   return labels.map((label, i) => {

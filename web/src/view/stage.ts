@@ -1,9 +1,10 @@
-// The stage of the 3D view: renderer, camera, lights, floor, drawing on demand.
+// The stage of the 3D view: renderer, camera, lights, floor, and drawing when needed.
 //
-// The world is z up, meters. Frames are drawn only after `invalidate`, as often and as finely as
-// Pace allows: without a graphics card (panel PC, browser test), or on a busy machine, a frame may
-// take 0.1 s of all cores and more. A fence behind each frame measures the real time. Without a
-// card antialiasing is off, unless the address ends in `?fine` (for pictures of the page).
+// In the world frame z is up, and lengths are in meters. Frames are drawn only after invalidate(),
+// as often and as finely as pace.ts allows. Without a graphics card (panel PC, browser test) or on
+// a busy machine, a frame may take 0.1 s of all cores or more. A fence behind each frame measures
+// how long the frame really takes. Without a graphics card antialiasing is off, unless the address
+// has `?fine` (for pictures of the page).
 
 import * as THREE from 'three';
 import type { Camera } from '../route/address';
@@ -20,15 +21,17 @@ import { Viewpoint } from './viewpoint';
 THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
 
 const kLate_ms = 20;
-// After a frame in full quality the pause is as long as the frame took.
+// Time from the start of a frame in full quality to the next frame, as a multiple of the frame's
+// duration. The pause is then as long as the frame took.
 const kShareOfWhole = 2;
 const kRest_ms = 900;
-// If frames are slow, a click is answered first: no new frame starts for this time.
+// If frames are slow, no new frame starts for this time after a click or a key, so that the page
+// answers first.
 const kAnswer_ms = 200;
 
 export class Stage {
   readonly scene = new THREE.Scene();
-  /** Called after each frame, for labels that follow points of the scene. */
+  /** Called after each frame. Labels that follow points of the scene are moved then. */
   after_draw: () => void = () => {};
   /** Called when the level of detail changes. */
   on_level: (level: Level) => void = () => {};
@@ -46,7 +49,7 @@ export class Stage {
   private readonly full_ratio_: number;
   private readonly key_light_: THREE.DirectionalLight;
   private pictures_ = 0;
-  private shapes_moved_ = true;  // since the last shadow update
+  private shapes_moved_ = true;  // true if a shape has moved since the shadows were last drawn
   private shown_: Level | undefined = kLevels[0];
   private readonly waiting_: (() => void)[] = [];
   private rest_timer_: number | null = null;
@@ -82,10 +85,14 @@ export class Stage {
   get camera(): THREE.PerspectiveCamera { return this.viewpoint_.camera; }
   get canvas(): HTMLCanvasElement { return this.renderer_.domElement; }
 
-  /** Called when the user moved the camera; null means the default view. */
+  /**
+   * Called when the user moved the camera. Null means that the camera is back in the default view.
+   */
   set on_camera(tell: (camera: Camera | null) => void) { this.viewpoint_.on_camera = tell; }
 
-  /** Frames a box; kept until the user moves the camera. */
+  /**
+   * Moves the camera so that a box is visible. The view stays so until the user moves the camera.
+   */
   frame(box: THREE.Box3): void {
     const radius_m = box.getBoundingSphere(new THREE.Sphere()).radius;
     this.viewpoint_.frame(box, radius_m);
@@ -93,12 +100,12 @@ export class Stage {
     this.resize();
   }
 
-  /** Moves the camera; null leaves it unchanged. */
+  /** Moves the camera to this position and target. Null leaves the camera unchanged. */
   show_camera(camera: Camera | null): void {
     if (camera && this.viewpoint_.show(camera)) this.invalidate();
   }
 
-  /** Moves the camera by a button or key. */
+  /** Moves the camera by one step, for a button or a key. */
   steer(step: CameraStep): void {
     this.viewpoint_.steer(step);
     this.invalidate();
@@ -123,14 +130,14 @@ export class Stage {
     this.renderer_.domElement.remove();
   }
 
-  /** Sets the width of the covered left part. */
+  /** Sets the width of the left part of the view that the pane covers. */
   set_covered(left_px: number): void {
     if (left_px === this.covered_px_) return;
     this.covered_px_ = left_px;
     this.resize();
   }
 
-  /** Requests a frame; `shapes_moved` also updates the shadows. */
+  /** Requests a frame. If `shapes_moved` is true, the shadows are drawn again as well. */
   invalidate(shapes_moved = false): void {
     this.shapes_moved_ ||= shapes_moved;
     if (shapes_moved) this.whole_ = false;
@@ -146,15 +153,15 @@ export class Stage {
     this.frame_ = requestAnimationFrame(draw);
   }
 
-  /** Draws the next frame without delay, because the visible frame is wrong. */
+  /** Draws the next frame without the usual delay, because the visible frame is wrong. */
   hurry(): void { this.hurried_ = true; }
 
-  /** Enables or disables turning the view by dragging. */
+  /** Allows or forbids turning the view by dragging. */
   enable_turning(yes: boolean): void { this.viewpoint_.enable_turning(yes); }
 
   /**
-   * Requests a frame in full quality and resolves after it; quality stays full until something
-   * moves.
+   * Requests a frame in full quality, and resolves after it is drawn. The quality stays full until
+   * something moves.
    */
   drawn(): Promise<void> {
     this.whole_ = true;
@@ -164,18 +171,21 @@ export class Stage {
     });
   }
 
-  /** Returns the ray through a point of the page, px from the view's top left. */
+  /**
+   * Returns the ray from the camera through a point of the page, given in px from the view's top
+   * left.
+   */
   sight(x_px: number, y_px: number): THREE.Raycaster {
     const { clientWidth: width, clientHeight: height } = this.host_;
     const caster = new THREE.Raycaster();
-    caster.params.Line.threshold = 0.002;  // three's default is a meter
+    caster.params.Line.threshold = 0.002;  // in meters; three's default is one meter
     caster.setFromCamera(new THREE.Vector2((2 * x_px) / width - 1, 1 - (2 * y_px) / height), this.camera);
     return caster;
   }
 
   /**
-   * Returns the position of a world point on the page, px from the view's top left; null if behind
-   * the camera.
+   * Returns the position of a point of the world frame on the page, in px from the view's top left.
+   * Null if the point is behind the camera.
    */
   to_page(p_W: THREE.Vector3): { x: number; y: number } | null {
     const p = p_W.clone().project(this.camera);
@@ -191,7 +201,8 @@ export class Stage {
     this.drawn_at_ms_ = performance.now();
     this.hurried_ = false;
     this.pictures_ += 1;
-    // Not earlier: a resized canvas is empty until the next frame, which may be late.
+    // The canvas is resized only now, because a resized canvas is empty until the next frame, which
+    // may be late.
     if (this.resized_) this.renderer_.setSize(this.host_.clientWidth, this.host_.clientHeight);
     this.resized_ = false;
     const paced = this.waiting_.length === 0 && !this.at_rest_ && !this.whole_ && !wants_fine_picture();
@@ -206,19 +217,20 @@ export class Stage {
     this.renderer_.render(this.scene, this.camera);
     this.after_draw();
     this.fence_.put(this.drawn_at_ms_, (took_ms) => {
-      // Small delays are compensated, because animation frames are never exact.
+      // Counts from when the frame was due, if it was only slightly late. Animation frames are
+      // never exactly in time, and the delays would add up.
       const due_ms = Math.max(this.next_at_ms_, this.drawn_at_ms_ - kLate_ms);
       this.next_at_ms_ = due_ms + (paced ? this.pace_.took(took_ms) : kShareOfWhole * took_ms);
     });
     for (const tell of this.waiting_.splice(0)) tell();
   }
 
-  /** At rest, draws once more in full quality. */
+  /** Draws one more frame in full quality when everything has been at rest for a while. */
   private refine_later(): void {
     if (this.rest_timer_ !== null) clearTimeout(this.rest_timer_);
     this.rest_timer_ = this.shown_ === kLevels[0] ? null : window.setTimeout(() => {
       this.rest_timer_ = null;
-      if (this.frame_ !== null) return;  // something moves
+      if (this.frame_ !== null) return;  // a frame is requested already, because something moves
       this.at_rest_ = true;
       this.invalidate(true);
     }, kRest_ms);

@@ -1,7 +1,7 @@
-// Loads mesh files from the server: STL, OBJ and COLLADA, each once.
+// Loads mesh files (STL, OBJ and COLLADA) from the server. Each file is loaded once.
 //
-// Only the file itself is loaded, not its materials and textures. Points are in the file's frame,
-// in meters. The up axis of COLLADA is not applied; the server ignores it too.
+// Materials and textures are not loaded. Points are in the frame of the file, in meters. The up
+// axis that a COLLADA file states is not applied, because the server ignores it too.
 
 import * as THREE from 'three';
 import { ColladaLoader } from 'three/addons/loaders/ColladaLoader.js';
@@ -10,7 +10,7 @@ import { STLLoader } from 'three/addons/loaders/STLLoader.js';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
 import { turned_inside_out } from './shapes';
 
-/** Surfaces by address; null if unreadable. */
+/** Surfaces by the address of their mesh file. Null if the file cannot be read. */
 export type Surfaces = ReadonlyMap<string, THREE.BufferGeometry | null>;
 type FetchBytes = (address: string) => Promise<ArrayBuffer>;
 
@@ -19,7 +19,7 @@ export class SurfaceShelf {
 
   constructor(private readonly fetch_: FetchBytes = fetch_bytes) {}
 
-  /** Resolves when all files are read or have failed; never rejects. */
+  /** Resolves when each file is read or has failed. Never rejects. */
   async load(addresses: readonly string[]): Promise<Surfaces> {
     const all = [...new Set(addresses)].map(async (address) => [address, await this.get(address)] as const);
     return new Map(await Promise.all(all));
@@ -39,7 +39,7 @@ export class SurfaceShelf {
       return parse_surface(address, await this.fetch_(address));
     } catch (error) {
       console.warn(`mesh ${address} cannot be read:`, error);
-      this.loading_.delete(address);  // it may succeed later
+      this.loading_.delete(address);  // forgets the failure, because a later try may succeed
       return null;
     }
   }
@@ -53,7 +53,7 @@ async function fetch_bytes(address: string): Promise<ArrayBuffer> {
   return response.arrayBuffer();
 }
 
-/** Returns triangles with positions and normals, without index. Throws if there are none. */
+/** Returns the triangles with positions and normals, without an index. Throws if there are none. */
 export function parse_surface(name: string, bytes: ArrayBuffer): THREE.BufferGeometry {
   const geometries = flat(parse(name, bytes));
   const merged = geometries.length ? mergeGeometries(geometries) : null;
@@ -72,7 +72,8 @@ function parse(name: string, bytes: ArrayBuffer): THREE.Object3D {
   const document = new ColladaLoader(quiet).parse(text(), '');
   if (!document) throw new Error('is not a COLLADA document');
   const root = new THREE.Group();
-  // Keeps the scale, which is the unit, and drops the rotation, which is the up axis.
+  // Keeps the scale, which converts the file's unit to meters. Drops the rotation, which applies
+  // the up axis.
   document.scene.quaternion.identity();
   root.add(document.scene);
   return root;

@@ -1,5 +1,5 @@
-// The goal of a tool in the 3D view: a frame dragged by arrows or rings. No arm moves; the pose is
-// reported on release.
+// The goal of a tool in the 3D view: a frame that the user drags by arrows or rings. No arm moves.
+// The pose is reported when the user releases the handle.
 
 import * as THREE from 'three';
 import { DragHandles, type Grip } from './drag_handles';
@@ -12,10 +12,13 @@ const kAxes_m = 0.14;
 export interface ToolPose { xyz: [number, number, number]; rpy: [number, number, number] }
 export interface Tool {
   arm: string;
-  /** The link's name in the cell or URDF; empty means the link of the arm's last joint. */
+  /**
+   * The link's name in the cell or in the URDF. An empty name means the link that the arm's last
+   * joint moves.
+   */
   link: string;
   grip: Grip;
-  /** The goal, or null for the tool's current pose. */
+  /** The pose of the goal, or null to begin at the tool's current pose. */
   at: ToolPose | null;
   on_release(pose: ToolPose): void;
 }
@@ -25,7 +28,7 @@ export class ToolGoal {
   private readonly frame_ = new THREE.Group();
   private tool_: Tool | null = null;
 
-  /** `where` returns the link's frame in the world, or null if there is no such link. */
+  /** `where` returns the pose of a link in the world frame, or null if there is no such link. */
   constructor(private readonly stage_: Stage, private readonly where_: (arm: string, link: string) => THREE.Matrix4 | null) {
     this.frame_.add(new THREE.AxesHelper(kAxes_m));
     this.frame_.visible = false;
@@ -48,7 +51,7 @@ export class ToolGoal {
     return this.handles_.is_touched;
   }
 
-  /** The goal's position in the world, or null if there is no goal. */
+  /** The goal's position in the world frame, or null if there is no goal. */
   get position(): THREE.Vector3 | null {
     return this.frame_.visible ? this.frame_.position : null;
   }
@@ -59,7 +62,8 @@ export class ToolGoal {
 }
 
 export function pose_of(frame: THREE.Object3D): ToolPose {
-  // Rotations about fixed x, y, z equal moving z, y, x: three's order 'ZYX'.
+  // Rotations about the fixed axes x, y, z equal rotations about the moving axes z, y, x, which is
+  // three's order 'ZYX'.
   const { x, y, z } = new THREE.Euler().setFromQuaternion(frame.quaternion, 'ZYX');
   return { xyz: frame.position.toArray(), rpy: [x, y, z] };
 }

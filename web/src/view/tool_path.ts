@@ -1,4 +1,4 @@
-// The recent path of an arm's tool, as a line that fades with age.
+// The path that an arm's tool has taken in the last seconds, as a line that fades with age.
 
 import * as THREE from 'three';
 import type { Arm } from '../server/messages';
@@ -21,13 +21,16 @@ export class ToolPath {
     this.line.frustumCulled = false;
   }
 
-  /** Clears the line, because a different past time is shown. */
+  /** Removes the line, because another time or another cell is shown. */
   clear(): void {
     this.passed_.length = 0;
     this.line.geometry.setDrawRange(0, 0);
   }
 
-  /** Adds the tool's position at a cell time, in the arm's color. */
+  /**
+   * Adds the tool's position in the world frame at a cell time. The line is drawn in the arm's
+   * color.
+   */
   pass(t_s: number, p_W: THREE.Vector3, color: THREE.Color): void {
     const last = this.passed_.at(-1);
     if (last && t_s < last.t_s) this.clear();
@@ -50,7 +53,7 @@ export class ToolPath {
   }
 }
 
-/** The recent paths of all arms. */
+/** The paths that the tools of all arms have taken in the last seconds. */
 export class ToolPaths {
   readonly group = new THREE.Group();
   private readonly paths_ = new Map<string, ToolPath>();
@@ -59,7 +62,7 @@ export class ToolPaths {
     for (const path of this.paths_.values()) path.clear();
   }
 
-  /** Adds the tool positions at a cell time, in the arms' colors. */
+  /** Adds the present tool positions of all arms, at a cell time. */
   follow(robots: Robots, arms: ReadonlyMap<string, Arm>, t_s: number): void {
     const names = [...arms.keys()];
     for (const arm of arms.values()) {

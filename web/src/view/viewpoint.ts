@@ -1,5 +1,5 @@
-// The camera of the 3D view: shows the whole cell next to the covered part, until the user moves
-// it.
+// The camera of the 3D view. It shows the whole cell next to the part that the pane covers, until
+// the user moves the camera.
 
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -14,7 +14,9 @@ const kDirection = new THREE.Vector3(0.16, -1, 0.4).normalize();
 export class Viewpoint {
   readonly camera = new THREE.PerspectiveCamera(26, 1, 0.05, 60);
   readonly fog = new THREE.Fog(0x000000, 5, 14);
-  /** Called when the user moved the camera; null means the default view. */
+  /**
+   * Called when the user moved the camera. Null means that the camera is back in the default view.
+   */
   on_camera: (camera: Camera | null) => void = () => {};
 
   private readonly controls_: OrbitControls;
@@ -23,7 +25,7 @@ export class Viewpoint {
   private size_px_ = { width: 1, height: 1 };
   private moved_by_user_ = false;
 
-  /** `changed` is called after each move. */
+  /** `changed` is called after each move of the camera. */
   constructor(canvas: HTMLCanvasElement, changed: () => void) {
     this.controls_ = new OrbitControls(this.camera, canvas);
     this.controls_.maxPolarAngle = kLowest_rad;
@@ -31,7 +33,7 @@ export class Viewpoint {
     let before = this.now;
     this.controls_.addEventListener('start', () => { before = this.now; });
     this.controls_.addEventListener('end', () => {
-      if (is_same(before, this.now)) return;  // a click
+      if (is_same(before, this.now)) return;  // only a click: the camera did not move
       this.moved_by_user_ = true;
       this.on_camera(this.now);
     });
@@ -47,14 +49,17 @@ export class Viewpoint {
     return [position.x, position.y, position.z, target.x, target.y, target.z];
   }
 
-  /** Frames a box; kept until the user moves the camera. */
+  /**
+   * Sets the box that the default view shows. `radius_m` limits how far away the camera can be
+   * moved.
+   */
   frame(box: THREE.Box3, radius_m: number): void {
     this.shown_box_ = box.clone();
     this.controls_.maxDistance = Math.max(12, 8 * radius_m);
     this.camera.far = 12 * this.controls_.maxDistance;
   }
 
-  /** Moves the camera. Returns true if it changed. */
+  /** Moves the camera. Returns true if it moved. */
   show(camera: Camera): boolean {
     if (is_same(camera, this.now)) return false;
     this.moved_by_user_ = true;
@@ -64,7 +69,7 @@ export class Viewpoint {
     return true;
   }
 
-  /** Moves the camera by a button or key. */
+  /** Moves the camera by one step, for a button or a key. */
   steer(step: CameraStep): void {
     if (step === 'whole') this.look_from_default();
     else this.show(stepped(this.now, step));
@@ -72,36 +77,37 @@ export class Viewpoint {
     this.on_camera(this.moved_by_user_ ? this.now : null);
   }
 
-  /** Enables or disables turning the view by dragging. */
+  /** Allows or forbids turning the view by dragging. */
   enable_turning(yes: boolean): void { this.controls_.enabled = yes; }
 
   close(): void { this.controls_.dispose(); }
 
   /**
-   * Fits the view to its size with `covered_px` covered at the left: centers it in the rest, zoomed
-   * out as needed.
+   * Fits the view to its size. `covered_px` at the left are covered: the cell is centered in the
+   * rest, and made smaller if needed.
    */
   fit(size_px: { width: number; height: number }, covered_px: number): void {
     const { width, height } = size_px;
     this.size_px_ = size_px;
-    // If nearly all is covered, the view stays unchanged.
+    // If nearly all of the view is covered, the view is fitted as if nothing were.
     this.covered_px_ = covered_px < kMostCovered * width ? covered_px : 0;
     this.camera.aspect = width / height;
-    // Only zoom and offset change, so that an address means the same with and without a pane.
+    // Only zoom and offset change, not the camera. So a camera in an address means the same with
+    // and without a pane.
     this.camera.zoom = this.distance_through(0) / this.distance_through(this.covered_px_);
     this.camera.setViewOffset(width, height, -this.covered_px_ / 2, 0, width, height);
     this.camera.updateProjectionMatrix();
     if (!this.moved_by_user_) this.look_from_default();
   }
 
-  /** Returns the half-angle tangents of the uncovered part. */
+  /** Returns tangents of half the angles of the part that is not covered. */
   private opening(covered_px: number): Opening {
     const { width, height } = this.size_px_;
     const up = Math.tan(THREE.MathUtils.degToRad(this.camera.fov / 2));
     return { across: up * Math.max(0.2, (width - covered_px) / height), up };
   }
 
-  /** Returns the default distance for the uncovered part. */
+  /** Returns the camera distance of the default view, for the part that is not covered. */
   private distance_through(covered_px: number): number {
     return kMargin * distance_for(this.shown_box_, kDirection, this.opening(covered_px));
   }
@@ -114,7 +120,7 @@ export class Viewpoint {
     this.fit_depth();
   }
 
-  /** Fog begins behind the target, at any distance. */
+  /** Moves the fog so that it begins behind the cell, at any distance of the camera. */
   private fit_depth(): void {
     const distance = this.camera.position.distanceTo(this.controls_.target);
     const depth = this.shown_box_.getSize(new THREE.Vector3()).length();
