@@ -28,7 +28,8 @@ TEST(DiscreteCheck, ComparesWithTheRemainingMotion) {
   judged.question.others = {judged.begun(judged.motion(1, kB, kPi, 0, 4s), 2s)};
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
 
-  // b reaches a's side in its second half, which a's clock would take for the first.
+  // b reaches a's side in the second half of its motion. A check that used a's clock for both
+  // motions would look at the first half.
   judged.question.others = {judged.begun(judged.motion(1, kB, 0, kPi, 4s), 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.kind, Verdict::Kind::conflict);
@@ -118,7 +119,8 @@ TEST(DiscreteCheck, AllowsAPairThatIsTooCloseToSeparate) {
 TEST(DiscreteCheck, RejectsAPairThatIsTooCloseAndApproaches) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
-  // Closest at 0, when the links are parallel; below the clearance from 0.12 on.
+  // The links are closest at 0 rad, where they are parallel. At 0.12 rad their distance falls below
+  // the clearance.
   judged.question.candidates = {judged.motion(2, kA, 0.12, -0.12, 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);

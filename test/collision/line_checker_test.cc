@@ -40,8 +40,8 @@ struct Lines {
   std::mt19937_64 random;
 };
 
-// Confirms each answer with exact distances, off the line by up to the tracking error, and with the
-// motion checker.
+// Confirms each answer with the motion checker, and with exact distances at states that are off the
+// line by up to the tracking error.
 TEST(LineChecker, AgreesWithStateChecksAndMotionChecker) {
   Lines lines(21);
   const ArmId left{0}, right{1};

@@ -48,7 +48,8 @@ struct Solid {
   }
 };
 
-// Compares all features. Exact unless the solids overlap.
+// Returns the smallest distance of any two features (vertices, edges, faces). Exact unless the
+// solids overlap.
 double brute_distance(const Solid& a, const Solid& b) {
   double nearest = 1e9;
   for (std::size_t i = 0; i < a.faces.size(); ++i) {

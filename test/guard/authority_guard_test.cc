@@ -13,7 +13,7 @@ using Why = GuardRefusal::Why;
 const ArmId kLeft{0}, kRight{1}, kThird{2};
 constexpr double kError = 0.001;
 
-// Each arm has one joint of the same number.
+// Each arm has one joint, whose number is the arm's number.
 JointId joint(ArmId arm) { return JointId{arm.value()}; }
 
 TrajectoryPtr line(const std::vector<ArmId>& arms, double from, double to, Duration takes = 10s) {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """faults.py [--tree DIR] [--only NAME] [--patterns] [--seeds N]: injects faults into a copy of the sources, all in one build,
 and enables them one at a time (ARMLOOM_FAULT). Faults in the scheduler must be harmless and be reported by the guard; faults
-in the guard must be detected by its tests. Prints a table; exit code 1 if a fault fails this. With --patterns only checks
+in the guard must be detected by its tests. Prints a table. Exit code 1 if a fault does not meet this. With --patterns only checks
 that each fault's pattern matches."""
 import argparse, re, sys, tempfile
 from pathlib import Path
@@ -14,7 +14,7 @@ GRAPH, OPEN = 'core/precedence/precedence_graph.cc', 'core/precedence/open_order
 PRECEDENCE = 'core/precedence/precedence.cc'
 QUESTIONS, GUARD = 'core/scheduler/motion_questions.cc', 'core/guard/authority_guard.cc'
 
-# With a fault, the scheduler's own checks do not end the process, so that only the guard can stop it.
+# While a fault is on, the scheduler's own checks do not end the process, so that only the guard can stop the fault.
 QUIET = [
     ('core/jobs/invariants.cc', 'std::optional<std::string> broken_invariant(const State& state) {',
      'std::optional<std::string> broken_invariant(const State& state) {\n  if (armloom_fault(-1)) return std::nullopt;'),
