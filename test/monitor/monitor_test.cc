@@ -65,7 +65,8 @@ TEST(Monitor, ReportsContactAtZeroDistance) {
 TEST(Monitor, StopsOnlyTheMovingArmOfAPair) {
   Monitor m = monitor();
   EXPECT_THAT(m.observe({hands(0.006)}, kLeftMoves, at(0ms)).at(0).stops, ElementsAre(kLeft));
-  // The table cannot be stopped; the left arm is not involved.
+  // The right hand is too close to the table. The table cannot be stopped, and the left arm is not
+  // involved.
   EXPECT_THAT(m.observe({hand_and_table(0.004)}, kBothMove, at(10ms)).at(0).stops,
               ElementsAre(kRight));
 }

@@ -1,7 +1,7 @@
-// /openapi.json is complete and true: every operation is called with good and bad requests until each listed
-// status was seen (of 503 and 507, which need a server in distress, only a few), and every response and
-// message is checked against its schema. The good requests are its examples.
-// ARMLOOM_PRISM=node_modules/.bin/prism sends all calls through that proxy, which must not complain.
+// Checks that /openapi.json is complete and true. Every operation is called with good and bad requests until each
+// listed status was seen (of 503 and 507, which need a server in distress, only a few). Every response and message is
+// checked against its schema. The good requests are the examples of the document. ARMLOOM_PRISM=node_modules/.bin/prism
+// sends all calls through that proxy, which must not complain.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import fs from 'node:fs';
@@ -52,7 +52,7 @@ async function call(status, method, template, {args = {}, query = '', body, head
   return answer.headers['content-type']?.includes('json') ? JSON.parse(answer.text) : answer.text;
 }
 
-// Expects no complaint of prism; requests that are refused may be wrong.
+// Expects no complaint of prism. Requests that the server refuses may be wrong.
 function unopposed(what, answer) {
   const found = violations(answer);
   proxied += 1;
@@ -283,7 +283,7 @@ test('control and jogging', async () => {
 
 test('batches, good and bad', async () => {
   const at = `${v1}/batches`;
-  // The motions start where the arms are now.
+  // The motions of the example are changed to start where the arms are now.
   const batch = example(at, 'POST', 'both');
   const {arms} = await call(200, 'GET', `${v1}/arms`);
   for (const job of batch.jobs) {
@@ -356,7 +356,7 @@ test('speed and faults', async () => {
   await call(200, 'PUT', `${v1}/sim/speed`, {body: example(`${v1}/sim/speed`, 'PUT', 'double')});
 });
 
-// Not through the proxy, which answers most of these requests itself.
+// Calls the server directly, because the proxy answers most of these requests itself.
 const straight = (status, method, template, how) => call(status, method, template, {...how, direct: true});
 test('requests that every operation refuses', async () => {
   const args = {id: 'x', name: 'x'};
@@ -490,7 +490,7 @@ test('a server without a built dashboard answers 404', async () => {
   }
 });
 
-// With a time step longer than both motions only their ends are compared, so both are admitted.
+// The time step is longer than both motions, so only their ends are compared and both are admitted.
 test('monitor stops are published', async () => {
   const cell = JSON.parse(fs.readFileSync(path.join(folder, 'cell.json'), 'utf8'));
   Object.assign(cell, {clearance_m: 0.1, scheduling: {...cell.scheduling, policy: 'timed_discrete'},
@@ -519,8 +519,8 @@ test('monitor stops are published', async () => {
   }
 });
 
-// So slow that the arm is still braking when the next request arrives. A kept-alive connection is needed,
-// because the server accepts no new connections.
+// The job is so slow that the arm is still braking when the next request arrives. That request needs a kept-alive
+// connection, because the server accepts no new connections.
 test('a server that shuts down accepts no job', async () => {
   const ending = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', '0.02']);
   const agent = new http.Agent({keepAlive: true, maxSockets: 1});

@@ -31,7 +31,7 @@ JobRequest either(double x_to_m, double y_to_m, double seconds, std::string key)
   return request;
 }
 
-// y rests in the crossing for ten seconds. Of x's two jobs only the second stays out of the
+// y rests in the crossing for ten seconds. x has two jobs, and only the second stays out of the
 // crossing.
 struct OneInTheWay {
   explicit OneInTheWay(bool reorderable) {

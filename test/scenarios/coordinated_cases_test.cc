@@ -1,5 +1,5 @@
-// Motions pass each other in the agreed order, pause at the end of their authority, and keep clear
-// whatever happens to the first motion.
+// Motions pass each other in the agreed order, pause at the end of their authority, and keep clear,
+// whatever happens to the motion that passes first.
 #include "test/scenarios/crossing.h"
 #include "test/scenarios/star.h"
 
@@ -100,7 +100,8 @@ TEST_F(Coordinated, ExpiresOnItsPathBehindAnArmWithoutAJob) {
   EXPECT_EQ(gave_up.waits_on[0].arm, "x");
 }
 
-// A job behind a canceled job cannot start any more, so no other job may rely on its departure.
+// A job behind a canceled job cannot start any more. So no other job may rely on the departure of
+// that job's arm.
 TEST_F(Coordinated, DoesNotRelyOnAJobWhoseStartIsNotReached) {
   cell.submit(slide("x", -1, 0, 3, "into the crossing"));
   cell.submit(slide("x", 0, 0.5, 2, "on"));
@@ -139,8 +140,8 @@ TEST_F(Coordinated, KeepsItsPassingOrderAcrossStopAndResume) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-// The executive dies in mid-motion. Every controller brakes by itself to the end of its authority,
-// which is certified against the rests of all other arms.
+// The executive dies in mid-motion. Every controller brakes by itself before the end of its
+// authority. That end is certified against the rests of all other arms.
 TEST(ExecutiveDeath, LeavesEveryArmAtRestWithoutContact) {
   for (std::size_t arms = 2; arms <= 4; ++arms) {
     for (Duration dies = 100ms; dies < 7s; dies += 150ms) {
@@ -167,7 +168,8 @@ TEST(ExecutiveDeath, LeavesEveryArmAtRestWithoutContact) {
   }
 }
 
-// Returns a motion of x and y. In the next two tests x is in the crossing at one end of it.
+// Returns a motion of x and y. In the next two tests this motion begins or ends with x in the
+// crossing.
 JobRequest both(double x_from_m, double x_to_m, double y_from_m, double y_to_m, std::string key) {
   JobRequest request = slide("x", x_from_m, x_to_m, 2, std::move(key));
   request.trajectory.joint_names.push_back("y_slide");
@@ -191,7 +193,7 @@ TEST_F(Coordinated, DoesNotRelyOnADepartureThatComesLater) {
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
 }
 
-// The mirror image: `both` brings x into the crossing, and x leaves much later.
+// The reverse case: `both` brings x into the crossing, and x leaves much later.
 TEST_F(Coordinated, DoesNotPassAStartThatTheOtherArmReachesFirst) {
   cell.submit(both(-1, 0, -1, -0.9, "both"));
   cell.submit(slide("x", 0, 1, 20, "leaves"));

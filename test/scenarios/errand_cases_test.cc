@@ -1,5 +1,5 @@
-// A server-initiated motion that outlives its purpose. b retreated for "x" and must return to the
-// start of its own job "y"; then "y" is canceled, and a rests there.
+// A server-initiated motion that is no longer needed. b retreated for "x" and must return to the
+// start of its own job "y". Then "y" is canceled, and a rests at that place.
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {

@@ -145,7 +145,7 @@ TEST_P(CandidateArms, JobsAreSharedByTheArms) {
   }
 }
 
-// Neither trajectory can know which arm takes the job.
+// Both trajectories behind the job are submitted before it is known which arm takes the job.
 TEST_P(CandidateArms, NextTrajectoryMayStartAtEitherOutcome) {
   cell->submit(slide("y", -1.0, -0.6, 1.0));
   cell->run_until(at(2s));

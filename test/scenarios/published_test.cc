@@ -1,4 +1,4 @@
-// Reads of clients and published events agree at every event, and no read needs the strand.
+// What clients read and what events report must agree at every event. No read needs the strand.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -47,7 +47,7 @@ TEST_P(Replans, AreReplacedByARetreatIfThereIsNoDetour) {
   expect_apart();
 }
 
-// b is at home and has not moved, so none of the straight retreats exists.
+// b is at home and has not moved, so it has no straight retreat.
 TEST_P(Replans, PlanARetreatIfNoStraightOneExists) {
   for (const auto how : {OnIdleBlocker::park, OnIdleBlocker::replan}) {
     start(how);
