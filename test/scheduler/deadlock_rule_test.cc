@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Each arm is in the way of the other beyond 0.3.
+// Beyond 0.3 rad each arm blocks the other arm near 0.
 class Blockage : public ::testing::Test {
  protected:
   static std::vector<Crossing> table() {

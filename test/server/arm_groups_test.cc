@@ -48,7 +48,7 @@ TEST_F(ArmGroups, AreChainsAndListsOfJoints) {
   EXPECT_EQ(why("tool"), "it has no movable joint");
 }
 
-// The group "all" has no subgroups: only its joints show that it consists of two arms.
+// The group "all" has no subgroups. Only its joints show that it consists of two arms.
 TEST_F(ArmGroups, ExcludeTheTorsoAndTheWholeRobot) {
   choose(R"(<robot name="torso_robot">
     <group name="torso"><joint name="torso_lift"/></group>

@@ -1,5 +1,5 @@
-// Pairs that no effort decides, with 5 mm clearance and 1 mrad tracking error, are so close that
-// little is lost.
+// With 5 mm clearance and 1 mrad tracking error some pairs stay undecided at any effort. Their
+// distance must be so near the clearance that little is lost.
 #include <gtest/gtest.h>
 
 #include "test/soundness/soundness.h"

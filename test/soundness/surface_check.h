@@ -24,9 +24,9 @@ struct SurfaceReport {
   std::vector<std::string> failures;  // the first few
 };
 
-// Checks random pairs near each other or one inside the other: concave meshes, also noisy, with
-// loose components or with flipped triangles. Every fourth is against a primitive, whose reference
-// is inscribed.
+// Checks random pairs near each other or one inside the other. The meshes are concave; some are
+// noisy, have loose components or flipped triangles. In every fourth pair one body is a primitive,
+// whose reference mesh is inscribed.
 [[nodiscard]] SurfaceReport check_surfaces(std::size_t pairs, std::uint64_t seed);
 
 [[nodiscard]] double triangles_by_fcl(const TrianglePoints& a, const TrianglePoints& b);
