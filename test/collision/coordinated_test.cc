@@ -219,7 +219,7 @@ TEST(CoordinatedCheck, ReportsASynchronousMotionWhoseArmsMeet) {
   EXPECT_EQ(verdict.conflicts[0].with, Conflict::With::self);
 }
 
-TEST(CoordinatedCheck, AllowsAPairTooCloseNowToSeparate) {
+TEST(CoordinatedCheck, AllowsAPairThatIsTooCloseToMoveApart) {
   Rails rails;
   rails.question.rest[1] = 0.0;
   rails.question.candidates = {rails.motion(1, {kX}, 0.115, 1)};  // away from y, too close

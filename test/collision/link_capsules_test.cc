@@ -160,7 +160,7 @@ TEST(LinkCapsules, EqualTwoRoundShapesAtAnAngle) {
   EXPECT_LE(fitted.overestimate_m, 1e-3);
 }
 
-TEST(LinkCapsules, BeatAPrincipalAxisCapsule) {
+TEST(LinkCapsules, OfAFlatDiskAreNoLargerThanItsBoundingSphere) {
   // For a flat disk the principal axis is arbitrary.
   const LinkCapsules disc = fit_capsules(make_convex_shapes({{Cylinder{0.2, 0.02}}}));
   const double ball = 4.0 / 3.0 * small::kHalfTurn * std::pow(std::hypot(0.2, 0.01), 3);

@@ -206,7 +206,7 @@ TEST(MeshShape, ShapeInsideAnotherIsInContact) {
   EXPECT_LE(distance_of(part, X, crate, small::at_xyz(0, 0, 0)), 0.0);
 }
 
-TEST(PlanningScene, MeshWithoutPiecesIsItsHull) {
+TEST(PlanningScene, MeshWithoutPiecesIsReplacedByItsHull) {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {Eigen::Vector3d::UnitZ()}, {0.4, 0.03});
   // The arm is inside a slot, but the hull has no slot.

@@ -216,7 +216,7 @@ TEST(SceneLinks, MountMayHaveItsOwnClearance) {
 
 // If the base frame has no shape, the mount is the link to which it is fixed. Otherwise the mount
 // is the base frame itself.
-TEST(SceneLinks, MountFrameWithoutShapePassesItsRoleToItsParent) {
+TEST(SceneLinks, ParentOfAMountFrameWithoutShapeIsTheMount) {
   Cell cell = *walled(As::link);
   cell.clearances.mount_clearance_m = 0.008;
   const LinkId frame = *cell.find_link("a_base");

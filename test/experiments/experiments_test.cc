@@ -35,7 +35,7 @@ TEST(Exclusion, ContainsTheRowsAndColumnsOfABlock) {
   EXPECT_THAT(chosen.columns, ElementsAre(0, 1, 1, 1, 0));
 }
 
-TEST(Exclusion, IsOneWholeSideWithoutConflicts) {
+TEST(Exclusion, IsOneWholeSideIfNothingConflicts) {
   EXPECT_EQ(size_of(largest_exclusion(table_of(2, "......"))), 3U);
 }
 
@@ -90,7 +90,7 @@ TEST(Exclusion, CountsStepsBetweenChosenNeighborsOfOneMotion) {
   EXPECT_EQ(steps_chosen({1, 1, 1, 0, 1, 1, 1}, {0, 0, 0, 0, 0, 0, 1}), 3U);
 }
 
-TEST(LowerBound, OfOneFixtureIsTheSumOfTheTimesThere) {
+TEST(LowerBound, OfOneFixtureIsTheSumOfTheTimesInTheFixture) {
   // Each of the two arms is in the fixture for at least 2 s.
   const Workload workload = workload_kind("one_fixture").make(1);
   std::vector<Work> work;

@@ -61,7 +61,7 @@ TEST(ConvexShapes, TwoCylindersThatShareACapBecomeCapsules) {
   for (const ConvexShape& body : bodies) EXPECT_EQ(body.kind, ConvexShapeKind::round);
 }
 
-TEST(ConvexShapes, CylinderStaysFlatIfACapDoesNotMatch) {
+TEST(ConvexShapes, CylinderBecomesACapsuleOnlyIfBothCapsMatch) {
   auto missing = small::capsule_along_x(0.0, 0.4, 0.05);
   missing.pop_back();
   auto thinner = small::capsule_along_x(0.0, 0.4, 0.05);
@@ -248,7 +248,7 @@ TEST(ConvexShapes, ShapeInsideAnotherIsInContact) {
   }
 }
 
-TEST(ConvexShapes, OverlapOfCapsulesIsSigned) {
+TEST(ConvexShapes, OverlappingCapsulesHaveANegativeDistance) {
   const ConvexShape a = make_convex_shapes(small::capsule_along_x(-0.2, 0.2, 0.1)).front();
   PlacedConvexShape here;
   PlacedConvexShape above;

@@ -303,7 +303,7 @@ TEST_F(Guarded, OneCoveringCertificateIsEnough) {
   EXPECT_EQ(why(left, 7500ms), Why::region) << "neither covers the whole range";
 }
 
-TEST_F(Guarded, ArmOnAnotherMotionIsBusy) {
+TEST_F(Guarded, RefusesAMotionOfAnArmThatIsOnAnotherMotion) {
   const TrajectoryPtr second = line({kLeft}, 0.0, -1.0);
   take({scene(left), pair(on(left), resting(kRight, 0.0)), scene(second),
         pair(on(second), resting(kRight, 0.0))});

@@ -89,7 +89,7 @@ def soak(tree, number, seeds):
     """Runs policies until the guard refuses a request; returns refusals, smallest distance in mm, monitor findings."""
     refusals, closest, findings = 0, 1e9, 0
     for policy in (0, 1, 2):  # coordinated, earliest_start, certified
-        code, out = run(tree, 'soak_test', number, f'--gtest_filter=*SoakOfCommands.Sliders/{policy}', seeds=seeds)
+        code, out = run(tree, 'soak_test', number, f'--gtest_filter=*SoakOfCommands.SlidersKeepAllPromises/{policy}', seeds=seeds)
         for line in re.findall(r'closest (\S+) mm, (\d+) monitor findings; (\d+) guard refusals', out):
             closest, findings, refusals = min(closest, float(line[0])), findings + int(line[1]), refusals + int(line[2])
         if 'simulated hours' not in out: return None if code is None else -1, closest, findings

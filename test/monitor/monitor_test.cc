@@ -121,7 +121,7 @@ TEST(Monitor, AllowsSeparatingArmsAfterAStop) {
   }
 }
 
-TEST(Monitor, ReportsAPairAnewAfterItHasCleared) {
+TEST(Monitor, ReportsAPairAgainAfterItHasCleared) {
   Monitor m = monitor();
   EXPECT_THAT(m.observe({hands(0.006), hand_and_table(0.002)}, kBothMove, at(0ms)), SizeIs(2));
   EXPECT_THAT(m.observe({hand_and_table(0.002)}, kBothMove, at(10ms)), IsEmpty());

@@ -133,7 +133,7 @@ test('subscribers get a snapshot and all events after it', async () => {
   assert.equal(again.data.gap, true);
 });
 
-test('read-only operations', async () => {
+test('read-only operations answer as documented', async () => {
   await call(200, 'GET', '/');
   await call(200, 'GET', `${v1}/alerts`);
   const seen = (status, body) => call(status, 'POST', `${v1}/alerts/acknowledge`, {body});
@@ -169,7 +169,7 @@ test('read-only operations', async () => {
   await call(404, 'GET', `${v1}/jobs/{id}/trajectory`, {args: {id: 'nothing'}});
 });
 
-test('jobs, good and bad', async () => {
+test('good and bad jobs are answered as documented', async () => {
   await call(200, 'POST', `${v1}/check`, {body: example(`${v1}/check`, 'POST', 'reach')});
   for (const goal of ['named', 'pose']) {
     const plan = await call(200, 'POST', `${v1}/plan`, {body: example(`${v1}/plan`, 'POST', goal)});
@@ -244,7 +244,7 @@ test('jobs, good and bad', async () => {
   await call(413, 'POST', `${v1}/jobs`, {raw: '['.repeat(5000)});
 });
 
-test('comparison with other policies', async () => {
+test('jobs are compared under other policies', async () => {
   for (const method of ['GET', 'DELETE']) await call(404, method, `${v1}/comparison`);
   await call(409, 'POST', `${v1}/comparison`, {body: {since_s: 1e6}});
   const two = example(`${v1}/comparison`, 'POST', 'two');
@@ -258,7 +258,7 @@ test('comparison with other policies', async () => {
   await call(422, 'POST', `${v1}/comparison`, {body: {policies: ['best']}});
 });
 
-test('control and jogging', async () => {
+test('a client takes control and jogs an arm', async () => {
   const hold = `${v1}/arms/{name}/jog`;
   const left = {args: {name: 'left'}};
   await call(200, 'GET', `${v1}/control`);
@@ -281,7 +281,7 @@ test('control and jogging', async () => {
   await call(200, 'POST', `${v1}/control/release`, {body: {control: key}});
 });
 
-test('batches, good and bad', async () => {
+test('good and bad batches are answered as documented', async () => {
   const at = `${v1}/batches`;
   // The motions of the example are changed to start where the arms are now.
   const batch = example(at, 'POST', 'both');
@@ -337,7 +337,7 @@ test('objects are added, moved and removed', async () => {
   await call(404, 'DELETE', `${v1}/scene/objects/{name}`, {args: {name: 'rod'}});
 });
 
-test('speed and faults', async () => {
+test('speed is changed, faults are injected and removed', async () => {
   for (const body of [{speed: 0}, {speed: 1001}, {}]) await call(422, 'PUT', `${v1}/sim/speed`, {body});
   const fault = await call(201, 'POST', `${v1}/sim/faults`, {body: example(`${v1}/sim/faults`, 'POST', 'slow')});
   await call(204, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
@@ -358,7 +358,7 @@ test('speed and faults', async () => {
 
 // Calls the server directly, because the proxy answers most of these requests itself.
 const straight = (status, method, template, how) => call(status, method, template, {...how, direct: true});
-test('requests that every operation refuses', async () => {
+test('every operation refuses malformed and foreign requests', async () => {
   const args = {id: 'x', name: 'x'};
   const large = 'x'.repeat(20 * 1024);
   for (const {path: template, method, operation} of contract.operations()) {

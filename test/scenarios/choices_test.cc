@@ -51,7 +51,7 @@ struct OneInTheWay {
   Crossing cell;
 };
 
-TEST(ReorderableJobs, TheOneThatCanStartNowGoesFirst) {
+TEST(ReorderableJobs, JobThatCanStartNowGoesFirst) {
   OneInTheWay free(true);
   const JobView beside = free.cell.job("beside"), through = free.cell.job("through");
   EXPECT_EQ(beside.state, JobState::succeeded);

@@ -57,7 +57,7 @@ TEST(CoordinatedMultiArm, ArmAheadOfItsMotionBlocksWhereItRests) {
 
 // In step the two arms pass each other closely. They would touch if they were as far out of step as
 // a stall can bring them.
-TEST(CoordinatedMultiArm, ArmsKeepClearOfEachOtherOutOfStep) {
+TEST(CoordinatedMultiArm, ArmsOutOfStepKeepClearOfEachOther) {
   for (const double head_start_m : {0.30, 0.34, 0.38, 0.42, 0.46, 0.50}) {
     Crossing cell(crossing_description(), "coordinated");
     cell.submit(slide("x", -1, -1 + head_start_m, 1, "sets out"));

@@ -27,7 +27,7 @@ class ReturnMotions : public ::testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Policies, ReturnMotions, ::testing::ValuesIn(known_policies()));
 
-TEST_P(ReturnMotions, AreGivenWayIfTheNextJobStartsThere) {
+TEST_P(ReturnMotions, SucceedIfTheNextJobStartsWhereTheyEnd) {
   cell->submit(go("b", {0, 1}, {1, 1}, 2, "next"));
   cell->run_to_the_end(at(45s));
   EXPECT_EQ(cell->job("next").state, JobState::succeeded) << cell->job("next").detail();

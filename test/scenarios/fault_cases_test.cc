@@ -97,7 +97,7 @@ TEST(FaultyArm, OverrunFailsOnlyItsJob) {
   EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
 }
 
-TEST(CanceledInMotion, BrakesAndShrinksItsReservation) {
+TEST(CanceledInMotion, MotionBrakesAndItsReservationShrinks) {
   Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   cell.submit(slide("far", -1, 1, 4, "other"));

@@ -175,7 +175,7 @@ TEST_P(CandidateArms, ImpossibleJobsAreRefusedAtOnce) {
   refused(trajectory, "/arms");
 }
 
-TEST_P(CandidateArms, PoseIsOneOfTheArmsOwnLink) {
+TEST_P(CandidateArms, PoseGoalAppliesToALinkOfTheCandidateArm) {
   for (const auto& link : {std::optional<std::string>(), std::optional<std::string>("ball")}) {
     JobRequest request = either(0.0, link ? "named" : "last");
     request.move_to = PlanGoal{.joints = {}, .named = {}, .pose = PlanPose{.link = link}};

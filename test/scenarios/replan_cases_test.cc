@@ -136,7 +136,7 @@ TEST_P(Replans, BrakeAMovingJobAndContinueIt) {
   cell->expect_at("a", {-1, 2});
 }
 
-TEST_P(Replans, KeepAWaitingJobFromItsOldPath) {
+TEST_P(Replans, PreventAWaitingJobFromUsingItsOldPath) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "waits"));
   ASSERT_TRUE(cell->executive().replan("waits"));

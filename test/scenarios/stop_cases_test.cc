@@ -26,7 +26,7 @@ TEST(Stop, PausesAllMotionsAndResumeFinishesThem) {
 
 // y would rest in the path of the stopped arm x for good. So y waits, as it would if x were not
 // stopped.
-TEST(Stop, KeepsWaitingJobsOfTheArmPossible) {
+TEST(Stop, JobsDoNotBlockAWaitingJobOfTheStoppedArm) {
   for (const std::string& policy : known_policies()) {
     Crossing cell(crossing_description(), policy);
     Executive& executive = cell.simulation->executive();

@@ -66,7 +66,7 @@ TEST_F(Horizon, DoesNotAdmitAMotionThatStartsElsewhere) {
   EXPECT_EQ(bench.state(elsewhere), JobState::failed);
 }
 
-TEST_F(Horizon, ConflictAheadOfItsTurnDoesNotBacklog) {
+TEST_F(Horizon, ConflictBeforeItsTurnDoesNotBacklogAJob) {
   const std::vector<JobId> jobs = submit_legs(0, 2);
   bench.answer_free(now += 1ms);
   bench.answer_conflict(now += 1ms, Conflict::With::rest, {}, ArmId{1});

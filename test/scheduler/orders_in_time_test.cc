@@ -121,7 +121,7 @@ TEST_F(OrdersInTime, ChoosesTheSmallestDelayThatPassesAllRegions) {
   EXPECT_EQ(graph.limit(kB), 500ms - kShortOf);
 }
 
-TEST_F(OrdersInTime, TimesFollowTheMotionThatStartsLater) {
+TEST_F(OrdersInTime, LaterMotionPassesAGoalBeforeItsArmArrives) {
   admit(motion(kA, 0, 4s), {});
   admit(motion(kB, 1, 2s), {{kB, kA, {region(ProgressBox{0s, 1s, 3s, 4s - 1ms})}}});
   ASSERT_EQ(graph.limit(kB), 2s) << "it leaves before A arrives";

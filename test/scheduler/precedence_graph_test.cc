@@ -241,7 +241,7 @@ TEST(PassingOrders, MotionDoesNotWaitForADepartureThatFollowsIt) {
 }
 
 // A brings both arms to B's start, in C's way.
-TEST(PassingOrders, StartThatIsOccupiedByThenIsNotPassedFirst) {
+TEST(PassingOrders, StartThatIsAlreadyOccupiedIsNotPassedFirst) {
   PrecedenceGraph graph(2);
   graph.admit({of_both(kA, 5s)}, {});
   const std::vector<CoordinatedMotion> candidates = {motion(kB, 0, 50s), motion(kC, 1, 5s)};

@@ -161,7 +161,7 @@ TEST(SafeSequence, SwapCausesNoWait) {
   EXPECT_TRUE(lanes.after({a, b}).all);
 }
 
-TEST(SafeSequence, NextMotionThatLeavesTheGoalUnblocks) {
+TEST(SafeSequence, GoalInTheWayDoesNotBlockIfTheNextMotionLeavesIt) {
   Lanes lanes(2);
   const JobId a1 = lanes.leg({kA}, 1.0), a2 = lanes.leg({kA}, 2.0), b = lanes.leg({kB}, 1.0);
   lanes.blocked(b, kA, 1.0);

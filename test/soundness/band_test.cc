@@ -34,7 +34,7 @@ Scenery& scenery() {
   return made;
 }
 
-TEST(HardlyFree, PairsKeepTheClearanceAtEverySampledInstant) {
+TEST(BarelyFreePairs, KeepTheClearanceAtEverySampledInstant) {
   Scenery& s = scenery();
   const double clearance_m = s.exact.cell().clearances.clearance_m;
   TruthSampler sampler(s.exact);

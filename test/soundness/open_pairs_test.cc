@@ -21,11 +21,11 @@ void expect_open_only_where_close(const CheckMethod& method, std::size_t open_ma
   }
 }
 
-TEST(OpenPairs, OfSweptMotionsAreCloseToTheClearance) {
+TEST(OpenPairs, UndecidedPairsOfSweptMotionsHaveADistanceNearTheClearance) {
   expect_open_only_where_close(Swept{0.001}, 2);
 }
 
-TEST(OpenPairs, OfConflictRegionsAreCloseToTheClearance) {
+TEST(OpenPairs, UndecidedConflictRegionsHaveADistanceNearTheClearance) {
   expect_open_only_where_close(Coordinated{0.001}, 4);
 }
 

@@ -63,7 +63,7 @@ TEST(Surfaces, EnclosePointsInside) {
   EXPECT_LE(wrongly, outside / 20);
 }
 
-TEST(Surfaces, EnclosePointsInsideTwice) {
+TEST(Surfaces, EnclosePointsThatTheyWindAroundTwice) {
   std::mt19937_64 random(54);
   const MeshPtr mesh = twice_wound_mesh();
   const auto components = components_of(*mesh);

@@ -29,7 +29,7 @@ Question crossing(const Cell& cell, Duration offset, const CheckMethod& method) 
   return {1, TimePoint{}, {left}, {right}, cell.home(), method};
 }
 
-TEST(ThinRod, CrossedBetweenSamplesIsFoundByCertifiedChecksOnly) {
+TEST(ThinRod, CrossingBetweenSamplesIsFoundOnlyByCertifiedChecks) {
   const CellPtr cell = two_rods();
   MotionChecker checker(PlanningScene::build(cell).value());
   const Duration offset = 22ms;
