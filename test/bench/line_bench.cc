@@ -20,7 +20,7 @@ namespace armloom::bench {
 namespace {
 
 constexpr double kSamples_rad = 0.01;  // largest joint step between two samples
-constexpr double kFine_rad = 0.0005;   // of the reference
+constexpr double kFine_rad = 0.0005;   // the same for the reference
 constexpr double kEdge = 1.2;          // Euclidean length, like a planner's edge
 
 double us_of(const std::function<void()>& work) {

@@ -38,7 +38,7 @@ struct RunRow {
   std::size_t backlogged = 0;  // jobs that were in the backlog
   std::uint64_t judgements = 0;
   std::uint64_t evaluations = 0;
-  double judging_s = 0.0;  // time of the machine
+  double judging_s = 0.0;  // wall time of all checks
 };
 
 // Runs the jobs under a policy on simulated time; kOneArm runs workload.one_arm. Reports

@@ -13,7 +13,7 @@ namespace armloom::experiments {
 // The motions of one arm, one after the other, divided into squares of kSquare of time.
 struct Lane {
   struct Leg {
-    TrajectoryPtr motion;  // the first of equal motions
+    TrajectoryPtr motion;  // equal motions share one pointer
     std::size_t squares;
     TimePoint from;  // Work::from
   };

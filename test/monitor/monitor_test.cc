@@ -103,7 +103,7 @@ TEST(Monitor, ReportsAPairAgainWhenItHasComeCloserInSmallSteps) {
   for (int i = 1; i <= 10; ++i) {
     again += static_cast<int>(m.observe({hands(0.006 - 0.0001 * i)}, kLeftMoves, at(0ms)).size());
   }
-  EXPECT_EQ(again, 1);  // after 0.6 mm
+  EXPECT_EQ(again, 1);  // when it has come 0.6 mm closer
 }
 
 TEST(Monitor, DoesNotRepeatAPairWhileBothArmsRest) {

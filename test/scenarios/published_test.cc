@@ -1,4 +1,5 @@
-// What clients read and what events report must agree at every event. No read needs the strand.
+// The values that clients read must agree with the published events, at every event. No read needs
+// the strand.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -59,7 +59,7 @@ class DetoursByHand : public ::testing::Test, protected Bench {
 
 TEST_F(DetoursByHand, EarliestArrivalIsChosen) {
   offer({12s, 8s, 10s, 9s});
-  if (question) answer_free(now());  // again, for the chosen path
+  if (question) answer_free(now());  // the chosen path is checked again
   EXPECT_EQ(taken(), 8s);
   EXPECT_EQ(state(goes_), JobState::scheduled);
   EXPECT_EQ(asked_around(), static_cast<std::size_t>(kDetoursMax));

@@ -24,7 +24,7 @@ namespace armloom::soundness {
 struct Pool {
   Pool(bench::ExactScene& exact, std::size_t count, std::uint64_t seed);
 
-  std::vector<TrajectoryPtr> motions[2];  // by arm; even indices to the right
+  std::vector<TrajectoryPtr> motions[2];  // by arm; those of even index turn to the right
   std::uint64_t refused = 0;
 };
 

@@ -19,7 +19,7 @@ struct SurfaceReport {
   std::size_t too_far = 0;            // computed distances above the true distance: must be 0
   double worst_m = 0.0;               // largest excess
   double shortfall_m = 0.0;           // largest underestimate of a distance between meshes
-  double round_shortfall_m = 0.0;     // meshes against round shapes, whose reference is inscribed
+  double round_shortfall_m = 0.0;     // the same between meshes and round shapes
   std::size_t false_contacts = 0;     // reported as touching, but apart by more than 1 um
   std::vector<std::string> failures;  // the first few
 };
