@@ -28,7 +28,7 @@ def overruns(server):
 def stop_and_resume(server, done, answer):
     """Repeats stop and resume in a separate process. A thread here would wait for the thread that writes batches.
 
-    The first request is not a stop, because it takes about 30 ms while the memory of the process is copied.
+    The first request is no stop and is not measured: it takes about 30 ms, because the memory of the process is copied.
     """
     server.call("GET", "/healthz")
     took_s = []

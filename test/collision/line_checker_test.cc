@@ -59,7 +59,7 @@ TEST(LineChecker, AgreesWithStateChecksAndMotionChecker) {
     LineChecker checker(lines.scene, left, rest, kTrackingError);
     const auto answer = checker.line(from, to);
     EXPECT_EQ(checker.is_free(from, to), answer.kind == LineChecker::Kind::free);
-    // All pairs except those of the right arm alone.
+    // Checks all pairs except those of the right arm alone.
     const auto too_close = [&](const Eigen::VectorXd& q) {
       Configuration whole = rest;
       lines.put(whole, left, q);

@@ -91,7 +91,8 @@ double solution_s(const CrowdedWorkload& world) {
   return sum;
 }
 
-// Returns a diagnosis: the job whose start left no solution, if there is one.
+// Returns why the world was not solved: the job whose start left no solution, if there is such a
+// job.
 std::string went_wrong(const CrowdedWorkload& world, const SimulationResult& result, Tally& tally) {
   CrowdedOracle oracle(world);
   std::vector<std::size_t> done(world.homes.size(), 0);
