@@ -1,11 +1,11 @@
 # For scripts that put faults into a copy of the sources, one at a time (sourced; bash).
 #   SCRIPT [tree [build folder]]   `tree`: a copy of this repository whose core/ may be changed (default: a
-#                                  new one in a temporary folder); every changed file is put back
-#   SCRIPT --patterns              only whether each fault has something to change in the sources; at once
-# ONLY='surface|ball' takes only the faults whose names match. The script gives make_tests and run_tests, which
-# build in $build and write to $build/mutations.log and .out, calls begin, mutate for each fault, and end. Prints
-# the first claims that each fault breaks; fails when a pattern is not found, a mutant does not build, or one
-# survives.
+#                                  new copy in a temporary folder); every changed file is restored
+#   SCRIPT --patterns              only checks that each fault's pattern is found in the sources; takes no time
+# ONLY='surface|ball' takes only the faults whose names match. The script defines make_tests and run_tests, which build
+# in $build and write to $build/mutations.log and .out. It calls begin, then mutate for each fault, then end. Prints the
+# first tests that fail for each fault. Fails if a pattern is not found, a changed source does not build, or a fault is
+# not found by the tests.
 set -uo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 survived=0
@@ -39,7 +39,7 @@ begin() {
   echo "|---|---|"
 }
 
-# The tests pass on what is not changed.
+# Checks that the tests pass without a fault.
 check_unchanged() {
   [ -z "$patterns_only" ] || return 0
   make_tests || { tail -20 "$build/mutations.log"; exit 1; }

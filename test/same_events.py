@@ -17,7 +17,7 @@ WORDS = {'detail', 'text', 'name'}
 
 
 def renamed(value, key=None):
-    """An event of version 0.1 as version 0.2 writes it."""
+    """Returns an event of version 0.1 as version 0.2 writes it."""
     if isinstance(value, list): return [renamed(one, key) for one in value]
     if isinstance(value, dict):
         out = {MEMBERS.get(name, name): renamed(one, name) for name, one in value.items()}

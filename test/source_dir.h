@@ -4,9 +4,9 @@
 
 namespace armloom {
 
-// The folder of this source tree, absolute: where models, cells and the tests' own data are. A
-// function, as its text then stands in one object: two trees share all others in a cache of
-// compiled files.
+// Returns the absolute path of this source tree, with the models, the cells and the tests' own
+// data. As a function its text is in one object file only, so that two trees share all other
+// objects in a compiler cache.
 std::string source_dir();
 
 }  // namespace armloom

@@ -18,8 +18,8 @@ struct CellOptions {
 inline const ArmId kLeft{0};
 inline const ArmId kRight{1};
 
-// Polynomials through random waypoints, at rest at both ends; the time just meets the tightest
-// velocity or acceleration limit.
+// Polynomials through random waypoints, at rest at both ends. Their duration is the shortest that
+// keeps the velocity and acceleration limits.
 enum class Pieces {
   quintic,  // acceleration is continuous
   cubic,    // acceleration jumps at the waypoints
@@ -44,7 +44,8 @@ struct Bench {
     for (const TimePoint end = now + time - kControlPeriod; now < end;) tick();
     return tick();
   }
-  // Fails the test after `most` of simulated time.
+  // Ticks until the arm is in this phase. Fails the test if that takes more than `most` of
+  // simulated time.
   const ArmFeedback& tick_until(ArmFeedback::Phase phase,
                                 Duration most = std::chrono::seconds(120));
 
@@ -53,8 +54,8 @@ struct Bench {
   TimePoint now{};
 };
 
-// Keeps the largest joint acceleration, by second differences of commanded positions, as a share of
-// the limit at that time.
+// Records the largest joint acceleration as a share of the limit at that time. Accelerations are
+// second differences of the commanded positions.
 class AccelerationGauge {
  public:
   AccelerationGauge(const Cell& cell, TrajectoryPtr trajectory);

@@ -57,7 +57,7 @@ TEST(SimulatedArm, BrakesInLessThanASecond) {
     }
     longest = std::max(longest, e.bench.now - asked);
   }
-  // 2.61 rad/s over (7.5 - 3.75) rad/s^2 is 0.7 s, plus the lag.
+  // Braking from 2.61 rad/s with (7.5 - 3.75) rad/s^2 takes 0.7 s, plus the lag.
   EXPECT_LT(longest, 900ms);
   EXPECT_GT(longest, 100ms);
 }

@@ -53,7 +53,7 @@ Sample sample(Kind kind, std::mt19937_64& random) {
       return {Sphere{half.x()}, {sphere}};
     }
     case Kind::box_mesh: {
-      // One face is a fan of triangles, two without area.
+      // One face is split into a fan of triangles. Two of its triangles have no area.
       small::Surface surface = small::box_surface(-half, half);
       surface.triangles.push_back({0, 1, 1});
       surface.vertices.emplace_back(0.5 * (surface.vertices[0] + surface.vertices[1]));
@@ -86,7 +86,7 @@ double true_distance(const Sample& a, const Eigen::Isometry3d& X_WA, const Sampl
   return smallest;
 }
 
-// `upright`: rotated about z only, and at equal heights.
+// If `upright`, the shapes are rotated about z only and are at equal heights.
 Eigen::Isometry3d place(std::mt19937_64& random, bool upright) {
   Eigen::Isometry3d X = reference::random_pose(random, 0.5);
   if (!upright) return X;

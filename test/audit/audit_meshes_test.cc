@@ -15,7 +15,8 @@ using namespace std::chrono_literals;
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 constexpr double kUp = small::kHalfTurn / 2;
 
-// One arm of one 0.4 m link in the plane z = 0, with `shape` at its tip, and `object`.
+// Returns a cell with `object` and one arm. The arm has one 0.4 m link, which turns in the plane z
+// = 0 and has `shape` at its tip.
 Cell cell_of(const Shape& shape, const Shape& object, const Eigen::Isometry3d& X_WO) {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
@@ -31,7 +32,7 @@ AuditReport at_angle(const Cell& cell, double q) {
   return *report;
 }
 
-// 0.2 m wide, along y about x = 0; contains the tip at (0, 0.4, 0).
+// The slot runs along y, is 0.2 m wide around x = 0, and contains the tip at (0, 0.4, 0).
 const Eigen::Isometry3d kSlot = small::at_xyz(0, 0.4, -0.5);
 
 TEST(AuditMeshes, ArmInASlotIsNoContactAlthoughTheHullIsSolid) {
@@ -60,7 +61,7 @@ TEST(AuditMeshes, ArmAtTheWallOfASlotIsAContact) {
 TEST(AuditMeshes, BodyInsideAnotherIsAContact) {
   const small::Surface large = small::box_surface({-1, -1, -1}, {1, 1, 1});
   const small::Surface small_box = small::box_surface({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05});
-  // The second piece lies inside, the first far outside.
+  // The second piece of this mesh lies inside the other mesh, the first piece far outside.
   const small::Surface two = small::joined(small::box_surface({5, 5, 5}, {6, 6, 6}), small_box);
   const std::pair<Shape, Shape> cases[] = {{small::mesh_of(small_box), small::mesh_of(large)},
                                            {Sphere{0.05}, small::mesh_of(large)},

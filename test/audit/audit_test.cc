@@ -15,7 +15,8 @@ using namespace std::chrono_literals;
 const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 constexpr double kUp = small::kHalfTurn / 2;
 
-// Two 0.4 m links, bases 0.7 m apart on x, overlap when they point at each other.
+// Returns two arms with one 0.4 m link each and bases 0.7 m apart along x. The links overlap when
+// they point at each other.
 Cell pair_of_arms() {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {kZ}, {0.4, 0.03});
@@ -83,7 +84,8 @@ TEST(Audit, FindsContactBetweenTwoRows) {
   const AuditReport report = report_of(cell, states, 1ms);
   ASSERT_TRUE(report.first_contact.has_value());
   EXPECT_EQ(report.states_checked, 1001U);
-  // a's axis at angle w touches b's tip cap, centered at (0.3, 0), with both radii.
+  // They touch when a's axis, at angle w, is two radii (0.06 m) from the center (0.3, 0) of b's tip
+  // cap.
   const double touching = std::asin(0.06 / 0.3);
   const double expected_s = (0.6 - touching) / 1.2;
   EXPECT_NEAR(to_seconds(report.first_contact->time), expected_s, 0.0011);

@@ -90,7 +90,8 @@ TEST(Numbers, FormatAsShortestRoundTripText) {
   }
 }
 
-// RFC 6901: tildes first, or the tilde of an escaped slash would be escaped again.
+// RFC 6901: tildes are escaped first. Otherwise the tilde of an escaped slash would be escaped
+// again.
 TEST(PointerTokens, EscapeTildesAndSlashes) {
   EXPECT_EQ(pointer_token("a/b"), "a~1b");
   EXPECT_EQ(pointer_token("~1"), "~01");

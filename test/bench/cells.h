@@ -6,8 +6,8 @@
 
 namespace armloom::bench {
 
-// Cells built from the Pandas of config/two_pandas.json. Throw std::runtime_error if a file cannot
-// be read.
+// These functions build cells from the Pandas of config/two_pandas.json. They throw
+// std::runtime_error if a file cannot be read.
 
 [[nodiscard]] CellPtr two_pandas();
 
@@ -17,7 +17,7 @@ namespace armloom::bench {
 // Returns `count` Pandas along x, facing +y, on one long table, in the order of x.
 [[nodiscard]] CellPtr line_of_pandas(std::size_t count, double spacing_m);
 
-// Returns rows of such lines, in the order of y, then x.
+// Returns `rows` such lines, one behind the other along y. Arms are in the order of y, then x.
 [[nodiscard]] CellPtr grid_of_pandas(std::size_t columns, std::size_t rows, double spacing_m);
 
 }  // namespace armloom::bench

@@ -1,5 +1,6 @@
-// FCL the MoveIt way and the engine, on one thread. First checks the workloads, and the baseline
-// against exact shapes: exit code 1 if it misses a contact.
+// Benchmarks of FCL the MoveIt way (moveit_way.h) and of the engine, on one thread. First checks
+// the workloads, and compares the baseline with exact shapes. Exit code 1 if the baseline misses a
+// contact.
 #include "test/bench/collision_bench.h"
 
 #include <benchmark/benchmark.h>

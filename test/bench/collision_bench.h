@@ -25,8 +25,8 @@ struct Workloads {
 // Throws std::runtime_error if a workload does not meet its claim; takes two seconds.
 [[nodiscard]] Workloads make_workloads();
 
-// Benchmarks are named "<way>/<workload>"; an iteration is one state or one admission. Workloads
-// must outlive the run.
+// These functions register benchmarks named "<way>/<workload>". One iteration is one state or one
+// admission. `workloads` must exist until the benchmarks have run.
 void register_moveit_way(const Workloads& workloads);
 void register_engine(const Workloads& workloads);
 

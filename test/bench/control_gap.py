@@ -26,9 +26,9 @@ def overruns(server):
 
 
 def stop_and_resume(server, done, answer):
-    """Runs in a separate process: a thread would wait for the thread that writes batches, not for the server.
+    """Repeats stop and resume in a separate process. A thread here would wait for the thread that writes batches.
 
-    The first request is not a stop, because it takes about 30 ms while the memory of the process is copied.
+    The first request is no stop and is not measured: it takes about 30 ms, because the memory of the process is copied.
     """
     server.call("GET", "/healthz")
     took_s = []
@@ -42,7 +42,7 @@ def stop_and_resume(server, done, answer):
 
 
 def read_lists(port, job, done):
-    """Requests every list in turn; of the events only the snapshot."""
+    """Requests every list in turn. Of the event stream only the snapshot at its beginning is read."""
     paths = ["/queue", "/jobs", "/timeline", "/arms", f"/jobs/{job}", "/events"]
     while not done.is_set():
         for path in paths:

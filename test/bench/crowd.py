@@ -22,7 +22,7 @@ from loaded_server import (API, TOP, LoadedServer, Periods, Repeated, connect, q
 
 
 def handshakes(armloom):
-    """Opens many WebSockets at once: are any lost, do other clients wait?"""
+    """Opens many WebSockets at once. Prints how many are lost, and how long other clients wait."""
     for count in (2300, 3400):
         with LoadedServer(armloom, demo=True) as server:
             time.sleep(1)
@@ -138,7 +138,7 @@ def read_poses(server, count, seconds):
 
 
 def readers(armloom, count=2000):
-    """WebSockets read everything while both arms move: two long jobs, then the demo's many short jobs."""
+    """WebSockets read all events while both arms move, first with two long jobs, then with the demo's many short jobs."""
     for demo in (False, True):
         with LoadedServer(armloom, demo=demo) as server:
             if not demo:

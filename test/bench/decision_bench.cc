@@ -1,7 +1,8 @@
-// Decision time (processor time): from submission to admission or rejection, including geometry, on
-// one thread. 48 Pandas: 15 motions run, 30 are admitted but not started, 200 jobs wait
-// (coordinated also admits those within its horizon). Candidates have new motions each time. Under
-// lockstep no job of the round moves yet; under sequential all other arms rest.
+// Measures decision time (processor time) on one thread: from submission to admission or rejection,
+// including geometry. In a cell of 48 Pandas 15 motions run, 30 are admitted but not started, and
+// 200 jobs wait. `coordinated` also admits the waiting jobs within its horizon. Under `lockstep` no
+// job of the round moves yet; under `sequential` all other arms rest. Candidates have new motions
+// each time.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -31,7 +32,8 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kColumns = 8, kRows = 6;
 constexpr double kReach = 0.5;
-// Share of a random motion about home: with half of it neighbors stay clear, with all they cross.
+// Factors that scale a random motion about home. With kShare neighboring arms stay clear of each
+// other; with kCrossingShare their motions cross.
 constexpr double kShare = 0.5, kCrossingShare = 1.0;
 constexpr std::size_t kAdmitted = 45, kRunning = 15;
 constexpr std::size_t kFree[] = {18, 28, 29};  // arms in the middle, which get the candidates
@@ -201,7 +203,8 @@ class Hall {
   MotionChecker checker_;
   MotionChecker chooses_;  // separate, so that it warms no cache of the measured checker
   Scheduler scheduler_;
-  std::map<TrajectoryPtr, TrajectoryPtr> random_;  // a motion and its random original
+  // by scaled motion: the random motion that it was made from
+  std::map<TrajectoryPtr, TrajectoryPtr> random_;
   std::optional<Question> question_;
   TimePoint now_{};
   std::uint64_t last_ = 0;

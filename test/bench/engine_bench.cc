@@ -1,4 +1,5 @@
-// The engine on the workloads of the baseline. Names: "engine/<question>/<workload>".
+// Benchmarks of the engine on the workloads of the baseline (moveit_way.h). Their names are
+// "engine/<question>/<workload>".
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace {
 
 PlanningScenePtr scene_of(const CellPtr& cell) { return PlanningScene::build(cell).value(); }
 
-// One iteration is one of eight states that are checked at once.
+// Measures the time per state. Eight states are checked at once.
 template <class Ask>
 void per_state(benchmark::State& run, const States& states, const Ask& ask) {
   std::vector<const Configuration*> eight(filter::kLanes);
@@ -89,8 +90,8 @@ void cross_arm(benchmark::State& run, const Motions& motions, bool must_be_free)
   if (must_be_free && !answer.free) run.SkipWithError("not free");
 }
 
-// Regions of random pairs of motions that meet; time per pair. blocked_percent: share of the
-// diagram not certified free.
+// Computes the regions of random pairs of motions that meet, and reports the time per pair.
+// blocked_percent is the share of the diagram that is not certified free.
 void regions_of_pairs(benchmark::State& run) {
   constexpr std::size_t kPairs = 40;
   constexpr double kReach = 0.8;
@@ -145,7 +146,7 @@ void register_states(const Workloads& workloads) {
           });
     };
     decided("decided_contact", {0.0, 0.0});
-    // Only the capsules of arms, without exact distances.
+    // Compares only the capsules of arms, without exact distances.
     benchmark::RegisterBenchmark(("engine/filter/" + name).c_str(), [&states, scene](auto& run) {
       PlacedCell placed(scene->bodies(), {0.0, 0.0});
       const std::size_t still = scene->cell().arms.size();

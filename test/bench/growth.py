@@ -11,7 +11,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 BEGIN, END = "<!-- growth.py begins -->\n", "<!-- growth.py ends -->\n"
-# Row of the benchmark: its counter and its caption.
+# By name of the benchmark's row: the counter that grows, and its caption.
 ROWS = {
     "horizon": ("horizon_steps", "motions per arm in the horizon"),
     "waiting": ("waiting", "waiting jobs"),

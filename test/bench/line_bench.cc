@@ -1,7 +1,7 @@
 // line_bench [EDGES]
-// A planner's edge: one arm straight through its joint space, others at rest. LineChecker, which
-// certifies the edge, against FCL the MoveIt way at states 0.01 rad apart (contact only): time, and
-// colliding edges that samples miss.
+// Checks edges of a planner: one arm moves straight through its joint space while the others rest.
+// Compares LineChecker, which certifies the whole edge, with FCL the MoveIt way at states 0.01 rad
+// apart (contact only). Prints the times, and the colliding edges that the samples miss.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -19,8 +19,8 @@
 namespace armloom::bench {
 namespace {
 
-constexpr double kSamples_rad = 0.01;  // of the largest joint step
-constexpr double kFine_rad = 0.0005;   // of the reference
+constexpr double kSamples_rad = 0.01;  // largest joint step between two samples
+constexpr double kFine_rad = 0.0005;   // the same for the reference
 constexpr double kEdge = 1.2;          // Euclidean length, like a planner's edge
 
 double us_of(const std::function<void()>& work) {
@@ -45,7 +45,8 @@ struct Edge {
     }
     return q;
   }
-  // Returns true if `bad` is true for a state; states are at most step_rad apart.
+  // Returns true if `bad` is true for any sampled state of the edge. Joints move at most step_rad
+  // between two samples.
   [[nodiscard]] bool any(double step_rad, const std::function<bool(const Configuration&)>& bad,
                          int* first = nullptr) const {
     const int count =

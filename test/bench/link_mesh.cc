@@ -11,7 +11,7 @@
 namespace armloom::bench {
 namespace {
 
-// qhull may leave a point this far outside of a face; twice as much is added.
+// qhull may leave a point kHullTolerance_m outside of a face. The mesh is larger by twice that.
 constexpr double kMargin_m = 2.0 * kHullTolerance_m;
 
 // Returns the largest n·p over the body's points p in P; n has unit length.

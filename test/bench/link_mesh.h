@@ -16,9 +16,10 @@ struct LinkMesh {
 };
 
 // Returns a closed convex mesh of about `triangles` triangles around one link's bodies, like
-// manufacturers' meshes: the planes that touch the bodies in (triangles + 8) / 4 even directions.
-// Larger at its corners (a 6 cm sphere in 252 triangles: 3 mm), so it never hides a contact. Throws
-// std::logic_error if a body is not contained. Precondition: bodies not empty, triangles >= 32.
+// manufacturers' meshes. Its faces lie in the planes that touch the bodies in (triangles + 8) / 4
+// evenly spread directions. The mesh is larger than the bodies at its corners (a 6 cm sphere in 252
+// triangles: 3 mm), so it never hides a contact. Throws std::logic_error if a body is not
+// contained. Precondition: bodies not empty, triangles >= 32.
 [[nodiscard]] LinkMesh circumscribed_mesh(const std::vector<ConvexShape>& bodies,
                                           std::size_t triangles);
 

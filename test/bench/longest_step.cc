@@ -1,7 +1,7 @@
 // longest_step CELL JOBS [POLICY]
-// How long the strand is blocked: runs a jobs file on simulated time and prints the longest control
-// cycles and submission (processor time). Checks are subtracted, because servers run them on other
-// threads.
+// Measures how long the strand is blocked. Runs a jobs file on simulated time and prints the
+// longest control cycles and the longest submission (processor time). The time of checks is
+// subtracted, because servers run checks on other threads.
 #include <time.h>
 
 #include <algorithm>

@@ -53,8 +53,13 @@ def poses(cell, arm, *names):
     return [of.poses[name] for name in names]
 
 
-# The robot, its data for joint_moves, the radius of the circle of 8 arms (m), the height of the bases,
-# the goals of trips, and the largest deviation of the first joint (vertical in all robots) from them.
+# By kind of robot:
+# - the robot,
+# - its data for joint_moves,
+# - the radius of a circle of 8 arms (m),
+# - the height of the bases (m),
+# - the goals of trips,
+# - the largest random change of the first joint at a goal (rad). The first joint of all robots is vertical.
 KINDS = {
     "panda": (lambda: robot_of("panda", "two_pandas.json"), joint_moves.PANDA, 0.95, 0.1,
               poses("two_pandas", "left", "tiled_up", "twist_right", "tiled_down", "coop_down", "mirror"),

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kStates = 2048;
 
-// One iteration is one of eight states that are checked at once.
+// Measures the time per state. Eight states are checked at once.
 void decided(benchmark::State& run, const PlanningScenePtr& scene,
              const std::vector<Configuration>& states, const PairLimits& limits) {
   ClearanceQuery check(scene, limits);
@@ -32,7 +32,7 @@ void decided(benchmark::State& run, const PlanningScenePtr& scene,
   run.counters["not_clear_percent"] = 100.0 * close / asked;
 }
 
-// Cost of the monitor's distances: the closest pair below a horizon.
+// Measures the time of the monitor's query: the closest pair within the horizon.
 void closest(benchmark::State& run, const PlanningScenePtr& scene,
              const std::vector<Configuration>& states, double horizon_m) {
   ClearanceQuery checker(scene);

@@ -22,8 +22,9 @@ double uniform(std::mt19937_64& random, double from, double to) {
   return from + (to - from) * static_cast<double>(random() >> 11U) * 0x1p-53;
 }
 
-// middle + sum of c[k] cos(k w t), k = 1..6, with w = pi / 10 s. Velocities are zero at both ends;
-// c[5] and c[6] make accelerations zero (sums of k^2 c[k] over odd and even k).
+// A joint's position at time t: middle + sum of c[k] cos(k w t), k = 1..6, with w = pi / 10 s.
+// Velocities are zero at both ends. c[5] and c[6] make the accelerations there zero (sums of k^2
+// c[k] over odd and even k).
 struct Swing {
   double middle = 0.0;
   std::array<double, kCosines + 1> c{};

@@ -22,8 +22,8 @@ inline constexpr std::size_t kWaypoints = 100;
 [[nodiscard]] TrajectoryPtr random_motion(const Cell& cell, ArmId arm, std::uint64_t seed,
                                           double reach);
 
-// Returns `motion` scaled by `share` and starting at home, or if `backwards` from its goal to home;
-// nullopt if that exceeds limits.
+// Returns `motion` with its displacements scaled by `share`, from home to the goal. If `backwards`,
+// from the goal to home. nullopt if the result exceeds limits.
 [[nodiscard]] std::optional<TrajectoryPtr> from_home(const Cell& cell, ArmId arm,
                                                      const Trajectory& motion, double share,
                                                      bool backwards);
@@ -36,22 +36,23 @@ struct Motions {
 
   // Sets q to the state with every motion at `progress` (at most its end).
   void state_at(Duration progress, Configuration& q) const;
-  // The same with the i-th motion ahead by `lead` (negative: behind).
+  // Sets q as above, but with the i-th motion ahead by `lead` (negative: behind).
   void state_at(Duration progress, std::size_t i, Duration lead, Configuration& q) const;
 };
 
-// Two motions every `step`; the first leads or lags by any multiple of `step` up to `band`.
+// Samples of two motions, every `step`. At each sample the first motion leads or lags by any
+// multiple of `step` up to `band`.
 struct SampledBand {
   Duration step;
   Duration band{};
 };
-// Returns the smallest exact distance between arms in that band, at most horizon_m. Stops early
-// below `enough_m`.
+// Returns the smallest exact distance between arms in these samples, at most horizon_m. Returns
+// early if a distance is below `enough_m`.
 [[nodiscard]] double closest_in_band(ExactScene& exact, const Motions& motions,
                                      const SampledBand& sampled, double horizon_m, double enough_m);
 
-// Returns true if all motions, every `step`, keep margin_m from the scene, and its share
-// self_clearance_m / clearance_m from themselves.
+// Checks all motions every `step`. Returns true if they keep margin_m from the scene, and margin_m
+// * self_clearance_m / clearance_m between links of one arm.
 [[nodiscard]] bool clear_of_all_but_arms(ExactScene& exact, const Motions& motions, Duration step,
                                          double margin_m);
 

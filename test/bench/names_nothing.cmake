@@ -1,5 +1,5 @@
-# PROGRAM says that a filter names none of its benchmarks, and ends with exit code 2: a crash, or a program that is
-# not there, fails.
+# Checks that PROGRAM reports a filter that matches none of its benchmarks, with exit code 2. A crash or a missing
+# program fails the check.
 #   cmake -DPROGRAM=... -P names_nothing.cmake
 execute_process(COMMAND ${PROGRAM} --benchmark_filter=no_such_benchmark
   RESULT_VARIABLE code OUTPUT_VARIABLE said ERROR_VARIABLE complained)

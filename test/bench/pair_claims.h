@@ -21,7 +21,7 @@ inline constexpr double kHallReach = 0.5;
 [[nodiscard]] bool is_crossing_pair(Referees& referees, const Motions& pair);
 [[nodiscard]] bool is_clear_hall(Referees& referees, const Motions& motions);
 
-// The part of is_clear_hall about the arms i and i + 1.
+// Checks what is_clear_hall() checks, but for the arms i and i + 1 only.
 [[nodiscard]] bool are_clear_neighbours(Referees& referees, const Motions& motions, std::size_t i);
 
 }  // namespace armloom::bench

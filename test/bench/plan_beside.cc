@@ -122,7 +122,7 @@ class Queries {
   }
 
  private:
-  // Uses the other arms' current positions, so that the goal is not blocked permanently.
+  // Returns a job to a random place that is free while all other arms are at home.
   JobRequest to_random_place(ArmId id, const std::string& key) {
     const Arm& arm = cell_->arm(id);
     const auto scene = judge_.last_scene ? judge_.last_scene : *PlanningScene::build(cell_);
@@ -167,7 +167,8 @@ class Queries {
     if (executive_->scene().add(fly)) fly_ = fly.name;
   }
 
-  // Until the job is admitted or has ended; then makes room for the next.
+  // Ticks until the job is admitted or has ended. Then cancels the job, so that the next can be
+  // submitted.
   void follow(const std::string& key) {
     const std::size_t plans_before = judge_.ms.size() - 1;
     const TimePoint limit = now_ + std::chrono::seconds(10);
@@ -185,7 +186,8 @@ class Queries {
     while (!is_terminal(executive_->job(key)->state)) tick();
   }
 
-  // Expects the last plan, for this scene and from the arm's position.
+  // Counts the motion as out of date unless it starts at the arm's position and was planned in the
+  // present scene.
   void note_admitted(const std::string& key) {
     ++admitted_;
     const Trajectory& motion = *executive_->trajectory(key);

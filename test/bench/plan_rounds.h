@@ -10,12 +10,12 @@
 
 namespace armloom {
 
-// Connected poses, and pairs that very likely cannot be connected.
+// Records which poses are connected, and which pairs of poses very likely cannot be connected.
 class PoseGroups {
  public:
   explicit PoseGroups(std::size_t poses);
   void join(std::size_t a, std::size_t b);
-  // Even a ten times larger budget found no path.
+  // Records that even a ten times larger budget found no path.
   void part(std::size_t a, std::size_t b) { parted_.emplace_back(a, b); }
   [[nodiscard]] bool are_joined(std::size_t a, std::size_t b) const;
   [[nodiscard]] bool are_parted(std::size_t a, std::size_t b) const;
@@ -26,12 +26,13 @@ class PoseGroups {
   std::vector<std::pair<std::size_t, std::size_t>> parted_;
 };
 
-// Solved queries of one arm as a closed tour from the first pose through each query once, as far as
-// there is one (Hierholzer).
+// Joins the solved queries of one arm to a closed tour from the first pose, with each query once
+// (Hierholzer's algorithm).
 class PlanRounds {
  public:
   void add(std::size_t from, std::size_t to, TrajectoryRequest way);
-  // Complete if each pose has as many outgoing as incoming paths, e.g. if all queries are solved.
+  // Returns the tour. It contains all queries if each pose has as many outgoing as incoming paths,
+  // for example if all queries are solved.
   [[nodiscard]] std::vector<const TrajectoryRequest*> round_from(std::size_t first) const;
 
  private:

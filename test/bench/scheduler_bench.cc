@@ -31,8 +31,8 @@ TrajectoryPtr motion_of(ArmId arm) {
                                             std::vector{segment});
 }
 
-// `waiting` jobs on the middle arms, and one job in motion on the first. Checks, except the first
-// arm's, are answered with "the last arm rests in the way".
+// Puts `waiting` jobs on the middle arms, and one job in motion on the first. Checks of the middle
+// arms are answered with "the last arm rests in the way".
 class Crowd {
  public:
   Crowd(const std::string& policy, std::size_t waiting)

@@ -22,32 +22,33 @@ struct ExactScene {
   [[nodiscard]] double between_arms(const Configuration& q, double horizon_m);
   // Returns the exact distance of arms to the scene, at most horizon_m.
   [[nodiscard]] double to_scene(const Configuration& q, double horizon_m);
-  // Returns true if own links are closer than their share self_clearance_m / Cell::clearance_m of
-  // clearance_m.
+  // Returns true if two links of one arm are closer than clearance_m * self_clearance_m /
+  // Cell::clearance_m.
   [[nodiscard]] bool self_too_close(const Configuration& q, double clearance_m);
   [[nodiscard]] bool self_too_close(const Configuration& q) {
     return self_too_close(q, cell().clearances.clearance_m);
   }
   // Returns true if any checked pair touches, own links included.
   [[nodiscard]] bool in_contact(const Configuration& q);
-  // Returns true if the arm is closer than clearance_m to anything, or its share to itself.
+  // Returns true if the arm is closer than clearance_m to anything, or too close to itself (see
+  // self_too_close()).
   [[nodiscard]] bool too_close(const Configuration& q, ArmId arm, double clearance_m);
 };
 
-// Decides what is a workload: exact shapes, and whether only the baseline's meshes touch. Its
-// convex link meshes fill the hollows of a folded arm; a check that ends there would measure
-// nothing.
+// Decides which states and motions become workloads. Exact shapes decide, and states in which only
+// the baseline's meshes touch are left out. The baseline's convex link meshes fill the hollows of a
+// folded arm, and a check that ends at such a contact would measure nothing.
 struct Referees {
   ExactScene exact;
   MoveItWay moveit;
 
   explicit Referees(const CellPtr& cell) : exact(cell), moveit(cell) {}
-  // Returns true if the baseline reports one arm, with all others at home.
+  // Returns true if the baseline reports a contact of one of the arms while all others are at home.
   [[nodiscard]] bool baseline_sees_one_arm_touch(const Configuration& q);
 };
 
-// Combined states of two Pandas by the exact distance d between the arms. Except in `touching`,
-// each arm keeps self_clearance_m from itself, also for the baseline.
+// Combined states of two Pandas, sorted by the exact distance d between the arms. Except in
+// `touching`, each arm keeps self_clearance_m from itself, also for the baseline.
 struct StateClasses {
   std::vector<Configuration> apart;     // d and the distance to the table above 0.10 m
   std::vector<Configuration> near;      // 3 mm <= d <= 50 mm, the table at least 3 mm away
@@ -56,8 +57,8 @@ struct StateClasses {
 // Deterministic for `count` and the standard library.
 [[nodiscard]] StateClasses classed_states(Referees& referees, std::size_t count);
 
-// Returns states in which nothing is closer than 3 mm (an arm to itself: self_clearance_m): three
-// times, each arm is placed at random until clear.
+// Returns states in which nothing is closer than 3 mm (links of one arm: self_clearance_m). Every
+// arm is placed three times, each time at random until it is clear.
 [[nodiscard]] std::vector<Configuration> free_states(Referees& referees, std::size_t count);
 
 }  // namespace armloom::bench

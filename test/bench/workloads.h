@@ -7,20 +7,21 @@
 
 namespace armloom::bench {
 
-// Motions found by seed_search.cc and checked with exact shapes; std::runtime_error names a
+// Motions found by seed_search.cc and checked with exact shapes. A std::runtime_error names the
 // violated claim.
 
-// The arms stay more than 0.15 m apart, and more than 0.10 m with either up to 0.5 s ahead.
+// The arms stay more than 0.15 m apart. With either motion up to 0.5 s ahead they stay more than
+// 0.10 m apart.
 [[nodiscard]] Motions clear_pair();
 
-// The arms pass through each other's space, 45 to 55 mm apart at the closest; with either up to
-// kCrossingBand ahead they keep 40 mm.
+// The arms pass through each other's space, 45 to 55 mm apart at the closest. With either motion up
+// to kCrossingBand ahead they keep 40 mm.
 inline constexpr Duration kCrossingBand = std::chrono::milliseconds(300);
 [[nodiscard]] Motions crossing_pair();
 
-// `others` running arms and one candidate in the middle, which reaches only its neighbors. All
-// motions start together and keep 0.05 m, with either of two neighbors up to 0.5 s ahead. others:
-// 1, 3, 7, 15.
+// One candidate in the middle and `others` running arms (1, 3, 7 or 15). The candidate reaches only
+// its neighbors. All motions start together. They keep 0.05 m, even with either of two neighbors up
+// to 0.5 s ahead.
 struct Hall {
   Motions motions;        // by arm
   std::size_t candidate;  // index of its motion and arm

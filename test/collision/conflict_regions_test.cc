@@ -36,7 +36,7 @@ void expect_box(const ProgressBox& box, Duration from_a, Duration to_a, Duration
   EXPECT_EQ(box.to_b, to_b);
 }
 
-// A pause at a region's edge costs up to a fine cell.
+// Waiting at a region's edge costs up to the duration of one fine cell.
 TEST(PairRegionSearch, ResolutionFollowsTheShorterMotion) {
   const auto fine = [](Duration shorter) {
     return PairRegionSearch::resolution_of(shorter).passing.fine;
@@ -78,7 +78,8 @@ TEST(BlockedRegions, MergeCellsIntoFewBoxes) {
 }
 
 TEST(BlockedRegions, CutInTheDirectionWithFewerBoxes) {
-  // A comb with teeth along B; cut across its back there would be five boxes.
+  // A comb with three teeth along B. If cut across its back it would have five boxes instead of
+  // four.
   std::vector<BlockedCell> comb{cell(0s, 5s, 0s, 1s), cell(0s, 1s, 1s, 3s), cell(2s, 3s, 1s, 4s),
                                 cell(4s, 5s, 1s, 5s)};
   for (const bool along_a : {false, true}) {
@@ -122,7 +123,7 @@ TEST(BlockedRegions, DropCellsBehindBothArms) {
   const auto regions = blocked_regions(cells, remaining);
   ASSERT_EQ(regions.size(), 1U);
   expect_box(regions[0].boxes[0], 5s, 6s, 0s, 0s);
-  // The current position is not behind the arm.
+  // A cell that ends at the current position is not behind the arms.
   EXPECT_EQ(blocked_regions({cell(1s, 3s, 0s, 0s)}, remaining).size(), 1U);
   EXPECT_EQ(blocked_regions({cell(9s, 10s, 0s, 0s)}, {10s, 10s, 0s, 0s}).size(), 1U);
 }
@@ -138,7 +139,7 @@ TEST(BlockedRegions, ReportTheStrongestEvidence) {
   EXPECT_EQ(blocked_regions(cells, kAll)[0].evidence, 0U);
 }
 
-// A grid of all cuts would have 1.6e9 fields.
+// A grid through all edges of these cells would have 1.6e9 fields.
 TEST(BlockedRegions, UseMemoryProportionalToTheCells) {
   constexpr int kCells = 20'000;
   std::vector<BlockedCell> cells;
@@ -148,8 +149,8 @@ TEST(BlockedRegions, UseMemoryProportionalToTheCells) {
   EXPECT_EQ(blocked_regions(cells, {0s, 600s, 0s, 600s}).size(), cells.size());
 }
 
-// The boxes must contain all random cells, no field connected to the outside, and be connected as
-// by brute force.
+// The boxes must contain all random cells, but no field that is connected to the outside. They must
+// be connected in the same way as in a brute-force search.
 TEST(BlockedRegions, ContainAllCellsAndOnlyWhatTheyEnclose) {
   std::mt19937_64 random(17);
   for (int round = 0; round < 300; ++round) {

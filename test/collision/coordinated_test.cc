@@ -29,9 +29,10 @@ ProgressBox around(const ConflictRegion& region) {
   return hull;
 }
 
-// Returns how far from the true conflict an uncertified state may lie. An outline cell is not free
-// if its middle is nearer than both arms move in half of it; its farthest state is as far away
-// again. A coarser cell whose middle is a conflict adds this once.
+// Returns how far (m) from the true conflict an uncertified state may lie. A fine cell is
+// uncertified if its middle is so close to the conflict that both arms reach it within half of the
+// cell. The cell's farthest state is as far away again. A coarse cell is uncertified if its middle
+// is in conflict; then its farthest state is half a cell away.
 double slack_m() {
   const auto moves = [](Duration width) {
     return 2 * (kSpeed_m_s * to_seconds(width) / 2 + kTracking_m);
@@ -177,7 +178,7 @@ TEST(CoordinatedCheck, ComparesMotionsOfDifferentArmsOnly) {
 
 TEST(CoordinatedCheck, JoinsTheArmsOfASynchronousMotion) {
   Rails rails;
-  // y passes the two arms' rails at 2 s and 4 s; both arms are there at 2 s.
+  // y passes the rails of the two arms at 2 s and at 4 s. Both arms are at those places at 2 s.
   rails.question.candidates = {rails.motion(1, {kX, kSecond}, -1, 1)};
   rails.question.others = {rails.motion(2, {kY}, -1, 1.7)};
   Verdict verdict = rails.judge();
@@ -218,7 +219,7 @@ TEST(CoordinatedCheck, ReportsASynchronousMotionWhoseArmsMeet) {
   EXPECT_EQ(verdict.conflicts[0].with, Conflict::With::self);
 }
 
-TEST(CoordinatedCheck, AllowsAPairTooCloseNowToSeparate) {
+TEST(CoordinatedCheck, AllowsAPairThatIsTooCloseToMoveApart) {
   Rails rails;
   rails.question.rest[1] = 0.0;
   rails.question.candidates = {rails.motion(1, {kX}, 0.115, 1)};  // away from y, too close
@@ -232,7 +233,7 @@ TEST(CoordinatedCheck, AllowsAPairTooCloseNowToSeparate) {
   EXPECT_EQ(verdict.regions[0].regions[0].boxes[0].from_a, 0s);
 }
 
-// x and y move together; then x alone returns to where y still rests.
+// x and y move together. Then x alone returns to where y still rests.
 TEST(CoordinatedCheck, ChecksAgainstTheOtherArmsOfASharedMotion) {
   Rails rails;
   rails.question.others = {rails.motion(1, {kX, kY}, 1.5, 0.1)};
@@ -248,7 +249,8 @@ TEST(CoordinatedCheck, ChecksAgainstTheOtherArmsOfASharedMotion) {
   EXPECT_EQ(around(verdict.regions[0].regions[0]).from_b, 0s);
 }
 
-// One motion moves both after x has passed; until then y rests 7 mm from its start.
+// After x has passed, a second motion moves both arms. Until then y rests 7 mm away from where that
+// motion starts.
 TEST(CoordinatedCheck, UsesTheArmsPositionNotItsMotionsStart) {
   Rails rails;
   rails.question.candidates = {rails.motion(1, {kX}, -1, 0.125),
@@ -276,7 +278,8 @@ TEST(CoordinatedCheck, LongMotionsStayWithinTheCellLimit) {
     EXPECT_EQ(verdict.kind, Verdict::Kind::free);
     EXPECT_FALSE(verdict.regions.empty());
     EXPECT_FALSE(verdict.exhausted) << "a larger effort would find no more";
-    // Isolated cells come on top, in proportion to the length.
+    // 50,000 more are allowed for isolated cells, whose number grows with the length of the
+    // motions.
     EXPECT_LT(verdict.evaluations, 2 * PairRegionSearch::kCellsMax + 50'000);
   }
 }

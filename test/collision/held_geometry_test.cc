@@ -53,7 +53,8 @@ TEST(AttachedObjects, CheckerDistancesMatchBruteForce) {
   EXPECT_GT(contacts, 100);
 }
 
-// Limits just above and below the distance of the attached object force the kernels to see it.
+// The limits are just above and just below the distance of the attached object. Only a kernel that
+// includes the object decides both correctly.
 TEST(AttachedObjects, KernelsDecideByTheAttachedObjectAlone) {
   Holding h;
   int alone = 0;

@@ -38,8 +38,8 @@ Attachment rod_at(const Cell& cell, const std::string& name, const std::string& 
   return held;
 }
 
-// Two 0.4 m links that turn about z, bases `apart_m` apart along x. At zero a points to b, at pi b
-// points to a.
+// Returns two arms with one 0.4 m link each that turns about z. The bases are `apart_m` apart along
+// x. At 0 rad a points to b, at pi b points to a.
 Cell two_arms(double apart_m) {
   Cell cell;
   cell.clearances.clearance_m = 0.02;
@@ -63,8 +63,8 @@ Question question_of(const Configuration& rest, TrajectoryPtr candidate) {
   return {1, at(0s), {{kJob, std::move(candidate), 0s}}, {}, rest, TimedDiscrete{20ms}};
 }
 
-// Checks bare arms, then attached objects, then bare arms again with one checker: only the second
-// check is a conflict, as `expected`.
+// Checks bare arms, then attached objects, then bare arms again, with one checker. Only the second
+// check must find a conflict, between the bodies of `expected`.
 void expect_only_held_conflicts(const PlanningScenePtr& bare, const PlanningScenePtr& held,
                                 Question question, const Proximity& expected, With with) {
   for (const CheckMethod& method : methods()) {

@@ -56,7 +56,7 @@ struct Holding {
 using NamePair = std::pair<std::string, std::string>;
 inline NamePair names(const std::string& a, const std::string& b) { return std::minmax(a, b); }
 
-// Returns the distance of each attached object to everything it must not touch.
+// Returns the distance of each attached object to each body that the object must not touch.
 inline std::map<NamePair, double> brute_force(const Holding& h, const Configuration& q) {
   LinkPoses X_WL;
   forward_kinematics(*h.cell, q, X_WL);

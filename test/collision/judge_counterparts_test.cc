@@ -97,7 +97,7 @@ TEST(DiscreteCheck, ChecksCandidatesAgainstEachOther) {
   EXPECT_EQ(verdict.conflicts[0].proximity.body_a, "b_link1");
 }
 
-TEST(DiscreteCheck, ReportsArmsOfOneMotionAsSelf) {
+TEST(DiscreteCheck, ReportsConflictsOfArmsOfOneMotionAsSelf) {
   Judged judged(row());
   judged.question.candidates = {
       {JobId{1}, small::sweep(*judged.cell, {kA, kB}, {kUp, kUp}, {0, kPi}, 2s), 0s}};

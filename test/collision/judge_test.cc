@@ -21,14 +21,15 @@ TEST(DiscreteCheck, ChecksEveryStepAndTheEnd) {
 }
 
 // Defect T2: only the remaining half of b's motion may be checked.
-TEST(DiscreteCheck, ComparesWithTheRemainingMotion) {
+TEST(DiscreteCheck, ChecksAgainstTheRemainingPartOfAMotion) {
   Judged judged(row());
   // b leaves a's side within its first half.
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 4s)};
   judged.question.others = {judged.begun(judged.motion(1, kB, kPi, 0, 4s), 2s)};
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
 
-  // b reaches a's side in its second half, which a's clock would take for the first.
+  // b reaches a's side in the second half of its motion. A check that used a's clock for both
+  // motions would look at the first half.
   judged.question.others = {judged.begun(judged.motion(1, kB, 0, kPi, 4s), 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.kind, Verdict::Kind::conflict);
@@ -45,7 +46,7 @@ TEST(DiscreteCheck, ComparesWithTheRemainingMotion) {
 }
 
 // Defect T3: the other arm's rest must be checked before and after its motion.
-TEST(DiscreteCheck, FindsTheRestAfterAShorterMotion) {
+TEST(DiscreteCheck, FindsAConflictWithAnArmAtRestAfterItsShorterMotion) {
   Judged judged(row());
   judged.question.candidates = {judged.motion(2, kA, kPi, 0, 8s)};
   judged.question.others = {judged.motion(1, kB, kUp, kPi, 1s)};
@@ -66,7 +67,7 @@ TEST(DiscreteCheck, FindsALongerMotionThatHitsTheCandidateAtRest) {
   EXPECT_GT(verdict.conflicts[0].other_time, 4s);
 }
 
-TEST(DiscreteCheck, FindsTheRestBeforeAMotionThatStartsLater) {
+TEST(DiscreteCheck, FindsAConflictWithAnArmAtRestBeforeItsLaterMotion) {
   Judged judged(row());
   judged.question.candidates = {judged.motion(2, kA, kUp, 0, 2s)};
   judged.question.others = {judged.begun(judged.motion(1, kB, kPi, 0, 2s), -10s)};
@@ -108,24 +109,25 @@ TEST(DiscreteCheck, ChecksTheGoalEvenIfTheStepIsLongerThanTheMotion) {
   EXPECT_EQ(verdict.evaluations, 2U);
 }
 
-TEST(DiscreteCheck, AllowsAPairThatIsTooCloseToSeparate) {
+TEST(DiscreteCheck, LetsAPairThatIsTooCloseMoveApart) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
   judged.question.candidates = {judged.motion(2, kA, 0, kUp, 2s)};  // out of an overlap
   EXPECT_EQ(judged().kind, Verdict::Kind::free);
 }
 
-TEST(DiscreteCheck, RejectsAPairThatIsTooCloseAndApproaches) {
+TEST(DiscreteCheck, RejectsAPairThatIsTooCloseAndComesCloser) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
-  // Closest at 0, when the links are parallel; below the clearance from 0.12 on.
+  // The links are closest at 0 rad, where they are parallel. At 0.12 rad their distance falls below
+  // the clearance.
   judged.question.candidates = {judged.motion(2, kA, 0.12, -0.12, 2s)};
   const Verdict verdict = judged();
   ASSERT_EQ(verdict.conflicts.size(), 1U);
   EXPECT_GT(verdict.conflicts[0].own_time, 0s);
 }
 
-TEST(DiscreteCheck, RejectsAReturnAfterAPairHasSeparated) {
+TEST(DiscreteCheck, RejectsAReturnAfterAPairHasMovedApart) {
   Judged judged(row());
   judged.question.rest[1] = kPi;
   auto there = small::sweep(*judged.cell, {kA}, {0.0}, {kUp}, 2s)->segments();

@@ -40,8 +40,8 @@ struct Lines {
   std::mt19937_64 random;
 };
 
-// Confirms each answer with exact distances, off the line by up to the tracking error, and with the
-// motion checker.
+// Confirms each answer with the motion checker, and with exact distances at states that are off the
+// line by up to the tracking error.
 TEST(LineChecker, AgreesWithStateChecksAndMotionChecker) {
   Lines lines(21);
   const ArmId left{0}, right{1};
@@ -59,7 +59,7 @@ TEST(LineChecker, AgreesWithStateChecksAndMotionChecker) {
     LineChecker checker(lines.scene, left, rest, kTrackingError);
     const auto answer = checker.line(from, to);
     EXPECT_EQ(checker.is_free(from, to), answer.kind == LineChecker::Kind::free);
-    // All pairs except those of the right arm alone.
+    // Checks all pairs except those of the right arm alone.
     const auto too_close = [&](const Eigen::VectorXd& q) {
       Configuration whole = rest;
       lines.put(whole, left, q);

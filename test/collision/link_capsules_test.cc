@@ -132,7 +132,8 @@ TEST(LinkCapsules, AreAsThinAsALongBar) {
     ASSERT_EQ(fitted.capsules.size(), 1U);
     EXPECT_LE(fitted.capsules.front().radius_m, 0.05 * 1.02);
     EXPECT_LE((fitted.capsules.front().p_PB - fitted.capsules.front().p_PA).norm(), 1.0);
-    // The capsule is 50 mm - 30 mm larger at the side, almost a radius at its tips.
+    // The capsule is 20 mm (50 mm - 30 mm) larger than the box at two sides, and almost a radius
+    // longer at its tips.
     EXPECT_GE(fitted.overestimate_m, 0.02);
     EXPECT_LE(fitted.overestimate_m, 0.05);
   }
@@ -159,7 +160,7 @@ TEST(LinkCapsules, EqualTwoRoundShapesAtAnAngle) {
   EXPECT_LE(fitted.overestimate_m, 1e-3);
 }
 
-TEST(LinkCapsules, BeatAPrincipalAxisCapsule) {
+TEST(LinkCapsules, OfAFlatDiskAreNoLargerThanItsBoundingSphere) {
   // For a flat disk the principal axis is arbitrary.
   const LinkCapsules disc = fit_capsules(make_convex_shapes({{Cylinder{0.2, 0.02}}}));
   const double ball = 4.0 / 3.0 * small::kHalfTurn * std::pow(std::hypot(0.2, 0.01), 3);

@@ -48,7 +48,8 @@ struct Solid {
   }
 };
 
-// Compares all features. Exact unless the solids overlap.
+// Returns the smallest distance of any two features (vertices, edges, faces). Exact unless the
+// solids overlap.
 double brute_distance(const Solid& a, const Solid& b) {
   double nearest = 1e9;
   for (std::size_t i = 0; i < a.faces.size(); ++i) {
@@ -205,7 +206,7 @@ TEST(MeshShape, ShapeInsideAnotherIsInContact) {
   EXPECT_LE(distance_of(part, X, crate, small::at_xyz(0, 0, 0)), 0.0);
 }
 
-TEST(PlanningScene, MeshWithoutPiecesIsItsHull) {
+TEST(PlanningScene, MeshWithoutPiecesIsReplacedByItsHull) {
   Cell cell;
   small::add_robot(cell, "a", small::at_xyz(0, 0, 0), {Eigen::Vector3d::UnitZ()}, {0.4, 0.03});
   // The arm is inside a slot, but the hull has no slot.

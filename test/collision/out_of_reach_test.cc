@@ -58,8 +58,9 @@ TEST(ClaimedPairs, AreSkippedForArmsTooFarApart) {
   const ScratchFolder folder;
   const PlanningScenePtr scene = busy::scene_of(build_or_fail(row_of(8, folder)));
   const auto skipped = out_of_reach(scene);
-  // Links reach 0.43 and 0.83 m, arms are 0.6 m apart. Proven: arms three places apart, first links
-  // two places apart, and three pairs with the posts.
+  // First links reach 0.43 m, second links 0.83 m, and arms are 0.6 m apart. Proven out of reach
+  // are all links of arms three or more places apart, first links of arms two places apart, and
+  // three pairs with the posts.
   EXPECT_THAT(skipped, SizeIs(15 * 4 + 6 + 3));
   EXPECT_THAT(skipped, Contains(NamePair("arm0_2_link", "arm3_2_link")));
   EXPECT_THAT(skipped, Contains(NamePair("arm0_1_link", "arm2_1_link")));
@@ -77,7 +78,8 @@ TEST(ClaimedPairs, AreProvenFromJointLimitsAndClearance) {
   };
   const NamePair first{"arm0_1_link", "arm1_1_link"};
   EXPECT_THAT(skipped_with(0.3), Not(Contains(first)));
-  // The link stays 0.15 m from the nearest position of arm1's link.
+  // Between these joint limits arm0's first link stays 0.15 m from the nearest position of arm1's
+  // first link.
   EXPECT_THAT(skipped_with(1.5), Contains(first));
   EXPECT_THAT(skipped_with(1.5), Not(Contains(NamePair{"arm0_1_link", "arm1_2_link"})));
   row.clearance_m = 0.2;

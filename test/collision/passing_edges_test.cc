@@ -85,7 +85,7 @@ std::optional<Duration> allowed_of(const std::vector<OpenLeaf>& component,
   return std::clamp(behind / 2, kResolution.fine, kResolution.coarse);
 }
 
-TEST(PassingEdges, AreTheOutermostLeavesThatAreTooWide) {
+TEST(PassingEdges, CoarseLeavesMatchTheirDefinition) {
   std::size_t found = 0;
   for (unsigned seed = 1; seed <= 2000; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -9,8 +9,9 @@ namespace armloom::row_of_arms {
 using namespace std::chrono_literals;
 inline const Eigen::Vector3d kZ = Eigen::Vector3d::UnitZ();
 
-// Three 0.4 m links in a row along x, bases 0.7 m apart, turning about z: 0 points to the right
-// neighbor, pi to the left. Neighbors overlap only if they point at each other.
+// Returns three arms of one 0.4 m link each, in a row along x with bases 0.7 m apart. Links turn
+// about z: 0 rad points to the right neighbor, pi to the left. Neighbors overlap only if they point
+// at each other.
 inline Cell row() {
   Cell cell;
   cell.clearances.clearance_m = 0.02;

@@ -50,7 +50,7 @@ Question question(const Cell& cell, const CheckMethod& method, std::uint64_t see
   return asked;
 }
 
-// If the wall carries the arm, its pedestal belongs to the same link.
+// Returns "wall" for the arm's pedestal, too: if the wall carries the arm, both belong to one link.
 std::string named(const std::string& body) { return body == "a_base" ? "wall" : body; }
 
 void expect_same(const Verdict& link, const Verdict& object, const std::string& where) {
@@ -98,7 +98,8 @@ TEST(SceneLinks, AreCheckedLikeObjectsByEveryMethod) {
   }
 }
 
-// With a straight arm, the tip is 0.03 m beyond y = 0.6 sin q; the wall is at 0.4.
+// Returns the configuration in which the tip is gap_m from the wall. With a straight arm the tip is
+// 0.03 m beyond y = 0.6 sin q; the wall is at 0.4.
 Configuration tip_from_wall(const Cell& cell, double gap_m) {
   Configuration q = cell.home();
   q[0] = std::asin((0.4 - 0.03 - gap_m) / 0.6);
@@ -178,8 +179,8 @@ TEST(SceneLinks, IncludeTheMountButNoOwnLinks) {
   EXPECT_EQ(others, 2);
 }
 
-// Robots that fold onto their own base need a smaller mount clearance, and the verdict must claim
-// no more.
+// Robots that fold onto their own base need a smaller clearance to their mount. The verdict must
+// not claim more than that clearance.
 TEST(SceneLinks, MountMayHaveItsOwnClearance) {
   Cell closer = *walled(As::mount);
   closer.clearances.mount_clearance_m = 0.008;
@@ -194,7 +195,7 @@ TEST(SceneLinks, MountMayHaveItsOwnClearance) {
     const auto found = checker.first_closer_than(q, cell->clearances.clearance_m, {true, true});
     ASSERT_EQ(found.has_value(), gap_m < 0.008) << gap_m;
     EXPECT_NEAR(found ? found->limit_m : 0.008, 0.008, 1e-12);
-    // The monitor uses the same share of its own limit.
+    // The monitor scales its own limit in the same way: 0.01 m becomes 0.004 m for the mount.
     EXPECT_TRUE(checker.all_closer_than(q, 0.01).empty());
   }
   const auto stops = checker.all_closer_than(tip_from_wall(*cell, 0.0039), 0.01);
@@ -213,8 +214,9 @@ TEST(SceneLinks, MountMayHaveItsOwnClearance) {
   EXPECT_EQ(verdict.clearance_bound.value().apart_m, 0.008);
 }
 
-// The link that the frame is fixed to is the mount, until the frame has a shape.
-TEST(SceneLinks, MountFrameWithoutShapePassesItsRoleToItsParent) {
+// If the base frame has no shape, the mount is the link to which it is fixed. Otherwise the mount
+// is the base frame itself.
+TEST(SceneLinks, ParentOfAMountFrameWithoutShapeIsTheMount) {
   Cell cell = *walled(As::link);
   cell.clearances.mount_clearance_m = 0.008;
   const LinkId frame = *cell.find_link("a_base");
@@ -238,7 +240,8 @@ TEST(SceneLinks, MountFrameWithoutShapePassesItsRoleToItsParent) {
   EXPECT_TRUE(too_close(0.0079));
 }
 
-// A pair that separates is held to less.
+// For a pair that is too close at the start and separates, the bound claims only a share of its
+// first distance.
 TEST(ClearanceBound, ClaimsOnlyWhatEveryPairKept) {
   for (const As as : {As::link, As::object, As::mount}) {
     const CellPtr cell = walled(as);

@@ -48,8 +48,8 @@ struct LinkSize {
   double length_m;
   double radius_m;
 };
-// Adds an arm on a static base without shape: one capsule per axis, end to end along x. Adjacent
-// links may touch.
+// Adds an arm on a static base without shape. It has one capsule per axis, joined end to end along
+// x. Adjacent links may touch.
 inline ArmId add_robot(Cell& cell, const std::string& name, const Eigen::Isometry3d& X_WB,
                        const std::vector<Eigen::Vector3d>& axes, const LinkSize& size) {
   const RobotId robot{static_cast<std::uint32_t>(cell.robots.size())};

@@ -91,7 +91,7 @@ struct InNotch {
   PlanningScenePtr scene;
 };
 
-TEST(MeshSurface, KeepsStatesFreeThatOnlyPiecesReject) {
+TEST(MeshSurface, AllowsStatesInWhichOnlyConvexPiecesTouch) {
   InNotch passes(0.012);
   int by_pieces = 0;
   const PlanningScene::Bodies& bodies = passes.scene->bodies();

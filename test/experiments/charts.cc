@@ -46,7 +46,7 @@ class Picture {
   std::string body_;
 };
 
-// Seconds along x, with a scale below the picture.
+// Maps seconds to x, and draws the scale below the picture.
 class Scale {
  public:
   explicit Scale(double longest_s) : longest_s_(std::max(longest_s, 1e-3)) {}

@@ -62,7 +62,8 @@ class Claims {
     }
     say(holds, workload + ": " + sentence + " s, each within " + percent(kOrderSlack));
   }
-  // For more than two arms, the mean against a bound.
+  // Claims that `best` is near the optimum. With more than two arms the optimum is only a lower
+  // bound, so only the mean is checked.
   void near_optimum(const std::string& workload) {
     const auto rows = rows_of(rows_, workload, best_);
     if (rows.empty()) return;
@@ -180,7 +181,8 @@ std::vector<Claim> claims(const Plan& plan, const std::vector<RunRow>& rows,
   for (const WorkloadKind& kind : plan.workloads) all.order(kind.name);
   for (const WorkloadKind& kind : plan.workloads) all.both_move(kind.name);
   for (const WorkloadKind& kind : plan.workloads) {
-    // Late jobs may be late while they wait anyway, so the optimum is no bound.
+    // A job's late start may fall into a time in which the job waits anyway. So with delays the
+    // optimum is no bound.
     if (kind.freed_from.empty() && !kind.delayed) all.optimum_is_one(kind.name);
   }
   for (const WorkloadKind& kind : plan.workloads) {

@@ -25,8 +25,8 @@ class Matching {
     }
   }
 
-  // Koenig's theorem: the reached rows and the unreached columns of alternating paths from
-  // unmatched rows.
+  // Returns the rows that alternating paths from unmatched rows reach, and the columns that they do
+  // not reach. By Koenig's theorem they are a largest independent set.
   [[nodiscard]] ChosenMoments independent() const {
     ChosenMoments chosen{std::vector<char>(table_.rows, 0), std::vector<char>(table_.columns, 1)};
     std::vector<std::size_t> open;

@@ -35,7 +35,7 @@ TEST(Exclusion, ContainsTheRowsAndColumnsOfABlock) {
   EXPECT_THAT(chosen.columns, ElementsAre(0, 1, 1, 1, 0));
 }
 
-TEST(Exclusion, IsOneWholeSideWithoutConflicts) {
+TEST(Exclusion, IsOneWholeSideIfNothingConflicts) {
   EXPECT_EQ(size_of(largest_exclusion(table_of(2, "......"))), 3U);
 }
 
@@ -78,7 +78,7 @@ TEST(Exclusion, MatchesExhaustiveSearch) {
 }
 
 TEST(Exclusion, OfAllArmsContainsNoCompatiblePair) {
-  // 0 and 1 are compatible with 3 only.
+  // Moments 0 and 1 are compatible with moment 3 only.
   const std::vector<char> free = {0, 0, 0, 1,  //
                                   0, 0, 0, 1,  //
                                   0, 0, 0, 0,  //
@@ -90,8 +90,8 @@ TEST(Exclusion, CountsStepsBetweenChosenNeighborsOfOneMotion) {
   EXPECT_EQ(steps_chosen({1, 1, 1, 0, 1, 1, 1}, {0, 0, 0, 0, 0, 0, 1}), 3U);
 }
 
-TEST(LowerBound, OfOneFixtureIsTheSumOfTheTimesThere) {
-  // Each of the two is there for at least 2 s.
+TEST(LowerBound, OfOneFixtureIsTheSumOfTheTimesInTheFixture) {
+  // Each of the two arms is in the fixture for at least 2 s.
   const Workload workload = workload_kind("one_fixture").make(1);
   std::vector<Work> work;
   double inside_s = 0.0;
@@ -181,11 +181,13 @@ std::vector<bool> verdicts(const std::vector<RunRow>& rows) {
 }
 
 TEST(Claims, FollowTheMeasuredValues) {
-  // Lockstep, sequential, order, both move, optimum is a bound, near it, all succeed.
+  // The claims in order: lockstep, sequential, order, both move, optimum is a bound, near the
+  // optimum, all succeed.
   std::vector<RunRow> rows = {row("sequential", 100.0), row("lockstep", 80.0),
                               row("certified", 70.0), row("coordinated", 55.9)};
   EXPECT_THAT(verdicts(rows), ElementsAre(true, true, true, true, true, true, true));
-  rows[3].makespan_s = 57.0;  // 76.7 % of lockstep's, 86 % of sequential's, 3.6 % above the optimum
+  // 76.7 % of lockstep's makespan, 86 % of sequential's, 3.6 % above the optimum
+  rows[3].makespan_s = 57.0;
   rows[3].together = 0.0;
   EXPECT_THAT(verdicts(rows), ElementsAre(false, true, true, false, true, false, true));
   rows[3].makespan_s = 71.5;  // 2.1 % behind
@@ -194,7 +196,8 @@ TEST(Claims, FollowTheMeasuredValues) {
 }
 
 TEST(Claims, CompareEachSeedAndTheOptimum) {
-  // Order, both move, optimum is a bound, near it, never behind, all succeed.
+  // The claims in order: order, both move, optimum is a bound, near the optimum, never behind
+  // earliest_start, all succeed.
   std::vector<RunRow> rows = {row("timed_discrete", 50.0), row("earliest_start", 55.2),
                               row("coordinated", 55.7)};
   EXPECT_THAT(verdicts(rows), ElementsAre(true, true, true, true, true, true));

@@ -28,16 +28,17 @@ struct RunRow {
   Limits limits;
   std::vector<double> busy;  // per arm: share of time under way
   double together = 0.0;     // share of time in which the joints of at least two arms move
-  // From being first in the arm queue (or submission) to the start.
+  // Time until a job starts, from when the previous job of its arm has ended (or, if later, from
+  // its submission).
   double wait_mean_s = 0.0;
   double wait_max_s = 0.0;
-  double held_mean_s = 0.0;  // time from a job's start to its end beyond its duration
+  double held_mean_s = 0.0;  // mean time by which jobs, from start to end, exceed their duration
   double clearance_m = 0.0;  // smallest clearance seen by the monitor; +inf: never near
   std::uint64_t monitor_stops = 0;
   std::size_t backlogged = 0;  // jobs that were in the backlog
   std::uint64_t judgements = 0;
   std::uint64_t evaluations = 0;
-  double judging_s = 0.0;  // time of the machine
+  double judging_s = 0.0;  // wall time of all checks
 };
 
 // Runs the jobs under a policy on simulated time; kOneArm runs workload.one_arm. Reports

@@ -12,7 +12,8 @@ class FixedOrders final : public Policy {
   std::size_t horizon() const override { return coordinated_->horizon(); }
   bool admits_groups() const override { return coordinated_->admits_groups(); }
   CheckMethod method() const override { return coordinated_->method(); }
-  // No motion may be overtaken, so decided orders stay; new motions are as free as before.
+  // Marks all motions as not to be overtaken, so that decided orders stay. The place of a new
+  // motion is chosen as before.
   PassingOrders decide(const OrderQuestion& question) const override {
     const auto keep = [](std::vector<CoordinatedMotion> motions) {
       for (CoordinatedMotion& motion : motions) motion.outlook.keeps_its_place = true;

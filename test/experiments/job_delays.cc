@@ -81,7 +81,7 @@ class Delays final : public Observer {
 
   const Cell& cell_;
   std::vector<std::vector<Delayed>> of_arm_;                     // in order
-  std::map<std::string, std::pair<Delayed*, Delayed*>> by_key_;  // and the next job of its arm
+  std::map<std::string, std::pair<Delayed*, Delayed*>> by_key_;  // with the arm's next job
   std::vector<JobView> heard_;
   Observer& inner_;
 };

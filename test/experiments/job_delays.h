@@ -12,8 +12,9 @@
 
 namespace armloom::experiments {
 
-// A random share of the jobs starts up to kLatest_s late and runs at kSlowest to kFastest of its
-// speed: the same jobs under every policy, unknown beforehand.
+// Delays a random share of the jobs, between kLeastShare and kMostShare. They start up to kLatest_s
+// late and run at kSlowest to kFastest of their speed. Delays are the same under every policy, and
+// the scheduler does not know them in advance.
 inline constexpr double kLeastShare = 0.1;
 inline constexpr double kMostShare = 0.3;
 inline constexpr double kLatest_s = 2.0;
@@ -25,8 +26,9 @@ void delay_some(std::vector<PlannedJob>& jobs, std::uint64_t seed);
 // multiple of JoinedDiagram::kSquare. Precondition: the duration is such a multiple.
 [[nodiscard]] TrajectoryPtr as_delayed(const Trajectory& motion, const JobDelay& delay);
 
-// Like simulate(), with delayed jobs. The late start is injected when the previous job has started,
-// the low speed from start to end. A retreat in between is late instead of the job.
+// Simulates like simulate(), but with the delays. The late start is injected when the arm's
+// previous job has started, the low speed from the job's start to its end. If the arm retreats in
+// between, the retreat is late instead of the job.
 [[nodiscard]] Result<SimulationResult> simulate_delayed(const CellPtr& cell,
                                                         ExecutiveOptions options,
                                                         const std::vector<PlannedJob>& jobs,

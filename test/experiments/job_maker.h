@@ -47,18 +47,19 @@ class JobMaker {
     std::vector<Leg> legs;
     int priority = 0;
   };
-  // Appends jobs, each starting at the end of the previous one; returns false and adds none if one
-  // is not open (open_places.h). Throws std::runtime_error if a draft violates limits.
+  // Appends jobs; each starts at the end of the previous job. If a job is not open (open_places.h),
+  // adds none and returns false. Throws std::runtime_error if a draft violates limits.
   [[nodiscard]] bool add(ArmId arm, TimePoint at, const std::vector<Draft>& drafts);
-  // Appends jobs that return home and are clear with other arms at home. One job's end may block
-  // other arms until the next; use take(drafts.size()). Throws std::invalid_argument if they do not
-  // return home.
+  // Appends jobs that return home together and are clear while other arms are at home. The end of
+  // one job may block other arms until the arm's next job; use take(drafts.size()). Throws
+  // std::invalid_argument if the jobs do not return home.
   void add_trip(ArmId arm, const std::vector<Draft>& drafts);
 
   [[nodiscard]] const std::vector<PlannedJob>& jobs_of(ArmId arm) const {
     return jobs_[arm.index()];
   }
-  // Returns the jobs by time, then `each` jobs of each arm in turn, with a random first arm.
+  // Returns the jobs in order of time. Jobs of equal time are taken in turn, `each` jobs of one arm
+  // after the other, with a random order of arms in each turn.
   [[nodiscard]] std::vector<PlannedJob> take(std::size_t each = 1);
 
  private:

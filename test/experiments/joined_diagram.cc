@@ -22,7 +22,8 @@ PlanningScenePtr scene_of(const CellPtr& cell) {
   return *scene;
 }
 
-// Adds the covered area of each square, in ns^2. Cells are disjoint.
+// Adds to each square the area (ns^2) that the cell covers of it. Precondition: cells do not
+// overlap.
 void cover(const DiagramCell& cell, std::size_t columns, std::vector<std::int64_t>& area) {
   const auto overlap = [](Duration from, Duration to, std::int64_t square) {
     return (std::min(to, kSquare * (square + 1)) - std::max(from, kSquare * square)).count();

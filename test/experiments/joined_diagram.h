@@ -10,10 +10,10 @@
 
 namespace armloom::experiments {
 
-// The motions of one arm, end to end, in squares of time.
+// The motions of one arm, one after the other, divided into squares of kSquare of time.
 struct Lane {
   struct Leg {
-    TrajectoryPtr motion;  // the first of equal motions
+    TrajectoryPtr motion;  // equal motions share one pointer
     std::size_t squares;
     TimePoint from;  // Work::from
   };
@@ -23,9 +23,9 @@ struct Lane {
   [[nodiscard]] std::size_t squares() const;
 };
 
-// The coordination diagram of all motions of two arms, in squares of kSquare, from the diagrams of
-// pairs (MotionChecker::draw; decided cells no wider than a square). Uses the cell's clearance_m
-// and exact paths. Not thread-safe.
+// The coordination diagram of all motions of two arms, in squares of kSquare. It is joined from the
+// diagrams of pairs of motions (MotionChecker::draw), whose decided cells are no wider than a
+// square. Uses the cell's clearance_m and exact paths. Not thread-safe.
 class JoinedDiagram {
  public:
   inline static constexpr Duration kSquare = std::chrono::milliseconds(10);

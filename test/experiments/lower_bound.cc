@@ -86,7 +86,7 @@ void consider(std::size_t steps, Duration step, std::vector<std::string> arms, L
   bound.excluding = std::move(arms);
 }
 
-// All moments in one graph: 1 if two are compatible.
+// A graph of the moments of all arms. An entry is 1 if two moments are compatible.
 class FreeOfAll {
  public:
   explicit FreeOfAll(const std::vector<Moments>& arms) {

@@ -32,8 +32,8 @@ struct Work {
   TrajectoryPtr motion;
   TimePoint from{};  // not known before this time; ignored for the lower bound
 };
-// Moments are samples every `step`. Rounded down: only the time between chosen neighbors counts,
-// without the last partial step.
+// Moments are samples every `step`. The result is rounded down: only the time between neighboring
+// chosen moments counts, without the last partial step.
 [[nodiscard]] LowerBound lower_bound(const CellPtr& cell, const std::vector<Work>& work,
                                      Duration step);
 
@@ -52,8 +52,8 @@ struct ChosenMoments {
 // Returns the largest sets of rows and columns in which every pair conflicts.
 [[nodiscard]] ChosenMoments largest_exclusion(const ConflictTable& table);
 
-// Greedy exclusion among more than two arms: no two returned moments are compatible. `free[i * n +
-// j]`: i and j are compatible.
+// Returns moments of more than two arms that exclude each other, chosen greedily: no two of them
+// are compatible. `free[i * n + j]`: i and j are compatible.
 [[nodiscard]] std::vector<char> exclusion_of_all(const std::vector<char>& free, std::size_t n);
 
 // Counts the steps between neighboring samples of one motion that are both chosen. `motion[i]` is

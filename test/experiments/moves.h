@@ -21,7 +21,8 @@ struct Leg {
   double stand_s = 0.0;
 };
 
-// Share of each joint's limits at the peaks of a line at speed 1.
+// At speed 1 the peak velocity and acceleration of a line use this share of each joint's limits at
+// most.
 inline constexpr double kLimitShare = 0.8;
 
 // Returns lines from `start` through every leg: quintics at rest at both ends

@@ -9,8 +9,8 @@
 
 namespace armloom::experiments {
 
-// Checks that jobs stay solvable under every policy: with all arms at any of their rests, any job
-// can run. One object per thread.
+// Checks that jobs stay solvable under every policy: any job can run while all other arms are at
+// any of their rests. One object per thread.
 class OpenPlaces {
  public:
   // Throws std::runtime_error with the problems of PlanningScene::build.
@@ -19,10 +19,10 @@ class OpenPlaces {
   // Returns true if the motion keeps kMargin_m more than the clearance, and kSelfMargin_m more than
   // the self clearance (every 10 ms, other arms at home).
   [[nodiscard]] bool clear_alone(const Trajectory& motion);
-  // The same with `arm` resting at `q` (rad, as Arm::joints).
+  // Checks the same with `arm` resting at `q` (rad, as Arm::joints).
   [[nodiscard]] bool clear_beside(const Trajectory& motion, ArmId arm, const Eigen::VectorXd& q);
 
-  // Covers tracking error times levers, and motion between samples.
+  // The margin covers the effect of tracking errors at the tool, and motion between samples.
   static constexpr double kMargin_m = 0.012;
   static constexpr double kSelfMargin_m = 0.005;
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr Duration kSquare = JoinedDiagram::kSquare;
 
-// Returns the first square of time of a leg. In that square the arm may still be at the end of the
-// previous leg, which a lower bound must allow.
+// Returns the first square in which a leg may begin. For a lower bound this is one square earlier,
+// because there the arm may still be at the end of the previous leg.
 std::size_t ready(const Lane::Leg& leg, bool bound) {
   const auto from = static_cast<std::size_t>(leg.from.time_since_epoch() / kSquare);
   if (bound) return std::max<std::size_t>(from, 1) - 1;
@@ -25,7 +25,8 @@ ShortestWay way_beside(const Lane& b, bool bound) {
   return ShortestWay(std::move(columns));
 }
 
-// A path of n squares takes between n - 1 squares (inside to inside) and n (corner to corner).
+// A path through n squares takes at least n - 1 squares of time (from inside to inside), and at
+// most n (from corner to corner).
 struct Squares {
   std::size_t least;
   std::size_t most;

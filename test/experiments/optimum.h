@@ -7,13 +7,15 @@
 
 namespace armloom::experiments {
 
-// The shortest time in which two arms can finish their motions, in order, if they may pause
-// anywhere at no cost and know everything beforehand: the shortest monotone path through the
+// The shortest time in which two arms can finish their motions in order, if they know everything in
+// advance and may pause anywhere at no cost. It is the shortest monotone path through the
 // coordination diagram of all motions (O'Donnell and Lozano-Perez 1989), with the cell's
-// clearance_m. Ignores tracking errors, braking, and gaps between motions. For more than two arms,
-// the largest over all pairs, a bound only.
-// On the squares of JoinedDiagram: for least_s only squares in conflict all over are closed, for
-// most_s only squares free all over are open. The true optimum lies between.
+// clearance_m. Tracking errors, braking and gaps between motions are ignored. For more than two
+// arms it is only a lower bound: the largest time of any pair.
+//
+// The diagram consists of squares (JoinedDiagram). For least_s only squares that are in conflict
+// all over are closed; for most_s only squares that are free all over are open. The true optimum
+// lies between these two times.
 struct Optimum {
   double least_s = 0.0;
   double most_s = 0.0;

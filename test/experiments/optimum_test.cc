@@ -123,7 +123,8 @@ double own_s(const std::vector<Work>& work, ArmId arm) {
   return sum_s;
 }
 
-// Tracks all states reachable after each step, checked one by one, without diagrams.
+// Finds the optimum without diagrams: tracks all states reachable after each step, and checks them
+// one by one.
 std::optional<double> optimum_by_trying(const CellPtr& cell, const std::vector<Work>& work,
                                         Duration step) {
   ClearanceQuery check(*PlanningScene::build(cell));

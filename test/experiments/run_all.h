@@ -10,7 +10,7 @@ namespace armloom::experiments {
 struct Plan {
   std::vector<WorkloadKind> workloads;
   std::vector<std::string> policies;
-  std::uint64_t seeds = 20;  // 1, 2, ...
+  std::uint64_t seeds = 20;  // uses the seeds 1 to `seeds`
   unsigned threads = 1;      // each run uses one thread
 };
 

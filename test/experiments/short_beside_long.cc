@@ -5,7 +5,7 @@
 namespace armloom::experiments {
 namespace {
 
-// A part from the tray to the middle, then down to the next part.
+// Adds a task: carry a part from the tray to the middle, then move down to the next part.
 bool short_task(JobMaker& maker, ArmId arm, Spot& part) {
   const double speed = maker.draw(0.9, 1.0);
   const auto place = spot_in(maker, arm, kMiddle_W);
@@ -34,7 +34,7 @@ bool first_part(JobMaker& maker, ArmId arm, Spot& part) {
   return true;
 }
 
-// Slowly along a seam, down in the middle once, then down to the next seam.
+// Adds a task: move slowly along a seam, once down in the middle, then down to the next seam.
 bool long_task(JobMaker& maker, ArmId arm, double wanted_s, Spot& seam) {
   const auto end = spot_in_tray(maker, arm, kTray_B);
   const auto next = spot_in_tray(maker, arm, kTray_B);

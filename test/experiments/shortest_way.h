@@ -8,11 +8,12 @@
 
 namespace armloom::experiments {
 
-// The earliest path through a table from the first row and column to the last. Each step advances
-// row, column, both or neither, without blocked cells. Rows are added one by one to save memory.
+// Finds the earliest path through a table, from the first row and column to the last. Each step
+// advances the row, the column, both or neither, and avoids blocked fields. Rows are added one by
+// one to save memory.
 class ShortestWay {
  public:
-  // `ready`: first step in which a column may be entered.
+  // `ready`: for each column, the first step in which it may be entered.
   explicit ShortestWay(std::vector<std::size_t> ready);
 
   // `ready`: first step in which the row may be entered. Precondition: blocked.size() is the number

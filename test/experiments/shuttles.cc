@@ -12,8 +12,8 @@ namespace {
 using Pose = std::array<double, 7>;  // rad
 
 // Poses of panda_two from the planning environments of mr_planner (panda1 is left). The straight
-// motion from home keeps 4 cm from the other arm at home and from the table. ready, twist_left,
-// twist_right, mirror, left_push, coop_up, coop_down, tiled_up, tiled_down
+// motion from home keeps 4 cm from the other arm at home and from the table. Their names, in order:
+// ready, twist_left, twist_right, mirror, left_push, coop_up, coop_down, tiled_up, tiled_down.
 constexpr Pose kLeft[] = {
     {0.0, -0.5, 0.0, -1.5, 0.0, 1.0, 0.0},
     {-1.4202, 1.0485, 0.284, -1.5, 2.2535, 1.0, 0.0},
@@ -25,7 +25,7 @@ constexpr Pose kLeft[] = {
     {0.0, -0.25, 0.0, -1.6, 0.0, 2.7, 0.0},
     {0.0, -0.3, 0.0, -2.0, 0.0, 0.8, 0.0},
 };
-// ready, twist_left, twist_right, mirror, right_push, coop_up, coop_down, tiled_down
+// In order: ready, twist_left, twist_right, mirror, right_push, coop_up, coop_down, tiled_down.
 constexpr Pose kRight[] = {
     {0.0, -0.5, 0.0, -1.5, 0.0, 1.0, 0.0},
     {0.2949, 0.3483, 0.7807, -1.6474, 0.0, 2.082, 0.0},
@@ -54,7 +54,8 @@ void add_visit(JobMaker& maker, ArmId arm, std::size_t pose) {
   maker.add_trip(arm, {{"visit", {{pose_of(arm, pose)}, {maker.home(arm)}}}});
 }
 
-// Returns each visit's candidate jobs: one per arm, or one for the arm with visits of its own.
+// Returns the candidate jobs of each visit: one job per arm, or a single job if one arm has to make
+// the visit.
 std::vector<std::vector<PlannedJob>> visits_to_give(const CellPtr& cell, std::uint64_t seed) {
   std::vector<std::vector<PlannedJob>> all;
   JobMaker maker(cell, seed);

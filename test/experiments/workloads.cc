@@ -35,8 +35,8 @@ std::vector<ArmId> arms_of(const Cell& cell) {
   return arms;
 }
 
-// To the tray and down to the part, closing the fingers; then up, to the middle, down, open, up and
-// home.
+// Adds a task. The arm moves to the tray, goes down to the part and closes its fingers. Then it
+// goes up, moves to the middle, goes down, opens its fingers, goes up and moves home.
 bool pick_and_place_task(JobMaker& maker, ArmId arm, const Box2& tray_B, const Box2& middle_W) {
   const double speed = maker.draw(0.8, 1.0);
   const auto pick = spot_in_tray(maker, arm, tray_B);
@@ -52,7 +52,8 @@ bool pick_and_place_task(JobMaker& maker, ArmId arm, const Box2& tray_B, const B
                       {maker.home(arm), speed}}}});
 }
 
-// Rotates the second arm's work about the middle to the first; joint positions stay the same.
+// Gives the second arm's work to the first arm, rotated about the middle. Joint positions stay the
+// same.
 std::vector<PlannedJob> for_first_arm(const Cell& cell, const std::vector<PlannedJob>& jobs) {
   const ArmId first(0);
   std::vector<PlannedJob> all;
@@ -171,11 +172,11 @@ Workload of_fits_and_tending(std::uint64_t seed, int fits, int tending) {
   return workload;
 }
 
-// Each job works in the fixture most of its time: the arms take turns under every policy.
+// Each job works in the fixture most of its time, so the arms take turns under every policy.
 Workload one_fixture(std::uint64_t seed) { return of_fits_and_tending(seed, 4, 0); }
-// The arms never meet, and all jobs take equally long: rounds lose nothing.
+// The arms never meet, and all jobs take equally long, so lockstep's rounds lose no time.
 Workload apart(std::uint64_t seed) { return of_fits_and_tending(seed, 0, 7); }
-// In the given order, first both arms need the fixture, then neither.
+// In the order of submission both arms first need the fixture, then neither.
 Workload fixture_first(std::uint64_t seed) { return of_fits_and_tending(seed, 5, 5); }
 
 template <std::vector<PlannedJob> (*jobs)(const CellPtr&, std::uint64_t)>

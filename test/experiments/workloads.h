@@ -24,7 +24,8 @@ struct WorkloadKind {
   Workload (*make)(std::uint64_t seed);
   // Some jobs are late and slow.
   bool delayed = false;
-  // The workload without choices for the scheduler, whose optimum and bounds apply; empty if none.
+  // Name of the same workload without choices for the scheduler. Its optimum and bounds apply here.
+  // Empty if there is none.
   std::string freed_from = {};
 };
 

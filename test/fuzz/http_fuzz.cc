@@ -28,7 +28,7 @@ void demand_said(const Refusal& refusal) {
   demand(!refusal.slug.empty() && !refusal.detail.empty());
 }
 
-// Demands what the routes rely on in an accepted request.
+// Checks properties of an accepted request on which the routes rely.
 void demand_fit(const Request& request) {
   const std::string& path = request.target.path;
   demand(path == "*" || path.starts_with('/'));

@@ -28,7 +28,7 @@ CellPtr two_pandas() {
   return *cell;
 }
 
-// Demands that an accepted trajectory can be sampled anywhere and keeps the joint limits.
+// Checks that an accepted trajectory can be sampled anywhere and keeps the joint limits.
 void demand_moves(const Trajectory& trajectory, const Cell& cell) {
   constexpr int kInstants = 16;
   demand(trajectory.duration() > Duration::zero());

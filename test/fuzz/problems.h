@@ -8,8 +8,8 @@
 
 namespace armloom::fuzz {
 
-// Demands the promises of every refusal: at least one problem, each with a sentence, and a response
-// that is valid JSON (values found may be any bytes).
+// Checks what every refusal must have: at least one problem, a sentence for each problem, and a
+// response of valid JSON. The values found in the input may be any bytes.
 inline void demand_readable(const Problems& problems) {
   demand(!problems.empty());
   for (const Problem& problem : problems) {

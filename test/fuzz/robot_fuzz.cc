@@ -65,7 +65,7 @@ CellDescription description_of(std::string input, const fs::path& folder) {
   return cell;
 }
 
-// Demands what build_cell() promises: ordered limits, home within them, finite poses.
+// Checks what build_cell() promises: ordered limits, home within the limits, finite poses.
 void demand_sound(const Cell& cell) {
   demand(cell.arms.size() == 1 && !cell.arms[0].joints.empty());
   const Configuration home = cell.home();

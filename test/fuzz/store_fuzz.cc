@@ -8,9 +8,9 @@
 #include "test/fuzz/fuzz.h"
 
 // Fuzzes the data folder of a killed server with a damaged database or log. An input is a list of
-// five-byte records; each changes one byte of a sound folder with a few jobs, or truncates a file
-// there. Either the store opens and its contents are consistent, or it refuses and leaves the
-// database unchanged. A damaged log alone must not be taken for complete.
+// five-byte records. Each record changes one byte of a sound folder with a few jobs, or truncates
+// one of its files. Either the store opens and its contents are consistent, or it refuses to open
+// and leaves the database unchanged. A store with a damaged log must not appear to be complete.
 
 namespace armloom::fuzz {
 namespace {

@@ -38,7 +38,8 @@ double volume(const std::vector<ConvexHull>& pieces) {
 
 MeshData data_of(const small::Surface& surface) { return *small::mesh_of(surface).data; }
 
-// Returns the prism over a polygon that is star-shaped about `center`, because caps are fans.
+// Returns the prism over a polygon. Its caps are fans about `center`, so the polygon must be
+// star-shaped about `center`.
 small::Surface prism(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& center,
                      double height) {
   small::Surface surface;
@@ -62,7 +63,7 @@ small::Surface letter_l() {
   return prism({{0, 0}, {1, 0}, {1, 0.2}, {0.2, 0.2}, {0.2, 1}, {0, 1}}, {0.1, 0.1}, 0.3);
 }
 
-// Returns true if the point is right of no edge as seen from the center.
+// Returns true if the point is inside a polygon that is star-shaped about `center`.
 bool in_star(const std::vector<Eigen::Vector2d>& outline, const Eigen::Vector2d& center,
              const Eigen::Vector2d& p) {
   const auto cross = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -154,7 +155,7 @@ TEST(ConvexPieces, ContainEveryPointOfRandomSolids) {
   EXPECT_GT(cut, 30U);
 }
 
-// Cuts leave boxes whose corners are deep inside the solid, far from any triangle.
+// The cuts leave boxes whose corners may be deep inside the solid, far from any triangle.
 TEST(ConvexPieces, ContainTheInteriorOfASolid) {
   std::mt19937_64 random(52);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

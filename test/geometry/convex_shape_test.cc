@@ -61,7 +61,7 @@ TEST(ConvexShapes, TwoCylindersThatShareACapBecomeCapsules) {
   for (const ConvexShape& body : bodies) EXPECT_EQ(body.kind, ConvexShapeKind::round);
 }
 
-TEST(ConvexShapes, CylinderStaysFlatIfACapDoesNotMatch) {
+TEST(ConvexShapes, CylinderBecomesACapsuleOnlyIfBothCapsMatch) {
   auto missing = small::capsule_along_x(0.0, 0.4, 0.05);
   missing.pop_back();
   auto thinner = small::capsule_along_x(0.0, 0.4, 0.05);
@@ -122,7 +122,7 @@ TEST(ConvexShapes, DistancesAreNeverTooLargeAndRarelyTooSmall) {
   EXPECT_LE(too_small, 2);
 }
 
-// An undecided pair costs an exact distance query, a wrong decision an arm.
+// An undecided pair costs an exact distance query. A wrong decision may cause a collision.
 TEST(Gjk, DecidesNearlyAllPairsAndNoneWrongly) {
   std::mt19937_64 random(20261126);
   int asked = 0;
@@ -164,7 +164,7 @@ TEST(ConvexShapes, DistancesOfUprightBoxesAreExact) {
   int apart = 0;
   int near = 0;
   for (int i = 0; i < 3000; ++i) {
-    // Often with equal heights, like links above one table.
+    // The boxes often have equal heights, like links above one table.
     const double height = i % 3 == 0 ? side(random) : 0.05;
     const ConvexShape a = make_convex_shapes({{Box{{side(random), 0.05, 0.05}}}}).front();
     const ConvexShape b = make_convex_shapes({{Box{{0.02, side(random), height}}}}).front();
@@ -248,7 +248,7 @@ TEST(ConvexShapes, ShapeInsideAnotherIsInContact) {
   }
 }
 
-TEST(ConvexShapes, OverlapOfCapsulesIsSigned) {
+TEST(ConvexShapes, OverlappingCapsulesHaveANegativeDistance) {
   const ConvexShape a = make_convex_shapes(small::capsule_along_x(-0.2, 0.2, 0.1)).front();
   PlacedConvexShape here;
   PlacedConvexShape above;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-// Independent reference distances: closed-form projections, alternated until the gap to a
-// separating plane is closed.
+// Independent reference distances. Points are projected alternately on both shapes, in closed form,
+// until the gap to a separating plane is closed.
 namespace armloom::reference {
 
 struct Convex {
@@ -53,8 +53,8 @@ struct Bracket {
 inline constexpr double kTouching_m = 1e-9;
 inline constexpr double kClosed_m = 1e-8;
 
-// Returns true if the bracket cannot close in `rounds_left` rounds at the rate of the last
-// `window`.
+// Returns true if the bracket cannot close within `rounds_left` rounds at the rate of the last
+// `window` rounds.
 inline bool is_hopeless(const Bracket& before, const Bracket& now, int window, int rounds_left) {
   const auto windows = [](double last, double current, double target) {
     return current >= last ? 1e9 : std::log(current / target) / std::log(last / current);
@@ -65,7 +65,7 @@ inline bool is_hopeless(const Bracket& before, const Bracket& now, int window, i
   return needed * window > rounds_left;
 }
 
-// Runs at most `rounds` rounds, or fewer if more would not help.
+// Runs at most `rounds` rounds. Stops earlier if more rounds would not help.
 inline Bracket distance(const Convex& a, const Convex& b, int rounds = 20000) {
   constexpr int kWindow = 100;
   Eigen::Vector3d on_a = project(a, b.X_WS.translation());

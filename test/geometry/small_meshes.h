@@ -72,7 +72,7 @@ inline std::string stl_text(const Surface& surface) {
   return text + "endsolid part\n";
 }
 
-// `count`: triangles that the header claims; 0: the true number.
+// `count`: the number of triangles that the header claims; 0 for the true number.
 inline std::string stl_bytes(const Surface& surface, std::uint32_t count = 0) {
   std::string bytes(80, ' ');
   const auto append = [&](const auto& value) {

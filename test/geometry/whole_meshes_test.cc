@@ -214,7 +214,7 @@ TEST_F(WholeMesh, KeepsBothSidesOfSheetsAndWalls) {
   EXPECT_NE((*boxes)->surface, nullptr);
 }
 
-TEST_F(WholeMesh, AmbiguousSolidUsesItsPieces) {
+TEST_F(WholeMesh, AmbiguousSolidUsesItsConvexPieces) {
   small::Surface fin = small::joined(kBox, turned(kBox));
   fin.vertices.emplace_back(1, 1, 1);
   fin.vertices.emplace_back(1, 1, 0);

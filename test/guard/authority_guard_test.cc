@@ -13,7 +13,7 @@ using Why = GuardRefusal::Why;
 const ArmId kLeft{0}, kRight{1}, kThird{2};
 constexpr double kError = 0.001;
 
-// Each arm has one joint of the same number.
+// Each arm has one joint, whose number is the arm's number.
 JointId joint(ArmId arm) { return JointId{arm.value()}; }
 
 TrajectoryPtr line(const std::vector<ArmId>& arms, double from, double to, Duration takes = 10s) {
@@ -303,7 +303,7 @@ TEST_F(Guarded, OneCoveringCertificateIsEnough) {
   EXPECT_EQ(why(left, 7500ms), Why::region) << "neither covers the whole range";
 }
 
-TEST_F(Guarded, ArmOnAnotherMotionIsBusy) {
+TEST_F(Guarded, RefusesAMotionOfAnArmThatIsOnAnotherMotion) {
   const TrajectoryPtr second = line({kLeft}, 0.0, -1.0);
   take({scene(left), pair(on(left), resting(kRight, 0.0)), scene(second),
         pair(on(second), resting(kRight, 0.0))});

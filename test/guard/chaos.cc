@@ -125,7 +125,7 @@ void Chaos::begin() {
   std::ranges::sort(arms);
   std::vector<double> from, to;
   for (const ArmId arm : arms) {
-    // Mostly from the arm's position, sometimes up to 5 mm off.
+    // The motion mostly starts at the arm's position, sometimes up to 5 mm away.
     from.push_back(at(arm).q + (chance(0.05) ? 0.01 * (share() - 0.5) : 0.0));
     to.push_back(RailCell::kEnd_m * (2 * share() - 1));
   }
@@ -134,7 +134,7 @@ void Chaos::begin() {
   grant(motion, {}, from_seconds(share() * to_seconds(motion->duration())));
 }
 
-// The answer may be used late or never.
+// Asks the checker. Its answer may be used late or never.
 void Chaos::ask(const TrajectoryPtr& motion, Duration from) {
   Question question{.version = 0,
                     .start_at = {},
@@ -200,7 +200,7 @@ void Chaos::resume() {
         own.progress + from_seconds(share() * to_seconds(motion->duration() - own.progress)));
 }
 
-// Brakes on the path before the authority ends; arms of one motion stay in step.
+// Brakes a random motion on its path before its authority ends. Arms of one motion stay in step.
 void Chaos::stop() {
   const TrajectoryPtr motion = at(any_arm()).motion;
   if (!motion || at(motion->arms().front()).motion != motion) return;

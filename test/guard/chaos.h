@@ -11,7 +11,8 @@
 
 namespace armloom {
 
-// Spheres on rails that cross near the origin: real certificates, and distances in closed form.
+// A cell of spheres on rails that cross near the origin. Its certificates come from the real
+// checker, and its distances are known in closed form.
 struct RailCell {
   explicit RailCell(std::size_t arms);
 
@@ -25,9 +26,9 @@ struct RailCell {
   std::vector<Eigen::Vector3d> begins, along;  // by ArmId
 };
 
-// A scheduler without rules, and arms that obey it: starts, extends, stops, resumes, cancels and
-// forgets motions at random, asks the checker about a part of the cell, and uses old answers. All
-// grants go through the guard if `guarded`, otherwise none.
+// A scheduler without rules, and arms that obey it. It starts, extends, stops, resumes, cancels and
+// forgets motions at random, asks the checker about a part of the cell, and uses old answers. If
+// `guarded`, all grants go through the guard; otherwise none do.
 class Chaos {
  public:
   Chaos(const RailCell& rails, MotionChecker& checker, std::uint64_t seed, bool guarded);

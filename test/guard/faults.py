@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """faults.py [--tree DIR] [--only NAME] [--patterns] [--seeds N]: injects faults into a copy of the sources, all in one build,
 and enables them one at a time (ARMLOOM_FAULT). Faults in the scheduler must be harmless and be reported by the guard; faults
-in the guard must be detected by its tests. Prints a table; exit code 1 if a fault fails this. With --patterns only checks
+in the guard must be detected by its tests. Prints a table. Exit code 1 if a fault does not meet this. With --patterns only checks
 that each fault's pattern matches."""
 import argparse, re, sys, tempfile
 from pathlib import Path
@@ -14,7 +14,7 @@ GRAPH, OPEN = 'core/precedence/precedence_graph.cc', 'core/precedence/open_order
 PRECEDENCE = 'core/precedence/precedence.cc'
 QUESTIONS, GUARD = 'core/scheduler/motion_questions.cc', 'core/guard/authority_guard.cc'
 
-# With a fault, the scheduler's own checks do not end the process, so that only the guard can stop it.
+# While a fault is on, the scheduler's own checks do not end the process, so that only the guard can stop the fault.
 QUIET = [
     ('core/jobs/invariants.cc', 'std::optional<std::string> broken_invariant(const State& state) {',
      'std::optional<std::string> broken_invariant(const State& state) {\n  if (armloom_fault(-1)) return std::nullopt;'),
@@ -89,7 +89,7 @@ def soak(tree, number, seeds):
     """Runs policies until the guard refuses a request; returns refusals, smallest distance in mm, monitor findings."""
     refusals, closest, findings = 0, 1e9, 0
     for policy in (0, 1, 2):  # coordinated, earliest_start, certified
-        code, out = run(tree, 'soak_test', number, f'--gtest_filter=*SoakOfCommands.Sliders/{policy}', seeds=seeds)
+        code, out = run(tree, 'soak_test', number, f'--gtest_filter=*SoakOfCommands.SlidersKeepAllPromises/{policy}', seeds=seeds)
         for line in re.findall(r'closest (\S+) mm, (\d+) monitor findings; (\d+) guard refusals', out):
             closest, findings, refusals = min(closest, float(line[0])), findings + int(line[1]), refusals + int(line[2])
         if 'simulated hours' not in out: return None if code is None else -1, closest, findings

@@ -41,9 +41,9 @@ inline std::string arm_row_urdf(int arms) {
   return urdf + "</robot>";
 }
 
-// Returns an SRDF as written by the MoveIt Setup Assistant without sampled collisions. It disables
-// all pairs of links of different arms, and arm0's links with the posts; one pair per line, from
-// line 2 on.
+// Returns an SRDF as the MoveIt Setup Assistant writes it without sampling collisions. It disables
+// all pairs of links of different arms, and the pairs of arm0's links with the posts. There is one
+// pair per line, from line 2 on.
 inline std::string arm_row_srdf(int arms) {
   std::string srdf = "<robot name=\"row\">\n";
   const auto never = [&](const std::string& a, const std::string& b, const std::string& reason) {

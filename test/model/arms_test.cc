@@ -107,7 +107,7 @@ TEST(AllowedPairs, IncludeSrdfPairsAndRigidlyConnectedLinks) {
   EXPECT_FALSE(allows(*cell, "t_r3", "t_r_tip"));
 }
 
-TEST(AllowedPairs, BetweenArmsAndWithStaticLinksAreOnlyClaimed) {
+TEST(AllowedPairs, OfDifferentArmsOrStaticLinksMustBeProven) {
   const ScratchFolder folder;
   CellDescription description = two_arms_description();
   const std::string pair = "<disable_collisions link1=\"r2\" link2=\"r1\" reason=\"Adjacent\"/>";

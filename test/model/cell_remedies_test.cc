@@ -90,7 +90,7 @@ TEST(FixedJoints, AreRemovedFromTheCellAtTheirFixedPosition) {
     EXPECT_TRUE(X_a[l].isApprox(X_b[l], 1e-12)) << a->links[l].name;
 }
 
-// With multiplier 0, l_finger2 is fixed to its parent.
+// With multiplier 0 the joint of l_finger2 never moves, so l_finger2 is fixed to its parent.
 TEST(FixedJoints, IncludeMimicsWithMultiplierZero) {
   const ScratchFolder folder;
   CellDescription still = two_arms_description();
@@ -101,7 +101,7 @@ TEST(FixedJoints, IncludeMimicsWithMultiplierZero) {
   const CellPtr cell = build_or_fail(still);
   const Link& finger = cell->link(*cell->find_link("t_l_finger2"));
   EXPECT_FALSE(finger.driver.has_value());
-  EXPECT_EQ(finger.arm, ArmId{0});  // of the arm that carries it
+  EXPECT_EQ(finger.arm, ArmId{0});  // the arm that carries the finger
   EXPECT_NEAR(finger.X_PJ.translation().y(), -0.02, 1e-12);
 }
 

@@ -191,7 +191,7 @@ TEST(NamedStates, WithAnInvalidValueAreReportedOnce) {
             "left_arm: joint l_turn: joint value is 'x', not a finite number\n");
 }
 
-TEST(CrossedLimits, SuppressProblemsOfHomesOutside) {
+TEST(CrossedLimits, SuppressProblemsOfHomesOutsideTheLimits) {
   const ScratchFolder folder;
   EXPECT_THAT(
       problems_of(with_urdf(folder, kTurnLimit,

@@ -106,7 +106,7 @@ TEST(JointLimitsFile, ReportsMistakesWithLineAndValue) {
             HasSubstr("r_bend: min_position 2 is above max_position 1")));
 }
 
-// The broken file's content is unknown, so missing limits are not reported.
+// The content of the broken file is unknown, so missing limits must not be reported in addition.
 TEST(JointLimitsFile, ParseErrorSuppressesFollowOnErrors) {
   const ScratchFolder folder;
   for (const char* text : {"joint_limits:\n  l_turn: [\n", "limits: {}\n"}) {

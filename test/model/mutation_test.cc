@@ -17,7 +17,7 @@ std::string text_of_file(const std::string& path) {
   return text.str();
 }
 
-// Replaces bytes, or drops, duplicates or replaces pieces.
+// Returns the text with bytes replaced, or with pieces dropped, duplicated or replaced.
 std::string mutated(std::string text, std::mt19937& random) {
   static const char* const kTokens[] = {"nan", "-",      "1e308", "<",         ">",     "/>",
                                         "\"",  "&#0;",   "&amp;", "<!--",      "joint", "link",

@@ -76,8 +76,8 @@ double reserve_m(const std::string& urdf) {
   return std::stod(found[1]) * 1e-3;
 }
 
-// Returns how deep the point lies in the shape, shrunk by `thinner` on each side; if negative, the
-// point is outside by at least that.
+// Returns how deep the point lies in the shape, after shrinking the shape by `thinner` on each
+// side. If the result is negative, the point is outside by at least that distance.
 double depth(const urdf::Collision& collision, const Eigen::Vector3d& p_L, double thinner) {
   const auto& at = collision.origin;
   const Eigen::Quaterniond R(at.rotation.w, at.rotation.x, at.rotation.y, at.rotation.z);
@@ -97,7 +97,8 @@ double depth(const urdf::Collision& collision, const Eigen::Vector3d& p_L, doubl
   return (half - p.cwiseAbs()).minCoeff() - thinner;
 }
 
-// Returns the least depth of the points, each in its deepest shape.
+// Returns the smallest depth of the points. A point's depth is that in the shape in which it is
+// deepest.
 double least_depth(const urdf::Link& link, const std::vector<Eigen::Vector3d>& points,
                    double thinner = 0.0) {
   double least = std::numeric_limits<double>::infinity();

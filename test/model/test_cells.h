@@ -10,11 +10,11 @@ namespace armloom {
 [[nodiscard]] std::string data_file(const std::string& name);   // test/model/data/...
 [[nodiscard]] std::string model_file(const std::string& name);  // models/...
 
-// Returns test/model/data/two_arms: both arms of one robot, prefix "t_", base pose away from the
-// origin.
+// Returns test/model/data/two_arms: one robot with two arms, prefix "t_", and a base pose away from
+// the origin.
 [[nodiscard]] CellDescription two_arms_description();
 
-// Returns the Pandas of config/two_pandas.json, without limits of their own.
+// Returns the Pandas of config/two_pandas.json without joint limits in the description.
 [[nodiscard]] CellDescription two_pandas_description();
 
 // Builds the cell, or fails the test with its problems.

@@ -12,7 +12,7 @@ struct Mistake {
   const char* to;
   const char* place;
   const char* sentence;
-  int line = 0;  // of the mistake; 0 for the changed line
+  int line = 0;  // line that must be reported; 0 for the changed line
 };
 
 void PrintTo(const Mistake& mistake, std::ostream* out) {

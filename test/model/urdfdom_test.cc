@@ -177,7 +177,7 @@ TEST(Urdfdom, ErrorsAreReportedWithItsMessage) {
 }
 
 // Joint k connects c with itself; joint l has no links.
-TEST(UrdfTree, BrokenTreeIsReportedAndPatchedWithEveryName) {
+TEST(UrdfTree, BrokenTreeIsReportedAndKeepsAllNames) {
   Diagnostics diagnostics;
   const auto tree = read_urdf(
       "<robot name='r'><link name='a'/><link name='b'/><link name='c'/><link name='above all'/>"

@@ -32,7 +32,7 @@ TEST_F(Xacro, GetsTheFileAsOneArgumentAndReturnsItsOutput) {
   EXPECT_EQ(expand_xacro(file_)->said, "");
 }
 
-// In xacro's format: the error first, its place last.
+// xacro prints the error first and its place last.
 TEST_F(Xacro, FailureIsReportedInFull) {
   install(
       "echo 'error: undefined macro: arm' >&2; echo \"when processing file: a.xacro\" >&2; exit 2");

@@ -65,7 +65,8 @@ TEST(Monitor, ReportsContactAtZeroDistance) {
 TEST(Monitor, StopsOnlyTheMovingArmOfAPair) {
   Monitor m = monitor();
   EXPECT_THAT(m.observe({hands(0.006)}, kLeftMoves, at(0ms)).at(0).stops, ElementsAre(kLeft));
-  // The table cannot be stopped; the left arm is not involved.
+  // The right hand is too close to the table. The table cannot be stopped, and the left arm is not
+  // involved.
   EXPECT_THAT(m.observe({hand_and_table(0.004)}, kBothMove, at(10ms)).at(0).stops,
               ElementsAre(kRight));
 }
@@ -102,7 +103,7 @@ TEST(Monitor, ReportsAPairAgainWhenItHasComeCloserInSmallSteps) {
   for (int i = 1; i <= 10; ++i) {
     again += static_cast<int>(m.observe({hands(0.006 - 0.0001 * i)}, kLeftMoves, at(0ms)).size());
   }
-  EXPECT_EQ(again, 1);  // after 0.6 mm
+  EXPECT_EQ(again, 1);  // when it has come 0.6 mm closer
 }
 
 TEST(Monitor, DoesNotRepeatAPairWhileBothArmsRest) {
@@ -120,7 +121,7 @@ TEST(Monitor, AllowsSeparatingArmsAfterAStop) {
   }
 }
 
-TEST(Monitor, ReportsAPairAnewAfterItHasCleared) {
+TEST(Monitor, ReportsAPairAgainAfterItHasCleared) {
   Monitor m = monitor();
   EXPECT_THAT(m.observe({hands(0.006), hand_and_table(0.002)}, kBothMove, at(0ms)), SizeIs(2));
   EXPECT_THAT(m.observe({hand_and_table(0.002)}, kBothMove, at(10ms)), IsEmpty());

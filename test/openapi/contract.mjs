@@ -1,5 +1,5 @@
-// Checks responses against openapi.json: status, content type, headers and schema must be listed there.
-// Records every status seen.
+// Checks responses against openapi.json, which must list their status, content type, headers and schema. Records every
+// status seen.
 import assert from 'node:assert/strict';
 import {createRequire} from 'node:module';
 

@@ -1,7 +1,7 @@
-// /openapi.json is complete and true: every operation is called with good and bad requests until each listed
-// status was seen (of 503 and 507, which need a server in distress, only a few), and every response and
-// message is checked against its schema. The good requests are its examples.
-// ARMLOOM_PRISM=node_modules/.bin/prism sends all calls through that proxy, which must not complain.
+// Checks that /openapi.json is complete and true. Every operation is called with good and bad requests until each
+// listed status was seen (of 503 and 507, which need a server in distress, only a few). Every response and message is
+// checked against its schema. The good requests are the examples of the document. ARMLOOM_PRISM=node_modules/.bin/prism
+// sends all calls through that proxy, which must not complain.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import fs from 'node:fs';
@@ -52,7 +52,7 @@ async function call(status, method, template, {args = {}, query = '', body, head
   return answer.headers['content-type']?.includes('json') ? JSON.parse(answer.text) : answer.text;
 }
 
-// Expects no complaint of prism; requests that are refused may be wrong.
+// Expects no complaint of prism. Requests that the server refuses may be wrong.
 function unopposed(what, answer) {
   const found = violations(answer);
   proxied += 1;
@@ -133,7 +133,7 @@ test('subscribers get a snapshot and all events after it', async () => {
   assert.equal(again.data.gap, true);
 });
 
-test('read-only operations', async () => {
+test('read-only operations answer as documented', async () => {
   await call(200, 'GET', '/');
   await call(200, 'GET', `${v1}/alerts`);
   const seen = (status, body) => call(status, 'POST', `${v1}/alerts/acknowledge`, {body});
@@ -169,7 +169,7 @@ test('read-only operations', async () => {
   await call(404, 'GET', `${v1}/jobs/{id}/trajectory`, {args: {id: 'nothing'}});
 });
 
-test('jobs, good and bad', async () => {
+test('good and bad jobs are answered as documented', async () => {
   await call(200, 'POST', `${v1}/check`, {body: example(`${v1}/check`, 'POST', 'reach')});
   for (const goal of ['named', 'pose']) {
     const plan = await call(200, 'POST', `${v1}/plan`, {body: example(`${v1}/plan`, 'POST', goal)});
@@ -244,7 +244,7 @@ test('jobs, good and bad', async () => {
   await call(413, 'POST', `${v1}/jobs`, {raw: '['.repeat(5000)});
 });
 
-test('comparison with other policies', async () => {
+test('jobs are compared under other policies', async () => {
   for (const method of ['GET', 'DELETE']) await call(404, method, `${v1}/comparison`);
   await call(409, 'POST', `${v1}/comparison`, {body: {since_s: 1e6}});
   const two = example(`${v1}/comparison`, 'POST', 'two');
@@ -258,7 +258,7 @@ test('comparison with other policies', async () => {
   await call(422, 'POST', `${v1}/comparison`, {body: {policies: ['best']}});
 });
 
-test('control and jogging', async () => {
+test('a client takes control and jogs an arm', async () => {
   const hold = `${v1}/arms/{name}/jog`;
   const left = {args: {name: 'left'}};
   await call(200, 'GET', `${v1}/control`);
@@ -281,9 +281,9 @@ test('control and jogging', async () => {
   await call(200, 'POST', `${v1}/control/release`, {body: {control: key}});
 });
 
-test('batches, good and bad', async () => {
+test('good and bad batches are answered as documented', async () => {
   const at = `${v1}/batches`;
-  // The motions start where the arms are now.
+  // The motions of the example are changed to start where the arms are now.
   const batch = example(at, 'POST', 'both');
   const {arms} = await call(200, 'GET', `${v1}/arms`);
   for (const job of batch.jobs) {
@@ -337,7 +337,7 @@ test('objects are added, moved and removed', async () => {
   await call(404, 'DELETE', `${v1}/scene/objects/{name}`, {args: {name: 'rod'}});
 });
 
-test('speed and faults', async () => {
+test('speed is changed, faults are injected and removed', async () => {
   for (const body of [{speed: 0}, {speed: 1001}, {}]) await call(422, 'PUT', `${v1}/sim/speed`, {body});
   const fault = await call(201, 'POST', `${v1}/sim/faults`, {body: example(`${v1}/sim/faults`, 'POST', 'slow')});
   await call(204, 'DELETE', `${v1}/sim/faults/{id}`, {args: fault});
@@ -356,9 +356,9 @@ test('speed and faults', async () => {
   await call(200, 'PUT', `${v1}/sim/speed`, {body: example(`${v1}/sim/speed`, 'PUT', 'double')});
 });
 
-// Not through the proxy, which answers most of these requests itself.
+// Calls the server directly, because the proxy answers most of these requests itself.
 const straight = (status, method, template, how) => call(status, method, template, {...how, direct: true});
-test('requests that every operation refuses', async () => {
+test('every operation refuses malformed and foreign requests', async () => {
   const args = {id: 'x', name: 'x'};
   const large = 'x'.repeat(20 * 1024);
   for (const {path: template, method, operation} of contract.operations()) {
@@ -490,7 +490,7 @@ test('a server without a built dashboard answers 404', async () => {
   }
 });
 
-// With a time step longer than both motions only their ends are compared, so both are admitted.
+// The time step is longer than both motions, so only their ends are compared and both are admitted.
 test('monitor stops are published', async () => {
   const cell = JSON.parse(fs.readFileSync(path.join(folder, 'cell.json'), 'utf8'));
   Object.assign(cell, {clearance_m: 0.1, scheduling: {...cell.scheduling, policy: 'timed_discrete'},
@@ -519,8 +519,8 @@ test('monitor stops are published', async () => {
   }
 });
 
-// So slow that the arm is still braking when the next request arrives. A kept-alive connection is needed,
-// because the server accepts no new connections.
+// The job is so slow that the arm is still braking when the next request arrives. That request needs a kept-alive
+// connection, because the server accepts no new connections.
 test('a server that shuts down accepts no job', async () => {
   const ending = await startServer(binary, ['--cell', path.join(folder, 'cell.json'), '--speed', '0.02']);
   const agent = new http.Agent({keepAlive: true, maxSockets: 1});

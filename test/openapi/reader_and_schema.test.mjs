@@ -25,7 +25,7 @@ function keysIn(value, keys) {
 }
 
 for (const [name, {schema, cases}] of Object.entries(formats)) {
-  test(`${name}: the schema takes what the reader takes, and no more`, () => {
+  test(`${name}: the schema accepts exactly what the reader accepts`, () => {
     const ajv = new Ajv({strict: true, strictRequired: false, strictTypes: false});
     const fits = ajv.compile(schema);
     const differ = [];

@@ -1,6 +1,6 @@
-// Prints values for every format that clients may send, with the reader's verdict on each.
+// Prints values for every format that clients may send, with the reader's verdict on each value.
 // reader_and_schema.test.mjs compares the verdicts with the schemas. Values are generated from the
-// schemas, then spoilt at one place. Deterministic; one JSON object on stdout.
+// schemas; then one place of each is changed. Deterministic; one JSON object on stdout.
 #include <iostream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -48,7 +48,8 @@ Incoming incoming(std::string name, const Format<T>& format) {
           }};
 }
 
-// A non-atomic batch accepts its jobs one by one; their refusals are reported here.
+// Reads a batch. A non-atomic batch accepts its jobs one by one, so their refusals are added to
+// `faults`.
 void read_batch(const JsonNode& node, Problems& faults) {
   BatchRequest batch;
   batch_request_format()->read(node, batch);
@@ -112,7 +113,7 @@ json object_of(const Schema& schema, Random& random) {
   return object;
 }
 
-// Returns a value that fits the schema; rules over several members may be broken.
+// Returns a value that fits the schema, except that it may break rules over several members.
 json value_of(const Schema& schema, Random& random) {
   if (schema.contains("$of")) return value_of(schema["$of"], random);
   if (schema.contains("const")) return json::parse(schema["const"].dump());
@@ -144,8 +145,8 @@ std::string repeated(const std::string& text, int times) {
   return all;
 }
 
-// Replacement values: bounds of our formats and values beyond, spellings of numbers, texts that
-// rules mention.
+// Replacement values: limits of our formats and values beyond them, spellings of numbers, and texts
+// that rules mention.
 std::vector<json> odd_values() {
   std::vector<json> odd{nullptr,       true,           false,
                         json::array(), json::object(), json::array({1, 2, 3})};
@@ -205,7 +206,7 @@ void spoil(json& value, Random& random) {
   }
 }
 
-// Both sides get the text, so that 1.0 stays 1.0.
+// The reader and the schema get the same text, so that 1.0 stays 1.0.
 json judged(const Incoming& format, const json& value) {
   const std::string text = value.dump();
   const auto parsed = parse_json(text, JsonComments::refused);
@@ -223,7 +224,7 @@ json cases_of(const Incoming& format) {
   for (int i = 0; i < kSpoilt; ++i) {
     json value = value_of(format.schema, random);
     for (int tries = 0; tries < 20 && !judged(format, value)["fault"].is_null(); ++tries) {
-      value = value_of(format.schema, random);  // the spoilt place must be the only fault
+      value = value_of(format.schema, random);  // the changed place must be the only fault
     }
     spoil(value, random);
     cases.push_back(judged(format, value));

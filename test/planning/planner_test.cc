@@ -111,7 +111,7 @@ TEST(Planner, ReportsWhyThereIsNoPlan) {
   EXPECT_EQ(planner.plan(request).error().reason, Reason::cancelled);
 }
 
-// With one joint, comparing the many nodes takes longer than the evaluations.
+// With one joint, comparing the many nodes with each other takes longer than evaluating states.
 TEST(Planner, CountsNodeComparisonsInItsBudget) {
   rails::Rails rails;
   rails.question.rest[1] = 0.0;  // y, on x's rail

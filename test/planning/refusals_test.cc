@@ -139,7 +139,7 @@ TEST_F(Refusals, MessageStatesTheRequiredClearance) {
   EXPECT_THAT(in_words(near), Not(HasSubstr("0 mm are required")));
 }
 
-// The closest pair may be an arm's own links, close by design.
+// The closest pair may be two links of the arm itself, which are close by design.
 TEST_F(Refusals, ReportsThePairTooCloseForTheTrackingError) {
   Eigen::VectorXd q = wall.before();
   LineChecker lines(wall.scene, wall.left, wall.cell->home(),

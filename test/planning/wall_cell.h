@@ -7,8 +7,8 @@
 
 namespace armloom::testing {
 
-// Two Pandas, and an upright board in the left arm's way from home to the side, without a straight
-// line around it.
+// Two Pandas and an upright board. The board blocks the straight line of the left arm from home to
+// the side.
 struct WallCell {
   WallCell() {
     CellDescription described = two_pandas_description();

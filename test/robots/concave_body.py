@@ -28,7 +28,7 @@ POSES = {"left": {"middle": [0.8, 0, 0.5], "ahead": [1.5, 0.1, -0.6], "across": 
 
 
 def radius(side):
-    """Returns the notch's radius, enlarged because facets are closer to the tail by their sagitta."""
+    """Returns the notch's radius. It is enlarged, because the middle of a facet is closer to the tail than its corners."""
     return (math.hypot(*TAIL) + GAPS[side]) / math.cos(math.pi / 2 / FACETS)
 
 

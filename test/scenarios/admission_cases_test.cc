@@ -68,7 +68,7 @@ TEST(StaleStart, IsRefusedWithPlaceAndValue) {
   EXPECT_FALSE(cell.simulation->executive().job("again"));
 }
 
-// Rolls back jobs whose acceptance the client was never told.
+// The server rolls back jobs whose acceptance was never reported to the client.
 TEST(RolledBackJob, IsForgottenAndItsKeyCanBeReused) {
   Crossing cell;
   Executive& executive = cell.simulation->executive();

@@ -180,7 +180,8 @@ TEST_P(MovesToStart, AreRefusedForGoals) {
   EXPECT_EQ(refused.error().front().pointer, "/move_to_start");
 }
 
-// If the start itself is in collision, retreats cannot help: the arms are not there yet.
+// If the arms would collide at the job's start itself, retreats cannot help, because the arms are
+// not at that start yet.
 TEST_P(MovesToStart, AreNotMadeForAJobWhoseArmsCollideAtTheStart) {
   for (const double b_x_m : {0.1, 0.21}) {
     SCOPED_TRACE("b at " + std::to_string(b_x_m));

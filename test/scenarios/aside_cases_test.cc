@@ -50,8 +50,8 @@ TEST_P(Retreat, IsSuggestedInTheReasonOfAnExpiredJob) {
       << expired.detail();
 }
 
-// x is canceled in the crossing, at y's goal. Then both must continue together from a place that x
-// has not reached: x retreats at most once, and the job reports why it cannot start.
+// x is canceled in the crossing, at y's goal. Then the job "both" must start where x has not
+// arrived. x retreats at most once, and the job reports why it cannot start.
 TEST_P(Retreat, IsNotRepeatedForAJobThatStartsElsewhere) {
   cell.emplace(parking(OnIdleBlocker::park), GetParam());
   cell->submit(slide("x", -1, 1, 4, "canceled"));

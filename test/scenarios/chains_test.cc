@@ -53,8 +53,8 @@ TEST(Chains, SucceedSequentially) {
   }
 }
 
-// Replaces every second trajectory by its goal. Until such a job is planned, no later job may make
-// it, or a job that it lets pass, impossible.
+// Replaces every second trajectory by its goal. Until the path to such a goal is planned, no later
+// job may be started that would make this job impossible, or a job that this job lets pass.
 std::vector<TimedJob> with_goals(std::vector<TimedJob> jobs) {
   for (std::size_t i = 0; i < jobs.size(); i += 2) {
     JobRequest& job = jobs[i].job;
@@ -67,9 +67,9 @@ std::vector<TimedJob> with_goals(std::vector<TimedJob> jobs) {
   return jobs;
 }
 
-// Seeds of goal workloads, first six of seeds 1 to 300 that once failed. Causes:
-// - a path that needed more effort to certify than usual was taken to be blocked,
-// - an arm at a goal was taken as proof that no path exists,
+// Seeds of goal workloads that once failed: the first six of seeds 1 to 300. Causes:
+// - a path that needed more effort to certify than usual was considered blocked,
+// - an arm at a goal was considered proof that no path exists,
 // - paths to a job's start were assumed to be free,
 // - a discarded plan was not made again.
 std::vector<std::uint64_t> goal_loads() {

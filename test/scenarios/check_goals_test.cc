@@ -89,7 +89,8 @@ TEST_P(CheckedGoals, PlanTheMoveToStartAndReportItsDuration) {
   EXPECT_NEAR(to_seconds(*done.times.started_at - submitted), *said.move_to_start_s, 0.5);
 }
 
-// The move-to-start has no job yet; the check reports its waits for the job.
+// The move-to-start has no job yet, so the check reports the waits of the move-to-start as waits of
+// the job.
 TEST_P(CheckedGoals, ReportAStoppedArmBeforeItsMoveToStart) {
   cell->simulation->executive().stop({ArmId{0}}, "operator");
   const CheckView said = check(from_elsewhere("x", -0.5, 0.5, "job"));

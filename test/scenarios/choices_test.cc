@@ -31,7 +31,7 @@ JobRequest either(double x_to_m, double y_to_m, double seconds, std::string key)
   return request;
 }
 
-// y rests in the crossing for ten seconds. Of x's two jobs only the second stays out of the
+// y rests in the crossing for ten seconds. x has two jobs, and only the second stays out of the
 // crossing.
 struct OneInTheWay {
   explicit OneInTheWay(bool reorderable) {
@@ -51,7 +51,7 @@ struct OneInTheWay {
   Crossing cell;
 };
 
-TEST(ReorderableJobs, TheOneThatCanStartNowGoesFirst) {
+TEST(ReorderableJobs, JobThatCanStartNowGoesFirst) {
   OneInTheWay free(true);
   const JobView beside = free.cell.job("beside"), through = free.cell.job("through");
   EXPECT_EQ(beside.state, JobState::succeeded);

@@ -1,5 +1,5 @@
-// Motions pass each other in the agreed order, pause at the end of their authority, and keep clear
-// whatever happens to the first motion.
+// Motions pass each other in the agreed order, pause at the end of their authority, and keep clear,
+// whatever happens to the motion that passes first.
 #include "test/scenarios/crossing.h"
 #include "test/scenarios/star.h"
 
@@ -11,7 +11,7 @@ struct Coordinated : ::testing::Test {
   double position(std::size_t arm) const { return cell.log.last[static_cast<Eigen::Index>(arm)]; }
 };
 
-TEST(CoordinatedLate, PausesAtTheEndOfItsAuthority) {
+TEST(CoordinatedLate, LateMotionPausesAtTheEndOfItsAuthority) {
   Crossing cell(crossing_description(), "coordinated");
   ASSERT_TRUE(cell.simulation->executive().faults().inject(
       {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1800ms), .lasting = 3s}));
@@ -34,7 +34,7 @@ TEST(CoordinatedLate, PausesAtTheEndOfItsAuthority) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-TEST_F(Coordinated, LetsAShortJobPassBeforeADistantLongJob) {
+TEST_F(Coordinated, ShortJobPassesBeforeADistantLongJob) {
   cell.submit(slide("x", -1, 1, 12, "long"));
   cell.run_until(at(500ms));
   cell.submit(slide("y", -1, 1, 3, "short"));
@@ -45,7 +45,7 @@ TEST_F(Coordinated, LetsAShortJobPassBeforeADistantLongJob) {
 }
 
 // T5: the first arm stalls in the crossing.
-TEST(CoordinatedLate, WaitsForALeaderThatStalls) {
+TEST(CoordinatedLate, MotionWaitsWhileTheFirstMotionStalls) {
   Crossing cell(crossing_description(), "coordinated");
   ASSERT_TRUE(cell.simulation->executive().faults().inject(
       {.arm = "x", .kind = ArmFault::Kind::stall, .at = at(1900ms), .lasting = 6s}));
@@ -60,7 +60,7 @@ TEST(CoordinatedLate, WaitsForALeaderThatStalls) {
 }
 
 // T7: a canceled arm rests in the crossing.
-TEST_F(Coordinated, WaitsForACanceledArmToLeaveTheCrossing) {
+TEST_F(Coordinated, JobWaitsUntilACanceledArmLeavesTheCrossing) {
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   cell.submit(slide("y", -1, 1, 4, "follows"));
   cell.run_until(at(1950ms));
@@ -79,7 +79,7 @@ TEST_F(Coordinated, WaitsForACanceledArmToLeaveTheCrossing) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-TEST_F(Coordinated, ExpiresOnItsPathBehindAnArmWithoutAJob) {
+TEST_F(Coordinated, PausedJobExpiresBehindAnIdleArm) {
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   JobRequest follows = slide("y", -1, 1, 4, "follows");
   follows.terms.backlog_timeout = 20s;
@@ -100,8 +100,9 @@ TEST_F(Coordinated, ExpiresOnItsPathBehindAnArmWithoutAJob) {
   EXPECT_EQ(gave_up.waits_on[0].arm, "x");
 }
 
-// A job behind a canceled job cannot start any more, so no other job may rely on its departure.
-TEST_F(Coordinated, DoesNotRelyOnAJobWhoseStartIsNotReached) {
+// A job behind a canceled job cannot start any more. So no other job may rely on the departure of
+// that job's arm.
+TEST_F(Coordinated, JobDoesNotRelyOnAJobWhoseStartIsNotReached) {
   cell.submit(slide("x", -1, 0, 3, "into the crossing"));
   cell.submit(slide("x", 0, 0.5, 2, "on"));
   cell.submit(slide("x", 0.5, 1, 2, "home"));
@@ -124,7 +125,7 @@ TEST_F(Coordinated, DoesNotRelyOnAJobWhoseStartIsNotReached) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-TEST_F(Coordinated, KeepsItsPassingOrderAcrossStopAndResume) {
+TEST_F(Coordinated, PassingOrderSurvivesStopAndResume) {
   cell.submit(slide("x", -1, 1, 4, "first"));
   cell.submit(slide("y", -1, 1, 4, "second"));
   cell.run_until(at(1500ms));
@@ -139,8 +140,8 @@ TEST_F(Coordinated, KeepsItsPassingOrderAcrossStopAndResume) {
   EXPECT_GT(cell.log.closest_m, 0.015);
 }
 
-// The executive dies in mid-motion. Every controller brakes by itself to the end of its authority,
-// which is certified against the rests of all other arms.
+// The executive dies in mid-motion. Every controller brakes by itself before the end of its
+// authority. That end is certified against the rests of all other arms.
 TEST(ExecutiveDeath, LeavesEveryArmAtRestWithoutContact) {
   for (std::size_t arms = 2; arms <= 4; ++arms) {
     for (Duration dies = 100ms; dies < 7s; dies += 150ms) {
@@ -167,7 +168,8 @@ TEST(ExecutiveDeath, LeavesEveryArmAtRestWithoutContact) {
   }
 }
 
-// Returns a motion of x and y. In the next two tests x is in the crossing at one end of it.
+// Returns a motion of x and y. In the next two tests this motion begins or ends with x in the
+// crossing.
 JobRequest both(double x_from_m, double x_to_m, double y_from_m, double y_to_m, std::string key) {
   JobRequest request = slide("x", x_from_m, x_to_m, 2, std::move(key));
   request.trajectory.joint_names.push_back("y_slide");
@@ -179,7 +181,7 @@ JobRequest both(double x_from_m, double x_to_m, double y_from_m, double y_to_m, 
   return request;
 }
 
-TEST_F(Coordinated, DoesNotRelyOnADepartureThatComesLater) {
+TEST_F(Coordinated, JobDoesNotRelyOnADepartureThatComesLater) {
   cell.submit(slide("x", -1, 0, 2, "in the middle"));
   cell.run_until(at(1800ms));
   cell.submit(slide("y", -1, 1, 4, "passes"));
@@ -191,8 +193,8 @@ TEST_F(Coordinated, DoesNotRelyOnADepartureThatComesLater) {
   EXPECT_EQ(cell.simulation->executive().figures().monitor_stops, 0U);
 }
 
-// The mirror image: `both` brings x into the crossing, and x leaves much later.
-TEST_F(Coordinated, DoesNotPassAStartThatTheOtherArmReachesFirst) {
+// The reverse case: `both` brings x into the crossing, and x leaves much later.
+TEST_F(Coordinated, JobDoesNotPassFirstAStartThatIsReachedEarlier) {
   cell.submit(both(-1, 0, -1, -0.9, "both"));
   cell.submit(slide("x", 0, 1, 20, "leaves"));
   cell.submit(slide("y", -0.9, 1, 2, "passes"));

@@ -32,8 +32,8 @@ RobotDescription moved(RobotDescription robot, const std::string& name,
 
 double between_x_and_y_m(const Crossing& cell) { return cell.log.last.head(2).norm() - 0.2; }
 
-// z stalls just before x enters the crossing. x gets a little ahead and rests there when their job
-// is canceled. The job's own progress is that of z.
+// z stalls just before x enters the crossing. x gets a little ahead of z and rests in the crossing
+// when their job is canceled. The job's progress is that of z.
 TEST(CoordinatedMultiArm, ArmAheadOfItsMotionBlocksWhereItRests) {
   for (Duration stalls = 900ms; stalls < 1500ms; stalls += 20ms) {
     CellDescription description = crossing_description();
@@ -55,9 +55,9 @@ TEST(CoordinatedMultiArm, ArmAheadOfItsMotionBlocksWhereItRests) {
   }
 }
 
-// In step the two arms pass each other closely. As far out of step as a stall can bring them, they
-// would touch.
-TEST(CoordinatedMultiArm, ArmsKeepClearOfEachOtherOutOfStep) {
+// In step the two arms pass each other closely. They would touch if they were as far out of step as
+// a stall can bring them.
+TEST(CoordinatedMultiArm, ArmsOutOfStepKeepClearOfEachOther) {
   for (const double head_start_m : {0.30, 0.34, 0.38, 0.42, 0.46, 0.50}) {
     Crossing cell(crossing_description(), "coordinated");
     cell.submit(slide("x", -1, -1 + head_start_m, 1, "sets out"));
@@ -73,8 +73,8 @@ TEST(CoordinatedMultiArm, ArmsKeepClearOfEachOtherOutOfStep) {
   }
 }
 
-// The paths cross, but in step the arms keep 15 cm apart: the swept volumes of one motion's arms
-// need not be disjoint.
+// The paths cross, but in step the arms keep 15 cm apart. So the swept volumes of the arms of one
+// motion need not be disjoint.
 TEST(CoordinatedMultiArm, PathsMayCrossUnderEveryPolicy) {
   for (const char* policy : {"sequential", "lockstep", "reservation", "timed_discrete", "certified",
                              "earliest_start", "coordinated"}) {
@@ -88,8 +88,8 @@ TEST(CoordinatedMultiArm, PathsMayCrossUnderEveryPolicy) {
   }
 }
 
-// y is paused before x, which was canceled in y's way. The job that would move x away also moves y
-// and comes after y's motion.
+// y is paused before x, which was canceled in y's way. Only one job would move x away. It also
+// moves y, so it comes after y's motion.
 TEST(CoordinatedMultiArm, PausedMotionClosesADeadlockCycle) {
   Crossing cell(crossing_description(), "coordinated");
   cell.submit(slide("x", -1, 1, 4, "canceled"));
@@ -126,8 +126,8 @@ TEST(CoordinatedMultiArm, StopOfAPausedMotionKeepsTheDeadlockCycle) {
   EXPECT_EQ(cell.job("both").reason(), Reason::deadlock);
 }
 
-// x leaves the crossing together with z. y is paused before x, and w before y's path, where w
-// blocks z.
+// x leaves the crossing together with z. y is paused before x. w is paused before y's path, and
+// blocks z there.
 TEST(CoordinatedMultiArm, StopBeforeTheStartKeepsTheOrder) {
   CellDescription description = crossing_description();
   description.robots.push_back(moved(description.robots[1], "z", {-0.3, 0, 0}));

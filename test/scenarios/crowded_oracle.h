@@ -8,14 +8,14 @@
 
 namespace armloom {
 
-// Decides by plain geometry whether a crowded world can still be finished: by whole client motions
-// one after the other, or by several that start together, at the distances that solutions keep.
-// Sound but not complete: retreats and pauses on a path may solve more worlds.
+// Decides by plain geometry whether a crowded world can still be finished. Client motions run as a
+// whole, one after the other or several that start together, and keep the distances that solutions
+// keep. Sound but not complete: retreats and pauses on a path may solve more worlds.
 class CrowdedOracle {
  public:
   explicit CrowdedOracle(const CrowdedWorkload& world);
 
-  // `done`: the number of each arm's motions that are finished (or certain to finish).
+  // `done`: for each arm, the number of motions that are finished (or certain to finish).
   [[nodiscard]] bool solvable(const std::vector<std::size_t>& done);
 
  private:

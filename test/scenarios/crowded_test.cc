@@ -1,6 +1,6 @@
 // Crowded worlds that have a solution. Under `coordinated` nearly every job succeeds. Under any
 // policy every other job ends with the blocker named, retreats do not repeat without end, and
-// nothing ever touches. Runs 100 worlds of `coordinated` and 20 of each other policy;
+// nothing ever touches. Runs 100 worlds under `coordinated` and 20 under each other policy;
 // ARMLOOM_SEEDS=1000 runs 1,000 and 200. ARMLOOM_TOLD=1 prints every unsolved world.
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint64_t kWorlds = 100;
-// Server-initiated jobs for each client job; more means that arms go back and forth.
+// At most this many server-initiated jobs for each client job. More would mean that arms go back
+// and forth.
 constexpr std::size_t kOwnJobsMax = 8;
 
 struct Tally {
@@ -90,7 +91,8 @@ double solution_s(const CrowdedWorkload& world) {
   return sum;
 }
 
-// Returns a diagnosis: the job whose start left no solution, if there is one.
+// Returns why the world was not solved: the job whose start left no solution, if there is such a
+// job.
 std::string went_wrong(const CrowdedWorkload& world, const SimulationResult& result, Tally& tally) {
   CrowdedOracle oracle(world);
   std::vector<std::size_t> done(world.homes.size(), 0);
@@ -163,7 +165,7 @@ void run(const Way& way, Crowd crowd, std::uint64_t seed, Tally& tally) {
       simulate(*cell, ExecutiveOptions{.policy = way.policy}, {world.jobs(), at(600s)}, closest);
   ASSERT_TRUE(result) << name << ": " << result.error().front().detail;
   const std::size_t failed_before = tally.jobs - tally.succeeded;
-  // a refusal must give its reason: the arm has retreated
+  // A refused job must have a reason: its arm has retreated, so the job starts elsewhere.
   for (const auto& refused : result->refused) {
     EXPECT_FALSE(refused.problems.empty()) << name;
     ++tally.refused;
@@ -199,7 +201,7 @@ void run(const Way& way, Crowd crowd, std::uint64_t seed, Tally& tally) {
   }
 }
 
-// Returns 0 if `whole` is 0, so that claims about jobs fail if no job ran.
+// Returns part / whole, or 0 if `whole` is 0, so that claims about jobs fail if no job ran.
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -251,7 +253,7 @@ TEST(CrowdedWorlds, ParkedArmsRetreat) {
   EXPECT_GE(share(tally.succeeded, tally.jobs), 0.99);
 }
 
-// Found with four idle arms, each with a retreat that waited for the next arm's retreat.
+// Found with four idle arms: each had a retreat that waited for the next arm's retreat.
 TEST(CrowdedWorlds, RetreatsThatWaitForEachOtherEnd) {
   Tally tally;
   run({.policy = "lockstep"}, Crowd::ring4, 310, tally);

@@ -56,8 +56,8 @@ class Maker : private DiscRoom {
     return true;
   }
 
-  // Moves each of `count` discs to the next disc's place, once or twice: one after the other, with
-  // one disc waiting elsewhere first, or all together. One more disc may rest nearby.
+  // Moves each of `count` discs to the next disc's place, once or twice. They move one after the
+  // other, with one disc waiting elsewhere first, or all together. One more disc may rest nearby.
   bool exchange(std::size_t count) {
     half_m_ = random_.uniform(0.6, 0.9);
     const double radius = random_.uniform(count == 4 ? 0.45 : 0.4, 0.6);
@@ -127,8 +127,8 @@ class Maker : private DiscRoom {
     return true;
   }
 
-  // The first disc moves to its place and has no more jobs. Then the others must pass there or go
-  // there, so it goes home again. Fails if its home would block them.
+  // The first disc moves to its place and has no more jobs. The others must pass or reach that
+  // place, so the first disc goes home again. Returns false if its home would block the others.
   bool parked() {
     half_m_ = random_.uniform(0.6, 0.8);
     const std::size_t arms = 2 + random_.index(3);

@@ -14,8 +14,8 @@ namespace armloom {
 // axes, that block each other. Places are in meters.
 
 inline constexpr double kDiscDistance_m = 0.2;  // between two centers in contact
-// Distances between centers that solutions keep: larger than contact, clearance and tracking error
-// together.
+// Distances between centers that solutions keep. They are larger than contact, clearance and
+// tracking error together.
 inline constexpr double kKeptOneByOne_m = 0.26;
 inline constexpr double kKeptTogether_m = 0.28;
 
@@ -30,7 +30,7 @@ inline constexpr Crowd kCrowds[] = {Crowd::swap, Crowd::ring3, Crowd::ring4, Cro
                                     Crowd::parked};
 [[nodiscard]] const char* to_string(Crowd crowd);
 
-// Straight segments, at rest at every waypoint; all with the same time law.
+// A motion along straight segments, at rest at every waypoint. All segments have the same time law.
 struct DiscMotion {
   std::size_t arm;
   std::vector<Eigen::Vector2d> way;  // from the current place; at least two
@@ -47,8 +47,8 @@ struct CrowdedWorkload {
   // The solution: groups of motions, one group after the other. Motions of one group start
   // together.
   std::vector<std::vector<DiscMotion>> solution;
-  // The client motions of the solution as submitted: all at once in another order between arms, or
-  // in the solution's order with delays. Each arm keeps its order.
+  // The client motions of the solution as they are submitted: all at once with arms in another
+  // order, or in the solution's order with delays. Each arm keeps the order of its motions.
   struct Submitted {
     double at_s;
     DiscMotion motion;

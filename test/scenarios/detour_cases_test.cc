@@ -1,4 +1,5 @@
-// Goals whose shortest path has to wait for other arms: a detour if that arrives sooner (detour.h).
+// Goals whose shortest path has to wait for other arms. The arm takes a detour if it arrives sooner
+// that way (detour.h).
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -8,7 +9,7 @@
 namespace armloom {
 namespace {
 
-// b enters the middle, rests there for stays_s, and leaves sideways.
+// Returns a job of b, which enters the middle, rests there for stays_s, and leaves sideways.
 JobRequest across(double stays_s) {
   JobRequest request = go("b", {1, 0}, {0, 0}, 2.0, "b");
   auto& points = request.trajectory.points;
@@ -18,7 +19,7 @@ JobRequest across(double stays_s) {
   return request;
 }
 
-// Runs under policies that let an arm pass where another arm is at another time.
+// Runs under the policies that let an arm pass a place where another arm is at another time.
 class Detours : public ::testing::TestWithParam<std::string> {
  protected:
   // Returns the time at which a reaches (0.6, 0) from (-1, 0), past b in the middle.
@@ -46,7 +47,8 @@ TEST_P(Detours, AreTakenIfWaitingTakesLonger) {
   ASSERT_TRUE(detour);
   EXPECT_GE(detour->candidates_evaluated, 1U);
   EXPECT_TRUE(detour->is_selected);
-  // If the shortest path could start now, or never, there is no time saved.
+  // A detour saves no time if the shortest path could start now, and none is reported if it could
+  // never start.
   const double least_s = GetParam() == "certified" ? 0.0 : 10.0;
   EXPECT_GE(detour->time_saved_s.value_or(0.0), least_s) << "b stays for 30 s";
 }
@@ -66,7 +68,8 @@ TEST_P(Detours, NeedFewPlansForOneBlockedPlace) {
   EXPECT_LE(cell->planning().plans, 5U) << "its own way, and those around";
 }
 
-// Prints the benefit: mean arrivals of goals, and of the straight paths as trajectories.
+// Compares the mean arrival of goals with that of the straight paths as trajectories, and prints
+// both.
 TEST_P(Detours, NeverArriveMuchLaterThanTheStraightPath) {
   std::mt19937_64 random(1);
   double goals_s = 0.0, lines_s = 0.0;

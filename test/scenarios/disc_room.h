@@ -14,10 +14,11 @@ using Place = Eigen::Vector2d;
 using Way = std::vector<Place>;
 
 [[nodiscard]] double distance_to_leg(const Place& point, const Place& from, const Place& to);
-// Follows straight segments at the given speed, but takes at least 0.4 s for each.
+// Returns a motion along straight segments at the given speed, with at least 0.4 s for each
+// segment.
 [[nodiscard]] DiscMotion disc_motion(std::size_t arm, Way way, double speed_m_s);
 
-// A square with discs at rest; finds free places and paths for one disc among the others.
+// A square area with discs at rest. Finds free places, and paths for one disc among the others.
 class DiscRoom {
  public:
   explicit DiscRoom(std::uint64_t seed) : random_(seed) {}
@@ -30,8 +31,8 @@ class DiscRoom {
   [[nodiscard]] bool is_free(const Way& way, std::size_t arm) const;
   bool stand_at_random(std::size_t count);
   [[nodiscard]] std::optional<Place> somewhere_free(std::size_t arm);
-  // Returns a straight path if free, else a path over one or two random places; nullopt if none is
-  // found.
+  // Returns the straight path if it is free, else a path over one or two random places; nullopt if
+  // none is found.
   [[nodiscard]] std::optional<Way> way(std::size_t arm, const Place& to);
   template <class T>
   void shuffle(std::vector<T>& list) {

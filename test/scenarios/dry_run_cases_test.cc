@@ -35,7 +35,8 @@ TEST(DryRun, RefusesACellWhoseArmsAreTooCloseAtHome) {
   EXPECT_EQ(checked.error().front().pointer, served.error().front().pointer);
 }
 
-// Each goal starts where the arm's previous job ends; the first two cross in the middle.
+// Each goal starts where the arm's previous job ends. The paths of the first two goals cross in the
+// middle.
 TEST(DryRun, PlansGoalsFromTheEndsOfEarlierJobs) {
   const auto cell = build_cell(crossing_description());
   ASSERT_TRUE(cell);

@@ -29,7 +29,7 @@ TEST(EarliestStart, FinishesCrossingJobsSoonerThanCertified) {
   EXPECT_GE(earliest.closest_m, 0.02) << "the cell's clearance";
 }
 
-TEST(EarliestStart, IsPublishedAheadAndKept) {
+TEST(EarliestStart, IsPublishedInAdvanceAndKept) {
   Crossing cell(crossing_description(), "earliest_start");
   cell.submit(slide("x", -1, 1, 4, "first"));
   cell.submit(slide("y", -1, 1, 4, "second"));

@@ -1,5 +1,5 @@
-// A server-initiated motion that outlives its purpose. b retreated for "x" and must return to the
-// start of its own job "y"; then "y" is canceled, and a rests there.
+// A server-initiated motion that is no longer needed. b retreated for "x" and must return to the
+// start of its own job "y". Then "y" is canceled, and a rests at that place.
 #include "test/scenarios/two_gantries.h"
 
 namespace armloom {
@@ -27,7 +27,7 @@ class ReturnMotions : public ::testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Policies, ReturnMotions, ::testing::ValuesIn(known_policies()));
 
-TEST_P(ReturnMotions, AreGivenWayIfTheNextJobStartsThere) {
+TEST_P(ReturnMotions, SucceedIfTheNextJobStartsWhereTheyEnd) {
   cell->submit(go("b", {0, 1}, {1, 1}, 2, "next"));
   cell->run_to_the_end(at(45s));
   EXPECT_EQ(cell->job("next").state, JobState::succeeded) << cell->job("next").detail();

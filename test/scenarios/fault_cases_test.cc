@@ -21,7 +21,7 @@ void inject(Crossing& cell, FaultRequest fault) {
   ASSERT_TRUE(cell.simulation->executive().faults().inject(fault));
 }
 
-// T6. x has left the crossing when y arrives, unless x stalls there.
+// T6. x has left the crossing when y arrives, unless x stalls in the crossing.
 TEST(FaultyArm, StallStopsOnlyEndangeredArms) {
   Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, 1, 4, "stalls"));
@@ -58,7 +58,7 @@ TEST(FaultyArm, FaultFailsItsJobAndStopsOnlyEndangeredArms) {
   EXPECT_EQ(cell.job("endangered").waits_on.front().arm, "x");
   EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
 
-  // After a resume a job moves the arm away.
+  // After the resume a job moves the faulty arm away.
   const double stands = cell.log.last[0];
   resume_all(cell.simulation->executive());
   cell.submit(slide("x", stands, 1.5, 4, "taken away"));
@@ -97,7 +97,7 @@ TEST(FaultyArm, OverrunFailsOnlyItsJob) {
   EXPECT_EQ(cell.job("unconcerned").state, JobState::succeeded);
 }
 
-TEST(CanceledInMotion, BrakesAndShrinksItsReservation) {
+TEST(CanceledInMotion, MotionBrakesAndItsReservationShrinks) {
   Crossing cell(crossing_and_far(), "certified");
   cell.submit(slide("x", -1, 1, 4, "canceled"));
   cell.submit(slide("far", -1, 1, 4, "other"));

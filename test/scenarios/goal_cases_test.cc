@@ -58,8 +58,8 @@ TEST_P(Goals, FailWithThePlannersReasonBehindAnObject) {
   expect_at(-1.0, -1.0);
 }
 
-// An object that touches the arm at its start does not make its goal unreachable. (A closer object
-// would be refused.)
+// An object that touches the arm at its start does not make its goal unreachable. (An object that
+// is even closer would be refused.)
 TEST_P(Goals, WaitUntilAnObjectThatTouchesTheArmIsRemoved) {
   cell->submit(move_to("x", -0.8, "before"));
   cell->run_to_the_end(at(10s));
@@ -168,7 +168,8 @@ TEST_P(Goals, StayCanceledIfCanceledBeforeTheirPlan) {
   expect_at(-1.0, -1.0);
 }
 
-// Planning ignores an arm that could still leave; the schedule waits for it, as for a trajectory.
+// Planning ignores an arm that could still leave. The job then waits for that arm, as a job with a
+// trajectory does.
 TEST_P(Goals, WaitForAnArmInTheirWay) {
   cell->submit(slide("y", -1, 0, 2, "in the way"));
   cell->run_until(at(3s));

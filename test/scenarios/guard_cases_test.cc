@@ -1,5 +1,5 @@
-// The authority guard in the executive: a scheduler that errs moves no arm into another, and the
-// refusal is reported. Balls on two rails that cross at the origin.
+// The authority guard in the executive. A faulty scheduler cannot move one arm into another, and
+// the refusal is reported. The cell has two balls on rails that cross at the origin.
 #include "core/executive/active_policy.h"
 #include "core/policies/policy.h"
 #include "test/scenarios/crossing.h"
@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Starts every motion without any passing order (a faulty scheduler).
+// A faulty policy: starts every motion without any passing order.
 class Reckless final : public Policy {
  public:
   std::string_view name() const override { return "reckless"; }
@@ -120,7 +120,8 @@ CollisionObject far_box(double x) {
   return box;
 }
 
-// Returns the end of the run; with `camera`, one object changes ten times a second.
+// Returns the time at which all jobs have ended. With `camera`, a distant object changes ten times
+// a second.
 TimePoint end_with_camera(bool camera, const std::string& policy) {
   Crossing cell(crossing_description(), policy);
   EXPECT_TRUE(cell.simulation->executive().scene().add(far_box(0.0)));

@@ -1,4 +1,5 @@
-// How the executive uses controller feedback. The arms here report what the test tells them.
+// How the executive uses controller feedback. The arms of these tests report what the test
+// prescribes.
 #include "core/executive/motions.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ class ToldArm final : public ArmController {
   std::vector<JointId> joints_;
 };
 
-// Two arms of one joint each, and a motion of 4 s of one or both.
+// Two arms of one joint each. A motion of one or both arms takes 4 s.
 class ScriptedArms : public ::testing::Test {
  protected:
   ScriptedArms() {
@@ -85,7 +86,8 @@ TEST_F(ScriptedArms, WaitIfTheyGetAheadOfTheirMotion) {
   EXPECT_GT(arms[1]->granted, 2s - 2 * kOutOfStep);
 }
 
-// The second arm's feedback freezes: its position is unknown, but its possible lead is bounded.
+// The second arm's feedback freezes. Its position is then unknown, but it can be ahead by a bounded
+// time only.
 TEST_F(ScriptedArms, GetBoundedAuthorityWithoutFeedback) {
   dispatch({ArmId{0}, ArmId{1}});
   const Duration reach = from_seconds(stopping_reach_s(

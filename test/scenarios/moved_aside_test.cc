@@ -6,7 +6,7 @@ namespace {
 class AfterARetreat : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Policies, AfterARetreat, ::testing::ValuesIn(known_policies()));
 
-// b rests in the way of a's first job and is sent back: onto the straight path to a's goal, which
+// b rests in the way of a's first job and retreats: onto the straight path to a's goal. That path
 // was planned while b was expected elsewhere.
 TEST_P(AfterARetreat, GoalIsReplannedAndReached) {
   TwoGantries cell(gantries(OnIdleBlocker::park), GetParam());
@@ -25,8 +25,8 @@ TEST_P(AfterARetreat, GoalIsReplannedAndReached) {
   EXPECT_GT(cell.closest_m(), 0.0);
 }
 
-// b's goal is where a is, and a must go past b. Planned around b's expected end, a's path leads
-// through b's current place.
+// b's goal is where a is, and a must go past b. a's path was planned around b's expected end, so it
+// leads through b's present place.
 TEST_P(AfterARetreat, BlockedGoalsAreNoDeadlockIfADetourExists) {
   TwoGantries cell(gantries(OnIdleBlocker::report), GetParam());
   cell.submit(to_place("b", {-1, 0}, "to its place"));
@@ -38,8 +38,8 @@ TEST_P(AfterARetreat, BlockedGoalsAreNoDeadlockIfADetourExists) {
   EXPECT_GT(cell.closest_m(), 0.0);
 }
 
-// While c's goal is being planned, b overtakes c and comes to rest on that path. An arm that then
-// took the place that c must leave again would stay there.
+// While c's goal is being planned, b overtakes c and comes to rest on c's path. Another arm could
+// then take the place that c must leave again, and would stay there.
 TEST_P(AfterARetreat, OvertakenGoalIsReplannedBeforeOthersBlockIt) {
   TwoGantries cell(
       gantries(OnIdleBlocker::report, {{-0.7, -0.28}, {0.7, 0.28}, {-0.7, 0.28}, {0.7, -0.28}}),
@@ -60,8 +60,8 @@ TEST_P(AfterARetreat, OvertakenGoalIsReplannedBeforeOthersBlockIt) {
   }
 }
 
-// b rests at c's goal, and a is in b's straight path for good. Although b must leave before c
-// arrives, b must not be planned through a.
+// b rests at c's goal, and a rests in b's straight path for good. b must leave before c arrives.
+// Even so, b's path must not be planned through a.
 TEST_P(AfterARetreat, PlanAvoidsAnArmThatNeverMoves) {
   TwoGantries cell(gantries(OnIdleBlocker::report, {{0.14, 0.28}, {0.7, 0.28}, {-0.42, -0.28}}),
                    GetParam());
@@ -73,8 +73,8 @@ TEST_P(AfterARetreat, PlanAvoidsAnArmThatNeverMoves) {
   }
 }
 
-// d's goal waits while one arm after the other enters and leaves its path. Once it was planned five
-// times unsuccessfully against the same places before the first arm had moved.
+// d's goal waits while one arm after the other enters and leaves d's path. Planning once failed
+// five times with the same arm positions, before the first arm had moved.
 TEST_P(AfterARetreat, GoalIsReplannedForEachArmInItsWay) {
   TwoGantries cell(
       gantries(OnIdleBlocker::report, {{-0.42, 0.28}, {0.42, -0.28}, {0.14, 0.28}, {0.14, -0.28}}),
@@ -116,8 +116,8 @@ TEST_P(AfterARetreat, GoalSwapTakesOneRetreat) {
   EXPECT_FALSE(cell.executive().job("retreat-2"));
 }
 
-// Two rows of three places between walls. When a is planned, b and c, which is about to leave,
-// block both paths to its goal. Once the plan led through b and was kept after c had left.
+// Two rows of three places between walls. When a's goal is planned, b and c block both paths to it,
+// and c is about to leave. Once the plan led through b and was kept after c had left.
 TEST(AfterADeparture, GoalWithoutAPathIsReplanned) {
   CellDescription description =
       gantries(OnIdleBlocker::report, {{-0.4, -0.4}, {0.12, -0.14}, {-0.14, -0.4}});
@@ -159,8 +159,8 @@ JobRequest along(const std::string& arm, const std::vector<Place_m>& places, std
   return request;
 }
 
-// Three rows. As long as a has not left, d has no path to its goal, and its plan leads through b's
-// place, where b waits for d. That is not a deadlock while a and c may open another path.
+// Three rows. As long as a has not left, d has no path to its goal. d's plan leads through b's
+// place, where b waits for d. That is no deadlock while a and c may open another path.
 TEST_P(AfterARetreat, GoalWithoutAPathIsNoDeadlockWhileOthersMayMove) {
   CellDescription description = gantries(
       OnIdleBlocker::report, {{-0.14, 0.16}, {-0.44, 0.16}, {0.16, -0.44}, {-0.14, -0.14}});

@@ -145,7 +145,7 @@ TEST_P(CandidateArms, JobsAreSharedByTheArms) {
   }
 }
 
-// Neither trajectory can know which arm takes the job.
+// Both trajectories behind the job are submitted before it is known which arm takes the job.
 TEST_P(CandidateArms, NextTrajectoryMayStartAtEitherOutcome) {
   cell->submit(slide("y", -1.0, -0.6, 1.0));
   cell->run_until(at(2s));
@@ -175,7 +175,7 @@ TEST_P(CandidateArms, ImpossibleJobsAreRefusedAtOnce) {
   refused(trajectory, "/arms");
 }
 
-TEST_P(CandidateArms, PoseIsOneOfTheArmsOwnLink) {
+TEST_P(CandidateArms, PoseGoalAppliesToALinkOfTheCandidateArm) {
   for (const auto& link : {std::optional<std::string>(), std::optional<std::string>("ball")}) {
     JobRequest request = either(0.0, link ? "named" : "last");
     request.move_to = PlanGoal{.joints = {}, .named = {}, .pose = PlanPose{.link = link}};

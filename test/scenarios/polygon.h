@@ -12,9 +12,9 @@ namespace armloom {
 
 using Keys = std::vector<std::string>;
 
-// Sliders on rails of 2 m between neighboring corners of a polygon: each rests at its own corner,
-// -1 m, and the next slider's corner is at +1 m. With two corners both arms share one line. The arm
-// "free" is far away.
+// Sliders on rails of 2 m between neighboring corners of a polygon. Each slider rests at its own
+// corner, at -1 m; the next slider's corner is at +1 m. With two corners both arms share one line.
+// The arm "free" is far away.
 inline CellDescription polygon(int corners) {
   CellDescription cell{.name = "polygon"};
   const double turn = 2 * std::numbers::pi / corners;
@@ -32,7 +32,7 @@ inline CellDescription polygon(int corners) {
   return cell;
 }
 
-// The first event that reports the job in a deadlock: its time and cycle.
+// The time and the cycle of the first event that reports the job in a deadlock.
 struct Told {
   TimePoint when;
   Keys ring;

@@ -1,4 +1,5 @@
-// Reads of clients and published events agree at every event, and no read needs the strand.
+// The values that clients read must agree with the published events, at every event. No read needs
+// the strand.
 #include <gtest/gtest.h>
 
 #include <algorithm>

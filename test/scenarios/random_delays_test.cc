@@ -30,7 +30,8 @@ SlidersRun run(std::uint64_t seed, std::size_t arms, const std::string& policy) 
     delay_at_random(executive, std::string(1, static_cast<char>('a' + i)), 20.0, random,
                     kFarBeyond);
   }
-  // Back and forth through the crossing, never to rest in it, with or without pauses.
+  // Returns a motion back and forth through the crossing, with or without pauses. It never rests in
+  // the crossing.
   std::vector<std::string> keys;
   std::vector<double> stands(arms, -1.0);
   const bool paused = random.chance(0.5);

@@ -26,7 +26,7 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// Upper bounds of random delays. Feedback is frozen for up to old_s, again and again.
+// Upper bounds of random delays. Feedback freezes repeatedly, each time for up to old_s.
 struct Delays {
   double late_s = 2.0;
   double slowest = 0.3;

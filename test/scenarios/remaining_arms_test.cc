@@ -16,8 +16,8 @@ JobRequest visit(const std::string& arm, Place_m from, Place_m to, double durati
 }
 
 // "either" would finish sooner with a, behind a's other job. But c comes to rest in a's path for
-// good, and b leaves for a place from which "either" cannot start. In submission order all jobs can
-// be done, so b must do "either" before it leaves.
+// good, and b leaves for a place from which it cannot start "either". All jobs can be done in the
+// order of submission, so b must do "either" before it leaves.
 TEST_P(RemainingArms, TakeTheJobBeforeTheyAreBlockedToo) {
   TwoGantries cell(gantries(OnIdleBlocker::report, {{-0.5, 0}, {0.5, 0}, {0, 0.6}}), GetParam());
   JobRequest either = visit("a", {-0.5, 0}, {0, 0}, 4, "either");

@@ -47,7 +47,7 @@ TEST_P(Replans, AreReplacedByARetreatIfThereIsNoDetour) {
   expect_apart();
 }
 
-// b is at home and has not moved, so none of the straight retreats exists.
+// b is at home and has not moved, so it has no straight retreat.
 TEST_P(Replans, PlanARetreatIfNoStraightOneExists) {
   for (const auto how : {OnIdleBlocker::park, OnIdleBlocker::replan}) {
     start(how);
@@ -136,7 +136,7 @@ TEST_P(Replans, BrakeAMovingJobAndContinueIt) {
   cell->expect_at("a", {-1, 2});
 }
 
-TEST_P(Replans, KeepAWaitingJobFromItsOldPath) {
+TEST_P(Replans, PreventAWaitingJobFromUsingItsOldPath) {
   start(OnIdleBlocker::report);
   cell->submit(go("a", {-1, 0}, {0, 2}, 6, "waits"));
   ASSERT_TRUE(cell->executive().replan("waits"));

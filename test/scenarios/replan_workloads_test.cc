@@ -19,7 +19,8 @@ constexpr double kHalf_m = 0.9;   // half the side of the square that holds all 
 constexpr double kApart_m = 0.3;  // for balls of 10 cm radius at rest
 constexpr int kJobsOfEach = 3;
 
-// Straight paths between random places. About every second goal is a home place of another arm.
+// A workload of straight paths between random places. About every second goal is the home of
+// another arm.
 struct Workload {
   CellDescription cell;
   std::vector<TimedJob> jobs;
@@ -109,7 +110,7 @@ struct Outcome {
   std::map<std::string, std::string> undone = {};  // by key: how the job ended instead
 };
 
-// Returns the jobs that only the other outcome finished, with how they ended in `run`.
+// Returns the jobs that only `than` finished, with how they ended in `run`.
 std::string lost(const Outcome& than, const Outcome& run) {
   std::string text;
   for (const auto& [key, how] : run.undone) {

@@ -19,8 +19,8 @@ CellDescription parking_polygon(int corners) {
 class InADeadlock : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Policies, InADeadlock, ::testing::ValuesIn(known_policies()));
 
-// Both arms share one line, each at the other's goal. b retreats behind its corner, a passes to b's
-// place, and then a retreats so that b can return and move.
+// Both arms share one line, and each has its goal where the other arm is. b retreats behind its
+// corner, and a passes to b's place. Then a retreats, so that b can return and move.
 TEST_P(InADeadlock, OneOfTwoArmsRetreatsAndReturns) {
   Crossing cell(parking_polygon(2), GetParam());
   cell.submit(slide("a", -1, 1, 4, "one"));

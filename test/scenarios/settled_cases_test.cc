@@ -31,7 +31,7 @@ class Settled : public ::testing::TestWithParam<std::string> {
 };
 INSTANTIATE_TEST_SUITE_P(Policies, Settled, ::testing::ValuesIn(known_policies()));
 
-// x faults in the crossing: y's job expires, and x's next job waits for a resume.
+// x has a fault in the crossing. Then y's job expires, and x's next job waits for a resume.
 TEST_P(Settled, AfterAFaultAndAllTimeouts) {
   inject(fault("x", ArmFault::Kind::fault, 1s));
   cell->submit(slide("x", -1, 1, 2, "gives up"));
@@ -50,7 +50,7 @@ TEST_P(Settled, WhileAllArmsAreStopped) {
   resume_all(cell->simulation->executive());
   cell->run_to_the_end(at(400s));
   EXPECT_EQ(cell->job("one").state, JobState::succeeded);
-  // Under reservation the job was in the backlog already, and has expired.
+  // Under `reservation` this job was in the backlog already, and has expired.
   EXPECT_EQ(cell->job("two").state,
             GetParam() == "reservation" ? JobState::expired : JobState::succeeded);
 }
@@ -119,7 +119,8 @@ TEST_P(Settled, LongWaitOfABlockedJobIsSkipped) {
   EXPECT_LT(cycles.count, 20'000);
 }
 
-// on_rest(true) comes when the arms rest, on_rest(false) when one moves; pauses are rests, too.
+// on_rest(true) must come when all arms have come to rest, and on_rest(false) when an arm starts to
+// move. A pause on the path is a rest, too.
 TEST_P(Settled, RestsAreReportedAsTheyBeginAndEnd) {
   struct Rests final : Observer {
     void on_event(const Event&) override {}

@@ -24,9 +24,11 @@ struct SoakTally {
   double hours = 0.0;           // simulated
 };
 
-// Random sequences of all ordinary commands, determined by a seed: jobs with trajectories, goals,
-// alternatives and moves to their start, for one arm or several, batches, cancel, stop, resume,
-// replan, PATCH, policy changes, objects, faults and restarts. Two to four sliders, or two Pandas.
+// Random sequences of commands, determined by a seed, with two to four sliders or two Pandas:
+// - jobs with trajectories, goals, alternatives and moves to their start, for one arm or several,
+//   and batches;
+// - cancel, stop, resume, replan, PATCH and policy changes;
+// - objects, faults and restarts.
 class Soak {
  public:
   enum class World { sliders, pandas };
@@ -71,7 +73,7 @@ class Soak {
   std::unique_ptr<Simulation> simulation_;
   std::map<std::string, JobRequest> requests_;  // by key
   std::map<std::string, std::vector<std::vector<double>>>
-      ends_;  // by key and arm; empty if the job does not move the arm
+      ends_;  // by key and arm: where the job may leave the arm; empty if the job does not move it
   std::uint64_t next_ = 1;
   bool may_fault_ = false, may_see_objects_ = false, disturbed_ = false;
   SoakTally* tally_ = nullptr;

@@ -45,10 +45,14 @@ INSTANTIATE_TEST_SUITE_P(Policies, SoakOfCommands,
                          ::testing::Values("coordinated", "earliest_start", "certified",
                                            "reservation", "lockstep", "sequential"));
 
-TEST_P(SoakOfCommands, Sliders) { soak(Soak::World::sliders, GetParam(), seed_count(kSliders)); }
-TEST_P(SoakOfCommands, Pandas) { soak(Soak::World::pandas, GetParam(), seed_count(kPandas, 10)); }
+TEST_P(SoakOfCommands, SlidersKeepAllPromises) {
+  soak(Soak::World::sliders, GetParam(), seed_count(kSliders));
+}
+TEST_P(SoakOfCommands, PandasKeepAllPromises) {
+  soak(Soak::World::pandas, GetParam(), seed_count(kPandas, 10));
+}
 
-// Failures of these seeds: an arm at rest against a synchronous motion, an endless loop, a
+// Seeds that once failed. Causes: an arm at rest next to a synchronous motion, an endless loop, a
 // move-to-start that was queued behind its own job.
 TEST(Soak, PassesSeedsThatOnceFailed) {
   for (const auto& [policy, seed] : std::vector<std::pair<std::string, std::uint64_t>>{

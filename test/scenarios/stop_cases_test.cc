@@ -24,8 +24,9 @@ TEST(Stop, PausesAllMotionsAndResumeFinishesThem) {
   EXPECT_EQ(cell.job("two").state, JobState::succeeded);
 }
 
-// y would rest in the path of stopped x for good, so it waits, as it would if x were not stopped.
-TEST(Stop, KeepsWaitingJobsOfTheArmPossible) {
+// y would rest in the path of the stopped arm x for good. So y waits, as it would if x were not
+// stopped.
+TEST(Stop, JobsDoNotBlockAWaitingJobOfTheStoppedArm) {
   for (const std::string& policy : known_policies()) {
     Crossing cell(crossing_description(), policy);
     Executive& executive = cell.simulation->executive();
@@ -64,7 +65,7 @@ TEST(WindDown, BringsArmsToRestAndEndsEveryJobOnce) {
   EXPECT_EQ(cell.log.last, stands);
 }
 
-// timed_discrete has no passing orders that keep arms away from an arm that stops in their way.
+// Under timed_discrete no passing orders keep an arm away from another arm that stops in its way.
 class TimedDiscreteStop : public ::testing::Test {
  protected:
   static constexpr ArmId kX{0};

@@ -16,7 +16,7 @@ constexpr double kHoldsUnderDelays_m = 0.015;  // the cell's clearance minus tra
 
 void TeamsRun::explain_what_waits() {
   const Snapshot now = executive().snapshot();
-  // waits of jobs and of arms; key "arm:NAME" for an arm with jobs
+  // The waits of jobs and of arms. The key of an arm with jobs is "arm:NAME".
   std::map<std::string, std::set<std::string>> waits;
   std::set<std::string> explained;
   for (const JobView& job : now.jobs) {

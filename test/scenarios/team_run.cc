@@ -124,7 +124,7 @@ void TeamsRun::submit() {
 }
 
 void TeamsRun::batch() {
-  // The two jobs may share an arm; then the second may not start where the first ends.
+  // The two jobs may have an arm in common. Then the second may not start where the first ends.
   std::vector<JobRequest> jobs = {random_job(), random_job()};
   const auto answers = submit_batch(executive(), jobs, random_.chance(0.5));
   if (!answers) return;

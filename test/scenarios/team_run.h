@@ -22,8 +22,8 @@ struct TeamTally {
   std::uint64_t monitor_stops = 0;
 };
 
-// One random world, determined by its seed: random commands until the world has settled, and the
-// promises that it must keep.
+// One random world, determined by its seed. Sends random commands until the world has settled, and
+// checks what the server promises.
 class TeamsRun {
  public:
   TeamsRun(std::uint64_t seed, const std::string& policy);
@@ -36,7 +36,7 @@ class TeamsRun {
 
   ArmId any_arm() { return ArmId{static_cast<std::uint32_t>(random_.index(arms_.size()))}; }
 
-  // Returns a job of one to three arms, from where client jobs leave them.
+  // Returns a job of one to three arms that starts where client jobs leave these arms.
   JobRequest random_job();
   double predicted(const Snapshot& now, std::size_t arm);
   void remember(const Result<JobView>& accepted, const JobRequest& request);
@@ -50,7 +50,7 @@ class TeamsRun {
   void note_own_jobs();
   // Expects that jobs, queue and the last event of each job agree.
   void compare();
-  // Resumes everything until nothing has happened for kQuiet.
+  // Resumes all arms repeatedly, until nothing has happened for kQuiet.
   void settle();
   // Returns true if a job waits for a stop (by the monitor or a controller fault).
   bool stopped_in_vain();

@@ -29,7 +29,7 @@ TEST(Admission,
   EXPECT_EQ(bench.job(second).waits_on.front().job, first);
 }
 
-TEST(Admission, ChecksAgainstTheRemainingMeasuredMotion) {  // T2
+TEST(Admission, ChecksAgainstMotionsFromTheirMeasuredProgress) {  // T2
   Bench bench(2);
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_free(at(1ms));

@@ -5,7 +5,7 @@
 namespace armloom {
 namespace {
 
-// Arm 1 retreats for a, and arm 2 must retreat for that retreat.
+// Arm 1 must retreat for job a, and arm 2 must retreat for arm 1's retreat.
 struct Chain : Bench {
   Chain() : Bench(one_joint_arms_that_park(3), "certified") {
     a = submit(move({0}, 0, 1, 2s), at(0ms));

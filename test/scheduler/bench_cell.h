@@ -178,7 +178,8 @@ class Bench {
   virtual void heard(const Effect& /*effect*/) {}
 };
 
-// An arm half a second into its motion, and a second arm with this region of both.
+// One arm is half a second into its motion. The motion of a second arm has the region `box` with
+// it.
 struct OneBehindAnother {
   explicit OneBehindAnother(const ProgressBox& box) {
     first = bench.submit(move({0}, 0, 1, 2s), at(0ms));

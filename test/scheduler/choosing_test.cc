@@ -9,7 +9,7 @@ using ::testing::ElementsAre;
 
 constexpr TimePoint kAged = TimePoint{} + 2min;  // longer than scheduling.aging
 
-// The job whose turn it is waits for another arm; the jobs behind it are free.
+// The job whose turn it is waits for another arm, while the jobs behind it are free.
 struct AnyOrder : ::testing::Test {
   AnyOrder() {
     moves = bench.submit(move({1}, 0, 1, 300s), at(0ms), 600s);
@@ -72,7 +72,7 @@ TEST_F(AnyOrder, AgedJobIsNotOvertaken) {
   expect_behind(bench.submit(visit_from(0.0), kAged + 2ms), turn);
 }
 
-// Jobs whose order is still open are not admitted ahead.
+// Jobs whose order is still open are not admitted before their turn.
 struct AheadOfTheirTurns : ::testing::Test {
   void submit_three(bool reorderable) {
     for (JobId& job : jobs) {

@@ -36,7 +36,7 @@ bool Crossings::meet(ArmId a, Stretch of_a, ArmId b, Stretch of_b) const {
   });
 }
 
-// Joins connected boxes; the evidence is that of one box.
+// Joins connected boxes to regions. A region has the evidence of one of its boxes.
 std::vector<ConflictRegion> Crossings::regions_of(std::vector<Box> boxes) {
   std::vector<ConflictRegion> regions;
   while (!boxes.empty()) {
@@ -116,8 +116,9 @@ bool Crossings::free_beside(const Trajectory& motion, const Configuration& rest)
 
 // ---- Answers ----
 
-// Returns arms that rest relative to the candidate. An arm whose neighboring motion shares an arm
-// with the candidate is where that motion leaves or finds it.
+// Returns the arms that rest while the candidate moves, and where they rest. If the motion of such
+// an arm directly before or after the candidate shares an arm with it, the arm rests at the end or
+// the start of that motion.
 std::vector<Crossings::Standing> Crossings::standing_beside(const Question& question,
                                                             const Motion& candidate) const {
   std::vector<const Motion*> in_order;

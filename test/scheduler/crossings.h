@@ -31,7 +31,8 @@ class Crossings {
 
   [[nodiscard]] Verdict answer(const Question& question) const;
 
-  // Returns true if both may be too close on their stretches; touching edges are free.
+  // Returns true if the arms may be too close within these stretches. Intervals that only touch are
+  // free.
   [[nodiscard]] bool meet(ArmId a, Stretch of_a, ArmId b, Stretch of_b) const;
   // Returns true if the motion is free of all objects and of other arms at `rest`.
   [[nodiscard]] bool free_beside(const Trajectory& motion, const Configuration& rest) const;

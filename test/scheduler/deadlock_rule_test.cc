@@ -7,7 +7,7 @@
 namespace armloom {
 namespace {
 
-// Each arm is in the way of the other beyond 0.3.
+// Beyond 0.3 rad each arm blocks the other arm near 0.
 class Blockage : public ::testing::Test {
  protected:
   static std::vector<Crossing> table() {
@@ -54,21 +54,21 @@ class Blockage : public ::testing::Test {
   std::vector<JobId> jobs;
 };
 
-TEST_F(Blockage, CostsAQueueOfGoalsOneJob) {
+TEST_F(Blockage, FailsOnlyTheFirstGoalOfAQueue) {
   submit_ten(goal);
   bench.run_until(at(10s));
   expect_only_the_first_of_each_arm_failed();
   expect_the_others_succeed_when_the_arm_has_gone();
 }
 
-TEST_F(Blockage, CostsAChainOfTrajectoriesOneJob) {
+TEST_F(Blockage, FailsOnlyTheFirstTrajectoryOfAChain) {
   submit_ten(link);
   bench.run_until(at(10s));
   expect_only_the_first_of_each_arm_failed();
   expect_the_others_succeed_when_the_arm_has_gone();
 }
 
-TEST_F(Blockage, OfTwoLongQueuesFailsOneJobEachAndTheRestExpires) {
+TEST_F(Blockage, FailsOneJobOfEachLongQueueAndTheRestExpires) {
   for (int i = 0; i < 3; ++i) {
     Submit job = goal(i);
     job.trajectory = move({0}, 0.5 * i, 0.5 * (i + 1), 1s);

@@ -23,7 +23,7 @@ void add_blocked(std::vector<WaitsForEdge>& edges, std::uint64_t waits, std::uin
   edges.push_back({arm(by), job(first)});
 }
 
-TEST(Deadlock, NeedsWaits) { EXPECT_THAT(find_wait_cycles(WaitsFor({})), IsEmpty()); }
+TEST(Deadlock, IsNotFoundWithoutWaits) { EXPECT_THAT(find_wait_cycles(WaitsFor({})), IsEmpty()); }
 
 TEST(Deadlock, DoesNotIncludeAChainThatEndsAtAnIdleArm) {
   std::vector<WaitsForEdge> edges{{job(3), job(1)}, {job(2), arm(9)}};

@@ -34,11 +34,13 @@ class DetoursByHand : public ::testing::Test, protected Bench {
     const PlanMotion asked = plans_[answered_++];
     step(PlanMade{.job = asked.job, .question = asked.number, .trajectory = way_of(lasts)}, now());
   }
-  // The shortest path meets arm 1 from 1 to 2 s, until 40 s of arm 1's motion.
+  // Answers that the shortest path meets arm 1 from 1 to 2 s, until arm 1's motion has reached 40
+  // s.
   void answer_that_it_waits() {
     answer_regions(now(), {{goes_, holds_, {region(ProgressBox{1s, 2s, 0s, 40s})}}});
   }
-  // Offers free paths of these durations; later arrivals are not checked.
+  // Offers free paths of these durations. The scheduler does not check paths that arrive later than
+  // the best one known.
   void offer(std::vector<Duration> ways) {
     for (const Duration lasts : ways) {
       answer_plan(lasts);
@@ -57,7 +59,7 @@ class DetoursByHand : public ::testing::Test, protected Bench {
 
 TEST_F(DetoursByHand, EarliestArrivalIsChosen) {
   offer({12s, 8s, 10s, 9s});
-  if (question) answer_free(now());  // again, for the chosen path
+  if (question) answer_free(now());  // the chosen path is checked again
   EXPECT_EQ(taken(), 8s);
   EXPECT_EQ(state(goes_), JobState::scheduled);
   EXPECT_EQ(asked_around(), static_cast<std::size_t>(kDetoursMax));

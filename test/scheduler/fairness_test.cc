@@ -9,7 +9,7 @@ using ::testing::IsEmpty;
 
 constexpr Duration kAging = 30s;  // the cell's
 
-// "old" of arm b waits for arm a since 2 ms; arm a's job runs for 40 s.
+// Job "old" of arm b has waited for arm a since 2 ms. Arm a's job runs for 40 s.
 struct Waits : Bench {
   Waits() : Bench(4, "certified") {
     runs = submit(move({0}, 0, 1, 40s), at(0ms));

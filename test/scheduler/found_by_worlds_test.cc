@@ -10,7 +10,8 @@
 namespace armloom {
 namespace {
 
-// x ends in b's way; y, the next job of x's arm, moves it away. Both are admitted with b.
+// x ends in b's way. y, the next job of the same arm, moves the arm away. y is admitted together
+// with b.
 TEST(Admission, JobAdmittedBehindAnotherReportsThatItWaits) {
   Bench bench(2, "coordinated");
   const JobId x = bench.submit(move({0}, 0, 1, 2s), at(0ms));
@@ -28,7 +29,7 @@ TEST(Admission, JobAdmittedBehindAnotherReportsThatItWaits) {
   EXPECT_EQ(bench.job(y).waits_on.front().job, x);
 }
 
-// The last report before the end is from before the region.
+// The first motion's last report before its end is from before the region.
 TEST(Authority, GrowsWhenTheFirstMotionEnds) {
   OneBehindAnother two(ProgressBox{1500ms, 1600ms, 1700ms, 1800ms});
   Bench& bench = two.bench;
@@ -153,7 +154,7 @@ TEST(Cancel, OfABlockingArmsLastJobStartsTheTimeoutOfWaitingJobs) {
   EXPECT_EQ(bench.job(two.second).reason(), Reason::backlog_timeout);
 }
 
-// Canceled in b's way; then one arm of the team leaves.
+// The team's motion is canceled in b's way. Then one of the team's arms leaves.
 TEST(Blockades, TeamBlocksUntilAllOfItsArmsHaveLeft) {
   const JobId both{1}, b{2}, next{3};
   PrecedenceGraph graph(3);
@@ -174,8 +175,8 @@ TEST(Blockades, TeamBlocksUntilAllOfItsArmsHaveLeft) {
   EXPECT_LE(graph.limit(b), 2s) << "arm 1 has not moved";
 }
 
-// `in` blocks b's path and `half` a's: at first only `in` is in a sequence. Then `on` moves b out
-// of the way of `in`, so that b goes first, although `half` waits for `in`.
+// `in` ends in b's path, and `half` ends in a's path, so at first only `in` is in a sequence. Then
+// `on` moves b out of a's path. Now b goes first, although `half` waits for `in`.
 class InTurn : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(InTurn, WaitingJobIsCheckedAgainWhenTheSequenceChanges) {
@@ -199,7 +200,7 @@ TEST_P(InTurn, WaitingJobIsCheckedAgainWhenTheSequenceChanges) {
 }
 
 // Arm a could do `either` sooner, behind `before`. But `stays` blocks that path permanently, and b
-// moves to where `either` cannot start.
+// moves to a place where `either` cannot start.
 TEST_P(InTurn, RemainingArmTakesAJobThatAnotherCannotDo) {
   constexpr ArmId a{0}, c{2};
   IdealArms arms(one_joint_arms(3), std::move(*make_policy(GetParam(), *one_joint_arms(3))),

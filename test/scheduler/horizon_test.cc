@@ -66,7 +66,7 @@ TEST_F(Horizon, DoesNotAdmitAMotionThatStartsElsewhere) {
   EXPECT_EQ(bench.state(elsewhere), JobState::failed);
 }
 
-TEST_F(Horizon, ConflictAheadOfItsTurnDoesNotBacklog) {
+TEST_F(Horizon, ConflictBeforeItsTurnDoesNotBacklogAJob) {
   const std::vector<JobId> jobs = submit_legs(0, 2);
   bench.answer_free(now += 1ms);
   bench.answer_conflict(now += 1ms, Conflict::With::rest, {}, ArmId{1});
@@ -89,7 +89,8 @@ TEST_F(Horizon, StalledMotionLosesItsPassingOrder) {
   EXPECT_LT(bench.authority(first), 4s);
 }
 
-// The first motion is nearer but slow; the stalled motion would pass first if it continued now.
+// The first motion is nearer to the region but stalls; the second is slow. The first would pass
+// first if it continued now.
 TEST_F(Horizon, StalledMotionIsExpectedToKeepStalling) {
   const auto [first, second] = meet();
   for (Duration progress = 100ms; progress <= 1600ms; progress += 100ms) {
@@ -106,7 +107,7 @@ TEST_F(Horizon, StalledMotionIsExpectedToKeepStalling) {
   EXPECT_GT(bench.authority(second), 4s);
 }
 
-// Nearer to the region, but at two fifths of its speed the first motion arrives later.
+// The first motion is nearer to the region, but at two fifths of its speed it arrives later.
 TEST_F(Horizon, SlowMotionIsExpectedToStaySlow) {
   const auto [first, second] = meet();
   for (Duration step = 1ms; step <= 10ms; step += 1ms) {

@@ -105,7 +105,8 @@ bool IdealArms::answer_plan_now() {
   return true;
 }
 
-// Avoids all arms at rest, otherwise those that cannot move.
+// Plans a path that avoids all arms at rest. If there is none, plans a path that avoids the arms
+// that cannot move.
 PlanMade IdealArms::answer_to(const PlanMotion& asked) const {
   const MotionGoal& goal = asked.question.goal;
   const auto arm = static_cast<std::uint32_t>(goal.arm.index());

@@ -21,9 +21,9 @@ struct Habits {
   Duration brakes_for{};    // how long it continues after Brake, at most to its authority
 };
 
-// A Scheduler with arms that obey it, answered from a table of crossings, with its own clock. A
-// plan is the straight path to its goal (a link target's x is the joint's position), or none.
-// Checks after every step:
+// Runs a Scheduler on its own clock, with arms that obey it. Its questions are answered from a
+// table of crossings. Plans are straight paths to the goal (a link target's x is the joint's
+// position), or no path exists. Checks after every step:
 // - Arms anywhere between measured position and authority do not meet (except under
 //   timed_discrete).
 // - Motions of an arm start in order of submission, at the arm's position, after their

@@ -43,7 +43,7 @@ void IdealArms::check_phase(const Job& job) const {
       << what;
 }
 
-// No admitted job that rests waits for itself.
+// Checks that no admitted job at rest waits for itself, directly or through other jobs.
 void IdealArms::check_orders() const {
   const auto next = [this](JobId id) -> std::optional<JobId> {
     const Job& job = this->job(id);
@@ -63,7 +63,7 @@ void IdealArms::check_orders() const {
   }
 }
 
-// The job is 0 if the arm rests.
+// Returns where the arm may be, and the job that moves it (0 if the arm rests).
 std::pair<Stretch, JobId> IdealArms::stretch_of(ArmId arm) const {
   for (const Moving& moving : moving_) {
     const auto& arms = moving.motion->arms();

@@ -105,7 +105,8 @@ TEST(OrderSearch, MatchesExhaustiveSearch) {
   EXPECT_GT(better_than_first, 50u);
 }
 
-// Two arms that meet in one region: the second waits until the first has left.
+// Two arms meet in one region, and the second waits until the first has left. Returns true if the
+// urgent motion passes first.
 bool urgent_passes_first(Duration urgent_from, Duration urgent_to, Duration other_from,
                          Duration other_to) {
   const std::vector<CoordinatedMotion> motions = {
@@ -127,7 +128,7 @@ TEST(OrderSearch, UrgentMotionPassesFirstUnlessTooCostly) {
   EXPECT_FALSE(urgent_passes_first(4s, 8s, 4s, 5s)) << "4 s for the other against 1 s for itself";
 }
 
-// If it goes second, the short motion ends 2.9 s later, the long one 0.4 s.
+// Passing second, the short motion would end 2.9 s later, the long motion 0.4 s later.
 bool short_one_passes_first(Duration work_behind_long) {
   const std::vector<CoordinatedMotion> motions = {
       {.job = JobId(1), .arms = {ArmId(0)}, .duration = 1500ms},

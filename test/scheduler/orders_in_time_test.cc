@@ -33,7 +33,7 @@ struct OrdersInTime : ::testing::Test {
   }
 };
 
-// B meets A at 1 to 2 s of B's motion; A is there from 4 to 6 s.
+// B meets A from 1 to 2 s of B's motion. A is in that region from 4 to 6 s of its own motion.
 const std::vector<PairRegions> kMeet{{kB, kA, {region(ProgressBox{1s, 2s, 4s, 6s})}}};
 
 TEST_F(OrdersInTime, MotionThatLeavesInTimePassesFirst) {
@@ -81,8 +81,8 @@ TEST_F(OrdersInTime, RejectsStartsAfterLatest) {
   }
 }
 
-// With `latest` zero both start now. If the second would arrive just when the first leaves, it
-// waits kShortOf at its start.
+// With `latest` zero both motions start now. If the second would arrive just when the first leaves,
+// the second waits kShortOf at its start.
 TEST_F(OrdersInTime, MotionThatArrivesLaterStartsNow) {
   for (const Duration comes : {Duration(6s), 6s + kShortOf}) {
     graph = PrecedenceGraph(4);
@@ -103,7 +103,7 @@ TEST_F(OrdersInTime, MotionThatArrivesLaterStartsNow) {
 TEST_F(OrdersInTime, ChoosesTheSmallestDelayThatPassesAllRegions) {
   admit(motion(kA, 0, 10s), {});
   admit(motion(kC, 2, 10s), {});
-  // A is there from 2 to 3 s, C from 6 to 8 s; B fits in between.
+  // A is in the region from 2 to 3 s, C from 6 to 8 s. B fits in between.
   const auto orders = admit(
       motion(kB, 1, 2s),
       {{kB, kA, {region(ProgressBox{500ms, 1500ms, 2s, 3s})}},
@@ -121,7 +121,7 @@ TEST_F(OrdersInTime, ChoosesTheSmallestDelayThatPassesAllRegions) {
   EXPECT_EQ(graph.limit(kB), 500ms - kShortOf);
 }
 
-TEST_F(OrdersInTime, TimesFollowTheMotionThatStartsLater) {
+TEST_F(OrdersInTime, LaterMotionPassesAGoalBeforeItsArmArrives) {
   admit(motion(kA, 0, 4s), {});
   admit(motion(kB, 1, 2s), {{kB, kA, {region(ProgressBox{0s, 1s, 3s, 4s - 1ms})}}});
   ASSERT_EQ(graph.limit(kB), 2s) << "it leaves before A arrives";
@@ -162,7 +162,8 @@ TEST_F(OrdersInTime, ArmAtRestInTheWayBlocks) {
 
 TEST(Precedence, ReleasesTheStartWhenTheSecondCanPassWithoutStopping) {
   const ConflictRegion two =
-      region(ProgressBox{1s, 4s, 2s, 3s}, ProgressBox{4s, 7s, 4s, 5s});  // 2 s, then 3 s ahead
+      // A must be 2 s ahead of B, then 3 s
+      region(ProgressBox{1s, 4s, 2s, 3s}, ProgressBox{4s, 7s, 4s, 5s});
   const Precedence order(kA, kB, two, true, true);
   EXPECT_EQ(order.limit(0s), 0s);
   EXPECT_EQ(order.limit(3s + kShortOf - 1ns), 0s);

@@ -127,7 +127,7 @@ TEST_F(Graph, CancelingTheNextMotionKeepsTheGoalBlocked) {
   EXPECT_EQ(graph.held_back(kB)->arm, ArmId{0});
 }
 
-// B must wait for Next at A's goal, but A never arrives there.
+// B must wait until Next has left A's goal, but A never arrives at this goal.
 TEST_F(Graph, UnreachedGoalOfAnAbandonedMotionBlocksNothing) {
   let_b_wait_until_next_has_left();
   graph.progress(kA, 2s);
@@ -175,7 +175,8 @@ TEST_F(Graph, AbandonedMotionBlocksOnlyTheStartItShouldHaveLeft) {
   }
 }
 
-// A brings both arms to where B and Next start, with one arm each. A and B have no region.
+// A moves two arms. One of them is then at the start of B, the other at the start of Next. A and B
+// have no region.
 TEST_F(Graph, ArmLeftByATeamBlocksTheTeamsOtherArm) {
   CoordinatedMotion team = motion(kA, 0, 5s);
   team.arms.push_back(ArmId{1});
@@ -188,7 +189,8 @@ TEST_F(Graph, ArmLeftByATeamBlocksTheTeamsOtherArm) {
   EXPECT_EQ(graph.held_back(kB)->arm, ArmId{1});
 }
 
-// B should pass after kC has left its start, but neither Next nor kC arrives there.
+// B should pass after kC has left its start. But Next is abandoned before it reaches that place, so
+// kC never starts.
 TEST_F(Graph, UnreachedStartOfAnAbandonedMotionBlocksNothing) {
   admit({motion(kA, 0, 5s)}, {});
   admit({motion(kB, 1, 5s), motion(kNext, 0, 5s), motion(kC, 0, 5s)},
@@ -215,7 +217,7 @@ CoordinatedMotion of_both(JobId job, Duration duration) {
   return {.job = job, .arms = {ArmId{0}, ArmId{1}}, .duration = duration};
 }
 
-// One arm rests before the region, the arm ahead inside.
+// One arm of the team rests before the region. The arm that is ahead rests inside the region.
 TEST_F(Graph, ArmAheadOfItsTeamBlocksToo) {
   admit({of_both(kA, 5s)}, {});
   graph.granted(kA, 5s);
@@ -225,7 +227,7 @@ TEST_F(Graph, ArmAheadOfItsTeamBlocksToo) {
   EXPECT_EQ(graph.limit(kB), 2s - kShortOf);
 }
 
-// The motion that moves A's arm away also moves B's, after B.
+// The motion that moves A's arm away also moves B's arm, so it comes after B.
 TEST(PassingOrders, MotionDoesNotWaitForADepartureThatFollowsIt) {
   PrecedenceGraph graph(2);
   graph.admit({motion(kA, 0, 5s)}, {});
@@ -239,7 +241,7 @@ TEST(PassingOrders, MotionDoesNotWaitForADepartureThatFollowsIt) {
 }
 
 // A brings both arms to B's start, in C's way.
-TEST(PassingOrders, StartThatIsOccupiedByThenIsNotPassedFirst) {
+TEST(PassingOrders, StartThatIsAlreadyOccupiedIsNotPassedFirst) {
   PrecedenceGraph graph(2);
   graph.admit({of_both(kA, 5s)}, {});
   const std::vector<CoordinatedMotion> candidates = {motion(kB, 0, 50s), motion(kC, 1, 5s)};

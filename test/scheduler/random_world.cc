@@ -43,7 +43,7 @@ Duration World::up_to(Duration most) {
   return Duration(static_cast<Duration::rep>(random_() % static_cast<std::uint64_t>(most.count())));
 }
 
-// Both arms are free at home, at 0.
+// Returns random crossings of each two arms. Both arms are free at home, at 0.
 std::vector<Crossing> World::table() {
   std::vector<Crossing> table;
   for (std::uint32_t a = 0; a < arms_; ++a) {

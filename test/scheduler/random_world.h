@@ -24,8 +24,8 @@ struct Disturbances {
   bool crowds = false;   // jobs have any goals: some may be impossible
 };
 
-// A random workload for two to four one-joint arms, alone and in teams. All jobs can be done in
-// order of submission; disturbances are added. Deterministic for equal arguments.
+// A random workload for two to four one-joint arms, which move alone and in teams. Without the
+// disturbances all jobs can be done in order of submission. Deterministic for equal arguments.
 class World {
  public:
   World(std::uint64_t seed, const std::string& policy, Disturbances disturbances);

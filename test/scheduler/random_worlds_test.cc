@@ -98,8 +98,8 @@ TEST_P(RandomWorlds, JobsWithChoicesSucceed) {
   EXPECT_GT(run(200, {.delays = true, .choices = true}, !is_timed())[JobState::succeeded], 1000);
 }
 
-// A job is queued behind a job that waits for another arm, whose next job would be blocked
-// permanently: a cycle that another candidate arm resolves.
+// A job is queued behind a job that waits for another arm. That arm's next job would be blocked
+// permanently, which closes a cycle. The cycle ends when another candidate arm takes the job.
 TEST(RandomWorld, JobInACycleIsDoneByAnotherArm) {
   World world(2351, "lockstep", {.delays = true, .choices = true});
   world.run();

@@ -47,7 +47,7 @@ TEST(Deadlock, FailsTheLastJobAndTheOtherWaitsForItsArm) {
   EXPECT_EQ(bench.state(bench.a), JobState::backlogged);
 }
 
-// The trial must not resolve the cycle: the new job waits for b.
+// In the trial the new job waits for b. The trial must not resolve the cycle.
 TEST(Deadlock, IsNotResolvedWithinATrial) {
   Bench bench(3, "certified");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
@@ -130,7 +130,7 @@ TEST(Deadlock, IncludesThreeJobsWhileOthersMove) {
 }
 
 TEST(Deadlock, MayIncludeAPredecessor) {
-  // a waits for arm b to move away, whose only job comes after a.
+  // a waits until arm b moves away, but arm b's only job comes after a.
   Bench bench(2, "certified");
   const JobId a = bench.submit(move({0}, 0, 1, 2s), at(0ms));
   bench.answer_conflict(at(1ms), Conflict::With::rest, {}, ArmId{1});

@@ -8,7 +8,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// Like Swap; the scheduler asks at once about a retreat of b's arm.
+// Each of two arms rests where the other arm's job must go. Because on_idle_blocker is `park`, the
+// scheduler asks at once about a retreat of b's arm.
 struct Parking : Bench {
   explicit Parking(const char* policy = "certified") : Bench(one_joint_arms_that_park(3), policy) {
     a = submit(move({0}, 0, 1, 2s), at(0ms));

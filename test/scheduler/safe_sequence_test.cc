@@ -11,7 +11,7 @@ namespace {
 
 using Jobs = std::vector<JobId>;
 
-// Positions are numbers; blocked passages are set manually.
+// Positions are numbers. Tests set by hand which passages are blocked.
 class Lanes {
  public:
   explicit Lanes(std::size_t arms) : stands_(arms, 0.0), ends_(arms, 0.0) {}
@@ -110,7 +110,7 @@ class Lanes {
 
 constexpr std::uint32_t kA = 0, kB = 1, kC = 2;
 
-// Answers must stay known while no object uses the position.
+// Answers for a position must stay known while no object uses the position.
 TEST(Places, KeepTheIdOfAReleasedPosition) {
   Places places;
   const auto id = [&](std::uint32_t arm, double at) {
@@ -161,7 +161,7 @@ TEST(SafeSequence, SwapCausesNoWait) {
   EXPECT_TRUE(lanes.after({a, b}).all);
 }
 
-TEST(SafeSequence, NextMotionThatLeavesTheGoalUnblocks) {
+TEST(SafeSequence, GoalInTheWayDoesNotBlockIfTheNextMotionLeavesIt) {
   Lanes lanes(2);
   const JobId a1 = lanes.leg({kA}, 1.0), a2 = lanes.leg({kA}, 2.0), b = lanes.leg({kB}, 1.0);
   lanes.blocked(b, kA, 1.0);
@@ -205,7 +205,7 @@ TEST(SafeSequence, AfterACancelJobsThatStartElsewhereLeaveTheSequence) {
   EXPECT_FALSE(lanes.sequence.remove(a1)) << "the caller must call renew()";
 }
 
-// Adds motions that are free in order of submission and may be blocked otherwise.
+// Adds random motions. In order of submission all are free; in another order some may be blocked.
 void add_random_legs(Lanes& lanes, std::uint32_t arms, std::size_t count, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   const auto below = [&](std::uint64_t n) { return static_cast<std::uint32_t>(random() % n); };

@@ -181,7 +181,7 @@ TEST(Overrun, DoesNotEndASlowMotion) {
   EXPECT_EQ(bench.state(job), JobState::succeeded);
 }
 
-TEST(Overrun, LeavesALongMotionItsDurationDespiteAStandstill) {
+TEST(Overrun, EndsALongMotionAtAStandstillOnlyAfterItsDuration) {
   Bench bench(1);
   const JobId job = bench.submit(move({0}, 0, 1, 20s), at(0ms));
   bench.answer_free(at(1ms));

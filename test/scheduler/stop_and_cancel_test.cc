@@ -55,7 +55,7 @@ TEST(Cancel, LaterChecksSeeTheArmAtItsRest) {
   EXPECT_NEAR(bench.question->rest[0], 0.5, 1e-9);
 }
 
-// The canceled arm now rests in the way of one of two other motions.
+// The canceled arm rests in the way of one of two other motions.
 TEST(Cancel, BlocksOnlyMotionsThatPassTheRestingArm) {
   Bench bench(3, "certified");
   const JobId first = bench.submit(move({0}, 0, 1, 2s), at(0ms));
@@ -108,7 +108,7 @@ TEST(Cancel, PermanentlyBlockedJobOnItsPathExpires) {
   EXPECT_EQ(bench.job(behind).detail(), "waited 20 s on its path");
 }
 
-// Only together do x, y and z move their arm out of b's way.
+// x, y and z move their arm out of b's way only if all three are done.
 TEST(Cancel, UnadmitsJobsBehindTheCanceledJob) {
   Bench bench(2, "coordinated");
   const JobId x = bench.submit(move({0}, 0, 1, 2s), at(0ms));

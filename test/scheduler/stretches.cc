@@ -13,7 +13,8 @@ Eigen::Index row_of(const Trajectory& motion, ArmId arm) {
   return std::ranges::find(motion.arms(), arm) - motion.arms().begin();
 }
 
-// Returns when a quintic from rest to rest has covered `way_share`, as a share of its duration.
+// Returns the share of its duration after which a quintic from rest to rest has covered `way_share`
+// of its distance.
 double time_share(double way_share) {
   double low = 0.0, high = 1.0;
   for (int i = 0; i < 45; ++i) {

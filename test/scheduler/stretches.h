@@ -15,8 +15,8 @@ struct Span {
 };
 
 [[nodiscard]] double place_of(const Trajectory& motion, ArmId arm, Duration progress);
-// Returns when the arm is in the stretch, one span per line, a microsecond longer on either side.
-// Lines go from rest to rest (bench_cell.h).
+// Returns when the arm is in the stretch: one span for each line of the motion, a microsecond
+// longer at either end. Lines go from rest to rest (bench_cell.h).
 [[nodiscard]] std::vector<Span> spans_in(const Trajectory& motion, ArmId arm, Stretch stretch);
 
 }  // namespace armloom

@@ -11,7 +11,7 @@ using ::testing::SizeIs;
 constexpr Duration kAtMost = 250ms;  // largest difference
 constexpr Duration kMoves = 10s;
 
-// They cross in the middle of their paths.
+// The paths of the two arms cross in their middle.
 const Crossing kCross{ArmId{0}, 0.4, 0.6, ArmId{1}, 0.4, 0.6};
 
 CellPtr cell_with(std::size_t arms, int horizon_steps) {
@@ -114,7 +114,7 @@ TEST_F(Timeline, StallIsExpectedToLastAsLongAgain) {
   expect_near(*leg.ends, at(22s));
 }
 
-// Until an operator resumes the arm, at an unknown time.
+// A stop lasts until an operator resumes the arm, at an unknown time.
 TEST_F(Timeline, StoppedMotionAndItsDependentsHaveNoPredictedEnd) {
   start("coordinated", 2);
   const JobId first = submit(0, 0, 1), next = submit(0, 1, 0);

@@ -67,7 +67,8 @@ class Look {
     }
   }
 
-  // Two of three jobs begin with an idle arm, if any; one of three may be blocked.
+  // Draws a job. At two of three draws it begins with an idle arm, if there is one. At one of three
+  // draws it may be blocked.
   std::optional<Submit> draw() {
     if (++looks_ % 4 != 0) wait_for_room();
     std::optional<Submit> job;

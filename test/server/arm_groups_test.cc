@@ -48,7 +48,7 @@ TEST_F(ArmGroups, AreChainsAndListsOfJoints) {
   EXPECT_EQ(why("tool"), "it has no movable joint");
 }
 
-// The group "all" has no subgroups: only its joints show that it consists of two arms.
+// The group "all" has no subgroups. Only its joints show that it consists of two arms.
 TEST_F(ArmGroups, ExcludeTheTorsoAndTheWholeRobot) {
   choose(R"(<robot name="torso_robot">
     <group name="torso"><joint name="torso_lift"/></group>
@@ -115,12 +115,12 @@ TEST_F(ArmGroups, IncludeARailButNoGripper) {
   choose(arm + R"(<group name="rail_arm"><group name="rail"/><group name="arm"/></group></robot>)");
   EXPECT_EQ(why("rail_arm"), "an arm");
   EXPECT_EQ(why("arm"), "it is a part of rail_arm");
-  // A chain alone does not make the rail part of the arm: the rail becomes fixed.
+  // A chain alone does not make the rail part of the arm. The rail becomes fixed instead.
   choose(arm + R"(<group name="rail_arm"><chain base_link="base" tip_link="left_3_link"/></group>
     </robot>)");
   EXPECT_EQ(why("arm"), "an arm");
   EXPECT_EQ(why("rail"), "it moves arm");
-  // A wrist as small as a gripper is still not a gripper if it carries one.
+  // A wrist may have as few joints as a gripper. It is no gripper if it carries a gripper.
   const std::string wrist = arm + R"(<group name="wrist"><joint name="left_finger"/></group>
     <group name="arm_wrist"><group name="arm"/><group name="wrist"/></group>)";
   choose(wrist + "</robot>");

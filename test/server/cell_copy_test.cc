@@ -40,7 +40,7 @@ class CellCopy : public ::testing::Test {
 
 CellFile cell_file(const fs::path& file) { return {file, read_text_file(file).value()}; }
 
-TEST_F(CellCopy, HoldsEachFileOnceAndLoads) {
+TEST_F(CellCopy, ContainsEachFileOnceAndLoads) {
   const fs::path shuttle = fs::path(source_dir()) / "models/shuttle";
   const auto copy =
       copy_cell(cell_file(fs::path(source_dir()) / "config/two_shuttles.json"), folder_);
@@ -67,7 +67,7 @@ TEST_F(CellCopy, OfACopyIntoItsOwnFolderChangesNothing) {
   EXPECT_EQ(files(), before);
 }
 
-TEST_F(CellCopy, KeepsFilesOfOneNameApart) {
+TEST_F(CellCopy, KeepsFilesWithTheSameNameApart) {
   write("a/meshes/arm.stl", "solid of a");
   write("b/meshes/arm.stl", "solid of b");
   write("site/arm.urdf",

@@ -75,7 +75,7 @@ TEST(WallClock, ConvertsTimesOfEarlierSessionsToNegativeTimes) {
   EXPECT_EQ(clock.time_before(kStart + 5s), at(0s)) << "the wall's clock was set back";
 }
 
-TEST(Streams, FollowFromTheSeedOfASimulation) {
+TEST(Streams, DependOnlyOnTheSeedOfASimulation) {
   EXPECT_EQ(stream_of_seed(7), stream_of_seed(7));
   EXPECT_NE(stream_of_seed(7), stream_of_seed(8));
   EXPECT_NE(random_stream(), random_stream());

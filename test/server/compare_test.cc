@@ -90,9 +90,10 @@ TEST_F(Compare, PrintsEveryPolicyWithPlausibleMakespans) {
   for (const std::string& policy : names) {
     EXPECT_GT(least[policy], 0.0) << policy;
     EXPECT_LE(least[policy], 100.0) << policy << ": a bound is none that can be undercut";
-    // An arm that brakes on its path and starts again moves longer than its work takes.
+    // An arm that brakes on its path and starts again moves for longer than its work alone takes.
     EXPECT_GE(least[policy], 0.9 * std::max(left[policy], right[policy])) << policy;
-    // Both sets of instants lie in the same makespan, except for rounding of the three numbers.
+    // Both arms move within the same makespan, which bounds their common time from both sides. 0.2
+    // and 0.1 allow for rounding.
     EXPECT_GE(together[policy], left[policy] + right[policy] - 100.2) << policy;
     EXPECT_LE(together[policy], std::min(left[policy], right[policy]) + 0.1) << policy;
   }

@@ -82,7 +82,8 @@ TEST_F(DiagramOverHttp, ShowsFreeStartsAndConflictingEnds) {
   ASSERT_EQ(diagram["layers"].size(), 1U);
   const json& layer = diagram["layers"][0];
   EXPECT_EQ(layer["arms"], json({"left", "right"}));
-  // The first contact lies in a cell of that state. The second request is answered from the cache.
+  // The first contact must lie in a cell with the state that it reports. The second request is
+  // answered from the cache.
   const json met = layer["first_contact"];
   EXPECT_EQ(met["state"], "conflict");
   EXPECT_EQ(state_at(layer, std::min(3.0, met["a_s"].get<double>() + 1e-6),

@@ -15,7 +15,7 @@ LIMITS, STATES = 'server/http/client_limits.cc', 'server/recording/states_csv.cc
 MONITOR, HUB, FAULTY = 'core/monitor/monitor.cc', 'server/hub/hub.cc', 'core/arm/faulty_arm.cc'
 PROGRESS, RATES = 'core/arm/commanded_progress.cc', 'core/arm/rate_law.cc'
 
-# Keyed by the test program that runs first; the other programs follow if it finds nothing.
+# Faults by the test program that runs first. If it does not find a fault, the other programs run.
 FAULTS = {'server_store_test': [
     ('a write that failed is acknowledged', STORE, 'one.done(false);', 'one.done(FAULT);'),
     ('changes that could not be written are dropped', STORE, '      pending_ = std::move(batch);', '      if (!FAULT) pending_ = std::move(batch);'),

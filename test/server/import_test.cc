@@ -50,7 +50,7 @@ TEST_F(PackageFolders, AreFoundByTheirContents) {
       ElementsAre(Pair("arm_description", (top_ / "ws/arm_description").string()),
                   Pair("given", top_.string()), Pair("hand", (top_ / "opt/share/hand").string())));
   EXPECT_THAT(found.missing, ElementsAre("nowhere"));
-  // The folder has another name, contains the files, and is above the URDF.
+  // The folder has another name than the package, contains the files, and is above the URDF.
   const Packages renamed = find_packages(R"("package://table_description/meshes/table.stl")",
                                          top_ / "ws/renamed/urdf/table.urdf", {}, {});
   EXPECT_THAT(renamed.folders,

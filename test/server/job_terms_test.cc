@@ -43,7 +43,7 @@ TEST(JobTerms, AreReturnedAsRequested) {
     EXPECT_EQ(is_told.value(key, json()), value) << key;
 }
 
-TEST(JobTerms, DefaultsAreReturnedForOldMembersOnly) {
+TEST(JobTerms, DefaultsAreReturnedOnlyForPriorityAndOnTimeout) {
   const auto job = asked_for("");
   ASSERT_TRUE(job);
   EXPECT_FALSE(job->terms.backlog_timeout) << "the cell's";

@@ -13,7 +13,7 @@ API = "/api/v1"
 
 
 def swing(job_id, arm, duration_s, after):
-    """Returns a job there and back, so that it can start wherever another job has ended."""
+    """Returns a job that moves away and back, so that it can start where any other job has ended."""
     away = [HOME[0] + (0.3 if arm == "left" else -0.3)] + HOME[1:]
     still = [0.0] * 7
     points = [{"positions": q, "velocities": still, "time_from_start": duration_s * i / 2}

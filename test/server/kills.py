@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Kills the server (kill -9) while jobs are submitted, wait, run and end, and checks the state that the next one restores.
+"""Kills the server (kill -9) while jobs are submitted, wait, run and end, and checks the state that the next server restores.
 
     test/server/kills.py ARMLOOM [--kills 12] [--seed 1] [--folder DIR] [--power-cuts LIBRARY] [--only KIND ...]
 

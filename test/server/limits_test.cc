@@ -77,7 +77,7 @@ TEST(ServiceOptions, ReadTimeoutIsTenSeconds) {
   EXPECT_EQ(Site{}.read_time, std::chrono::seconds(10));
 }
 
-// Both slow requests run at once. The time limit starts at the first byte.
+// Both slow requests run at the same time. Their time limit starts at the first byte.
 TEST_F(Limits, SlowHeadersAndBodiesAreCutOff) {
   options_.read_time = std::chrono::seconds(1);
   start(1.0);
@@ -101,7 +101,8 @@ TEST_F(Limits, SlowHeadersAndBodiesAreCutOff) {
   EXPECT_LT(took, std::chrono::seconds(8));  // generous for a busy machine
 }
 
-// Client and server ends of all connections are in this process.
+// Raises the limit of descriptors, because client and server ends of all connections are in this
+// process.
 void allow_descriptors(rlim_t count) {
   rlimit limit{};
   ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &limit), 0);
@@ -117,7 +118,7 @@ TEST_F(Limits, IdleConnectionsDoNotAffectOthers) {
   start(20.0);
   std::vector<std::unique_ptr<test::Wire>> idle;
   for (int i = 0; i < 1'000; ++i) idle.push_back(std::make_unique<test::Wire>(port()));
-  // The last connection in the accept queue: when it is served, all others are open.
+  // This connection is the last in the accept queue. When it is served, all others are open.
   test::Wire last(port());
   last.send(test::request_text("GET", "/healthz", "", ""));
   ASSERT_EQ(test::read_answer(last).status, 200);
@@ -203,7 +204,8 @@ TEST_F(Limits, LargeBodyDoesNotDelayOthers) {
     for (int i = 1; i < count; ++i) text += "," + some;
     return text + "]}";
   };
-  // Parts: object, member, list, 23 lists of 50,000, and the beginning of the next list.
+  // The reader counts these parts: object, member, list, 23 lists of 50,000, and the beginning of
+  // the next list.
   const auto refused = post("/api/v1/batches", lists_of_them(50));
   EXPECT_EQ(refused.status, 413);
   EXPECT_EQ(refused.json()["type"], "urn:armloom:problem:too-many-parts");
@@ -213,8 +215,8 @@ TEST_F(Limits, LargeBodyDoesNotDelayOthers) {
   for (int i = 0; i < 20'000; ++i) members += "\"" + std::to_string(i) + "\":0,";
   members += "\"x\":0}";
   EXPECT_EQ(post("/api/v1/jobs", members).json()["type"], "urn:armloom:problem:too-many-members");
-  // Longest wait of another client while the body was read, as a share of that time. The best of
-  // several attempts, because the machine may be busy.
+  // The longest wait of another client while the body was read, as a share of that time. Takes the
+  // best of several attempts, because the machine may be busy.
   double share = 1.0;
   for (int attempt = 0; attempt < 5 && share > 0.5; ++attempt) {
     std::atomic<bool> answered = false;

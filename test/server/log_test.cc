@@ -24,7 +24,8 @@ TEST(LogLine, EscapesLineBreaksAndTerminalControls) {
             "serving cell=two_pandas policy=\"\"");
 }
 
-// Also beyond ASCII: C1 controls, line separators, bidirectional marks.
+// Control characters beyond ASCII must be escaped, too: C1 controls, line separators, bidirectional
+// marks.
 TEST(LogLine, EscapesUnicodeControlsButNotLetters) {
   const LogLine line{LogLine::Level::info,
                      "asked",

@@ -97,7 +97,7 @@ TEST_F(MeshRoutes, DoNotFollowLinksCreatedAfterTheStart) {
   fs::remove(folder_ / "package/part.stl");
   fs::create_symlink(folder_ / "elsewhere.stl", folder_ / "package/part.stl");
   EXPECT_EQ(get(address).status, 404);
-  // The same if the folder has become a link.
+  // The mesh must not be served either if its folder has become a link.
   fs::remove(folder_ / "package/part.stl");
   write("package/part.stl", small::stl_bytes(box_));
   EXPECT_EQ(get(address).status, 200);

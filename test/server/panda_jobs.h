@@ -10,7 +10,7 @@ using Pose = std::array<double, 7>;
 
 // Poses of the two-Panda cell (rad).
 inline constexpr Pose kHome{0, -1.2, 0, -2.6, 0, 1.6, 0.785};
-// "coop_up": the arms collide if both are there
+// The pose "coop_up". The arms collide if both are at this pose.
 inline constexpr Pose kMiddle{0, -0.7, 0, -1.8, 0, 2.6, 0};
 
 // Returns a quintic motion from rest to rest through `points` waypoints, as a body of POST /jobs.

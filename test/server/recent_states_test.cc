@@ -37,7 +37,7 @@ TEST(RecentStates, AreKeptForFiveMinutes) {
   EXPECT_EQ(states.frames().back()->time - states.frames().front()->time, 300s - 100ms);
 }
 
-TEST(RecentStates, AreNotMadeUpForAfterASilence) {
+TEST(RecentStates, DoNotFillAGapAfterwards) {
   RecentStates states;
   const Configuration q = Configuration::Zero(1);
   states.take(at(0s), q, wall(0ms));

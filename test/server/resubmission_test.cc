@@ -86,7 +86,7 @@ TEST_P(Idempotency, KeyIdentifiesOneRequest) {
   EXPECT_EQ(jobs_known(), 3U);
 }
 
-TEST_P(Idempotency, KeySentAfterItsJobIdentifiesOneRequest) {
+TEST_P(Idempotency, KeyFirstSentWithARetryIdentifiesOneRequest) {
   start(1);
   ASSERT_EQ(send(job("n1")).status, 202);
   const json batch = {{"jobs", {job("n1"), job("n2", "right")}}, {"atomic", false}};
@@ -230,7 +230,7 @@ TEST(AcceptedRequests, ForgetTheOldestBeyondTheBound) {
   }
 }
 
-TEST(AcceptedRequests, WaitForAnUnansweredDuplicate) {
+TEST(AcceptedRequests, DuplicateWaitsForTheAnswerToTheFirst) {
   AcceptedRequests requests;
   int waited = 0;
   ASSERT_TRUE(requests.begin({"a", "b"}, nullptr));

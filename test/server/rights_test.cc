@@ -92,7 +92,7 @@ TEST_F(Rights, FollowChangesOfTheTokenFileAtOnce) {
   EXPECT_EQ(ask("GET", "/api/v1/arms", bearer(tokens_["admin"])).status, 401) << "nobody's";
 }
 
-// An editing mistake must lock no operator out of Stop.
+// An editing mistake in the token file must not lock any operator out of Stop.
 TEST_F(Rights, SurviveAnInvalidTokenFileWithAReport) {
   const std::uintmax_t size = fs::file_size(file_);
   EXPECT_EQ(ask("GET", "/readyz", "").status, 200);

@@ -18,8 +18,8 @@ using nlohmann::json;
 using test::Serve;
 using Clock = std::chrono::steady_clock;
 
-// No file may grow beyond 5 MB, like on a full disk. The recording reaches the limit before the
-// database log, because each scene event lists every object. The store on a full disk:
+// No file may grow beyond 5 MB, as on a full disk. The recording reaches the limit before the
+// database log, because each scene event lists every object. For the store on a full disk see
 // durable_disk_test.cc.
 TEST_F(Serve, FullDiskIsReportedAtOnceAndAtTheEnd) {
   test::ServeProcess server({"--cell", test::kCell, "--data", data()}, log(),
@@ -97,7 +97,7 @@ TEST_F(Serve, ConnectionsAreRefusedIfDescriptorsAreFew) {
   EXPECT_EQ(test::read_answer(*held.front()).status, 200);
 }
 
-// So few descriptors that less than half remain for connections.
+// The server has so few descriptors that less than half of them remain for connections.
 TEST_F(Serve, ConnectionsAndFilesAreRefusedWithoutDescriptors) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "UBSan opens a pipe to look at a type, and ends the server where there is none";

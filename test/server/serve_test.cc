@@ -47,7 +47,8 @@ TEST_F(Serve, SignalStopsTheArmsAndCompletesTheRecording) {
   }
 }
 
-// The answer precedes the write to disk; even a kill right after must not lose the stop.
+// The answer is sent before the stop is written to disk. Even so, a kill right after the answer
+// must not lose the stop.
 TEST_F(Serve, AnsweredStopSurvivesAKill) {
   for (int kill = 0; kill < 6; ++kill) {
     std::filesystem::remove_all(data());
@@ -64,7 +65,7 @@ TEST_F(Serve, AnsweredStopSurvivesAKill) {
   }
 }
 
-// The stop at the end of a session is no alert: the next session reports what needs attention.
+// The stop at the end of a session raises no alert. The next session reports what needs attention.
 TEST_F(Serve, ShutdownIsNoStopAndNoAlertForTheNextSession) {
   const std::vector<std::string> arguments{"--cell", test::kCell, "--data", data()};
   const auto end = [](test::ServeProcess& server) {

@@ -151,7 +151,7 @@ TEST(IdleStretches, EndIfAJointMoves) {
   EXPECT_EQ(warnings, Warnings{});
 }
 
-// Lost rows are never taken for a rest: between rows, at the end, or after a motion.
+// Rows may be lost between rows, at the end, or after a motion. They are never taken for a rest.
 TEST(IdleStretches, DoNotHideLostRows) {
   const CellPtr cell = two_pandas();
   std::vector<Row> rows;

@@ -123,7 +123,7 @@ TEST_F(Store, DetectsDamagedStops) {
   EXPECT_EQ(open()->leftover().stopped_arms, Names{"left"});
 }
 
-// SQLite would replay the log into a new file, to which the log does not belong.
+// SQLite would replay the log into a new database file, although the log belongs to another file.
 TEST_F(Store, DoesNotTouchALogWithoutItsFile) {
   {
     const auto store = open();

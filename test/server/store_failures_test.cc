@@ -55,7 +55,8 @@ TEST_F(Store, ReportsARemedyIfItCannotBeOpened) {
   EXPECT_NE(why_not().find("repair it"), std::string::npos) << why_not();
 }
 
-// Otherwise another server could use the folder, or not find what this server writes.
+// If the server kept writing, another server could use the folder, or would not find what this
+// server writes.
 TEST_F(Store, StopsWritingIfItsFilesAreReplaced) {
   for (const char* name : {"armloom.lock", "armloom.db", "armloom.mark", "armloom.db-wal"}) {
     SCOPED_TRACE(name);
@@ -78,8 +79,8 @@ TEST_F(Store, StopsWritingIfItsFilesAreReplaced) {
   }
 }
 
-// Records in the lost log are gone, but the database file stays intact, and the next session
-// reports the loss.
+// The records in the lost log are gone. The database file must stay intact, and the next session
+// must report the loss.
 TEST_F(Store, ReportsATruncatedLogAndDoesNotCheckpointIt) {
   const fs::path log = file().string() + "-wal";
   {

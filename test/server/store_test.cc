@@ -102,7 +102,7 @@ TEST_F(Store, ReportsACorruptFileWithoutRepair) {
   EXPECT_EQ(fs::file_size(file()), size);
 }
 
-// Otherwise jobs would be listed in the index's order, or not at all.
+// With a mismatched index, jobs would be listed in the index's order, or not at all.
 TEST_F(Store, ReportsAMismatchedIndexAsCorrupt) {
   {
     const auto store = open();

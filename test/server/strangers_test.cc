@@ -38,7 +38,8 @@ TEST_F(ForeignPages, CannotReadByDnsRebinding) {
   EXPECT_EQ(ask("GET", "/healthz", "Host: evil.example\r\n").status, 200);
 }
 
-// An old program without Host is not a browser, so DNS rebinding does not apply.
+// A request without Host comes from an old program, not from a browser, so DNS rebinding is
+// impossible.
 TEST_F(ForeignPages, DoNotIncludeHttp10Programs) {
   start(1.0);
   test::Wire wire(port());

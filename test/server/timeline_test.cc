@@ -50,7 +50,8 @@ TEST_F(TimelineOverHttp, PredictsTheStartAndTheBlockerOfAJob) {
   until(listener, "l", "running");
   submit("r", test::move("right", test::kHome, test::kMiddle, 3.0));
   json told = timeline();
-  while (told["arms"][1]["steps"].empty()) told = timeline();  // checked, and in its place
+  // until the job has been checked and admitted
+  while (told["arms"][1]["steps"].empty()) told = timeline();
   const json leg = told["arms"][1]["steps"][0];
   EXPECT_EQ(leg["id"], "r");
   EXPECT_EQ(leg["arms"], json::array({"right"}));

@@ -136,7 +136,7 @@ TEST_F(Tls, MarksTheCookieSecure) {
             std::string::npos);
 }
 
-// Without TLS an attacker in between can show a page under this host name.
+// Without TLS an attacker on the network can show a page under the server's host name.
 TEST_F(Tls, TreatsHttpPagesAsAnotherOrigin) {
   for (const auto& [scheme, answer] : {std::pair("http", "403"), std::pair("https", "202")}) {
     TlsWire wire(port());

@@ -40,7 +40,8 @@ TEST_F(Verbs, SpeedChangeKeepsWallTimesRight) {
   ASSERT_EQ(changed.status, 200) << changed.body;
   EXPECT_EQ(changed.json()["speed"], 50.0);
   EXPECT_EQ(get("/api/v1/cell").json()["speed"], 50.0);
-  // sent to every client with the poses; frames with the old speed may still arrive
+  // The speed is sent to every client with the poses. Frames with the old speed may still arrive
+  // first.
   double told = 0.0;
   for (int i = 0; i < 1000 && told != 50.0; ++i) told = listener.next_of("state")["speed"];
   EXPECT_EQ(told, 50.0);

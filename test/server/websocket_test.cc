@@ -20,7 +20,8 @@ std::string masked(std::string payload) {
   return std::string(kMask, 4) + payload;
 }
 
-// `first`: FIN, reserved bits and opcode. `length`: its encoding, if not the shortest.
+// `first`: FIN, reserved bits and opcode. `length`: encoding of the payload's length, if not the
+// shortest.
 std::string frame(int first, const std::string& payload = "", std::string length = "") {
   const std::size_t size = payload.size();
   if (length.empty() && size < 126) length = std::string(1, static_cast<char>(size));

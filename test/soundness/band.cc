@@ -11,7 +11,8 @@ namespace {
 constexpr int kThrows = 60;
 constexpr int kSteps = 160;
 
-// Progress of each motion in what remains of it (0 to 1), and each joint's deviation.
+// The progress of each motion, as a share (0 to 1) of its remaining part, and each joint's
+// deviation.
 struct Point {
   double candidate = 0.0;
   double other = 0.0;

@@ -14,7 +14,8 @@ namespace {
 constexpr double kRounding_m = 1e-6;
 constexpr double kHorizonOfAttack_m = 0.06;
 
-// Pairs for all methods; conflicts are also checked with the delay that just makes them free.
+// Pairs of motions for all methods. A pair in conflict is also checked with the candidate delayed
+// until the pair is just free.
 struct Scenery {
   Scenery()
       : exact(bench::two_pandas()),
@@ -33,7 +34,7 @@ Scenery& scenery() {
   return made;
 }
 
-TEST(HardlyFree, PairsKeepTheClearanceAtEverySampledInstant) {
+TEST(BarelyFreePairs, KeepTheClearanceAtEverySampledInstant) {
   Scenery& s = scenery();
   const double clearance_m = s.exact.cell().clearances.clearance_m;
   TruthSampler sampler(s.exact);

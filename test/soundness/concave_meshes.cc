@@ -206,7 +206,7 @@ MeshPtr turned_over(const MeshData& mesh, std::mt19937_64& random) {
 std::vector<std::uint32_t> components_of(const MeshData& mesh) {
   std::vector<std::uint32_t> components(mesh.vertices.size());
   std::iota(components.begin(), components.end(), std::uint32_t{0});
-  for (bool changed = true; changed;) {  // the smallest number spreads
+  for (bool changed = true; changed;) {  // spreads the smallest vertex number
     changed = false;
     for (const Triangle& t : mesh.triangles) {
       const auto least = std::min({components[t[0]], components[t[1]], components[t[2]]});

@@ -18,9 +18,9 @@ struct MeshWish {
 };
 [[nodiscard]] MeshPtr concave_mesh(const MeshWish& wish, std::mt19937_64& random);
 
-// Returns a prism over a curve that goes twice around the z-axis. Up to 0.12 m from the axis and
-// 0.2 m from the origin along the axis, the surface winds twice around each point. Has a surface
-// only.
+// Returns a prism over a curve that goes twice around the z-axis. Its surface winds twice around
+// each point within 0.12 m of the axis and, along the axis, within 0.2 m of the origin. The mesh
+// has a surface but no pieces.
 [[nodiscard]] MeshPtr twice_wound_mesh();
 
 // Flips some triangles, so that orientation no longer tells outside from inside.
@@ -29,8 +29,8 @@ struct MeshWish {
 // Returns for each vertex the smallest vertex of its connected component.
 [[nodiscard]] std::vector<std::uint32_t> components_of(const MeshData& mesh);
 
-// Returns true if a component winds around the point, by solid angles. Precondition: consistently
-// oriented triangles.
+// Returns true if a connected component winds around the point, computed from solid angles.
+// Precondition: consistently oriented triangles.
 [[nodiscard]] bool winds_about(const MeshData& mesh, const std::vector<std::uint32_t>& components,
                                const Eigen::Vector3d& p);
 

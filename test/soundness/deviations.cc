@@ -42,7 +42,7 @@ class Downhill {
   struct State {
     double own_s = 0.0;
     double other_s = 0.0;
-    std::vector<double> share;  // of the error, by moving joint
+    std::vector<double> share;  // of the tracking error, by moving joint
   };
 
   static double within(double middle_s, double s) {

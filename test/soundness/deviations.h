@@ -10,15 +10,17 @@ struct PlaceOfPair {
   Duration own_time;
   Duration other_time;
 };
-// Each joint is up to `tracking_error` off its path, from `throws` random deviations.
+// How to search: from `throws` random deviations, with each joint up to `tracking_error` off its
+// path.
 struct DeviationAttack {
   double tracking_error;
   int throws;
   double horizon_m;  // larger distances are not computed
 };
 
-// Returns the smallest exact distance found at a place or within 50 ms of it. Steps downhill, joint
-// by joint and time by time, from the place and from each random deviation.
+// Returns the smallest exact distance found within 50 ms of the place. Starts without deviation and
+// from each random deviation. Then changes one joint or one time after the other, as long as the
+// distance falls.
 [[nodiscard]] double closest_with_deviations(bench::ExactScene& exact, const MovingPair& pair,
                                              const PlaceOfPair& place,
                                              const DeviationAttack& attack,

@@ -1,4 +1,5 @@
-// Compares the claimed separation along one direction with capsules that really moved.
+// Compares the separation that the filter claims along one direction with capsules that are really
+// moved.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ constexpr int kLanes = filter::kLanes;
 constexpr std::size_t kMoves = 40;
 constexpr double kMargin_m = 2e-6;
 
-// One arm in eight lanes, each joint within its span.
+// An arm in eight SIMD lanes. In each lane every joint moves within its span.
 class Arm {
  public:
   Arm(std::mt19937_64& random, double span_max) : linkage_(random), view_(linkage_.view()) {
@@ -97,7 +98,7 @@ class Arm {
 
 struct Tally {
   std::size_t pairs = 0;
-  double closest = 1.0;  // separation beyond the limit, as a share of the loss
+  double closest = 1.0;  // smallest (distance found - claim) / (distance before moving - claim)
 };
 
 // Returns the largest limit that the first lane's capsules are claimed to keep; -1 if none.

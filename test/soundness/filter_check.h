@@ -9,7 +9,8 @@
 
 namespace armloom::soundness {
 
-// Compares the filter with exact shapes; all joints are uniform within their limits.
+// Result of comparing the filter with exact shapes, at states with all joints uniform within their
+// limits.
 struct FilterReport {
   std::size_t states = 0;
   std::size_t part_pairs = 0;         // compared

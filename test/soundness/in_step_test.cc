@@ -32,7 +32,7 @@ CellPtr two_rails() {
   return small::shared(std::move(cell));
 }
 
-// Both cross at constant speed; the arm on y is `ahead_m` ahead.
+// Returns a motion in which both arms cross at constant speed. The arm on y is `ahead_m` ahead.
 TrajectoryPtr crossing(const Cell& cell, double ahead_m) {
   Segment segment{Duration{}, 4s, {}};
   segment.coefficients.setZero(2, 6);

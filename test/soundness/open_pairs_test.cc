@@ -1,5 +1,5 @@
-// Pairs that no effort decides, with 5 mm clearance and 1 mrad tracking error, are so close that
-// little is lost.
+// With 5 mm clearance and 1 mrad tracking error some pairs stay undecided at any effort. Their
+// distance must be so near the clearance that little is lost.
 #include <gtest/gtest.h>
 
 #include "test/soundness/soundness.h"
@@ -21,11 +21,11 @@ void expect_open_only_where_close(const CheckMethod& method, std::size_t open_ma
   }
 }
 
-TEST(OpenPairs, OfSweptMotionsAreCloseToTheClearance) {
+TEST(OpenPairs, UndecidedPairsOfSweptMotionsHaveADistanceNearTheClearance) {
   expect_open_only_where_close(Swept{0.001}, 2);
 }
 
-TEST(OpenPairs, OfConflictRegionsAreCloseToTheClearance) {
+TEST(OpenPairs, UndecidedConflictRegionsHaveADistanceNearTheClearance) {
   expect_open_only_where_close(Coordinated{0.001}, 4);
 }
 

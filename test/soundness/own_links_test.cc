@@ -7,7 +7,8 @@
 #include "test/collision/small_cell.h"
 #include "test/soundness/concave_meshes.h"
 
-// Joints that carry both links do not change their distance; joints between the links do.
+// Joints that carry both links do not change the distance of the links. Joints between the links
+// do.
 namespace armloom::soundness {
 namespace {
 

@@ -17,7 +17,8 @@ constexpr double kRangeShare = 0.9;
 constexpr double kKnot_s = 0.1;
 constexpr double kSameSide = 0.03;  // so that some pairs collide and most do not
 
-// middle + sum of c[k] cos(k w t). c[5] and c[6] make the accelerations zero at both ends.
+// A joint's position: middle + sum of c[k] cos(k w t). c[5] and c[6] make the accelerations zero at
+// both ends.
 struct Wave {
   double middle = 0.0;
   double w = 0.0;

@@ -19,16 +19,16 @@ namespace armloom::soundness {
 [[nodiscard]] TrajectoryPtr swing(const Cell& cell, ArmId arm, Duration duration, double turn_rad,
                                   std::mt19937_64& random);
 
-// Motions that keep clear of themselves and of the scene (every 20 ms, exact shapes), so that
+// Motions whose arm keeps clear of itself and of the scene (every 20 ms, exact shapes), so that
 // verdicts are about pairs only. Half of them last 10 s, the others 2 to 10 s.
 struct Pool {
   Pool(bench::ExactScene& exact, std::size_t count, std::uint64_t seed);
 
-  std::vector<TrajectoryPtr> motions[2];  // by arm; even indices to the right
+  std::vector<TrajectoryPtr> motions[2];  // by arm; those of even index turn to the right
   std::uint64_t refused = 0;
 };
 
-// Either motion may be under way, start now or start later.
+// A pair of motions. Each may be under way, start now or start later.
 struct MovingPair {
   Motion candidate;
   Motion other;

@@ -8,7 +8,8 @@
 
 namespace armloom::soundness {
 
-// Reference distances by FCL alone, in double, with own shapes and without bounds and proofs.
+// Reference distances by FCL alone, in double precision. Builds its own shapes, and uses no bounds
+// and proofs of the engine.
 class PlainFcl {
  public:
   explicit PlainFcl(const PlanningScene::Bodies& bodies);

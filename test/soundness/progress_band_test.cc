@@ -8,7 +8,8 @@
 namespace armloom::soundness {
 namespace {
 
-// Without width the band is the planned line, which must be found despite rounding of seconds.
+// A band without width is the line of planned states. It must contain these states despite the
+// rounding of seconds.
 TEST(ProgressBand, WithoutWidthContainsEveryPlannedState) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 100'000; ++i) {
@@ -28,7 +29,7 @@ TEST(ProgressBand, WithoutWidthContainsEveryPlannedState) {
   }
 }
 
-// Random states of a band, with any lag, lie in a time range of their cell.
+// For a random state of a band, with any lag, the cell around it must be met at the state's time.
 TEST(ProgressBand, MeetsEveryCellWithOneOfItsStates) {
   std::mt19937_64 random(5);
   for (int i = 0; i < 100'000; ++i) {

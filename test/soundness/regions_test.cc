@@ -122,7 +122,7 @@ class Attack {
         << "pair " << tally_.pairs << " at " << to_seconds(a) << " and " << to_seconds(b) << " s";
   }
 
-  // Returns the smallest distance near q_ with each joint off its path.
+  // Returns the smallest distance found near q_, with each joint off its path.
   double off_the_paths(const MovingPair& pair) {
     double distance_m = exact_.between_arms(q_, kHorizon_m);
     if (distance_m >= kHorizon_m) return distance_m;

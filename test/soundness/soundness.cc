@@ -130,7 +130,8 @@ Report measure(std::size_t count, std::uint64_t seed, const std::vector<double>&
   for (const MovingPair& pair : random_pairs(exact, pool, count, seed + 1)) {
     const Truth truth = sampler.of(pair);
     report.truth_samples += truth.looked_at;
-    // Caches the checks of the candidate against itself and static bodies.
+    // This question fills the cache with the checks of the candidate against itself and static
+    // bodies.
     Question alone = pair.question(cell, kExactly);
     alone.others.clear();
     static_cast<void>(checker.judge(alone));

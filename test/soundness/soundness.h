@@ -19,7 +19,7 @@ namespace armloom::soundness {
 [[nodiscard]] std::optional<double> first_in_regions_s(const Verdict& regions,
                                                        const MovingPair& pair);
 
-// Discrete check of pairs that truly collide (distance <= 0).
+// Collisions that the discrete check misses, of pairs that truly collide (distance <= 0).
 struct DiscreteRow {
   double step_s;
   // With the cell's clearance, and with none as in the paper.
@@ -30,7 +30,7 @@ struct DiscreteRow {
   } with_clearance, without;
 };
 
-// Certified regions of all pairs, with motions as planned.
+// Compares the certified regions of all pairs with exact distances. Motions run as planned.
 struct Report {
   std::size_t pairs = 0;
   std::size_t colliding = 0;  // true smallest distance <= 0

@@ -24,7 +24,7 @@ constexpr double kLimit_m = 0.1;
 struct Shown {
   std::vector<ConvexShape> shapes;
   CollisionBody body;
-  MeshPtr mesh;  // the reference; for a primitive: inscribed
+  MeshPtr mesh;  // reference; of a primitive an inscribed mesh
   std::vector<std::uint32_t> components;
   std::shared_ptr<Model> model;
   bool is_mesh = true;

@@ -19,14 +19,14 @@ struct SurfaceReport {
   std::size_t too_far = 0;            // computed distances above the true distance: must be 0
   double worst_m = 0.0;               // largest excess
   double shortfall_m = 0.0;           // largest underestimate of a distance between meshes
-  double round_shortfall_m = 0.0;     // meshes against round shapes, whose reference is inscribed
+  double round_shortfall_m = 0.0;     // the same between meshes and round shapes
   std::size_t false_contacts = 0;     // reported as touching, but apart by more than 1 um
   std::vector<std::string> failures;  // the first few
 };
 
-// Checks random pairs near each other or one inside the other: concave meshes, also noisy, with
-// loose components or with flipped triangles. Every fourth is against a primitive, whose reference
-// is inscribed.
+// Checks random pairs near each other or one inside the other. The meshes are concave; some are
+// noisy, have loose components or flipped triangles. In every fourth pair one body is a primitive,
+// whose reference mesh is inscribed.
 [[nodiscard]] SurfaceReport check_surfaces(std::size_t pairs, std::uint64_t seed);
 
 [[nodiscard]] double triangles_by_fcl(const TrianglePoints& a, const TrianglePoints& b);

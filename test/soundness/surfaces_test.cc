@@ -63,7 +63,7 @@ TEST(Surfaces, EnclosePointsInside) {
   EXPECT_LE(wrongly, outside / 20);
 }
 
-TEST(Surfaces, EnclosePointsInsideTwice) {
+TEST(Surfaces, EnclosePointsThatTheyWindAroundTwice) {
   std::mt19937_64 random(54);
   const MeshPtr mesh = twice_wound_mesh();
   const auto components = components_of(*mesh);
@@ -174,7 +174,7 @@ TEST(InnerBalls, ProveMostOverlapsAndNothingElse) {
 }
 
 void expect_the_closest(small::ScaledQuery& checker, const Configuration& q) {
-  constexpr double kHorizon_m = kSurfaceWithin_m;  // beyond, distances may be of pieces
+  constexpr double kHorizon_m = kSurfaceWithin_m;  // larger distances may be of pieces
   const std::vector<NearPair> near = checker.near(q, kHorizon_m);
   double least_m = kHorizon_m;
   for (const NearPair& pair : near) {

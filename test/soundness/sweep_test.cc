@@ -51,8 +51,8 @@ std::vector<MovingAxis> any_axes(std::mt19937_64& random, double span_max) {
   return axes;
 }
 
-// Returns the motion of a body whose joints deviate by their share of `loose`, and all by the last
-// share of their drifts.
+// Returns how a body moves if each joint deviates by its share of `loose`, and by the last share of
+// its drift.
 Isometry3d moved(const std::vector<MovingAxis>& axes, const std::vector<double>& share) {
   Isometry3d E = Isometry3d::Identity();
   for (std::size_t j = 0; j < axes.size(); ++j) {

@@ -19,8 +19,8 @@ CellPtr two_rods() {
   return small::shared(std::move(cell));
 }
 
-// The left rod swings past +x; the right rod rests and points at the left one. The left rod passes
-// the middle `offset` after a multiple of every discrete step.
+// The left rod swings past +x. The right rod rests and points at the left rod. The left rod passes
+// the middle `offset` later than a multiple of every discrete step.
 Question crossing(const Cell& cell, Duration offset, const CheckMethod& method) {
   const double half = small::kHalfTurn;
   const Motion left{
@@ -29,7 +29,7 @@ Question crossing(const Cell& cell, Duration offset, const CheckMethod& method) 
   return {1, TimePoint{}, {left}, {right}, cell.home(), method};
 }
 
-TEST(ThinRod, CrossedBetweenSamplesIsFoundByCertifiedChecksOnly) {
+TEST(ThinRod, CrossingBetweenSamplesIsFoundOnlyByCertifiedChecks) {
   const CellPtr cell = two_rods();
   MotionChecker checker(PlanningScene::build(cell).value());
   const Duration offset = 22ms;

@@ -27,7 +27,8 @@ class TruthSampler {
  public:
   explicit TruthSampler(bench::ExactScene& exact);
 
-  // Equals of_every_sample(), but skips samples that cannot matter by speed bounds times levers.
+  // Returns the same as of_every_sample(). Skips samples that cannot matter, as bounds of speed
+  // times levers prove.
   [[nodiscard]] Truth of(const MovingPair& pair);
   [[nodiscard]] Truth of_every_sample(const MovingPair& pair);
 

@@ -8,8 +8,9 @@
 
 namespace armloom::soundness {
 
-// Pairs of motions with a clearance of kCloseClearance_m that stay open at the highest effort
-// (core/coordination/effort.h). For Coordinated: with a region in which no conflict is proven.
+// Pairs of motions with a clearance of kCloseClearance_m that stay undecided (open) at the highest
+// effort (core/coordination/effort.h). Under Coordinated a pair is open if it has a region in which
+// no conflict is proven.
 struct OpenPair {
   std::size_t pair;
   double keeps_m;  // smallest distance found near the open states

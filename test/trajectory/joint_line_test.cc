@@ -34,7 +34,7 @@ Eigen::VectorXd random_place(std::mt19937_64& random, const Cell& cell,
   return q;
 }
 
-// Returns the largest share of a limit that is used; jerk by differences.
+// Returns the largest share of any limit that the line uses. Jerk is computed by differences.
 double share_of(const Cell& cell, const Trajectory& line) {
   double share = 0.0;
   const Duration step = line.duration() / 4000;

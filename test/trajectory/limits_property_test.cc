@@ -111,7 +111,7 @@ TEST(LimitsProperty, ReportedValueIsReachedByTheMotion) {
     const auto result = validate(request, cell);
     ASSERT_FALSE(result);
     double share = 0.0;
-    bool at_waypoint = false;  // then adjacent segments are not searched for their worst value
+    bool at_waypoint = false;  // if true, adjacent segments are not searched for their worst value
     for (const Problem& problem : result.error()) {
       const double value = std::abs(std::get<double>(problem.value));
       const double limit = problem.slug == "position-limit"   ? kPositionMax

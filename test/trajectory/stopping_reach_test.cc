@@ -24,7 +24,8 @@ TrajectoryPtr motion(const Cell& cell, const std::vector<Knot>& knots, bool quin
   return validate(request, cell).value();
 }
 
-// Keeps |q' s'' + q'' r^2| <= brake at every step of 0.01 ms.
+// Simulates a brake that keeps |q' s'' + q'' r^2| <= brake at every step of 0.01 ms. Returns the
+// progress (s) that it takes.
 double braked_from(const Trajectory& trajectory, double at_s, double brake) {
   constexpr double kStep_s = 1e-5;
   JointState state;

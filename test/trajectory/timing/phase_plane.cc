@@ -23,7 +23,8 @@ double acceleration(const Slope& q, const JointRates& rates, double x, double si
   return sign * most;
 }
 
-// Returns the largest x with a non-empty range of accelerations within the velocity limits.
+// Returns the largest x (squared speed) within the velocity limits at which some acceleration is
+// possible.
 double fastest(const Slope& q, const JointRates& rates) {
   double x = 1e6;
   for (Eigen::Index j = 0; j < q.first.size(); ++j) {
