@@ -1,6 +1,6 @@
 """Builds a copy of the sources with all faults in it; ARMLOOM_FAULT=N switches fault N on. Used by guard/faults.py and
 server/faults.py. A fault is (name, file, old text, new text); FAULT in the new text is true while the fault is on."""
-import os, re, subprocess
+import os, re, signal, subprocess
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[1]
@@ -48,7 +48,8 @@ def run(tree, program, number, *args, seeds=None, timeout=150):
     env = dict(os.environ, ARMLOOM_FAULT=str(number))
     if seeds: env['ARMLOOM_SEEDS'] = str(seeds)
     try:
-        done = subprocess.run([tree / 'build' / program, '--gtest_brief=1', *args], cwd=tree / 'build', env=env, capture_output=True, text=True, timeout=timeout)
+        done = subprocess.run([tree / 'build' / program, '--gtest_brief=1', *args], cwd=tree / 'build', env=env, capture_output=True, text=True, timeout=timeout,
+                              preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))  # a background shell ignores it
     except subprocess.TimeoutExpired:
         return None, ''
     return done.returncode, done.stdout + done.stderr

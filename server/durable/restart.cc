@@ -132,10 +132,11 @@ void Restart::sort_out(const LeftJob& left, const JobKeeper& keeper) {
     return write_off_unreadable(job, "its record in the data folder is damaged (wrong checksum)");
   }
   if (left.may_have_moved) {
-    return write_off(job, kInterrupted, kRestart, "the server ended while it was under way");
+    return write_off(job, kInterrupted, kRestart, "the server ended while the job was under way");
   }
   // A job of the server itself, or a job whose client got no answer: there is no request to run.
-  if (!left.body) return write_off(job, kInterrupted, kRestart, "the server ended before it began");
+  if (!left.body)
+    return write_off(job, kInterrupted, kRestart, "the server ended before the job began");
   auto read = read_job_submission(*left.body);
   if (!read) {
     return write_off_unreadable(

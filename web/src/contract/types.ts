@@ -24,11 +24,11 @@ export interface components {
             mount_clearance_m?: number;
             /** @description Tolerances of the collision checks. */
             checking: {
-                /** @description Time step of the policy timed_discrete, which compares motions only at these instants. */
+                /** @description Time step of the policy timed_discrete. This policy compares motions only at these instants. */
                 time_step_s: number;
-                /** @description Largest deviation of a joint from its path; all certificates cover it. */
+                /** @description Largest deviation of a joint from its path. All certificates allow for it. */
                 tracking_error_rad: number;
-                /** @description Expected delay of a motion behind its plan; `validate` warns of controllers with a larger lag_s. Certificates do not depend on it, because motions are coordinated by measured progress. */
+                /** @description Expected delay of a motion behind its plan. `validate` warns of controllers with a larger lag_s. Certificates do not depend on this value, because motions are coordinated by measured progress. */
                 delay_s: number;
                 /** @description Share by which a trajectory may exceed a velocity, acceleration or jerk limit between its waypoints. */
                 limit_tolerance: number;
@@ -36,23 +36,23 @@ export interface components {
             /** @description Scheduling of jobs. */
             scheduling: {
                 /**
-                 * @description Policy that decides when jobs start; `armloom compare` simulates your jobs under each policy.
+                 * @description Policy that decides when jobs start. `armloom compare` simulates your jobs under each policy.
                  * @enum {string}
                  */
                 policy: "sequential" | "lockstep" | "reservation" | "timed_discrete" | "certified" | "earliest_start" | "coordinated";
                 /** @description Time in the backlog after which a job expires; a job can override it. */
                 backlog_timeout_s: number;
-                /** @description After waiting this long, a job can no longer be overtaken. */
+                /** @description Waiting time after which a job can no longer be overtaken. */
                 aging_s: number;
                 /**
-                 * @description Action when an idle arm or a deadlock cycle blocks a job. park: move an arm out of the way (retreat). replan: plan another path to the job's end, losing the rest of its trajectory; park if there is no path. report: only report the blockade.
+                 * @description Action when an idle arm or a deadlock cycle blocks a job. park: move an arm out of the way (retreat). replan: plan another path to the job's end, which loses the rest of its trajectory; if there is no path, park. report: only report the blockade; in a deadlock cycle, the job submitted last fails.
                  * @enum {string}
                  */
                 on_idle_blocker: "report" | "park" | "replan";
-                /** @description Number of jobs per arm that are scheduled together, including the running one (policy coordinated only). Decision time grows quadratically: tens of milliseconds above 12. */
+                /** @description Number of jobs per arm that are scheduled together, including the running one (only for the policy coordinated). The time for a decision grows with the square of this number: above 12, it is tens of milliseconds. */
                 horizon_steps: number;
                 /**
-                 * @description Action after a restart of a server with `--data` for jobs that had not ended. ask: all arms stay stopped until they are resumed. continue: jobs that had not begun continue by themselves.
+                 * @description Action after a restart of a server with `--data` if jobs had not ended. ask: all arms stay stopped until they are resumed. continue: jobs that had not begun continue by themselves.
                  * @enum {string}
                  */
                 on_restart: "ask" | "continue";
@@ -63,18 +63,18 @@ export interface components {
                 rate_hz: number;
                 /** @description Time from a finding to the start of braking. */
                 reaction_s: number;
-                /** @description Clearance below which the monitor stops the arms. At most clearance_m. */
+                /** @description Clearance below which the monitor stops the arms; at most clearance_m. */
                 stop_clearance_m: number;
             };
             /** @description Tolerances for starting and finishing motions; the defaults are MoveIt's. */
             execution: {
                 /** @description Largest deviation of an arm from the start of its job. */
                 start_tolerance_rad: number;
-                /** @description A motion fails as overrun if it takes longer than its duration times this factor plus duration_margin_s, and has not moved for 10 s. */
+                /** @description A motion fails as overrun if two conditions hold: it takes longer than its duration times this factor plus duration_margin_s, and it has not moved for 10 s. */
                 duration_scaling: number;
                 /** @description Margin added to the scaled duration; increase it if arms may stall for longer. */
                 duration_margin_s: number;
-                /** @description Default velocity scaling for every motion that the server time-parameterizes: goals, `retime`, replans and retreats. As in MoveIt; a request can override it. Trajectories with times run as given. */
+                /** @description Default velocity scaling of every motion that the server time-parameterizes: goals, `retime`, replans and retreats. A request can override it, as in MoveIt. Trajectories with times run as given. */
                 velocity_scaling_factor: number;
             };
         };
@@ -91,12 +91,12 @@ export interface components {
             /** @description Longest time in the backlog; default: the cell's */
             backlog_timeout_s?: number;
             /**
-             * @description Action on backlog timeout. `abort`: the job expires. `replan`: the server plans another path from the arm's position to the job's end, around everything at rest; the job expires if there is no path, and after the third replan
+             * @description Action on backlog timeout. `abort`: the job expires. `replan`: the server plans another path from the arm's position to the job's end, around everything at rest. The job expires if there is no such path, and after the third replan
              * @enum {string}
              */
             on_timeout?: "abort" | "replan";
             /**
-             * @description `plan`: the arms need not be at the start of the trajectory; the server first moves each of them there on a planned path, slowly
+             * @description `plan`: the arms need not be at the start of the trajectory. The server first moves each arm there slowly, on a planned path
              * @enum {string}
              */
             move_to_start?: "none" | "plan";
@@ -111,7 +111,7 @@ export interface components {
             submitted_at: string;
             /** @description Cell time of the first conflict; absent if there was none */
             backlogged_s?: number;
-            /** @description Cell time at which the job expires if nothing changes, while it waits in the backlog, or on its path for something that no job moves */
+            /** @description Cell time at which the job expires if nothing changes. Present while the job waits in the backlog, or waits on its path for something that no job moves */
             expires_s?: number;
             /** @description Scheduled start; null if not scheduled, in cell time */
             scheduled_s: number | null;
@@ -140,6 +140,8 @@ export interface components {
             duration_s: number;
             /** @description For a goal: true if the path is planned */
             planned?: boolean;
+            /** @description true if the server computed the times of the trajectory (`retime`) */
+            retimed?: boolean;
             /** @description true while the job brakes on its path */
             stopping: boolean;
             /** @description Reasons to wait; empty if the job does not wait */
@@ -160,13 +162,13 @@ export interface components {
                 /** @description Reason why the last replan failed and the job kept its path; else null */
                 refused: string | null;
             };
-            /** @description For a goal whose shortest path would have to wait: detours around the motions of other arms */
+            /** @description Present for a goal whose shortest path would have to wait: detours around the motions of other arms */
             detour?: {
                 /** @description Number of detours evaluated */
                 candidates_evaluated: number;
                 /** @description true if the job takes a detour */
                 selected: boolean;
-                /** @description Predicted earlier arrival by the detour; null if none is selected, or if the shortest path was blocked */
+                /** @description Time by which the detour is predicted to arrive earlier. null if no detour is selected, or if the shortest path was blocked */
                 time_saved_s: number | null;
             };
             /** @description Why this job went before others, or why this arm was selected */
@@ -175,11 +177,11 @@ export interface components {
                 candidates: string[];
                 /** @description The selected candidate */
                 selected: string;
-                /** @description Gain over the first candidate: lower plan cost, or for a goal earlier arrival; null if the first candidate is selected or could not go */
+                /** @description Time saved compared with the first candidate: lower plan cost, or for a goal earlier arrival. null if the first candidate is selected or could not go */
                 time_saved_s: number | null;
                 detail: string;
             };
-            /** @description Ids of the deadlock cycle that contains the job, itself first; each job waits for the next, the last for the first. Empty if there is none */
+            /** @description Ids of the jobs in the deadlock cycle that contains this job, this job first. Each job waits for the next, and the last for the first. Empty if the job is in no cycle */
             cycle: string[];
             /** @description Result of an ended job; else null */
             result: {
@@ -187,7 +189,7 @@ export interface components {
                 detail: string;
             } | null;
         };
-        /** @description The coordination diagram of two motions. Times in cells and of progress are trajectory time. */
+        /** @description The coordination diagram of two motions. The times of cells and of progress are trajectory time. */
         Diagram: {
             /** @description Cell time of `state` and `progress_s` */
             t_s: number;
@@ -200,9 +202,9 @@ export interface components {
                     string,
                     string
                 ];
-                /** @description Cells that cover the rectangle of both durations without overlap; absent with `cells=0` */
+                /** @description Cells that cover the rectangle of both durations without overlapping each other; absent with `cells=0` */
                 cells?: components["schemas"]["DiagramCell"][];
-                /** @description The first conflict, or else the first undecided cell, if both motions continue from their present progress and each rests at its end; null if only free cells follow */
+                /** @description What the motions reach first if both continue from their present progress and each rests at its end: the first conflict, or else the first undecided cell. null if only free cells follow */
                 first_contact: components["schemas"]["DiagramContact"] | null;
             }[];
             evaluations: number;
@@ -240,7 +242,7 @@ export interface components {
             clearance_m?: number;
             /** @description Distance that the two links must keep */
             required_clearance_m?: number;
-            /** @description Nearest usable joint positions found: collision-free ones; for an unreachable pose, the closest to it; for a straight line, the farthest point on it */
+            /** @description Usable joint positions nearest to the request: the nearest collision-free ones; for an unreachable pose, the closest to the pose; for a straight line, the farthest point on the line */
             nearest?: number[];
             /** @description Evaluations that planning took */
             evaluations?: number;
@@ -251,7 +253,7 @@ export interface components {
             verdict: "free" | "conflict" | "undecided";
             /** @description Delay until the earliest start; 0 for an immediate start, null if unknown */
             earliest_start_s: number | null;
-            /** @description Certified clearance between arms and between arms and objects: the smallest one required of any such pair */
+            /** @description Certified clearance between arms, and between arms and objects: the smallest clearance required of any such pair */
             clearance_bound_m: number | null;
             /** @description Certified clearance between links of one arm */
             self_clearance_bound_m: number | null;
@@ -267,11 +269,11 @@ export interface components {
                 candidates: string[];
                 /** @description The selected candidate */
                 selected: string;
-                /** @description Gain over the first candidate: lower plan cost, or for a goal earlier arrival; null if the first candidate is selected or could not go */
+                /** @description Time saved compared with the first candidate: lower plan cost, or for a goal earlier arrival. null if the first candidate is selected or could not go */
                 time_saved_s: number | null;
                 detail: string;
             };
-            /** @description For a job with `move_to_start`: duration of the motion to its start. The verdict covers that motion; if the job cannot be admitted together with it, the job is checked again at the start */
+            /** @description For a job with `move_to_start`: duration of the motion to its start. The verdict covers that motion. If the job cannot be admitted together with that motion, it is checked again at its start */
             move_to_start_s?: number;
             /** @description Result of a job that would end at once without moving */
             result?: {
@@ -344,7 +346,7 @@ export interface components {
             /** @description Reason of the failure; empty otherwise */
             detail: string;
         };
-        /** @description Who may jog arms: one client at a time. */
+        /** @description The client that may jog arms; one client at a time. */
         Control: {
             /** @description null if no client has control */
             holder: components["schemas"]["ControlHolder"] | null;
@@ -570,7 +572,7 @@ export interface components {
                 [key: string]: number;
             };
             clearance: {
-                /** @description Two arms; or one arm if the other body is an object or a link that no arm moves */
+                /** @description Names of two arms; or of one arm, if the other body is an object or a link that no arm moves */
                 arms: string[];
                 m: number;
                 links: [
@@ -629,7 +631,7 @@ export interface components {
             sphere?: [
                 number
             ];
-            /** @description A mesh: path of an STL, OBJ or DAE file. Everything that it encloses is treated as solid, cavities included. */
+            /** @description A mesh: path of an STL, OBJ or DAE file. Everything that the mesh encloses is treated as solid, cavities included. */
             mesh?: string;
             /** @description Scale factors of a mesh along x, y and z. */
             scale?: [
@@ -668,7 +670,7 @@ export interface components {
         /** @description Id of a job, chosen by the client or the server. */
         JobId: string;
         /**
-         * @description State of a job. The last five are terminal; every job reaches exactly one of them.
+         * @description State of a job. The last five states are terminal; every job reaches exactly one of them.
          * @enum {string}
          */
         JobState: "queued" | "backlogged" | "scheduled" | "running" | "paused" | "succeeded" | "canceled" | "expired" | "failed" | "interrupted";
@@ -690,7 +692,7 @@ export interface components {
             clearance_m: number | null;
             /** @description Details, for example the cause of a stop */
             detail?: string;
-            /** @description For a running check: share of its limit of evaluations used so far; most checks end early */
+            /** @description While the job is being checked: share of the limit of evaluations used so far. Most checks end before the limit */
             progress?: number;
         };
         /**
@@ -706,7 +708,7 @@ export interface components {
         };
         DiagramCell: {
             /**
-             * @description `free`: every state of the cell keeps the clearance; `conflict`: no state keeps it; `undecided`: some states keep it, or neither is proven
+             * @description `free`: every state of the cell keeps the clearance; `conflict`: no state keeps the clearance; `undecided`: only some states keep the clearance, or nothing is proven
              * @enum {string}
              */
             state: "free" | "conflict" | "undecided";
@@ -734,7 +736,7 @@ export interface components {
             name: string;
             /** @description Admitted motions in order */
             steps: components["schemas"]["TimelineStep"][];
-            /** @description Number of jobs of the arm that have not ended and are not in `steps`: not admitted yet, so without times */
+            /** @description Number of jobs of the arm that have not ended and are not in `steps`. They are not admitted yet, so they have no times */
             waiting: number;
         };
         /** @description A trajectory in the form of trajectory_msgs/JointTrajectory. */
@@ -772,15 +774,15 @@ export interface components {
             succeeded: number;
             expired: number;
             failed: number;
-            /** @description Canceled by the server, interrupted jobs included */
+            /** @description Jobs canceled by the server, interrupted jobs included */
             canceled: number;
-            /** @description Refused on submission, because the job would not begin where its arm would be */
+            /** @description Jobs refused on submission, because the job would not begin where its arm would be */
             refused: number;
-            /** @description Not ended when nothing could move any more, or when the simulation was given up */
+            /** @description Jobs that had not ended when nothing could move any more, or when the simulation was given up */
             unfinished: number;
-            /** @description Waited in the backlog at least once */
+            /** @description Jobs that waited in the backlog at least once */
             backlogged: number;
-            /** @description From the first submission to the last end; null if a job did not end or no job started */
+            /** @description Time from the first submission to the last end; null if a job did not end or no job started */
             makespan_s: number | null;
             /** @description `makespan_s` divided by that of `sequential`; null if unknown */
             makespan_ratio: number | null;
@@ -790,9 +792,9 @@ export interface components {
             /** @description Smallest clearance that the monitor measured; null if no pair came close */
             min_clearance_m: number | null;
             monitor_stops: number;
-            /** @description State checks that the decisions took */
+            /** @description Number of state checks that the decisions of the policy took */
             evaluations: number;
-            /** @description true if the simulation exceeded its limit of evaluations; the results cover the part before */
+            /** @description true if the simulation exceeded its limit of evaluations; the results then cover only the time before */
             given_up: boolean;
         };
         ControlHolder: {
@@ -843,7 +845,7 @@ export interface components {
             /** @description Measured joint positions in the order of `joints`: rad or m */
             q: number[];
             home: number[];
-            /** @description Measured deviation of the worst joint from the path */
+            /** @description Largest measured deviation of a joint from the path */
             deviation_rad: number;
         };
         QueueIds: {
@@ -879,19 +881,19 @@ export interface components {
         /** @description The authority guard refused movement authority that the scheduler had granted. This is a defect of the scheduler; the arm has not moved. */
         GuardFinding: {
             /**
-             * @description Reason. `uncertified`: no certificate covers the authority; `region`: it enters a conflict region out of order; `busy`: the arm is on another motion; `out_of_step`: the arms of one motion are too far apart on it
+             * @description Reason. `uncertified`: no certificate covers the authority; `region`: the authority enters a conflict region out of order; `busy`: the arm is on another motion; `out_of_step`: the arms of one motion are too far apart in progress
              * @enum {string}
              */
             kind: "uncertified" | "region" | "busy" | "out_of_step";
             arm: string;
             job: string;
-            /** @description Other arm; empty for the scene or the motion's own arms */
+            /** @description Other arm; empty if the refusal concerns the scene or only the arms of this motion */
             other_arm: string;
             /** @description Last job of the other arm, or empty */
             other_job: string;
-            /** @description From the present progress of both arms to their authority */
+            /** @description Authority that was refused: from the present progress of both arms to their authority */
             asked: components["schemas"]["ProgressBox"];
-            /** @description The first rectangle of the conflict region that was entered */
+            /** @description First rectangle of the conflict region that `asked` overlaps */
             region?: components["schemas"]["ProgressBox"];
         };
         Alert: {
@@ -905,7 +907,7 @@ export interface components {
             job: string;
             /** @description Measured progress */
             progress_s: number;
-            /** @description Movement authority: the arm stops here unless more is granted */
+            /** @description Movement authority: the arm stops at this time unless more authority is granted */
             authority_s: number;
         };
         CellArm: {
@@ -919,7 +921,7 @@ export interface components {
                 [key: string]: number[];
             };
         };
-        /** @description An admitted motion. It begins after the previous motion of its arms; waiting for that is not a pause. */
+        /** @description An admitted motion. It begins after the previous motion of its arms; the time until then is not listed as a pause. */
         TimelineStep: {
             id: components["schemas"]["JobId"];
             /** @description Display name; may be empty */
@@ -929,9 +931,9 @@ export interface components {
             state: components["schemas"]["JobState"];
             /** @description Share of the trajectory's time at `now_s` */
             progress: number;
-            /** @description Time of leaving its start, past or predicted; null if not predicted */
+            /** @description Time at which the motion leaves its start, past or predicted; null if not predicted */
             starts_s: number | null;
-            /** @description Predicted end; null if none is predicted: the last pause gives the reason, unless the job is canceled and brakes */
+            /** @description Predicted end; null if no end is predicted. The last pause then gives the reason, unless the job is canceled and its arm brakes */
             ends_s: number | null;
             /** @description Pauses from now on */
             pauses: components["schemas"]["TimelinePause"][];
@@ -979,7 +981,7 @@ export interface components {
             to_s: number | null;
             /** @description Position of the pause in trajectory time */
             at_s: number;
-            /** @description What the motion waits for; null if its own arms cause the pause, which is assumed to last as long again as it has lasted so far */
+            /** @description What the motion waits for; null if its own arms cause the pause. Such a pause is predicted to last as long again as it has lasted so far */
             waits_on: components["schemas"]["Wait"] | null;
         };
         /** @description A ROS 2 time, a ROS 1 time, or a number of seconds. */
