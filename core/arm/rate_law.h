@@ -55,7 +55,7 @@ class RateLaw {
   TrajectoryPtr trajectory_;
   Eigen::VectorXd acceleration_;  // limits of the trajectory's joints, > 0
   Eigen::VectorXd brake_;
-  double floor_ = 0.0;              // smallest deceleration of a brake, > 0
+  double floor_ = 0.0;              // lower bound of the deceleration of any brake, > 0
   std::array<Sampled, 2> sampled_;  // the last two points requested
   std::size_t older_ = 0;
 };

@@ -67,7 +67,8 @@ struct ApartCertificate {
 // side's own links, from stationary links and from these objects.
 struct SceneCertificate {
   CertifiedSide side;
-  std::vector<std::vector<Fingerprint>> objects;  // for each arm of the side, ascending
+  std::vector<std::vector<Fingerprint>>
+      objects;  // by index in side.arms; hashes in ascending order
   Fingerprint geometry;
 };
 // Proves that a motion's arms keep their clearance from each other while no arm is ahead of another

@@ -33,7 +33,7 @@ struct Status {
   JobSheet jobs;         // active and recently ended
   std::shared_ptr<const SceneView> scene;
   Configuration q;              // measured, all joints of the cell
-  std::vector<ArmStatus> arms;  // ArmId
+  std::vector<ArmStatus> arms;  // by ArmId
 
   // Returns the job with its progress at this instant. Copies the job's view only if the progress
   // has changed.

@@ -237,7 +237,7 @@ class Metrics::Impl {
       gauges("armloom_recording_lost", "1 if the recording is incomplete").Add({});
   Gauge& storage_failed_ =
       gauges("armloom_storage_failed", "1 if jobs cannot be stored; no arm may start").Add({});
-  std::map<std::string, Open> open_;  // by key; bounded by the executive
+  std::map<std::string, Open> open_;  // open jobs by their key; the executive limits their number
 };
 
 Metrics::Metrics(CellPtr cell, double speed)

@@ -47,7 +47,7 @@ struct ServiceOptions {
   Log log = {};
   LoggedRequests logged_requests = LoggedRequests::none;
   RecordingBounds kept_recordings = {};             // for those in `data`
-  std::chrono::milliseconds jog_lease{500};         // ApiParts
+  std::chrono::milliseconds jog_lease{500};         // see ApiParts
   std::size_t memory_max = std::size_t{64} << 20U;  // see Site
 };
 

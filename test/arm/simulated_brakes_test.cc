@@ -105,7 +105,7 @@ TEST(SimulatedArm, KeepsItsLimitsThroughRandomBrakesAndContinuations) {
   }
 }
 
-TEST(SimulatedArm, BrakeWhileWaitingStopsAtOnceAndAllowsRelease) {
+TEST(SimulatedArm, BrakedBeforeItsStartStopsAtOnceAndCanBeReleased) {
   Example e;
   e.bench.arm.start(e.trajectory, at(1s), {}, e.trajectory->duration());
   e.bench.tick_for(10ms);

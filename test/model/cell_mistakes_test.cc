@@ -165,7 +165,8 @@ TEST(CellNames, DuplicatesOfTwoRobotsAreReportedOncePerKind) {
   EXPECT_EQ(built.error()[0].pointer, "/robots/1/prefix");
   EXPECT_THAT(built.error()[0].detail,
               HasSubstr("robot right: another robot also has a link named left_panda_hand"));
-  EXPECT_THAT(built.error()[1].detail, HasSubstr("robot right: joint left_panda_finger_joint1"));
+  EXPECT_THAT(built.error()[1].detail,
+              HasSubstr("another robot also has a joint named left_panda_finger_joint1"));
 }
 
 TEST(CellProblems, ProblemsOfDifferentKindsAreAllReported) {

@@ -75,7 +75,7 @@ TEST(ReportedTogether, OtherFilesWithABrokenUrdfTree) {
                               HasSubstr("arm left has no joint l_torn to limit")));
 }
 
-TEST(ReportedTogether, CellNamesWithAMalformedSrdf) {
+TEST(ReportedTogether, WrongNamesInTheCellAndAMalformedSrdf) {
   const ScratchFolder folder;
   CellDescription cell = wrong_but_for_the_urdf(folder);
   cell.robots[0].srdf = folder.write("twin.srdf", "<robot");

@@ -4,7 +4,7 @@ line, that arm's velocity limit. The joints of the other arm need nothing; a war
 import small_robots as small
 
 LINE = '"limits": {"left_pan": {"velocity_rad_s": 1}}'
-WARNED = ("joint right_pan, right_bend in no arm's group",)
+WARNED = ("joint right_pan, right_bend is in no arm's group",)
 TOLD = 'add to the arm "limits": {"left_pan": {"velocity_rad_s": 1}}'
 
 

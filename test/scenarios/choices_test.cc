@@ -138,7 +138,7 @@ TEST(Alternatives, MoveToTheOtherArmIfTheStartIsNotReached) {
   EXPECT_EQ(cell.job("job").state, JobState::succeeded);
   ASSERT_TRUE(cell.job("job").ways.choice);
   EXPECT_THAT(cell.job("job").ways.choice->candidates, ElementsAre("y", "x"));
-  EXPECT_THAT(cell.job("job").ways.choice->detail, HasSubstr("x cannot: it will not be"));
+  EXPECT_THAT(cell.job("job").ways.choice->detail, HasSubstr("x cannot: the arm will not be"));
 }
 
 TEST(Alternatives, AreRefusedIfEndsDifferOrArmsRepeat) {

@@ -49,7 +49,8 @@ TEST_P(GoalSwap, CheckReportsTheCycleThatTheJobWouldClose) {
   while (!said && cell.simulation->now() < at(5s)) cell.simulation->tick();
   ASSERT_TRUE(said && said->result);
   EXPECT_EQ(said->result->reason, Reason::deadlock);
-  EXPECT_EQ(said->result->detail.rfind("this job -> one -> this job: each waits for the next one", 0), 0U)
+  EXPECT_EQ(
+      said->result->detail.rfind("this job -> one -> this job: each waits for the next one", 0), 0U)
       << said->result->detail;
 }
 

@@ -215,7 +215,7 @@ TEST_P(Goals, AreRefusedAtOnceIfImpossible) {
   any.terms.reorderable = true;
   refused(any, "/reorderable");
   JobRequest both = slide("x", -1, 0, 2, "e");
-  both.arm = "x";
+  both.arm = "y";
   refused(both, "/arm");
 }
 

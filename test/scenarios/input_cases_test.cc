@@ -53,11 +53,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"OnePoint", points({{{-1}, {0}, {0}, 0}}), "/trajectory/points", ""},
         BadInput{"EqualTimes", points({{{-1}, {0}, {0}, 0}, {{0}, {0}, {0}, 0}}),
                  "/trajectory/points/1/time_from_start", ""},
-        BadInput{
-            "ZeroLengthSegmentInTheMiddle",
-            points(
-                {{{-1}, {0}, {0}, 0}, {{0}, {0}, {0}, 2}, {{0}, {0}, {0}, 2}, {{1}, {0}, {0}, 4}}),
-            "/trajectory/points/2/time_from_start", ""},
+        BadInput{"TwoVelocitiesAtOneTime",
+                 points({{{-1}, {0}, {0}, 0},
+                         {{0}, {0}, {0}, 2},
+                         {{0}, {0.1}, {0}, 2},
+                         {{1}, {0}, {0}, 4}}),
+                 "/trajectory/points/2/time_from_start", ""},
         BadInput{"UnsortedTimes",
                  points({{{-1}, {0}, {0}, 0}, {{0}, {0}, {0}, 2}, {{1}, {0}, {0}, 1}}),
                  "/trajectory/points/2/time_from_start", ""},

@@ -214,7 +214,7 @@ TEST(Prediction, ReturnsNulloptForStuckMotions) {
   EXPECT_EQ(p.comes_to(2, 0s), std::nullopt) << "it never starts";
 }
 
-TEST(MotionChains, FollowEachOtherOnSharedArms) {
+TEST(MotionChains, LinkSuccessiveMotionsOfTheSameArm) {
   const CoordinatedMotion team{.job = kC, .arms = {ArmId{0}, ArmId{1}}, .duration = 1s};
   const MotionChains chains({motion(kA, 0, 1s), motion(kB, 1, 1s), team, motion(kNext, 0, 1s)});
   EXPECT_THAT(chains.before(0), ElementsAre());

@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadField{"AfterHoldsNoId", "/after", "[\"x\", \"a b\"]", kInvalid, "128", "/after/1"},
         BadField{"FasterThanPlanned", "/velocity_scaling_factor", "2", kInvalid, "0.001..1"},
         BadField{"StepsAreNotServed", "/steps", "[]", kInvalid, "not supported"},
-        BadField{"RetimeIsNoFlag", "/retime", "1", kMalformed, "true or false"}),
+        BadField{"RetimeIsNoFlag", "/retime", "1", kMalformed, "true, false"}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST(JobCodec, ReadsPathsWithoutTimes) {

@@ -117,7 +117,7 @@ TEST_F(Store, DetectsAMissingOrDamagedMark) {
 }
 
 // The records of a new folder may all be in the log.
-TEST_F(Store, DetectsAYoungFolderWithoutLogAndMark) {
+TEST_F(Store, DetectsThatANewFolderHasLostItsLogAndMark) {
   const fs::path killed = folder_.string() + "-killed";
   fs::remove_all(killed);
   {

@@ -27,7 +27,7 @@ TEST(Truth, SkippingSamplesDoesNotChangeTheResult) {
   EXPECT_GE(below, 1U);
 }
 
-TEST(CertifiedCheck, MeasurementIncludesCollisionsAndNearMisses) {
+TEST(CertifiedCheck, SampledPairsIncludeCollisionsAndNearMisses) {
   const double collide = static_cast<double>(report().colliding) / 300.0;
   EXPECT_GE(collide, 0.07);
   EXPECT_LE(collide, 0.20);

@@ -20,7 +20,7 @@ enum class GateKind {
   plan,       // a path of the job is being planned, or its move-to-start is being checked
   lets_pass,  // its arm has retreated and first lets another job pass
   stop,       // one of its arms is stopped
-  place,      // the policy runs no more jobs at once
+  place,      // the policy allows no further job at the same time
   conflict,   // checked and not admitted
   aging,      // an aged job goes first
 };
