@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
+#include "core/arm/faulty_arm.h"
 #include "test/arm/started_arm.h"
 
 namespace armloom {
@@ -208,6 +210,28 @@ TEST(SimulatedArm, ThrowsOnViolatedPreconditions) {
   e.bench.tick();
   EXPECT_THROW((void)e.bench.arm.tick(at(0ms)), std::logic_error);
   EXPECT_THROW(SimulatedArm(e.cell, kLeft, Eigen::VectorXd::Zero(7), 1), std::logic_error);
+}
+
+TEST(FaultyArm, FreezesItsFeedbackWhileItDropsIt) {
+  const Example example;
+  const TrajectoryPtr& path = example.trajectory;
+  FaultyArm arm(std::make_unique<SimulatedArm>(example.cell, kLeft,
+                                               at_start(*path, *example.cell, kLeft), 1));
+  TimePoint now{};
+  const auto tick_for = [&](Duration time) {
+    for (const TimePoint end = now + time; now < end;) arm.tick(now += kControlPeriod);
+    return arm.tick(now += kControlPeriod);
+  };
+  arm.start(path, now, {}, path->duration());
+  const Duration part = path->duration() / 4;
+  tick_for(part);
+  arm.inject(1, {.kind = ArmFault::Kind::drop_feedback, .from = now, .until = now + part});
+  const ArmFeedback before = arm.tick(now += kControlPeriod);
+  const ArmFeedback during = tick_for(part - 4 * kControlPeriod);
+  EXPECT_EQ(during.measured, before.measured);
+  EXPECT_EQ(during.measured_progress, before.measured_progress);
+  const ArmFeedback after = tick_for(8 * kControlPeriod);
+  EXPECT_GT(after.measured_progress, before.measured_progress + part / 2) << "it went on";
 }
 
 }  // namespace

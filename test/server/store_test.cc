@@ -183,6 +183,32 @@ TEST_F(Store, DeletesOldEndedJobs) {
   EXPECT_EQ(numbers(), last) << "one that waits is never deleted";
 }
 
+TEST_F(Store, ReusesNoNumberAfterDeletingAllEndedJobs) {
+  StoreOptions none = options();
+  none.retention.jobs_max = 0;
+  {
+    const auto store = open();
+    for (std::uint64_t number = 1; number <= 5; ++number) {
+      accept(*store, number).get();
+      store->see(job(number, "succeeded"));
+    }
+  }
+  const auto count = [&] {
+    std::size_t jobs = 0;
+    EXPECT_TRUE((*JobHistory::open(folder_))->oldest_first({}, [&](const StoredJob&) { ++jobs; }));
+    return jobs;
+  };
+  {
+    const auto store = open(none);
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (count() > 1 && std::chrono::steady_clock::now() < deadline) {
+    }
+    EXPECT_TRUE(store->flush());
+  }
+  EXPECT_EQ(count(), 1U);
+  EXPECT_EQ(open()->leftover().last_number, 5U);
+}
+
 // As on a read-only medium, or in another user's folder.
 TEST_F(Store, ReadsHistoryFromAReadOnlyFolder) {
   { EXPECT_TRUE(accept(*open(), 1).get()); }

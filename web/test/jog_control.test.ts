@@ -49,12 +49,14 @@ describe('Jogging', () => {
     void jogging.press('left', 'ready');
     accept();
     await settled();
-    timers.shift()?.();
-    await settled();
+    for (let i = 0; i < 2; i++) {
+      timers.shift()?.();
+      await settled();
+    }
     jogging.release();
     timers.shift()?.();
     await settled();
-    expect(said).toEqual(['take Ada', 'jog left ready k', 'renew left', 'cancel h']);
+    expect(said).toEqual(['take Ada', 'jog left ready k', 'renew left', 'renew left', 'cancel h']);
     expect(timers).toEqual([]);
   });
 
