@@ -19,7 +19,6 @@ class ProblemList {
   }
   [[nodiscard]] bool full() const { return problems_.size() >= kProblemsMax; }
   [[nodiscard]] bool empty() const { return problems_.empty(); }
-  [[nodiscard]] Problems& found() { return problems_; }
   [[nodiscard]] Problems take() && { return std::move(problems_); }
 
  private:

@@ -63,8 +63,8 @@ inline constexpr double kPositionOvershoot = 1e-4;
 // (timing/retime.h); with `only_if_needed`, only if they are not valid as given. If a request is
 // not valid, waypoints that repeat the previous waypoint are dropped: positions within
 // kPositionTolerance, velocities within kRestVelocity, less than kRepeat_s later. If the motion
-// breaks only limits of velocity or acceleration, the first problem names the largest velocity
-// scaling factor that passes.
+// breaks only limits of velocity or acceleration, the first problem names a velocity
+// scaling factor that passes, close to the largest.
 //
 // Names are checked first:
 // - each joint is known ("unknown-joint"), belongs to an arm ("joint-of-no-arm") and is named once

@@ -104,8 +104,8 @@ Response jog_response(int status, const Result<JobView>& job, const ApiParts& pa
 }
 
 // Returns the job to submit for a jog request.
-Result<JobRequest> job_of(const JogRequest& hold, const std::string& arm) {
-  auto read = read_job_submission(job_text_of(hold, arm));
+Result<JobRequest> job_of(const JogRequest& jog, const std::string& arm) {
+  auto read = read_job_submission(job_text_of(jog, arm));
   if (!read) return failure(std::move(read.error()));
   read->request.body = std::make_shared<const std::string>(std::move(read->canonical));
   return std::move(read->request);
@@ -126,13 +126,13 @@ Problems in_words_of_jog(Problems problems) {
 void begin_jog(Call call) {
   const ApiParts& parts = call.parts;
   const std::string arm = call.arguments.front();
-  const auto begin = [&parts, arm, respond = call.respond](const JogRequest& hold) {
+  const auto begin = [&parts, arm, respond = call.respond](const JogRequest& jog) {
     if (!parts.cell->find_arm(arm)) return respond(no_such("arm", arm));
     Control& control = control_of(parts);
-    if (const auto is_holder = control.check(hold.control); !is_holder) {
+    if (const auto is_holder = control.check(jog.control); !is_holder) {
       return respond(problem_response(is_holder.error()));
     }
-    auto asked = job_of(hold, arm);
+    auto asked = job_of(jog, arm);
     if (!asked) return respond(problem_response(in_words_of_jog(std::move(asked.error()))));
     if (const auto& move = control.holder()->move) let_go(parts, move);
     ask(
@@ -143,7 +143,7 @@ void begin_jog(Call call) {
           if (!accepted) return failure(in_words_of_jog(std::move(accepted.error())));
           return executive.cancel(accepted->key, lease_from(executive, lease, speed));
         },
-        [&parts, arm, respond, key = hold.control](const Result<JobView>& job) {
+        [&parts, arm, respond, key = jog.control](const Result<JobView>& job) {
           // Another client may have taken control meanwhile.
           Control& control_now = control_of(parts);
           const bool is_still = control_now.check(key).has_value();

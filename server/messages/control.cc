@@ -100,10 +100,10 @@ Result<JogRequest> read_jog_request(std::string_view text) {
   return read_text(*jog_request_format(), text);
 }
 
-std::string job_text_of(const JogRequest& hold, const std::string& arm) {
+std::string job_text_of(const JogRequest& jog, const std::string& arm) {
   return nlohmann::json{{"arm", arm},
-                        {"move_to", nlohmann::json::parse(text_of(*plan_goal_format(), hold.to))},
-                        {"velocity_scaling_factor", hold.speed},
+                        {"move_to", nlohmann::json::parse(text_of(*plan_goal_format(), jog.to))},
+                        {"velocity_scaling_factor", jog.speed},
                         {"name", "jog " + arm}}
       .dump();
 }

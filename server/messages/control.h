@@ -51,7 +51,7 @@ inline constexpr double kJogSpeedMax = 0.25;
 [[nodiscard]] Result<JogRequest> read_jog_request(std::string_view text);
 
 // Returns the body of POST /jobs that does the same on this arm.
-[[nodiscard]] std::string job_text_of(const JogRequest& hold, const std::string& arm);
+[[nodiscard]] std::string job_text_of(const JogRequest& jog, const std::string& arm);
 
 // Answer to POST and PUT /arms/{name}/jog.
 struct JogView {

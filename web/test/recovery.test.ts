@@ -19,6 +19,11 @@ describe('Recovery', () => {
 
   const pose = (a: number, b: number) => ({ left_panda_joint1: a, left_panda_joint2: b });
 
+  it('lists an arm that has a fault but no job', () => {
+    const listed = (state: string) => waiting_arms({ arms: new Map([['left', arm({ state, job: null })]]), job: () => null }).map(({ name }) => name);
+    expect([listed('fault'), listed('idle')]).toEqual([['left'], []]);
+  });
+
   it('describes what each arm needs by its state', () => {
     const job = job_json('pick', { name: 'pick 7', progress: 0.4 }) as Job;
     expect(need_of(arm({ state: 'stopped' }), job, pose(0, -1.2))).toMatchObject({ resume: true, home: false, words: expect.stringMatching(/pick 7.*40 %/) });

@@ -36,7 +36,7 @@ export function AlertsPage({ app }: { app: App }) {
         </div>
       )}
       {unnamed && open.length > 0 && <p class="hint" id="who-acknowledges" data-test="unnamed">{kWords.needs_name}</p>}
-      {all.length === 0 && <p class="none">{t_s === null ? kWords.none : kWords.none_then}</p>}
+      {all.length === 0 && <p class="none">{t_s === null ? kWords.if_empty : kWords.if_empty_then}</p>}
       <ul class="alerts" data-test="alerts">
         {all.map((alert) => <Alert key={alert.id} alert={alert} app={app} why_disabled={why_disabled} acknowledge={() => acknowledge([alert])} />)}
       </ul>

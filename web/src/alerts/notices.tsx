@@ -46,7 +46,7 @@ export function NoticeList({ app }: { app: App }) {
  */
 function nothing_in_words({ store, alerts }: App): string {
   const [first] = store.log.entries;
-  if (alerts.all.length === 0 || !first || store.link.status === 'recording') return kWords.none;
+  if (alerts.all.length === 0 || !first || store.link.status === 'recording') return kWords.if_empty;
   return kWords.none_since(clock(first.t_s));
 }
 

@@ -51,7 +51,7 @@ export function HistoryPage({ app }: { app: App }) {
 
 function none_in_words(all: number, may_be_more: boolean): string {
   if (all > 0) return may_be_more ? kWords.no_match_loaded : kWords.no_match;
-  return may_be_more ? kWords.none_in_session : kWords.none;
+  return may_be_more ? kWords.if_empty_in_session : kWords.if_empty;
 }
 
 /**

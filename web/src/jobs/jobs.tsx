@@ -17,7 +17,7 @@ const kWords = kText.jobs;
 
 const kShown = 40;
 
-interface Section { list: JobList; title: string; none: string; hint: string }
+interface Section { list: JobList; title: string; if_empty: string; hint: string }
 
 const kSections: readonly Section[] = [
   { list: 'running', ...kWords.running },
@@ -83,16 +83,16 @@ function EndedFrom({ app }: { app: App }) {
 
 interface ListProps { section: Section; all: readonly Job[]; app: App; filtered: boolean; is_asked(job: Job): boolean }
 
-function List({ section: { list, title, none, hint }, all, app, filtered, is_asked }: ListProps) {
+function List({ section: { list, title, if_empty, hint }, all, app, filtered, is_asked }: ListProps) {
   const [shown, set_shown] = useState(kShown);
   const jobs = filtered ? all.filter(is_asked) : all;
-  if (jobs.length === 0 && (filtered || none === '')) return null;
+  if (jobs.length === 0 && (filtered || if_empty === '')) return null;
   const count = filtered ? kWords.of(jobs.length, all.length) : String(all.length);
   return (
     <section data-test={`list-${list}`} class={`list ${list}`} aria-label={title}>
       <h3 title={hint}>{title}<span class="count" data-test={`count-${list}`}>{count}</span></h3>
       {list === 'finished' && <EndedFrom app={app} />}
-      {jobs.length === 0 && <p class="none">{none}</p>}
+      {jobs.length === 0 && <p class="none">{if_empty}</p>}
       {jobs.slice(0, shown).map((job) => <Row key={job.id} job={job} app={app} />)}
       {jobs.length > shown && (
         <button class="more" onClick={() => set_shown(shown + 5 * kShown)}>{kText.common.more(jobs.length - shown)}</button>

@@ -50,7 +50,7 @@ function Asking({ app }: { app: App }) {
           ? <button class="small" data-test="cancel-comparison" onClick={() => void comparing.cancel()}>{kWords.cancel}</button>
           : <button class="small" data-test="compare" disabled={why_disabled !== null} title={why_disabled ?? kWords.compare_title} onClick={() => void comparing.start(null)}>{kWords.compare}</button>}
         {latest === null && <button class="small" data-test="look-comparison" disabled={unheard !== null} title={unheard ?? kWords.show_last_title} onClick={() => void comparing.look()}>{kWords.show_last}</button>}
-        <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? kWords.none : ''}</span>
+        <span class="dim small grow" role="status" data-test="comparison-state">{latest ? state_in_words(latest) : comparing.none_made.value ? kWords.if_empty : ''}</span>
       </div>
       <InSight answer={comparing.refusal.value}>{comparing.refusal.value !== null && <p class="refused" role="alert" data-test="comparison-refused">{comparing.refusal.value}</p>}</InSight>
     </>

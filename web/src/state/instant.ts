@@ -40,7 +40,7 @@ export function why_unheard(why: Unheard, { trace, t_s }: Pick<Store, 'trace' | 
   const [first_s, last_s] = [trace.first_s ?? t_s, trace.last_s ?? t_s];
   const words = kText.server.positions;
   switch (why) {
-    case 'nothing': return words.nothing;
+    case 'nothing': return words.no_data;
     case 'before': return words.before(clock(first_s));
     case 'after': return words.after(clock(last_s));
     case 'gap': return words.gap;
