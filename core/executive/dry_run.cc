@@ -16,6 +16,7 @@
 #include "core/planning/plan_goal.h"
 #include "core/scheduler/scheduler.h"
 #include "core/scheduler/trial.h"
+#include "core/trajectory/implicit_start.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -60,8 +61,9 @@ class Plan {
       if (goals && !fails) plan(*goals, timed.job.speed, job);
     } else {
       const auto motion = timed.job.motions().front();  // as if that were chosen
-      auto trajectory = validate(motion.motion, cell_);
+      auto trajectory = validate_from(motion.motion);
       Problems wrong = trajectory ? Problems{} : std::move(trajectory.error());
+      if (trajectory) *trajectory = with_whole_turns(cell_, std::move(*trajectory), rest_);
       if (trajectory) find_start_elsewhere(cell_, **trajectory, rest_, wrong);
       add_below(place + motion.place, std::move(wrong), problems);
       if (trajectory) job.trajectory = *std::move(trajectory);
@@ -78,6 +80,13 @@ class Plan {
   [[nodiscard]] const std::string& why(const std::string& key) const { return why_.at(key); }
 
  private:
+  Result<TrajectoryPtr> validate_from(const TrajectoryRequest& asked) const {
+    if (!has_implicit_start(asked, cell_)) return validate(asked, cell_);
+    auto complete = with_implicit_start(asked, cell_, rest_);
+    if (!complete) return failure(std::move(complete.error()));
+    return validate(*complete, cell_);
+  }
+
   // Whether one of these fails.
   bool find_what_it_follows(const JobRequest& request, Planned& job, Problems& problems) {
     if (by_key_.contains(job.key) || ended_.contains(job.key)) {

@@ -8,6 +8,7 @@
 #include "core/base/add_below.h"
 #include "core/executive/start_elsewhere.h"
 #include "core/sequence/places.h"
+#include "core/trajectory/implicit_start.h"
 #include "core/trajectory/set_joints.h"
 
 namespace armloom {
@@ -149,9 +150,10 @@ std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ah
   for (std::size_t i = 0; i < asked_for.size(); ++i) {
     const auto& [place, asked] = asked_for[i];
     const bool is_known = i < request.known.validated.size();
-    auto motion = is_known ? request.known.validated[i] : validate(asked, *cell_);
+    auto motion = is_known ? request.known.validated[i] : validate_from(asked, ahead);
     Problems found = motion ? Problems{} : std::move(motion.error());
     if (motion) {
+      *motion = with_whole_turns(*cell_, std::move(*motion), ahead.rest);
       begin_where_open(**motion, ahead);
       for (TrajectoryPtr& back : returns_for(**motion, ahead)) returns.push_back(std::move(back));
       const bool begins_anywhere =
@@ -163,6 +165,25 @@ std::vector<TrajectoryPtr> JobIntake::read_motions(const JobRequest& request, Ah
   }
   if (problems.empty() && motions.size() > 1) find_bad_alternatives(*cell_, motions, problems);
   return motions;
+}
+
+Result<TrajectoryPtr> JobIntake::validate_from(const TrajectoryRequest& asked,
+                                               const Ahead& ahead) const {
+  if (!has_implicit_start(asked, *cell_)) return validate(asked, *cell_);
+  for (const ArmId arm : arms_of(asked, *cell_)) {
+    if (std::ranges::find(ahead.open, arm) == ahead.open.end()) continue;
+    const std::string& name = cell_->arm(arm).name;
+    return failure(Problem{ProblemKind::invalid, "unknown-start", "/points/0",
+                           "the trajectory begins where " + name +
+                               " will be, but this is not known before the goal of its last job is "
+                               "planned: give the start as a waypoint with time 0, send the job "
+                               "when " +
+                               name + " has a plan, or send a goal (\"move_to\")",
+                           name});
+  }
+  auto complete = with_implicit_start(asked, *cell_, ahead.rest);
+  if (!complete) return failure(std::move(complete.error()));
+  return validate(*complete, *cell_);
 }
 
 // Where it is not known yet where an arm will be, it is taken to be where the motion begins; at its

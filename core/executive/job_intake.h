@@ -68,6 +68,9 @@ class JobIntake {
   [[nodiscard]] std::vector<TrajectoryPtr> read_motions(const JobRequest& request, Ahead& ahead,
                                                         std::vector<TrajectoryPtr>& returns,
                                                         Problems& problems) const;
+  // Validates a motion; an implicit start is the position after the earlier jobs.
+  [[nodiscard]] Result<TrajectoryPtr> validate_from(const TrajectoryRequest& asked,
+                                                    const Ahead& ahead) const;
   [[nodiscard]] std::vector<MotionGoal> read_goals(const JobRequest& request,
                                                    Problems& problems) const;
   [[nodiscard]] std::vector<TrajectoryPtr> estimates_for(const std::vector<MotionGoal>& goals,

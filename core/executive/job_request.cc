@@ -6,10 +6,11 @@ namespace armloom {
 
 std::vector<JobRequest::PlacedMotion> JobRequest::motions() const {
   if (move_to) return {};
-  if (alternatives.empty()) return {{"/trajectory", trajectory}};
+  if (alternatives.empty()) return {{trajectory.place.value_or("/trajectory"), trajectory}};
   std::vector<PlacedMotion> all;
   for (std::size_t i = 0; i < alternatives.size(); ++i) {
-    all.push_back({"/alternatives/" + std::to_string(i), alternatives[i]});
+    const auto& place = alternatives[i].place;
+    all.push_back({place.value_or("/alternatives/" + std::to_string(i)), alternatives[i]});
   }
   return all;
 }

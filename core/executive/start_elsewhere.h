@@ -6,6 +6,12 @@
 
 namespace armloom {
 
+// Returns the motion with its continuous joints moved by the whole turns that bring its start to
+// `rest`, within execution.start_tolerance_rad. Joints that this does not bring there are
+// unchanged.
+[[nodiscard]] TrajectoryPtr with_whole_turns(const Cell& cell, TrajectoryPtr motion,
+                                             const Configuration& rest);
+
 // Adds a problem for each joint of the motion whose start differs from `rest` by more than
 // execution.start_tolerance_rad. Pointers are relative to the trajectory.
 void find_start_elsewhere(const Cell& cell, const Trajectory& trajectory, const Configuration& rest,

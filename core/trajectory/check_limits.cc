@@ -126,20 +126,21 @@ class LimitCheck {
     broken_[j] = static_cast<std::uint8_t>(broken_[j] | quantity.bit);
     if (problems_.full()) return;
     problems_.add({ProblemKind::invalid, quantity.slug,
-                   pointer_to(k) + "/" + quantity.member + "/" + std::to_string(j),
-                   "waypoint " + std::to_string(k) + ", " + joint(j).name + ": " +
+                   pointer_to(request_, k) + "/" + quantity.member + "/" + std::to_string(j),
+                   waypoint(request_, k) + ", " + joint(j).name + ": " +
                        excess_text(joint(j), quantity, value, nominal(joint(j), quantity)),
                    value});
   }
 
   void not_at_rest(std::size_t k, std::size_t j) {
     const double value = request_.points[k].velocities[j];
-    problems_.add(
-        {ProblemKind::invalid, "not-at-rest", pointer_to(k) + "/velocities/" + std::to_string(j),
-         "waypoint " + std::to_string(k) + ", " + joint(j).name + ": " + to_text(value) + " " +
-             unit(joint(j), kVelocity) + " at the " + (k == 0 ? "start" : "end") +
-             ", where the motion must be at rest (" + to_text(kRestVelocity) + ")" + kRetimeRemedy,
-         value});
+    problems_.add({ProblemKind::invalid, "not-at-rest",
+                   pointer_to(request_, k) + "/velocities/" + std::to_string(j),
+                   waypoint(request_, k) + ", " + joint(j).name + ": " + to_text(value) + " " +
+                       unit(joint(j), kVelocity) + " at the " + (k == 0 ? "start" : "end") +
+                       ", where the motion must be at rest (" + to_text(kRestVelocity) + ")" +
+                       kRetimeRemedy,
+                   value});
   }
 
   Segment checked_segment(std::size_t k) {
@@ -165,9 +166,9 @@ class LimitCheck {
     const Polynomial a = derivative(v);
     if (!std::isfinite(magnitude(p, duration_s)) || !std::isfinite(magnitude(v, duration_s)) ||
         !std::isfinite(magnitude(a, duration_s))) {
-      problems_.add({ProblemKind::invalid, "not-finite", pointer_to(k),
-                     "between waypoints " + std::to_string(k - 1) + " and " + std::to_string(k) +
-                         ", " + joint(j).name + ": too far apart to be interpolated",
+      problems_.add({ProblemKind::invalid, "not-finite", pointer_to(request_, k),
+                     before_waypoint(request_, k) + ", " + joint(j).name +
+                         ": too far apart to be interpolated",
                      "overflow"});
       return;
     }
@@ -183,8 +184,8 @@ class LimitCheck {
     if (!worst) return;
     note_excess(quantity, worst->value, limit.upper);
     if (((broken_before_[j] | broken_[j]) & quantity.bit) != 0 || problems_.full()) return;
-    problems_.add({ProblemKind::invalid, quantity.slug, pointer_to(k),
-                   "between waypoints " + std::to_string(k - 1) + " and " + std::to_string(k) +
+    problems_.add({ProblemKind::invalid, quantity.slug, pointer_to(request_, k),
+                   before_waypoint(request_, k) +
                        " (t = " + to_text(to_seconds(times_[k - 1]) + worst->t_s) + " s), " +
                        joint(j).name + ": " +
                        excess_text(joint(j), quantity, worst->value, nominal(joint(j), quantity)),

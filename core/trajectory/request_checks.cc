@@ -23,14 +23,6 @@ void check_complete(const Cell& cell, const std::vector<ArmId>& arms,
   }
 }
 
-std::optional<JointId> find_joint(const std::string& name, const std::string& arm,
-                                  const Cell& cell) {
-  if (const auto id = cell.find_joint(name)) return id;
-  const auto prefixed = cell.find_arm(arm);
-  if (!prefixed) return std::nullopt;
-  return cell.find_joint(cell.robots[cell.arm(*prefixed).robot.index()].prefix + name);
-}
-
 // Returns a remedy if the name with a robot's prefix is a joint: it lists these joints, and says
 // how to name the robot. Otherwise returns an empty string.
 std::string with_prefix(const std::string& joint, const Cell& cell) {
@@ -68,8 +60,32 @@ std::string why_it_does_not_move(const std::string& joint, const Cell& cell) {
 
 }  // namespace
 
-std::string pointer_to(std::size_t waypoint) { return "/points/" + std::to_string(waypoint); }
-std::string waypoint(std::size_t index) { return "waypoint " + std::to_string(index); }
+std::string pointer_to(const TrajectoryRequest& request, std::size_t waypoint) {
+  const bool skips = request.has_implicit_start && waypoint > 0;
+  return "/points/" + std::to_string(waypoint - (skips ? 1 : 0));
+}
+
+std::string waypoint(const TrajectoryRequest& request, std::size_t index) {
+  if (!request.has_implicit_start) return "waypoint " + std::to_string(index);
+  if (index == 0) return "the arm's position at the start";
+  return "waypoint " + std::to_string(index - 1);
+}
+
+std::string before_waypoint(const TrajectoryRequest& request, std::size_t index) {
+  if (request.has_implicit_start && index == 1) {
+    return "between the arm's position at the start and waypoint 0";
+  }
+  const std::size_t last = index - (request.has_implicit_start ? 1 : 0);
+  return "between waypoints " + std::to_string(last - 1) + " and " + std::to_string(last);
+}
+
+std::optional<JointId> find_joint(const std::string& name, const std::string& arm,
+                                  const Cell& cell) {
+  if (const auto id = cell.find_joint(name)) return id;
+  const auto prefixed = cell.find_arm(arm);
+  if (!prefixed) return std::nullopt;
+  return cell.find_joint(cell.robots[cell.arm(*prefixed).robot.index()].prefix + name);
+}
 
 Names resolve_names(const TrajectoryRequest& request, const Cell& cell, ProblemList& problems) {
   Names names;
@@ -131,18 +147,19 @@ void check_numbers(std::size_t k, const char* member, const std::vector<double>&
                    const TrajectoryRequest& request, ProblemList& problems) {
   const std::size_t expected = request.joint_names.size();
   if (numbers.size() != expected) {
-    problems.add({ProblemKind::invalid, "size-mismatch", pointer_to(k) + "/" + member,
-                  waypoint(k) + ": " + std::to_string(numbers.size()) + " " + member + " for " +
-                      std::to_string(expected) + " joints",
+    problems.add({ProblemKind::invalid, "size-mismatch", pointer_to(request, k) + "/" + member,
+                  waypoint(request, k) + ": " + std::to_string(numbers.size()) + " " + member +
+                      " for " + std::to_string(expected) +
+                      " joints: give one for each of joint_names",
                   static_cast<double>(numbers.size())});
     return;
   }
   for (std::size_t j = 0; j < numbers.size(); ++j) {
     if (std::isfinite(numbers[j])) continue;
     problems.add({ProblemKind::invalid, "not-finite",
-                  pointer_to(k) + "/" + member + "/" + std::to_string(j),
-                  waypoint(k) + ", " + request.joint_names[j] + ": " + to_text(numbers[j]) +
-                      " in " + member + " is not a finite number",
+                  pointer_to(request, k) + "/" + member + "/" + std::to_string(j),
+                  waypoint(request, k) + ", " + request.joint_names[j] + ": " +
+                      to_text(numbers[j]) + " in " + member + " is not a finite number",
                   to_text(numbers[j])});
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,11 @@
 // validate.h lists the problems.
 namespace armloom {
 
-[[nodiscard]] std::string pointer_to(std::size_t waypoint);  // "/points/3"
-[[nodiscard]] std::string waypoint(std::size_t index);       // "waypoint 3"
+// Names of a waypoint as the client counts: "/points/3", "waypoint 3", "between waypoints 3 and 4".
+// An inserted start does not count; it is "the arm's position at the start".
+[[nodiscard]] std::string pointer_to(const TrajectoryRequest& request, std::size_t waypoint);
+[[nodiscard]] std::string waypoint(const TrajectoryRequest& request, std::size_t index);
+[[nodiscard]] std::string before_waypoint(const TrajectoryRequest& request, std::size_t index);
 
 // Remedy for missing or unusable times, velocities and accelerations.
 inline constexpr const char* kRetimeRemedy =
@@ -22,6 +26,9 @@ struct Names {
   std::vector<ArmId> arms;  // ascending, each once
 };
 
+// Returns the joint of this name, with or without the prefix of the robot of `arm`.
+[[nodiscard]] std::optional<JointId> find_joint(const std::string& name, const std::string& arm,
+                                                const Cell& cell);
 [[nodiscard]] Names resolve_names(const TrajectoryRequest& request, const Cell& cell,
                                   ProblemList& problems);
 // Returns true if the number of waypoints is allowed.

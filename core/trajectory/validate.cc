@@ -23,8 +23,8 @@ void check_members(const TrajectoryRequest& request, ProblemList& problems) {
     const auto k = static_cast<std::size_t>(first_bare - points.begin());
     problems.add({ProblemKind::invalid,
                   "no-velocities",
-                  pointer_to(k),
-                  waypoint(k) +
+                  pointer_to(request, k),
+                  waypoint(request, k) +
                       " has no velocities: without them the motion cannot start and "
                       "end at rest. Give velocities, 0 at both ends" +
                       kRetimeRemedy,
@@ -36,9 +36,9 @@ void check_members(const TrajectoryRequest& request, ProblemList& problems) {
     const auto k = static_cast<std::size_t>(first_without - points.begin());
     problems.add({ProblemKind::invalid,
                   "partial-accelerations",
-                  pointer_to(k),
-                  waypoint(k) + " has no accelerations but others have: give them in all "
-                                "waypoints or in none",
+                  pointer_to(request, k),
+                  waypoint(request, k) + " has no accelerations but others have: give them in all "
+                                         "waypoints or in none",
                   {}});
   }
   for (std::size_t k = 0; k < points.size() && !problems.full(); ++k) {
@@ -53,15 +53,17 @@ void check_members(const TrajectoryRequest& request, ProblemList& problems) {
 }
 
 // Returns the time of waypoint k, or adds a problem and returns nullopt.
-std::optional<Duration> read_time(std::size_t k, double time_s, ProblemList& problems) {
+std::optional<Duration> read_time(const TrajectoryRequest& request, std::size_t k,
+                                  ProblemList& problems) {
+  const double time_s = request.points[k].time_from_start_s;
   if (time_s >= 0.0 && time_s <= kDurationMax_s) return from_seconds(time_s);
-  const std::string pointer = pointer_to(k) + "/time_from_start";
-  const std::string found = waypoint(k) + ": time " + to_text(time_s) + " s ";
+  const std::string pointer = pointer_to(request, k) + "/time_from_start";
+  const std::string found = waypoint(request, k) + ": time " + to_text(time_s) + " s ";
   if (std::isnan(time_s)) {
     problems.add({ProblemKind::invalid,
                   "no-time",
-                  pointer_to(k),
-                  waypoint(k) + " has no time_from_start: give one" + kRetimeRemedy,
+                  pointer_to(request, k),
+                  waypoint(request, k) + " has no time_from_start: give one" + kRetimeRemedy,
                   {}});
   } else if (!std::isfinite(time_s)) {
     problems.add({ProblemKind::invalid, "not-finite", pointer, found + "is not a finite number",
@@ -83,7 +85,7 @@ std::vector<Duration> read_times(const TrajectoryRequest& request, ProblemList& 
   std::optional<Duration> before;
   for (std::size_t k = 0; k < request.points.size() && !problems.full(); ++k) {
     const double time_s = request.points[k].time_from_start_s;
-    const std::optional<Duration> time = read_time(k, time_s, problems);
+    const std::optional<Duration> time = read_time(request, k, problems);
     if (time && k == 0 && *time != Duration::zero()) {
       problems.add({ProblemKind::invalid, "first-time-not-zero", "/points/0/time_from_start",
                     "waypoint 0: time " + to_text(time_s) +
@@ -93,10 +95,11 @@ std::vector<Duration> read_times(const TrajectoryRequest& request, ProblemList& 
                     time_s});
     }
     if (time && before && *time - *before < from_seconds(kSegmentMin_s)) {
-      problems.add({ProblemKind::invalid, "time-not-increasing", pointer_to(k) + "/time_from_start",
-                    waypoint(k) + ": time " + to_text(time_s) + " s is " +
-                        to_text(to_seconds(*time - *before)) + " s after waypoint " +
-                        std::to_string(k - 1) + "; at least " + to_text(kSegmentMin_s) +
+      problems.add({ProblemKind::invalid, "time-not-increasing",
+                    pointer_to(request, k) + "/time_from_start",
+                    waypoint(request, k) + ": time " + to_text(time_s) + " s is " +
+                        to_text(to_seconds(*time - *before)) + " s after " +
+                        waypoint(request, k - 1) + "; at least " + to_text(kSegmentMin_s) +
                         " s is needed: remove one of the two" + kRetimeRemedy,
                     time_s});
     }
@@ -182,6 +185,22 @@ void add_remedy(const TrajectoryRequest& request, const Cell& cell, double too_f
   detail += kRetimeRemedy;
 }
 
+// Returns true if the only waypoints without velocities are the first and the last.
+bool lacks_only_end_velocities(const TrajectoryRequest& request) {
+  const std::vector<WaypointRequest>& points = request.points;
+  if (points.size() < 2 || request.joint_names.empty()) return false;
+  if (!points.front().velocities.empty() && !points.back().velocities.empty()) return false;
+  return std::none_of(points.begin() + 1, points.end() - 1,
+                      [](const WaypointRequest& p) { return p.velocities.empty(); });
+}
+
+TrajectoryRequest with_end_velocities(TrajectoryRequest request) {
+  for (WaypointRequest* end : {&request.points.front(), &request.points.back()}) {
+    if (end->velocities.empty()) end->velocities.assign(request.joint_names.size(), 0.0);
+  }
+  return request;
+}
+
 // Validates the request as given and, if this fails, without repeated waypoints.
 Result<TrajectoryPtr> validate_without_repeats(const TrajectoryRequest& request, const Cell& cell,
                                                double& too_fast) {
@@ -209,6 +228,9 @@ void slow_down(TrajectoryRequest& request, double factor) {
 
 Result<TrajectoryPtr> validate(const TrajectoryRequest& request, const Cell& cell) {
   if (request.retime && !request.retime->only_if_needed) return retimed(request, cell);
+  if (lacks_only_end_velocities(request)) {
+    return validate(with_end_velocities(request), cell);
+  }
   double too_fast = 0.0;
   auto valid = validate_without_repeats(request, cell, too_fast);
   if (valid) return valid;

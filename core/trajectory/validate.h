@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -31,8 +32,13 @@ struct TrajectoryRequest {
   std::optional<Retime> retime = {};
   // If given: joint names may lack the prefix of this arm's robot.
   std::string arm = {};
-  double scaled_by = 1.0;     // product of the factors of slow_down()
-  bool is_made_here = false;  // made by the server: a refusal names no remedy
+  // The time in the header, in nanoseconds since 1970; nullopt if it is zero or not given.
+  std::optional<std::int64_t> stamp_ns = {};
+  // JSON pointer to the trajectory in the job's body; nullopt: the usual place.
+  std::optional<std::string> place = {};
+  bool has_implicit_start = false;  // the first waypoint was inserted (implicit_start.h)
+  double scaled_by = 1.0;           // product of the factors of slow_down()
+  bool is_made_here = false;        // made by the server: a refusal names no remedy
 };
 // Stretches the motion in time, like velocity scaling in MoveIt: divides times by `factor`, which
 // is in (0, 1]. If the request has `retime`, the factor replaces the cell's velocity scaling
@@ -75,7 +81,8 @@ inline constexpr double kPositionOvershoot = 1e-4;
 // - there are 2 to kWaypointsMax waypoints ("empty-trajectory", "too-few-points",
 //   "too-many-points");
 // - positions, velocities and accelerations have one finite number for each joint
-//   ("no-velocities", "size-mismatch", "not-finite");
+//   ("no-velocities", "size-mismatch", "not-finite"). If only the first or last waypoint has no
+//   velocities, they are 0, because the motion is at rest there;
 // - accelerations are given in all waypoints or in none ("partial-accelerations");
 // - times are given ("no-time") and begin with zero ("first-time-not-zero", "negative-time");
 // - times ascend by kSegmentMin_s or more ("time-not-increasing"), up to kDurationMax_s

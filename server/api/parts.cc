@@ -34,18 +34,22 @@ bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jo
   return true;
 }
 
-Result<void> check_content_type(const Request& request) {
+Result<BodyForm> body_form(const Request& request) {
   const std::string found = request.content_type.value_or("none");
   std::istringstream parts(small(found));
   std::string part;
   std::getline(parts, part, ';');
-  if (part != "application/json") {
+  const bool is_yaml =
+      part == "application/yaml" || part == "application/x-yaml" || part == "text/yaml";
+  if (part != "application/json" && !is_yaml) {
     return unsupported("unsupported-media-type", "Content-Type",
-                       "the body must be application/json", found);
+                       "the body must be application/json or application/yaml (with curl: "
+                       "-H 'Content-Type: application/json')",
+                       found);
   }
   while (std::getline(parts, part, ';')) {
     if (part.starts_with("charset=") && part != "charset=utf-8") {
-      return unsupported("unsupported-charset", "Content-Type", "JSON must be in UTF-8", found);
+      return unsupported("unsupported-charset", "Content-Type", "the body must be in UTF-8", found);
     }
   }
   const std::string encoding = request.content_encoding.value_or("identity");
@@ -54,7 +58,7 @@ Result<void> check_content_type(const Request& request) {
                        "the body must not be encoded: Content-Encoding must be identity or absent",
                        encoding);
   }
-  return {};
+  return is_yaml ? BodyForm::yaml : BodyForm::json;
 }
 
 }  // namespace armloom

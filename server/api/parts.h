@@ -15,6 +15,7 @@
 #include "server/api/answers.h"
 #include "server/api/guard.h"
 #include "server/codec/wall_clock.h"
+#include "server/codec/yaml_text.h"
 #include "server/comparison/jobs_at_hand.h"
 #include "server/durable/accepted_requests.h"
 #include "server/durable/alert_book.h"
@@ -97,9 +98,10 @@ void ask_urgently(const ApiParts& parts, Ask ask, Then then) {
 [[nodiscard]] bool is_limited(const ApiParts& parts, const std::string& client, std::size_t jobs,
                               const Respond& respond);
 
-// Checks Content-Type and Content-Encoding. Problem (unsupported): the body is not JSON in UTF-8,
-// or is encoded (compressed).
-[[nodiscard]] Result<void> check_content_type(const Request& request);
+// Returns the form of the body from Content-Type and Content-Encoding. Problem (unsupported): the
+// body is neither JSON nor YAML in UTF-8, or is encoded (compressed).
+enum class BodyForm { json, yaml };
+[[nodiscard]] Result<BodyForm> body_form(const Request& request);
 
 // Maximum number of bytes of a body that is read at once. Larger bodies are read on a worker
 // thread.
@@ -110,20 +112,25 @@ inline constexpr std::size_t kReadAtOnceMax = 64 * 1024;
 template <class Read, class Then>
 void read_body(const ApiParts& parts, const Request& request, const Respond& respond, Read read,
                Then then) {
-  if (auto json = check_content_type(request); !json) {
-    return respond(problem_response(json.error()));
-  }
+  const auto form = body_form(request);
+  if (!form) return respond(problem_response(form.error()));
   const auto go_on = [respond, then = std::move(then)](auto& value) {
     if (!value) return respond(problem_response(value.error()));
     then(std::move(*value));
   };
   using Value = decltype(read(std::string_view{}));
+  const auto read_form = [form = *form, read = std::move(read)](const std::string& body) -> Value {
+    if (form == BodyForm::json) return read(std::string_view(body));
+    const auto json = json_of_yaml(body);
+    if (!json) return failure(json.error());
+    return read(std::string_view(*json));
+  };
   if (request.body->size() <= kReadAtOnceMax) {
-    Value value = read(std::string_view(*request.body));
+    Value value = read_form(*request.body);
     return go_on(value);
   }
-  parts.aside([&parts, body = request.body, read = std::move(read), go_on] {
-    const auto value = std::make_shared<Value>(read(std::string_view(*body)));
+  parts.aside([&parts, body = request.body, read_form, go_on] {
+    const auto value = std::make_shared<Value>(read_form(*body));
     parts.post([value, go_on] { go_on(*value); });
   });
 }

@@ -93,10 +93,12 @@ void JsonNode::missing(std::string_view key) const {
 bool JsonNode::array() const { return value_->is_array() || wrong_type("an array"); }
 bool JsonNode::is_object() const { return value_->is_object() || wrong_type("an object"); }
 
-bool JsonNode::object(std::span<const std::string_view> known) const {
+bool JsonNode::object(std::span<const std::string_view> known,
+                      std::span<const std::string_view> refused) const {
   if (!is_object()) return false;
   for (auto it = value_->begin(); it != value_->end(); ++it) {
-    if (std::find(known.begin(), known.end(), it.key()) != known.end()) continue;
+    const std::string_view key = it.key();
+    if (std::ranges::count(known, key) + std::ranges::count(refused, key) > 0) continue;
     std::string list;
     for (const std::string_view name : known) {
       list += list.empty() ? "" : ", ";

@@ -28,8 +28,10 @@ class JsonNode {
   [[nodiscard]] std::string pointer() const;
   [[nodiscard]] const nlohmann::json& raw() const { return *value_; }
 
-  // Returns true if the value is an object. Reports keys that are not in `known`.
-  [[nodiscard]] bool object(std::span<const std::string_view> known) const;
+  // Returns true if the value is an object. Reports keys that are neither in `known` nor in
+  // `refused`; a fault for the latter is up to the caller.
+  [[nodiscard]] bool object(std::span<const std::string_view> known,
+                            std::span<const std::string_view> refused = {}) const;
   [[nodiscard]] bool object(std::initializer_list<std::string_view> known) const {
     return object(std::span(known.begin(), known.size()));
   }

@@ -133,7 +133,12 @@ class UnlessPart final : public AroundPart {
 class NotServedPart final : public AnyPart {
  public:
   explicit NotServedPart(NotServed rule) : rule_(std::move(rule)) {}
-  void list_keys(std::vector<std::string_view>& keys) const override { keys.push_back(rule_.key); }
+  void list_keys(std::vector<std::string_view>& keys) const override {
+    if (rule_.but_for) keys.push_back(rule_.key);
+  }
+  void list_refused_keys(std::vector<std::string_view>& keys) const override {
+    if (!rule_.but_for) keys.push_back(rule_.key);
+  }
   void read_any(const JsonNode& object, void*) const override {
     object.optional(rule_.key, [&](const JsonNode& node) {
       if (!rule_.but_for) return node.invalid(rule_.slug, rule_.sentence);

@@ -18,6 +18,8 @@ class AnyPart {
   AnyPart& operator=(const AnyPart&) = delete;
   virtual ~AnyPart() = default;
   virtual void list_keys(std::vector<std::string_view>& /*keys*/) const {}
+  // Lists keys that read_any() always refuses with a fault of their own.
+  virtual void list_refused_keys(std::vector<std::string_view>& /*keys*/) const {}
   virtual void read_any(const JsonNode& object, void* out) const = 0;
   virtual void write_any(JsonWriter& /*out*/, const void* /*value*/) const {}
   // Adds the members of this part to "properties" and "required" of the object's schema.

@@ -14,6 +14,9 @@ class Parts final : public AnyPart {
   void list_keys(std::vector<std::string_view>& keys) const override {
     for (const auto& part : parts_) part->list_keys(keys);
   }
+  void list_refused_keys(std::vector<std::string_view>& keys) const override {
+    for (const auto& part : parts_) part->list_refused_keys(keys);
+  }
   void read_any(const JsonNode& object, void* out) const override {
     for (const auto& part : parts_) part->read_any(object, out);
   }
@@ -53,9 +56,10 @@ class ObjectFormat final : public AnyFormat {
   ObjectFormat(AnyParts parts, WithDefaults with_defaults)
       : parts_(std::move(parts)), with_defaults_(with_defaults) {
     parts_.list_keys(keys_);
+    parts_.list_refused_keys(refused_);
   }
   void read_any(const JsonNode& node, void* out) const override {
-    if (node.object(keys_)) parts_.read_any(node, out);
+    if (node.object(keys_, refused_)) parts_.read_any(node, out);
   }
   void write_any(JsonWriter& out, const void* value) const override {
     out.begin_object();
@@ -77,6 +81,7 @@ class ObjectFormat final : public AnyFormat {
   Parts parts_;
   WithDefaults with_defaults_;
   std::vector<std::string_view> keys_;
+  std::vector<std::string_view> refused_;
 };
 
 }  // namespace

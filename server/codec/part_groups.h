@@ -19,6 +19,9 @@ class AroundPart : public AnyPart {
  public:
   explicit AroundPart(const AnyPartPtr& part) : part_(part) {}
   void list_keys(std::vector<std::string_view>& keys) const override { part_->list_keys(keys); }
+  void list_refused_keys(std::vector<std::string_view>& keys) const override {
+    part_->list_refused_keys(keys);
+  }
   void read_any(const JsonNode& object, void* out) const override { part_->read_any(object, out); }
   void write_any(JsonWriter& out, const void* value) const override {
     part_->write_any(out, value);

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <set>
 
+#include "core/trajectory/implicit_start.h"
 #include "core/trajectory/validate.h"
 #include "server/command/command.h"
 #include "server/messages/job_request.h"
@@ -24,7 +25,13 @@ Problems read_trajectories(JobsFile& file, const Cell& cell) {
     }
     std::vector<TrajectoryPtr> motions;
     for (const auto& [where, asked] : file.jobs[i].job.motions()) {
-      auto motion = validate(asked, cell);
+      // Where a motion with an implicit start begins is known only in the run, which checks it
+      // again.
+      auto complete = has_implicit_start(asked, cell)
+                          ? with_implicit_start(asked, cell, cell.home())
+                          : Result<TrajectoryRequest>(asked);
+      if (!complete) continue;
+      auto motion = validate(*complete, cell);
       if (motion) motions.push_back(std::move(*motion));
       for (Problem problem : motion ? Problems{} : motion.error()) {
         problem.pointer = place + where + problem.pointer;

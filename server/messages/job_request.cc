@@ -167,6 +167,140 @@ PartPtr<JobRequest> velocity_scaling_part() {
       });
 }
 
+// Members of every job.
+PartPtr<JobRequest> label_parts() {
+  using Request = JobRequest;
+  return parts<Request>({
+      field("id", &Request::key, job_id_format(), "Id of the job; default: the server assigns one"),
+      field("name", &Request::name, job_name_format(), "Display name; no control characters"),
+      inlined(&Request::terms, job_terms_part()),
+      field("after", &Request::after,
+            list(job_id_format(), {.most = kAfterMax, .noun = "ids", .what = "predecessors"}),
+            "Ids of jobs that must succeed first"),
+      not_served<Request>({"steps", "not-served",
+                           "\"steps\" are not supported by this version: give one \"trajectory\""}),
+      not_served<Request>({"sub_trajectory", "not-served",
+                           "a task's solution has several trajectories: send each of them as a job "
+                           "of its own (POST /batches), in the order of the list"}),
+  });
+}
+
+// Members that change the trajectory, and are read after it.
+PartPtr<JobRequest> parts_after_trajectory() {
+  return parts<JobRequest>({arm_part(), retime_part(), velocity_scaling_part()});
+}
+
+// What tools write around a trajectory: rosbridge ("op", "action", "args"), ROS 1's actions
+// ("goal_id"), RViz ("model_id", "trajectory_start").
+PartPtr<JobRequest> wrapper_parts() {
+  using Request = JobRequest;
+  const auto only = [](const char* key, const char* value) {
+    return not_served<Request>({key, "not-served",
+                                "only \"" + std::string(value) + "\" can be sent as a job", value,
+                                "As rosbridge writes it"});
+  };
+  const auto no_id = text(TextRule{[](std::string_view id) { return id.empty(); },
+                                   "not-served",
+                                   "name the job with \"id\", and leave this id out",
+                                   {{"maxLength", 0}}});
+  struct GoalId {
+    std::string id;
+  };
+  const auto goal_id = object<GoalId>({
+      ignored<GoalId>("stamp", time_format(), "Ignored: the time of sending"),
+      field("id", &GoalId::id, no_id, "Empty: `id` names the job"),
+  });
+  return parts<Request>({
+      only("op", "send_action_goal"),
+      ignored<Request>("action", text(), "Ignored: the joint names say which arm moves"),
+      only("action_type", "control_msgs/action/FollowJointTrajectory"),
+      ignored<Request>("feedback", flag(), "Ignored: progress is in the events of every job"),
+      ignored<Request>("goal_id", goal_id, "As in ROS 1"),
+      ignored<Request>("model_id", text(), "Ignored"),
+      ignored<Request>("trajectory_start", anything("object"),
+                       "Ignored: the first waypoint is the start"),
+      tolerance_parts<Request>(),
+  });
+}
+
+FormatPtr<JobRequest> plain_job_format() {
+  using Request = JobRequest;
+  return named(
+      "JobRequest", "",
+      object<Request>({
+          label_parts(),
+          unless_refused(
+              "steps",
+              unless_refused(
+                  "sub_trajectory",
+                  unless("alternatives",
+                         unless("move_to",
+                                unless("goal",
+                                       unless("args", required("trajectory", &Request::trajectory,
+                                                               trajectory_request_format(),
+                                                               "Motion of the job"))))))),
+          field("goal", &Request::trajectory, action_goal_format(),
+                "Instead of `trajectory`: the goal of an action"),
+          field("args", &Request::trajectory, action_goal_format(),
+                "Instead of `trajectory`: the goal of an action, as rosbridge writes it"),
+          field("alternatives", &Request::alternatives,
+                list(trajectory_request_format(),
+                     {.fewest = 2, .most = kAlternativesMax, .noun = "trajectories"}),
+                "Instead of `trajectory`: several trajectories that do the same work with "
+                "different arms. Each of them ends where it begins. Exactly one is executed"),
+          field("move_to", &Request::move_to, plan_goal_format(),
+                "Instead of `trajectory`: a goal for `arm`. The path is planned from where the arm "
+                "will be after its earlier jobs. It is planned again if that position changes"),
+          field("arms", &Request::arms,
+                list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
+                "With `move_to`, instead of `arm`: candidate arms. A path is planned for each; the "
+                "arm that arrives first takes the job"),
+          wrapper_parts(),
+          at_most_one<Request>({"arm", "arms"}),
+          at_most_one<Request>({"trajectory", "alternatives", "move_to", "goal", "args"}),
+          parts_after_trajectory(),
+      }));
+}
+
+// A job whose body is a ROS message, to which members of a job may be added.
+FormatPtr<JobRequest> message_format(const char* name, const char* text,
+                                     const PartPtr<TrajectoryRequest>& message) {
+  return named(name, text,
+               object<JobRequest>({label_parts(), inlined(&JobRequest::trajectory, message),
+                                   parts_after_trajectory()}));
+}
+
+// A job, or a trajectory message that becomes one.
+class JobOrMessage final : public CustomFormat<JobRequest> {
+ public:
+  void read(const JsonNode& node, JobRequest& out) const override {
+    const bool is_object = node.raw().is_object() && !node.has("trajectory");
+    const bool is_nested = is_object && node.has("joint_trajectory");
+    const bool is_bare = is_object && !is_nested && node.has("joint_names") && node.has("points");
+    (is_nested ? robot_trajectory_ : is_bare ? trajectory_ : job_)->read(node, out);
+    if (is_bare) out.trajectory.place = node.pointer();
+    // The place is relative to the job.
+    const std::size_t above = node.pointer().size();
+    for (TrajectoryRequest* motion : motions_of(out)) {
+      if (motion->place) motion->place->erase(0, above);
+    }
+  }
+  void write(JsonWriter& out, const JobRequest& job) const override { job_->write(out, job); }
+  Schema schema(Way way) const override {
+    return {{"anyOf", Schema::array({job_->schema(way), trajectory_->schema(way),
+                                     robot_trajectory_->schema(way)})}};
+  }
+
+ private:
+  FormatPtr<JobRequest> job_ = plain_job_format();
+  FormatPtr<JobRequest> trajectory_ = message_format(
+      "JointTrajectoryJob", "A message trajectory_msgs/JointTrajectory, with any members of a job.",
+      bare_trajectory_parts());
+  FormatPtr<JobRequest> robot_trajectory_ = message_format(
+      "RobotTrajectoryJob", "A message moveit_msgs/RobotTrajectory, with any members of a job.",
+      bare_robot_trajectory_parts());
+};
+
 }  // namespace
 
 FormatPtr<std::string> job_id_format() {
@@ -193,44 +327,7 @@ FormatPtr<std::string> job_name_format() {
 }
 
 FormatPtr<JobRequest> job_request_format() {
-  using Request = JobRequest;
-  static const auto format = named(
-      "JobRequest", "",
-      object<Request>({
-          field("id", &Request::key, job_id_format(),
-                "Id of the job; default: the server assigns one"),
-          field("name", &Request::name, job_name_format(), "Display name; no control characters"),
-          inlined(&Request::terms, job_terms_part()),
-          field("after", &Request::after,
-                list(job_id_format(), {.most = kAfterMax, .noun = "ids", .what = "predecessors"}),
-                "Ids of jobs that must succeed first"),
-          not_served<Request>(
-              {"steps", "not-served",
-               "\"steps\" are not supported by this version: give one \"trajectory\""}),
-          unless_refused(
-              "steps",
-              unless("alternatives", unless("move_to", required("trajectory", &Request::trajectory,
-                                                                trajectory_request_format(),
-                                                                "Motion of the job")))),
-          field("alternatives", &Request::alternatives,
-                list(trajectory_request_format(),
-                     {.fewest = 2, .most = kAlternativesMax, .noun = "trajectories"}),
-                "Instead of `trajectory`: several trajectories that do the same work with "
-                "different arms. Each of them ends where it begins. Exactly one is executed"),
-          field("move_to", &Request::move_to, plan_goal_format(),
-                "Instead of `trajectory`: a goal for `arm`. The path is planned from where the arm "
-                "will be after its earlier jobs. It is planned again if that position changes"),
-          field("arms", &Request::arms,
-                list(formats::name(), {.fewest = 1, .most = kAlternativesMax, .noun = "arms"}),
-                "With `move_to`, instead of `arm`: candidate arms. A path is planned for each; the "
-                "arm that arrives first takes the job"),
-          at_most_one<Request>({"arm", "arms"}),
-          at_most_one<Request>({"trajectory", "alternatives", "move_to"}),
-          // These are read after the trajectory, because they change it.
-          arm_part(),
-          retime_part(),
-          velocity_scaling_part(),
-      }));
+  static const FormatPtr<JobRequest> format = make_format<JobOrMessage>();
   return format;
 }
 

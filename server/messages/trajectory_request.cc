@@ -1,7 +1,10 @@
 #include "server/messages/trajectory_request.h"
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "server/codec/list_formats.h"
 #include "server/codec/object_format.h"
@@ -53,10 +56,34 @@ class TimeFormat final : public CustomFormat<double> {
   FormatPtr<RosTime> ros1_ = ros_time("secs", "nsecs");
 };
 
+}  // namespace
+
+FormatPtr<double> time_format() {
+  return named<double>("Time", "A ROS 2 time, a ROS 1 time, or a number of seconds.",
+                       make_format<TimeFormat>());
+}
+
+namespace {
+
+// Accepts what asks for no effort: an empty list, or zeros.
+class NoEffort final : public CustomFormat<Anything> {
+ public:
+  void read(const JsonNode& node, Anything&) const override {
+    node.each([](const JsonNode& n) {
+      double value = 0.0;
+      if (n.read(value) && value != 0.0) {
+        n.invalid("not-served", "efforts are not executed: leave out \"effort\"");
+      }
+    });
+  }
+  void write(JsonWriter& out, const Anything&) const override { out.value(nullptr); }
+  Schema schema(Way) const override {
+    return {{"type", "array"}, {"items", {{"type", "number"}, {"const", 0}}}};
+  }
+};
+
 FormatPtr<WaypointRequest> waypoint_format() {
   using Point = WaypointRequest;
-  const auto time = named<double>("Time", "A ROS 2 time, a ROS 1 time, or a number of seconds.",
-                                  make_format<TimeFormat>());
   return named(
       "Waypoint", "",
       object<Point>({
@@ -64,27 +91,73 @@ FormatPtr<WaypointRequest> waypoint_format() {
                    "Joint positions in the order of `joint_names`: rad or m"),
           field("velocities", &Point::velocities, number_list(),
                 "Joint velocities; required unless the job has `retime`, because the motion must "
-                "begin and end at rest"),
+                "begin and end at rest. The first and last waypoint may leave out zeros"),
           field("accelerations", &Point::accelerations, number_list(),
                 "Joint accelerations, in all waypoints (quintic splines) or in none (cubic)"),
-          ignored<Point>("effort", anything("array"), "Ignored"),
-          field("time_from_start", &Point::time_from_start_s, time,
-                "Time from the start; required unless the job has `retime`"),
+          ignored<Point>("effort", make_format<NoEffort>(), "Empty or zero"),
+          field("time_from_start", &Point::time_from_start_s, time_format(),
+                "Time from the start; required unless the job has `retime`. If the first is above "
+                "0, the motion begins where the arm will be"),
       }));
 }
 
-FormatPtr<TrajectoryRequest> plain_format() {
+FormatPtr<TrajectoryRequest> header_format() {
+  using Trajectory = TrajectoryRequest;
+  constexpr double kNanoseconds = 1e9;
+  return object<Trajectory>({
+      member<Trajectory>(
+          {"stamp",
+           "Wall time at which the motion begins; 0: as soon as possible",
+           Need::optional,
+           {}},
+          time_format(), [](const Trajectory&) { return std::optional<double>(); },
+          [](Trajectory& trajectory, double stamp_s) {
+            trajectory.stamp_ns.reset();
+            if (stamp_s == 0.0) return;
+            trajectory.stamp_ns = static_cast<std::int64_t>(std::llround(stamp_s * kNanoseconds));
+          }),
+      ignored<Trajectory>("frame_id", text(), "Ignored: joint positions have no frame"),
+      ignored<Trajectory>("seq", anything("integer"), "Ignored"),
+  });
+}
+
+PartPtr<TrajectoryRequest> plain_parts() {
   using Trajectory = TrajectoryRequest;
   const ListSize points{.most = kWaypointsMax, .noun = "waypoints"};
-  return named("JointTrajectory", "A trajectory in the form of trajectory_msgs/JointTrajectory.",
-               object<Trajectory>({
-                   required("joint_names", &Trajectory::joint_names, list(text()),
-                            "Names of the joints: prefix + URDF name. Joints of several arms make "
-                            "one synchronous motion"),
-                   required("points", &Trajectory::points, list(waypoint_format(), points), ""),
-                   ignored<Trajectory>("header", anything("object"), "Ignored"),
-               }));
+  return parts<Trajectory>({
+      required("joint_names", &Trajectory::joint_names, list(text()),
+               "Names of the joints: prefix + URDF name. Joints of several arms make one "
+               "synchronous motion. If of an arm only gripper joints are named, it stays"),
+      required("points", &Trajectory::points, list(waypoint_format(), points),
+               "Waypoints. A single waypoint is approached from where the arm will be"),
+      member<Trajectory>(
+          {"header", "", Need::optional, {}}, header_format(),
+          [](const Trajectory&) { return std::optional<Trajectory>(); },
+          [](Trajectory& trajectory, const Trajectory& read) {
+            trajectory.stamp_ns = read.stamp_ns;
+          }),
+  });
 }
+
+// Reads a plain trajectory and notes its place.
+class Placed final : public CustomFormat<TrajectoryRequest> {
+ public:
+  void read(const JsonNode& node, TrajectoryRequest& out) const override {
+    plain_->read(node, out);
+    out.place = node.pointer();
+  }
+  void write(JsonWriter& out, const TrajectoryRequest& trajectory) const override {
+    plain_->write(out, trajectory);
+  }
+  Schema schema(Way way) const override { return plain_->schema(way); }
+
+ private:
+  FormatPtr<TrajectoryRequest> plain_ =
+      named("JointTrajectory", "A trajectory in the form of trajectory_msgs/JointTrajectory.",
+            object<TrajectoryRequest>({plain_parts()}));
+};
+
+FormatPtr<TrajectoryRequest> plain_format() { return make_format<Placed>(); }
 
 constexpr const char* kNested = "joint_trajectory";
 
@@ -126,32 +199,55 @@ class EmptyMultiDof final : public CustomFormat<Anything> {
   }
 };
 
-FormatPtr<TrajectoryRequest> nested_format() {
+PartPtr<TrajectoryRequest> whole_trajectory(const char* key, const char* text,
+                                            const FormatPtr<TrajectoryRequest>& format) {
   using Trajectory = TrajectoryRequest;
+  return member<Trajectory>(
+      {key, text, Need::required, {}}, format,
+      [](const Trajectory& whole) { return std::optional(whole); },
+      [](Trajectory& whole, Trajectory read) { whole = std::move(read); });
+}
+
+PartPtr<TrajectoryRequest> nested_parts() {
+  using Trajectory = TrajectoryRequest;
+  return parts<Trajectory>({
+      whole_trajectory(kNested, "", make_format<OnceNested>()),
+      ignored<Trajectory>("multi_dof_joint_trajectory", make_format<EmptyMultiDof>(),
+                          "Must have no joints and no points"),
+  });
+}
+
+FormatPtr<TrajectoryRequest> nested_format() {
   return named("RobotTrajectory", "A trajectory nested as in MoveIt.",
-               object<Trajectory>({
-                   member<Trajectory>(
-                       {kNested, "", Need::required, {}}, make_format<OnceNested>(),
-                       [](const Trajectory& whole) { return std::optional(whole); },
-                       [](Trajectory& whole, Trajectory read) { whole = std::move(read); }),
-                   ignored<Trajectory>("multi_dof_joint_trajectory", make_format<EmptyMultiDof>(),
-                                       "Must have no joints and no points"),
-               }));
+               object<TrajectoryRequest>({nested_parts()}));
 }
 
 class PlainOrNested final : public CustomFormat<TrajectoryRequest> {
  public:
   void read(const JsonNode& node, TrajectoryRequest& out) const override {
-    (is_nested(node) ? nested_ : plain_)->read(node, out);
+    if (!node.raw().is_array()) return read_one(node, out);
+    if (node.raw().size() != 1) {
+      return node.invalid("not-one-trajectory",
+                          "a job has one trajectory, found a list of " +
+                              std::to_string(node.raw().size()) +
+                              ": send each as a job of its own (POST /batches)");
+    }
+    node.each([&](const JsonNode& only) { read_one(only, out); });
   }
   void write(JsonWriter& out, const TrajectoryRequest& trajectory) const override {
     plain_->write(out, trajectory);
   }
   Schema schema(Way way) const override {
-    return {{"oneOf", Schema::array({plain_->schema(way), nested_->schema(way)})}};
+    const Schema one{{"oneOf", Schema::array({plain_->schema(way), nested_->schema(way)})}};
+    const Schema only{{"type", "array"}, {"items", one}, {"minItems", 1}, {"maxItems", 1}};
+    return {{"oneOf", Schema::array({plain_->schema(way), nested_->schema(way), only})}};
   }
 
  private:
+  void read_one(const JsonNode& node, TrajectoryRequest& out) const {
+    (is_nested(node) ? nested_ : plain_)->read(node, out);
+  }
+
   FormatPtr<TrajectoryRequest> plain_ = plain_format();
   FormatPtr<TrajectoryRequest> nested_ = nested_format();
 };
@@ -165,10 +261,80 @@ class ToldTrajectory final : public CustomFormat<TrajectoryRequest> {
   Schema schema(Way) const override { return format_->schema(Way::in); }
 
  private:
-  FormatPtr<TrajectoryRequest> format_ = trajectory_request_format();
+  FormatPtr<TrajectoryRequest> format_ = plain_format();
 };
 
+constexpr const char* kNoTolerance =
+    "tolerances of one job are not watched: leave it out, or give 0 for the server's own limits";
+
+// Accepts a list of tolerances in which each value leaves the limit to the server (0) or asks for
+// none (negative), as in control_msgs/JointTolerance.
+class NoTolerances final : public CustomFormat<Anything> {
+ public:
+  void read(const JsonNode& node, Anything&) const override {
+    node.each([](const JsonNode& joint) {
+      if (!joint.object({"name", "position", "velocity", "acceleration"})) return;
+      for (const char* quantity : {"position", "velocity", "acceleration"}) {
+        joint.optional(quantity, [](const JsonNode& n) {
+          double value = 0.0;
+          if (n.read(value) && value > 0.0) n.invalid("not-served", kNoTolerance);
+        });
+      }
+    });
+  }
+  void write(JsonWriter& out, const Anything&) const override { out.value(nullptr); }
+  Schema schema(Way) const override {
+    const Schema none{{"type", "number"}, {"maximum", 0}};
+    return {{"type", "array"},
+            {"items",
+             {{"type", "object"},
+              {"additionalProperties", false},
+              {"properties",
+               {{"name", {{"type", "string"}}},
+                {"position", none},
+                {"velocity", none},
+                {"acceleration", none}}}}}};
+  }
+};
+
+class NoTimeTolerance final : public CustomFormat<Anything> {
+ public:
+  void read(const JsonNode& node, Anything&) const override {
+    double value_s = 0.0;
+    time_->read(node, value_s);
+    if (value_s > 0.0) node.invalid("not-served", kNoTolerance);
+  }
+  void write(JsonWriter& out, const Anything&) const override { out.value(nullptr); }
+  Schema schema(Way way) const override { return time_->schema(way); }
+
+ private:
+  FormatPtr<double> time_ = time_format();
+};
+
+PartPtr<TrajectoryRequest> action_goal_parts() {
+  using Trajectory = TrajectoryRequest;
+  return parts<Trajectory>({
+      whole_trajectory("trajectory", "", trajectory_request_format()),
+      ignored<Trajectory>("multi_dof_trajectory", make_format<EmptyMultiDof>(),
+                          "Must have no joints and no points"),
+      tolerance_parts<Trajectory>(),
+  });
+}
+
 }  // namespace
+
+FormatPtr<formats::Anything> no_tolerances() { return make_format<NoTolerances>(); }
+FormatPtr<formats::Anything> no_time_tolerance() { return make_format<NoTimeTolerance>(); }
+
+FormatPtr<TrajectoryRequest> action_goal_format() {
+  static const FormatPtr<TrajectoryRequest> format =
+      named("FollowJointTrajectoryGoal", "A goal of control_msgs/FollowJointTrajectory.",
+            object<TrajectoryRequest>({action_goal_parts()}));
+  return format;
+}
+
+PartPtr<TrajectoryRequest> bare_trajectory_parts() { return plain_parts(); }
+PartPtr<TrajectoryRequest> bare_robot_trajectory_parts() { return nested_parts(); }
 
 FormatPtr<TrajectoryRequest> trajectory_request_format() {
   static const FormatPtr<TrajectoryRequest> format = make_format<PlainOrNested>();

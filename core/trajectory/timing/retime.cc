@@ -11,13 +11,13 @@
 namespace armloom {
 namespace {
 
-void check_position(std::size_t k, std::size_t j, double value, const Joint& joint,
-                    ProblemList& problems) {
+void check_position(const TrajectoryRequest& request, std::size_t k, std::size_t j, double value,
+                    const Joint& joint, ProblemList& problems) {
   if (is_within_limits(joint, value)) return;
   problems.add({ProblemKind::invalid, "position-limit",
-                pointer_to(k) + "/positions/" + std::to_string(j),
-                waypoint(k) + ", " + joint.name + ": position " + to_text(value) + " is outside [" +
-                    to_text(joint.lower) + ", " + to_text(joint.upper) + "]",
+                pointer_to(request, k) + "/positions/" + std::to_string(j),
+                waypoint(request, k) + ", " + joint.name + ": position " + to_text(value) +
+                    " is outside [" + to_text(joint.lower) + ", " + to_text(joint.upper) + "]",
                 value});
 }
 
@@ -85,7 +85,8 @@ Result<TrajectoryPtr> retimed(const TrajectoryRequest& request, const Cell& cell
   if (!problems.empty()) return failure(std::move(problems).take());
   for (std::size_t k = 0; k < request.points.size(); ++k) {
     for (std::size_t j = 0; j < names.joints.size(); ++j) {
-      check_position(k, j, request.points[k].positions[j], cell.joint(names.joints[j]), problems);
+      check_position(request, k, j, request.points[k].positions[j], cell.joint(names.joints[j]),
+                     problems);
     }
   }
   const std::vector<Eigen::VectorXd> way = way_of(request);
