@@ -121,10 +121,16 @@ class Search {
     return {std::move(counts), free};
   }
 
+  // Returns true if body_b is a link of the arm's robot.
+  bool is_of_robot(const HomeObstacle& obstacle) const {
+    const auto link = cell_.find_link(obstacle.body_b);
+    return link && cell_.link(*link).robot == cell_.arm(obstacle.arm).robot;
+  }
+
   void look_at_lasting(std::size_t arm, HomeChoice& choice) {
     std::set<PairId> lasting;
     for (const auto& [pair, obstacle] : count(arm, false).first) {
-      if (obstacle.places < places_[arm].size()) continue;
+      if (obstacle.places < places_[arm].size() || !is_of_robot(obstacle)) continue;
       choice.lasting.push_back(obstacle);
       lasting.insert(pair);
     }
@@ -152,11 +158,14 @@ class Search {
     return all;
   }
 
-  static void append_most(const Counts& counts, std::size_t most, std::vector<HomeObstacle>& all) {
+  void append_most(const Counts& counts, std::size_t most, std::vector<HomeObstacle>& all) const {
     std::vector<HomeObstacle> sorted;
     for (const auto& [pair, obstacle] : counts) sorted.push_back(obstacle);
     std::ranges::stable_sort(sorted, std::greater{}, &HomeObstacle::places);
-    for (const HomeObstacle& obstacle : sorted | std::views::take(most)) all.push_back(obstacle);
+    for (const HomeObstacle& obstacle : sorted | std::views::take(most)) {
+      all.push_back(obstacle);
+      if (obstacle.places == places_[obstacle.arm.index()].size()) break;  // a sufficient reason
+    }
   }
 
   std::vector<std::optional<HomeObstacle>> at_first(const std::vector<std::size_t>& chosen) {

@@ -35,8 +35,9 @@ struct HomeObstacle {
 struct HomeChoice {
   // Indices by arm. nullopt if kHomeChecksMax checks find no choice.
   std::optional<std::vector<std::size_t>> chosen;
-  // Bodies that are too close at every candidate of an arm, whatever the other arms do. `chosen`
-  // ignores them, because no home helps. Empty if a choice without conflicts was found.
+  // Bodies of one robot that are too close at every candidate of an arm, whatever the other arms
+  // do. `chosen` ignores them, because neither another home nor another base helps. Empty if a
+  // choice without conflicts was found.
   std::vector<HomeObstacle> lasting;
   // By arm: if the first candidate was not chosen, the two bodies that are closest there with the
   // other arms at their chosen places.

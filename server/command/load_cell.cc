@@ -71,17 +71,17 @@ void tell(const std::string& start, const std::string& file, const Problems& pro
   std::map<std::string, std::size_t> count;
   for (const Problem& problem : problems) ++count[kind_of(problem)];
   std::map<std::string, std::size_t> told;
-  bool omitted = false;
   for (const Problem& problem : problems) {
     const std::string kind = kind_of(problem);
     if (told[kind] == lines) continue;
     std::cerr << "armloom: " << start << problem_sentence(file, problem);
     const std::size_t more = ++told[kind] == lines ? count[kind] - lines : 0;
-    if (more > 0) std::cerr << " [and " << more << " more of this kind]";
+    if (more > 0) {
+      std::cerr << " [and " << more
+                << " more of this kind; validate and import print them with --verbose]";
+    }
     std::cerr << '\n';
-    omitted = omitted || more > 0;
   }
-  if (omitted) std::cerr << "armloom: note: with --verbose, validate and import print every line\n";
 }
 
 constexpr std::size_t kLinesOfProblems = 3;  // each may need its own remedy

@@ -167,8 +167,14 @@ class CellImport {
 
   // Sets no homes if the cell cannot be built. Loading the cell will report why.
   void set_homes() {
-    const auto cell = build_cell(cell_);
+    Problems warnings;
+    const auto cell = build_cell(cell_, warnings);
     if (!cell) return;
+    if (std::ranges::any_of(warnings, [](const Problem& one) { return one.slug == "huge-mesh"; })) {
+      return remark("/robots",
+                    "No homes were chosen, because meshes are so large that their unit is probably "
+                    "wrong: first correct their scale in the URDF.");
+    }
     const auto homes = choose_homes(*cell);
     if (!homes) return;
     std::size_t next = 0;
@@ -184,34 +190,42 @@ class CellImport {
     if (!homes->is_free) remark_on_no_homes(**cell, *homes);
   }
 
-  // Adds remarks about bodies that are too close wherever their arm is.
+  // Adds remarks about bodies of one robot that are too close wherever its arm is.
   void remark_on_lasting(const Cell& cell, const Homes& homes) {
     std::string own;
+    std::string others;
     std::set<std::string> elements;
+    std::set<std::string> pairs;
     bool apart = true;
     for (const HomeObstacle& obstacle : homes.found.lasting) {
-      const std::string pair = obstacle.body_a + " and " + obstacle.body_b;
+      std::string& list = obstacle.is_self ? own : others;
+      list += (list.empty() ? "" : ", ") + obstacle.body_a + " and " + obstacle.body_b;
       if (obstacle.is_self) {
-        own += (own.empty() ? "" : ", ") + pair;
         elements.insert(disabling_element(cell, obstacle.body_a, obstacle.body_b));
         apart = apart && obstacle.clearance_m >= 1e-4;
-        continue;
+      } else {
+        pairs.insert("[\"" + obstacle.body_a + "\", \"" + obstacle.body_b + "\"]");
       }
-      remark("/allowed_collisions",
-             pair + " are closer than " + limit_of(obstacle) + " at all " +
-                 std::to_string(homes.tried[obstacle.arm.index()]) + " positions of arm " +
-                 cell.arm(obstacle.arm).name +
-                 " that were tried, so no home helps. If they may touch, add [\"" +
-                 obstacle.body_a + "\", \"" + obstacle.body_b + "\"] here.");
     }
-    if (own.empty()) return;
-    std::string lines;
-    for (const std::string& element : elements) lines += " " + element;
-    remark("/self_clearance_m",
-           "Links of one arm are closer than self_clearance_m at all positions that were tried, so "
-           "neither other homes nor other bases help: " +
-               own + ". If they are so close by design, add to the SRDF" + lines +
-               (apart ? ", or lower self_clearance_m." : "."));
+    const std::string no_help =
+        " at all positions that were tried, so neither other homes nor other bases help: ";
+    if (!own.empty()) {
+      remark("/self_clearance_m", "Links of one arm are closer than self_clearance_m" + no_help +
+                                      own + ". If they are so close by design, add to the SRDF " +
+                                      joined(elements, " ") +
+                                      (apart ? ", or lower self_clearance_m." : "."));
+    }
+    if (!others.empty()) {
+      remark("/allowed_collisions",
+             "Links of an arm are closer than their clearance to the body that carries it" +
+                 no_help + others + ". If they may touch, add " + joined(pairs, ", ") + " here.");
+    }
+  }
+
+  static std::string joined(const std::set<std::string>& texts, const std::string& between) {
+    std::string all;
+    for (const std::string& text : texts) all += (all.empty() ? "" : between) + text;
+    return all;
   }
 
   static std::string limit_of(const HomeObstacle& obstacle) {

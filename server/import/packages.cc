@@ -117,11 +117,11 @@ Packages find_packages(const std::string& urdf_text, const fs::path& urdf,
 
 std::string to_text(const std::string& package, const MissingPackage& missing, const fs::path& urdf,
                     const std::set<std::string>& unused) {
-  const std::string count = std::to_string(missing.meshes.size());
-  const std::string meshes = count + (missing.meshes.size() == 1 ? " mesh" : " meshes") + " of " +
-                             urdf.filename().string() + " in the package " + package + " (" +
-                             *missing.meshes.begin() +
-                             (missing.meshes.size() == 1 ? ")" : ", ...)");
+  const bool is_one = missing.meshes.size() == 1;
+  const std::string meshes = std::to_string(missing.meshes.size()) +
+                             (is_one ? " mesh of " : " meshes of ") + urdf.filename().string() +
+                             " in the package " + package + " (" + *missing.meshes.begin() +
+                             (is_one ? ")" : ", ...)");
   const std::string option = "--package " + package + "=";
   const std::string remedy =
       missing.likely.empty()
@@ -130,8 +130,8 @@ std::string to_text(const std::string& package, const MissingPackage& missing, c
   if (!missing.given.empty()) return missing.given + " has none of the " + meshes + ": " + remedy;
   std::string others;
   for (const std::string& name : unused) others += (others.empty() ? "" : ", ") + name;
-  return meshes + " were not found above " + urdf.string() + ": " + remedy +
-         (others.empty() ? "" : " (no mesh needs --package " + others + ")");
+  return meshes + (is_one ? " was" : " were") + " not found above " + urdf.string() + ": " +
+         remedy + (others.empty() ? "" : " (no mesh needs --package " + others + ")");
 }
 
 std::vector<fs::path> installed_package_folders() {

@@ -132,6 +132,14 @@ TEST(ChosenHomes, AreReportedAsCollidingIfNoneIsFree) {
   const auto homes = choose_homes(*cell);
   ASSERT_TRUE(homes);
   EXPECT_FALSE(homes->is_free);
+  // Other bases would help, so no pair is told as too close for good.
+  EXPECT_THAT(homes->found.lasting, testing::IsEmpty());
+  ASSERT_FALSE(homes->found.frequent.empty());
+  const HomeObstacle& obstacle = homes->found.frequent.front();
+  EXPECT_EQ(obstacle.arm, ArmId(0));
+  EXPECT_THAT(obstacle.body_a, testing::StartsWith("left_"));
+  EXPECT_THAT(obstacle.body_b, testing::StartsWith("right_"));
+  EXPECT_EQ(obstacle.places, homes->tried[0]);
   EXPECT_EQ(homes->of_arm[0].state, homes->wanted[0].state);
 }
 
