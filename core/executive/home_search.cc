@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/collision/state/check_home.h"
 #include "core/collision/state/clearance_query.h"
 
 namespace armloom {
@@ -88,14 +89,17 @@ class Search {
       if (near.arm_b == id && near.arm_a != id) near = turned_around(near);
       if (near.arm_a != id || ignored_.contains(pair.pair)) continue;
       const bool is_self = query_.is_self(pair.pair);
-      obstacles.emplace_back(pair.pair, HomeObstacle{.body_a = near.body_a,
-                                                     .body_b = near.body_b,
-                                                     .arm = id,
-                                                     .other = is_self ? std::nullopt : near.arm_b,
-                                                     .is_self = is_self,
-                                                     .places = 1,
-                                                     .clearance_m = near.clearance_m,
-                                                     .limit_m = near.limit_m});
+      HomeObstacle obstacle{.body_a = near.body_a,
+                            .body_b = near.body_b,
+                            .arm = id,
+                            .other = is_self ? std::nullopt : near.arm_b,
+                            .is_self = is_self,
+                            .places = 1,
+                            .clearance_m = near.clearance_m,
+                            .limit_m = near.limit_m,
+                            .srdf_element = {}};
+      if (is_self) obstacle.srdf_element = disabling_element(cell_, near.body_a, near.body_b);
+      obstacles.emplace_back(pair.pair, std::move(obstacle));
     }
     return obstacles;
   }

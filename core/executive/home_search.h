@@ -29,6 +29,7 @@ struct HomeObstacle {
   std::size_t places = 0;      // candidates at which the two are too close
   double clearance_m = 0.0;    // the largest at these candidates
   double limit_m = 0.0;        // the cell's clearance for the two
+  std::string srdf_element;    // disables the checks of the two, if is_self
 };
 
 // The chosen candidates, and what stood in the way.

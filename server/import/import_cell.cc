@@ -4,7 +4,6 @@
 #include <set>
 
 #include "core/base/diagnostics.h"
-#include "core/collision/state/check_home.h"
 #include "core/model/cell/build_cell.h"
 #include "server/codec/cell_format.h"
 #include "server/codec/cell_schema.h"
@@ -186,12 +185,12 @@ class CellImport {
                  homes->is_free ? homes->found.at_first[next] : std::nullopt, pointer);
       }
     }
-    remark_on_lasting(**cell, *homes);
+    remark_on_lasting(*homes);
     if (!homes->is_free) remark_on_no_homes(**cell, *homes);
   }
 
   // Adds remarks about bodies of one robot that are too close wherever its arm is.
-  void remark_on_lasting(const Cell& cell, const Homes& homes) {
+  void remark_on_lasting(const Homes& homes) {
     std::string own;
     std::string others;
     std::set<std::string> elements;
@@ -201,7 +200,7 @@ class CellImport {
       std::string& list = obstacle.is_self ? own : others;
       list += (list.empty() ? "" : ", ") + obstacle.body_a + " and " + obstacle.body_b;
       if (obstacle.is_self) {
-        elements.insert(disabling_element(cell, obstacle.body_a, obstacle.body_b));
+        elements.insert(obstacle.srdf_element);
         apart = apart && obstacle.clearance_m >= 1e-4;
       } else {
         pairs.insert("[\"" + obstacle.body_a + "\", \"" + obstacle.body_b + "\"]");
