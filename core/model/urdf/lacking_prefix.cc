@@ -106,7 +106,7 @@ std::string to_text(const PrefixMismatch& mismatch, const std::string& file, con
   if (mismatch.extra) {
     return names + " without " + *mismatch.extra +
            " before them: make the URDF with this prefix, or remove it from " + file +
-           ", for example with sed 's/\"" + *mismatch.extra + "/\"/g' " + file;
+           ", for example with sed 's/\"" + *mismatch.extra + "/\"/g' " + file + " > new.srdf";
   }
   const std::string& first = *mismatch.lacking.begin();
   std::string option = "--" + key;
