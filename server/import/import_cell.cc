@@ -121,8 +121,10 @@ class CellImport {
                                       : "at its value in the state " + joint.state + "."));
     }
     std::string left_out;
-    for (const GroupChoice& group : source.left_out)
-      left_out += (left_out.empty() ? "" : "; ") + group.group + ", because " + group.why;
+    for (const GroupChoice& group : source.left_out) {
+      left_out += left_out.empty() ? "" : "; ";
+      left_out += group.group + ", because " + group.why;
+    }
     if (!left_out.empty())
       remark(pointer + "/arms", "Groups of the SRDF that are not used as arms: " + left_out + ".");
     remark_on_guesses(source, pointer);
